@@ -1,0 +1,48 @@
+"""What is solved: two bodies, an indenter's shape, friction and loading. No numerics.
+
+A scene is made in Python from the frozen values named here, or read from a TOML file by
+`load_scene`. Quantities are numbers in SI units, or texts with a unit such as "18 mm".
+"""
+
+from contact_scene.array_file import ArrayFile
+from contact_scene.body import Body, Layer
+from contact_scene.discretisation import SurfaceDiscretisation
+from contact_scene.friction import CoulombFriction, FrictionMap
+from contact_scene.geometry import Cone, Ellipsoid, FlatPunch, HeightMap, Paraboloid, Sphere
+from contact_scene.load_path import ControlKind, LoadRamp, NormalControl, TangentialControl
+from contact_scene.loading import LoadStep
+from contact_scene.material import RIGID, IsotropicMaterial, Rigid
+from contact_scene.problem import Problem, SceneError
+from contact_scene.scene import Scene
+from contact_scene.scene_file import SceneFile, load_scene, read_scene_file
+from contact_scene.scene_schema import scene_schema
+
+__all__ = [
+    "RIGID",
+    "ArrayFile",
+    "Body",
+    "Cone",
+    "ControlKind",
+    "CoulombFriction",
+    "Ellipsoid",
+    "FlatPunch",
+    "FrictionMap",
+    "HeightMap",
+    "IsotropicMaterial",
+    "Layer",
+    "LoadRamp",
+    "LoadStep",
+    "NormalControl",
+    "Paraboloid",
+    "Problem",
+    "Rigid",
+    "Scene",
+    "SceneError",
+    "SceneFile",
+    "Sphere",
+    "SurfaceDiscretisation",
+    "TangentialControl",
+    "load_scene",
+    "read_scene_file",
+    "scene_schema",
+]

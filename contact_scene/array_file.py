@@ -1,0 +1,146 @@
+"""Arrays that a scene takes from a file: height maps and maps of friction."""
+
+import hashlib
+from dataclasses import dataclass, field
+from pathlib import Path, PurePosixPath
+from typing import Annotated, Any, BinaryIO
+
+import numpy as np
+from numpy.typing import NDArray
+from pydantic import PlainSerializer, PlainValidator, ValidationInfo, WithJsonSchema
+from pydantic_core import PydanticCustomError
+
+from contact_scene.refusal import refusal, shown
+
+_FEWEST, _MOST = 4, 16384
+
+
+@dataclass(frozen=True)
+class ArrayFile:
+    """A two-dimensional array and the name it came by; equal by content.
+
+    values  finite numbers, read-only, index [i, j] = (x_i, y_j)
+    name    as the scene file names it; empty for an array made in Python
+    digest  SHA-256 of shape and values
+    """
+
+    values: NDArray[np.float64] = field(compare=False, repr=False)
+    name: str = field(compare=False)
+    digest: str
+
+    def __str__(self) -> str:
+        return shown(self.name) if self.name else "in memory"
+
+    @property
+    def shape(self) -> tuple[int, int]:
+        """Number of values along x and along y."""
+        nx, ny = self.values.shape
+        return nx, ny
+
+
+def array_file(value: Any, info: ValidationInfo) -> ArrayFile:
+    """The array behind a file key.
+
+    Scene files name a `.npy` file in or below their own folder, which comes as
+    `info.context["folder"]`. Python code may as well hand over any path or the array itself.
+    """
+    if isinstance(value, ArrayFile):
+        return value
+    if isinstance(value, np.ndarray):
+        return _checked(value, "")
+    folder = (info.context or {}).get("folder")
+    if isinstance(value, Path) and folder is None:
+        value = str(value)
+    if not isinstance(value, str) or not value:
+        raise refusal(f"got {shown(value)}", 'the name of a .npy file such as "heights.npy"')
+    path = Path(value) if folder is None else _inside(folder, value)
+    return _checked(_read(path, value), value)
+
+
+FileKey = Annotated[
+    ArrayFile,
+    PlainValidator(array_file),
+    PlainSerializer(lambda array: array.name, return_type=str),
+    WithJsonSchema(
+        {
+            "type": "string",
+            "pattern": r"\.npy$",
+            "description": "name of a .npy file in or below the folder of the scene file",
+        }
+    ),
+]
+
+
+def _inside(folder: Path, name: str) -> Path:
+    """The path of a file in or below the folder; links must not lead out of it either."""
+    relative = PurePosixPath(name)
+    is_plain = not relative.is_absolute() and ".." not in relative.parts
+    try:
+        path = (folder / relative).resolve()
+        if is_plain and "\\" not in name and ":" not in name and _holds(folder, path):
+            return path
+    except (OSError, ValueError, RuntimeError):
+        pass  # no name of a file, or links in a circle
+    raise refusal(
+        f"got {shown(name)}", "a file in or below the folder of the scene file, relative to it"
+    )
+
+
+def _holds(folder: Path, path: Path) -> bool:
+    return path.is_relative_to(folder.resolve())
+
+
+def _read(path: Path, name: str) -> NDArray[Any]:
+    """The array in a `.npy` file."""
+    expected = "a .npy file with a two-dimensional array of numbers (numpy.save writes it)"
+    try:
+        if not path.is_file():
+            raise refusal(f"there is no file {shown(name)}", expected)
+        with path.open("rb") as stream:
+            _check_header(stream, path.stat().st_size, name)
+            array: NDArray[Any] = np.lib.format.read_array(stream, allow_pickle=False)
+            return array
+    except PydanticCustomError:
+        raise
+    except (OSError, ValueError, EOFError, SyntaxError, TypeError, MemoryError) as error:
+        reason = getattr(error, "strerror", None) or "not a .npy file"
+        raise refusal(f"cannot read {shown(name)}: {reason}", expected) from None
+
+
+def _check_header(stream: BinaryIO, size: int, name: str) -> None:
+    """Refuse what the header announces before anything is allocated for it."""
+    version = np.lib.format.read_magic(stream)
+    read_header = {
+        (1, 0): np.lib.format.read_array_header_1_0,
+        (2, 0): np.lib.format.read_array_header_2_0,
+    }.get(version)
+    if read_header is None:
+        raise ValueError(f"version {version} of the format")
+    shape, _, dtype = read_header(stream)
+    _check_shape(shape, name)
+    if dtype.kind not in "fiu":
+        raise refusal(f"the array {shown(name)} holds values of type {dtype}", "real numbers")
+    if size - stream.tell() != shape[0] * shape[1] * dtype.itemsize:
+        raise refusal(f"the file {shown(name)} is cut short or has a tail", "a whole .npy file")
+    stream.seek(0)
+
+
+def _check_shape(shape: tuple[int, ...], name: str) -> None:
+    if len(shape) != 2 or min(shape) < _FEWEST or max(shape) > _MOST:
+        raise refusal(
+            f"the array {shown(name)} has shape {tuple(shape)}",
+            f"two dimensions (x, y) of {_FEWEST} to {_MOST} values each",
+        )
+
+
+def _checked(array: NDArray[Any], name: str) -> ArrayFile:
+    _check_shape(array.shape, name)
+    values = np.array(array, dtype=np.float64, order="C")
+    if not np.all(np.isfinite(values)):
+        i, j = np.argwhere(~np.isfinite(values))[0]
+        raise refusal(
+            f"the array {shown(name)} holds {values[i, j]} at [{i}, {j}]", "finite numbers"
+        )
+    values.flags.writeable = False
+    digest = hashlib.sha256(repr(values.shape).encode() + values.tobytes()).hexdigest()
+    return ArrayFile(values, name, digest)

@@ -1,0 +1,151 @@
+"""Whether parts of a scene that are valid alone make sense together."""
+
+import math
+from collections.abc import Iterator, Sequence
+from typing import TypedDict
+
+from contact_scene.body import Body
+from contact_scene.discretisation import SurfaceDiscretisation
+from contact_scene.friction import CoulombFriction, FrictionMap
+from contact_scene.geometry import HeightMap, Indenter
+from contact_scene.load_path import ControlKind, load_path
+from contact_scene.loading import LoadStep
+from contact_scene.problem import Path, Problem
+
+# |T| = mu W within round-off of a product of two decimal numbers is the limit itself.
+_ROUND_OFF = 1e-12
+# This close to the limit hardly anything sticks: the shift tends to the sliding limit, and
+# nothing can start from it.
+_AT_THE_LIMIT = 1e-6
+
+
+class Parts(TypedDict, total=False):
+    """Valid parts of a scene file; a part that is itself invalid is left out."""
+
+    indenter: Indenter
+    body: Body
+    friction: CoulombFriction | None
+    loading: Sequence[LoadStep]
+    semi_analytical: SurfaceDiscretisation
+
+
+def inconsistencies(parts: Parts) -> tuple[Problem, ...]:
+    """Every contradiction between the parts."""
+    return (
+        *_nothing_deforms(parts),
+        *_first_step_does_not_press(parts),
+        *_shear_without_friction(parts),
+        *_gross_sliding(parts),
+        *_window_beyond_the_height_map(parts),
+        *_cells_unlike_the_friction_map(parts),
+    )
+
+
+def _nothing_deforms(parts: Parts) -> Iterator[Problem]:
+    if "indenter" not in parts or "body" not in parts:
+        return
+    if not parts["indenter"].deforms and not parts["body"].deforms:
+        yield Problem(
+            ("body", "material"),
+            "both bodies are rigid and carry no layer",
+            "at least one elastic material or layer",
+        )
+
+
+def _first_step_does_not_press(parts: Parts) -> Iterator[Problem]:
+    loading = parts.get("loading")
+    if loading and not loading[0].names_normal:
+        yield Problem(
+            ("loading", 0),
+            "the first step does not press the bodies together",
+            "normal_force or approach in the first step",
+        )
+
+
+def _shear_without_friction(parts: Parts) -> Iterator[Problem]:
+    if "friction" not in parts or parts["friction"] is not None:
+        return
+    for index, step in enumerate(parts.get("loading", ())):
+        if step.names_tangential:
+            yield Problem(
+                _key_of_shear(index, step),
+                "a tangential load on a frictionless contact",
+                hint="add [friction] with a coefficient, or leave the tangential load out",
+            )
+
+
+def _gross_sliding(parts: Parts) -> Iterator[Problem]:
+    """Steps under force control that exceed the limit mu W, or that leave from it.
+
+    |T| - mu W is convex along a ramp of both, so it suffices to look at the ends; the start of a
+    ramp is the end of the one before, or no load at all.
+    """
+    friction, loading = parts.get("friction"), parts.get("loading")
+    if friction is None or not isinstance(friction.coefficient, float):
+        return
+    if not loading or not loading[0].names_normal:
+        return
+    left_from_limit = False
+    for index, ramp in enumerate(load_path(loading)):
+        if ControlKind.DISPLACEMENT in (ramp.normal.kind, ramp.tangential.kind):
+            continue
+        mu, normal_force = friction.coefficient, ramp.normal.end
+        force, limit = math.hypot(*ramp.tangential.end), mu * normal_force
+        named = f"tangential force {force:.6g} N"
+        named_limit = f"the friction limit {limit:.6g} N (= {mu:.6g} * {normal_force:.6g} N)"
+        if force > limit * (1.0 + _ROUND_OFF):
+            yield Problem(
+                _key_of_shear(index, loading[index]),
+                f"{named} exceeds {named_limit}: gross sliding",
+                hint="prescribe tangential_shift instead",
+            )
+        elif not left_from_limit and 0.0 < limit * (1.0 - _AT_THE_LIMIT) <= force:
+            left_from_limit = index + 1 < len(loading)
+            if left_from_limit:
+                yield Problem(
+                    _key_of_shear(index, loading[index]),
+                    f"{named} is at {named_limit}, where the shift is undefined, "
+                    "and a further step follows",
+                    hint="stay below the limit, or prescribe tangential_shift instead",
+                )
+
+
+def _window_beyond_the_height_map(parts: Parts) -> Iterator[Problem]:
+    indenter = parts.get("indenter")
+    discretisation = parts.get("semi_analytical")
+    if (
+        not isinstance(indenter, HeightMap)
+        or discretisation is None
+        or discretisation.window is None
+    ):
+        return
+    for index, (length, extent) in enumerate(
+        zip(discretisation.window, indenter.extent, strict=True)
+    ):
+        if length > extent * (1.0 + 1e-9):
+            yield Problem(
+                ("semi_analytical", "window", index),
+                f"the window is {length:.6g} m long, the height map only {extent:.6g} m",
+                f"a window of at most {extent:.6g} m along {'xy'[index]}",
+            )
+
+
+def _cells_unlike_the_friction_map(parts: Parts) -> Iterator[Problem]:
+    friction, discretisation = parts.get("friction"), parts.get("semi_analytical")
+    if friction is None or not isinstance(friction.coefficient, FrictionMap):
+        return
+    shape = friction.coefficient.map.shape
+    if discretisation is not None and discretisation.cells not in (None, shape):
+        yield Problem(
+            ("friction", "coefficient", "map"),
+            f"the map has {shape[0]} x {shape[1]} coefficients",
+            "one for every cell, as many as semi_analytical.cells",
+        )
+
+
+def _key_of_shear(index: int, step: LoadStep) -> Path:
+    """The key a step should change: its tangential load, or else what made the limit fall."""
+    for name in ("tangential_force", "tangential_shift", "normal_force"):
+        if getattr(step, name) is not None:
+            return ("loading", index, name)
+    return ("loading", index)

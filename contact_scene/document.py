@@ -1,0 +1,15 @@
+"""The whole of a scene file: the scene, and beside it how fine each solver shall be."""
+
+from contact_scene.consistency import Parts
+from contact_scene.discretisation import SurfaceDiscretisation
+from contact_scene.scene import Scene
+
+
+class SceneDocument(Scene):
+    """Contents of a scene file."""
+
+    semi_analytical: SurfaceDiscretisation = SurfaceDiscretisation()
+    """How fine the semi-analytical solver shall be; absent: chosen for the accuracy."""
+
+    def _parts(self) -> Parts:
+        return {**super()._parts(), "semi_analytical": self.semi_analytical}

@@ -1,0 +1,48 @@
+"""What a body is made of."""
+
+from enum import Enum
+from typing import Annotated, Any
+
+from pydantic import Discriminator, Tag
+
+from contact_scene.description import Description
+from contact_scene.quantity import PoissonRatio, PositivePressure
+
+
+class IsotropicMaterial(Description):
+    """Homogeneous, isotropic, linear elastic."""
+
+    young_modulus: PositivePressure
+    """Young's modulus E, positive [force/length^2]."""
+
+    poisson_ratio: PoissonRatio
+    """Poisson's ratio nu, -1 < nu <= 0.5."""
+
+    @property
+    def shear_modulus(self) -> float:
+        """G = E / 2(1 + nu) [force/length^2]."""
+        return self.young_modulus / (2.0 * (1.0 + self.poisson_ratio))
+
+    @property
+    def plane_strain_modulus(self) -> float:
+        """E' = E / (1 - nu^2) [force/length^2]."""
+        return self.young_modulus / ((1.0 - self.poisson_ratio) * (1.0 + self.poisson_ratio))
+
+
+class Rigid(Enum):
+    """The material that does not deform."""
+
+    RIGID = "rigid"
+
+
+RIGID = Rigid.RIGID
+
+
+def _kind(value: Any) -> str:
+    return "<rigid>" if isinstance(value, str | Rigid) else "<elastic>"
+
+
+Material = Annotated[
+    Annotated[IsotropicMaterial, Tag("<elastic>")] | Annotated[Rigid, Tag("<rigid>")],
+    Discriminator(_kind),
+]

@@ -1,0 +1,167 @@
+"""What pydantic finds wrong, told in the words and keys of the scene file."""
+
+from collections.abc import Mapping
+from difflib import get_close_matches
+from typing import Any
+
+from pydantic import ValidationError
+from pydantic_core import ErrorDetails
+
+from contact_scene.body import Body
+from contact_scene.expectation import (
+    expected_table,
+    expected_value,
+    is_branch,
+    known_keys,
+)
+from contact_scene.geometry import SHAPES
+from contact_scene.problem import Path, Problem
+from contact_scene.refusal import shown
+
+_MISSING = "the key is missing"
+_NO_TABLE = ("model_type", "model_attributes_type", "dict_type", "dict_attributes_type", "enum")
+_NO_ARRAY = ("tuple_type", "list_type")
+
+
+def mistakes(
+    document: Mapping[str, Any], error: ValidationError, context: Mapping[str, Any]
+) -> list[Problem]:
+    """Every mistake that pydantic found in the document, each told once.
+
+    context  the validation context that the document was checked with
+    """
+    problems: list[Problem] = []
+    for detail in _details(error):
+        problems.append(_problem(document, detail))
+        if detail["type"].startswith("union_tag") and isinstance(detail["input"], dict):
+            problems += _mistakes_beside_the_shape(document, detail["input"], context)
+    return _without_echoes(problems)
+
+
+def _details(error: ValidationError) -> list[ErrorDetails]:
+    """pydantic's findings, without the shortness of a list whose entries are all invalid."""
+    found = error.errors(include_url=False)
+    return [d for d in found if not (d["type"] == "too_short" and d["input"])]
+
+
+def _problem(document: Mapping[str, Any], detail: ErrorDetails) -> Problem:
+    kind, location, got = detail["type"], detail["loc"], f"got {shown(detail['input'])}"
+    path = _as_written(document, detail)
+    context: dict[str, Any] = detail.get("ctx", {})
+    if kind == "refused":
+        return Problem(path, context["message"], context["expected"], context["hint"])
+    if kind == "missing" and isinstance(location[-1], str):
+        return Problem(path, _MISSING, expected_value(location))
+    if kind == "missing":
+        return Problem(path[:-1], got, "an array of 2, for x and y")
+    if kind == "extra_forbidden":
+        return _unknown_key(path, known_keys(location[:-1]))
+    if kind.startswith("union_tag"):
+        return _unknown_shape(path, detail["input"])
+    if kind in _NO_TABLE:
+        return Problem(path, got, expected_table(location), _brackets(path, detail["input"]))
+    if kind in _NO_ARRAY:
+        return Problem(path, got, "an array", _brackets(path, detail["input"]))
+    if kind in ("too_short", "too_long"):
+        number = context["actual_length"]
+        got = f"got {number or 'no'} {'entry' if number == 1 else 'entries'}"
+        least, most = context.get("min_length"), context.get("max_length")
+        return Problem(path, got, f"at most {most}" if least is None else f"at least {least}")
+    if kind in ("string_type", "string_too_long"):
+        return Problem(path, got, "a text of at most 500 characters")
+    return Problem(path, f"{got}: {detail['msg']}")
+
+
+def _as_written(document: Mapping[str, Any], detail: ErrorDetails) -> Path:
+    """The error's location as a path in the document: no branches, no deeper than it goes."""
+    path: list[str | int] = []
+    value: Any = document
+    unknown = detail["loc"][-1:] if detail["type"] == "extra_forbidden" else ()
+    for part in detail["loc"][: len(detail["loc"]) - len(unknown)]:
+        if is_branch(part):
+            continue
+        if not isinstance(value, dict if isinstance(part, str) else list):
+            break
+        path.append(part)
+        value = _entry(value, part)
+    return (*path, *unknown)
+
+
+def _entry(holder: Any, part: Any) -> Any:
+    """The entry of a table or array, None where it is missing."""
+    if isinstance(holder, list):
+        return holder[part] if part < len(holder) else None
+    return holder.get(part)
+
+
+def _unknown_key(path: Path, known: list[str]) -> Problem:
+    near = get_close_matches(str(path[-1])[:100].lower(), known, n=1, cutoff=0.65)
+    hint = _did_you_mean(near[0]) if near else f"the keys here are {', '.join(known)}"
+    return Problem(path, "unknown key", hint=hint)
+
+
+def _did_you_mean(key: str) -> str:
+    return f"did you mean {key}?"
+
+
+def _unknown_shape(path: Path, given: Any) -> Problem:
+    expected = "one of " + ", ".join(f'"{shape}"' for shape in SHAPES)
+    if not isinstance(given, dict):
+        return Problem(
+            path, f"got {shown(given)}", "a table with shape and material", _brackets(path, given)
+        )
+    if "shape" not in given:
+        return Problem((*path, "shape"), _MISSING, expected)
+    near = _nearest_shape(given)
+    hint = f'did you mean "{near}"?' if near else ""
+    return Problem((*path, "shape"), f"got {shown(given['shape'])}", expected, hint)
+
+
+def _nearest_shape(given: Mapping[str, Any]) -> str | None:
+    written = given.get("shape")
+    if not isinstance(written, str):
+        return None
+    written = written[:100].lower().replace(" ", "_").replace("-", "_")
+    return next(iter(get_close_matches(written, SHAPES, n=1)), None)
+
+
+def _mistakes_beside_the_shape(
+    document: Mapping[str, Any], given: Mapping[str, Any], context: Mapping[str, Any]
+) -> list[Problem]:
+    """What else is wrong with an indenter of unknown shape.
+
+    Checked as the shape that was probably meant; failing that, by the keys that all shapes have.
+    """
+    near = _nearest_shape(given)
+    model: type[Body] = SHAPES[near] if near else Body
+    branch = f"<{near or next(iter(SHAPES))}>"
+    keys = {k: v for k, v in given.items() if k != "shape" and (near or k in Body.model_fields)}
+    try:
+        model.model_validate(keys, context=dict(context))
+    except ValidationError as error:
+        found = _details(error)
+        for detail in found:
+            detail["loc"] = ("indenter", branch, *detail["loc"])
+        return [_problem(document, detail) for detail in found]
+    return []
+
+
+def _brackets(path: Path, given: Any) -> str:
+    """What to write where single and double brackets were confused."""
+    if path[-1:] != ("layers",) and len(path) != 1:
+        return ""
+    header = ".".join(str(part) for part in path if isinstance(part, str))
+    if isinstance(given, dict):
+        return f"write [[{header}]], with double brackets"
+    return f"write [{header}], with single brackets" if isinstance(given, list) else ""
+
+
+def _without_echoes(problems: list[Problem]) -> list[Problem]:
+    """Each problem once; and a misspelt key, which makes the right one missing, once as well."""
+    meant = {(problem.path[:-1], problem.hint) for problem in problems}
+    return [
+        problem
+        for problem in dict.fromkeys(problems)
+        if problem.message != _MISSING
+        or (problem.path[:-1], _did_you_mean(str(problem.path[-1]))) not in meant
+    ]

@@ -1,0 +1,146 @@
+"""Physical quantities as they are written in a scene: a number in SI or a string with a unit."""
+
+import math
+import re
+from dataclasses import dataclass
+from decimal import Context, Decimal
+from difflib import get_close_matches
+from typing import Annotated, Any
+
+from pydantic import GetCoreSchemaHandler, GetJsonSchemaHandler
+from pydantic_core import CoreSchema, core_schema
+
+from contact_scene.refusal import refusal, shown
+from contact_scene.units import ANGLE, FORCE, LENGTH, PRESSURE, PURE_NUMBER, Kind, UnknownUnit
+
+# Nothing but "number unit" passes; the unit is a product of at most five simple factors.
+_NUMBER = r"[+-]?(?:[0-9]{1,40}(?:\.[0-9]{0,40})?|\.[0-9]{1,40})(?:[eE][+-]?[0-9]{1,4})?"
+_FACTOR = r"[A-Za-zµμ°]{1,20}(?:(?:\^|\*\*)-?[1-9])?"
+QUANTITY_PATTERN = rf"^({_NUMBER}) ?({_FACTOR}(?:(?: ?[*/·] ?| ){_FACTOR}){{0,4}})$"
+_QUANTITY = re.compile(QUANTITY_PATTERN)
+_NUMBER_ALONE = re.compile(_NUMBER)
+
+# More digits than the pattern admits, so that no product with a unit's factor is rounded twice.
+_EXACT = Context(prec=200)
+
+# Far beyond any contact, near enough to one that no product of a few quantities overflows, or
+# vanishes; a ratio may be as small as it likes.
+_SMALLEST, _LARGEST = 1e-30, 1e30
+
+
+@dataclass(frozen=True)
+class Quantity:
+    """Validator of one kind of quantity within bounds, for use in `Annotated[float, ...]`.
+
+    kind               what is measured, with its units
+    above, at_least    lower bound, excluded or included [SI unit of the kind]
+    below, at_most     upper bound, excluded or included [SI unit of the kind]
+    wanted             the expectation in words, as in "a positive length"
+    """
+
+    kind: Kind
+    wanted: str
+    above: float | None = None
+    at_least: float | None = None
+    below: float | None = None
+    at_most: float | None = None
+
+    @property
+    def expected(self) -> str:
+        """What a writer should have written, with an example."""
+        return f"{self.wanted} such as {self.kind.example}" if self.kind.units else self.wanted
+
+    def __call__(self, value: Any) -> float:
+        """The value in SI; raises a refusal that names what came and what is expected."""
+        number = self._in_si(value)
+        if not math.isfinite(number):
+            raise refusal(f"got {shown(value)}, which is not finite", self.expected)
+        if not self._is_within(number):
+            raise refusal(f"got {shown(value)}", self.expected)
+        smallest = _SMALLEST if self.kind.units else 0.0
+        if number != 0.0 and not smallest <= abs(number) <= _LARGEST:
+            bounds = f"a magnitude between {smallest} and {_LARGEST} {self.kind.si}"
+            raise refusal(f"got {shown(value)}", bounds.rstrip())
+        return number + 0.0  # -0.0 and 0.0 are the same quantity and shall give the same bits
+
+    def _in_si(self, value: Any) -> float:
+        if isinstance(value, str):
+            return self._from_text(value)
+        if isinstance(value, bool) or not hasattr(value, "__float__"):
+            raise refusal(f"got {shown(value)}", self.expected)
+        try:
+            return float(value)
+        except (TypeError, ValueError, OverflowError):
+            raise refusal(f"got {shown(value)}", self.expected) from None
+
+    def _from_text(self, text: str) -> float:
+        match = _QUANTITY.match(text.strip())
+        if not self.kind.units:
+            raise refusal(f"got the text {shown(text)}", self.expected, "write it without quotes")
+        if match is None:
+            lone = _NUMBER_ALONE.fullmatch(text.strip())
+            hint = f"write {text.strip()} without quotes, or add a unit" if lone else ""
+            raise refusal(f"got {shown(text)}", self.expected, hint)
+        number, unit = match.groups()
+        try:
+            return self.kind.to_si(Decimal(number), unit, _EXACT)
+        except UnknownUnit:
+            near = get_close_matches(unit, self.kind.units, n=1, cutoff=0.5)
+            folded = [known for known in self.kind.units if known.lower() == unit.lower()]
+            hint = f'did you mean "{number} {(folded or near)[0]}"?' if folded or near else ""
+            raise refusal(f"got {shown(text)}", self.expected, hint) from None
+
+    def _is_within(self, number: float) -> bool:
+        return not (
+            (self.above is not None and number <= self.above)
+            or (self.at_least is not None and number < self.at_least)
+            or (self.below is not None and number >= self.below)
+            or (self.at_most is not None and number > self.at_most)
+        )
+
+    def __get_pydantic_core_schema__(
+        self, source: Any, handler: GetCoreSchemaHandler
+    ) -> CoreSchema:
+        return core_schema.no_info_plain_validator_function(self)
+
+    def __get_pydantic_json_schema__(
+        self, schema: CoreSchema, handler: GetJsonSchemaHandler
+    ) -> dict[str, Any]:
+        bounds = {
+            "exclusiveMinimum": self.above,
+            "minimum": self.at_least,
+            "exclusiveMaximum": self.below,
+            "maximum": self.at_most,
+        }
+        number = {"type": "number", **{k: v for k, v in bounds.items() if v is not None}}
+        if not self.kind.units:
+            return number
+        number["description"] = f"in {self.kind.si}"
+        written = {
+            "type": "string",
+            "pattern": QUANTITY_PATTERN,
+            "description": f"number and unit, such as {self.kind.example}",
+            "examples": [f"1 {unit}" for unit in self.kind.units if unit.isascii()],
+        }
+        return {"anyOf": [number, written]}
+
+
+Length = Annotated[float, Quantity(LENGTH, "a length")]
+PositiveLength = Annotated[float, Quantity(LENGTH, "a positive length", above=0.0)]
+Force = Annotated[float, Quantity(FORCE, "a force")]
+PositiveForce = Annotated[float, Quantity(FORCE, "a positive force", above=0.0)]
+PositivePressure = Annotated[float, Quantity(PRESSURE, "a positive pressure", above=0.0)]
+SlopeAngle = Annotated[
+    float,
+    Quantity(
+        ANGLE, "an angle of the surface above 0 and below 60 deg", above=0.0, below=math.pi / 3
+    ),
+]
+PoissonRatio = Annotated[
+    float,
+    Quantity(PURE_NUMBER, "a number above -1 and at most 0.5", above=-1.0, at_most=0.5),
+]
+FrictionCoefficient = Annotated[float, Quantity(PURE_NUMBER, "a number not below 0", at_least=0.0)]
+Tolerance = Annotated[
+    float, Quantity(PURE_NUMBER, "a number above 1e-14 and at most 0.1", above=1e-14, at_most=0.1)
+]

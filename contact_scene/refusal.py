@@ -1,0 +1,55 @@
+"""How a validator says no: what came, what was expected, what usually helps."""
+
+import re
+from datetime import date, datetime, time
+from typing import Any
+
+from pydantic_core import PydanticCustomError
+
+_LONGEST_SHOWN = 60
+
+
+def refusal(message: str, expected: str = "", hint: str = "") -> PydanticCustomError:
+    """An exception for pydantic validators that keeps message, expectation and hint apart."""
+    sentence = "{message}"
+    sentence += ", expected {expected}" if expected else ""
+    sentence += "; {hint}" if hint else ""
+    context = {"message": message, "expected": expected, "hint": hint}
+    return PydanticCustomError("refused", sentence, context)
+
+
+def shown(value: Any) -> str:
+    """A value as a TOML writer would recognise it, printable and of bounded length."""
+    if isinstance(value, str):
+        return '"' + printable(_shortened(value)) + '"'
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    if isinstance(value, int) and abs(value) >= 10**20:
+        return "a whole number of more than 20 digits"
+    if isinstance(value, int | float | datetime | date | time):
+        return str(value)
+    if isinstance(value, dict):
+        return "a table"
+    if isinstance(value, list | tuple):
+        return _shown_array(value)
+    return f"a {type(value).__name__}"
+
+
+def printable(text: str) -> str:
+    """Text with control characters and quotes escaped, fit for a terminal or a log."""
+    return "".join(c if c.isprintable() and c != '"' else ascii(c)[1:-1] for c in text)
+
+
+def _shown_array(items: list[Any] | tuple[Any, ...]) -> str:
+    if len(items) > 4 or any(isinstance(item, list | tuple | dict) for item in items):
+        return f"an array of {len(items)}"
+    return _shortened("[" + ", ".join(shown(item) for item in items) + "]", 160)
+
+
+def _shortened(text: str, longest: int = _LONGEST_SHOWN) -> str:
+    return text if len(text) <= longest else text[: longest - 1] + "…"
+
+
+def is_bare_key(part: str) -> bool:
+    """Whether TOML admits this key without quotes."""
+    return re.fullmatch(r"[A-Za-z0-9_-]+", part) is not None

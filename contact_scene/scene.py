@@ -1,0 +1,53 @@
+"""The scene: two bodies, friction between them, and how they are loaded."""
+
+from pydantic import Field, model_validator
+
+from contact_scene.body import Body
+from contact_scene.consistency import Parts, inconsistencies
+from contact_scene.description import Description
+from contact_scene.friction import CoulombFriction
+from contact_scene.geometry import Indenter
+from contact_scene.load_path import LoadRamp, load_path
+from contact_scene.loading import MOST_STEPS, LoadStep
+from contact_scene.problem import SceneError
+
+
+class Scene(Description):
+    """What is solved. Says nothing about how: grids, meshes and tolerances stand beside it.
+
+    Raises `SceneError` if its parts, each valid alone, do not make a problem that can be solved.
+    """
+
+    title: str = Field(default="", max_length=500)
+    """A name for people."""
+
+    indenter: Indenter
+    """The upper body, with its shape."""
+
+    body: Body
+    """The lower body, a half-space."""
+
+    friction: CoulombFriction | None = None
+    """Friction between the two; absent: frictionless."""
+
+    loading: tuple[LoadStep, ...] = Field(min_length=1, max_length=MOST_STEPS)
+    """Loading steps in order, each ramping linearly from the state before."""
+
+    @model_validator(mode="after")
+    def _is_consistent(self) -> "Scene":
+        problems = inconsistencies(self._parts())
+        if problems:
+            raise SceneError(problems)
+        return self
+
+    def _parts(self) -> Parts:
+        return {
+            "indenter": self.indenter,
+            "body": self.body,
+            "friction": self.friction,
+            "loading": self.loading,
+        }
+
+    def load_path(self) -> tuple[LoadRamp, ...]:
+        """The loading with nothing left implicit, one ramp for every step."""
+        return load_path(self.loading)

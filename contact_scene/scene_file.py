@@ -1,0 +1,102 @@
+"""Reading a scene file."""
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, replace
+from os import PathLike
+from pathlib import Path as FilePath
+from typing import Any, cast
+
+from pydantic import TypeAdapter, ValidationError
+
+from contact_scene.consistency import Parts, inconsistencies
+from contact_scene.discretisation import SurfaceDiscretisation
+from contact_scene.document import SceneDocument
+from contact_scene.mistakes import mistakes
+from contact_scene.override import origin, override
+from contact_scene.problem import Path, Problem, SceneError
+from contact_scene.scene import Scene
+from contact_scene.toml_file import read_toml
+
+
+@dataclass(frozen=True)
+class SceneFile:
+    """What a scene file says: the scene, and beside it how fine each solver shall be."""
+
+    scene: Scene
+    semi_analytical: SurfaceDiscretisation
+
+
+def load_scene(path: str | PathLike[str]) -> Scene:
+    """The scene of a scene file; raises `SceneError` with every mistake in it."""
+    return read_scene_file(path).scene
+
+
+def read_scene_file(path: str | PathLike[str], overrides: Iterable[str] = ()) -> SceneFile:
+    """Read and check a scene file.
+
+    path       a TOML file; the files it names lie in or below its folder
+    overrides  `dotted.key=value` each, applied in order before anything is checked; entries of
+               arrays count from 1: `loading[2].increments=5`
+    Raises `SceneError` with every mistake, each with file, line and key.
+    """
+    file = FilePath(path)
+    document, lines = read_toml(file)
+    overridden: dict[Path, str] = {}
+    for assignment in overrides:
+        overridden[override(document, assignment)] = origin(assignment)
+    try:
+        return _checked(document, {"folder": file.parent})
+    except SceneError as error:
+        placed = [_placed(problem, str(file), lines, overridden) for problem in error.problems]
+        raise SceneError(sorted(placed, key=lambda problem: problem.line or 0)) from None
+
+
+def _checked(document: dict[str, Any], context: dict[str, Any]) -> SceneFile:
+    try:
+        valid = SceneDocument.model_validate(document, context=context)
+    except ValidationError as error:
+        found = mistakes(document, error, context)
+        found += inconsistencies(_valid_parts(document, error, context))
+        raise SceneError(found) from None
+    scene = Scene.model_construct(**{name: getattr(valid, name) for name in Scene.model_fields})
+    return SceneFile(scene, valid.semi_analytical)
+
+
+def _valid_parts(
+    document: Mapping[str, Any], error: ValidationError, context: dict[str, Any]
+) -> Parts:
+    """The parts pydantic has found nothing wrong with; of the loading, the steps before that."""
+    bad = [detail["loc"] for detail in error.errors(include_url=False)]
+    bad_steps = [where[1] for where in bad if where[0] == "loading" and len(where) > 1]
+    given = dict(document)
+    if bad_steps and ("loading",) not in bad:
+        given["loading"] = document["loading"][: min(int(step) for step in bad_steps)]
+        bad = [where for where in bad if where[0] != "loading"]
+    parts: dict[str, Any] = {}
+    for name, field in SceneDocument.model_fields.items():
+        if any(where[0] == name for where in bad):
+            continue
+        if name == "loading" and not given[name]:
+            continue  # already the first step is invalid
+        if name in given:
+            adapter: TypeAdapter[Any] = TypeAdapter(field.rebuild_annotation())
+            parts[name] = adapter.validate_python(given[name], context=context)
+        elif not field.is_required():
+            parts[name] = field.get_default()
+    return cast(Parts, parts)
+
+
+def _placed(
+    problem: Problem, file: str, lines: Mapping[Path, int], overridden: Mapping[Path, str]
+) -> Problem:
+    """The problem with the file and line it belongs to, or with the override."""
+    path = problem.path
+    prefixes = [path[:length] for length in range(len(path), -1, -1)]
+    source = next((overridden[prefix] for prefix in prefixes if prefix in overridden), None)
+    if source is None and path not in lines:  # a table that only an override has made
+        inside = (made for made in overridden if made[: len(path)] == path and path)
+        source = next((overridden[made] for made in inside), None)
+    if source is not None:
+        return replace(problem, file=source)
+    line = next((lines[prefix] for prefix in prefixes if prefix in lines), 1)
+    return replace(problem, file=file, line=line)

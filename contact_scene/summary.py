@@ -1,0 +1,163 @@
+"""The summary of a run, `summary.json`: what both solvers report, by the same names."""
+
+import json
+from enum import StrEnum
+from typing import Annotated, Any
+
+from pydantic import Field
+
+from contact_scene.description import Description
+
+SUMMARY_VERSION = 1
+
+
+def _unit(symbol: str) -> Any:
+    return Field(json_schema_extra={"unit": symbol})
+
+
+Newton = Annotated[float, _unit("N")]
+Metre = Annotated[float, _unit("m")]
+SquareMetre = Annotated[float, _unit("m^2")]
+Pascal = Annotated[float, _unit("Pa")]
+Joule = Annotated[float, _unit("J")]
+Ratio = Annotated[float, _unit("1")]
+
+
+class ContactStatus(StrEnum):
+    """How the contact carries its tangential load at the end of a step."""
+
+    FRICTIONLESS = "frictionless"
+    FULL_STICK = "full stick"
+    PARTIAL_SLIP = "partial slip"
+    NO_STICK_AREA_LEFT = "no stick area left"
+    GROSS_SLIDING = "gross sliding"
+
+
+class Residuals(Description):
+    """Dimensionless convergence measures, evaluated from the final fields; null where unused."""
+
+    complementarity: Ratio
+    """Pressure where there is a gap, relative to load and approach."""
+
+    penetration: Ratio
+    """Largest penetration relative to the approach."""
+
+    normal_equilibrium: Ratio
+    """Difference of the integrated pressure from the normal force, relative to it."""
+
+    friction_cone: Ratio | None = None
+    """Largest excess of shear over the friction limit, relative to the largest limit."""
+
+    slip_direction: Ratio | None = None
+    """Work that slip would do along the shear instead of against it, relative to the limit's."""
+
+    tangential_equilibrium: Ratio | None = None
+    """Difference of the integrated shear from the tangential force, relative to the limit."""
+
+
+class StepSummary(Description):
+    """State at the end of one `[[loading]]` table. Vectors are (x, y), of the indenter relative
+    to the body: positive force gives positive shift."""
+
+    normal_force: Newton
+    """Normal force."""
+
+    approach: Metre
+    """Approach of the bodies, counted from first touch."""
+
+    contact_area: SquareMetre
+    """Area in contact, with sub-cell accuracy."""
+
+    contact_radius: Metre
+    """Radius of the circle of the contact area, sqrt(area / pi)."""
+
+    peak_pressure: Pascal
+    """Largest pressure of any cell (finite elements: of any node)."""
+
+    tangential_force: tuple[Newton, Newton] | None = None
+    """Tangential force; null without friction."""
+
+    tangential_shift: tuple[Metre, Metre] | None = None
+    """Tangential shift; null without friction."""
+
+    stick_area: SquareMetre | None = None
+    """Area that sticks, with sub-cell accuracy; null without friction."""
+
+    stick_radius: Metre | None = None
+    """Radius of the circle of the stick area, sqrt(area / pi); null without friction."""
+
+    dissipated_energy: Joule | None = None
+    """Energy dissipated by slip since the start of the history; null without friction."""
+
+    residuals: Residuals
+    """How well the state fulfils its equations."""
+
+    iterations: Annotated[int, Field(ge=0)]
+    """Iterations of the solver over all increments of the step."""
+
+    convolutions: Annotated[int, Field(ge=0)]
+    """Convolutions (pairs of transforms) over all increments of the step."""
+
+    factorizations: Annotated[int, Field(ge=0)] = 0
+    """Factorisations of a matrix over all increments of the step."""
+
+    status: ContactStatus
+    """How the contact carries its tangential load."""
+
+
+class EffectSummary(Description):
+    """One effect that a solver takes into account or not."""
+
+    name: str
+    """Name of the effect."""
+
+    on: bool
+    """Whether it acts in this scene."""
+
+    why: str
+    """Reason in one sentence."""
+
+
+class RunSummary(Description):
+    """Results of one run, in SI. The same input gives the same summary, byte for byte."""
+
+    schema_version: Annotated[int, Field(ge=1)] = SUMMARY_VERSION
+    """Version of this record; it grows when a key changes its name or meaning."""
+
+    title: str
+    """Title of the scene."""
+
+    solver: str
+    """Name of the solver."""
+
+    tolerance: Ratio
+    """Bound of every residual at the end of every increment."""
+
+    cells: tuple[int, int] | None = None
+    """Number of cells along x and y; null for a solver without a surface grid."""
+
+    window: tuple[Metre, Metre] | None = None
+    """Lengths of the surface grid along x and y; null for a solver without one."""
+
+    effects: tuple[EffectSummary, ...]
+    """The solver's plan: which effects act, and why."""
+
+    steps: tuple[StepSummary, ...]
+    """One entry for every `[[loading]]` table, in order."""
+
+
+def dump_summary(summary: RunSummary) -> str:
+    """The summary as JSON text; every key is there, null where it does not apply."""
+    record = summary.model_dump(mode="json")
+    return json.dumps(record, indent=2, ensure_ascii=False, allow_nan=False) + "\n"
+
+
+def load_summary(text: str) -> RunSummary:
+    """The summary back from its JSON text; ValueError for anything else."""
+    return RunSummary.model_validate_json(text)
+
+
+def summary_schema() -> dict[str, Any]:
+    """JSON Schema of `summary.json`, with meaning and unit of every key."""
+    schema = RunSummary.model_json_schema(mode="serialization")
+    return {"$schema": "https://json-schema.org/draft/2020-12/schema", **schema}

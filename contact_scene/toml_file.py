@@ -1,0 +1,58 @@
+"""A TOML file, read within bounds, and the lines of its keys."""
+
+import re
+import tomllib
+from pathlib import Path as FilePath
+from typing import Any
+
+from contact_scene.locator import DEEPEST, NestedTooDeep, locate
+from contact_scene.problem import Path, Problem, SceneError
+
+_LARGEST_FILE = 10_000_000
+
+
+def read_toml(file: FilePath) -> tuple[dict[str, Any], dict[Path, int]]:
+    """The contents of a TOML file, and the line of every key; raises `SceneError`."""
+    text = _text(file)
+    try:
+        lines = locate(text)  # first: what it lets pass, tomllib reads in linear time
+        return tomllib.loads(text), lines
+    except NestedTooDeep as error:
+        raise _refused(file, "nested too deep", f"at most {DEEPEST} levels", error.line) from None
+    except (ValueError, RecursionError) as error:
+        place = re.search(r" \(at line (\d+), column (\d+)\)", str(error))
+        line = int(place[1]) if place else text.count("\n") + 1
+        column = f" (column {place[2]})" if place else ""
+        reason = str(error).partition(" (at ")[0]
+        raise _refused(file, f"not valid TOML: {reason}{column}", line=line) from None
+
+
+def _text(file: FilePath) -> str:
+    try:
+        if file.is_dir():
+            raise _refused(file, "is a folder", "a scene file (TOML)")
+        if not file.exists():
+            raise _refused(file, "there is no such file", "a scene file (TOML)")
+        if not file.is_file():
+            raise _refused(file, "is not a regular file", "a scene file (TOML)")
+        with file.open("rb") as stream:
+            contents = stream.read(_LARGEST_FILE + 1)
+    except (OSError, ValueError) as error:
+        reason = getattr(error, "strerror", None) or "not a file name"
+        raise _refused(file, f"cannot be read: {reason}") from None
+    if len(contents) > _LARGEST_FILE:
+        raise _refused(file, "is too large", f"at most {_LARGEST_FILE // 10**6} MB")
+    try:
+        text = contents.removeprefix(b"\xef\xbb\xbf").decode("utf-8")
+    except UnicodeDecodeError as error:
+        line = contents.count(b"\n", 0, error.start) + 1
+        raise _refused(file, "is not text in UTF-8", line=line) from None
+    if not text.strip():
+        raise _refused(file, "is empty", "a scene (TOML)")
+    return text
+
+
+def _refused(
+    file: FilePath, message: str, expected: str = "", line: int | None = None
+) -> SceneError:
+    return SceneError([Problem((), message, expected, file=str(file), line=line)])

@@ -1,0 +1,76 @@
+"""Units: a table of the usual ones, exact in decimal arithmetic; pint for all others."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from decimal import Context, Decimal
+from functools import cache
+from types import MappingProxyType
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from pint import UnitRegistry
+
+
+class UnknownUnit(ValueError):
+    """The unit is unknown or measures something else."""
+
+
+@dataclass(frozen=True, eq=False)
+class Kind:
+    """A kind of quantity and its units; each kind is equal only to itself.
+
+    si       SI unit; empty for a pure number
+    example  as a writer would put it
+    units    unit -> factor to the SI unit, as decimal text so that "18 mm" is exactly 0.018
+    """
+
+    si: str
+    example: str
+    units: Mapping[str, Decimal]
+
+    def to_si(self, number: Decimal, unit: str, context: Context) -> float:
+        """Value in SI; `UnknownUnit` if the unit does not measure this kind."""
+        factor = self.units.get(unit)
+        if factor is not None:
+            return float(context.multiply(number, factor))
+        if self.si == "rad":
+            raise UnknownUnit(unit)  # pint counts percent and m/m as angles
+        return _convert_with_pint(number, unit, self.si)
+
+
+def _table(**factors: str) -> Mapping[str, Decimal]:
+    table = {unit: Decimal(factor) for unit, factor in factors.items()}
+    for unit in [unit for unit in table if unit.startswith("u")]:
+        table["µ" + unit[1:]] = table["μ" + unit[1:]] = table[unit]  # micro sign, Greek mu
+    return MappingProxyType(table)
+
+
+_DEGREE = Decimal("0.01745329251994329576923690768488612713443")  # pi/180
+
+PURE_NUMBER = Kind("", "", MappingProxyType({}))
+LENGTH = Kind("m", '"18 mm"', _table(m="1", cm="1e-2", mm="1e-3", um="1e-6", nm="1e-9"))
+FORCE = Kind("N", '"1 kN"', _table(N="1", uN="1e-6", mN="1e-3", kN="1e3", MN="1e6"))
+PRESSURE = Kind("Pa", '"210 GPa"', _table(Pa="1", kPa="1e3", MPa="1e6", GPa="1e9", TPa="1e12"))
+ANGLE = Kind(
+    "rad",
+    '"20 deg"',
+    MappingProxyType({"rad": Decimal(1), "mrad": Decimal("1e-3"), "deg": _DEGREE, "°": _DEGREE}),
+)
+
+
+@cache
+def _registry() -> "UnitRegistry[Decimal]":
+    # Imported here because it takes longer than all the rest of reading a scene.
+    from pint import UnitRegistry
+
+    return UnitRegistry(non_int_type=Decimal)
+
+
+def _convert_with_pint(number: Decimal, unit: str, si: str) -> float:
+    from pint.errors import PintError
+
+    try:
+        factor = _registry().Quantity(Decimal(1), unit.replace("·", "*")).to(si).magnitude
+        return float(number * Decimal(factor))
+    except (PintError, ArithmeticError, ValueError, TypeError, AttributeError) as error:
+        raise UnknownUnit(unit) from error

@@ -1,0 +1,35 @@
+"""Contact by superposition and FFT: the semi-analytical method."""
+
+from semi_analytical.discretise import discretise
+from semi_analytical.errors import (
+    ContactAtWindowEdge,
+    GrossSliding,
+    NotConverged,
+    ResourceRefused,
+    SolverError,
+    UnsupportedScene,
+)
+from semi_analytical.fields import Increment, Result
+from semi_analytical.grid import SurfaceGrid
+from semi_analytical.plan import Effect, Plan, plan
+from semi_analytical.residuals import Residuals
+from semi_analytical.solve import solve, solve_discretised
+
+__all__ = [
+    "ContactAtWindowEdge",
+    "Effect",
+    "GrossSliding",
+    "Increment",
+    "NotConverged",
+    "Plan",
+    "Residuals",
+    "ResourceRefused",
+    "Result",
+    "SolverError",
+    "SurfaceGrid",
+    "UnsupportedScene",
+    "discretise",
+    "plan",
+    "solve",
+    "solve_discretised",
+]

@@ -1,0 +1,64 @@
+"""The box of cells around a contact: tractions live nowhere else, so solving there is enough."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+Field = NDArray[np.float64]
+Mask = NDArray[np.bool_]
+
+# Sides are multiples of this, so that a box can be halved several times and few shapes occur.
+QUANTUM = 16
+
+
+@dataclass(frozen=True)
+class Box:
+    """A rectangle of cells: the first along x and y, and how many."""
+
+    first: tuple[int, int]
+    shape: tuple[int, int]
+
+    @classmethod
+    def whole(cls, cells: tuple[int, int]) -> "Box":
+        """The box of all cells."""
+        return cls((0, 0), cells)
+
+    @property
+    def slices(self) -> tuple[slice, slice]:
+        """Index of the box in arrays whose last two axes are the cells of the window."""
+        (i, j), (nx, ny) = self.first, self.shape
+        return slice(i, i + nx), slice(j, j + ny)
+
+    def embed(self, values: Field, cells: tuple[int, int]) -> Field:
+        """Values on the box (..., *shape) as values on the window (..., *cells), zero outside."""
+        field = np.zeros((*values.shape[:-2], *cells))
+        field[..., self.slices[0], self.slices[1]] = values
+        return field
+
+    def mask(self, cells: tuple[int, int]) -> Mask:
+        """Cells of the window that are in the box."""
+        inside = np.zeros(cells, dtype=bool)
+        inside[self.slices] = True
+        return inside
+
+
+def box_around(cells: Mask, margin: int) -> Box:
+    """The smallest box with sides of whole quanta around marked cells and a margin.
+
+    A side that does not fit becomes the side of the window.
+    """
+    sides = [_side(np.any(cells, axis=1 - axis), margin) for axis in (0, 1)]
+    return Box((sides[0][0], sides[1][0]), (sides[0][1], sides[1][1]))
+
+
+def _side(marked: Mask, margin: int) -> tuple[int, int]:
+    """First index and length along one axis."""
+    at = np.nonzero(marked)[0]
+    available = len(marked)
+    needed = at[-1] - at[0] + 1 + 2 * margin
+    length = -(-needed // QUANTUM) * QUANTUM
+    if length >= available:
+        return 0, available
+    middle_first = (at[0] + at[-1] + 1 - length) // 2
+    return int(np.clip(middle_first, 0, available - length)), int(length)

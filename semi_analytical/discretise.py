@@ -1,0 +1,120 @@
+"""Cells and window for a scene that leaves them open."""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from contact_scene import (
+    Cone,
+    ControlKind,
+    Ellipsoid,
+    FlatPunch,
+    FrictionMap,
+    HeightMap,
+    IsotropicMaterial,
+    Scene,
+    SurfaceDiscretisation,
+)
+from semi_analytical.errors import ContactAtWindowEdge
+from semi_analytical.grid import SurfaceGrid
+from semi_analytical.model import ContactModel
+from semi_analytical.pressing import NormalTarget, press
+
+# Peak pressure to about 1e-4 and fields to a few 1e-3 for a smooth contact.
+DEFAULT_CELLS = (128, 128)
+# Window in contact diameters; ten per cent let the bodies part within it.
+MARGIN = 1.1
+SCOUT_CELLS = 64
+SCOUT_TOLERANCE = 1e-3
+MOST_ENLARGEMENTS = 40
+GROWTH = 1.6
+
+
+def discretise(scene: Scene, asked: SurfaceDiscretisation) -> SurfaceGrid:
+    """The grid that was asked for, with what was left open chosen.
+
+    A window that is not given is fitted to the largest contact of the history, scouted on a
+    coarse grid under the largest normal load; a friction map gives the cells, a height map
+    bounds the window.
+    """
+    cells = asked.cells or _mapped_cells(scene) or DEFAULT_CELLS
+    return SurfaceGrid(cells, asked.window or _fitted_window(scene))
+
+
+def _mapped_cells(scene: Scene) -> tuple[int, int] | None:
+    if scene.friction is None or not isinstance(scene.friction.coefficient, FrictionMap):
+        return None
+    nx, ny = scene.friction.coefficient.map.shape
+    return nx, ny
+
+
+def _fitted_window(scene: Scene) -> tuple[float, float]:
+    if isinstance(scene.indenter, HeightMap):
+        return scene.indenter.extent
+    loads = _largest_loads(scene)
+    window = (2 * MARGIN * _guessed_radius(scene, loads[0]),) * 2
+    for _ in range(MOST_ENLARGEMENTS):
+        grid = SurfaceGrid((SCOUT_CELLS, SCOUT_CELLS), window)
+        try:
+            marked = [_contact(scene, grid, load) for load in loads]
+        except ContactAtWindowEdge:
+            window = (GROWTH * window[0], GROWTH * window[1])
+            continue
+        extents = _extents(np.any(marked, axis=0), grid)
+        fitted = (MARGIN * extents[0], MARGIN * extents[1])
+        if min(fitted[0] / window[0], fitted[1] / window[1]) > 0.5:
+            return fitted
+        window = fitted
+    raise ContactAtWindowEdge(
+        "no window was found that holds the contact; give one in [semi_analytical]"
+    )
+
+
+def _contact(scene: Scene, grid: SurfaceGrid, load: NormalTarget) -> NDArray[np.bool_]:
+    return np.asarray(press(ContactModel.of(scene, grid), load, SCOUT_TOLERANCE).pressure > 0)
+
+
+def _extents(contact: NDArray[np.bool_], grid: SurfaceGrid) -> tuple[float, float]:
+    """Sides of the smallest window about the origin that holds the contact cells [length]."""
+    x, y = grid.coordinates()
+    return (
+        2 * float(np.max(np.abs(x[contact]))) + grid.spacing[0],
+        2 * float(np.max(np.abs(y[contact]))) + grid.spacing[1],
+    )
+
+
+def _largest_loads(scene: Scene) -> list[NormalTarget]:
+    """The largest force and the largest approach of the history, as far as there are any."""
+    ramps = scene.load_path()
+    force = [r.normal.end for r in ramps if r.normal.kind is ControlKind.FORCE]
+    approach = [r.normal.end for r in ramps if r.normal.kind is ControlKind.DISPLACEMENT]
+    loads = [NormalTarget(force=max(force))] if force else []
+    return loads + ([NormalTarget(approach=max(approach))] if approach else [])
+
+
+def _guessed_radius(scene: Scene, load: NormalTarget) -> float:
+    """Contact radius by Hertz's formulas on the substrates, good to an order of magnitude."""
+    indenter = scene.indenter
+    if isinstance(indenter, FlatPunch):
+        return indenter.radius
+    if isinstance(indenter, Cone):
+        slope = float(np.tan(indenter.slope_angle))
+        if load.approach is not None:
+            return 2 * load.approach / (np.pi * slope)
+        assert load.force is not None
+        return float(np.sqrt(2 * load.force / (np.pi * _contact_modulus(scene) * slope)))
+    assert not isinstance(indenter, HeightMap)
+    radius = max(indenter.radii) if isinstance(indenter, Ellipsoid) else indenter.radius
+    if load.approach is not None:
+        return float(np.sqrt(radius * load.approach))
+    assert load.force is not None
+    return float(np.cbrt(0.75 * load.force * radius / _contact_modulus(scene)))
+
+
+def _contact_modulus(scene: Scene) -> float:
+    """E* = 1 / Σ (1 - nu^2) / E over what is elastic, substrate or outermost layer."""
+    compliance = 0.0
+    for body in (scene.body, scene.indenter):
+        material = body.layers[0].material if body.layers else body.material
+        if isinstance(material, IsotropicMaterial):
+            compliance += 1 / material.plane_strain_modulus
+    return 1 / compliance

@@ -1,0 +1,1 @@
+"""Frequency response functions: surface displacement per unit traction at one wavenumber."""

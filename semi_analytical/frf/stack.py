@@ -1,0 +1,95 @@
+"""The elastic constants of a body in the order in which waves cross them: layers, then base."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from math import isfinite
+from typing import NamedTuple
+
+from contact_scene.body import Body
+from contact_scene.material import IsotropicMaterial
+
+
+class HalfSpace(NamedTuple):
+    """Isotropic material that fills everything below: shear modulus and Poisson's ratio."""
+
+    shear_modulus: float
+    poisson_ratio: float
+
+
+class Film(NamedTuple):
+    """Isotropic layer of uniform thickness, bonded to what lies below it."""
+
+    shear_modulus: float
+    poisson_ratio: float
+    thickness: float
+
+
+@dataclass(frozen=True)
+class Stack:
+    """Layers, outermost first, bonded to each other and to a half-space or a rigid base.
+
+    layers  (shear modulus [force/length^2], Poisson's ratio, thickness [length]) of each layer;
+            layers of zero thickness are dropped
+    base    (shear modulus, Poisson's ratio) of the half-space below, or None for a rigid base
+
+    Plain tuples are accepted. Without layers on a rigid base the body does not deform at all.
+    Raises ValueError unless G > 0, -1 < nu <= 1/2, thickness >= 0, all finite.
+    """
+
+    layers: tuple[Film, ...]
+    base: HalfSpace | None
+
+    def __init__(
+        self,
+        layers: Sequence[tuple[float, float, float]] = (),
+        base: tuple[float, float] | None = None,
+    ) -> None:
+        films = tuple(Film(*map(float, layer)) for layer in layers)
+        half_space = None if base is None else HalfSpace(*map(float, base))
+        for film in films:
+            _check_material(film.shear_modulus, film.poisson_ratio)
+            if not (isfinite(film.thickness) and film.thickness >= 0):
+                raise ValueError(
+                    f"thickness of a layer is {film.thickness}, expected a finite length >= 0"
+                )
+        if half_space is not None:
+            _check_material(*half_space)
+        object.__setattr__(self, "layers", tuple(film for film in films if film.thickness > 0))
+        object.__setattr__(self, "base", half_space)
+
+    @property
+    def is_rigid(self) -> bool:
+        """Whether nothing in this body deforms."""
+        return self.base is None and not self.layers
+
+    @property
+    def outer(self) -> HalfSpace:
+        """Material at the surface, as if it filled the body: what the shortest waves feel."""
+        if self.layers:
+            return HalfSpace(self.layers[0].shear_modulus, self.layers[0].poisson_ratio)
+        if self.base is None:
+            raise ValueError("a rigid body has no outer material")
+        return self.base
+
+
+def stack_of(body: Body) -> Stack:
+    """Stack of a body of the scene; of a rigid one without layers, the rigid stack."""
+    base = body.material
+    return Stack(
+        [(*_constants(layer.material), layer.thickness) for layer in body.layers],
+        _constants(base) if isinstance(base, IsotropicMaterial) else None,
+    )
+
+
+def _constants(material: IsotropicMaterial) -> HalfSpace:
+    return HalfSpace(material.shear_modulus, material.poisson_ratio)
+
+
+def _check_material(shear_modulus: float, poisson_ratio: float) -> None:
+    """Refuse constants for which the strain energy is not positive."""
+    if not (isfinite(shear_modulus) and shear_modulus > 0):
+        raise ValueError(f"shear modulus is {shear_modulus}, expected a finite value > 0")
+    if not -1 < poisson_ratio <= 0.5:
+        raise ValueError(f"Poisson's ratio is {poisson_ratio}, expected -1 < ratio <= 0.5")

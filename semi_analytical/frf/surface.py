@@ -1,0 +1,168 @@
+"""Surface compliance of a layered body at one wavenumber: four numbers that say everything.
+
+Isotropy leaves four functions of alpha = |(m, n)|: in the frame along the wave vector the
+displacement (u_s, u_z) answers the traction (t_s, p) by [[C11, i C12], [-i C12, C22]], and the
+transverse displacement answers the transverse traction by Csh. Signs: CONVENTIONS.md.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from semi_analytical.frf.compound import (
+    OPAQUE,
+    compound_rows,
+    decaying_waves,
+    echo_waves,
+)
+from semi_analytical.frf.stack import HalfSpace, Stack
+
+Array = NDArray[np.float64]
+
+
+class SurfaceScalars(NamedTuple):
+    """The four scalar responses [length^3/force], each of the shape of the wavenumbers.
+
+    c11  displacement along the wave vector by traction along it
+    c12  coupling of the two
+    c22  normal displacement by pressure
+    csh  transverse displacement by transverse traction
+    """
+
+    c11: Array
+    c12: Array
+    c22: Array
+    csh: Array
+
+    def combined(self, upper: SurfaceScalars) -> SurfaceScalars:
+        """Relative displacement of this body and an upper one: coupling subtracts, the rest adds.
+
+        The upper body is the mirror image of a lower one, F = F1 + J F2 J, J = diag(1, 1, -1).
+        """
+        return SurfaceScalars(
+            self.c11 + upper.c11,
+            self.c12 - upper.c12,
+            self.c22 + upper.c22,
+            self.csh + upper.csh,
+        )
+
+
+def half_space_scalars(material: HalfSpace, alpha: ArrayLike) -> SurfaceScalars:
+    """Boussinesq's and Cerruti's solutions transformed (Johnson 1985, section 3.2).
+
+    alpha  wavenumbers [1/length], > 0
+    """
+    G, nu = material
+    unit = 1 / (G * _checked(alpha))
+    return SurfaceScalars((1 - nu) * unit, (0.5 - nu) * unit, (1 - nu) * unit, unit)
+
+
+def scalars(stack: Stack, alpha: ArrayLike) -> SurfaceScalars:
+    """Surface compliance of layers on a half-space or a rigid base (THEORY 1.5).
+
+    alpha    wavenumbers [1/length], > 0; alpha = 0 has no answer (an infinite body under a
+             uniform load moves without bound) and raises ValueError
+    returns  accurate to a few units in the last place, c12 relative to sqrt(c11 c22)
+    """
+    alpha = _checked(alpha)
+    if stack.is_rigid:
+        return SurfaceScalars(*(np.zeros_like(alpha) for _ in range(4)))
+    flat = alpha.reshape(-1)
+    below, shear = _underside(stack, flat)
+    if stack.layers:
+        film = stack.layers[0]
+        x = np.minimum(flat * film.thickness, OPAQUE)
+        below = compound_rows(below, film.poisson_ratio, decaying_waves(x))
+        tanh = np.tanh(x)
+        shear = (shear + tanh) / (1 + shear * tanh)
+    _, c11, c12, c22, divisor = below
+    unit = 1 / (stack.outer.shear_modulus * flat)
+    half = unit / (2 * divisor)
+    four = (c11 * half, c12 * half, c22 * half, shear * unit)
+    return SurfaceScalars(*(value.reshape(alpha.shape) for value in four))
+
+
+def remainder_scalars(stack: Stack, alpha: ArrayLike) -> SurfaceScalars:
+    """Scalars minus those of a half-space of the outermost material, without cancellation.
+
+    They vanish as exp(-2 alpha h) with h the outermost thickness, and keep their accuracy relative
+    to that. Exactly zero for a body without layers.
+    """
+    alpha = _checked(alpha)
+    if not stack.layers:
+        return SurfaceScalars(*(np.zeros_like(alpha) for _ in range(4)))
+    flat = alpha.reshape(-1)
+    # Where the layer is thin the two differ by as much as their materials do, and the echo's own
+    # terms would cancel instead.
+    thin = flat * stack.layers[0].thickness < 0.5
+    four = np.empty((4, flat.size))
+    full, half_space = scalars(stack, flat[thin]), half_space_scalars(stack.outer, flat[thin])
+    four[:, thin] = np.subtract(full, half_space)
+    four[:, ~thin] = _echo(stack, flat[~thin])
+    return SurfaceScalars(*four.reshape(4, *alpha.shape))
+
+
+def _echo(stack: Stack, alpha: Array) -> SurfaceScalars:
+    """Remainder from the wave functions that are left when the half-space's part is taken out."""
+    film = stack.layers[0]
+    x = np.minimum(alpha * film.thickness, OPAQUE)
+    below, shear = _underside(stack, alpha)
+    divisor = compound_rows(below, film.poisson_ratio, decaying_waves(x))[4]
+    _, e11, e12, e22, e_divisor = compound_rows(below, film.poisson_ratio, echo_waves(x))
+    direct = 2 * (1 - film.poisson_ratio)
+    coupling = 1 - 2 * film.poisson_ratio
+    w = np.exp(-2 * x)
+    unit = 1 / (film.shear_modulus * alpha)
+    half = unit * w / (2 * divisor)
+    # 1 - tanh x = 2w/(1+w)
+    shear_echo = (shear - 1) * (2 * w / (1 + w)) / (1 + shear * np.tanh(x))
+    return SurfaceScalars(
+        (e11 - direct * e_divisor) * half,
+        (e12 - coupling * e_divisor) * half,
+        (e22 - direct * e_divisor) * half,
+        shear_echo * unit,
+    )
+
+
+def _underside(stack: Stack, alpha: Array) -> tuple[tuple[Array, ...], Array]:
+    """Compliance below the outermost layer, in units of that layer.
+
+    returns  (det C, C11, C12, C22, 1) in units of 1/(2 G alpha), and Csh in units of 1/(G alpha)
+    """
+    one, zero = np.ones_like(alpha), np.zeros_like(alpha)
+    if stack.base is None:
+        y: tuple[Array, ...] = (zero, zero, zero, zero, one)
+        shear = zero
+        G = stack.layers[-1].shear_modulus
+    else:
+        G, nu = stack.base
+        y = ((3 - 4 * nu) * one, 2 * (1 - nu) * one, (1 - 2 * nu) * one, 2 * (1 - nu) * one, one)
+        shear = one
+    for film in reversed(stack.layers[1:]):
+        y, shear = _changed_units(y, shear, film.shear_modulus / G)
+        x = np.minimum(alpha * film.thickness, OPAQUE)
+        rows = compound_rows(y, film.poisson_ratio, decaying_waves(x))
+        y = (*(row / rows[4] for row in rows[:4]), one)
+        tanh = np.tanh(x)
+        shear = (shear + tanh) / (1 + shear * tanh)
+        G = film.shear_modulus
+    return _changed_units(y, shear, stack.outer.shear_modulus / G)
+
+
+def _changed_units(
+    y: tuple[Array, ...], shear: Array, ratio: float
+) -> tuple[tuple[Array, ...], Array]:
+    """Cross an interface upward: the units change by the ratio of shear moduli, above/below."""
+    det, c11, c12, c22, one = y
+    return (det * ratio**2, c11 * ratio, c12 * ratio, c22 * ratio, one), shear * ratio
+
+
+def _checked(alpha: ArrayLike) -> Array:
+    """Wavenumbers as an array, all positive and finite."""
+    alpha = np.asarray(alpha, dtype=np.float64)
+    if not (np.all(alpha > 0) and np.all(np.isfinite(alpha))):
+        raise ValueError("wavenumbers must be positive and finite: alpha = 0 has no response")
+    return alpha

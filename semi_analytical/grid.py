@@ -1,0 +1,57 @@
+"""The surface grid: rectangular cells that carry constant tractions."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+
+@dataclass(frozen=True)
+class SurfaceGrid:
+    """Rectangular cells on a window centred at the origin of the contact plane.
+
+    cells   number of cells along x and y
+    window  side lengths of the window [length]
+    """
+
+    cells: tuple[int, int]
+    window: tuple[float, float]
+
+    @property
+    def spacing(self) -> tuple[float, float]:
+        """Cell sides along x and y [length]."""
+        return self.window[0] / self.cells[0], self.window[1] / self.cells[1]
+
+    @property
+    def cell_area(self) -> float:
+        """Area of one cell [length^2]."""
+        return self.spacing[0] * self.spacing[1]
+
+    @property
+    def x(self) -> NDArray[np.float64]:
+        """Cell centres along x, symmetric about zero, shape (nx,) [length]."""
+        return _centres(self.cells[0], self.spacing[0])
+
+    @property
+    def y(self) -> NDArray[np.float64]:
+        """Cell centres along y, symmetric about zero, shape (ny,) [length]."""
+        return _centres(self.cells[1], self.spacing[1])
+
+    def coordinates(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Cell centres X, Y, each of shape (nx, ny) [length]."""
+        x, y = np.meshgrid(self.x, self.y, indexing="ij")
+        return x, y
+
+    def refined(self, factor: int = 2) -> "SurfaceGrid":
+        """The same window with `factor` times as many cells along each side."""
+        return SurfaceGrid((self.cells[0] * factor, self.cells[1] * factor), self.window)
+
+    def coarsened(self) -> "SurfaceGrid":
+        """The same window with half the cells along each side; both counts must be even."""
+        if self.cells[0] % 2 or self.cells[1] % 2:
+            raise ValueError(f"{self.cells} cells cannot be halved: both counts must be even")
+        return SurfaceGrid((self.cells[0] // 2, self.cells[1] // 2), self.window)
+
+
+def _centres(count: int, spacing: float) -> NDArray[np.float64]:
+    return (np.arange(count, dtype=np.float64) - (count - 1) / 2) * spacing

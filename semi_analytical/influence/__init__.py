@@ -1,0 +1,1 @@
+"""Influence coefficients: displacement at a cell centre by a unit traction on one cell."""

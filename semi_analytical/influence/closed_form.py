@@ -1,0 +1,114 @@
+"""Influence coefficients of a homogeneous half-space, integrated exactly over a rectangle.
+
+Boussinesq's and Cerruti's point solutions (Johnson 1985, sections 3.2 and 3.6) need integrals
+over the loaded cell; each has a primitive F(X, Y) whose second difference over the four corners
+gives the integral (Love 1929 for the normal one).
+"""
+
+from dataclasses import dataclass
+from functools import cached_property
+from math import pi, sqrt
+
+import numpy as np
+from numpy.typing import NDArray
+
+Field = NDArray[np.float64]
+
+
+class RectangleIntegrals:
+    """Integrals over a dx-by-dy cell, seen from the offsets (i dx, j dy), i < nx, j < ny.
+
+    (x, y) points from the loaded place to the observer, r is its length. Each integral has shape
+    (nx, ny), dimension [length], and is computed when first asked for.
+
+    dx, dy  cell sides [length]
+    shape   number of offsets along x and y, the zero offset included
+    """
+
+    def __init__(self, dx: float, dy: float, shape: tuple[int, int]) -> None:
+        # In units of the cell the logarithms stay near one and the differences lose least.
+        self._unit = sqrt(dx * dy)
+        self._X = ((np.arange(shape[0] + 1) - 0.5) * dx / self._unit)[:, None]
+        self._Y = ((np.arange(shape[1] + 1) - 0.5) * dy / self._unit)[None, :]
+
+    def _corners(self, primitive: Field) -> Field:
+        return self._unit * np.diff(np.diff(primitive, axis=0), axis=1)
+
+    @cached_property
+    def _rho(self) -> Field:
+        return np.hypot(self._X, self._Y)
+
+    @cached_property
+    def xx_r3(self) -> Field:
+        """Integral of x^2 / r^3."""
+        return self._corners(self._Y * np.arcsinh(self._X / np.abs(self._Y)))
+
+    @cached_property
+    def yy_r3(self) -> Field:
+        """Integral of y^2 / r^3."""
+        return self._corners(self._X * np.arcsinh(self._Y / np.abs(self._X)))
+
+    @cached_property
+    def xy_r3(self) -> Field:
+        """Integral of x y / r^3."""
+        return self._corners(-self._rho)
+
+    @cached_property
+    def x_r2(self) -> Field:
+        """Integral of x / r^2."""
+        X, Y = self._X, self._Y
+        return self._corners(Y * np.log(self._rho) + X * np.arctan(Y / X))
+
+    @cached_property
+    def y_r2(self) -> Field:
+        """Integral of y / r^2."""
+        X, Y = self._X, self._Y
+        return self._corners(X * np.log(self._rho) + Y * np.arctan(X / Y))
+
+
+@dataclass(frozen=True)
+class HalfSpaceCoefficients:
+    """Influence coefficients of a homogeneous half-space (Johnson 1985, eqs 3.19 and 3.75-3.77).
+
+    integrals      over the loaded cell
+    shear_modulus  G [force/length^2]
+    poisson_ratio  nu
+    """
+
+    integrals: RectangleIntegrals
+    shear_modulus: float
+    poisson_ratio: float
+
+    @property
+    def _c(self) -> float:
+        return 1 / (2 * pi * self.shear_modulus)
+
+    @cached_property
+    def zz(self) -> Field:
+        """u_z by pressure."""
+        return self._c * (1 - self.poisson_ratio) * (self.integrals.xx_r3 + self.integrals.yy_r3)
+
+    @cached_property
+    def xx(self) -> Field:
+        """u_x by q_x."""
+        return self._c * (self.integrals.xx_r3 + (1 - self.poisson_ratio) * self.integrals.yy_r3)
+
+    @cached_property
+    def yy(self) -> Field:
+        """u_y by q_y."""
+        return self._c * (self.integrals.yy_r3 + (1 - self.poisson_ratio) * self.integrals.xx_r3)
+
+    @cached_property
+    def xy(self) -> Field:
+        """u_x by q_y."""
+        return self._c * self.poisson_ratio * self.integrals.xy_r3
+
+    @cached_property
+    def zx(self) -> Field:
+        """u_z by q_x."""
+        return self._c * (0.5 - self.poisson_ratio) * self.integrals.x_r2
+
+    @cached_property
+    def zy(self) -> Field:
+        """u_z by q_y."""
+        return self._c * (0.5 - self.poisson_ratio) * self.integrals.y_r2

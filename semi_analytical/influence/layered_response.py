@@ -1,0 +1,63 @@
+"""Displacement of a layered body at a point of the surface by unit forces at the origin."""
+
+from collections.abc import Callable
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from semi_analytical.influence.radial_table import RadialTable
+
+Field = NDArray[np.float64]
+
+# Points evaluated at once: some megabytes of work space.
+BATCH = 1 << 16
+
+
+class Components(NamedTuple):
+    """Components of the response that need the same radial functions.
+
+    names    of the components, as in InfluenceCoefficients
+    radial   columns of the radial table they are made of
+    parity   +1 even, -1 odd, along x and along y, of each
+    turned   radial functions (n, columns), cos phi, sin phi -> components (len(names), n)
+    """
+
+    names: tuple[str, ...]
+    radial: slice
+    parity: tuple[tuple[int, int], ...]
+    turned: Callable[[Field, Field, Field], Field]
+
+
+def _normal(radial: Field, cos: Field, sin: Field) -> Field:
+    return radial.T
+
+
+def _tangential(radial: Field, cos: Field, sin: Field) -> Field:
+    mean, twist = radial.T
+    along = (cos - sin) * (cos + sin) * twist
+    return np.stack([mean - along, mean + along, -2 * cos * sin * twist])
+
+
+def _coupling(radial: Field, cos: Field, sin: Field) -> Field:
+    return np.stack([cos, sin]) * radial.T
+
+
+NORMAL = Components(("zz",), slice(0, 1), ((1, 1),), _normal)
+TANGENTIAL = Components(("xx", "yy", "xy"), slice(1, 3), ((1, 1), (1, 1), (-1, -1)), _tangential)
+COUPLING = Components(("zx", "zy"), slice(3, 4), ((-1, 1), (1, -1)), _coupling)
+
+
+def point_response(table: RadialTable, components: Components, x: Field, y: Field) -> Field:
+    """Displacement at (x, y), not the origin, per unit force [length/force].
+
+    returns  shape (number of components, *x.shape)
+    """
+    flat_x, flat_y = x.ravel(), y.ravel()
+    values = np.empty((len(components.names), x.size))
+    for start in range(0, x.size, BATCH):
+        part = slice(start, start + BATCH)
+        r = np.hypot(flat_x[part], flat_y[part])
+        radial = table(r, components.radial) / r[:, None]
+        values[:, part] = components.turned(radial, flat_x[part] / r, flat_y[part] / r)
+    return values.reshape(-1, *x.shape)

@@ -1,0 +1,101 @@
+"""The discrete contact model: gap, friction limit and operators on one grid, and a coarser one."""
+
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from contact_scene import FrictionMap, Scene
+from semi_analytical.errors import UnsupportedScene
+from semi_analytical.grid import SurfaceGrid
+from semi_analytical.influence.bodies import influence_coefficients
+from semi_analytical.influence.coefficients import InfluenceCoefficients
+from semi_analytical.operator import (
+    Convolutions,
+    NormalOperator,
+    TangentialOperator,
+    offsets_for,
+)
+
+Field = NDArray[np.float64]
+
+COARSEST = 16
+
+
+class ContactModel:
+    """What the solvers need of a scene on one grid. Everything is built when first asked for.
+
+    gap           undeformed gap (nx, ny) [length]
+    convolutions  counter shared by all operators of this model and its coarser ones
+    """
+
+    def __init__(
+        self, scene: Scene, grid: SurfaceGrid, gap: Field, convolutions: Convolutions
+    ) -> None:
+        self.scene = scene
+        self.grid = grid
+        self.gap = gap
+        self.convolutions = convolutions
+        self._normal: dict[tuple[int, int], NormalOperator] = {}
+        self._tangential: dict[tuple[int, int], TangentialOperator] = {}
+
+    @classmethod
+    def of(cls, scene: Scene, grid: SurfaceGrid) -> "ContactModel":
+        """The model of a scene, its gap taken at the cell centres."""
+        x, y = grid.coordinates()
+        return cls(scene, grid, scene.indenter.initial_gap(x, y), Convolutions())
+
+    @cached_property
+    def friction_coefficient(self) -> float | Field:
+        """µ, one number or (nx, ny); zero without friction."""
+        if self.scene.friction is None:
+            return 0.0
+        coefficient = self.scene.friction.coefficient
+        if not isinstance(coefficient, FrictionMap):
+            return coefficient
+        if coefficient.map.shape != self.grid.cells:
+            raise UnsupportedScene(
+                f"the friction map has {coefficient.map.shape} values, the grid "
+                f"{self.grid.cells} cells; give one value per cell"
+            )
+        return coefficient.map.values
+
+    @cached_property
+    def coefficients(self) -> InfluenceCoefficients:
+        """Influence coefficients at all offsets that an operator on this grid reads."""
+        return influence_coefficients(
+            self.scene.body, self.scene.indenter, self.grid.spacing, offsets_for(self.grid.cells)
+        )
+
+    def normal_operator(self, shape: tuple[int, int]) -> NormalOperator:
+        """Pressure to normal displacement on a box of cells."""
+        if shape not in self._normal:
+            self._normal[shape] = NormalOperator(self.coefficients, shape, self.convolutions)
+        return self._normal[shape]
+
+    def tangential_operator(self, shape: tuple[int, int]) -> TangentialOperator:
+        """Shear to tangential displacement on a box of cells."""
+        if shape not in self._tangential:
+            self._tangential[shape] = TangentialOperator(
+                self.coefficients, shape, self.convolutions
+            )
+        return self._tangential[shape]
+
+    @cached_property
+    def coarse(self) -> "ContactModel | None":
+        """The same window with half the cells; None where that is not possible or not worth it."""
+        nx, ny = self.grid.cells
+        if nx % 2 or ny % 2 or min(nx, ny) <= COARSEST:
+            return None
+        return ContactModel(self.scene, self.grid.coarsened(), halved(self.gap), self.convolutions)
+
+
+def halved(values: Field) -> Field:
+    """Means over two by two cells, (..., nx, ny) to (..., nx/2, ny/2)."""
+    *rest, nx, ny = values.shape
+    return np.asarray(values.reshape(*rest, nx // 2, 2, ny // 2, 2).mean(axis=(-3, -1)))
+
+
+def doubled(values: Field) -> Field:
+    """Every value four times, (..., nx, ny) to (..., 2 nx, 2 ny)."""
+    return np.repeat(np.repeat(values, 2, axis=-2), 2, axis=-1)

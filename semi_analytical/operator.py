@@ -1,0 +1,174 @@
+"""Tractions to displacements: linear convolution by FFT on a zero-padded grid.
+
+Padding to twice the cells along each side makes the cyclic convolution equal to the linear one on
+every cell of the grid (Liu, Wang and Liu 2000, DC-FFT): there is no periodicity error. The
+coefficients are even or odd along each side, so their transforms are purely real or purely
+imaginary and one real array stores each.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.fft import dct, dst, next_fast_len
+
+from semi_analytical.influence.coefficients import InfluenceCoefficients
+
+Field = NDArray[np.float64]
+Spectrum = NDArray[np.complex128]
+
+
+@dataclass
+class Convolutions:
+    """Counts scalar convolutions: one forward and one inverse transform of a padded grid each.
+
+    Grids of all sizes count alike; transforms of the unpadded grid (preconditioners) do not count.
+    """
+
+    count: float = 0.0
+
+
+def offsets_for(shape: tuple[int, int]) -> tuple[int, int]:
+    """How many offsets of influence coefficients an operator on `shape` cells needs."""
+    return int(next_fast_len(shape[0])) + 1, int(next_fast_len(shape[1])) + 1
+
+
+class PaddedTransform:
+    """Real FFT of a zero-padded grid with preallocated work space.
+
+    Only the rows that are not zero are transformed along the last axis, and only the rows that
+    are read are transformed back.
+    """
+
+    def __init__(self, shape: tuple[int, int], counter: Convolutions) -> None:
+        self.shape = shape
+        self.counter = counter
+        nx, ny = offsets_for(shape)
+        self.reach = (slice(nx), slice(ny))
+        self.period = (nx - 1, ny - 1)
+        self.padded = (2 * self.period[0], 2 * self.period[1])
+        self._rows = np.empty((shape[0], self.padded[1]))
+
+    def empty_spectrum(self) -> Spectrum:
+        """Work space for one half spectrum."""
+        return np.empty((self.padded[0], self.padded[1] // 2 + 1), dtype=np.complex128)
+
+    def forward(self, values: Field, out: Spectrum) -> None:
+        """Transform `values` (nx, ny), zero beyond, into the half spectrum `out`."""
+        nx = self.shape[0]
+        np.fft.rfft(values, n=self.padded[1], axis=1, out=out[:nx])
+        out[nx:] = 0
+        np.fft.fft(out, axis=0, out=out)
+        self.counter.count += 0.5
+
+    def inverse(self, spectrum: Spectrum) -> Field:
+        """Values on the grid (nx, ny) of a half spectrum, which is overwritten."""
+        nx, ny = self.shape
+        np.fft.ifft(spectrum, axis=0, out=spectrum)
+        np.fft.irfft(spectrum[:nx], n=self.padded[1], axis=1, out=self._rows)
+        self.counter.count += 0.5
+        return self._rows[:, :ny].copy()
+
+
+def even_transform(coefficients: Field, padded: tuple[int, int]) -> Field:
+    """Real half spectrum of coefficients that are even along both sides.
+
+    coefficients  at offsets 0 … padded/2 along each side. The last offset is never read by the
+                  convolution; with its true value the periodic continuation is continuous, and
+                  the spectrum of a positive kernel is positive.
+    """
+    return _mirror(dct(dct(coefficients, type=1, axis=0), type=1, axis=1), padded[0], sign=1)
+
+
+def odd_transform(coefficients: Field, padded: tuple[int, int]) -> Field:
+    """Real half spectrum of coefficients that are odd along both sides: (-i)^2 is real."""
+    half = np.zeros((padded[0] // 2 + 1, padded[1] // 2 + 1))
+    lines = dst(coefficients[1:-1, 1:-1], type=1, axis=0)
+    half[1:-1, 1:-1] = -dst(lines, type=1, axis=1)
+    return _mirror(half, padded[0], sign=-1)
+
+
+def _mirror(half: Field, length: int, sign: int) -> Field:
+    """Add the negative wavenumbers along x to a quarter spectrum."""
+    return np.concatenate([half, sign * half[length // 2 - 1 : 0 : -1]])
+
+
+class NormalOperator:
+    """u_z by pressure, both (nx, ny); one call is one convolution."""
+
+    def __init__(
+        self,
+        coefficients: InfluenceCoefficients,
+        shape: tuple[int, int],
+        counter: Convolutions,
+    ) -> None:
+        self._transform = PaddedTransform(shape, counter)
+        reach = self._transform.reach
+        self._zz = even_transform(coefficients.zz[reach], self._transform.padded)
+        self._inverse_zz = 1 / self._zz[::2, ::2]
+        self._work = self._transform.empty_spectrum()
+
+    def __call__(self, pressure: Field) -> Field:
+        """Normal displacement caused by a pressure."""
+        self._transform.forward(pressure, self._work)
+        self._work *= self._zz
+        return self._transform.inverse(self._work)
+
+    def precondition(self, displacement: Field) -> Field:
+        """Roughly the pressure that causes a displacement.
+
+        Divides by the spectrum of the coefficients repeated with the unpadded period: a quarter
+        of the cost of a convolution, and near the inverse for all but the longest waves.
+        """
+        period = self._transform.period
+        spectrum = np.fft.rfft2(displacement, period)
+        spectrum *= self._inverse_zz
+        nx, ny = displacement.shape
+        return np.fft.irfft2(spectrum, period)[:nx, :ny]
+
+
+class TangentialOperator:
+    """(u_x, u_y) by shear (q_x, q_y), each (2, nx, ny); one call is two convolutions."""
+
+    def __init__(
+        self,
+        coefficients: InfluenceCoefficients,
+        shape: tuple[int, int],
+        counter: Convolutions,
+    ) -> None:
+        self._transform = PaddedTransform(shape, counter)
+        reach, padded = self._transform.reach, self._transform.padded
+        self._xx = even_transform(coefficients.xx[reach], padded)
+        self._yy = even_transform(coefficients.yy[reach], padded)
+        self._xy = odd_transform(coefficients.xy[reach], padded)
+        self._inverse = _inverse_2x2(*(s[::2, ::2] for s in (self._xx, self._yy, self._xy)))
+        self._work = [self._transform.empty_spectrum() for _ in range(3)]
+
+    def __call__(self, shear: Field) -> Field:
+        """Tangential displacement caused by a shear traction."""
+        q_x, q_y, u = self._work
+        self._transform.forward(shear[0], q_x)
+        self._transform.forward(shear[1], q_y)
+        displacement = np.empty_like(shear)
+        np.multiply(self._xx, q_x, out=u)
+        u += self._xy * q_y
+        displacement[0] = self._transform.inverse(u)
+        np.multiply(self._yy, q_y, out=u)
+        u += self._xy * q_x
+        displacement[1] = self._transform.inverse(u)
+        return displacement
+
+    def precondition(self, displacement: Field) -> Field:
+        """Roughly the shear that causes a tangential displacement, both (2, nx, ny)."""
+        period = self._transform.period
+        xx, yy, xy = self._inverse
+        u_x, u_y = np.fft.rfft2(displacement, period)
+        spectrum = np.stack([xx * u_x + xy * u_y, xy * u_x + yy * u_y])
+        _, nx, ny = displacement.shape
+        return np.fft.irfft2(spectrum, period)[:, :nx, :ny]
+
+
+def _inverse_2x2(xx: Field, yy: Field, xy: Field) -> tuple[Field, Field, Field]:
+    """Inverse of the symmetric matrix [[xx, xy], [xy, yy]] at every wavenumber."""
+    determinant = xx * yy - xy * xy
+    return yy / determinant, xx / determinant, -xy / determinant

@@ -1,0 +1,112 @@
+"""The pressure of a model under a load: nested grids, then the box around the contact."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from semi_analytical.box import Box, box_around
+from semi_analytical.errors import ContactAtWindowEdge, NotConverged
+from semi_analytical.model import ContactModel, doubled
+from semi_analytical.normal import FixedApproach, NormalLoad, PressureSum, solve_normal
+from semi_analytical.residuals import complementarity, penetration
+
+Field = NDArray[np.float64]
+
+# A coarse solution is only a first guess: half a digit better than the next grid needs.
+COARSE_TOLERANCE = 1e-4
+MARGIN = 4
+MOST_ATTEMPTS = 4
+
+
+@dataclass(frozen=True)
+class Pressing:
+    """Pressure and its normal displacement on the whole window, approach, residuals, cost."""
+
+    pressure: Field
+    displacement: Field
+    approach: float
+    complementarity: float
+    penetration: float
+    iterations: int
+
+
+@dataclass(frozen=True)
+class NormalTarget:
+    """Exactly one of the two controls: force W [force] or approach [length]."""
+
+    force: float | None = None
+    approach: float | None = None
+
+    def on(self, model: ContactModel) -> NormalLoad:
+        """The load as the solver sees it on one grid."""
+        if self.force is not None:
+            return PressureSum(self.force / model.grid.cell_area)
+        assert self.approach is not None
+        return FixedApproach(self.approach)
+
+
+def press(model: ContactModel, target: NormalTarget, tolerance: float) -> Pressing:
+    """Solve the pressure problem on the whole window.
+
+    The answer is checked with a fresh convolution over the window: if bodies overlap outside the
+    box that was solved, the box grows to the window; if round-off has crept in, the solve is
+    repeated more tightly.
+    raises  ContactAtWindowEdge, NotConverged
+    """
+    start = _nested_start(model, target)
+    box = box_around(start > 0, MARGIN)
+    whole = Box.whole(model.grid.cells)
+    allowed = np.isfinite(model.gap)
+    aim, iterations, residual = tolerance, 0, np.inf
+    for _ in range(MOST_ATTEMPTS):
+        operator = model.normal_operator(box.shape)
+        solution = solve_normal(
+            operator,
+            operator.precondition,
+            model.gap[box.slices],
+            target.on(model),
+            start[box.slices],
+            0.5 * aim,
+        )
+        iterations += solution.iterations
+        p = box.embed(solution.pressure, model.grid.cells)
+        u = model.normal_operator(whole.shape)(p)
+        g = np.where(allowed, model.gap, np.inf) + u - solution.approach
+        measures = (complementarity(p, g, solution.approach), penetration(g, solution.approach))
+        residual = max(measures)
+        if residual <= tolerance:
+            _refuse_contact_at_edge(p, model)
+            return Pressing(p, u, solution.approach, *measures, iterations)
+        overlap_outside = np.min(np.where(box.mask(model.grid.cells), 0.0, g)) < 0
+        box, aim = (whole, aim) if overlap_outside else (box, 0.1 * aim)
+        start = np.where(p > 0, p, np.where(g < 0, np.min(p[p > 0]), 0.0))
+    raise NotConverged("the pressure", iterations, residual, tolerance)
+
+
+def _nested_start(model: ContactModel, target: NormalTarget) -> Field:
+    """A first pressure: the solution of the coarser model, found the same way."""
+    if model.coarse is None:
+        return np.where(np.isfinite(model.gap), 1.0, 0.0)
+    coarse = model.coarse
+    start = _nested_start(coarse, target)
+    operator = coarse.normal_operator(coarse.grid.cells)
+    solution = solve_normal(
+        operator,
+        operator.precondition,
+        coarse.gap,
+        target.on(coarse),
+        start,
+        COARSE_TOLERANCE,
+    )
+    return np.where(np.isfinite(model.gap), doubled(solution.pressure), 0.0)
+
+
+def _refuse_contact_at_edge(p: Field, model: ContactModel) -> None:
+    rim = np.concatenate([p[0], p[-1], p[:, 0], p[:, -1]])
+    if np.any(rim > 0):
+        w = model.grid.window
+        raise ContactAtWindowEdge(
+            f"the contact reaches the edge of the window of {w[0]:.4g} m by {w[1]:.4g} m; "
+            f"give a larger window, or leave it out to have it chosen"
+        )

@@ -1,0 +1,33 @@
+"""Hypothesis strategies for layered bodies and wave vectors, over the range that the FRFs claim."""
+
+import math
+
+from hypothesis import strategies as st
+
+from semi_analytical.frf.stack import Stack
+
+MODULI = st.floats(-3, 3).map(lambda decade: 10**decade)
+RATIOS = st.floats(-0.95, 0.5) | st.sampled_from([0.0, 0.3, 0.5])
+THICKNESSES = st.floats(-2, 2).map(lambda decade: 10**decade)
+HALF_SPACES = st.tuples(MODULI, RATIOS)
+FILMS = st.tuples(MODULI, RATIOS, THICKNESSES)
+
+
+def stacks(
+    min_layers: int = 0, max_layers: int = 5, rigid: bool = True
+) -> st.SearchStrategy[Stack]:
+    """Layers on a half-space or, if there is a layer to deform, on a rigid base."""
+    elastic = st.builds(
+        Stack, st.lists(FILMS, min_size=min_layers, max_size=max_layers), HALF_SPACES
+    )
+    if not rigid:
+        return elastic
+    films = st.lists(FILMS, min_size=max(1, min_layers), max_size=max_layers)
+    return elastic | st.builds(Stack, films)
+
+
+WAVENUMBERS = st.floats(-4, 4).map(lambda decade: 10**decade)
+ANGLES = st.floats(-math.pi, math.pi)
+WAVE_VECTORS = st.builds(
+    lambda alpha, angle: (alpha * math.cos(angle), alpha * math.sin(angle)), WAVENUMBERS, ANGLES
+)

@@ -1,0 +1,92 @@
+"""Hypothesis strategies for scenes, as documents and as TOML text."""
+
+import json
+from typing import Any
+
+from hypothesis import strategies as st
+
+Document = dict[str, Any]
+
+LENGTHS = st.floats(1e-6, 1e3) | st.integers(1, 900).map(lambda n: f"{n} mm")
+FORCES = st.floats(1e-3, 1e6) | st.integers(1, 900).map(lambda n: f"{n} kN")
+ELASTIC = st.fixed_dictionaries(
+    {
+        "young_modulus": st.floats(1e3, 1e12) | st.integers(1, 900).map(lambda n: f"{n} GPa"),
+        "poisson_ratio": st.floats(-0.99, 0.5),
+    }
+)
+LAYERS = st.lists(st.fixed_dictionaries({"thickness": LENGTHS, "material": ELASTIC}), max_size=3)
+_SIZES = {
+    "sphere": {"radius": LENGTHS},
+    "paraboloid": {"radius": LENGTHS},
+    "ellipsoid": {"radii": st.tuples(LENGTHS, LENGTHS).map(list)},
+    "cone": {"slope_angle": st.floats(1e-3, 1.0) | st.integers(1, 59).map(lambda n: f"{n} deg")},
+    "flat_punch": {"radius": LENGTHS},
+}
+INDENTERS = st.sampled_from(sorted(_SIZES)).flatmap(
+    lambda shape: st.fixed_dictionaries(
+        {"shape": st.just(shape), "material": ELASTIC | st.just("rigid"), **_SIZES[shape]},
+        optional={"layers": LAYERS},
+    )
+)
+BODIES = st.fixed_dictionaries({"material": ELASTIC}, optional={"layers": LAYERS})
+_NORMAL = st.fixed_dictionaries({"normal_force": FORCES}) | st.fixed_dictionaries(
+    {"approach": LENGTHS}
+)
+# Shift control only: whatever the forces are, it never exceeds the friction limit.
+_TANGENTIAL = st.fixed_dictionaries({"tangential_shift": st.tuples(LENGTHS, LENGTHS).map(list)})
+_INCREMENTS = st.fixed_dictionaries({}, optional={"increments": st.integers(1, 100)})
+
+
+def _merged(*tables: Document) -> Document:
+    return {key: value for table in tables for key, value in table.items()}
+
+
+@st.composite
+def documents(draw: st.DrawFn) -> Document:
+    """Valid contents of a scene file."""
+    friction = draw(st.none() | st.fixed_dictionaries({"coefficient": st.floats(0.0, 2.0)}))
+    kinds = _NORMAL if friction is None else _NORMAL | _TANGENTIAL
+    later = st.lists(st.builds(_merged, kinds, _INCREMENTS), max_size=4)
+    document = {
+        "indenter": draw(INDENTERS),
+        "body": draw(BODIES),
+        "loading": [draw(st.builds(_merged, _NORMAL, _INCREMENTS)), *draw(later)],
+    }
+    if friction is not None:
+        document["friction"] = friction
+    if draw(st.booleans()):
+        document["title"] = draw(st.text(st.characters(codec="utf-8"), max_size=20))
+    if draw(st.booleans()):
+        document["semi_analytical"] = draw(
+            st.fixed_dictionaries(
+                {"cells": st.tuples(st.integers(8, 99), st.integers(8, 99)).map(list)},
+                optional={"tolerance": st.floats(1e-13, 0.1)},
+            )
+        )
+    return document
+
+
+def as_toml(document: Document) -> str:
+    """TOML text of a document, everything below the top level inline."""
+    return "".join(f"{_key(key)} = {_value(value)}\n" for key, value in document.items())
+
+
+def _key(key: str) -> str:
+    return json.dumps(key, ensure_ascii=True)
+
+
+def _value(value: Any) -> str:
+    if isinstance(value, dict):
+        return "{" + ", ".join(f"{_key(k)} = {_value(v)}" for k, v in value.items()) + "}"
+    if isinstance(value, list):
+        return "[" + ", ".join(_value(item) for item in value) + "]"
+    if isinstance(value, bool):
+        return str(value).lower()
+    if isinstance(value, str):
+        return json.dumps(value).replace("\x7f", "\\u007f") if value.isascii() else _basic(value)
+    return repr(value)
+
+
+def _basic(text: str) -> str:
+    return '"' + "".join(f"\\U{ord(character):08x}" for character in text) + '"'

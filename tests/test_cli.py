@@ -1,0 +1,275 @@
+"""The command line: what it says, what it leaves alone, and with which code it ends."""
+
+import errno
+import json
+import os
+import re
+import subprocess
+import sys
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import pytest
+from synthetic_result import synthetic_result
+
+import semi_analytical
+from contact_scene import scene_schema
+from contact_scene.summary import summary_schema
+from semi_analytical.errors import (
+    ContactAtWindowEdge,
+    GrossSliding,
+    NotConverged,
+    ResourceRefused,
+    UnsupportedScene,
+)
+from verification.cli import main
+
+ROOT = Path(__file__).resolve().parents[1]
+
+SCENE = """
+title = "Ball on a flat"
+[indenter]
+shape = "paraboloid"
+radius = "18 mm"
+material = { young_modulus = "420 GPa", poisson_ratio = 0.3 }
+[body]
+material = { young_modulus = "420 GPa", poisson_ratio = 0.3 }
+[friction]
+coefficient = 0.1
+[[loading]]
+normal_force = "1 kN"
+[[loading]]
+tangential_force = ["90 N", 0]
+increments = 3
+[[loading]]
+tangential_force = ["-90 N", 0]
+increments = 2
+"""
+HEAVY = ("scipy", "matplotlib", "h5py", "pint", "jinja2", "skfem", "semi_analytical")
+
+
+@pytest.fixture
+def scene(tmp_path: Path) -> Path:
+    path = tmp_path / "scene.toml"
+    path.write_text(SCENE, encoding="utf-8")
+    return path
+
+
+@pytest.fixture
+def solver(monkeypatch: pytest.MonkeyPatch) -> Callable[[Exception | None], None]:
+    """Replace the solver by one that hands out a ready result, or fails as it is told."""
+
+    def replace_by(failure: Exception | None) -> None:
+        def solve(scene: Any, discretisation: Any, progress: Any) -> Any:
+            result = synthetic_result()
+            for increment in result.increments:
+                progress(increment)
+            if failure is not None:
+                raise failure
+            return result
+
+        monkeypatch.setattr(semi_analytical, "solve_discretised", solve)
+
+    return replace_by
+
+
+def slipstick(*arguments: object) -> int:
+    """Run the command in this process; its exit code."""
+    with pytest.raises(SystemExit) as leaving:
+        main([str(argument) for argument in arguments])
+    code = leaving.value.code
+    return 0 if code is None else int(code)
+
+
+def imported_by(*arguments: object) -> set[str]:
+    """Top-level modules that a fresh process has imported after the command."""
+    script = (
+        "import sys\n"
+        "from verification.cli import main\n"
+        "try: main(sys.argv[1:])\n"
+        "except SystemExit as leaving: assert not leaving.code, leaving.code\n"
+        "print('\\n' + ' '.join({name.partition('.')[0] for name in sys.modules}))"
+    )
+    outcome = subprocess.run(
+        [sys.executable, "-c", script, *map(str, arguments)],
+        cwd=ROOT,
+        capture_output=True,
+        text=True,
+        check=True,
+    )
+    return set(outcome.stdout.splitlines()[-1].split())
+
+
+# ---- starting ---------------------------------------------------------------------------------
+
+
+def test_help_imports_nothing_heavy() -> None:
+    assert not imported_by("--help") & {*HEAVY, "numpy", "pydantic"}
+
+
+def test_check_imports_nothing_heavy(scene: Path) -> None:
+    assert not imported_by("check", scene) & set(HEAVY)
+
+
+def test_schema_imports_nothing_heavy() -> None:
+    assert not imported_by("schema", "summary") & set(HEAVY)
+
+
+def test_help_names_every_command(capsys: pytest.CaptureFixture[str]) -> None:
+    assert slipstick("--help") == 0
+    shown = capsys.readouterr().out
+    for command in ("check", "plan", "run", "verify", "report", "schema"):
+        assert f" {command} " in shown
+
+
+def test_misspelt_command_gets_a_suggestion(capsys: pytest.CaptureFixture[str]) -> None:
+    assert slipstick("chek", "scene.toml") == 2
+    assert "Did you mean 'check'" in capsys.readouterr().err
+
+
+def test_version_is_printed(capsys: pytest.CaptureFixture[str]) -> None:
+    assert slipstick("--version") == 0
+    assert capsys.readouterr().out.startswith("slipstick ")
+
+
+def test_package_runs_as_the_command() -> None:
+    outcome = subprocess.run(
+        [sys.executable, "-m", "verification", "--version"],
+        cwd=ROOT,
+        capture_output=True,
+        text=True,
+        check=True,
+    )
+    assert outcome.stdout.startswith("slipstick ")
+
+
+# ---- check and schema -------------------------------------------------------------------------
+
+
+def test_check_describes_the_scene(scene: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert slipstick("check", scene, "--set", "friction.coefficient=0.25") == 0
+    shown = " ".join(capsys.readouterr().out.split())
+    assert "paraboloid, radius 18 mm; E = 420 GPa, ν = 0.3" in shown
+    assert "Coulomb, µ = 0.25" in shown
+    assert "tangential force from (90, 0) N to (-90, 0) N, in 2 increments" in shown
+
+
+def test_check_lists_every_mistake(scene: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    text = scene.read_text(encoding="utf-8")
+    scene.write_text(text.replace("radius", "radus").replace("0.1", "-0.1"), encoding="utf-8")
+    assert slipstick("check", scene) == 2
+    output = capsys.readouterr()
+    assert output.out == ""
+    assert f"{scene}:5: indenter.radus" in output.err
+    assert f"{scene}:10: friction.coefficient" in output.err
+    assert "Traceback" not in output.err
+
+
+def test_check_speaks_json(scene: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert slipstick("check", scene, "--json") == 0
+    assert json.loads(capsys.readouterr().out) == {"valid": True, "problems": []}
+    assert slipstick("check", scene, "--json", "--set", "indenter.radus=1") == 2
+    outcome = json.loads(capsys.readouterr().out)
+    assert outcome["valid"] is False
+    assert outcome["problems"][0]["key"] == "indenter.radus"
+
+
+def test_missing_scene_is_named(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert slipstick("check", tmp_path / "no.toml") == 2
+    assert "no.toml" in capsys.readouterr().err
+
+
+def test_text_of_a_scene_cannot_colour_or_hide_itself(
+    scene: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """What looks like markup is shown as it is, and an escape sequence as its code."""
+    text = scene.read_text(encoding="utf-8")
+    title = r"[red]Ball[/nothing] \u001b[31m on"
+    scene.write_text(text.replace("Ball on", title), encoding="utf-8")
+    assert slipstick("check", scene) == 0
+    assert r"[red]Ball[/nothing] \x1b[31m on" in capsys.readouterr().out
+
+
+def test_schemas_are_printed(capsys: pytest.CaptureFixture[str]) -> None:
+    assert slipstick("schema") == 0
+    assert json.loads(capsys.readouterr().out) == scene_schema()
+    assert slipstick("schema", "summary") == 0
+    assert json.loads(capsys.readouterr().out) == summary_schema()
+
+
+# ---- failures of a run ------------------------------------------------------------------------
+
+FAILURES = {
+    2: (
+        GrossSliding("tangential force exceeds the limit"),
+        ContactAtWindowEdge("contact touches the edge"),
+        UnsupportedScene("no layers yet"),
+        OSError(errno.EACCES, "Permission denied", "out/result.h5"),
+    ),
+    3: (NotConverged("pressure", 100, 1e-3, 1e-8),),
+    4: (
+        ResourceRefused("needs 80 GB"),
+        MemoryError("Unable to allocate 80 GiB"),
+        OSError(errno.ENOSPC, "No space left on device", "out/result.h5"),
+    ),
+    70: (ZeroDivisionError("a defect"), ValueError("another")),
+}
+
+
+@pytest.mark.parametrize(
+    ("code", "failure"), [(code, each) for code, failures in FAILURES.items() for each in failures]
+)
+def test_failure_ends_with_its_code_one_message_and_no_files(
+    scene: Path, solver: Any, capsys: pytest.CaptureFixture[str], code: int, failure: Exception
+) -> None:
+    solver(failure)
+    assert slipstick("run", scene, "--output", scene.parent / "out") == code
+    errors = capsys.readouterr().err
+    assert errors.count("error: ") == 1
+    assert "Traceback" not in errors
+    assert os.listdir(scene.parent) == [scene.name]
+
+
+def test_debugging_shows_the_traceback(
+    scene: Path,
+    solver: Any,
+    capsys: pytest.CaptureFixture[str],
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    solver(GrossSliding("too much"))
+    monkeypatch.setenv("SLIPSTICK_DEBUG", "1")
+    assert slipstick("run", scene, "--output", scene.parent / "out") == 2
+    assert "Traceback" in capsys.readouterr().err
+
+
+def test_invalid_scene_leaves_no_directory(scene: Path) -> None:
+    assert slipstick("run", scene, "-o", scene.parent / "a" / "out", "--set", "x=1") == 2
+    assert os.listdir(scene.parent) == [scene.name]
+
+
+def test_unwritable_output_is_refused_before_solving(
+    scene: Path, solver: Any, capsys: pytest.CaptureFixture[str]
+) -> None:
+    solver(AssertionError("solved"))
+    assert slipstick("run", scene, "--output", scene) == 2
+    assert "is a file" in capsys.readouterr().err
+
+
+def test_run_reports_progress_and_outcome(
+    scene: Path, solver: Any, capsys: pytest.CaptureFixture[str]
+) -> None:
+    solver(None)
+    assert slipstick("run", scene, "--output", scene.parent / "out", "--no-figures") == 0
+    output = capsys.readouterr()
+    assert [line.partition(",")[0] for line in output.err.splitlines()] == [
+        "step 1/3",
+        "step 2/3",
+        "step 3/3",
+    ]
+    assert "24 x 20 cells" in output.out
+    assert "1e-08" in output.out
+    assert re.search(r"3 +1 +8 +-90 ", output.out)
+    timing = json.loads((scene.parent / "out" / "timing.json").read_text(encoding="utf-8"))
+    assert timing["program"] == "slipstick"
+    assert set(timing["wall_seconds"]) >= {"read", "solve", "write"}

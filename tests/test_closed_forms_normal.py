@@ -1,0 +1,405 @@
+"""Normal contact: each closed form is judged by quadrature and by the others, not by a solver."""
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from scipy.integrate import quad
+from scipy.special import ellipe, ellipk
+from surface_quadrature import normal_displacement
+
+from verification.closed_forms.axisymmetric_indentation import (
+    AxisymmetricProfile,
+    axisymmetric_indentation,
+)
+from verification.closed_forms.cone import ConeContact
+from verification.closed_forms.elliptical_contact import EllipticalContact, axis_ratio
+from verification.closed_forms.flat_punch import FlatPunchContact
+from verification.closed_forms.hertz import PointContact
+from verification.closed_forms.line_contact import LineContact
+from verification.closed_forms.moduli import contact_modulus, tangential_modulus, torsional_modulus
+from verification.closed_forms.sphere import SphereContact
+
+E_STAR = 1.7
+AXISYMMETRIC = {
+    "paraboloid": lambda load: PointContact.under_load(load, 3.0, E_STAR),
+    "sphere": lambda load: SphereContact.under_load(load, 3.0, E_STAR),
+    "cone": lambda load: ConeContact.under_load(load, 0.2, E_STAR),
+    "flat punch": lambda load: FlatPunchContact.under_load(load, 0.9, E_STAR),
+}
+ROUNDED = {name: AXISYMMETRIC[name] for name in ("paraboloid", "sphere", "cone")}
+PROFILES = {
+    "paraboloid": AxisymmetricProfile(lambda r: r / 3.0, lambda r: 0 * r + 1 / 3.0),
+    "sphere": AxisymmetricProfile(
+        lambda r: r / np.sqrt(9 - r**2), lambda r: 9 / np.sqrt(9 - r**2) ** 3
+    ),
+    "cone": AxisymmetricProfile(lambda r: 0 * r + np.tan(0.2), lambda r: 0 * r),
+}
+loads = st.floats(1e-6, 2.0)
+scales = st.floats(1e-6, 1e6)
+
+
+@pytest.mark.parametrize("name", AXISYMMETRIC)
+def test_pressure_integrates_to_load(name):
+    contact = AXISYMMETRIC[name](0.8)
+    a = contact.contact_radius
+    force, _ = quad(
+        lambda t: 2 * np.pi * contact.pressure(a * np.sin(t)) * a**2 * np.sin(t) * np.cos(t),
+        0,
+        np.pi / 2,
+        epsabs=0,
+        epsrel=1e-12,
+    )
+    assert force == pytest.approx(0.8, rel=1e-11)
+
+
+@pytest.mark.parametrize("name", AXISYMMETRIC)
+@given(load=loads)
+def test_contact_stiffness_is_twice_modulus_times_radius(name, load):
+    contact_at, step = AXISYMMETRIC[name], 1e-4
+    rise = contact_at(load * (1 + step)).approach - contact_at(load * (1 - step)).approach
+    # central difference: error of order step²
+    assert 2 * step * load / rise == pytest.approx(
+        2 * E_STAR * contact_at(load).contact_radius, rel=1e-7
+    )
+
+
+@pytest.mark.parametrize("name", AXISYMMETRIC)
+@given(load=loads)
+def test_load_is_recovered(name, load):
+    assert AXISYMMETRIC[name](load).load == pytest.approx(load, rel=1e-13)
+
+
+@pytest.mark.parametrize("name", ROUNDED)
+@given(load=loads)
+def test_gap_and_pressure_exclude_each_other(name, load):
+    contact = ROUNDED[name](load)
+    r = contact.contact_radius * np.linspace(0.01, 1.5, 50)
+    inside = r < contact.contact_radius
+    assert np.all(contact.pressure(r)[inside] > 0)
+    assert np.all(contact.pressure(r)[~inside] == 0)
+    assert np.all(contact.gap(r)[inside] == 0)
+    assert np.all(contact.gap(r)[~inside] > 0)
+
+
+@pytest.mark.parametrize("name", [*ROUNDED, "elliptical"])
+def test_first_touch_has_the_undeformed_gap(name):
+    r = np.array([0.0, 0.2, 0.7])
+    undeformed = {
+        "paraboloid": r**2 / 6,
+        "sphere": 3 - np.sqrt(9 - r**2),
+        "cone": r * np.tan(0.2),
+        "elliptical": r**2 / 4,
+    }
+    if name == "elliptical":
+        contact, at = EllipticalContact.under_load(0.0, (2.0, 1.0), E_STAR), (r, 0.0)
+    else:
+        contact, at = ROUNDED[name](0.0), (r,)
+    assert contact.approach == contact.load == 0
+    assert np.all(contact.pressure(*at) == 0)
+    # 3 - √(9-r²) itself is only good to a few 1e-16
+    np.testing.assert_allclose(contact.gap(*at), undeformed[name], rtol=1e-14, atol=1e-15)
+
+
+@pytest.mark.parametrize("name", ["paraboloid", "cone"])
+def test_gap_is_profile_less_approach_plus_displacement(name):
+    contact = ROUNDED[name](0.8)
+    r = contact.contact_radius * np.array([0.5, 1.01, 1.5, 4.0, 1e3])
+    profile = r**2 / 6 if name == "paraboloid" else r * np.tan(0.2)
+    expected = profile - contact.approach + contact.surface_displacement(r)
+    scale = np.maximum(profile, contact.approach)
+    np.testing.assert_allclose(contact.gap(r) / scale, expected / scale, atol=1e-15)
+
+
+@pytest.mark.parametrize("name", ["paraboloid", "cone", "flat punch"])
+def test_far_field_is_that_of_a_point_force(name):
+    contact = AXISYMMETRIC[name](0.8)
+    r = 1e3 * contact.contact_radius
+    # next term is of order (a/r)²; the paraboloid's formula loses (r/a)² of its digits
+    assert contact.surface_displacement(r) == pytest.approx(0.8 / (np.pi * E_STAR * r), rel=1e-6)
+
+
+@pytest.mark.parametrize("fraction", [0.0, 0.4, 0.8])
+def test_hertz_pressure_makes_the_surface_a_paraboloid(fraction):
+    contact = PointContact.under_load(0.8, 3.0, E_STAR)
+    a, r = contact.contact_radius, fraction * contact.contact_radius
+    displacement = normal_displacement(
+        lambda x, y: contact.pressure(np.hypot(x, y)), (r, 0.0), [(a, a)], E_STAR
+    )
+    assert displacement == pytest.approx(contact.approach - r**2 / 6, rel=1e-12)
+    assert displacement == pytest.approx(float(contact.surface_displacement(r)), rel=1e-12)
+
+
+@pytest.mark.parametrize("fraction", [0.0, 0.5])
+def test_sphere_pressure_makes_the_surface_an_arc(fraction):
+    contact = SphereContact(3.0, E_STAR, 1.8)
+    r = fraction * 1.8
+    displacement = normal_displacement(
+        lambda x, y: contact.pressure(np.hypot(x, y)), (r, 0.0), [(1.8, 1.8)], E_STAR
+    )
+    assert displacement == pytest.approx(contact.approach - (3 - np.sqrt(9 - r**2)), rel=1e-11)
+
+
+def test_hertz_displacement_is_continuous_at_the_edge():
+    contact = PointContact(3.0, E_STAR, 1.0)
+    inside, outside = contact.surface_displacement([1 - 1e-9, 1 + 1e-9])
+    assert inside - outside == pytest.approx(2e-9 / 3, rel=1e-4)  # the slope is a/R on both sides
+
+
+def test_hertz_constructors_agree():
+    by_load = PointContact.under_load(0.8, 3.0, E_STAR)
+    by_approach = PointContact.at_approach(by_load.approach, 3.0, E_STAR)
+    assert by_approach.contact_radius == pytest.approx(by_load.contact_radius, rel=1e-14)
+    a = by_load.contact_radius
+    assert by_load.peak_pressure == pytest.approx(3 * 0.8 / (2 * np.pi * a**2), rel=1e-14)
+    assert by_load.peak_pressure == pytest.approx(float(by_load.pressure(0.0)), rel=1e-15)
+
+
+@pytest.mark.parametrize("name", PROFILES)
+@pytest.mark.parametrize("a", [1e-3, 0.4, 2.0])
+def test_arbitrary_profile_reproduces_the_special_ones(name, a):
+    make = {"paraboloid": PointContact, "sphere": SphereContact, "cone": ConeContact}[name]
+    closed = make(0.2 if name == "cone" else 3.0, E_STAR, a)
+    general = axisymmetric_indentation(PROFILES[name], a, E_STAR)
+    assert general.load == pytest.approx(closed.load, rel=1e-13)
+    assert general.approach == pytest.approx(closed.approach, rel=1e-13)
+    r = a * np.array([1e-6, 0.01, 0.3, 0.9, 0.999, 1.0, 1.2])
+    scale = closed.load / a**2
+    np.testing.assert_allclose(general.pressure(r) / scale, closed.pressure(r) / scale, atol=1e-11)
+    beyond = a * np.array([0.5, 1.0, 1.01, 1.2, 1.45])
+    np.testing.assert_allclose(
+        general.gap(beyond) / a, closed.gap(beyond) / a, rtol=1e-9, atol=1e-14
+    )
+
+
+@pytest.mark.parametrize("x", [1e-4, 0.02, 0.29, 0.31, 0.9])
+def test_sphere_load_is_the_integral_of_its_stiffness(x):
+    contact = SphereContact(1.0, 1.0, x)
+    # dW = 2E*a d(approach), integrated over the contact radius
+    load, _ = quad(lambda s: 2 * s * (np.arctanh(s) + s / (1 - s**2)), 0, x, epsabs=0, epsrel=1e-13)
+    assert contact.load == pytest.approx(load, rel=1e-13)
+
+
+def test_sphere_tends_to_the_paraboloid_at_the_stated_rate():
+    x = 1e-2
+    arc, paraboloid = SphereContact(1.0, E_STAR, x), PointContact(1.0, E_STAR, x)
+    # relative to x², the next term is of order x² = 1e-4
+    assert arc.load / paraboloid.load - 1 == pytest.approx(2 / 5 * x**2, rel=1e-3)
+    assert arc.approach / paraboloid.approach - 1 == pytest.approx(x**2 / 3, rel=1e-3)
+    assert arc.peak_pressure / paraboloid.peak_pressure - 1 == pytest.approx(2 / 9 * x**2, rel=1e-3)
+    arc = SphereContact.under_load(paraboloid.load, 1.0, E_STAR)
+    assert arc.contact_radius / x - 1 == pytest.approx(-2 / 15 * x**2, rel=1e-3)
+    assert arc.approach / paraboloid.approach - 1 == pytest.approx(x**2 / 15, rel=1e-3)
+    assert arc.peak_pressure / paraboloid.peak_pressure - 1 == pytest.approx(
+        4 / 45 * x**2, rel=1e-3
+    )
+
+
+@given(load=loads, length=scales, stress=scales)
+def test_normal_contacts_are_unit_neutral(load, length, stress):
+    force = stress * length**2
+    pairs = [
+        (
+            PointContact.under_load(load, 3.0, E_STAR),
+            PointContact.under_load(load * force, 3.0 * length, E_STAR * stress),
+        ),
+        (
+            SphereContact.under_load(load, 3.0, E_STAR),
+            SphereContact.under_load(load * force, 3.0 * length, E_STAR * stress),
+        ),
+        (
+            ConeContact.under_load(load, 0.2, E_STAR),
+            ConeContact.under_load(load * force, 0.2, E_STAR * stress),
+        ),
+        (
+            FlatPunchContact.under_load(load, 0.9, E_STAR),
+            FlatPunchContact.under_load(load * force, 0.9 * length, E_STAR * stress),
+        ),
+    ]
+    for one, other in pairs:
+        r = one.contact_radius * np.array([0.3, 0.9, 1.3])
+        assert other.approach == pytest.approx(one.approach * length, rel=1e-12)
+        np.testing.assert_allclose(other.pressure(r * length), one.pressure(r) * stress, rtol=1e-11)
+        np.testing.assert_allclose(other.gap(r * length), one.gap(r) * length, rtol=1e-11)
+
+
+# --- line contact
+
+
+def test_line_pressure_integrates_to_load():
+    contact = LineContact.under_load(0.8, 3.0, E_STAR)
+    a = contact.contact_half_width
+    force, _ = quad(
+        lambda t: contact.pressure(a * np.sin(t)) * a * np.cos(t), -np.pi / 2, np.pi / 2
+    )
+    assert force == pytest.approx(0.8, rel=1e-13)
+    assert contact.load == pytest.approx(0.8, rel=1e-14)
+    assert contact.peak_pressure == pytest.approx(2 * 0.8 / (np.pi * a), rel=1e-14)
+
+
+@pytest.mark.parametrize("x", [0.2, -0.6])
+def test_line_pressure_makes_the_surface_a_parabola(x):
+    contact = LineContact(3.0, E_STAR, 1.0)
+    principal_value, _ = quad(contact.pressure, -1, 1, weight="cauchy", wvar=x, limit=400)
+    # the weight is 1/(s - x); surface slope = -2/(πE*) PV∫ p(s)/(x - s) ds
+    assert 2 / (np.pi * E_STAR) * principal_value == pytest.approx(-x / 3, rel=1e-5)
+
+
+@pytest.mark.parametrize("x", [1.05, 2.0, 10.0])
+def test_line_gap_follows_from_the_surface_slope(x):
+    contact = LineContact(3.0, E_STAR, 1.0)
+
+    def gap_slope(s):
+        inner, _ = quad(
+            lambda t: contact.pressure(np.sin(t)) * np.cos(t) / (s - np.sin(t)),
+            -np.pi / 2,
+            np.pi / 2,
+        )
+        return s / 3 - 2 / (np.pi * E_STAR) * inner
+
+    step = 1e-4
+    difference = float(contact.gap(x + step) - contact.gap(x - step)) / (2 * step)
+    assert difference == pytest.approx(gap_slope(x), rel=1e-5)
+    assert contact.gap(1.0) == contact.gap(0.3) == 0
+
+
+# --- elliptical contact
+
+# B/A, b/a, a, b, peak pressure, approach for E* = W = A + B = 1, independent 9-digit evaluation
+ELLIPSES = [
+    (1.5, 0.763298786, 1.044657929, 0.797386128, 0.573190000, 0.818018858),
+    (2.0, 0.630595701, 1.159160123, 0.730961391, 0.563512451, 0.804087100),
+    (5.0, 0.345999087, 1.647164584, 0.569917441, 0.508618839, 0.722863436),
+    (10.0, 0.222249519, 2.171897878, 0.482703259, 0.455430125, 0.640651342),
+    (100.0, 0.054984018, 5.415642041, 0.297773760, 0.296077231, 0.378179207),
+]
+
+
+@pytest.mark.parametrize("row", ELLIPSES)
+def test_elliptical_table(row):
+    ratio, *expected = row
+    radii = ((1 + ratio) / 2, (1 + ratio) / (2 * ratio))
+    contact = EllipticalContact.under_load(1.0, radii, 1.0)
+    got = (contact.axis_ratio, *contact.semi_axes, contact.peak_pressure, contact.approach)
+    np.testing.assert_allclose(got, expected, rtol=0, atol=0.6e-9)
+
+
+@pytest.mark.parametrize("ratio", [1.1, 3.0, 40.0])
+def test_axis_ratio_solves_the_classical_equation(ratio):
+    k = axis_ratio(ratio, 1.0)
+    m = 1 - k**2
+    first, second = ellipk(m), ellipe(m)
+    assert (second / k**2 - first) / (first - second) == pytest.approx(ratio, rel=1e-12)
+
+
+@pytest.mark.parametrize("difference", [0.0, 1e-12, 1e-7])
+def test_ellipse_tends_to_circle(difference):
+    circle = PointContact.under_load(0.8, 3.0, E_STAR)
+    ellipse = EllipticalContact.under_load(0.8, (3.0 * (1 + difference), 3.0), E_STAR)
+    slack = 1e-13 + difference
+    assert ellipse.semi_axes == pytest.approx(2 * (circle.contact_radius,), rel=slack)
+    assert ellipse.approach == pytest.approx(circle.approach, rel=slack)
+    assert ellipse.peak_pressure == pytest.approx(circle.peak_pressure, rel=slack)
+    x = circle.contact_radius * np.array([0.2, 1.1, 3.0])
+    np.testing.assert_allclose(ellipse.gap(x, 0), circle.gap(x), atol=4 * slack)
+    np.testing.assert_allclose(ellipse.gap(0, x), circle.gap(x), atol=4 * slack)
+
+
+@given(load=loads, rx=st.floats(0.01, 100), ry=st.floats(0.01, 100))
+def test_ellipse_does_not_care_which_axis_is_longer(load, rx, ry):
+    one = EllipticalContact.under_load(load, (rx, ry), E_STAR)
+    other = EllipticalContact.under_load(load, (ry, rx), E_STAR)
+    assert one.semi_axes == pytest.approx(other.semi_axes[::-1], rel=1e-12)
+    assert one.approach == pytest.approx(other.approach, rel=1e-12)
+    assert one.load == pytest.approx(load, rel=1e-12)
+    longer, shorter = one.semi_axes if rx >= ry else one.semi_axes[::-1]
+    assert longer >= shorter * (1 - 1e-15)
+    x, y = 0.7 * one.semi_axes[0], 0.4 * one.semi_axes[1]
+    assert one.pressure(x, y) == pytest.approx(float(other.pressure(y, x)), rel=1e-11)
+
+
+def test_elliptical_pressure_integrates_to_load():
+    contact = EllipticalContact.under_load(0.8, (4.0, 1.5), E_STAR)
+    a, b = contact.semi_axes
+    nodes, weights = np.polynomial.legendre.leggauss(40)
+    angle = np.pi / 4 * (nodes + 1)
+    phi = 2 * np.pi * np.arange(16)[:, None] / 16
+    r = np.sin(angle)
+    values = contact.pressure(a * r * np.cos(phi), b * r * np.sin(phi)) * r * np.cos(angle)
+    assert (values * weights).sum() * np.pi / 4 * 2 * np.pi / 16 * a * b == pytest.approx(
+        0.8, rel=1e-13
+    )
+
+
+@pytest.mark.parametrize("at", [(0.0, 0.0), (0.5, 0.0), (0.0, 0.6), (0.4, -0.5)])
+def test_elliptical_pressure_makes_the_surface_a_paraboloid(at):
+    contact = EllipticalContact.under_load(0.8, (4.0, 1.5), E_STAR)
+    x, y = at[0] * contact.semi_axes[0], at[1] * contact.semi_axes[1]
+    expected = contact.approach - x**2 / 8 - y**2 / 3
+    by_quadrature = normal_displacement(contact.pressure, (x, y), [contact.semi_axes], E_STAR)
+    assert by_quadrature == pytest.approx(expected, rel=1e-11)
+    assert contact.surface_displacement(x, y) == pytest.approx(expected, rel=1e-13)
+
+
+def test_elliptical_gap_opens_outside():
+    contact = EllipticalContact.under_load(0.8, (4.0, 1.5), E_STAR)
+    a, b = contact.semi_axes
+    t = np.linspace(0, 2 * np.pi, 40)
+    np.testing.assert_allclose(contact.gap(0.9 * a * np.cos(t), 0.9 * b * np.sin(t)), 0, atol=1e-15)
+    assert np.all(contact.gap(1.01 * a * np.cos(t), 1.01 * b * np.sin(t)) > 0)
+    far = contact.surface_displacement(1e4 * a * np.cos(t), 1e4 * a * np.sin(t))
+    # the potential cancels by (r/a)² there, hence the loose figure
+    np.testing.assert_allclose(far, 0.8 / (np.pi * E_STAR * 1e4 * a), rtol=1e-6)
+
+
+# --- moduli and the scene of the paper
+
+
+def test_paper_scene():
+    E = contact_modulus((420e9, 0.3), (420e9, 0.3))
+    assert pytest.approx(230.769230769e9, rel=1e-11) == E
+    assert contact_modulus((210e9, 0.3)) == pytest.approx(E, rel=1e-15)
+    contact = PointContact.under_load(1e3, 18e-3, E)
+    assert contact.contact_radius == pytest.approx(0.38819680383e-3, rel=1e-10)
+    assert contact.peak_pressure == pytest.approx(3168.38155e6, rel=1e-8)
+    assert contact.approach == pytest.approx(8.372042139e-6, rel=1e-9)
+    arc = SphereContact.under_load(1e3, 18e-3, E)
+    assert 3e-5 < arc.approach / contact.approach - 1 < 4.2e-5
+    assert 3e-5 < arc.peak_pressure / contact.peak_pressure - 1 < 4.2e-5
+
+
+def test_moduli_of_one_body():
+    E, nu = 5.0, 0.25
+    G = E / (2 * (1 + nu))
+    assert contact_modulus((E, nu)) == pytest.approx(2 * G / (1 - nu))
+    assert tangential_modulus((E, nu)) == pytest.approx(4 * G / (2 - nu))
+    assert torsional_modulus((E, nu)) == pytest.approx(G)
+    for modulus in (contact_modulus, tangential_modulus, torsional_modulus):
+        assert modulus((E, nu), (E, nu)) == pytest.approx(modulus((E, nu)) / 2)
+
+
+# --- range of validity
+
+
+@pytest.mark.parametrize(
+    ("attempt", "message"),
+    [
+        (lambda: PointContact.under_load(-1.0, 1.0, 1.0), "load is -1.0"),
+        (lambda: PointContact.under_load(float("nan"), 1.0, 1.0), "load is nan"),
+        (lambda: PointContact(0.0, 1.0, 1.0), "radius is 0.0"),
+        (lambda: PointContact.at_approach(-1.0, 1.0, 1.0), "approach is -1.0"),
+        (lambda: LineContact.under_load(1.0, 1.0, float("inf")), "contact_modulus is inf"),
+        (lambda: SphereContact(1.0, 1.0, 1.0), "reaches the ball's radius"),
+        (lambda: SphereContact.under_load(1e3, 1.0, 1.0), "equator"),
+        (lambda: ConeContact.under_load(1.0, 1.6, 1.0), "slope_angle is 1.6"),
+        (lambda: FlatPunchContact(1.0, 1.0, -1.0), "load is -1.0"),
+        (lambda: EllipticalContact.under_load(1.0, (1.0, -1.0), 1.0), "radius_y is -1.0"),
+        (lambda: axisymmetric_indentation(PROFILES["cone"], 0.0, 1.0), "contact_radius is 0.0"),
+        (lambda: contact_modulus(), "no elastic body"),
+        (lambda: contact_modulus((1.0, 0.5001)), "Poisson's ratio is 0.5001"),
+        (lambda: contact_modulus((-1.0, 0.3)), "Young's modulus is -1.0"),
+    ],
+)
+def test_arguments_outside_the_range_are_refused(attempt, message):
+    with pytest.raises(ValueError, match=message):
+        attempt()

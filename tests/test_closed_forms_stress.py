@@ -1,0 +1,109 @@
+"""Subsurface stress of the Hertz contact: equilibrium, boundary values, point-force integrals."""
+
+import numpy as np
+import pytest
+from scipy.integrate import quad
+
+from verification.closed_forms.huber_stress import axis_stress, huber_stress, sliding_axis_shear
+
+A, PEAK = 0.8, 1.9
+POINTS = [(0.1, 0.3), (0.5, 0.4), (0.79, 0.05), (1.2, 0.3), (2.0, 3.0)]
+
+
+@pytest.mark.parametrize("nu", [0.0, 0.3, 0.5])
+def test_axis_is_the_limit_of_the_field(nu):
+    z = np.array([0.0, 0.2, 0.9, 5.0])
+    on_axis, field = axis_stress(z, A, PEAK, nu), huber_stress(0.0, z, A, PEAK, nu)
+    for name in ("radial", "hoop", "axial", "shear"):
+        np.testing.assert_allclose(getattr(field, name), getattr(on_axis, name), atol=1e-14 * PEAK)
+
+
+def test_surface_carries_the_hertz_pressure_alone():
+    r = np.array([0.0, 0.3, 0.8, 0.9, 3.0])
+    stress = huber_stress(r, 0.0, A, PEAK, 0.3)
+    pressure = PEAK * np.sqrt(np.maximum(1 - (r / A) ** 2, 0))
+    np.testing.assert_allclose(stress.axial, -pressure, atol=1e-15)
+    np.testing.assert_allclose(stress.shear, 0, atol=1e-15)
+    # greatest tension (1-2ν)p0/3 at the rim, radial
+    assert stress.radial[2] == pytest.approx(0.4 / 3 * PEAK)
+    assert stress.hoop[2] == pytest.approx(-0.4 / 3 * PEAK)
+
+
+@pytest.mark.parametrize(("r", "z"), POINTS)
+@pytest.mark.parametrize("nu", [0.0, 0.3])
+def test_stress_is_in_equilibrium(r, z, nu):
+    def along(name, dr=0.0, dz=0.0):
+        plus = getattr(huber_stress(r + dr, z + dz, A, PEAK, nu), name)
+        minus = getattr(huber_stress(r - dr, z - dz, A, PEAK, nu), name)
+        return float(plus - minus) / (2 * step)
+
+    step, here = 1e-5, huber_stress(r, z, A, PEAK, nu)
+    radial = along("radial", dr=step) + along("shear", dz=step)
+    radial += float(here.radial - here.hoop) / r
+    axial = along("shear", dr=step) + along("axial", dz=step) + float(here.shear) / r
+    # central difference of a field varying over 0.05 at worst
+    assert radial == pytest.approx(0, abs=2e-6 * PEAK / A)
+    assert axial == pytest.approx(0, abs=2e-6 * PEAK / A)
+
+
+@pytest.mark.parametrize(("r", "z"), POINTS)
+def test_radial_stress_agrees_with_hamilton(r, z):
+    # Hamilton's (1983) form of σ_xx at (x, y) = (r, 0) and (0, r) for p0 = a = 1
+    nu, r, z = 0.3, r / A, z / A
+    B = r**2 + z**2 - 1
+    S = np.sqrt(B**2 + 4 * z**2)
+    M, N = np.sqrt((S + B) / 2), np.sqrt((S - B) / 2)
+    phi = np.arctan(1 / M)
+    common = (1 - nu) * N * z**2 - (1 - 2 * nu) / 3 * (N * S + 2 * B * N + 1) - nu * M * z
+    radial = (1 + nu) * z * phi + (-common - N * r**2 - M * r**2 * z / S) / r**2
+    hoop = (1 + nu) * z * phi + (common - N * 2 * nu * r**2) / r**2
+    stress = huber_stress(r * A, z * A, A, PEAK, nu)
+    assert stress.radial == pytest.approx(PEAK * radial, rel=1e-11)
+    assert stress.hoop == pytest.approx(PEAK * hoop, rel=1e-11, abs=1e-13)
+    assert stress.axial == pytest.approx(PEAK * (-N + z * M / S), rel=1e-11)
+
+
+@pytest.mark.parametrize("z", [0.1, 1.0])
+def test_every_depth_carries_the_load(z):
+    force, _ = quad(
+        lambda r: 2 * np.pi * r * float(huber_stress(r, z, A, PEAK, 0.3).axial),
+        0,
+        np.inf,
+        limit=200,
+        epsabs=1e-12,
+    )
+    assert -force == pytest.approx(2 * np.pi / 3 * PEAK * A**2, rel=1e-8)
+
+
+def test_greatest_shear_on_the_axis():
+    z = A * np.linspace(0.3, 0.7, 4001)
+    stress = axis_stress(z, A, PEAK, 0.3)
+    shear = (stress.radial - stress.axial) / 2
+    assert z[np.argmax(shear)] / A == pytest.approx(0.48, abs=0.005)
+    assert shear.max() / PEAK == pytest.approx(0.31, abs=0.001)
+    np.testing.assert_allclose(stress.von_mises, 2 * shear, rtol=1e-14)
+
+
+@pytest.mark.parametrize("z", [0.05, 0.4, 3.0])
+def test_sliding_shear_is_the_integral_of_cerruti(z):
+    # point force Q along x: τ_xz = -3Q x²z/2πR⁵, averaged over the direction
+    integral, _ = quad(
+        lambda t: (A * np.sin(t)) ** 3 / ((A * np.sin(t)) ** 2 + z**2) ** 2.5 * A * np.cos(t) ** 2,
+        0,
+        np.pi / 2,
+        epsabs=0,
+        epsrel=1e-11,
+    )
+    assert sliding_axis_shear(z, A, 0.2) == pytest.approx(-1.5 * 0.2 * z * integral, rel=1e-9)
+    assert sliding_axis_shear(0.0, A, 0.2) == -0.2
+
+
+def test_stress_outside_the_range_is_refused():
+    with pytest.raises(ValueError, match="z >= 0"):
+        huber_stress(0.0, -0.1, A, PEAK, 0.3)
+    with pytest.raises(ValueError, match="z >= 0"):
+        axis_stress(-0.1, A, PEAK, 0.3)
+    with pytest.raises(ValueError, match=r"Poisson's ratio is 0\.6"):
+        huber_stress(0.0, 0.1, A, PEAK, 0.6)
+    with pytest.raises(ValueError, match="peak_pressure is 0"):
+        huber_stress(0.0, 0.1, A, 0.0, 0.3)

@@ -1,0 +1,133 @@
+"""Torsion: equilibrium, Coulomb's bound, rigid rotation of the stick disc, tabulated values."""
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from scipy.integrate import quad
+from surface_quadrature import ray_integral
+
+from verification.closed_forms.torsion import StuckTorsion, TorsionalPartialSlip
+
+A, PEAK, MU, MODULUS = 0.9, 1.3, 0.25, 0.7
+ratios = st.floats(0.01, 1)
+
+
+def twisted(ratio):
+    return TorsionalPartialSlip(A, PEAK, MU, MODULUS, ratio * A)
+
+
+def moment_of(state, edge):
+    """Moment 2π∫q r² dr, each side of the stick edge mapped by a cosine."""
+    total = 0.0
+    for low, high in [(0.0, edge), (edge, A)]:
+
+        def integrand(t, low=low, high=high):
+            r = low + (high - low) * (1 - np.cos(t)) / 2
+            return 2 * np.pi * r**2 * state.shear(r) * (high - low) * np.sin(t) / 2
+
+        total += quad(integrand, 0, np.pi, epsabs=1e-13)[0]
+    return total
+
+
+# stick radius / a, twist * G / (µ p0), moment / sliding moment; one elastic body, 9-digit values
+@pytest.mark.parametrize(
+    ("ratio", "twist", "moment"),
+    [(0.5, 0.472729810, 0.897338429), (0.8, 0.166335204, 0.527167509)],
+)
+def test_torsion_table(ratio, twist, moment):
+    state = twisted(ratio)
+    assert state.twist * MODULUS / (MU * PEAK) == pytest.approx(twist, abs=6e-10)
+    assert state.moment / state.sliding_moment == pytest.approx(moment, abs=6e-10)
+
+
+def test_sliding_moment_is_friction_times_pressure_times_arm():
+    load = 2 * np.pi / 3 * PEAK * A**2
+    assert twisted(0.5).sliding_moment == pytest.approx(3 * np.pi / 16 * MU * load * A)
+    # the remainder is of order (c/a)³
+    assert twisted(1e-3).moment == pytest.approx(twisted(0.5).sliding_moment, rel=1e-8)
+
+
+@pytest.mark.parametrize("ratio", [0.05, 0.5, 0.8, 0.99])
+def test_torsional_shear_carries_the_moment(ratio):
+    state = twisted(ratio)
+    assert moment_of(state, ratio * A) == pytest.approx(state.moment, rel=1e-9)
+
+
+@given(ratio=ratios)
+def test_torsional_shear_obeys_coulomb(ratio):
+    state = twisted(ratio)
+    r = A * np.linspace(0, 1, 60)
+    bound = MU * PEAK * np.sqrt(1 - (r / A) ** 2)
+    assert np.all(state.shear(r) <= bound * (1 + 1e-14))
+    assert np.all(state.shear(r) >= -1e-12 * MU * PEAK)
+    np.testing.assert_array_equal(state.shear(r)[r > ratio * A], bound[r > ratio * A])
+
+
+def test_torsional_shear_is_continuous_and_vanishes_on_the_axis():
+    state, c = twisted(0.6), 0.6 * A
+    left, right = state.shear([c * (1 - 1e-12), c * (1 + 1e-12)])
+    assert left == pytest.approx(right, rel=1e-5)
+    assert state.shear(0.0) == pytest.approx(0, abs=1e-14)
+    # near the axis the shear is r ln(1/r): nothing sticks out there
+    near = state.shear(A * np.array([1e-6, 1e-4, 1e-2]))
+    assert np.all(np.diff(near) > 0)
+    assert np.all(near > 0)
+
+
+@pytest.mark.parametrize("ratio", [0.5, 0.8])
+def test_stick_disc_turns_rigidly(ratio):
+    state, c = twisted(ratio), ratio * A
+
+    def across(x, y):
+        r = np.hypot(x, y)
+        return state.shear(r) * x / r
+
+    for x in (0.3 * c, 0.8 * c):
+        # the field is divergence-free, hence the nu = 0 kernel serves every nu
+        displacement = ray_integral(
+            across, (x, 0.0), [(c, c), (A, A)], lambda phi: 0 * phi + 1 / (2 * np.pi * MODULUS)
+        )
+        # the logarithm at the axis limits the quadrature, not the formula
+        assert displacement == pytest.approx(state.twist * x, rel=1e-4)
+
+
+def test_stuck_torsion():
+    state = StuckTorsion(A, MODULUS, 0.3)
+    moment, _ = quad(
+        lambda t: 2 * np.pi * (A * np.sin(t)) ** 2 * state.shear(A * np.sin(t)) * A * np.cos(t),
+        0,
+        np.pi / 2,
+    )
+    assert moment == pytest.approx(0.3, rel=1e-12)
+    assert state.shear(1.1 * A) == 0
+    assert state.twist == pytest.approx(3 * 0.3 / (16 * A**3 * MODULUS))
+
+
+def test_small_moment_meets_full_stick_stiffness():
+    state = twisted(1 - 1e-6)
+    stuck = StuckTorsion(A, MODULUS, state.moment)
+    # relative departure is of order 1 - c/a
+    assert state.twist == pytest.approx(stuck.twist, rel=3e-6)
+
+
+@given(ratio=ratios)
+def test_moment_control_finds_the_stick_radius_again(ratio):
+    state = twisted(ratio)
+    if state.moment >= state.sliding_moment:
+        return
+    again = TorsionalPartialSlip.under_moment(state.moment, A, PEAK, MU, MODULUS)
+    assert again.moment == pytest.approx(state.moment, rel=1e-12, abs=1e-14)
+    assert again.stick_radius == pytest.approx(state.stick_radius, rel=1e-8)
+
+
+def test_torsion_outside_the_range_is_refused():
+    limit = twisted(0.5).sliding_moment
+    with pytest.raises(ValueError, match="gross sliding"):
+        TorsionalPartialSlip.under_moment(limit, A, PEAK, MU, MODULUS)
+    with pytest.raises(ValueError, match="exceeds the contact radius"):
+        twisted(1.01)
+    with pytest.raises(ValueError, match="stick_radius is 0"):
+        twisted(0.0)
+    with pytest.raises(ValueError, match="contact_radius is -1"):
+        StuckTorsion(-1.0, MODULUS, 0.1)

@@ -1,0 +1,166 @@
+"""Indenters: the gap at first touch."""
+
+from decimal import Decimal, localcontext
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from numpy.typing import NDArray
+from pydantic import ValidationError
+
+from contact_scene import (
+    RIGID,
+    ArrayFile,
+    Cone,
+    Ellipsoid,
+    FlatPunch,
+    HeightMap,
+    Paraboloid,
+    Sphere,
+)
+
+R = 0.018
+SHAPES = [
+    Sphere(material=RIGID, radius=R),
+    Paraboloid(material=RIGID, radius=R),
+    Ellipsoid(material=RIGID, radii=(R, 2 * R)),
+    Cone(material=RIGID, slope_angle=0.3),
+    FlatPunch(material=RIGID, radius=R),
+]
+
+
+@pytest.mark.parametrize("shape", SHAPES, ids=lambda shape: shape.shape)
+def test_first_touch_is_at_the_origin_and_nothing_lies_below(shape: Any) -> None:
+    x = np.linspace(-2 * R, 2 * R, 41)
+    gap = shape.initial_gap(x[:, None], x[None, :])
+    assert gap.shape == (41, 41)
+    assert gap[20, 20] == 0.0
+    assert gap.min() == 0.0
+
+
+@pytest.mark.parametrize("shape", SHAPES, ids=lambda shape: shape.shape)
+def test_the_gap_is_symmetric_about_both_axes_to_the_last_bit(shape: Any) -> None:
+    x, y = np.linspace(0, 2 * R, 23)[:, None], np.linspace(0, 2 * R, 29)[None, :]
+    gap = shape.initial_gap(x, y)
+    for sx, sy in [(-1, 1), (1, -1), (-1, -1)]:
+        np.testing.assert_array_equal(shape.initial_gap(sx * x, sy * y), gap)
+
+
+@pytest.mark.parametrize("r", [1e-9, 1e-6, 1e-3, 0.01, 0.0179999, 0.018 - 3.5e-18, 0.018 - 1e-12])
+def test_the_sphere_is_the_exact_arc_without_cancellation(r: float) -> None:
+    with localcontext() as context:
+        context.prec = 60
+        exact = Decimal(R) - (Decimal(R) ** 2 - Decimal(r) ** 2).sqrt()
+    assert SHAPES[0].initial_gap(r, 0.0) == pytest.approx(float(exact), rel=2e-15)
+
+
+def test_the_sphere_ends_at_its_silhouette_at_the_height_of_its_equator() -> None:
+    np.testing.assert_array_equal(SHAPES[0].initial_gap([R, 2 * R, 1e6], 0.0), [R, R, R])
+
+
+def test_the_sphere_is_the_paraboloid_to_fourth_order() -> None:
+    r = R * np.array([0.02, 0.04])
+    excess = SHAPES[0].initial_gap(r, 0.0) - SHAPES[1].initial_gap(r, 0.0)
+    np.testing.assert_allclose(excess, r**4 / (8 * R**3), rtol=1e-3)
+
+
+def test_an_ellipsoid_with_equal_radii_is_the_paraboloid() -> None:
+    x = np.linspace(-R, R, 11)
+    round_one = Ellipsoid(material=RIGID, radii=(R, R)).initial_gap(x[:, None], x)
+    np.testing.assert_allclose(round_one, SHAPES[1].initial_gap(x[:, None], x), rtol=4e-16)
+
+
+def test_the_cone_rises_with_its_slope_angle() -> None:
+    assert SHAPES[3].initial_gap(0.3, 0.4) == pytest.approx(0.5 * np.tan(0.3), rel=1e-15)
+
+
+def test_the_flat_punch_touches_up_to_its_rim_and_never_beyond() -> None:
+    gap = SHAPES[4].initial_gap([0.0, R, R * (1 + 1e-15), 2 * R], 0.0)
+    np.testing.assert_array_equal(gap, [0.0, 0.0, np.inf, np.inf])
+
+
+def heights(nx: int = 12, ny: int = 9, seed: int = 1) -> NDArray[np.float64]:
+    return np.random.default_rng(seed).normal(size=(nx, ny))
+
+
+def centres(count: int, spacing: float) -> NDArray[np.float64]:
+    return (np.arange(count) - 0.5 * (count - 1)) * spacing
+
+
+@given(st.floats(1e-9, 1e3), st.integers(4, 33), st.integers(4, 33))
+def test_a_height_map_gives_its_own_values_bit_for_bit(spacing: float, nx: int, ny: int) -> None:
+    values = heights(nx, ny)
+    shape = HeightMap(material=RIGID, file=values, spacing=(spacing, 2 * spacing))
+    # Another formula for the same centres, as a solver's grid may have.
+    x = (np.arange(nx) + 0.5) * spacing - 0.5 * nx * spacing
+    gap = shape.initial_gap(x[:, None], centres(ny, 2 * spacing)[None, :])
+    np.testing.assert_array_equal(gap, values - values.min())
+
+
+def test_first_touch_of_a_height_map_is_its_lowest_value() -> None:
+    shape = HeightMap(material=RIGID, file=heights(), spacing=1.0)
+    assert shape.initial_gap(centres(12, 1.0)[:, None], centres(9, 1.0)).min() == 0.0
+
+
+def test_interpolation_reproduces_parabolas_up_to_the_rim_of_the_map() -> None:
+    x, y = centres(8, 0.5)[:, None], centres(10, 0.25)[None, :]
+    parabola = lambda x, y: 1 + x - 2 * y + x * x + 3 * x * y - y * y  # noqa: E731
+    values = parabola(x, y)
+    shape = HeightMap(material=RIGID, file=values, spacing=(0.5, 0.25))
+    fine_x, fine_y = np.linspace(-2, 2, 57)[:, None], np.linspace(-1.25, 1.25, 61)[None, :]
+    expected = parabola(fine_x, fine_y) - values.min()
+    np.testing.assert_allclose(shape.initial_gap(fine_x, fine_y), expected, atol=2e-14)
+
+
+def test_interpolation_is_third_order_accurate() -> None:
+    errors = []
+    fine = np.linspace(-1.0, 1.0, 173)
+    for count in (16, 32, 64, 128):
+        c = centres(count, 2.0 / count)
+        values = np.cos(2 * c[:, None]) * np.sin(3 * c[None, :] + 1)
+        shape = HeightMap(material=RIGID, file=values, spacing=2.0 / count)
+        exact = np.cos(2 * fine[:, None]) * np.sin(3 * fine[None, :] + 1) - values.min()
+        errors.append(np.abs(shape.initial_gap(fine[:, None], fine) - exact).max())
+    orders = np.log2(np.divide(errors[:-1], errors[1:]))
+    assert np.all(orders > 2.8)
+
+
+def test_a_window_beyond_the_height_map_is_refused_with_both_lengths() -> None:
+    shape = HeightMap(material=RIGID, file=heights(), spacing=1e-3)
+    shape.initial_gap(6e-3, 4.5e-3)
+    with pytest.raises(ValueError, match=r"covers \|x\| <= 0.006 .* asked for \|x\| = 0.0061"):
+        shape.initial_gap(-6.1e-3, 0.0)
+    with pytest.raises(ValueError, match=r"covers \|y\| <= 0.0045 .* asked for \|y\| = nan"):
+        shape.initial_gap(0.0, np.nan)
+
+
+def test_height_maps_are_equal_by_content(tmp_path: Path) -> None:
+    np.save(tmp_path / "a.npy", heights())
+    np.save(tmp_path / "b.npy", heights())
+    a, b = (HeightMap(material=RIGID, file=tmp_path / f"{n}.npy", spacing=1.0) for n in "ab")
+    other = HeightMap(material=RIGID, file=heights(seed=2), spacing=1.0)
+    assert a == b
+    assert hash(a) == hash(b)
+    assert a != other
+
+
+def test_an_array_handed_over_is_copied_and_read_only() -> None:
+    values = heights()
+    shape = HeightMap(material=RIGID, file=values, spacing=1.0)
+    assert isinstance(shape.file, ArrayFile)
+    values[0, 0] = 99.0
+    assert shape.file.values[0, 0] != 99.0
+    with pytest.raises(ValueError, match="read-only"):
+        shape.file.values[0, 0] = 1.0
+
+
+def test_shapes_need_positive_sizes() -> None:
+    for size in (0.0, -1.0, np.nan, np.inf):
+        for make in (Sphere, Paraboloid, FlatPunch):
+            with pytest.raises(ValidationError):
+                make(material=RIGID, radius=size)
+        with pytest.raises(ValidationError):
+            Ellipsoid(material=RIGID, radii=(1.0, size))

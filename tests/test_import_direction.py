@@ -1,0 +1,185 @@
+"""Imports go one way: scene <- solvers <- verification <- tests (CONTRIBUTING.md).
+
+`ORDER` is the reading order of `semi_analytical`: a module imports only from entries above its own.
+An entry that is a package stands for all its modules. A new module has to be placed in the list.
+"""
+
+import ast
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parents[1]
+PACKAGES = ("contact_scene", "semi_analytical", "fem_reference", "verification")
+
+ORDER = (
+    "errors",
+    "grid",
+    "frf",
+    "influence",
+    "operator",
+    "admissible_shear",
+    "residuals",
+    "normal",
+    "tangential",
+    "contact_area",
+    "plan",
+    "fields",
+    "memory",
+    "model",
+    "box",
+    "pressing",
+    "shearing",
+    "stick_slip",
+    "increment",
+    "history",
+    "discretise",
+    "solve",
+)
+
+# What the modules within each name may not import.
+FORBIDDEN = {
+    "contact_scene": ("semi_analytical", "fem_reference", "verification", "scipy"),
+    "semi_analytical": ("fem_reference", "verification"),
+    "fem_reference": ("semi_analytical", "verification"),
+    "verification.closed_forms": ("contact_scene", "semi_analytical", "fem_reference"),
+    # The solvers see arrays and callables: a dense 4x4 matrix is as good an operator as any.
+    "semi_analytical.normal": (
+        "contact_scene",
+        "semi_analytical.grid",
+        "semi_analytical.frf",
+        "semi_analytical.influence",
+        "semi_analytical.operator",
+    ),
+}
+FORBIDDEN["semi_analytical.tangential"] = FORBIDDEN["semi_analytical.normal"]
+ONLY_SCRIPTS = ("tests", "examples")
+
+
+def within(name: str, package: str) -> bool:
+    """Whether a dotted name is the package or something in it."""
+    return name == package or name.startswith(package + ".")
+
+
+def module_name(path: Path, root: Path) -> str:
+    parts = path.relative_to(root).with_suffix("").parts
+    return ".".join(parts[:-1] if parts[-1] == "__init__" else parts)
+
+
+def modules(root: Path) -> dict[str, Path]:
+    """All modules of our packages under root, by dotted name."""
+    paths = sorted(path for package in PACKAGES for path in (root / package).rglob("*.py"))
+    return {module_name(path, root): path for path in paths}
+
+
+def imports(name: str, path: Path, known: dict[str, Path]) -> Iterator[str]:
+    """Dotted names that a module imports: anywhere in it, lazily or for its annotations only."""
+    package = name if path.name == "__init__.py" else name.rpartition(".")[0]
+    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"), filename=str(path))):
+        match node:
+            case ast.Import():
+                yield from (alias.name for alias in node.names)
+            case ast.ImportFrom():
+                ancestors = package.split(".")[: len(package.split(".")) - node.level + 1]
+                prefix = ".".join(ancestors) if node.level else ""
+                source = ".".join(part for part in (prefix, node.module) if part)
+                for alias in node.names:
+                    member = f"{source}.{alias.name}"
+                    yield member if member in known else source
+            case ast.Call(func=ast.Attribute(attr="import_module") | ast.Name(id="__import__")):
+                yield from (arg.value for arg in node.args[:1] if isinstance(arg, ast.Constant))
+
+
+def rank(name: str) -> int | None:
+    """Place of a module of semi_analytical in ORDER; None for the package itself or a stranger."""
+    member = name.removeprefix("semi_analytical.").partition(".")[0]
+    return ORDER.index(member) if member in ORDER else None
+
+
+def objection(name: str, target: str) -> str | None:
+    """Why module `name` may not import `target`; None if it may."""
+    for package, forbidden in FORBIDDEN.items():
+        if within(name, package) and any(within(target, other) for other in forbidden):
+            return f"{name} imports {target}: {package} must not"
+    if any(within(target, script) for script in ONLY_SCRIPTS):
+        return f"{name} imports {target}: nothing imports scripts"
+    if within(name, "verification.closed_forms"):
+        allowed = {"numpy", "scipy", *sys.stdlib_module_names}
+        if not within(target, "verification.closed_forms") and target.split(".")[0] not in allowed:
+            return f"{name} imports {target}: closed forms rest on numpy and scipy alone"
+    if name.startswith("semi_analytical.") and within(target, "semi_analytical"):
+        own, other = rank(name), rank(target)
+        same_package = name.split(".")[1] == target.partition(".")[2].partition(".")[0]
+        if other is None:
+            return f"{name} imports {target}: import from the module that defines it"
+        if own is not None and other >= own and not same_package:
+            return f"{name} imports {target}: which stands below it in ORDER"
+    return None
+
+
+def violations(root: Path) -> list[str]:
+    """All broken rules under root, one sentence each."""
+    known = modules(root)
+    found = [
+        f"{name} has no place in ORDER"
+        for name in known
+        if name.startswith("semi_analytical.") and rank(name) is None
+    ]
+    for name, path in known.items():
+        reasons = (objection(name, target) for target in imports(name, path, known))
+        found += [reason for reason in reasons if reason]
+    return found
+
+
+def test_imports_go_one_way() -> None:
+    assert violations(ROOT) == []
+
+
+PLANTED = {
+    "contact_scene/body.py": "from semi_analytical.grid import SurfaceGrid",
+    "contact_scene/geometry.py": "import scipy.special",
+    "semi_analytical/history.py": "def march():\n    from verification import metrics",
+    "semi_analytical/operator.py": "from fem_reference import mesh",
+    "semi_analytical/grid.py": "from .solve import solve",
+    "semi_analytical/model.py": "from semi_analytical import SurfaceGrid",
+    "semi_analytical/frf/half_space.py": "from ..operator import InfluenceOperator",
+    "semi_analytical/normal.py": "from contact_scene import Scene",
+    "semi_analytical/tangential.py": "from . import grid",
+    "semi_analytical/helpers.py": "import math",
+    "fem_reference/mesh.py": "import importlib\nimportlib.import_module('semi_analytical.grid')",
+    "verification/closed_forms/hertz.py": "from contact_scene import Scene",
+    "verification/closed_forms/cone.py": "from verification.metrics import relative_error",
+    "verification/closed_forms/flat_punch.py": "import pint",
+    "verification/cases.py": "from tests.strategies import scenes",
+}
+SOUND = {
+    "semi_analytical/__init__.py": "from semi_analytical.solve import solve",
+    "semi_analytical/grid.py": "from dataclasses import dataclass",
+    "semi_analytical/influence/from_frf.py": "from ..frf.half_space import f\nfrom . import cell",
+    "semi_analytical/influence/cell.py": "from semi_analytical.grid import SurfaceGrid",
+    "semi_analytical/frf/half_space.py": "import numpy as np",
+    "semi_analytical/solve.py": "from . import grid\nfrom contact_scene import Scene",
+    "verification/closed_forms/hertz.py": "import scipy.special\nfrom . import cone",
+    "verification/closed_forms/cone.py": "from numpy import pi",
+    "verification/cases.py": "import semi_analytical, fem_reference, contact_scene",
+}
+
+
+def plant(root: Path, sources: dict[str, str]) -> None:
+    for name, source in sources.items():
+        path = root / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(source + "\n", encoding="utf-8")
+
+
+@pytest.mark.parametrize("file", PLANTED)
+def test_planted_violation_is_caught(tmp_path: Path, file: str) -> None:
+    plant(tmp_path, SOUND | {file: PLANTED[file]})
+    assert len(violations(tmp_path)) == 1
+
+
+def test_sound_imports_pass(tmp_path: Path) -> None:
+    plant(tmp_path, SOUND)
+    assert violations(tmp_path) == []

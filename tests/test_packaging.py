@@ -1,0 +1,99 @@
+"""What is installed is what is in the tree, under the names and versions that it states."""
+
+import importlib.metadata
+import re
+import shutil
+import subprocess
+import sys
+import tomllib
+import zipfile
+from pathlib import Path
+
+import pytest
+from packaging.requirements import Requirement
+from packaging.utils import canonicalize_name
+
+ROOT = Path(__file__).resolve().parents[1]
+PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
+PACKAGES = ("contact_scene", "semi_analytical", "fem_reference", "verification")
+IGNORED = shutil.ignore_patterns("__pycache__", "*.pyc")
+
+
+def tree(root: Path) -> set[str]:
+    """Names of all files of the packages, relative to root."""
+    files = (path for package in PACKAGES for path in (root / package).rglob("*") if path.is_file())
+    return {path.relative_to(root).as_posix() for path in files}
+
+
+@pytest.fixture(scope="module")
+def source(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A copy of what a wheel is made of: building writes into its source tree."""
+    copy = tmp_path_factory.mktemp("source")
+    for package in PACKAGES:
+        shutil.copytree(ROOT / package, copy / package, ignore=IGNORED)
+    for name in ("pyproject.toml", "README.md", "LICENSE"):
+        shutil.copy(ROOT / name, copy)
+    return copy
+
+
+def test_wheel_holds_every_file_of_the_packages(source: Path, tmp_path: Path) -> None:
+    expected = tree(source)
+    options = ["--no-deps", "--no-build-isolation", "--quiet", "--disable-pip-version-check"]
+    command = [sys.executable, "-m", "pip", "wheel", *options, "--wheel-dir", tmp_path, source]
+    subprocess.run(command, check=True)
+    with zipfile.ZipFile(next(tmp_path.glob("*.whl"))) as wheel:
+        packed = {name for name in wheel.namelist() if ".dist-info/" not in name}
+    assert sorted(expected - packed) == [], "left out: no __init__.py, or not in package-data"
+    assert sorted(packed - expected) == []
+
+
+@pytest.mark.parametrize("package", PACKAGES)
+def test_package_is_marked_as_typed(package: str) -> None:
+    assert (ROOT / package / "py.typed").is_file()
+
+
+def test_command_leads_to_the_command_line() -> None:
+    (entry,) = importlib.metadata.entry_points(group="console_scripts", name="slipstick")
+    assert callable(entry.load())
+
+
+def test_constraints_pin_what_is_asked_for() -> None:
+    lines = (ROOT / "constraints.txt").read_text(encoding="utf-8").splitlines()
+    pins = dict(line.split("==") for line in lines if line and not line.startswith("#"))
+    versions = {canonicalize_name(name): version for name, version in pins.items()}
+    extras = PROJECT["optional-dependencies"]
+    for text in (*PROJECT["dependencies"], *extras["mesh"], *extras["test"]):
+        requirement = Requirement(text)
+        name = canonicalize_name(requirement.name)
+        assert name in versions, f"{name} has no pin"
+        assert versions[name] in requirement.specifier, f"{text}, but {versions[name]} is pinned"
+
+
+def test_installed_requirements_are_pinned() -> None:
+    """Every distribution that ours needs, directly or not, is in constraints.txt."""
+    text = (ROOT / "constraints.txt").read_text(encoding="utf-8")
+    pins = {canonicalize_name(name) for name in re.findall(r"^([\w.-]+)==", text, re.MULTILINE)}
+    pending, seen = [Requirement("slipstick[mesh,test]")], set()
+    while pending:
+        requirement = pending.pop()
+        name = canonicalize_name(requirement.name)
+        for extra in requirement.extras or {""}:
+            if (name, extra) in seen:
+                continue
+            seen.add((name, extra))
+            needs = map(Requirement, importlib.metadata.requires(name) or ())
+            pending += [n for n in needs if not n.marker or n.marker.evaluate({"extra": extra})]
+    assert {name for name, _ in seen} - pins == {"slipstick"}
+
+
+@pytest.mark.parametrize("file", ["CITATION.cff", "CHANGELOG.md"])
+def test_version_is_stated_everywhere(file: str) -> None:
+    assert PROJECT["version"] in (ROOT / file).read_text(encoding="utf-8")
+
+
+def test_gmsh_is_installed_with_its_libraries() -> None:
+    try:
+        import gmsh
+    except (ImportError, OSError) as absent:
+        pytest.skip(f"gmsh: {absent}")
+    assert gmsh.__version__

@@ -1,0 +1,74 @@
+"""Reference data are shipped, readable and physically possible."""
+
+import numpy as np
+import pytest
+
+from verification.references import load_reference
+
+
+@pytest.mark.parametrize(
+    "name",
+    [
+        "coated_frictionless_paraboloid",
+        "frf",
+        "influence_coefficients",
+        "frictional_indentation_homogeneous",
+        "frictional_indentation_coated",
+    ],
+)
+def test_reference_loads(name):
+    assert load_reference(name)
+
+
+def test_missing_reference_is_named():
+    with pytest.raises(ValueError, match=r"no reference 'nope'; available: coated_fr.*, frf, "):
+        load_reference("nope")
+
+
+def test_reference_folder_cannot_be_left():
+    with pytest.raises(ValueError, match="no reference"):
+        load_reference("../references/frf")
+
+
+def load_over_hertz(row):
+    """Load from the tabulated profile: 3 (a/a_H)² ∫ p/p_H x dx, by a fit of p/√(1-x²) in x²."""
+    x, p = np.array(row["r_over_a"]), np.array(row["p_over_pH"])
+    smooth = np.polynomial.Polynomial.fit(x**2, p / np.sqrt(1 - x**2), 6)
+    nodes, weights = np.polynomial.legendre.leggauss(40)
+    x = np.sin(np.pi / 4 * (nodes + 1))
+    integrand = smooth(x**2) * (1 - x**2) * x
+    return 3 * row["a_over_aH"] ** 2 * (integrand * weights).sum() * np.pi / 4
+
+
+@pytest.mark.parametrize("row", load_reference("coated_frictionless_paraboloid")["rows"])
+def test_coated_profiles_carry_the_load(row):
+    # a fit through twelve points
+    assert load_over_hertz(row) == pytest.approx(1, abs=2e-4)
+
+
+@pytest.mark.parametrize(
+    "row",
+    [
+        *load_reference("frictional_indentation_homogeneous")["rows"],
+        load_reference("frictional_indentation_coated"),
+    ],
+)
+def test_frictional_profiles_carry_the_load(row):
+    # the kink at the stick radius limits the fit
+    assert load_over_hertz(row) == pytest.approx(1, abs=1e-2)
+
+
+def test_stiffer_coating_makes_a_smaller_contact_under_higher_pressure():
+    rows = load_reference("coated_frictionless_paraboloid")["rows"]
+    for row in rows:
+        stiffer = row["E1_over_E2"] > 1
+        assert (row["a_over_aH"] < 1) == (row["delta_over_deltaH"] < 1) == stiffer
+        assert (row["p0_over_pH"] > 1) == stiffer
+
+
+def test_reference_responses_are_positive_definite():
+    for row in load_reference("frf")["rows"]:
+        c11, c12, c22, csh = (float(row[name]) for name in ("C11", "C12", "C22", "Csh"))
+        assert c11 > 0
+        assert csh > 0
+        assert c11 * c22 > c12**2

@@ -1,0 +1,213 @@
+"""The directory of a run is whole or not there, and holds nobody else's files hostage."""
+
+import os
+import signal
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from verification.run_output.file_names import SUMMARY, TIMING
+from verification.run_output.run_directory import OutputRefused, run_directory
+from verification.run_output.stop_signals import stop_signals_unwind
+from verification.run_output.timing import Stopwatch, write_timing
+
+
+class WorkFailed(Exception):
+    """What the tests throw into a run."""
+
+
+def fill(directory: Path, text: str = "new") -> None:
+    """Write what a run would: a summary, a table and its times."""
+    (directory / SUMMARY).write_text(text)
+    (directory / "profiles.csv").write_text(text)
+    write_timing(Stopwatch(), directory)
+
+
+def contents(directory: Path) -> dict[str, str]:
+    return {path.name: path.read_text() for path in directory.iterdir() if path.name != TIMING}
+
+
+def run(target: Path, text: str = "new", *, overwrite: bool = False) -> None:
+    with run_directory(target, overwrite=overwrite) as staging:
+        fill(staging, text)
+
+
+def failing_run(target: Path) -> None:
+    with run_directory(target) as staging:
+        fill(staging)
+        raise WorkFailed
+
+
+def stopped_run(target: Path, number: signal.Signals) -> None:
+    with stop_signals_unwind(), run_directory(target) as staging:
+        fill(staging)
+        signal.raise_signal(number)
+
+
+def refused_run(target: Path) -> None:
+    with run_directory(target):
+        pytest.fail("the work began")
+
+
+@pytest.fixture
+def earlier_run(tmp_path: Path) -> Path:
+    target = tmp_path / "out"
+    run(target, "old")
+    return target
+
+
+def test_directory_appears_only_when_it_is_complete(tmp_path: Path) -> None:
+    target = tmp_path / "deep" / "out"
+    with run_directory(target) as staging:
+        fill(staging)
+        assert not target.exists()
+    assert contents(target) == {SUMMARY: "new", "profiles.csv": "new"}
+    assert os.listdir(target.parent) == ["out"]
+
+
+def test_failed_run_leaves_nothing_not_even_parents(tmp_path: Path) -> None:
+    with pytest.raises(WorkFailed):
+        failing_run(tmp_path / "deep" / "er" / "out")
+    assert os.listdir(tmp_path) == []
+
+
+def test_failed_run_leaves_earlier_results_alone(earlier_run: Path) -> None:
+    with pytest.raises(WorkFailed):
+        failing_run(earlier_run)
+    assert contents(earlier_run) == {SUMMARY: "old", "profiles.csv": "old"}
+    assert os.listdir(earlier_run.parent) == ["out"]
+
+
+def test_rerun_replaces_results_and_drops_stale_ones_but_no_foreign_file(
+    earlier_run: Path,
+) -> None:
+    (earlier_run / "shear.png").write_text("of the earlier run")
+    (earlier_run / "notes.txt").write_text("mine")
+    run(earlier_run)
+    assert contents(earlier_run) == {SUMMARY: "new", "profiles.csv": "new", "notes.txt": "mine"}
+
+
+def test_foreign_results_are_refused_before_work_unless_told(tmp_path: Path) -> None:
+    (tmp_path / "profiles.csv").write_text("mine")
+    with pytest.raises(OutputRefused, match="not the result of an earlier run"):
+        refused_run(tmp_path)
+    assert contents(tmp_path) == {"profiles.csv": "mine"}
+    run(tmp_path, overwrite=True)
+    assert contents(tmp_path) == {SUMMARY: "new", "profiles.csv": "new"}
+
+
+def test_existing_directory_without_results_is_used(tmp_path: Path) -> None:
+    (tmp_path / "notes.txt").write_text("mine")
+    run(tmp_path)
+    assert contents(tmp_path) == {SUMMARY: "new", "profiles.csv": "new", "notes.txt": "mine"}
+
+
+def a_file(tmp_path: Path) -> Path:
+    (tmp_path / "out").write_text("a file")
+    return tmp_path / "out"
+
+
+def below_a_file(tmp_path: Path) -> Path:
+    return a_file(tmp_path) / "out"
+
+
+def result_name_taken_by_a_directory(tmp_path: Path) -> Path:
+    run(tmp_path / "out")
+    (tmp_path / "out" / "result.h5").mkdir()
+    return tmp_path / "out"
+
+
+def nowhere(tmp_path: Path) -> Path:
+    return Path("/proc/slipstick/out")
+
+
+@pytest.mark.parametrize(
+    "target", [a_file, below_a_file, result_name_taken_by_a_directory, nowhere]
+)
+def test_unwritable_output_is_refused_before_work(tmp_path: Path, target: Any) -> None:
+    with pytest.raises(OutputRefused):
+        refused_run(target(tmp_path))
+
+
+def test_missing_permission_is_refused_before_work(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Simulated, because the administrator may write everywhere."""
+
+    def refuse(path: Path, *args: Any, **kwargs: Any) -> None:
+        raise PermissionError(13, "Permission denied", str(path))
+
+    monkeypatch.setattr(Path, "mkdir", refuse)
+    with pytest.raises(OutputRefused, match="Permission denied"):
+        refused_run(tmp_path / "out")
+
+
+def test_abandoned_directory_is_cleared_away_and_a_live_one_is_not(tmp_path: Path) -> None:
+    abandoned = tmp_path / ".out.partial-0badcafe"
+    abandoned.mkdir()
+    (abandoned / "result.h5").write_text("half")
+    with run_directory(tmp_path / "out") as first:
+        assert not abandoned.exists()
+        with run_directory(tmp_path / "out") as second:
+            assert first.exists()
+            fill(second, "second")
+        fill(first, "first")
+    assert contents(tmp_path / "out") == {SUMMARY: "first", "profiles.csv": "first"}
+    assert os.listdir(tmp_path) == ["out"]
+
+
+@pytest.fixture
+def handlers_restored() -> Iterator[None]:
+    numbers = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
+    before = [signal.getsignal(number) for number in numbers]
+    yield
+    assert [signal.getsignal(number) for number in numbers] == before
+
+
+@pytest.mark.usefixtures("handlers_restored")
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
+def test_signal_during_work_cleans_up(tmp_path: Path, number: signal.Signals) -> None:
+    with pytest.raises(SystemExit) as stop:
+        stopped_run(tmp_path / "out", number)
+    assert stop.value.code == 128 + number
+    assert os.listdir(tmp_path) == []
+
+
+@pytest.mark.usefixtures("handlers_restored")
+def test_signal_during_publication_waits_for_its_end(
+    earlier_run: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    real_replace = os.replace
+
+    def interrupted_replace(source: Path, target: Path) -> None:
+        signal.raise_signal(signal.SIGTERM)
+        real_replace(source, target)
+
+    monkeypatch.setattr(os, "replace", interrupted_replace)
+    with pytest.raises(SystemExit), stop_signals_unwind():
+        run(earlier_run)
+    assert contents(earlier_run) == {SUMMARY: "new", "profiles.csv": "new"}
+
+
+def test_summary_is_the_sign_of_completeness(
+    earlier_run: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A kill between two replacements leaves no summary, and the next run repairs it."""
+    real_replace = os.replace
+    moved: list[str] = []
+
+    def dying_replace(source: Path, target: Path) -> None:
+        if len(moved) == 1:
+            raise WorkFailed
+        moved.append(target.name)
+        real_replace(source, target)
+
+    with monkeypatch.context() as patch:
+        patch.setattr(os, "replace", dying_replace)
+        with pytest.raises(WorkFailed):
+            run(earlier_run)
+    assert SUMMARY not in contents(earlier_run)
+    run(earlier_run)
+    assert contents(earlier_run) == {SUMMARY: "new", "profiles.csv": "new"}

@@ -1,0 +1,219 @@
+"""The files of a run: what they hold, and that equal results give equal bytes."""
+
+import csv
+import json
+import os
+import subprocess
+import sys
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import h5py
+import numpy as np
+import pytest
+from synthetic_result import CONVOLUTIONS, ITERATIONS, MU, WORST_RESIDUAL, synthetic_result
+
+from contact_scene.summary import load_summary, summary_schema
+from semi_analytical.fields import Result
+from verification.run_output.centre_line import along_centre_line
+from verification.run_output.engineering_units import quantity
+from verification.run_output.file_names import RUN_FILES, SUMMARY
+from verification.run_output.result_files import write_result
+
+ROOT = Path(__file__).resolve().parents[1]
+
+
+@pytest.fixture(scope="module")
+def written(tmp_path_factory: pytest.TempPathFactory) -> tuple[Result, Path]:
+    result, directory = synthetic_result(), tmp_path_factory.mktemp("written")
+    write_result(result, directory)
+    return result, directory
+
+
+@pytest.fixture(scope="module")
+def frictionless(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    directory = tmp_path_factory.mktemp("frictionless")
+    write_result(synthetic_result(friction=False), directory)
+    return directory
+
+
+def rows(path: Path) -> list[dict[str, str]]:
+    with open(path, newline="", encoding="utf-8") as file:
+        return list(csv.DictReader(file))
+
+
+def test_equal_results_give_equal_bytes(written: tuple[Result, Path], tmp_path: Path) -> None:
+    """In a fresh process with other hash seed, locale and matplotlibrc, too."""
+    script = (
+        "import sys; from pathlib import Path\n"
+        "from synthetic_result import synthetic_result\n"
+        "from verification.run_output.result_files import write_result\n"
+        "write_result(synthetic_result(), Path(sys.argv[1]))"
+    )
+    (tmp_path / "matplotlibrc").write_text(
+        "font.size: 20\nlines.solid_capstyle: butt\naxes.facecolor: red\n"
+    )
+    again = tmp_path / "again"
+    again.mkdir()
+    subprocess.run(
+        [sys.executable, "-c", script, again],
+        cwd=tmp_path,
+        env=os.environ | {"PYTHONPATH": f"{ROOT}:{ROOT / 'tests'}", "PYTHONHASHSEED": "7"},
+        check=True,
+    )
+    first = {path.name: path.read_bytes() for path in written[1].iterdir()}
+    assert first == {path.name: path.read_bytes() for path in again.iterdir()}
+
+
+def test_every_file_has_a_known_name(written: tuple[Result, Path]) -> None:
+    assert {path.name for path in written[1].iterdir()} <= set(RUN_FILES)
+
+
+def test_summary_fulfils_its_schema_and_reads_back(written: tuple[Result, Path]) -> None:
+    import jsonschema
+
+    result, directory = written
+    text = (directory / SUMMARY).read_text(encoding="utf-8")
+    jsonschema.validate(json.loads(text), summary_schema())
+    summary = load_summary(text)
+    assert len(summary.steps) == len(result.scene.loading)
+    for step, end in zip(summary.steps, result.steps, strict=True):
+        assert step.approach == end.approach
+        assert end.tangential_force is not None
+        assert step.tangential_force == tuple(end.tangential_force)
+
+
+def test_summary_counts_the_work_of_all_increments_of_a_step(
+    written: tuple[Result, Path],
+) -> None:
+    result, directory = written
+    steps = json.loads((directory / SUMMARY).read_text(encoding="utf-8"))["steps"]
+    increments = [end.increments_in_step for end in result.steps]
+    assert [step["iterations"] for step in steps] == [ITERATIONS * number for number in increments]
+    assert [step["convolutions"] for step in steps] == [
+        CONVOLUTIONS * number for number in increments
+    ]
+
+
+def test_frictionless_summary_has_all_keys_and_null_for_friction(frictionless: Path) -> None:
+    (step,) = json.loads((frictionless / SUMMARY).read_text(encoding="utf-8"))["steps"]
+    off = ("tangential_force", "tangential_shift", "stick_area", "stick_radius")
+    assert [step[key] for key in (*off, "dissipated_energy")] == [None] * 5
+    assert step["residuals"]["friction_cone"] is None
+    assert step["status"] == "frictionless"
+
+
+@pytest.mark.parametrize("ny", [20, 21])
+def test_profile_holds_the_numbers_of_the_line_y_0(tmp_path: Path, ny: int) -> None:
+    result = synthetic_result((24, ny))
+    write_result(result, tmp_path, with_figures=False)
+    table = rows(tmp_path / "profiles.csv")
+    assert list(table[0]) == [
+        "step",
+        "x",
+        "y",
+        "pressure",
+        "shear_x",
+        "shear_y",
+        "slip_x",
+        "slip_y",
+    ]
+    assert len(table) == 24 * len(result.steps)
+    assert {row["y"] for row in table} == {"0.0"}
+    end = result.steps[1]
+    middle = [ny // 2] if ny % 2 else [ny // 2 - 1, ny // 2]
+    shear = end.shear[0][:, middle].mean(axis=1)
+    mine = [row for row in table if row["step"] == "2"]
+    assert [float(row["x"]) for row in mine] == result.grid.x.tolist()
+    assert [float(row["shear_x"]) for row in mine] == shear.tolist()
+
+
+def test_centre_line_is_second_order_between_two_rows() -> None:
+    y = np.array([-1.5, -0.5, 0.5, 1.5])
+    field = np.stack([1.0 + 0.0 * y, 2.0 + y, y**2])
+    assert along_centre_line(field).tolist() == [1.0, 2.0, 0.25]  # h^2/8 * (y^2)'' = 1/4
+
+
+def test_frictionless_profile_leaves_shear_and_slip_empty(frictionless: Path) -> None:
+    row = rows(frictionless / "profiles.csv")[12]
+    assert float(row["pressure"]) > 0
+    assert [row[key] for key in ("shear_x", "shear_y", "slip_x", "slip_y")] == [""] * 4
+
+
+def test_increment_table_has_one_row_per_increment(written: tuple[Result, Path]) -> None:
+    result, directory = written
+    table = rows(directory / "increments.csv")
+    assert [(int(row["step"]), int(row["increment"])) for row in table] == [
+        (increment.step, increment.index) for increment in result.increments
+    ]
+    forces = [float(row["tangential_force_x"]) for row in table]
+    assert forces == [increment.tangential_force[0] for increment in result.increments]
+    assert {float(row["worst_residual"]) for row in table} == {WORST_RESIDUAL}
+
+
+def test_field_file_holds_every_increment_bit_for_bit(
+    written: tuple[Result, Path],
+) -> None:
+    result, directory = written
+    with h5py.File(directory / "result.h5") as file:
+        group: Any = file["increments"]
+        for name in ("pressure", "shear", "slip", "gap", "in_contact", "in_stick"):
+            stored = group[name]
+            assert stored.chunks == (1, *stored.shape[1:])
+            expected = np.stack([getattr(i, name) for i in result.increments])
+            assert stored.dtype == expected.dtype
+            assert np.array_equal(stored[:], expected)
+        assert group["pressure"].attrs["unit"] == "Pa"
+        assert np.array_equal(file["x"][:], result.grid.x)
+        scene = type(result.scene).model_validate_json(file["scene"][()])
+    assert scene == result.scene
+
+
+def test_effects_that_are_off_have_no_dataset_and_no_figure(frictionless: Path) -> None:
+    with h5py.File(frictionless / "result.h5") as file:
+        group: Any = file["increments"]
+        assert not {"shear", "slip", "in_stick", "tangential_force", "stick_area"} & set(group)
+    assert {path.name for path in frictionless.glob("*.png")} == {"pressure.png", "profiles.png"}
+
+
+def test_a_force_beyond_any_friction_figure_is_drawn_for_many_steps(tmp_path: Path) -> None:
+    """A long history: the figures show some of the steps, and none is too large to open."""
+    result = synthetic_result()
+    cycle = [increment for increment in result.increments if increment.step > 1]
+    many = [
+        replace(increment, step=increment.step + 2 * number)
+        for number in range(30)
+        for increment in cycle
+    ]
+    tangential = result.scene.loading[1:]
+    scene = result.scene.model_copy(
+        update={"loading": (result.scene.loading[0], *(tangential * 30))}
+    )
+    long = replace(result, scene=scene, increments=(result.increments[0], *many))
+    write_result(long, tmp_path)
+    assert all(path.stat().st_size < 1_000_000 for path in tmp_path.glob("*.png"))
+
+
+def test_mu_p_bounds_the_synthetic_shear() -> None:
+    for end in synthetic_result().steps:
+        assert np.all(np.abs(end.shear[0]) <= MU * end.pressure * (1 + 1e-12))
+
+
+@pytest.mark.parametrize(
+    ("value", "unit", "text"),
+    [
+        (3.17e9, "Pa", "3.17 GPa"),
+        (5e8, "Pa", "500 MPa"),
+        (1e-4, "m", "0.1 mm"),
+        (8e-7, "m", "0.8 µm"),
+        (1e-10, "m", "0.1 nm"),
+        (1e-9, "m", "1 nm"),
+        (1500.0, "m", "1500 m"),
+        (-90.0, "N", "-90 N"),
+        (0.0, "N", "0 N"),
+        (4.2e-13, "J", "0.00042 nJ"),
+    ],
+)
+def test_quantities_are_shown_in_engineering_units(value: float, unit: str, text: str) -> None:
+    assert quantity(value, unit) == text

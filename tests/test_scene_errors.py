@@ -1,0 +1,356 @@
+"""Bad scene files: every mistake is told once, with file, line, key and what would be right."""
+
+import os
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from contact_scene import Problem, SceneError, read_scene_file
+
+SCENE = """\
+title = "x"
+[indenter]
+shape = "sphere"
+radius = "18 mm"
+material = { young_modulus = "420 GPa", poisson_ratio = 0.3 }
+[body]
+material = { young_modulus = "420 GPa", poisson_ratio = 0.3 }
+[friction]
+coefficient = 0.1
+[[loading]]
+normal_force = "1 kN"
+[[loading]]
+tangential_force = ["90 N", 0]
+increments = 18
+[semi_analytical]
+cells = [256, 256]
+window = ["1.2 mm", "1.2 mm"]
+tolerance = 1e-8
+"""
+ELASTIC = '{ young_modulus = "420 GPa", poisson_ratio = 0.3 }'
+
+
+def problems(path: Path, text: str | bytes, overrides: Any = ()) -> tuple[Problem, ...]:
+    file = path / "scene.toml"
+    file.write_bytes(text if isinstance(text, bytes) else text.encode())
+    with pytest.raises(SceneError) as caught:
+        read_scene_file(file, overrides)
+    return caught.value.problems
+
+
+def changed(*changes: tuple[str, str]) -> str:
+    text = SCENE
+    for old, new in changes:
+        assert text.count(old) >= 1
+        text = text.replace(old, new, 1)
+    return text
+
+
+# What is changed; where the problem is; words that its message must hold.
+MISTAKES = {
+    "wrong key": (("title", "titel"), 1, "titel", "did you mean title?"),
+    "misspelt key": (("radius", "raduis"), 4, "indenter.raduis", "did you mean radius?"),
+    "foreign key": (("radius", "speed = 1\nradius"), 4, "indenter.speed", "the keys here are"),
+    "missing key": (('radius = "18 mm"', ""), 2, "indenter.radius", "a positive length"),
+    "wrong unit": (("18 mm", "18 s"), 4, "indenter.radius", 'got "18 s", expected a positive le'),
+    "unknown unit": (("18 mm", "18 mn"), 4, "indenter.radius", 'did you mean "18 m'),
+    "number as text": (('"18 mm"', '"0.018"'), 4, "indenter.radius", "without quotes"),
+    "negative length": (('"18 mm"', "-1"), 4, "indenter.radius", "got -1, expected a positive"),
+    "zero length": (('"18 mm"', "0.0"), 4, "indenter.radius", "got 0.0"),
+    "denormal": (('"18 mm"', "5e-324"), 4, "indenter.radius", "magnitude"),
+    "nan": (('"18 mm"', "nan"), 4, "indenter.radius", "got nan, which is not finite"),
+    "infinite": (('"18 mm"', "-inf"), 4, "indenter.radius", "not finite"),
+    "overflow": (('"18 mm"', "1e999"), 4, "indenter.radius", "not finite"),
+    "date": (('"18 mm"', "1979-05-27"), 4, "indenter.radius", "got 1979-05-27"),
+    "boolean": (('"18 mm"', "true"), 4, "indenter.radius", "got true"),
+    "table": (('"18 mm"', "{}"), 4, "indenter.radius", "got a table"),
+    "array": (('"18 mm"', "[1, 2]"), 4, "indenter.radius", "got [1, 2]"),
+    "negative modulus": (("420 GPa", "-420 GPa"), 5, "indenter.material.young_modulus", "positive"),
+    "ratio": (("0.3", "0.5001"), 5, "indenter.material.poisson_ratio", "0.5001, expected a number"),
+    "ratio missing": (("poisson", "poison"), 5, "indenter.material.poison_ratio", "poisson_ratio?"),
+    "material name": ((ELASTIC, '"rigd"'), 5, "indenter.material", 'got "rigd", expected { young'),
+    "material number": ((ELASTIC, "5"), 5, "indenter.material", "got 5, expected { young"),
+    "shape": (("sphere", "spere"), 3, "indenter.shape", 'did you mean "sphere"?'),
+    "shape number": (('"sphere"', "3"), 3, "indenter.shape", 'got 3, expected one of "sphere"'),
+    "shape missing": (('shape = "sphere"', ""), 2, "indenter.shape", "the key is missing"),
+    "rigid layer": (
+        ("[body]", '[body]\nlayers = [{ thickness = 1, material = "rigid" }]'),
+        *(7, "body.layers[1].material", "young_modulus and poisson_ratio"),
+    ),
+    "single layer": (("[body]", "[body]\nlayers = {}"), 7, "body.layers", "[[body.layers]]"),
+    "double brackets": (("[body]", "[[body]]"), 6, "body", "write [body], with single brackets"),
+    "friction": (("0.1", "-0.1"), 9, "friction.coefficient", "got -0.1"),
+    "friction text": (("0.1", '"0.1"'), 9, "friction.coefficient", "without quotes"),
+    "friction key": (("coefficient", "coeficient"), 9, "friction.coeficient", "coefficient?"),
+    "friction number": (
+        ("[friction]\ncoefficient = 0.1\n", ""),
+        *(11, "loading[2].tangential_force", "add [friction]"),
+    ),
+    "press": (('normal_force = "1 kN"', "approach = -1"), 11, "loading[1].approach", "positive"),
+    "no load": (('tangential_force = ["90 N", 0]', ""), 12, "loading[2]", "names no load"),
+    "both": (("increments", "tangential_shift = [1, 2]\nincrements"), 12, "loading[2]", "one of"),
+    "one component": (('"90 N", 0', '"90 N"'), 13, "loading[2].tangential_force", "array of 2"),
+    "three components": (("0]", "0, 0]"), 13, "loading[2].tangential_force", "at most 2"),
+    "not a vector": (('["90 N", 0]', "90"), 13, "loading[2].tangential_force", "an array"),
+    "component": (('"90 N", 0', '0, "9 m"'), 13, "loading[2].tangential_force[2]", "a force"),
+    "sliding": (("90 N", "120 N"), 13, "loading[2].tangential_force", "limit 100 N (= 0.1 * 1000"),
+    "increments": (("18\n", "0\n"), 14, "loading[2].increments", "from 1 to 100000"),
+    "broken increments": (("18\n", "18.0\n"), 14, "loading[2].increments", "got 18.0"),
+    "true increments": (("18\n", "true\n"), 14, "loading[2].increments", "got true"),
+    "cells": (("256, 256", "256, 7"), 16, "semi_analytical.cells[2]", "from 8 to 16384"),
+    "many cells": (("256, 256", "16384, 16384"), 15, "semi_analytical", "at most"),
+    "one cell number": (("[256, 256]", "256"), 16, "semi_analytical.cells", "an array"),
+    "window": (('"1.2 mm", ', '"1.2 N", '), 17, "semi_analytical.window[1]", "a positive length"),
+    "tolerance": (("1e-8", "0.0"), 18, "semi_analytical.tolerance", "above 1e-14"),
+    "tolerance text": (("1e-8", '"1e-8"'), 18, "semi_analytical.tolerance", "without quotes"),
+    "title": (('"x"', "3"), 1, "title", "a text"),
+    "long title": (('"x"', '"' + "x" * 501 + '"'), 1, "title", "at most 500"),
+}
+
+
+@pytest.mark.parametrize("mistake", MISTAKES.values(), ids=MISTAKES)
+def test_one_mistake_is_one_problem_at_its_line(tmp_path: Path, mistake: Any) -> None:
+    change, line, key, words = mistake
+    (problem,) = problems(tmp_path, changed(change))
+    assert (problem.line, problem.key) == (line, key)
+    assert words in str(problem)
+    assert str(problem).startswith(f"{tmp_path / 'scene.toml'}:{line}: {key}: ")
+
+
+def test_no_message_speaks_pydantic(tmp_path: Path) -> None:
+    for change, *_ in MISTAKES.values():
+        message = str(problems(tmp_path, changed(change))[0])
+        for noise in ("Input", "pydantic", "http", "<", "union", "validation", "Value error"):
+            assert noise not in message
+
+
+def test_all_mistakes_are_told_at_once_in_the_order_of_the_file(tmp_path: Path) -> None:
+    text = changed(
+        ("title", "titel"),
+        ("sphere", "spere"),
+        ("18 mm", "18 s"),
+        ("420 GPa", "-420 GPa"),
+        ("coefficient = 0.1", "coefficient = 0.01"),
+        ("18\n", "18\n[[loading]]\napproach = nan\n"),
+        ("256, 256", "256, 1"),
+    )
+    keys = [problem.key for problem in problems(tmp_path, text)]
+    assert keys == [
+        "titel",
+        "indenter.shape",
+        "indenter.radius",
+        "indenter.material.young_modulus",
+        "loading[2].tangential_force",
+        "loading[3].approach",
+        "semi_analytical.cells[2]",
+    ]
+
+
+def test_missing_parts_are_all_named(tmp_path: Path) -> None:
+    found = problems(tmp_path, "title = 'x'")
+    assert [problem.key for problem in found] == ["indenter", "body", "loading"]
+    assert found[1].expected == "the lower body, a half-space"
+
+
+@pytest.mark.parametrize("loading", ["loading = []", "loading = 3", "[loading]\nnormal_force = 1"])
+def test_a_loading_without_steps_is_refused(tmp_path: Path, loading: str) -> None:
+    head, rest = SCENE.split("[[loading]]", 1)[0], "[semi" + SCENE.split("[semi")[1]
+    text = f"{loading}\n{head}{rest}" if "[loading]" not in loading else f"{head}{loading}\n{rest}"
+    (problem,) = problems(tmp_path, text)
+    assert problem.key == "loading"
+    if "[loading]" in loading:
+        assert "[[loading]]" in problem.hint
+
+
+def test_a_loading_of_nothing_but_bad_steps_is_not_called_empty(tmp_path: Path) -> None:
+    text = SCENE.replace('[[loading]]\ntangential_force = ["90 N", 0]\nincrements = 18\n', "")
+    (problem,) = problems(tmp_path, text.replace("1 kN", "1 kg"))
+    assert problem.key == "loading[1].normal_force"
+
+
+def test_two_rigid_bodies_make_no_contact_problem(tmp_path: Path) -> None:
+    text = SCENE.replace(ELASTIC, '"rigid"')
+    (problem,) = problems(tmp_path, text)
+    assert (problem.line, problem.key) == (7, "body.material")
+    layer = f"[[body.layers]]\nthickness = 1\nmaterial = {ELASTIC}\n[friction]"
+    (tmp_path / "scene.toml").write_text(text.replace("[friction]", layer))
+    read_scene_file(tmp_path / "scene.toml")
+
+
+@pytest.mark.parametrize(
+    ("contents", "line", "words"),
+    [
+        (b"", None, "is empty"),
+        (b" \n\n", None, "is empty"),
+        (b"\xef\xbb\xbf", None, "is empty"),
+        (b"title = 'x'\n\xff\xfe", 2, "UTF-8"),
+        (b"PK\x03\x04\x00", 1, "not valid TOML"),
+        (b"a = 1\nb = = 2", 2, "not valid TOML: Invalid value (column 5)"),
+        (b"a = 1\na = 2", 2, "not valid TOML"),
+        (b"a = [1,\n2", 2, "not valid TOML"),
+        (b"a = " + b"9" * 5000, 1, "not valid TOML"),
+        (b"\na = " + b"[" * 2000 + b"]" * 2000, 2, "nested too deep"),
+        (b"a." * 2000 + b"b = 1", 1, "nested too deep"),
+        (b"a = " + b"{b = " * 2000, 1, "nested too deep"),
+        (b"x" * 10_000_001, None, "too large"),
+    ],
+    ids=lambda value: repr(value)[:20],
+)
+def test_what_is_no_toml_is_refused_with_its_line(
+    tmp_path: Path, contents: bytes, line: int | None, words: str
+) -> None:
+    (problem,) = problems(tmp_path, contents)
+    assert problem.line == line
+    assert words in str(problem)
+
+
+def test_what_is_no_file_is_refused(tmp_path: Path) -> None:
+    os.mkfifo(tmp_path / "pipe")
+    names = {".": "is a folder", "none.toml": "no such file", "pipe": "not a regular file"}
+    names |= {"x" * 300: "cannot be read", "a\0b": "no such file"}
+    for name, words in names.items():
+        with pytest.raises(SceneError, match=words) as caught:
+            read_scene_file(tmp_path / name)
+        assert str(caught.value).isprintable()
+
+
+def test_many_mistakes_are_counted_not_listed(tmp_path: Path) -> None:
+    text = SCENE + "".join(f"key{n} = 1\n" for n in range(1000))
+    found = problems(tmp_path, text)
+    assert len(found) == 1000
+    assert str(SceneError(found)).endswith("… and 900 more")
+
+
+HEIGHTS = changed(
+    ('shape = "sphere"\nradius = "18 mm"', 'shape = "height_map"\nfile = "h.npy"\nspacing = "1 m"')
+)
+
+
+def save_garbage(path: Path) -> None:
+    path.write_bytes(b"no array")
+
+
+def save_pickle(path: Path) -> None:
+    np.save(path, np.array([[{}] * 4] * 4), allow_pickle=True)
+
+
+def save_truncated(path: Path) -> None:
+    np.save(path, np.zeros((8, 8)))
+    path.write_bytes(path.read_bytes()[:-8])
+
+
+def save_boast(path: Path) -> None:
+    """A small file whose header claims two gigabytes."""
+    np.save(path, np.zeros((8, 8)))
+    path.write_bytes(path.read_bytes().replace(b"(8, 8), }        ", b"(16384, 16384), }"))
+
+
+@pytest.mark.parametrize(
+    ("write", "words"),
+    [
+        (None, "there is no file"),
+        (save_garbage, "cannot read"),
+        (save_pickle, "values of type object"),
+        (save_truncated, "cut short"),
+        (save_boast, "cut short"),
+        (lambda path: np.save(path, np.zeros(16)), "has shape (16,), expected two dimensions"),
+        (lambda path: np.save(path, np.zeros((4, 4, 4))), "has shape (4, 4, 4)"),
+        (lambda path: np.save(path, np.zeros((3, 99))), "of 4 to 16384 values each"),
+        (lambda path: np.save(path, np.full((4, 4), np.nan)), "holds nan at [0, 0]"),
+        (lambda path: np.save(path, np.zeros((4, 4), complex)), "values of type complex128"),
+        (lambda path: path.mkdir(), "there is no file"),
+    ],
+)
+def test_a_bad_height_map_is_one_clear_problem(tmp_path: Path, write: Any, words: str) -> None:
+    if write is not None:
+        write(tmp_path / "h.npy")
+    (problem,) = problems(tmp_path, HEIGHTS)
+    assert (problem.line, problem.key) == (4, "indenter.file")
+    assert words in str(problem)
+
+
+@pytest.mark.parametrize(
+    "name",
+    [
+        "../h.npy",
+        "/etc/passwd",
+        "a/../../h.npy",
+        "a/../h.npy",
+        "..",
+        "c:/h.npy",
+        "a\\\\b.npy",
+        "",
+        "link.npy",
+    ],
+)
+def test_files_outside_the_folder_of_the_scene_are_refused(tmp_path: Path, name: str) -> None:
+    folder = tmp_path / "scenes"
+    folder.mkdir()
+    np.save(tmp_path / "h.npy", np.zeros((4, 4)))
+    (folder / "link.npy").symlink_to(tmp_path / "h.npy")
+    (problem,) = problems(folder, HEIGHTS.replace("h.npy", name))
+    assert problem.key == "indenter.file"
+    assert "there is no" not in problem.message
+
+
+def test_one_spacing_for_both_directions_is_one_mistake(tmp_path: Path) -> None:
+    np.save(tmp_path / "h.npy", np.zeros((4, 4)))
+    (problem,) = problems(tmp_path, HEIGHTS.replace("1 m", "1 s"))
+    assert (problem.line, problem.key) == (5, "indenter.spacing")
+
+
+def test_a_window_beyond_the_height_map_is_refused(tmp_path: Path) -> None:
+    np.save(tmp_path / "h.npy", np.zeros((12, 4)))
+    text = HEIGHTS.replace('"1 m"', '["0.1 mm", "0.2 mm"]')
+    (problem,) = problems(tmp_path, text)
+    assert problem.key == "semi_analytical.window[2]"
+    assert "0.0008" in problem.message
+
+
+@pytest.mark.parametrize(
+    ("array", "words"),
+    [(np.full((256, 256), -0.1), "-0.1"), (np.zeros((255, 256)), "255 x 256 coefficients")],
+)
+def test_a_bad_friction_map_is_refused(tmp_path: Path, array: Any, words: str) -> None:
+    np.save(tmp_path / "mu.npy", array)
+    (problem,) = problems(tmp_path, changed(("0.1", '{ map = "mu.npy" }')))
+    assert problem.key.startswith("friction.coefficient")
+    assert words in problem.message
+
+
+@pytest.mark.parametrize(
+    ("override", "words"),
+    [
+        ("loading[9].increments=5", "there is no entry 9, expected 1 to 2"),
+        ("loading[0].increments=5", "there is no entry 0"),
+        ("loading.2.increments=5", "count from 1"),
+        ("indenter.radius.x=5", "not a key of a table"),
+        ("indenter.radius[1]=5", "no array"),
+        ("loading[2].increments=0.5", "got 0.5"),
+        ("indenter.radius=", 'got ""'),
+        ("indenter.radius=20 kmm", 'got "20 kmm"'),
+        ("indenter.a.b=2", "unknown key"),
+        ("extra=[[[[", "unknown key"),
+        ("nonsense", "expected key=value"),
+        ("=3", "expected key=value"),
+        ("a..b=3", "expected key=value"),
+        ("title=\udcff", "expected key=value"),
+        ("title=a\nb=3", "expected key=value"),
+        ("title=" + "[" * 3000, "at most 500"),
+        ("." * 3000 + "=3", "expected key=value"),
+    ],
+)
+def test_a_bad_override_is_told_as_such(tmp_path: Path, override: str, words: str) -> None:
+    (problem,) = problems(tmp_path, SCENE, [override])
+    assert problem.file.startswith("--set ")
+    assert problem.line is None
+    assert words in str(problem)
+    str(problem).encode()
+
+
+def test_messages_carry_no_control_characters(tmp_path: Path) -> None:
+    text = changed(("18 mm", "\\u001b[31m\\u009b\\u202e"), ("title", '"\\u001b]0;x"'))
+    for problem in problems(tmp_path, text):
+        assert str(problem).isprintable()

@@ -1,0 +1,155 @@
+"""Loading: what is held, what is ramped, and where force control ends."""
+
+from typing import Any
+
+import pytest
+
+from contact_scene import (
+    Body,
+    ControlKind,
+    CoulombFriction,
+    IsotropicMaterial,
+    LoadStep,
+    NormalControl,
+    Problem,
+    Scene,
+    SceneError,
+    Sphere,
+    TangentialControl,
+)
+
+STEEL = IsotropicMaterial(young_modulus=210e9, poisson_ratio=0.3)
+FORCE, DISPLACEMENT = ControlKind.FORCE, ControlKind.DISPLACEMENT
+
+
+def scene(*steps: dict[str, Any], mu: float | None = 0.1) -> Scene:
+    return Scene(
+        indenter=Sphere(radius=0.018, material=STEEL),
+        body=Body(material=STEEL),
+        friction=None if mu is None else CoulombFriction(coefficient=mu),
+        loading=tuple(LoadStep(**step) for step in steps),
+    )
+
+
+def problems(*steps: dict[str, Any], mu: float | None = 0.1) -> tuple[Problem, ...]:
+    with pytest.raises(SceneError) as caught:
+        scene(*steps, mu=mu)
+    return caught.value.problems
+
+
+def test_what_a_step_does_not_name_is_held_under_its_last_control() -> None:
+    path = scene(
+        {"normal_force": 100.0},
+        {"tangential_force": (5.0, 0.0), "increments": 3},
+        {"normal_force": 200.0},
+        {"approach": 1e-6},
+        {"tangential_shift": (1e-6, -1e-6)},
+        {"approach": 2e-6, "tangential_shift": (0.0, 0.0)},
+        {"normal_force": 50.0},
+    ).load_path()
+    assert [ramp.step for ramp in path] == [1, 2, 3, 4, 5, 6, 7]
+    assert [ramp.increments for ramp in path] == [None, 3, None, None, None, None, None]
+    assert [ramp.normal for ramp in path] == [
+        NormalControl(FORCE, 0.0, 100.0),
+        NormalControl(FORCE, 100.0, 100.0),
+        NormalControl(FORCE, 100.0, 200.0),
+        NormalControl(DISPLACEMENT, None, 1e-6),  # the approach so far: known once solved
+        NormalControl(DISPLACEMENT, 1e-6, 1e-6),
+        NormalControl(DISPLACEMENT, 1e-6, 2e-6),
+        NormalControl(FORCE, None, 50.0),
+    ]
+    held = TangentialControl(FORCE, (5.0, 0.0), (5.0, 0.0))
+    assert [ramp.tangential for ramp in path] == [
+        TangentialControl(FORCE, (0.0, 0.0), (0.0, 0.0)),
+        TangentialControl(FORCE, (0.0, 0.0), (5.0, 0.0)),
+        held,
+        held,
+        TangentialControl(DISPLACEMENT, None, (1e-6, -1e-6)),
+        TangentialControl(DISPLACEMENT, (1e-6, -1e-6), (0.0, 0.0)),
+        TangentialControl(DISPLACEMENT, (0.0, 0.0), (0.0, 0.0)),
+    ]
+
+
+def test_the_first_step_ramps_everything_it_names_from_first_touch() -> None:
+    (ramp,) = scene({"approach": 1e-6, "tangential_shift": (1e-7, 0.0)}).load_path()
+    assert ramp.normal == NormalControl(DISPLACEMENT, 0.0, 1e-6)
+    assert ramp.tangential == TangentialControl(DISPLACEMENT, (0.0, 0.0), (1e-7, 0.0))
+
+
+def test_gross_sliding_is_refused_with_the_limit_and_a_way_out() -> None:
+    (problem,) = problems({"normal_force": 1000.0}, {"tangential_force": (0.0, -120.0)})
+    assert str(problem) == (
+        "loading[2].tangential_force: tangential force 120 N exceeds the friction limit 100 N "
+        "(= 0.1 * 1000 N): gross sliding; prescribe tangential_shift instead"
+    )
+
+
+@pytest.mark.parametrize(
+    ("steps", "key"),
+    [
+        ([{"normal_force": 1e3, "tangential_force": (101.0, 0)}], "loading[1].tangential_force"),
+        ([{"normal_force": 1e3}, {"tangential_force": (80, 61)}], "loading[2].tangential_force"),
+        (
+            [{"normal_force": 1e3}, {"tangential_force": (90, 0)}, {"normal_force": 800}],
+            "loading[3].normal_force",
+        ),
+        (
+            [{"approach": 1e-6}, {"tangential_force": (500, 0)}, {"normal_force": 1e3}],
+            "loading[3].normal_force",
+        ),
+    ],
+)
+def test_whatever_makes_the_force_exceed_the_limit_is_named(
+    steps: list[dict[str, Any]], key: str
+) -> None:
+    assert [problem.key for problem in problems(*steps)] == [key]
+
+
+@pytest.mark.parametrize(
+    "steps",
+    [
+        [{"normal_force": 1e3}, {"tangential_force": (80, 60)}],
+        [{"normal_force": 1e3}, {"tangential_force": (100 * (1 + 1e-13), 0)}],
+        [{"normal_force": 1e3}, {"tangential_shift": (1.0, 0)}, {"tangential_shift": (2.0, 0)}],
+        [{"normal_force": 1e3}, {"tangential_force": (99.99, 0)}, {"tangential_force": (0, 0)}],
+        [{"approach": 1e-6}, {"tangential_force": (1e6, 0)}],  # its normal force comes out later
+        [{"normal_force": 1e3, "tangential_force": (90, 0)}, {"normal_force": 2e3}],
+    ],
+)
+def test_loads_up_to_the_limit_and_shifts_of_any_size_are_allowed(
+    steps: list[dict[str, Any]],
+) -> None:
+    scene(*steps)
+
+
+@pytest.mark.parametrize("force", [100.0, 100.0 * (1 - 1e-7)])
+def test_no_step_leaves_from_the_friction_limit(force: float) -> None:
+    (problem,) = problems(
+        {"normal_force": 1e3}, {"tangential_force": (force, 0)}, {"normal_force": 2e3}
+    )
+    assert problem.key == "loading[2].tangential_force"
+    assert "further step" in problem.message
+
+
+def test_without_friction_coefficient_zero_nothing_can_be_sheared() -> None:
+    scene({"normal_force": 1.0}, {"tangential_force": (0.0, 0.0)}, {"normal_force": 2.0}, mu=0.0)
+    assert "gross sliding" in str(
+        problems({"normal_force": 1.0}, {"tangential_force": (1e-9, 0.0)}, mu=0.0)[0]
+    )
+
+
+def test_a_frictionless_contact_takes_no_tangential_load() -> None:
+    found = problems(
+        {"normal_force": 1.0},
+        {"tangential_force": (0.0, 0.0)},
+        {"tangential_shift": (1e-6, 0.0)},
+        mu=None,
+    )
+    assert [p.key for p in found] == ["loading[2].tangential_force", "loading[3].tangential_shift"]
+    assert all("frictionless" in p.message for p in found)
+
+
+def test_the_first_step_must_press() -> None:
+    (problem,) = problems({"tangential_force": (0.0, 0.0)}, {"normal_force": 1.0})
+    assert problem.key == "loading[1]"
+    assert "press" in problem.message

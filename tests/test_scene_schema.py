@@ -1,0 +1,74 @@
+"""The JSON Schema of scene files says what the reader does."""
+
+import tomllib
+from pathlib import Path
+from typing import Any
+
+import pytest
+from hypothesis import given
+from jsonschema import Draft202012Validator
+from strategies import Document, documents
+
+from contact_scene import scene_schema
+from contact_scene.geometry import SHAPES
+
+SCENES = Path(__file__).resolve().parents[1] / "scenes"
+VALIDATOR = Draft202012Validator(scene_schema())
+
+
+def objects(schema: Any) -> list[Any]:
+    entries = schema.values() if isinstance(schema, dict) else schema
+    nested = [o for e in entries if isinstance(e, dict | list) for o in objects(e)]
+    return nested + ([schema] if isinstance(schema, dict) and "properties" in schema else [])
+
+
+def test_it_is_a_schema() -> None:
+    Draft202012Validator.check_schema(scene_schema())
+
+
+@given(documents())
+def test_it_admits_every_valid_scene(document: Document) -> None:
+    VALIDATOR.validate(document)
+
+
+@pytest.mark.parametrize("path", sorted(SCENES.glob("*.toml")), ids=lambda path: path.stem)
+def test_it_admits_every_scene_shipped(path: Path) -> None:
+    VALIDATOR.validate(tomllib.loads(path.read_text()))
+
+
+@pytest.mark.parametrize(
+    ("key", "value"),
+    [
+        ("title", 3),
+        ("body", {}),
+        ("body", {"material": {"young_modulus": -1, "poisson_ratio": 0.3}}),
+        ("body", {"material": {"young_modulus": 1, "poisson_ratio": 0.5001}}),
+        ("body", {"material": "rigd"}),
+        ("indenter", {"shape": "cone", "material": "rigid", "slope_angle": 2}),
+        ("indenter", {"material": "rigid", "slope_angle": 0.2}),
+        ("indenter", {"shape": "sphere", "material": "rigid", "radius": "mm"}),
+        ("indenter", {"shape": "sphere", "material": "rigid", "radius": 1, "x": 1}),
+        ("loading", []),
+        ("loading", [{"normal_force": 1, "increments": 0}]),
+        ("loading", [{"normal_force": 1, "tangential_force": [1]}]),
+        ("semi_analytical", {"cells": [256, 4]}),
+        ("semi_analytical", {"tolerance": 1}),
+        ("friction", {"coefficient": -1}),
+        ("extra", 1),
+    ],
+)
+def test_it_refuses_what_the_reader_refuses(key: str, value: Any) -> None:
+    document = tomllib.loads((SCENES / "hertz.toml").read_text())
+    assert VALIDATOR.is_valid(document)
+    assert not VALIDATOR.is_valid(document | {key: value})
+
+
+def test_every_key_is_described() -> None:
+    for table in objects(scene_schema()):
+        for key, entry in table["properties"].items():
+            assert key == "shape" or entry.get("description"), key
+
+
+def test_every_shape_must_be_named() -> None:
+    for shape in SHAPES.values():
+        assert "shape" in scene_schema()["$defs"][shape.__name__]["required"]

@@ -1,0 +1,128 @@
+"""The summary of a run: all keys, in SI, the same bytes for the same results."""
+
+import json
+import math
+from typing import Any
+
+import pytest
+from jsonschema import Draft202012Validator
+from pydantic import ValidationError
+
+from contact_scene.summary import (
+    ContactStatus,
+    EffectSummary,
+    Residuals,
+    RunSummary,
+    StepSummary,
+    dump_summary,
+    load_summary,
+    summary_schema,
+)
+
+# The names that scene files' users rely on; they change with the version of the record only.
+STEP_KEYS = [
+    *("normal_force", "approach", "contact_area", "contact_radius", "peak_pressure"),
+    *("tangential_force", "tangential_shift", "stick_area", "stick_radius", "dissipated_energy"),
+    *("residuals", "iterations", "convolutions", "factorizations", "status"),
+]
+RESIDUAL_KEYS = [
+    *("complementarity", "penetration", "normal_equilibrium"),
+    *("friction_cone", "slip_direction", "tangential_equilibrium"),
+]
+
+
+def step(**changes: Any) -> StepSummary:
+    values: dict[str, Any] = {
+        "normal_force": 1000.0,
+        "approach": 2.6e-6,
+        "contact_area": 1e-7,
+        "contact_radius": math.sqrt(1e-7 / math.pi),
+        "peak_pressure": 4e9,
+        "residuals": Residuals(complementarity=1e-9, penetration=0.0, normal_equilibrium=1e-16),
+        "iterations": 20,
+        "convolutions": 25,
+        "status": ContactStatus.FRICTIONLESS,
+    }
+    return StepSummary(**(values | changes))
+
+
+def run(*steps: StepSummary) -> RunSummary:
+    return RunSummary(
+        title="Füße",
+        solver="semi_analytical",
+        tolerance=1e-8,
+        cells=(128, 64),
+        window=(1e-3, 5e-4),
+        effects=(EffectSummary(name="friction", on=False, why="the scene has no [friction]"),),
+        steps=steps or (step(),),
+    )
+
+
+FRETTING = step(
+    tangential_force=(90.0, 0.0),
+    tangential_shift=(1e-6, 0.0),
+    stick_area=0.0,
+    stick_radius=0.0,
+    dissipated_energy=1e-6,
+    status=ContactStatus.PARTIAL_SLIP,
+)
+
+
+def test_all_keys_are_always_there_and_null_where_off() -> None:
+    (record,) = json.loads(dump_summary(run()))["steps"]
+    assert list(record) == STEP_KEYS
+    assert list(record["residuals"]) == RESIDUAL_KEYS
+    off = [*STEP_KEYS[5:10], "friction_cone", "slip_direction", "tangential_equilibrium"]
+    assert [(record | record["residuals"])[key] for key in off] == [None] * 8
+    assert record["status"] == "frictionless"
+
+
+def test_the_same_results_give_the_same_bytes() -> None:
+    text = dump_summary(run(step(), FRETTING))
+    assert text == dump_summary(run(step(), FRETTING))
+    assert text.endswith("\n}\n")
+    assert '"title": "Füße"' in text
+
+
+def test_a_summary_survives_its_file() -> None:
+    summary = run(step(), FRETTING)
+    assert load_summary(dump_summary(summary)) == summary
+
+
+@pytest.mark.parametrize("bad", [math.nan, math.inf, "x", None])
+def test_nothing_but_finite_numbers_gets_into_a_summary(bad: Any) -> None:
+    with pytest.raises(ValidationError):
+        step(approach=bad)
+    with pytest.raises(ValidationError):
+        step(tangential_force=(0.0, bad))
+    with pytest.raises(ValidationError):
+        Residuals(complementarity=bad, penetration=0.0, normal_equilibrium=0.0)
+
+
+def test_no_summary_is_written_with_a_number_that_is_not_finite() -> None:
+    unchecked = run().model_copy(update={"tolerance": math.nan})
+    with pytest.raises(ValueError, match="JSON compliant"):
+        dump_summary(unchecked)
+
+
+def test_the_schema_admits_summaries_and_nothing_less() -> None:
+    validator = Draft202012Validator(summary_schema())
+    record = json.loads(dump_summary(run(step(), FRETTING)))
+    validator.validate(record)
+    for key in STEP_KEYS:
+        less = json.loads(dump_summary(run()))
+        del less["steps"][0][key]
+        assert not validator.is_valid(less), key
+    assert not validator.is_valid(record | {"extra": 1})
+
+
+def test_every_quantity_in_the_schema_has_a_description_and_a_unit() -> None:
+    definitions = summary_schema()["$defs"]
+    units = {"normal_force": "N", "approach": "m", "contact_area": "m^2", "peak_pressure": "Pa"}
+    units |= {"dissipated_energy": "J", "tangential_force": "N", "tangential_shift": "m"}
+    for key, unit in units.items():
+        entry = definitions["StepSummary"]["properties"][key]
+        assert f'"unit": "{unit}"' in json.dumps(entry)
+    for table in [*definitions.values(), summary_schema()]:
+        for key, entry in table.get("properties", {}).items():
+            assert entry.get("description") or "$ref" in entry, key

@@ -1,0 +1,170 @@
+"""A case: scenes on grids, the quantities measured on them, and the references that judge these."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from enum import IntEnum, StrEnum
+from typing import TYPE_CHECKING
+
+from contact_scene import Scene
+from semi_analytical.grid import SurfaceGrid
+
+if TYPE_CHECKING:
+    from semi_analytical import Result
+    from verification.cases.chart import Chart
+
+SOLVER_TOLERANCE = 1e-8
+ROUNDING = 1e-12  # relative uncertainty of a closed form in double precision
+
+
+class Level(IntEnum):
+    """How much is computed: quick at every push, standard before a merge, full at night."""
+
+    QUICK = 0
+    STANDARD = 1
+    FULL = 2
+
+
+class ReferenceKind(StrEnum):
+    """Where a reference comes from."""
+
+    CLOSED_FORM = "closed form"
+    SEMI_CLOSED = "semi-closed"
+    IDENTITY = "identity"  # holds exactly by a theorem or by the equations themselves
+
+
+@dataclass(frozen=True)
+class Run:
+    """One solve: a scene on a grid to a tolerance. The label names it within its case."""
+
+    label: str
+    scene: Scene
+    grid: SurfaceGrid
+    tolerance: float = SOLVER_TOLERANCE
+
+
+@dataclass(frozen=True)
+class Reference:
+    """A number somebody else vouches for.
+
+    uncertainty  standard uncertainty u_ref, in the unit of the value
+    """
+
+    value: float
+    kind: ReferenceKind
+    source: str
+    uncertainty: float = 0.0
+
+
+@dataclass(frozen=True)
+class Required:
+    """A tolerance that was asked for, or is set by hand; relative to the quantity's scale."""
+
+    allowed: float
+    because: str
+
+
+@dataclass(frozen=True)
+class Derived:
+    """2 √(u_num² + u_ref²), with u_num from refinement; relative to the quantity's scale.
+
+    levels   labels of the runs, coarse to fine
+    order    expected order of the value's convergence
+    cap      no tolerance is wider than this, however poor the solver
+    because  where order and cap come from
+    """
+
+    levels: tuple[str, ...]
+    order: float
+    cap: float
+    because: str
+
+
+@dataclass(frozen=True)
+class Quantity:
+    """A number measured on one run and judged against a reference.
+
+    scale       what an error is divided by; None: the reference's absolute value
+    scale_name  what the error is relative to, in words
+    """
+
+    name: str
+    meaning: str
+    unit: str
+    run: str
+    measure: Callable[[Result], float]
+    reference: Reference
+    tolerance: Required | Derived
+    scale: float | None = None
+    scale_name: str = "the reference"
+
+
+@dataclass(frozen=True)
+class OrderOfConvergence:
+    """The rate at which an error falls with the cell side, against the rate theory expects.
+
+    error     error on one run, > 0
+    expected  order p of h^p
+    because   why this order
+    """
+
+    name: str
+    meaning: str
+    levels: tuple[str, ...]
+    error: Callable[[Result], float]
+    expected: float
+    because: str
+
+
+@dataclass(frozen=True)
+class Finding:
+    """A number that is reported and not judged, with what it means."""
+
+    name: str
+    meaning: str
+    unit: str
+    run: str
+    measure: Callable[[Result], float]
+    remark: str
+
+
+@dataclass(frozen=True)
+class Case:
+    """A verification case.
+
+    name     for commands and files: letters, digits and underscores
+    problem  what is solved and why the answer is known, for a reader
+    charts   figures drawn from the results, by label of the run
+    limits   what this case does not show
+    """
+
+    name: str
+    title: str
+    problem: str
+    runs: tuple[Run, ...]
+    quantities: tuple[Quantity, ...]
+    orders: tuple[OrderOfConvergence, ...] = ()
+    findings: tuple[Finding, ...] = ()
+    charts: Callable[[Mapping[str, Result]], tuple[Chart, ...]] | None = None
+    limits: tuple[str, ...] = ()
+
+    def run(self, label: str) -> Run:
+        """The run of this label; KeyError if there is none."""
+        return {run.label: run for run in self.runs}[label]
+
+
+def closed_form(value: float, source: str, scale: float | None = None) -> Reference:
+    """A closed form, uncertain by rounding of itself or of the scale it is compared on."""
+    uncertainty = ROUNDING * abs(value if scale is None else scale)
+    return Reference(value, ReferenceKind.CLOSED_FORM, source, uncertainty)
+
+
+def identity(value: float, source: str) -> Reference:
+    """A value that follows from the equations themselves."""
+    return Reference(value, ReferenceKind.IDENTITY, source)
+
+
+def exact_zero(source: str) -> Reference:
+    """The reference of an error norm: a closed form leaves no error."""
+    return Reference(0.0, ReferenceKind.CLOSED_FORM, source)

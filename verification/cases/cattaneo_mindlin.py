@@ -1,0 +1,159 @@
+"""Cattaneo-Mindlin: constant normal force, tangential force raised step by step, ν = 0."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from verification.cases import paper_scene as paper
+from verification.cases.case import (
+    Case,
+    Derived,
+    Level,
+    OrderOfConvergence,
+    Quantity,
+    Required,
+    Run,
+    closed_form,
+    exact_zero,
+)
+from verification.cases.chart import Chart
+from verification.cases.convergence_chart import convergence_chart
+from verification.cases.hertz_point import label
+from verification.cases.paper_scene import FRICTION, HERTZ, NU_ZERO
+from verification.cases.profile_chart import Profile, ProfileLabels, Section, profile_chart
+from verification.metrics import shear_error
+from verification.quantities import shear_of, shift_along_x
+
+if TYPE_CHECKING:
+    from semi_analytical import Result
+
+SOURCE = "Cattaneo 1938; Mindlin 1949"
+PARTS = (0.3, 0.6, 0.9, 0.99)  # of µW, one loading step each
+EXACT = {part: paper.partial_slip(NU_ZERO, part * paper.FRICTION_LIMIT) for part in PARTS}
+SLIDING_SHIFT = EXACT[PARTS[0]].sliding_shift
+SCENE = paper.frictional(
+    "Cattaneo-Mindlin, ν = 0",
+    paper.paraboloid(NU_ZERO),
+    NU_ZERO,
+    *(paper.tangential_step(part, increments=1) for part in PARTS),
+)
+
+
+def cattaneo_mindlin(level: Level = Level.QUICK) -> Case:
+    """The case, on finer grids at higher levels."""
+    cells = {
+        Level.QUICK: (48, 64, 96, 128),
+        Level.STANDARD: (48, 64, 96, 128, 192, 256),
+        Level.FULL: (48, 64, 96, 128, 192, 256, 384),
+    }[level]
+    return cattaneo_mindlin_on(cells)
+
+
+def cattaneo_mindlin_on(cells: tuple[int, ...]) -> Case:
+    """The case on square grids of these many cells per side."""
+    runs = tuple(Run(label(n), SCENE, paper.hertz_grid(n)) for n in cells)
+    levels = tuple(run.label for run in runs)
+    return Case(
+        name="cattaneo_mindlin",
+        title="Cattaneo-Mindlin partial slip",
+        problem=(
+            "The paper's contact with ν = 0 and the same E*, under 1 kN, sheared by 0.3, 0.6, 0.9 "
+            "and 0.99 of µW. Only for ν = 0 does the slip of the closed form oppose its traction "
+            "everywhere, so only there is it the exact answer to Coulomb's vector law."
+        ),
+        runs=runs,
+        quantities=tuple(
+            quantity for number, part in enumerate(PARTS, 2) for quantity in _at(number, part, levels)
+        ),
+        orders=(
+            OrderOfConvergence(
+                "order_of_shear", "Σ|q - q_exact| / Σµp at 0.9 µW", levels,
+                error_at(PARTS.index(0.9) + 2, 0.9), 1.5,
+                "square-root edges of stick zone and contact: an error of O(√h) on rings one cell "
+                "wide leaves O(h^3/2) in L1",
+            ),
+        ),
+        charts=_charts,
+    )  # fmt: skip
+
+
+def error_at(step: int, part: float) -> Callable[[Result], float]:
+    """Σ|q - q_exact| / Σµp at the end of a loading step."""
+
+    def error(result: Result) -> float:
+        end = result.steps[step - 1]
+        exact = EXACT[part].shear(np.hypot(*result.grid.coordinates()))
+        return shear_error(shear_of(end), exact, FRICTION * end.pressure)
+
+    return error
+
+
+def _at(step: int, part: float, levels: tuple[str, ...]) -> tuple[Quantity, ...]:
+    exact, finest = EXACT[part], levels[-1]
+
+    def stick_radius(result: Result) -> float:
+        return float(result.steps[step - 1].stick_radius or 0.0)
+
+    def shift(result: Result) -> float:
+        return shift_along_x(result.steps[step - 1])
+
+    return (
+        Quantity(
+            f"shear_at_{part:g}", f"Σ|q - q_exact| / Σµp at {part:g} µW", "", finest,
+            error_at(step, part), exact_zero(SOURCE),
+            Required(2e-3, "required of the fretting loop at 128 x 128, which passes through here"),
+            1.0, "Σµp",
+        ),
+        Quantity(
+            f"stick_radius_at_{part:g}", f"√(stick area / π) at {part:g} µW, in part cells", "m",
+            finest, stick_radius, closed_form(exact.stick_radius, SOURCE, HERTZ.contact_radius),
+            Derived(levels, 1.0, 5e-3, "order 1: the border is known to a part of a cell; the cap "
+                    "is a fifth of a cell at 128 x 128 over the contact radius"),
+            HERTZ.contact_radius, "the contact radius",
+        ),
+        Quantity(
+            f"shift_at_{part:g}", f"tangential shift at {part:g} µW", "m", finest, shift,
+            closed_form(exact.shift, SOURCE, SLIDING_SHIFT),
+            Required(1e-4, "required of the fretting loop, which passes through here"),
+            SLIDING_SHIFT, "the shift at gross sliding",
+        ),
+    )  # fmt: skip
+
+
+def _charts(results: Mapping[str, Result]) -> tuple[Chart, ...]:
+    runs = list(results.values())
+    finest = runs[-1]
+    section = Section(finest.grid, HERTZ.contact_radius)
+    scale = FRICTION * HERTZ.peak_pressure
+    profiles = [
+        Profile(
+            f"{part:g} µW",
+            section.of(shear_of(finest.steps[number])[0]) / scale,
+            EXACT[part].shear(section.r) / scale,
+        )
+        for number, part in enumerate(PARTS, 1)
+    ]
+    labels = ProfileLabels(
+        "cattaneo_profiles",
+        "Shear next to y = 0",
+        f"Computed shear on {finest.grid.cells[0]} x {finest.grid.cells[1]} cells at four "
+        "tangential forces over the closed form, and their difference: it sits at the border of "
+        "the stick zone and at the edge of the contact.",
+        "qₓ / µp₀",
+    )
+    convergence = convergence_chart(
+        "cattaneo_convergence",
+        "Convergence of the shear",
+        "Σ|q - q_exact| / Σµp against cell side for four tangential forces, with a line of the "
+        "expected slope 3/2.",
+        [run.grid.spacing[0] / HERTZ.contact_radius for run in runs],
+        {
+            f"{part:g} µW": [error_at(step, part)(run) for run in runs]
+            for step, part in enumerate(PARTS, 2)
+        },
+        {"0.9 µW": 1.5},
+    )
+    return (profile_chart(labels, section, profiles), convergence)

@@ -1,0 +1,67 @@
+"""The data of a figure, apart from how it is drawn: enough to draw it again from a file."""
+
+from collections.abc import Iterable
+from enum import StrEnum
+
+from contact_scene.description import Description
+
+DIGITS = 6  # of a plotted number: far finer than a pixel, and equal on every machine
+
+
+class Look(StrEnum):
+    """What a curve stands for; the drawing decides what that looks like."""
+
+    COMPUTED = "computed"
+    POINTS = "points"
+    REFERENCE = "reference"
+    BOUND = "bound"
+    SLOPE = "slope"
+
+
+class Curve(Description):
+    """Points joined by a line. `series` chooses the colour; curves of one series belong together."""
+
+    label: str
+    x: tuple[float, ...]
+    y: tuple[float, ...]
+    look: Look = Look.COMPUTED
+    series: int = 0
+
+
+class Panel(Description):
+    """One pair of axes."""
+
+    x_label: str
+    y_label: str
+    curves: tuple[Curve, ...]
+    title: str = ""
+    logarithmic: bool = False
+    height: float = 1.0
+    notes: tuple[tuple[float, float, str], ...] = ()
+    """Short texts at (x, y)."""
+
+
+class Chart(Description):
+    """Rows of panels; panels above each other share their x axis."""
+
+    name: str
+    title: str
+    caption: str
+    """What is seen, in words: also read out to those who do not see it."""
+
+    rows: tuple[tuple[Panel, ...], ...]
+
+
+def curve(
+    label: str,
+    x: Iterable[float],
+    y: Iterable[float],
+    look: Look = Look.COMPUTED,
+    series: int = 0,
+) -> Curve:
+    """A curve of rounded numbers."""
+    return Curve(label=label, x=_rounded(x), y=_rounded(y), look=look, series=series)
+
+
+def _rounded(values: Iterable[float]) -> tuple[float, ...]:
+    return tuple(float(f"{value:.{DIGITS}g}") for value in values)

@@ -1,0 +1,46 @@
+"""The numbers that cases read off the end of a run."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from verification.quantities import force_along_x, shift_along_x
+
+if TYPE_CHECKING:
+    from semi_analytical import Result
+
+
+def normal_force(result: Result) -> float:
+    """Normal force [force]."""
+    return float(result.steps[-1].normal_force)
+
+
+def approach(result: Result) -> float:
+    """Approach since first touch [length]."""
+    return float(result.steps[-1].approach)
+
+
+def peak_pressure(result: Result) -> float:
+    """Largest pressure of any cell [force/length²]."""
+    return float(result.steps[-1].peak_pressure)
+
+
+def contact_radius(result: Result) -> float:
+    """√(contact area / π) [length]."""
+    return float(result.steps[-1].contact_radius)
+
+
+def stick_radius(result: Result) -> float:
+    """√(stick area / π) [length]; NaN without friction."""
+    radius = result.steps[-1].stick_radius
+    return float("nan") if radius is None else float(radius)
+
+
+def shift(result: Result) -> float:
+    """Tangential shift along x [length]."""
+    return shift_along_x(result.steps[-1])
+
+
+def tangential_force(result: Result) -> float:
+    """Tangential force along x [force]."""
+    return force_along_x(result.steps[-1])

@@ -1,0 +1,175 @@
+"""Hertz point contact of the paper's ball, as a paraboloid."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import TYPE_CHECKING
+
+from contact_scene import LoadStep
+from verification.cases import paper_scene as paper
+from verification.cases.case import (
+    Case,
+    Derived,
+    Level,
+    OrderOfConvergence,
+    Quantity,
+    Required,
+    Run,
+    closed_form,
+)
+from verification.cases.chart import Chart
+from verification.cases.convergence_chart import convergence_chart
+from verification.cases.end_state import approach, contact_radius, peak_pressure
+from verification.cases.paper_scene import HERTZ
+from verification.cases.profile_chart import Profile, ProfileLabels, Section, profile_chart
+from verification.metrics import relative_l2
+
+if TYPE_CHECKING:
+    from semi_analytical import Result
+
+SOURCE = "Hertz 1882; Johnson 1985, ch. 4"
+ASKED = "required of this scene by the project's accuracy targets"
+SCENE = paper.frictionless(
+    "Ball on a half-space (paper's data, paraboloid)",
+    paper.paraboloid(paper.STEEL),
+    paper.STEEL,
+    LoadStep(normal_force=paper.NORMAL_FORCE),
+)
+
+
+def hertz_point(level: Level = Level.QUICK) -> Case:
+    """The case, on finer grids at higher levels."""
+    cells = {
+        Level.QUICK: (64, 96, 128, 192, 256),
+        Level.STANDARD: (64, 96, 128, 192, 256, 384),
+        Level.FULL: (64, 96, 128, 192, 256, 384, 512),
+    }[level]
+    return hertz_on(cells)
+
+
+def hertz_on(cells: tuple[int, ...]) -> Case:
+    """The case on square grids of these many cells per side; required figures at 128 and 256."""
+    runs = tuple(Run(label(n), SCENE, paper.hertz_grid(n)) for n in cells)
+    levels = tuple(run.label for run in runs)
+    return Case(
+        name="hertz_point",
+        title="Hertz point contact",
+        problem=(
+            "The paper's ball (R = 18 mm, 420 GPa, ν = 0.3) on a half-space of the same material "
+            "under 1 kN, without friction, on a window of three contact radii. As a paraboloid it "
+            "is Hertz's problem exactly."
+        ),
+        runs=runs,
+        quantities=(
+            *(_peak_pressure(n, allowed) for n, allowed in ((128, 1.5e-4), (256, 4e-5)) if n in cells),
+            *(_approach(n) for n in (128, 256) if n in cells),
+            Quantity(
+                "approach", "approach of the bodies since first touch", "m", levels[-1], approach,
+                closed_form(HERTZ.approach, SOURCE),
+                Derived(levels, 2.0, 5e-5, "order 2: the pressure's error has zero mean; the cap "
+                        "is the figure required of the coarser grids"),
+            ),
+            Quantity(
+                "contact_radius", "√(contact area / π), cells at the edge counted in part", "m",
+                levels[-1], contact_radius, closed_form(HERTZ.contact_radius, SOURCE),
+                Derived(levels, 1.0, 1e-3, "order 1: the edge is known to a part of a cell; the "
+                        "cap is that part, a tenth, of a cell at 128 x 128"),
+            ),
+        ),
+        orders=(
+            OrderOfConvergence(
+                "order_of_pressure", "pressure over the window, L2", levels, pressure_error, 1.0,
+                "at the edge the pressure rises as a square root: an error of O(√h) on a ring one "
+                "cell wide leaves O(h) in L2",
+            ),
+            OrderOfConvergence(
+                "order_of_approach", "approach", levels, approach_error, 2.0,
+                "a weighted mean of the displacement: the errors at the edge alternate and cancel",
+            ),
+            OrderOfConvergence(
+                "order_of_peak_pressure", "largest pressure of any cell", levels, peak_error, 2.0,
+                "even counts of cells put the centre h/√2 from the next cell centre, where the "
+                "exact pressure is lower by p0 h²/4a²",
+            ),
+        ),
+        charts=_charts,
+        limits=(
+            "Pointwise errors at the edge fall as O(√h) only and are not judged.",
+        ),
+    )  # fmt: skip
+
+
+def label(cells: int) -> str:
+    """Label of a run on a square grid."""
+    return f"{cells}x{cells}"
+
+
+def pressure_error(result: Result) -> float:
+    """Relative L2 error of the pressure."""
+    x, y = result.grid.coordinates()
+    r = (x**2 + y**2) ** 0.5
+    return relative_l2(result.steps[-1].pressure, HERTZ.pressure(r))
+
+
+def approach_error(result: Result) -> float:
+    """Relative error of the approach."""
+    return abs(approach(result) / HERTZ.approach - 1)
+
+
+def peak_error(result: Result) -> float:
+    """Relative error of the peak pressure."""
+    return abs(peak_pressure(result) / HERTZ.peak_pressure - 1)
+
+
+def radius_error(result: Result) -> float:
+    """Relative error of the contact radius."""
+    return abs(contact_radius(result) / HERTZ.contact_radius - 1)
+
+
+def _peak_pressure(cells: int, allowed: float) -> Quantity:
+    return Quantity(
+        "peak_pressure", "largest pressure of any cell", "Pa", label(cells), peak_pressure,
+        closed_form(HERTZ.peak_pressure, SOURCE), Required(allowed, ASKED),
+    )  # fmt: skip
+
+
+def _approach(cells: int) -> Quantity:
+    return Quantity(
+        "approach", "approach of the bodies since first touch", "m", label(cells), approach,
+        closed_form(HERTZ.approach, SOURCE), Required(5e-5, ASKED),
+    )  # fmt: skip
+
+
+def _charts(results: Mapping[str, Result]) -> tuple[Chart, ...]:
+    runs = list(results.values())
+    spacings = [run.grid.spacing[0] / HERTZ.contact_radius for run in runs]
+    errors = {
+        "pressure (L2)": [pressure_error(run) for run in runs],
+        "peak pressure": [peak_error(run) for run in runs],
+        "approach": [approach_error(run) for run in runs],
+        "contact radius": [radius_error(run) for run in runs],
+    }
+    convergence = convergence_chart(
+        "hertz_convergence",
+        "Convergence of the Hertz contact",
+        "Relative errors against cell side. The pressure falls with the first power of h because "
+        "of the square-root edge; approach and peak pressure fall with the second.",
+        spacings,
+        errors,
+        {"pressure (L2)": 1.0, "approach": 2.0},
+    )
+    finest = runs[-1]
+    section = Section(finest.grid, HERTZ.contact_radius)
+    profile = Profile(
+        "computed",
+        section.of(finest.steps[-1].pressure) / HERTZ.peak_pressure,
+        HERTZ.pressure(section.r) / HERTZ.peak_pressure,
+    )
+    labels = ProfileLabels(
+        "hertz_profile",
+        "Pressure next to y = 0",
+        f"Computed pressure on {finest.grid.cells[0]} x {finest.grid.cells[1]} cells over Hertz's, "
+        "and their difference: it is confined to the cells at the edge of the contact.",
+        "p / p₀",
+    )
+    return (profile_chart(labels, section, [profile]), convergence)

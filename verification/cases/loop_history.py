@@ -1,0 +1,98 @@
+"""The fretting loop of the paper's figure 1, and its closed form at every increment."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from contact_scene import IsotropicMaterial
+from contact_scene.loading import LoadStep
+from verification.cases import paper_scene as paper
+from verification.cases.paper_scene import FRICTION, HERTZ
+from verification.closed_forms.tangential_history import TangentialHistory
+from verification.metrics import shear_error
+from verification.quantities import energy_between, force_along_x, shear_of, shift_along_x
+
+if TYPE_CHECKING:
+    from semi_analytical import Increment, Result
+
+AMPLITUDE = 0.9  # of µW
+LOADED, UNLOADED, RELOADED = 2, 3, 4  # loading steps that end at T*, -T*, T*
+PRESSED = 1
+
+
+def loop_steps(quarter: int) -> tuple[LoadStep, ...]:
+    """T from 0 to T*, to -T* and back, in `quarter` increments per T*."""
+    return (
+        paper.tangential_step(AMPLITUDE, quarter),
+        paper.tangential_step(-AMPLITUDE, 2 * quarter),
+        paper.tangential_step(AMPLITUDE, 2 * quarter),
+    )
+
+
+@dataclass(frozen=True)
+class ExactLoop:
+    """Mindlin and Deresiewicz's loop for two identical bodies of a material."""
+
+    material: IsotropicMaterial
+
+    @cached_property
+    def virgin(self) -> TangentialHistory:
+        """The contact before any tangential force."""
+        return TangentialHistory(paper.partial_slip(self.material, 0.0))
+
+    @property
+    def sliding_shift(self) -> float:
+        """Shift at which the whole contact slides [length]."""
+        return self.virgin.virgin.sliding_shift
+
+    @property
+    def end(self) -> TangentialHistory:
+        """State at the end of the first loading."""
+        return self.virgin.loaded_to(AMPLITUDE * paper.FRICTION_LIMIT)
+
+    @property
+    def energy_per_cycle(self) -> float:
+        """Area of the closed loop [force*length]: four times what the first loading takes."""
+        return 4 * self.end.dissipated_energy
+
+    def along(self, result: Result) -> Iterator[tuple[Increment, TangentialHistory]]:
+        """Every increment with tangential force, and the closed form under the same force."""
+        state = self.virgin
+        for increment in result.increments:
+            if increment.step > PRESSED:
+                state = state.loaded_to(force_along_x(increment))
+                yield increment, state
+
+    def largest_shear_error(self, result: Result) -> float:
+        """Largest Σ|q - q_exact| / Σµp of any increment [1]."""
+        r = np.hypot(*result.grid.coordinates())
+        return float(np.max([
+            shear_error(shear_of(i), exact.shear(r), FRICTION * i.pressure)
+            for i, exact in self.along(result)
+        ]))  # fmt: skip
+
+    def largest_shift_error(self, result: Result) -> float:
+        """Largest difference of the shift from the closed form over any increment [length]."""
+        return float(np.max([abs(shift_along_x(i) - e.shift) for i, e in self.along(result)]))
+
+    def largest_stick_radius_error(self, result: Result) -> float:
+        """Largest difference of the stick radius from the closed form [length].
+
+        Left out where less than a tenth of the contact radius slips: a ring thinner than a few
+        cells has no border to speak of.
+        """
+        a = HERTZ.contact_radius
+        return float(np.max([
+            abs((i.stick_radius or 0.0) - e.stick_radius)
+            for i, e in self.along(result) if e.stick_radius < 0.9 * a
+        ]))  # fmt: skip
+
+
+def loop_energy(result: Result) -> float:
+    """Energy dissipated from T* to -T* and back [force*length]."""
+    return energy_between(result, LOADED, RELOADED)

@@ -1,0 +1,89 @@
+"""The paper's ball on a half-space: its data, the bodies that give it, and grids around it.
+
+The paper prints a contact radius of 0.388 mm and a peak pressure of 3.1684 GPa under 1 kN, which
+is the compliance of one body of E = 210 GPa, ν = 0.3. Two identical bodies of 420 GPa have it
+together and are uncoupled, as the closed form assumes; so have two bodies with ν = 0 and
+E = 2 E*, for which the closed form of the tangential problem is exact.
+"""
+
+import math
+
+from contact_scene import (
+    Body,
+    Cone,
+    CoulombFriction,
+    Ellipsoid,
+    FlatPunch,
+    IsotropicMaterial,
+    LoadStep,
+    Paraboloid,
+    Scene,
+    Sphere,
+)
+from semi_analytical.grid import SurfaceGrid
+from verification.closed_forms.cattaneo_mindlin import PartialSlip
+from verification.closed_forms.hertz import PointContact
+from verification.closed_forms.moduli import contact_modulus, tangential_modulus
+
+RADIUS = 18e-3
+NORMAL_FORCE = 1e3
+FRICTION = 0.1
+FRICTION_LIMIT = FRICTION * NORMAL_FORCE
+
+STEEL = IsotropicMaterial(young_modulus=420e9, poisson_ratio=0.3)
+CONTACT_MODULUS = contact_modulus((420e9, 0.3), (420e9, 0.3))
+NU_ZERO = IsotropicMaterial(young_modulus=2 * CONTACT_MODULUS, poisson_ratio=0.0)
+
+HERTZ = PointContact.under_load(NORMAL_FORCE, RADIUS, CONTACT_MODULUS)
+WINDOW_PER_RADIUS = 3.0
+
+Indenter = Sphere | Paraboloid | Ellipsoid | Cone | FlatPunch
+
+
+def square_grid(cells: int, half_width: float) -> SurfaceGrid:
+    """A square grid on a window that reaches `half_width` to every side of the origin."""
+    return SurfaceGrid((cells, cells), (2 * half_width, 2 * half_width))
+
+
+def hertz_grid(cells: int) -> SurfaceGrid:
+    """A square grid on a window of three Hertz radii."""
+    return square_grid(cells, WINDOW_PER_RADIUS / 2 * HERTZ.contact_radius)
+
+
+def paraboloid(material: IsotropicMaterial) -> Paraboloid:
+    """The ball as Hertz sees it."""
+    return Paraboloid(radius=RADIUS, material=material)
+
+
+def frictionless(title: str, indenter: Indenter, body: IsotropicMaterial, load: LoadStep) -> Scene:
+    """Indenter on a half-space, pressed once."""
+    return Scene(title=title, indenter=indenter, body=Body(material=body), loading=(load,))
+
+
+def frictional(title: str, indenter: Indenter, body: IsotropicMaterial, *loading: LoadStep) -> Scene:
+    """Indenter on a half-space with the paper's friction, pressed by its force and then `loading`.
+
+    Uncoupled bodies: the pressure does not depend on the way there, so one increment will do.
+    """
+    press = LoadStep(normal_force=NORMAL_FORCE, increments=1)
+    return Scene(
+        title=title,
+        indenter=indenter,
+        body=Body(material=body),
+        friction=CoulombFriction(coefficient=FRICTION),
+        loading=(press, *loading),
+    )
+
+
+def tangential_step(part_of_limit: float, increments: int) -> LoadStep:
+    """Tangential force along x up to a part of µW."""
+    force = part_of_limit * FRICTION_LIMIT
+    return LoadStep(tangential_force=(force, 0.0), increments=increments)
+
+
+def partial_slip(material: IsotropicMaterial, tangential_force: float) -> PartialSlip:
+    """Cattaneo-Mindlin for two identical bodies of this material."""
+    constants = (material.young_modulus, material.poisson_ratio)
+    modulus = tangential_modulus(constants, constants)
+    limited = math.copysign(min(abs(tangential_force), FRICTION_LIMIT), tangential_force)
+    return PartialSlip(NORMAL_FORCE, HERTZ.contact_radius, FRICTION, modulus, limited)

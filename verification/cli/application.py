@@ -1,0 +1,51 @@
+"""The application: its commands, its version, and the one place where failures end."""
+
+from collections.abc import Sequence
+from typing import Annotated
+
+import typer
+
+from verification.cli.errors import explain
+from verification.cli.lazy_commands import LazyCommands
+
+application = typer.Typer(
+    cls=LazyCommands,
+    no_args_is_help=True,
+    rich_markup_mode="markdown",
+    context_settings={"help_option_names": ["-h", "--help"]},
+)
+
+
+def _print_version(wanted: bool) -> None:
+    if wanted:
+        from verification.run_output.provenance import program_version
+
+        typer.echo(f"slipstick {program_version()}")
+        raise typer.Exit
+
+
+@application.callback()
+def slipstick(
+    version: Annotated[
+        bool,
+        typer.Option(
+            "--version", callback=_print_version, is_eager=True, help="Print the version and stop."
+        ),
+    ] = False,
+) -> None:
+    """Frictional contact of elastic, possibly coated bodies: slip, stick and their accuracy.
+
+    A scene file (TOML) says what is pressed on what; start with 'slipstick check SCENE'.
+    """
+
+
+def main(arguments: Sequence[str] | None = None) -> None:
+    """Run the command line and leave with the exit code that CONTRIBUTING lists.
+
+    arguments  without the program's name; None means those of this process
+    """
+    command = typer.main.get_command(application)
+    try:
+        command(args=arguments, prog_name="slipstick")
+    except Exception as error:
+        raise SystemExit(explain(error)) from None

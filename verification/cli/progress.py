@@ -1,0 +1,73 @@
+"""How far a solve is: a bar on a terminal, plain lines in a log."""
+
+import time
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
+
+from rich.console import Console
+from rich.progress import (
+    BarColumn,
+    MofNCompleteColumn,
+    Progress,
+    TextColumn,
+    TimeElapsedColumn,
+    TimeRemainingColumn,
+)
+
+from semi_analytical import Increment
+
+SECONDS_BETWEEN_LINES = 10.0
+
+Observer = Callable[[Increment], None]
+
+
+@contextmanager
+def solve_progress(increments: Sequence[int]) -> Iterator[Observer]:
+    """Give a function to call after every increment.
+
+    increments  how many of them every loading step has
+    """
+    console = Console(stderr=True, highlight=False, soft_wrap=True)
+    if not console.is_terminal:
+        yield _Log(console, len(increments))
+        return
+    columns = (
+        TextColumn("{task.description}, increment"),
+        MofNCompleteColumn(),
+        BarColumn(),
+        TextColumn("residual {task.fields[residual]}"),
+        TimeElapsedColumn(),
+        TextColumn("left"),
+        TimeRemainingColumn(),
+    )
+    with Progress(*columns, console=console, transient=True) as bar:
+        steps = len(increments)
+        task = bar.add_task(f"step 1/{steps}", total=sum(increments), residual="–")
+
+        def observe(increment: Increment) -> None:
+            step = f"step {increment.step}/{steps}"
+            residual = f"{increment.residuals.worst:.1e}"
+            bar.update(task, advance=1, description=step, residual=residual)
+
+        yield observe
+
+
+class _Log:
+    """One line at the end of every step, and in long steps one from time to time."""
+
+    def __init__(self, console: Console, steps: int) -> None:
+        self.console = console
+        self.steps = steps
+        self.started = self.last_line = time.monotonic()
+
+    def __call__(self, increment: Increment) -> None:
+        now = time.monotonic()
+        step_ends = increment.index == increment.increments_in_step
+        if not step_ends and now - self.last_line < SECONDS_BETWEEN_LINES:
+            return
+        self.last_line = now
+        self.console.print(
+            f"step {increment.step}/{self.steps}, "
+            f"increment {increment.index}/{increment.increments_in_step}, "
+            f"residual {increment.residuals.worst:.1e}, {now - self.started:.1f} s"
+        )

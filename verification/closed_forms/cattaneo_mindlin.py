@@ -1,0 +1,131 @@
+"""Cattaneo–Mindlin: Hertz point contact, constant load, tangential force raised from zero.
+
+Needs an uncoupled pair (identical bodies, both incompressible, or Dundurs' second constant zero).
+
+Caveat for Poisson's ratio other than zero: the shear keeps a constant displacement in the stick
+zone for every nu, but in the slip annulus it is parallel to the force while the slip it produces
+is not, so Coulomb's direction law is met only for nu = 0. With the full vector law, identical
+bodies and nu = 0.3, the transverse shear reaches 4.5 % of the peak µp, the slip traction turns by
+up to 7.5°, and stick vanishes between 0.987 and 0.9996 µW rather than at µW. Compare tightly with
+nu = 0, and with nu = 0.3 in a band of 1–5 %. `slip` is therefore given for nu = 0 only.
+"""
+
+from dataclasses import dataclass, replace
+from math import copysign, expm1, log1p, pi
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from verification.closed_forms.validity import require_positive, require_within_friction_limit
+
+
+@dataclass(frozen=True)
+class PartialSlip:
+    """State under a tangential force applied once, monotonically (Cattaneo 1938; Mindlin 1949).
+
+    load                  normal load W > 0 [force]
+    contact_radius        Hertz radius a > 0 [length]
+    friction_coefficient  µ > 0
+    tangential_modulus    G* with 1/G* = sum of (2-nu)/4G [force/length²]
+    tangential_force      T, |T| <= µW [force]; all results are odd in it or even in it
+
+    Raises ValueError when |T| > µW.
+    """
+
+    load: float
+    contact_radius: float
+    friction_coefficient: float
+    tangential_modulus: float
+    tangential_force: float
+
+    def __post_init__(self) -> None:
+        require_positive(
+            load=self.load,
+            contact_radius=self.contact_radius,
+            friction_coefficient=self.friction_coefficient,
+            tangential_modulus=self.tangential_modulus,
+        )
+        require_within_friction_limit(self.tangential_force, self.friction_coefficient, self.load)
+
+    @classmethod
+    def at_shift(
+        cls,
+        load: float,
+        contact_radius: float,
+        friction_coefficient: float,
+        tangential_modulus: float,
+        shift: float,
+    ) -> "PartialSlip":
+        """State under a prescribed shift from zero; ValueError beyond the sliding shift."""
+        free = cls(load, contact_radius, friction_coefficient, tangential_modulus, 0.0)
+        ratio = abs(shift) / free.sliding_shift
+        if not ratio <= 1:
+            raise ValueError(
+                f"shift {shift!r} exceeds the shift at gross sliding {free.sliding_shift!r}"
+            )
+        fraction = 1.0 if ratio == 1 else -expm1(1.5 * log1p(-ratio))
+        return replace(free, tangential_force=copysign(fraction * free.friction_limit, shift))
+
+    @property
+    def friction_limit(self) -> float:
+        """Largest tangential force µW [force]."""
+        return self.friction_coefficient * self.load
+
+    @property
+    def sliding_shift(self) -> float:
+        """Shift 3µW/4aG* at which the whole contact slides [length]."""
+        return 3 * self.friction_limit / (4 * self.contact_radius * self.tangential_modulus)
+
+    @property
+    def stick_radius(self) -> float:
+        """Radius c = a (1 - |T|/µW)^(1/3) of the stick zone [length]."""
+        return self.contact_radius * float(np.cbrt(1 - self._force_ratio))
+
+    @property
+    def shift(self) -> float:
+        """Tangential shift of the indenter, sliding_shift [1 - (1-|T|/µW)^(2/3)] [length]."""
+        ratio = self._force_ratio
+        fraction = 1.0 if ratio == 1 else -expm1(log1p(-ratio) * 2 / 3)
+        return copysign(self.sliding_shift * fraction, self.tangential_force)
+
+    @property
+    def stiffness(self) -> float:
+        """Tangent stiffness dT/d(shift) = 2G*c for further loading [force/length]."""
+        return 2 * self.tangential_modulus * self.stick_radius
+
+    @property
+    def dissipated_energy(self) -> float:
+        """Energy lost to friction since T = 0 [force*length], a quarter of a full cycle's.
+
+        (6/5) sliding_shift µW f with f = (1-y)³(1+3y+y²)/6, y = c/a: the bracket of Mindlin and
+        Deresiewicz (1953) for the cycle, factored so that it does not cancel for small T.
+        """
+        ratio = self._force_ratio
+        slipped = 1.0 if ratio == 1 else -expm1(log1p(-ratio) / 3)
+        y = 1 - slipped
+        return self.sliding_shift * self.friction_limit * slipped**3 * (1 + 3 * y + y**2) / 5
+
+    def shear(self, r: ArrayLike) -> NDArray[np.float64]:
+        """Shear traction on the lower body [force/length²], parallel to the force."""
+        a, c = self.contact_radius, self.stick_radius
+        rho = np.abs(np.asarray(r, dtype=float))
+        full = np.sqrt(np.maximum((a - rho) * (a + rho), 0))
+        taken_off = np.sqrt(np.maximum((c - rho) * (c + rho), 0))
+        slope = 3 * self.friction_limit / (2 * pi * a**3)
+        return np.asarray(copysign(slope, self.tangential_force) * (full - taken_off))
+
+    def slip(self, r: ArrayLike) -> NDArray[np.float64]:
+        """Slip of the lower surface relative to the indenter, for nu = 0 and r <= a [length].
+
+        It is the gap that the Hertz contact of radius c leaves at r, scaled from normal to
+        tangential displacement by µE*/G*, and opposes the shear (cf. Jäger 1998).
+        """
+        a, c = self.contact_radius, self.stick_radius
+        rho = np.clip(np.abs(np.asarray(r, dtype=float)), c, a)
+        root = np.sqrt((rho - c) * (rho + c))
+        reduced = (c * root + (rho**2 - 2 * c**2) * np.arctan2(root, c)) / (pi * a**2)
+        return np.asarray(-copysign(self.sliding_shift, self.tangential_force) * reduced)
+
+    @property
+    def _force_ratio(self) -> float:
+        return min(abs(self.tangential_force) / self.friction_limit, 1.0)

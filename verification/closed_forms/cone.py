@@ -1,0 +1,80 @@
+"""Rigid cone on a half-space.
+
+The flank is inclined by `slope_angle` to the surface, which must be small for linear elasticity.
+Valid for frictionless faces or pairs without normal–tangential coupling.
+"""
+
+from dataclasses import dataclass
+from math import pi, sqrt, tan
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from verification.closed_forms.validity import require_non_negative, require_positive
+
+
+@dataclass(frozen=True)
+class ConeContact:
+    """State of a cone contact (Love 1939; Sneddon 1965).
+
+    slope_angle      angle of the flank to the surface, 0 < angle < π/2 [radian]
+    contact_modulus  E* [force/length²]
+    contact_radius   a [length], zero at first touch
+    """
+
+    slope_angle: float
+    contact_modulus: float
+    contact_radius: float
+
+    def __post_init__(self) -> None:
+        _require_slope(self.slope_angle)
+        require_positive(contact_modulus=self.contact_modulus)
+        require_non_negative(contact_radius=self.contact_radius)
+
+    @classmethod
+    def under_load(cls, load: float, slope_angle: float, contact_modulus: float) -> "ConeContact":
+        """Contact under a normal load W >= 0 [force]: a² = 2W/(πE* tan(slope))."""
+        require_non_negative(load=load)
+        require_positive(contact_modulus=contact_modulus)
+        _require_slope(slope_angle)
+        a = sqrt(2 * load / (pi * contact_modulus * tan(slope_angle)))
+        return cls(slope_angle, contact_modulus, a)
+
+    @property
+    def load(self) -> float:
+        """Normal load W = (π/2) E* a² tan(slope) [force]."""
+        return pi / 2 * self.contact_modulus * self.contact_radius**2 * tan(self.slope_angle)
+
+    @property
+    def approach(self) -> float:
+        """Approach (π/2) a tan(slope) of distant points [length]."""
+        return pi / 2 * self.contact_radius * tan(self.slope_angle)
+
+    def pressure(self, r: ArrayLike) -> NDArray[np.float64]:
+        """Pressure (E*/2) tan(slope) arccosh(a/r) [force/length²]; infinite at the apex."""
+        a, rho = self.contact_radius, np.abs(np.asarray(r, dtype=float))
+        inside = rho < a
+        with np.errstate(divide="ignore"):
+            ratio = np.divide(a, rho, out=np.ones_like(rho), where=inside)
+        return np.asarray(self.contact_modulus / 2 * tan(self.slope_angle) * np.arccosh(ratio))
+
+    def surface_displacement(self, r: ArrayLike) -> NDArray[np.float64]:
+        """Normal displacement, both bodies added, inside and outside [length]."""
+        a, rho = self.contact_radius, np.abs(np.asarray(r, dtype=float))
+        outside = np.maximum(rho, a)
+        root = np.sqrt((outside - a) * (outside + a))
+        far = a * np.arctan2(a, root) - outside + root
+        inside = pi / 2 * a - rho
+        return np.asarray(tan(self.slope_angle) * np.where(rho < a, inside, far))
+
+    def gap(self, r: ArrayLike) -> NDArray[np.float64]:
+        """Deformed gap tan(slope) [√(r²-a²) - a arccos(a/r)] [length], zero inside."""
+        a, rho = self.contact_radius, np.abs(np.asarray(r, dtype=float))
+        outside = np.maximum(rho, a)
+        root = np.sqrt((outside - a) * (outside + a))
+        return np.asarray(tan(self.slope_angle) * (root - a * np.arctan2(root, a)))
+
+
+def _require_slope(slope_angle: float) -> None:
+    if not 0 < slope_angle < pi / 2:
+        raise ValueError(f"slope_angle is {slope_angle!r} rad, expected 0 < slope_angle < pi/2")

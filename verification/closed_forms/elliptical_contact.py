@@ -1,0 +1,141 @@
+"""Hertz contact with an elliptical contact area.
+
+The undeformed gap is x²/2Rx + y²/2Ry. Everything is written with Carlson's symmetric elliptic
+integrals, which have no 0/0 in the circular limit and do not care which axis is the longer.
+Valid for semi-axes much smaller than the radii and uncoupled pairs.
+"""
+
+from dataclasses import dataclass
+from math import pi
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+from scipy.optimize import brentq
+from scipy.special import elliprd, elliprf
+
+from verification.closed_forms.moduli import ElasticConstants, contact_modulus
+from verification.closed_forms.validity import require_non_negative, require_positive
+
+
+def axis_ratio(radius_x: float, radius_y: float) -> float:
+    """Ratio k = b/a of the semi-axes along y and x (Hertz 1882).
+
+    Solves Rx/Ry = R_D(1, 0, k²)/R_D(k², 0, 1), which is the classical
+    B/A = [(a/b)²E - K]/[K - E] after cancelling the common factor 1 - k².
+    """
+    require_positive(radius_x=radius_x, radius_y=radius_y)
+    if radius_x == radius_y:
+        return 1.0
+    target = np.log(radius_x / radius_y)
+
+    def mismatch(log_k: float) -> float:
+        square = np.exp(2 * log_k)
+        return float(np.log(elliprd(1, 0, square) / elliprd(square, 0, 1)) - target)
+
+    # k lies between 1 and Ry/Rx: the ellipse is less slender than the ratio of the radii
+    return float(np.exp(brentq(mismatch, -target, 0.0, xtol=1e-15, rtol=8.9e-16)))
+
+
+@dataclass(frozen=True)
+class EllipticalContact:
+    """State of an elliptical Hertz contact (Hertz 1882; Johnson 1985, ch. 4.2).
+
+    radii            principal radii of curvature (Rx, Ry) of the gap [length]
+    contact_modulus  E* [force/length²]
+    semi_axes        (a, b) along x and y [length]; build with `under_load`
+    axis_ratio       b/a, kept because semi_axes vanish at first touch
+    """
+
+    radii: tuple[float, float]
+    contact_modulus: float
+    semi_axes: tuple[float, float]
+    axis_ratio: float
+
+    @classmethod
+    def under_load(
+        cls, load: float, radii: tuple[float, float], contact_modulus: float
+    ) -> "EllipticalContact":
+        """Contact under a normal load W >= 0 [force]; raises ValueError outside the range."""
+        require_non_negative(load=load)
+        require_positive(contact_modulus=contact_modulus)
+        k = axis_ratio(*radii)
+        a = np.cbrt(load * radii[0] * elliprd(k**2, 0, 1) / (pi * contact_modulus))
+        return cls(radii, contact_modulus, (float(a), float(k * a)), k)
+
+    @property
+    def _pressure_slope(self) -> float:
+        # p0/a, independent of the load
+        k = self.axis_ratio
+        return float(3 * self.contact_modulus / (2 * self.radii[0] * k * elliprd(k**2, 0, 1)))
+
+    @property
+    def peak_pressure(self) -> float:
+        """Pressure at the centre, 3W/2πab [force/length²]."""
+        return self._pressure_slope * self.semi_axes[0]
+
+    @property
+    def load(self) -> float:
+        """Normal load W = 2πab p0/3 [force]."""
+        a, b = self.semi_axes
+        return 2 * pi / 3 * a * b * self.peak_pressure
+
+    @property
+    def approach(self) -> float:
+        """Approach of distant points, 3WK/2πE*a with K the complete integral [length]."""
+        b = self.semi_axes[1]
+        return float(self.peak_pressure * b * elliprf(1, self.axis_ratio**2, 0)) / (
+            self.contact_modulus
+        )
+
+    def pressure(self, x: ArrayLike, y: ArrayLike) -> NDArray[np.float64]:
+        """Pressure at (x, y) [force/length²], broadcast; zero outside the ellipse."""
+        xs, ys = np.asarray(x, dtype=float), np.asarray(y, dtype=float)
+        room = self.semi_axes[0] ** 2 - xs**2 - (ys / self.axis_ratio) ** 2
+        return np.asarray(self._pressure_slope * np.sqrt(np.maximum(room, 0)))
+
+    def surface_displacement(self, x: ArrayLike, y: ArrayLike) -> NDArray[np.float64]:
+        """Normal displacement, both bodies added, inside and outside [length].
+
+        Potential of the ellipsoidal density: the integrals start at the parameter of the confocal
+        ellipse through (x, y), which is zero inside. Needs a load above zero.
+        """
+        xs, ys = np.asarray(x, dtype=float), np.asarray(y, dtype=float)
+        a2, b2 = self.semi_axes[0] ** 2, self.semi_axes[1] ** 2
+        half = (xs**2 + ys**2 - a2 - b2) / 2
+        product = b2 * xs**2 + a2 * ys**2 - a2 * b2
+        root = np.sqrt(np.maximum(half**2 + product, 0))
+        # of the two forms of the quadratic's positive root, the one that does not cancel
+        near = np.divide(product, root - half, out=np.zeros_like(root), where=half < 0)
+        confocal = np.where(product > 0, np.where(half < 0, near, half + root), 0.0)
+        potential = (
+            elliprf(a2 + confocal, b2 + confocal, confocal)
+            - xs**2 * elliprd(b2 + confocal, confocal, a2 + confocal) / 3
+            - ys**2 * elliprd(a2 + confocal, confocal, b2 + confocal) / 3
+        )
+        scale = self._pressure_slope * a2 * self.semi_axes[1] / self.contact_modulus
+        return np.asarray(scale * potential)
+
+    def gap(self, x: ArrayLike, y: ArrayLike) -> NDArray[np.float64]:
+        """Deformed gap [length], zero inside to rounding."""
+        xs, ys = np.asarray(x, dtype=float), np.asarray(y, dtype=float)
+        undeformed = xs**2 / (2 * self.radii[0]) + ys**2 / (2 * self.radii[1])
+        if self.semi_axes[0] == 0:
+            return np.asarray(undeformed)
+        return np.asarray(undeformed - self.approach + self.surface_displacement(xs, ys))
+
+
+def tangential_modulus_ratio(axis_ratio: float, *bodies: ElasticConstants) -> float:
+    """E*/G* for a tangential force along x on an ellipse with b/a = axis_ratio (Mindlin 1949).
+
+    axis_ratio  semi-axis across the force over the semi-axis along it
+    bodies      (Young's modulus, Poisson's ratio) of each elastic body
+
+    Ratio of tangential to normal displacement for the same elliptical traction distribution, so
+    that shift = µ (E*/G*) [approach(W) - approach(W - T/µ)] (Vermeulen and Johnson 1964). Equals
+    E* times the sum of (2 - nu)/4G on a circle. Valid for T along a principal axis.
+    """
+    require_positive(axis_ratio=axis_ratio)
+    square = axis_ratio**2
+    along = square * elliprd(0, 1, square) / (3 * elliprf(0, 1, square))
+    compliance = sum((1 - nu * along) * 2 * (1 + nu) / E for E, nu in bodies)
+    return float(contact_modulus(*bodies) / 2 * compliance)

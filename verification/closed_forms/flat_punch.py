@@ -1,0 +1,76 @@
+"""Rigid flat-ended circular punch on a half-space.
+
+Valid for frictionless faces or pairs without normal–tangential coupling; pressure and shear are
+singular at the rim.
+"""
+
+from dataclasses import dataclass
+from math import pi
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from verification.closed_forms.validity import require_non_negative, require_positive
+
+
+@dataclass(frozen=True)
+class FlatPunchContact:
+    """State of a flat punch contact (Boussinesq 1885; Johnson 1985, ch. 3.4).
+
+    contact_radius   punch radius a [length]
+    contact_modulus  E* [force/length²]
+    load             normal load W >= 0 [force]
+    """
+
+    contact_radius: float
+    contact_modulus: float
+    load: float
+
+    def __post_init__(self) -> None:
+        require_positive(contact_radius=self.contact_radius, contact_modulus=self.contact_modulus)
+        require_non_negative(load=self.load)
+
+    @classmethod
+    def under_load(
+        cls, load: float, contact_radius: float, contact_modulus: float
+    ) -> "FlatPunchContact":
+        """Contact under a normal load [force]; same order of arguments as the other contacts."""
+        return cls(contact_radius, contact_modulus, load)
+
+    @property
+    def approach(self) -> float:
+        """Approach W/2E*a of distant points [length]."""
+        return self.load / (2 * self.contact_modulus * self.contact_radius)
+
+    def pressure(self, r: ArrayLike) -> NDArray[np.float64]:
+        """Pressure W/(2πa√(a²-r²)) [force/length²]; infinite at the rim, zero outside."""
+        return _rim_singular(self.load, self.contact_radius, r)
+
+    def surface_displacement(self, r: ArrayLike) -> NDArray[np.float64]:
+        """Normal displacement [length]: the approach inside, (2/π) approach asin(a/r) outside."""
+        a, rho = self.contact_radius, np.abs(np.asarray(r, dtype=float))
+        return np.asarray(2 / pi * self.approach * np.arcsin(a / np.maximum(rho, a)))
+
+    def gap(self, r: ArrayLike) -> NDArray[np.float64]:
+        """Gap [length]: zero under the punch, infinite beside it, where there is no face."""
+        rho = np.abs(np.asarray(r, dtype=float))
+        return np.asarray(np.where(rho <= self.contact_radius, 0.0, np.inf))
+
+    def shear(self, r: ArrayLike, tangential_force: float) -> NDArray[np.float64]:
+        """Shear of the stuck punch under T [force/length²] (Mindlin 1949).
+
+        It has the shape of the pressure, so nothing slips before |T| = µW and then all of it does.
+        """
+        return _rim_singular(tangential_force, self.contact_radius, r)
+
+    def shift(self, tangential_force: float, tangential_modulus: float) -> float:
+        """Tangential shift T/2G*a of the stuck punch [length] (Mindlin 1949)."""
+        require_positive(tangential_modulus=tangential_modulus)
+        return tangential_force / (2 * tangential_modulus * self.contact_radius)
+
+
+def _rim_singular(force: float, a: float, r: ArrayLike) -> NDArray[np.float64]:
+    rho = np.abs(np.asarray(r, dtype=float))
+    inside = np.where(rho <= a, (a - rho) * (a + rho), np.inf)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        return np.asarray(force / (2 * pi * a * np.sqrt(inside)))

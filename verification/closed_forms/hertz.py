@@ -1,0 +1,88 @@
+"""Hertz point contact: paraboloid on a half-space.
+
+The undeformed gap is r²/2R; for a ball this is the leading term of the exact arc, see `sphere`.
+Valid for a << R, frictionless surfaces or pairs without normal–tangential coupling.
+"""
+
+from dataclasses import dataclass
+from math import pi, sqrt
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from verification.closed_forms.validity import require_non_negative, require_positive
+
+
+@dataclass(frozen=True)
+class PointContact:
+    """State of a Hertz point contact (Hertz 1882; Johnson 1985, Eqs. 4.22–4.24).
+
+    radius           relative radius of curvature R [length]
+    contact_modulus  E* [force/length²]
+    contact_radius   a [length], zero at first touch
+
+    Raises ValueError unless radius and contact_modulus are > 0 and contact_radius is >= 0.
+    """
+
+    radius: float
+    contact_modulus: float
+    contact_radius: float
+
+    def __post_init__(self) -> None:
+        require_positive(radius=self.radius, contact_modulus=self.contact_modulus)
+        require_non_negative(contact_radius=self.contact_radius)
+
+    @classmethod
+    def under_load(cls, load: float, radius: float, contact_modulus: float) -> "PointContact":
+        """Contact under a normal load W >= 0 [force]: a³ = 3WR/4E*."""
+        require_non_negative(load=load)
+        require_positive(radius=radius, contact_modulus=contact_modulus)
+        return cls(radius, contact_modulus, float(np.cbrt(3 * load * radius / contact_modulus / 4)))
+
+    @classmethod
+    def at_approach(cls, approach: float, radius: float, contact_modulus: float) -> "PointContact":
+        """Contact at an approach >= 0 of distant points [length]: a² = R * approach."""
+        require_non_negative(approach=approach)
+        require_positive(radius=radius, contact_modulus=contact_modulus)
+        return cls(radius, contact_modulus, sqrt(radius * approach))
+
+    @property
+    def load(self) -> float:
+        """Normal load W = 4E*a³/3R [force]."""
+        return 4 * self.contact_modulus * self.contact_radius**3 / (3 * self.radius)
+
+    @property
+    def approach(self) -> float:
+        """Approach of distant points since first touch, a²/R [length]."""
+        return self.contact_radius**2 / self.radius
+
+    @property
+    def peak_pressure(self) -> float:
+        """Pressure at the centre, 3W/2πa² = 2E*a/πR [force/length²]."""
+        return 2 * self.contact_modulus * self.contact_radius / (pi * self.radius)
+
+    def pressure(self, r: ArrayLike) -> NDArray[np.float64]:
+        """Pressure at distance r from the axis [force/length²], zero outside the contact."""
+        a, rho = self.contact_radius, np.abs(np.asarray(r, dtype=float))
+        # p0/a = 2E*/πR does not involve a, so first touch needs no special case.
+        slope = 2 * self.contact_modulus / (pi * self.radius)
+        return np.asarray(slope * np.sqrt(np.maximum((a - rho) * (a + rho), 0)))
+
+    def surface_displacement(self, r: ArrayLike) -> NDArray[np.float64]:
+        """Normal displacement, both bodies added, positive into the bodies [length].
+
+        Inside: approach - r²/2R. Outside: the field of the Hertz pressure (Johnson 1985, ch. 3.4).
+        """
+        a, rho = self.contact_radius, np.abs(np.asarray(r, dtype=float))
+        outside = np.maximum(rho, a)
+        root = np.sqrt((outside - a) * (outside + a))
+        far = ((2 * a**2 - outside**2) * np.arctan2(a, root) + a * root) / (pi * self.radius)
+        return np.asarray(np.where(rho < a, self.approach - rho**2 / (2 * self.radius), far))
+
+    def gap(self, r: ArrayLike) -> NDArray[np.float64]:
+        """Deformed gap r²/2R - approach + displacement [length], exactly zero inside."""
+        a, rho = self.contact_radius, np.abs(np.asarray(r, dtype=float))
+        outside = np.maximum(rho, a)
+        root = np.sqrt((outside - a) * (outside + a))
+        angle = np.arctan2(root, a)
+        return np.asarray((a * root + (outside**2 - 2 * a**2) * angle) / (pi * self.radius))

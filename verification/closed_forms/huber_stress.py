@@ -1,0 +1,103 @@
+"""Subsurface stress of a Hertz point contact, tension positive.
+
+Cylindrical components at radius r and depth z >= 0 in a homogeneous half-space under the Hertz
+pressure alone, and on the axis under the shear of full sliding.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from verification.closed_forms.validity import require_positive
+
+
+@dataclass(frozen=True)
+class AxisymmetricStress:
+    """Stress components [force/length²], arrays of one shape."""
+
+    radial: NDArray[np.float64]
+    hoop: NDArray[np.float64]
+    axial: NDArray[np.float64]
+    shear: NDArray[np.float64]
+
+    @property
+    def von_mises(self) -> NDArray[np.float64]:
+        """Equivalent stress of von Mises [force/length²]."""
+        rr, tt, zz = self.radial, self.hoop, self.axial
+        normal = ((rr - tt) ** 2 + (tt - zz) ** 2 + (zz - rr) ** 2) / 2
+        return np.asarray(np.sqrt(normal + 3 * self.shear**2))
+
+
+def huber_stress(
+    r: ArrayLike, z: ArrayLike, contact_radius: float, peak_pressure: float, poisson_ratio: float
+) -> AxisymmetricStress:
+    """Stress under the Hertz pressure p0 √(1-r²/a²) (Huber 1904).
+
+    r, z            radius and depth >= 0 [length], broadcast together
+    contact_radius  a > 0 [length]
+    peak_pressure   p0 > 0 [force/length²]
+
+    u is the positive root of r²/(a²+u) + z²/u = 1 and t = z/√u. With t² = 1 - r²/(a²+u) the
+    classical terms in a²/r² lose their singularity on the axis. Raises ValueError for z < 0.
+    """
+    _require_half_space(contact_radius, peak_pressure, poisson_ratio)
+    rho, depth = np.asarray(r, dtype=float), np.asarray(z, dtype=float)
+    if not np.all(depth >= 0):
+        raise ValueError(f"depth down to {np.min(depth)!r}: the body occupies z >= 0")
+    nu = poisson_ratio
+    rho, depth = np.broadcast_arrays(np.abs(rho) / contact_radius, depth / contact_radius)
+    half = ((rho - 1) * (rho + 1) + depth**2) / 2
+    root = np.hypot(half, depth)
+    deep = root + np.abs(half)
+    near = np.divide(depth**2, deep, out=np.zeros_like(deep), where=deep > 0)
+    u = np.where(half >= 0, deep, near)
+    t = np.sqrt(np.maximum(1 - rho**2 / (1 + u), 0))
+    # at the contact edge u = t = 0 and every term that divides by this sum vanishes
+    edge = u + t**2
+    edge = np.where(edge > 0, edge, 1.0)
+    ring = (1 - 2 * nu) / 3 * (1 + t + t**2) / ((1 + t) * (1 + u))
+    arc = (1 + nu) * np.sqrt(u) * np.arctan2(1, np.sqrt(u))
+    radial = ring + t**3 / edge + t * ((1 - nu) * u / (1 + u) + arc - 2)
+    hoop = -ring - t * (2 * nu + (1 - nu) * u / (1 + u) - arc)
+    axial = -(t**3) / edge
+    shear = -rho * t**2 * np.sqrt(u) / (edge * (1 + u))
+    p0 = peak_pressure
+    return AxisymmetricStress(p0 * radial, p0 * hoop, p0 * axial, p0 * shear)
+
+
+def axis_stress(
+    z: ArrayLike, contact_radius: float, peak_pressure: float, poisson_ratio: float
+) -> AxisymmetricStress:
+    """Stress on the axis under the Hertz pressure (Huber 1904; Johnson 1985, ch. 3.4)."""
+    _require_half_space(contact_radius, peak_pressure, poisson_ratio)
+    depth, arc = _depth(z, contact_radius)
+    axial = -peak_pressure / (1 + depth**2)
+    radial = -peak_pressure * (1 + poisson_ratio) * (1 - arc) - axial / 2
+    return AxisymmetricStress(radial, radial, axial, np.zeros_like(axial))
+
+
+def sliding_axis_shear(
+    z: ArrayLike, contact_radius: float, peak_shear: float
+) -> NDArray[np.float64]:
+    """Stress τ_xz on the axis under the shear q0 √(1-r²/a²) along +x on the body (Hamilton 1983).
+
+    peak_shear  q0 = µ p0 in full sliding [force/length²]; independent of Poisson's ratio
+    """
+    require_positive(contact_radius=contact_radius)
+    depth, arc = _depth(z, contact_radius)
+    return np.asarray(-peak_shear * (1 - 1.5 * arc + depth**2 / (2 * (1 + depth**2))))
+
+
+def _depth(z: ArrayLike, a: float) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Depth over a, and that times arctan of its reciprocal."""
+    depth = np.asarray(z, dtype=float) / a
+    if not np.all(depth >= 0):
+        raise ValueError(f"depth down to {np.min(depth) * a!r}: the body occupies z >= 0")
+    return depth, depth * np.arctan2(1, depth)
+
+
+def _require_half_space(a: float, p0: float, nu: float) -> None:
+    require_positive(contact_radius=a, peak_pressure=p0)
+    if not -1 < nu <= 0.5:
+        raise ValueError(f"Poisson's ratio is {nu!r}, expected -1 < nu <= 0.5")

@@ -1,0 +1,113 @@
+"""Rigid ball with its exact circular arc on a half-space.
+
+Hertz replaces the arc R - √(R²-r²) by the paraboloid r²/2R. Keeping the arc in the same linear
+half-space changes the results by O(a²/R²). To first order the factors are, at equal contact radius,
+1 + (2/5) a²/R² on load, 1 + (1/3) a²/R² on approach, 1 + (2/9) a²/R² on peak pressure; at equal
+load, 1 - (2/15) a²/R² on contact radius, 1 + (1/15) a²/R² on approach, 1 + (4/45) a²/R² on peak
+pressure. Valid for contact radius < R; slopes must still be small, so this measures the paraboloid
+approximation and is not a large-strain theory.
+"""
+
+from dataclasses import dataclass
+from math import atanh, pi
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+from scipy.optimize import brentq
+
+from verification.closed_forms.quadrature import unit_gauss
+from verification.closed_forms.validity import require_non_negative, require_positive
+
+SERIES_BELOW = 0.3
+SERIES_TERMS = 20
+ORDER = 60
+
+
+@dataclass(frozen=True)
+class SphereContact:
+    """State of the contact of an exact ball (Sneddon 1965; the Galin–Sneddon integrals).
+
+    radius           ball radius R [length]
+    contact_modulus  E* [force/length²]
+    contact_radius   0 <= a < R [length]
+    """
+
+    radius: float
+    contact_modulus: float
+    contact_radius: float
+
+    def __post_init__(self) -> None:
+        require_positive(radius=self.radius, contact_modulus=self.contact_modulus)
+        require_non_negative(contact_radius=self.contact_radius)
+        if self.contact_radius >= self.radius:
+            raise ValueError(
+                f"contact radius {self.contact_radius!r} reaches the ball's radius {self.radius!r}"
+            )
+
+    @classmethod
+    def under_load(cls, load: float, radius: float, contact_modulus: float) -> "SphereContact":
+        """Contact under a normal load W >= 0 [force]; raises ValueError when a would reach R."""
+        require_non_negative(load=load)
+        require_positive(radius=radius, contact_modulus=contact_modulus)
+        target = load / (contact_modulus * radius**2)
+        if target == 0:
+            return cls(radius, contact_modulus, 0.0)
+        # the arc is stiffer than the paraboloid, whose radius is therefore an upper bound
+        upper = min(float(np.cbrt(0.75 * target)), 1 - 1e-15)
+        if _reduced_load(upper) < target:
+            raise ValueError(f"load {load!r} presses the ball (radius {radius!r}) to its equator")
+        # relative unknown: brentq's absolute tolerance must not bite for small loads
+        factor = brentq(lambda t: _reduced_load(t * upper) / target - 1, 0.1, 1.0, xtol=1e-15)
+        return cls(radius, contact_modulus, radius * upper * float(factor))
+
+    @property
+    def load(self) -> float:
+        """Normal load W = E* [(a²+R²)/2 ln((R+a)/(R-a)) - aR] [force]."""
+        reduced = _reduced_load(self.contact_radius / self.radius)
+        return self.contact_modulus * self.radius**2 * reduced
+
+    @property
+    def approach(self) -> float:
+        """Approach (a/2) ln((R+a)/(R-a)) of distant points [length]."""
+        return self.contact_radius * atanh(self.contact_radius / self.radius)
+
+    @property
+    def peak_pressure(self) -> float:
+        """Pressure at the centre [force/length²]."""
+        return float(self.pressure(0.0))
+
+    def pressure(self, r: ArrayLike) -> NDArray[np.float64]:
+        """Pressure (E*/π) ∫ᵣᵃ S'(s)/√(s²-r²) ds with S = s artanh(s/R) [force/length²].
+
+        The second term of S' integrates in closed form, the first by Gauss's rule.
+        """
+        R, a = self.radius, self.contact_radius
+        rho = np.minimum(np.abs(np.asarray(r, dtype=float)), a)
+        chord = np.sqrt((a - rho) * (a + rho))
+        v, weights = unit_gauss(ORDER)
+        x = np.hypot(rho[..., None], chord[..., None] * v) / R
+        first = chord / R * (np.arctanh(x) / np.maximum(x, np.finfo(float).tiny) * weights).sum(-1)
+        depth = np.sqrt((R - rho) * (R + rho))
+        return np.asarray(
+            self.contact_modulus / pi * (first + R / depth * np.arctanh(chord / depth))
+        )
+
+    def gap(self, r: ArrayLike) -> NDArray[np.float64]:
+        """Deformed gap [length]: zero inside, infinite for r > R where there is no surface."""
+        R, a = self.radius, self.contact_radius
+        rho = np.abs(np.asarray(r, dtype=float))
+        outside = np.clip(rho, a, R)
+        start = np.arctan2(a, np.sqrt((outside - a) * (outside + a)))[..., None]
+        v, weights = unit_gauss(ORDER)
+        s = outside[..., None] * np.sin(start + (pi / 2 - start) * v)
+        excess = s * np.arctanh(s / R) - self.approach
+        gap = 2 / pi * (pi / 2 - start[..., 0]) * (excess * weights).sum(axis=-1)
+        return np.asarray(np.where(rho > R, np.inf, gap))
+
+
+def _reduced_load(x: float) -> float:
+    """W/(E*R²) = (1+x²) artanh x - x; by its power series where the difference cancels."""
+    if x >= SERIES_BELOW:
+        return (1 + x**2) * atanh(x) - x
+    k = np.arange(SERIES_TERMS, 0, -1)
+    return float((4 * k / (4 * k**2 - 1) * x ** (2 * k + 1)).sum())

@@ -1,0 +1,32 @@
+"""Range of validity: arguments outside it are refused by name."""
+
+import math
+
+# µW computed on two paths differs in the last digits; that much excess counts as T = µW.
+ROUNDING = 1e-14
+
+
+def require_positive(**quantities: float) -> None:
+    """Raise ValueError naming the first quantity that is not a finite number above zero."""
+    for name, value in quantities.items():
+        if not (math.isfinite(value) and value > 0):
+            raise ValueError(f"{name} is {value!r}, expected a finite number > 0")
+
+
+def require_non_negative(**quantities: float) -> None:
+    """Raise ValueError naming the first quantity that is not a finite number of at least zero."""
+    for name, value in quantities.items():
+        if not (math.isfinite(value) and value >= 0):
+            raise ValueError(f"{name} is {value!r}, expected a finite number >= 0")
+
+
+def require_within_friction_limit(
+    tangential_force: float, friction_coefficient: float, load: float
+) -> None:
+    """Raise ValueError when |tangential force| exceeds friction coefficient times load."""
+    limit = friction_coefficient * load
+    if not abs(tangential_force) <= limit * (1 + ROUNDING):
+        raise ValueError(
+            f"tangential force {tangential_force!r} exceeds friction limit {limit!r} "
+            f"(= {friction_coefficient!r} * {load!r}): gross sliding, no static solution"
+        )

@@ -1,0 +1,41 @@
+"""The figures a scene calls for."""
+
+from collections.abc import Callable
+from pathlib import Path
+
+from matplotlib.figure import Figure
+
+from semi_analytical import Result
+from verification.run_output import file_names
+from verification.run_output.figures.hysteresis_plot import hysteresis_plot, moved
+from verification.run_output.figures.loading_plot import loading_plot
+from verification.run_output.figures.pressure_map import pressure_map
+from verification.run_output.figures.profile_plot import profile_plot
+from verification.run_output.figures.shear_map import shear_map
+from verification.run_output.figures.shown_steps import sheared
+from verification.run_output.figures.stick_slip_map import stick_slip_map
+from verification.run_output.figures.style import figure_style, save
+
+FEWEST_POINTS = 3  # of a curve; with fewer there is only a line
+
+
+def write_figures(result: Result, directory: Path) -> None:
+    """Draw what the scene calls for; equal results give equal bytes on equal libraries."""
+    with figure_style():
+        for name, draw in _figures_called_for(result).items():
+            save(draw(result), directory / name)
+
+
+def _figures_called_for(result: Result) -> dict[str, Callable[[Result], Figure]]:
+    figures: dict[str, Callable[[Result], Figure]] = {
+        file_names.PRESSURE_FIGURE: pressure_map,
+        file_names.PROFILE_FIGURE: profile_plot,
+    }
+    if sheared(result.steps):
+        figures[file_names.SHEAR_FIGURE] = shear_map
+        figures[file_names.STICK_SLIP_FIGURE] = stick_slip_map
+    if len(moved(result.increments)) >= FEWEST_POINTS:
+        figures[file_names.HYSTERESIS_FIGURE] = hysteresis_plot
+    if len({increment.approach for increment in result.increments}) >= FEWEST_POINTS:
+        figures[file_names.LOADING_FIGURE] = loading_plot
+    return figures

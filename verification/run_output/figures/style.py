@@ -1,0 +1,59 @@
+"""How the figures look, and how they reach a file with the same bytes every time."""
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+import matplotlib
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.figure import Figure
+
+# Okabe and Ito (2008): distinct for every common kind of colour vision; no yellow on white.
+LINE_COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#56B4E9", "#000000")
+LINE_STYLES: tuple[Any, ...] = ("-", "--", "-.", (0, (1, 1)), (0, (5, 1, 1, 1, 1, 1)), (0, (8, 2)))
+GREY = "#8A8A8A"
+STICK_COLOUR = "#0072B2"
+SLIP_COLOUR = "#F0C36D"
+OUTSIDE_COLOUR = "#F2F2F2"
+MAGNITUDE_MAP = "cividis"
+SIGNED_MAP = "RdBu_r"
+
+STYLE: Any = {
+    "font.family": "DejaVu Sans",  # comes with matplotlib, so every machine draws the same
+    "font.size": 9.0,
+    "axes.titlesize": 9.0,
+    "axes.linewidth": 0.7,
+    "axes.spines.top": False,
+    "axes.spines.right": False,
+    "axes.grid": False,
+    "legend.frameon": False,
+    "lines.linewidth": 1.5,
+    "xtick.direction": "out",
+    "ytick.direction": "out",
+    "svg.hashsalt": "slipstick",
+    "path.simplify": True,
+}
+DOTS_PER_INCH = 150
+
+
+@contextmanager
+def figure_style() -> Iterator[None]:
+    """Draw in our style whatever the user's matplotlibrc says."""
+    with matplotlib.rc_context():
+        matplotlib.rcdefaults()
+        matplotlib.rcParams.update(STYLE)
+        yield
+
+
+def new_figure(width: float, height: float) -> Figure:
+    """An empty figure, sides in inches, that arranges what is put into it."""
+    figure = Figure(figsize=(width, height), layout="constrained")
+    FigureCanvasAgg(figure)
+    return figure
+
+
+def save(figure: Figure, path: Path) -> None:
+    """Write the figure without date and program version, which would change its bytes."""
+    nothing = {".png": {"Software": None}, ".svg": {"Date": None, "Creator": None}}
+    figure.savefig(path, dpi=DOTS_PER_INCH, metadata=nothing[path.suffix])

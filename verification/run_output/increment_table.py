@@ -1,0 +1,61 @@
+"""`increments.csv`: one row per increment with what it carried and what it cost, in SI."""
+
+import csv
+from pathlib import Path
+
+from semi_analytical import Increment, Result
+from verification.run_output.file_names import INCREMENTS
+
+COLUMNS = (
+    "step",
+    "increment",
+    "normal_force",
+    "approach",
+    "tangential_force_x",
+    "tangential_force_y",
+    "tangential_shift_x",
+    "tangential_shift_y",
+    "contact_area",
+    "contact_radius",
+    "stick_area",
+    "stick_radius",
+    "peak_pressure",
+    "dissipated_energy",
+    "worst_residual",
+    "iterations",
+    "convolutions",
+)
+
+
+def write_increments(result: Result, directory: Path) -> None:
+    """Write one row per increment; the columns of an effect that is off are empty."""
+    with open(directory / INCREMENTS, "w", newline="", encoding="utf-8") as file:
+        table = csv.writer(file, lineterminator="\n")
+        table.writerow(COLUMNS)
+        table.writerows(_row(increment) for increment in result.increments)
+
+
+def _row(increment: Increment) -> list[int | float | None]:
+    undefined: tuple[None, None] = (None, None)
+    force = undefined if increment.tangential_force is None else increment.tangential_force
+    shift = undefined if increment.tangential_shift is None else increment.tangential_shift
+    reals = (
+        increment.normal_force,
+        increment.approach,
+        *force,
+        *shift,
+        increment.contact_area,
+        increment.contact_radius,
+        increment.stick_area,
+        increment.stick_radius,
+        increment.peak_pressure,
+        increment.dissipated_energy,
+        increment.residuals.worst,
+    )
+    return [
+        increment.step,
+        increment.index,
+        *(None if value is None else float(value) for value in reals),
+        increment.iterations,
+        increment.convolutions,
+    ]

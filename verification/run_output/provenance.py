@@ -1,0 +1,44 @@
+"""Which program, on which machine: facts that must not enter the summary."""
+
+import os
+import platform
+from importlib.metadata import PackageNotFoundError, version
+
+LIBRARIES = ("numpy", "scipy", "h5py", "matplotlib", "pydantic")
+
+
+def program_version() -> str:
+    """The installed version, or what says that there is none."""
+    return _version("slipstick") or "(not installed)"
+
+
+def library_versions() -> dict[str, str | None]:
+    """Versions of the libraries that numbers or files may depend on."""
+    return {name: _version(name) for name in LIBRARIES}
+
+
+def machine() -> dict[str, str | int | None]:
+    """The machine as far as it explains a time."""
+    return {
+        "system": platform.platform(),
+        "processor": _processor_name(),
+        "cores": os.cpu_count(),
+        "python": platform.python_version(),
+        "threads": os.environ.get("OMP_NUM_THREADS"),
+    }
+
+
+def _version(distribution: str) -> str | None:
+    try:
+        return version(distribution)
+    except PackageNotFoundError:
+        return None
+
+
+def _processor_name() -> str:
+    try:
+        with open("/proc/cpuinfo", encoding="utf-8") as lines:
+            names = [line.partition(":")[2].strip() for line in lines if "model name" in line]
+    except OSError:
+        names = []
+    return names[0] if names else platform.processor()
