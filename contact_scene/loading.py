@@ -9,7 +9,7 @@ from contact_scene.quantity import Force, Length, PositiveForce, PositiveLength
 from contact_scene.refusal import refusal
 from contact_scene.whole_number import WholeNumber
 
-MOST_STEPS = 100_000
+MOST_STEPS = 20_000
 Increments = Annotated[int, WholeNumber(1, 100_000)]
 
 

@@ -42,8 +42,9 @@ class Residuals(Description):
     penetration: Ratio
     """Largest penetration relative to the approach."""
 
-    normal_equilibrium: Ratio
-    """Difference of the integrated pressure from the normal force, relative to it."""
+    normal_equilibrium: Ratio | None = None
+    """Difference of the integrated pressure from the normal force, relative to it; null where
+    the approach is prescribed."""
 
     friction_cone: Ratio | None = None
     """Largest excess of shear over the friction limit, relative to the largest limit."""
@@ -95,11 +96,13 @@ class StepSummary(Description):
     iterations: Annotated[int, Field(ge=0)]
     """Iterations of the solver over all increments of the step."""
 
-    convolutions: Annotated[int, Field(ge=0)]
-    """Convolutions (pairs of transforms) over all increments of the step."""
+    convolutions: Annotated[int, Field(ge=0)] | None = None
+    """Convolutions (pairs of transforms) over all increments of the step; null for a solver that
+    has none."""
 
-    factorizations: Annotated[int, Field(ge=0)] = 0
-    """Factorisations of a matrix over all increments of the step."""
+    factorizations: Annotated[int, Field(ge=0)] | None = None
+    """Factorisations of a matrix over all increments of the step; null for a solver that has
+    none."""
 
     status: ContactStatus
     """How the contact carries its tangential load."""

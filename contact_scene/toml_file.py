@@ -5,10 +5,14 @@ import tomllib
 from pathlib import Path as FilePath
 from typing import Any
 
+from contact_scene.loading import MOST_STEPS
 from contact_scene.locator import DEEPEST, NestedTooDeep, locate
 from contact_scene.problem import Path, Problem, SceneError
 
 _LARGEST_FILE = 10_000_000
+# Every key, entry and table costs one of these signs, and seven write the longest loading step:
+# counting them refuses, at once, what would take long and much memory to read.
+_MOST_SIGNS = 7 * MOST_STEPS
 
 
 def read_toml(file: FilePath) -> tuple[dict[str, Any], dict[Path, int]]:
@@ -49,6 +53,8 @@ def _text(file: FilePath) -> str:
         raise _refused(file, "is not text in UTF-8", line=line) from None
     if not text.strip():
         raise _refused(file, "is empty", "a scene (TOML)")
+    if sum(map(text.count, "=,[")) > _MOST_SIGNS:
+        raise _refused(file, "holds too many keys", f"at most {MOST_STEPS} loading steps")
     return text
 
 

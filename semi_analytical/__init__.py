@@ -3,6 +3,7 @@
 from semi_analytical.discretise import discretise
 from semi_analytical.errors import (
     ContactAtWindowEdge,
+    ContactNotResolved,
     GrossSliding,
     NotConverged,
     ResourceRefused,
@@ -17,6 +18,7 @@ from semi_analytical.solve import solve, solve_discretised
 
 __all__ = [
     "ContactAtWindowEdge",
+    "ContactNotResolved",
     "Effect",
     "GrossSliding",
     "Increment",

@@ -26,7 +26,9 @@ def covered_cells(values: Field, inside: Mask) -> float:
 
     values  (nx, ny), positive inside, falling like a square root towards the edge
     inside  cells whose centre is in the region
-    Regions too thin for a fit are counted by whole cells.
+    Edge cells are counted whole or not at all where the region is too thin for a fit, where the
+    values do not fall towards the edge (below a flat punch they rise), and where the fit places
+    the edge elsewhere.
     """
     square = np.ones((3, 3), dtype=bool)
     trusted = binary_erosion(inside, square)
@@ -34,16 +36,17 @@ def covered_cells(values: Field, inside: Mask) -> float:
     i, j = np.nonzero(edge)
     if len(i) == 0:
         return float(np.count_nonzero(inside))
-    fit, count = _fit(values**2, trusted, i, j)
-    parts = np.where(count >= LEAST_CELLS, _coverage(*fit), inside[i, j])
-    return float(np.count_nonzero(trusted) + np.sum(parts))
+    fit, mean, count = _fit(values**2, trusted, i, j)
+    parts = _coverage(*fit)
+    believed = (count >= LEAST_CELLS) & (fit[0] < mean) & (parts > 0) & (parts < 1)
+    return float(np.count_nonzero(trusted) + np.sum(np.where(believed, parts, inside[i, j])))
 
 
 def _fit(
     phi: Field, trusted: Mask, i: NDArray[np.intp], j: NDArray[np.intp]
-) -> tuple[tuple[Field, Field, Field], NDArray[np.intp]]:
-    """Value and gradient per cell of weighted quadratic fits about the cells (i, j), and the
-    number of cells that each fit could use."""
+) -> tuple[tuple[Field, Field, Field], Field, NDArray[np.intp]]:
+    """Value and gradient per cell of weighted quadratic fits about the cells (i, j), the mean of
+    what was fitted, and the number of cells that each fit could use."""
     shift = np.arange(-REACH, REACH + 1)
     di, dj = (grid.ravel() for grid in np.meshgrid(shift, shift, indexing="ij"))
     pad = ((REACH, REACH), (REACH, REACH))
@@ -54,10 +57,11 @@ def _fit(
     normal = np.einsum("nk,ka,kb->nab", weight, basis, basis)
     scale = np.max(phi)
     right = np.einsum("nk,ka->na", weight * (np.pad(phi, pad)[at] / scale), basis)
+    mean = right[:, 0] / np.maximum(normal[:, 0, 0], 1e-30)
     # The ridge decides only what the cells at hand do not.
     normal += 1e-9 * np.eye(6) * (np.trace(normal, axis1=1, axis2=2)[:, None, None] + 1e-30)
     f, f_x, f_y = np.linalg.solve(normal, right[..., None])[:, :3, 0].T
-    return (f, f_x, f_y), np.count_nonzero(use, axis=1)
+    return (f, f_x, f_y), mean, np.count_nonzero(use, axis=1)
 
 
 def _coverage(f: Field, f_x: Field, f_y: Field) -> Field:

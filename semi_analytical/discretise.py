@@ -51,7 +51,8 @@ def _fitted_window(scene: Scene) -> tuple[float, float]:
     if isinstance(scene.indenter, HeightMap):
         return scene.indenter.extent
     loads = _largest_loads(scene)
-    window = (2 * MARGIN * _guessed_radius(scene, loads[0]),) * 2
+    semi_axes = _guessed_semi_axes(scene, loads[0])
+    window = (2 * MARGIN * semi_axes[0], 2 * MARGIN * semi_axes[1])
     for _ in range(MOST_ENLARGEMENTS):
         grid = SurfaceGrid((SCOUT_CELLS, SCOUT_CELLS), window)
         try:
@@ -89,6 +90,16 @@ def _largest_loads(scene: Scene) -> list[NormalTarget]:
     approach = [r.normal.end for r in ramps if r.normal.kind is ControlKind.DISPLACEMENT]
     loads = [NormalTarget(force=max(force))] if force else []
     return loads + ([NormalTarget(approach=max(approach))] if approach else [])
+
+
+def _guessed_semi_axes(scene: Scene, load: NormalTarget) -> tuple[float, float]:
+    """Reach of the contact along x and y; a given approach bounds it along both."""
+    indenter = scene.indenter
+    if isinstance(indenter, Ellipsoid) and load.approach is not None:
+        Rx, Ry = indenter.radii
+        return float(np.sqrt(Rx * load.approach)), float(np.sqrt(Ry * load.approach))
+    radius = _guessed_radius(scene, load)
+    return radius, radius
 
 
 def _guessed_radius(scene: Scene, load: NormalTarget) -> float:

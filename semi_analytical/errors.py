@@ -30,6 +30,10 @@ class ContactAtWindowEdge(SolverError):
     """The contact reached the border of the computed window, so its tractions are cut off."""
 
 
+class ContactNotResolved(SolverError):
+    """The contact lies between the cell centres: no cell touches."""
+
+
 class ResourceRefused(SolverError):
     """The solve would need more memory than this machine has available."""
 

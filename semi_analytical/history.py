@@ -133,6 +133,7 @@ def _increment(model: ContactModel, state: State, step: int, index: int, count: 
         in_stick=sheared.in_stick,
         tangential_force=sheared.force,
         tangential_shift=sheared.shift,
-        stick_area=covered_cells(spare, sheared.in_stick) * cell,
+        # Both areas are fitted on their own; where all sticks they may cross by their errors.
+        stick_area=min(covered_cells(spare, sheared.in_stick) * cell, pressed.contact_area),
         dissipated_energy=sheared.dissipated_energy,
     )

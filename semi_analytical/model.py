@@ -12,6 +12,7 @@ from semi_analytical.influence.bodies import influence_coefficients
 from semi_analytical.influence.coefficients import InfluenceCoefficients
 from semi_analytical.operator import (
     Convolutions,
+    CouplingOperator,
     NormalOperator,
     TangentialOperator,
     offsets_for,
@@ -38,6 +39,7 @@ class ContactModel:
         self.convolutions = convolutions
         self._normal: dict[tuple[int, int], NormalOperator] = {}
         self._tangential: dict[tuple[int, int], TangentialOperator] = {}
+        self._coupling: dict[tuple[int, int], CouplingOperator] = {}
 
     @classmethod
     def of(cls, scene: Scene, grid: SurfaceGrid) -> "ContactModel":
@@ -80,6 +82,12 @@ class ContactModel:
                 self.coefficients, shape, self.convolutions
             )
         return self._tangential[shape]
+
+    def coupling_operator(self, shape: tuple[int, int]) -> CouplingOperator:
+        """Shear to normal and pressure to tangential displacement on a box of cells."""
+        if shape not in self._coupling:
+            self._coupling[shape] = CouplingOperator(self.coefficients, shape, self.convolutions)
+        return self._coupling[shape]
 
     @cached_property
     def coarse(self) -> "ContactModel | None":

@@ -88,6 +88,15 @@ def odd_transform(coefficients: Field, padded: tuple[int, int]) -> Field:
     return _mirror(half, padded[0], sign=-1)
 
 
+def mixed_transform(coefficients: Field, padded: tuple[int, int], odd_axis: int) -> Field:
+    """Real part S of the half spectrum -i S of coefficients odd along one side, even along the
+    other."""
+    half = np.zeros((padded[0] // 2 + 1, padded[1] // 2 + 1))
+    inner = (slice(1, -1), slice(None)) if odd_axis == 0 else (slice(None), slice(1, -1))
+    half[inner] = dct(dst(coefficients[inner], type=1, axis=odd_axis), type=1, axis=1 - odd_axis)
+    return _mirror(half, padded[0], sign=-1 if odd_axis == 0 else 1)
+
+
 def _mirror(half: Field, length: int, sign: int) -> Field:
     """Add the negative wavenumbers along x to a quarter spectrum."""
     return np.concatenate([half, sign * half[length // 2 - 1 : 0 : -1]])
@@ -166,6 +175,47 @@ class TangentialOperator:
         spectrum = np.stack([xx * u_x + xy * u_y, xy * u_x + yy * u_y])
         _, nx, ny = displacement.shape
         return np.fft.irfft2(spectrum, period)[:, :nx, :ny]
+
+
+class CouplingOperator:
+    """u_z by shear and (u_x, u_y) by pressure: what dissimilar bodies add; 1.5 convolutions each.
+
+    The two are each other's transpose with the opposite sign of the coefficients: xz = -zx.
+    """
+
+    def __init__(
+        self,
+        coefficients: InfluenceCoefficients,
+        shape: tuple[int, int],
+        counter: Convolutions,
+    ) -> None:
+        self._transform = PaddedTransform(shape, counter)
+        reach, padded = self._transform.reach, self._transform.padded
+        self._zx = mixed_transform(coefficients.zx[reach], padded, odd_axis=0)
+        self._zy = mixed_transform(coefficients.zy[reach], padded, odd_axis=1)
+        self._work = [self._transform.empty_spectrum() for _ in range(2)]
+
+    def normal_by_shear(self, shear: Field) -> Field:
+        """u_z (nx, ny) caused by a shear (2, nx, ny)."""
+        u, q = self._work
+        self._transform.forward(shear[0], u)
+        self._transform.forward(shear[1], q)
+        u *= self._zx
+        q *= self._zy
+        u += q
+        u *= -1j
+        return self._transform.inverse(u)
+
+    def tangential_by_pressure(self, pressure: Field) -> Field:
+        """(u_x, u_y), shape (2, nx, ny), caused by a pressure (nx, ny)."""
+        u, p = self._work
+        self._transform.forward(pressure, p)
+        p *= 1j
+        displacement = np.empty((2, *pressure.shape))
+        for component, spectrum in zip(displacement, (self._zx, self._zy), strict=True):
+            np.multiply(p, spectrum, out=u)
+            component[:] = self._transform.inverse(u)
+        return displacement
 
 
 def _inverse_2x2(xx: Field, yy: Field, xy: Field) -> tuple[Field, Field, Field]:

@@ -73,14 +73,16 @@ def _increments(scene: Scene, shear: bool) -> tuple[int, ...]:
     """As asked for; else one wherever the end of the step does not depend on its path."""
     counts = []
     sheared = False
+    last = (0.0, 0.0)
     for ramp in scene.load_path():
-        sheared = sheared or any(ramp.tangential.end)
+        end = ramp.tangential.end
+        sheared = sheared or any(end)
         pressing = ramp.normal.start != ramp.normal.end
-        turning = ramp.tangential.start is not None and _turns(
-            ramp.tangential.start, ramp.tangential.end
-        )
+        # Force and shift are nearly parallel, so that either tells where the other starts.
+        turning = _turns(ramp.tangential.start or last, end)
         path_matters = shear and sheared and (pressing or turning)
         counts.append(ramp.increments or (PATH_INCREMENTS if path_matters else 1))
+        last = end
     return tuple(counts)
 
 

@@ -5,8 +5,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from contact_scene import HeightMap
 from semi_analytical.box import Box, box_around
-from semi_analytical.errors import ContactAtWindowEdge, NotConverged
+from semi_analytical.errors import ContactAtWindowEdge, ContactNotResolved, NotConverged
 from semi_analytical.model import ContactModel, doubled
 from semi_analytical.normal import FixedApproach, NormalLoad, PressureSum, solve_normal
 from semi_analytical.residuals import complementarity, penetration
@@ -52,8 +53,13 @@ def press(model: ContactModel, target: NormalTarget, tolerance: float) -> Pressi
     The answer is checked with a fresh convolution over the window: if bodies overlap outside the
     box that was solved, the box grows to the window; if round-off has crept in, the solve is
     repeated more tightly.
-    raises  ContactAtWindowEdge, NotConverged
+    raises  ContactAtWindowEdge, ContactNotResolved, NotConverged
     """
+    if not _touches(model, target):
+        raise ContactNotResolved(
+            f"no cell of the window touches: the gap is at least {np.min(model.gap):.4g} m at the "
+            f"cell centres; take more cells or a smaller window"
+        )
     start = _nested_start(model, target)
     box = box_around(start > 0, MARGIN)
     whole = Box.whole(model.grid.cells)
@@ -86,9 +92,9 @@ def press(model: ContactModel, target: NormalTarget, tolerance: float) -> Pressi
 
 def _nested_start(model: ContactModel, target: NormalTarget) -> Field:
     """A first pressure: the solution of the coarser model, found the same way."""
-    if model.coarse is None:
-        return np.where(np.isfinite(model.gap), 1.0, 0.0)
     coarse = model.coarse
+    if coarse is None or not _touches(coarse, target):
+        return np.where(np.isfinite(model.gap), 1.0, 0.0)
     start = _nested_start(coarse, target)
     operator = coarse.normal_operator(coarse.grid.cells)
     solution = solve_normal(
@@ -102,11 +108,20 @@ def _nested_start(model: ContactModel, target: NormalTarget) -> Field:
     return np.where(np.isfinite(model.gap), doubled(solution.pressure), 0.0)
 
 
+def _touches(model: ContactModel, target: NormalTarget) -> bool:
+    """Whether any cell can carry pressure: a force brings the nearest ones into contact, an
+    approach only those whose gap is smaller."""
+    least = float(np.min(model.gap))
+    return np.isfinite(least) if target.approach is None else least < target.approach
+
+
 def _refuse_contact_at_edge(p: Field, model: ContactModel) -> None:
     rim = np.concatenate([p[0], p[-1], p[:, 0], p[:, -1]])
     if np.any(rim > 0):
         w = model.grid.window
+        advice = "give a larger window, or leave it out to have it chosen"
+        if isinstance(model.scene.indenter, HeightMap):
+            advice = "the height map and the window must reach beyond the contact"
         raise ContactAtWindowEdge(
-            f"the contact reaches the edge of the window of {w[0]:.4g} m by {w[1]:.4g} m; "
-            f"give a larger window, or leave it out to have it chosen"
+            f"the contact reaches the edge of the window of {w[0]:.4g} m by {w[1]:.4g} m; {advice}"
         )

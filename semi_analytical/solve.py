@@ -2,7 +2,7 @@
 
 from collections.abc import Callable
 
-from contact_scene import Scene, SurfaceDiscretisation
+from contact_scene import HeightMap, Scene, SurfaceDiscretisation
 from semi_analytical.discretise import GROWTH, discretise
 from semi_analytical.errors import ContactAtWindowEdge
 from semi_analytical.fields import Increment, Result
@@ -39,6 +39,8 @@ def solve(
         The scene asks for physics that is not here.
     ContactAtWindowEdge
         The contact reaches the border of the window.
+    ContactNotResolved
+        The cells are so large that none touches.
     GrossSliding
         A tangential force exceeds the friction limit.
     NotConverged
@@ -63,14 +65,15 @@ def solve_discretised(
     """Solve a scene on the grid that its file asks for.
 
     A window that is not given is fitted to the contact, and enlarged if the contact of some
-    increment reaches its edge after all. Raises what `solve` raises.
+    increment reaches its edge after all; the window of a height map is all of it. Raises what
+    `solve` raises.
     """
     grid = discretise(scene, discretisation)
     for _ in range(MOST_ENLARGEMENTS):
         try:
             return solve(scene, grid, discretisation.tolerance, progress)
         except ContactAtWindowEdge:
-            if discretisation.window is not None:
+            if discretisation.window is not None or isinstance(scene.indenter, HeightMap):
                 raise
             grid = SurfaceGrid(grid.cells, (GROWTH * grid.window[0], GROWTH * grid.window[1]))
     return solve(scene, grid, discretisation.tolerance, progress)

@@ -96,7 +96,12 @@ def slip_and_stick(
         if not any(np.any(a) for a in (load.force, last.shear, last.shift)):
             return replace(last, in_stick=bound > 0, iterations=0)
         if _reaches_limit(load.force, float(np.sum(bound)) * model.grid.cell_area):
-            return _at_limit(model, bound, last, load.force)
+            if np.any(bound):
+                return _at_limit(model, bound, last, load.force)
+            return _unresisted(pressure, last, last.shift)
+    elif not np.any(bound):
+        assert load.shift is not None
+        return _unresisted(pressure, last, load.shift)
     target = last.displacement - last.shift[:, None, None]
     aim, iterations = tolerance, 0
     for _ in range(MOST_ATTEMPTS):
@@ -196,5 +201,24 @@ def _at_limit(model: ContactModel, bound: Field, last: Sheared, force: Vector) -
         residuals=ShearResiduals(
             friction_cone(q, bound), None, float(np.hypot(*defect) / np.sum(bound))
         ),
+        iterations=0,
+    )
+
+
+def _unresisted(pressure: Field, last: Sheared, shift: Vector) -> Sheared:
+    """Friction vanishes all over the contact: all of it slips, for nothing."""
+    assert last.shift is not None
+    nothing = np.zeros_like(last.shear)
+    passed = (shift - last.shift)[:, None, None] + last.displacement
+    return replace(
+        last,
+        shear=nothing,
+        displacement=nothing,
+        shift=shift,
+        slip=last.slip - np.where(pressure > 0, passed, 0.0),
+        in_stick=np.zeros_like(last.in_stick),
+        status=ContactStatus.GROSS_SLIDING,
+        force=np.zeros(2),
+        residuals=ShearResiduals(0.0, 0.0, 0.0),
         iterations=0,
     )

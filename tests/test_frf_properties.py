@@ -1,4 +1,4 @@
-"""The laws that any surface FRF obeys (P1 to P20 of THEORY 2), over random stacks."""
+"""The laws that any surface FRF obeys, numbered P1 to P20, over random stacks."""
 
 import numpy as np
 import pytest
@@ -25,7 +25,7 @@ from semi_analytical.influence.layered import LayeredCoefficients
 # Rounding of one evaluation, relative to the largest entry: the FRFs are right to about 1e-15.
 ROUNDING = 1e-14
 # Bound of the echo of whatever lies below the outer layer, in units of 1/(G alpha): 24 (1 - nu) is
-# reached on the softest base at x = 1 (THEORY gives 25, for nu >= 0).
+# reached on the softest base at x = 1.
 ECHO = 50.0
 FACTORS = st.floats(-3, 3).map(lambda decade: 10**decade)
 
@@ -258,7 +258,7 @@ def test_p17_nothing_overflows(stack, decade):
 
 
 def depth_system(G, nu, alpha):
-    """Matrix of d/dz (U, W, tau_s, tau_z) in a layer (THEORY 1.4)."""
+    """Matrix of d/dz (U, W, tau_s, tau_z) in a layer."""
     ratio, modulus = nu / (1 - nu), 2 * G / (1 - nu)
     return np.array(
         [

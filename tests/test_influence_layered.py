@@ -4,7 +4,7 @@ from math import hypot
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 from point_responses import POINT_RESPONSES
 from scipy.integrate import dblquad, quad
@@ -96,7 +96,6 @@ def test_layer_of_the_same_material_is_no_layer(material, decade, log_aspect):
 
 
 @given(stacks(max_layers=3), st.floats(0.1, 10), st.floats(0.3, 3))
-@settings(max_examples=10)
 def test_cells_add_up(stack, size, aspect):
     """A cell of 3 x 3 cells is displaced at its centre by the sum of the nine."""
     dx, dy = size, size * aspect
@@ -216,7 +215,7 @@ def test_odd_components_vanish_on_their_axes():
 
 
 def test_far_from_the_load_the_body_is_its_substrate():
-    """And not its coating: the slow tail that a truncated difference kernel loses (THEORY 1.4)."""
+    """And not its coating: the slow tail that a truncated difference kernel loses."""
     G, nu = 1.0, 0.25
     stack = Stack([(4.0, 0.3, 1.0)], (G, nu))
     r = np.array([1e3, 1e5])
@@ -300,6 +299,22 @@ def test_cache_tells_different_problems_apart(folder, computations, other):
     normal_coefficients(**other)
     assert len(computations) == 2
     assert len(list(folder.iterdir())) == 2
+
+
+def test_cache_forgets_other_versions_of_the_numbers(folder, computations, monkeypatch):
+    normal_coefficients()
+    monkeypatch.setattr("semi_analytical.influence.layered.ALGORITHM_VERSION", -1)
+    normal_coefficients()
+    assert len(computations) == 2
+
+
+def test_cache_keeps_the_components_apart(folder, computations):
+    for _ in range(2):
+        coefficients = LayeredCoefficients(STACK, (1.0, 1.0), (5, 4), cache.remembered)
+        fresh = LayeredCoefficients(STACK, (1.0, 1.0), (5, 4))
+        np.testing.assert_array_equal(all_components(coefficients), all_components(fresh))
+    assert len(list(folder.iterdir())) == 3
+    assert len(computations) == 3 + 2 * 3
 
 
 DAMAGES = {

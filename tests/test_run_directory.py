@@ -2,6 +2,8 @@
 
 import os
 import signal
+import subprocess
+import sys
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -10,8 +12,9 @@ import pytest
 
 from verification.run_output.file_names import SUMMARY, TIMING
 from verification.run_output.run_directory import OutputRefused, run_directory
-from verification.run_output.stop_signals import stop_signals_unwind
 from verification.run_output.timing import Stopwatch, write_timing
+
+ROOT = Path(__file__).resolve().parents[1]
 
 
 class WorkFailed(Exception):
@@ -41,7 +44,7 @@ def failing_run(target: Path) -> None:
 
 
 def stopped_run(target: Path, number: signal.Signals) -> None:
-    with stop_signals_unwind(), run_directory(target) as staging:
+    with run_directory(target) as staging:
         fill(staging)
         signal.raise_signal(number)
 
@@ -159,9 +162,10 @@ def test_abandoned_directory_is_cleared_away_and_a_live_one_is_not(tmp_path: Pat
 
 
 @pytest.fixture
-def handlers_restored() -> Iterator[None]:
+def handlers_restored(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
     numbers = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
     before = [signal.getsignal(number) for number in numbers]
+    monkeypatch.setattr(os, "_exit", sys.exit)  # which would end the tests, too
     yield
     assert [signal.getsignal(number) for number in numbers] == before
 
@@ -172,6 +176,29 @@ def test_signal_during_work_cleans_up(tmp_path: Path, number: signal.Signals) ->
     with pytest.raises(SystemExit) as stop:
         stopped_run(tmp_path / "out", number)
     assert stop.value.code == 128 + number
+    assert os.listdir(tmp_path) == []
+
+
+SWALLOWED = """
+import signal, sys, weakref
+from pathlib import Path
+from verification.run_output.run_directory import run_directory
+
+class Thing: pass
+
+with run_directory(Path(sys.argv[1])):
+    thing = Thing()
+    callback = weakref.ref(thing, lambda dead: signal.raise_signal(signal.SIGTERM))
+    del thing
+"""
+
+
+def test_signal_is_not_lost_where_exceptions_are(tmp_path: Path) -> None:
+    """Found by killing runs at random: Python ignores what is raised in such a callback."""
+    outcome = subprocess.run(
+        [sys.executable, "-c", SWALLOWED, tmp_path / "deep" / "out"], cwd=ROOT, check=False
+    )
+    assert outcome.returncode == 128 + signal.SIGTERM
     assert os.listdir(tmp_path) == []
 
 
@@ -186,7 +213,7 @@ def test_signal_during_publication_waits_for_its_end(
         real_replace(source, target)
 
     monkeypatch.setattr(os, "replace", interrupted_replace)
-    with pytest.raises(SystemExit), stop_signals_unwind():
+    with pytest.raises(SystemExit):
         run(earlier_run)
     assert contents(earlier_run) == {SUMMARY: "new", "profiles.csv": "new"}
 

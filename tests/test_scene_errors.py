@@ -195,6 +195,8 @@ def test_two_rigid_bodies_make_no_contact_problem(tmp_path: Path) -> None:
         (b"a." * 2000 + b"b = 1", 1, "nested too deep"),
         (b"a = " + b"{b = " * 2000, 1, "nested too deep"),
         (b"x" * 10_000_001, None, "too large"),
+        (b"[[loading]]\n" * 500_000, None, "too many keys"),
+        (b"a = [" + b"1," * 800_000 + b"]", None, "too many keys"),
     ],
     ids=lambda value: repr(value)[:20],
 )

@@ -1,4 +1,4 @@
-"""What refinement says: the numerical uncertainty of a value, and the observed order of an error."""
+"""What refinement says: the uncertainty of a value, and the observed order of an error."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -31,7 +31,9 @@ def observed_order(spacings: Sequence[float], errors: Sequence[float]) -> Observ
     scatter = y - y.mean() - order * (x - x.mean())
     freedom = len(x) - 2
     deviation = np.sqrt(np.sum(scatter**2) / freedom / spread)
-    return ObservedOrder(float(order), float(student.ppf((1 + CONFIDENCE) / 2, freedom) * deviation))
+    return ObservedOrder(
+        float(order), float(student.ppf((1 + CONFIDENCE) / 2, freedom) * deviation)
+    )
 
 
 def numerical_uncertainty(
@@ -42,13 +44,16 @@ def numerical_uncertainty(
     spacings  cell sides h, at least three levels [length]
     values    f(h) there
     order     the expected p; fixed, because a fitted p lets three values explain anything
-    returns   √((C h^p)² + s²) at the finest h, s the scatter about the fit: same unit as values
+    returns   √((C h^p)² + s²) at the finest h, s the scatter there: same unit as values
+
+    The scatter is taken to fall like the error, so levels are weighted by 1/h^p: otherwise the
+    coarsest grid would decide about the finest.
     """
     if len(spacings) < 3:
         raise ValueError(f"{len(spacings)} levels cannot show a scatter; use at least 3")
     f = np.asarray(values, dtype=float)
     term = (np.asarray(spacings, dtype=float) / min(spacings)) ** order
-    matrix = np.column_stack([np.ones_like(term), term])
-    (limit, coefficient), *_ = np.linalg.lstsq(matrix, f, rcond=None)
-    scatter = np.sqrt(np.sum((f - limit - coefficient * term) ** 2) / (len(f) - 2))
+    matrix = np.column_stack([1 / term, np.ones_like(term)])
+    (limit, coefficient), *_ = np.linalg.lstsq(matrix, f / term, rcond=None)
+    scatter = np.sqrt(np.sum(((f - limit) / term - coefficient) ** 2) / (len(f) - 2))
     return float(np.hypot(coefficient, scatter))

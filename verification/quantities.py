@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from contact_scene.summary import Residuals
 
 Field = NDArray[np.float64]
-Pair = tuple[float, float]
+Components = Sequence[float] | NDArray[np.float64]  # along x and y
 
 # Below this part of the peak friction limit the direction of a traction is round-off.
 LEAST_SHEAR = 1e-6
@@ -45,11 +45,11 @@ class SolvedIncrement(Protocol):
         """Cells in contact (nx, ny)."""
 
     @property
-    def tangential_force(self) -> Pair | None:
+    def tangential_force(self) -> Components | None:
         """Tangential force on the indenter [force]."""
 
     @property
-    def tangential_shift(self) -> Pair | None:
+    def tangential_shift(self) -> Components | None:
         """Tangential shift of the indenter [length]."""
 
     @property

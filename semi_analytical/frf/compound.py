@@ -3,7 +3,7 @@
 In the sagittal plane a body is known at a depth by the symmetric 2x2 compliance C between the
 displacement (U, u_z) and the traction (Q, p). Propagated as y = (det C, C11, C12, C22, 1) times a
 scale (second compounds, also called delta matrices: Dunkin 1965), the exact solution needs no
-difference of exponentials. The matrix below is THEORY 1.5, with the brackets regrouped so that
+difference of exponentials. Its matrix is written below with the brackets regrouped so that
 sinh x cosh x - x and sinh^2 x - x^2, which vanish for thin layers, are formed by series.
 """
 

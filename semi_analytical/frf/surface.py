@@ -61,7 +61,7 @@ def half_space_scalars(material: HalfSpace, alpha: ArrayLike) -> SurfaceScalars:
 
 
 def scalars(stack: Stack, alpha: ArrayLike) -> SurfaceScalars:
-    """Surface compliance of layers on a half-space or a rigid base (THEORY 1.5).
+    """Surface compliance of layers on a half-space or a rigid base, by compounds (`compound.py`).
 
     alpha    wavenumbers [1/length], > 0; alpha = 0 has no answer (an infinite body under a
              uniform load moves without bound) and raises ValueError

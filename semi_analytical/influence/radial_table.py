@@ -7,7 +7,7 @@ The point solutions are Hankel transforms of the surface FRF,
     twist Q  = 1/4pi  int (C11 - Csh) J2(alpha r) alpha d alpha,
     cross C  = 1/2pi  int  C12 J1(alpha r) alpha d alpha,
 
-with u_z = K0 p, u_x = (P - cos 2phi Q) q_x - sin 2phi Q q_y, u_z = cos phi C q_x (THEORY 6.2).
+with u_z = K0 p, u_x = (P - cos 2phi Q) q_x - sin 2phi Q q_y, u_z = cos phi C q_x.
 They fall like 1/r near and far, with other constants, so r times them is tabulated: bounded, and
 smooth in log r, which lets one table serve layers of very different thickness.
 """

@@ -31,6 +31,7 @@ class ReferenceKind(StrEnum):
 
     CLOSED_FORM = "closed form"
     SEMI_CLOSED = "semi-closed"
+    THEORY = "theory"
     IDENTITY = "identity"  # holds exactly by a theorem or by the equations themselves
 
 

@@ -24,6 +24,7 @@ from verification.cases.convergence_chart import convergence_chart
 from verification.cases.hertz_point import label
 from verification.cases.paper_scene import FRICTION, HERTZ, NU_ZERO
 from verification.cases.profile_chart import Profile, ProfileLabels, Section, profile_chart
+from verification.cases.refinement import part_of_a_cell, refinement
 from verification.metrics import shear_error
 from verification.quantities import shear_of, shift_along_x
 
@@ -44,12 +45,8 @@ SCENE = paper.frictional(
 
 def cattaneo_mindlin(level: Level = Level.QUICK) -> Case:
     """The case, on finer grids at higher levels."""
-    cells = {
-        Level.QUICK: (48, 64, 96, 128),
-        Level.STANDARD: (48, 64, 96, 128, 192, 256),
-        Level.FULL: (48, 64, 96, 128, 192, 256, 384),
-    }[level]
-    return cattaneo_mindlin_on(cells)
+    finest = {Level.QUICK: 128, Level.STANDARD: 256, Level.FULL: 512}[level]
+    return cattaneo_mindlin_on(refinement(32, finest))
 
 
 def cattaneo_mindlin_on(cells: tuple[int, ...]) -> Case:
@@ -66,7 +63,9 @@ def cattaneo_mindlin_on(cells: tuple[int, ...]) -> Case:
         ),
         runs=runs,
         quantities=tuple(
-            quantity for number, part in enumerate(PARTS, 2) for quantity in _at(number, part, levels)
+            quantity
+            for number, part in enumerate(PARTS, 2)
+            for quantity in _at(number, part, levels, cells[-1])
         ),
         orders=(
             OrderOfConvergence(
@@ -91,7 +90,7 @@ def error_at(step: int, part: float) -> Callable[[Result], float]:
     return error
 
 
-def _at(step: int, part: float, levels: tuple[str, ...]) -> tuple[Quantity, ...]:
+def _at(step: int, part: float, levels: tuple[str, ...], finest_cells: int) -> tuple[Quantity, ...]:
     exact, finest = EXACT[part], levels[-1]
 
     def stick_radius(result: Result) -> float:
@@ -110,8 +109,9 @@ def _at(step: int, part: float, levels: tuple[str, ...]) -> tuple[Quantity, ...]
         Quantity(
             f"stick_radius_at_{part:g}", f"√(stick area / π) at {part:g} µW, in part cells", "m",
             finest, stick_radius, closed_form(exact.stick_radius, SOURCE, HERTZ.contact_radius),
-            Derived(levels, 1.0, 5e-3, "order 1: the border is known to a part of a cell; the cap "
-                    "is a fifth of a cell at 128 x 128 over the contact radius"),
+            Derived(levels, 1.0, part_of_a_cell(0.2, finest_cells, paper.WINDOW_PER_RADIUS),
+                    "order 1: the border is known to a part of a cell; the cap is a fifth of a "
+                    "cell"),
             HERTZ.contact_radius, "the contact radius",
         ),
         Quantity(

@@ -16,10 +16,11 @@ class Look(StrEnum):
     REFERENCE = "reference"
     BOUND = "bound"
     SLOPE = "slope"
+    MARKS = "marks"
 
 
 class Curve(Description):
-    """Points joined by a line. `series` chooses the colour; curves of one series belong together."""
+    """Points joined by a line. Curves of one `series` belong together and share their colour."""
 
     label: str
     x: tuple[float, ...]

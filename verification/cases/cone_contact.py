@@ -23,6 +23,7 @@ from verification.cases.chart import Chart
 from verification.cases.end_state import approach, contact_radius
 from verification.cases.hertz_point import label
 from verification.cases.profile_chart import Profile, ProfileLabels, Section, profile_chart
+from verification.cases.refinement import part_of_a_cell, refinement
 from verification.closed_forms.cone import ConeContact
 from verification.metrics import relative_l1
 
@@ -43,7 +44,7 @@ SCENE = paper.frictionless(
 
 def cone_contact(level: Level = Level.QUICK) -> Case:
     """The case, on finer grids above the quick level."""
-    return cone_contact_on((48, 64, 96, 128) if level is Level.QUICK else (64, 96, 128, 192, 256))
+    return cone_contact_on(refinement(32, 128 if level is Level.QUICK else 256))
 
 
 def cone_contact_on(cells: tuple[int, ...]) -> Case:
@@ -64,15 +65,15 @@ def cone_contact_on(cells: tuple[int, ...]) -> Case:
             Quantity(
                 "approach", "approach of the bodies since first touch", "m", finest, approach,
                 closed_form(EXACT.approach, SOURCE),
-                Derived(levels, 2.0, 1e-3, "order 2: the apex is missed by half a cell, which "
-                        "moves the load of a few cells; the cap is a tenth of the cell at the "
-                        "apex over the contact radius"),
+                Derived(levels, 2.0, 1e-4, "order 2: the apex falls between cells and moves the "
+                        "load of a few of them; the cap is twice what is required of the ball"),
             ),
             Quantity(
                 "contact_radius", "√(contact area / π), cells at the edge counted in part", "m",
                 finest, contact_radius, closed_form(EXACT.contact_radius, SOURCE),
-                Derived(levels, 1.0, 2e-3, "order 1: the edge is known to a part of a cell; the "
-                        "cap is a tenth of a cell"),
+                Derived(levels, 1.0, part_of_a_cell(0.1, cells[-1], paper.WINDOW_PER_RADIUS),
+                        "order 1: the edge is known to a part of a cell; the cap is a tenth of "
+                        "a cell"),
             ),
         ),
         orders=(
@@ -89,7 +90,9 @@ def cone_contact_on(cells: tuple[int, ...]) -> Case:
 
 def pressure_error(result: Result) -> float:
     """Relative L1 error of the pressure."""
-    return relative_l1(result.steps[-1].pressure, EXACT.pressure(np.hypot(*result.grid.coordinates())))
+    return relative_l1(
+        result.steps[-1].pressure, EXACT.pressure(np.hypot(*result.grid.coordinates()))
+    )
 
 
 def _charts(results: Mapping[str, Result]) -> tuple[Chart, ...]:

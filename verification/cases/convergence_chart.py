@@ -30,7 +30,5 @@ def convergence_chart(
             line = [BELOW * values[0] * (h / spacings[0]) ** order for h in spacings]
             curves.append(curve(f"slope {order:g}", spacings, line, Look.SLOPE, series))
         curves.append(curve(label, spacings, values, Look.POINTS, series))
-    panel = Panel(
-        x_label=x_label, y_label="relative error", curves=tuple(curves), logarithmic=True
-    )
+    panel = Panel(x_label=x_label, y_label="relative error", curves=tuple(curves), logarithmic=True)
     return Chart(name=name, title=title, caption=caption, rows=((panel,),))

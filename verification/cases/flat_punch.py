@@ -14,6 +14,7 @@ from verification.cases.chart import Chart
 from verification.cases.convergence_chart import convergence_chart
 from verification.cases.end_state import approach
 from verification.cases.hertz_point import label
+from verification.cases.refinement import refinement
 from verification.closed_forms.flat_punch import FlatPunchContact
 
 if TYPE_CHECKING:
@@ -33,7 +34,7 @@ SCENE = paper.frictionless(
 
 def flat_punch(level: Level = Level.QUICK) -> Case:
     """The case, on finer grids above the quick level."""
-    return flat_punch_on((48, 64, 96, 128) if level is Level.QUICK else (64, 96, 128, 192, 256))
+    return flat_punch_on(refinement(32, 128 if level is Level.QUICK else 256))
 
 
 def flat_punch_on(cells: tuple[int, ...]) -> Case:

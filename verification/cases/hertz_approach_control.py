@@ -8,6 +8,7 @@ from verification.cases.case import Case, Derived, Level, Quantity, Run, closed_
 from verification.cases.end_state import approach, normal_force
 from verification.cases.hertz_point import SOURCE, label
 from verification.cases.paper_scene import HERTZ
+from verification.cases.refinement import refinement
 
 SCENE = paper.frictionless(
     "Ball on a half-space, approach prescribed",
@@ -19,7 +20,7 @@ SCENE = paper.frictionless(
 
 def hertz_approach_control(level: Level = Level.QUICK) -> Case:
     """The case, the same at every level."""
-    return hertz_approach_control_on((32, 48, 64, 96, 128))
+    return hertz_approach_control_on(refinement(32, 128))
 
 
 def hertz_approach_control_on(cells: tuple[int, ...]) -> Case:

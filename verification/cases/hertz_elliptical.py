@@ -23,6 +23,7 @@ from verification.cases.chart import Chart
 from verification.cases.end_state import approach, contact_radius, peak_pressure
 from verification.cases.hertz_point import label
 from verification.cases.profile_chart import Profile, ProfileLabels, Section, profile_chart
+from verification.cases.refinement import part_of_a_cell, refinement
 from verification.closed_forms.elliptical_contact import EllipticalContact
 from verification.metrics import relative_l2
 
@@ -42,7 +43,7 @@ SCENE = paper.frictionless(
 
 def hertz_elliptical(level: Level = Level.QUICK) -> Case:
     """The case, on finer grids above the quick level."""
-    return hertz_elliptical_on((48, 64, 96, 128) if level is Level.QUICK else (64, 96, 128, 192, 256))
+    return hertz_elliptical_on(refinement(32, 256 if level is Level.QUICK else 512))
 
 
 def hertz_elliptical_on(cells: tuple[int, ...]) -> Case:
@@ -76,7 +77,9 @@ def hertz_elliptical_on(cells: tuple[int, ...]) -> Case:
             Quantity(
                 "mean_contact_radius", "√(contact area / π) = √(ab)", "m", finest, contact_radius,
                 closed_form(mean_radius, SOURCE),
-                Derived(levels, 1.0, 1e-3, "order 1: the edge is known to a part of a cell"),
+                Derived(levels, 1.0, part_of_a_cell(0.1, cells[-1], paper.WINDOW_PER_RADIUS),
+                        "order 1: the edge is known to a part of a cell; the cap is a tenth of "
+                        "a cell along the longer axis"),
             ),
         ),
         orders=(

@@ -18,6 +18,7 @@ from verification.cases.case import (
 from verification.cases.end_state import approach, contact_radius, peak_pressure
 from verification.cases.hertz_point import label
 from verification.cases.paper_scene import HERTZ
+from verification.cases.refinement import part_of_a_cell, refinement
 from verification.closed_forms.sphere import SphereContact
 
 SOURCE = "Sneddon 1965, arc of a circle, by Gauss quadrature"
@@ -31,10 +32,8 @@ SCENE = paper.frictionless(
 
 
 def hertz_exact_sphere(level: Level = Level.QUICK) -> Case:
-    """The case, on one more grid above the quick level."""
-    return hertz_exact_sphere_on(
-        (64, 96, 128, 192, 256) if level is Level.QUICK else (64, 96, 128, 192, 256, 384)
-    )
+    """The case, on finer grids above the quick level."""
+    return hertz_exact_sphere_on(refinement(64, 256 if level is Level.QUICK else 512))
 
 
 def hertz_exact_sphere_on(cells: tuple[int, ...]) -> Case:
@@ -67,7 +66,8 @@ def hertz_exact_sphere_on(cells: tuple[int, ...]) -> Case:
             Quantity(
                 "contact_radius", "√(contact area / π), cells at the edge counted in part", "m",
                 finest, contact_radius, _reference(EXACT.contact_radius),
-                Derived(levels, 1.0, 1e-3, "as for the paraboloid"),
+                Derived(levels, 1.0, part_of_a_cell(0.1, cells[-1], paper.WINDOW_PER_RADIUS),
+                        "as for the paraboloid"),
             ),
         ),
         findings=(

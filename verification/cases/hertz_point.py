@@ -22,6 +22,7 @@ from verification.cases.convergence_chart import convergence_chart
 from verification.cases.end_state import approach, contact_radius, peak_pressure
 from verification.cases.paper_scene import HERTZ
 from verification.cases.profile_chart import Profile, ProfileLabels, Section, profile_chart
+from verification.cases.refinement import part_of_a_cell, refinement
 from verification.metrics import relative_l2
 
 if TYPE_CHECKING:
@@ -29,6 +30,7 @@ if TYPE_CHECKING:
 
 SOURCE = "Hertz 1882; Johnson 1985, ch. 4"
 ASKED = "required of this scene by the project's accuracy targets"
+REQUIRED_PEAK = {128: 1.5e-4, 256: 4e-5}  # by cells per side
 SCENE = paper.frictionless(
     "Ball on a half-space (paper's data, paraboloid)",
     paper.paraboloid(paper.STEEL),
@@ -39,12 +41,8 @@ SCENE = paper.frictionless(
 
 def hertz_point(level: Level = Level.QUICK) -> Case:
     """The case, on finer grids at higher levels."""
-    cells = {
-        Level.QUICK: (64, 96, 128, 192, 256),
-        Level.STANDARD: (64, 96, 128, 192, 256, 384),
-        Level.FULL: (64, 96, 128, 192, 256, 384, 512),
-    }[level]
-    return hertz_on(cells)
+    finest = {Level.QUICK: 256, Level.STANDARD: 512, Level.FULL: 1024}[level]
+    return hertz_on(refinement(32, finest))
 
 
 def hertz_on(cells: tuple[int, ...]) -> Case:
@@ -61,8 +59,8 @@ def hertz_on(cells: tuple[int, ...]) -> Case:
         ),
         runs=runs,
         quantities=(
-            *(_peak_pressure(n, allowed) for n, allowed in ((128, 1.5e-4), (256, 4e-5)) if n in cells),
-            *(_approach(n) for n in (128, 256) if n in cells),
+            *(_peak_pressure(n, allowed) for n, allowed in REQUIRED_PEAK.items() if n in cells),
+            *(_approach(n) for n in REQUIRED_PEAK if n in cells),
             Quantity(
                 "approach", "approach of the bodies since first touch", "m", levels[-1], approach,
                 closed_form(HERTZ.approach, SOURCE),
@@ -72,8 +70,9 @@ def hertz_on(cells: tuple[int, ...]) -> Case:
             Quantity(
                 "contact_radius", "√(contact area / π), cells at the edge counted in part", "m",
                 levels[-1], contact_radius, closed_form(HERTZ.contact_radius, SOURCE),
-                Derived(levels, 1.0, 1e-3, "order 1: the edge is known to a part of a cell; the "
-                        "cap is that part, a tenth, of a cell at 128 x 128"),
+                Derived(levels, 1.0, part_of_a_cell(0.1, cells[-1], paper.WINDOW_PER_RADIUS),
+                        "order 1: the edge is known to a part of a cell; the cap is a tenth of "
+                        "a cell"),
             ),
         ),
         orders=(

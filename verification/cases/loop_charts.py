@@ -74,7 +74,7 @@ def loading_history_chart(result: Result) -> Chart:
             curve("", time, force, series=0),
             curve(
                 "states of figure 2", [t for t, _, _ in marked], [f for _, f, _ in marked],
-                Look.BOUND,
+                Look.MARKS,
             ),
         ),
         notes=tuple(marked),
@@ -101,8 +101,10 @@ def tractions_chart(result: Result, exact: ExactLoop) -> Chart:
         states = [(n, result.increments[_number_of(result, step, part)]) for n, part in names]
         grey = [
             curve(
-                "closed form" if n == 0 else "", x,
-                by_increment[i.step, i.index].shear(section.r) / scale, Look.REFERENCE,
+                "closed form" if n == 0 else "",
+                x,
+                by_increment[i.step, i.index].shear(section.r) / scale,
+                Look.REFERENCE,
             )
             for n, (_, i) in enumerate(states)
         ]
@@ -110,13 +112,11 @@ def tractions_chart(result: Result, exact: ExactLoop) -> Chart:
             curve(_state_label(name, i), x, section.of(shear_of(i)[0]) / scale, series=n)
             for n, (name, i) in enumerate(states)
         ]
-        bounds = [
-            curve("± µp / µp₀", x, limit, Look.BOUND), curve("", x, -limit, Look.BOUND)
-        ]
+        bounds = [curve("± µp / µp₀", x, limit, Look.BOUND), curve("", x, -limit, Look.BOUND)]
         panels.append(
             (Panel(
                 x_label="x / a" if step == max(BRANCHES) else "", y_label="qₓ / µp₀",
-                curves=(*bounds, *grey, *colour), title=branch,
+                curves=(*bounds, *grey, *colour), title=branch, height=1.4,
             ),)
         )  # fmt: skip
     return Chart(

@@ -12,7 +12,7 @@ from verification.cases.paper_scene import NU_ZERO, STEEL
 CELLS = 64
 PARTS = (0.99, 0.999, 0.9999)
 MATERIALS = {"ν = 0": NU_ZERO, "ν = 0.3": STEEL}
-BEYOND = 3.0  # shifts at gross sliding
+BEYOND = 5.0  # shifts at gross sliding
 
 
 def near_sliding(level: Level = Level.QUICK) -> Case:
@@ -36,7 +36,7 @@ def near_sliding_on(cells: int) -> Case:
         title="Up to gross sliding and beyond",
         problem=(
             "The paper's contact sheared in a single step to 0.99, 0.999 and 0.9999 of µW, with "
-            "ν = 0 and ν = 0.3, and dragged to three times the shift at gross sliding. What is "
+            "ν = 0 and ν = 0.3, and dragged to five times the shift at gross sliding. What is "
             "judged is that every solve ends within its tolerance, and that sliding takes µW: "
             "every particle then slips along x, whatever ν is."
         ),
@@ -45,7 +45,7 @@ def near_sliding_on(cells: int) -> Case:
             *(_shift(run.label, part) for run, part in zip(steps, PARTS, strict=False)),
             *(_limit(run.label) for run in slides),
         ),
-        limits=("Force control at µW itself is singular and is refused; it is not a case.",),
+        limits=("Under force control at µW itself the shift is undefined; it is not a case.",),
     )
 
 
@@ -65,7 +65,7 @@ def _sliding(material: IsotropicMaterial) -> Scene:
         paper.paraboloid(material),
         material,
         LoadStep(tangential_shift=(0.8 * sliding_shift, 0.0), increments=2),
-        LoadStep(tangential_shift=(BEYOND * sliding_shift, 0.0), increments=2),
+        LoadStep(tangential_shift=(BEYOND * sliding_shift, 0.0), increments=6),
     )
 
 

@@ -31,6 +31,7 @@ class Verdict(Description):
     """|value - reference| / scale."""
 
     allowed: float
+    scale: float
     scale_name: str
     tolerance_kind: str
     """required, derived, or order."""
@@ -73,6 +74,7 @@ class RunRecord(Description):
 class SceneRecord(Description):
     """A scene in words, and the effects that its plan switches on or off."""
 
+    title: str
     lines: tuple[tuple[str, str], ...]
     effects: tuple[EffectSummary, ...]
 

@@ -28,7 +28,7 @@ from verification.cases.loop_charts import (
 )
 from verification.cases.loop_history import LOADED, ExactLoop, loop_energy, loop_steps
 from verification.cases.paper_scene import FRICTION, STEEL
-from verification.quantities import slip_traction_angle, transverse_shear
+from verification.quantities import shift_along_x, slip_traction_angle, transverse_shear
 
 if TYPE_CHECKING:
     from semi_analytical import Result
@@ -38,8 +38,8 @@ EXACT = ExactLoop(STEEL)
 QUARTER = 18
 BAND = (
     "the closed form lets all slipping points pull along x although they do not slip along x; "
-    "solutions of Coulomb's vector law differ from it by parts of a per cent in sums and by a few "
-    "per cent pointwise"
+    "solutions of Coulomb's vector law differ from it by parts of a per cent in shift and energy "
+    "and by a few per cent in the shear"
 )
 
 
@@ -80,7 +80,7 @@ def _quantities(run: str) -> tuple[Quantity, ...]:
     return (
         Quantity(
             "largest_shear_error", "largest Σ|q - q_closed| / Σµp of any increment", "", run,
-            EXACT.largest_shear_error, _near(0.0, 0.005), Required(0.01, BAND), 1.0, "Σµp",
+            EXACT.largest_shear_error, _near(0.0, 0.05), Required(0.05, BAND), 1.0, "Σµp",
         ),
         Quantity(
             "largest_shift_error", "largest difference of the shift in any increment", "m", run,
@@ -117,9 +117,7 @@ def _findings(run: str) -> tuple[Finding, ...]:
         ),
         Finding(
             "shift_at_amplitude", "shift at 0.9 µW over the closed form's, less one", "", run,
-            lambda result: float(
-                result.steps[LOADED - 1].tangential_shift[0] / EXACT.end.shift - 1
-            ),
+            lambda result: shift_along_x(result.steps[LOADED - 1]) / EXACT.end.shift - 1,
             "the vector law makes the contact stiffer",
         ),
     )  # fmt: skip

@@ -60,7 +60,9 @@ def frictionless(title: str, indenter: Indenter, body: IsotropicMaterial, load: 
     return Scene(title=title, indenter=indenter, body=Body(material=body), loading=(load,))
 
 
-def frictional(title: str, indenter: Indenter, body: IsotropicMaterial, *loading: LoadStep) -> Scene:
+def frictional(
+    title: str, indenter: Indenter, body: IsotropicMaterial, *loading: LoadStep
+) -> Scene:
     """Indenter on a half-space with the paper's friction, pressed by its force and then `loading`.
 
     Uncoupled bodies: the pressure does not depend on the way there, so one increment will do.

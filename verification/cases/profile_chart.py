@@ -86,12 +86,8 @@ def profile_chart(
     ]
     computed = [curve(p.label, x, p.computed, series=n) for n, p in enumerate(profiles)]
     difference = [curve("", x, p.computed - p.exact, series=n) for n, p in enumerate(profiles)]
-    above = Panel(
-        x_label="", y_label=labels.y_label, curves=(*exact, *computed), height=2.6
-    )
-    below = Panel(
-        x_label=labels.x_label, y_label=labels.difference_label, curves=tuple(difference)
-    )
+    above = Panel(x_label="", y_label=labels.y_label, curves=(*exact, *computed), height=2.6)
+    below = Panel(x_label=labels.x_label, y_label=labels.difference_label, curves=tuple(difference))
     return Chart(
         name=labels.name, title=labels.title, caption=labels.caption, rows=((above,), (below,))
     )

@@ -26,6 +26,7 @@ from verification.cases.cone_contact import MEAN_PRESSURE, SLOPE
 from verification.cases.hertz_point import label
 from verification.cases.paper_scene import FRICTION, NU_ZERO
 from verification.cases.profile_chart import Profile, ProfileLabels, Section, profile_chart
+from verification.cases.refinement import part_of_a_cell, refinement
 from verification.closed_forms.ciavarella_jaeger import Superposition, superpose
 from verification.closed_forms.cone import ConeContact
 from verification.metrics import shear_error
@@ -58,7 +59,7 @@ SLIDING_SHIFT = FRICTION * MODULUS_RATIO * FULL.approach
 
 def sheared_cone(level: Level = Level.QUICK) -> Case:
     """The case, on finer grids above the quick level."""
-    return sheared_cone_on((48, 64, 96, 128) if level is Level.QUICK else (64, 96, 128, 192, 256))
+    return sheared_cone_on(refinement(32, 128 if level is Level.QUICK else 256))
 
 
 def sheared_cone_on(cells: tuple[int, ...]) -> Case:
@@ -76,7 +77,9 @@ def sheared_cone_on(cells: tuple[int, ...]) -> Case:
         ),
         runs=runs,
         quantities=tuple(
-            quantity for step, part in enumerate(PARTS, 2) for quantity in _at(step, part, levels)
+            quantity
+            for step, part in enumerate(PARTS, 2)
+            for quantity in _at(step, part, levels, cells[-1])
         ),
         orders=(
             OrderOfConvergence(
@@ -99,7 +102,7 @@ def error_at(step: int, part: float) -> Callable[[Result], float]:
     return error
 
 
-def _at(step: int, part: float, levels: tuple[str, ...]) -> tuple[Quantity, ...]:
+def _at(step: int, part: float, levels: tuple[str, ...], finest_cells: int) -> tuple[Quantity, ...]:
     exact, finest = EXACT[part], levels[-1]
     exact_stick_radius = FULL.contact_radius * float(np.sqrt(1 - part))
 
@@ -120,14 +123,15 @@ def _at(step: int, part: float, levels: tuple[str, ...]) -> tuple[Quantity, ...]
         Quantity(
             f"stick_radius_at_{part:g}", f"√(stick area / π) at {part:g} µW, in part cells", "m",
             finest, stick_radius, closed_form(exact_stick_radius, SOURCE, FULL.contact_radius),
-            Derived(levels, 1.0, 5e-3, "order 1: the border is known to a part of a cell; the cap "
-                    "is a fifth of a cell at 128 x 128 over the contact radius"),
+            Derived(levels, 1.0, part_of_a_cell(0.2, finest_cells, paper.WINDOW_PER_RADIUS),
+                    "order 1: the border is known to a part of a cell; the cap is a fifth of a "
+                    "cell"),
             FULL.contact_radius, "the contact radius",
         ),
         Quantity(
             f"shift_at_{part:g}", f"tangential shift at {part:g} µW", "m", finest, shift,
             closed_form(exact.shift, SOURCE, SLIDING_SHIFT),
-            Derived(levels, 2.0, 1e-3, "order 2 and cap as the approach of the frictionless cone, "
+            Derived(levels, 2.0, 1e-4, "order 2 and cap as the approach of the frictionless cone, "
                     "of which the shift is a copy"),
             SLIDING_SHIFT, "the shift at gross sliding",
         ),

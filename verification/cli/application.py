@@ -12,6 +12,8 @@ application = typer.Typer(
     cls=LazyCommands,
     no_args_is_help=True,
     rich_markup_mode="markdown",
+    epilog="Exit codes: 0 done; 1 an accuracy verdict failed; 2 invalid scene or unwritable output; "
+    "3 not converged; 4 too little memory or disk; 5 baseline drift; 70 internal error.",
     context_settings={"help_option_names": ["-h", "--help"]},
 )
 
@@ -40,7 +42,7 @@ def slipstick(
 
 
 def main(arguments: Sequence[str] | None = None) -> None:
-    """Run the command line and leave with the exit code that CONTRIBUTING lists.
+    """Run the command line and leave with an exit code (see `errors.ExitCode`).
 
     arguments  without the program's name; None means those of this process
     """

@@ -19,7 +19,7 @@ class ExitCode(IntEnum):
     INTERNAL = 70  # a defect of ours (EX_SOFTWARE), never to be mistaken for a verdict
 
 
-DISK_FULL = {errno.ENOSPC, errno.EDQUOT}
+DISK_FULL = {errno.ENOSPC, errno.EDQUOT, errno.EFBIG}
 
 
 def exit_code(error: Exception) -> ExitCode:

@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from semi_analytical import Increment, Result
+from verification.cli.grid_text import grid_text
 from verification.run_output.engineering_units import engineering_unit
 
 FIRST, LAST = 10, 10  # of a long history, the steps that are shown
@@ -16,9 +17,7 @@ Values = list[float | None]
 
 def solved_with(result: Result, seconds: float) -> Iterator[tuple[str, str]]:
     """How fine and how well it was solved."""
-    (nx, ny), (Lx, Ly) = result.grid.cells, result.grid.window
-    length = engineering_unit(max(Lx, Ly), "m")
-    yield "grid", f"{nx} x {ny} cells on {Lx / length.size:.4g} x {length.text(Ly)}"
+    yield "grid", grid_text(result.grid)
     worst = max(increment.residuals.worst for increment in result.increments)
     yield "tolerance", f"{result.tolerance:.3g} (largest residual {worst:.1e})"
     yield "increments", f"{len(result.increments)} in {seconds:.2f} s"

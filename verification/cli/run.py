@@ -35,13 +35,12 @@ def run(
     """
     from contact_scene import read_scene_file
     from verification.run_output.run_directory import run_directory
-    from verification.run_output.stop_signals import stop_signals_unwind
     from verification.run_output.timing import Stopwatch
 
     stopwatch = Stopwatch()
     with stopwatch.phase("read"):
         contents = read_scene_file(scene, overrides or ())
-    with stop_signals_unwind(), run_directory(output, overwrite=overwrite) as staging:
+    with run_directory(output, overwrite=overwrite) as staging:
         result = _solve(contents, stopwatch)
         _write(result, stopwatch, staging, figures)
     _print_outcome(result, stopwatch, output)

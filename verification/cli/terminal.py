@@ -20,7 +20,9 @@ def harmless(text: str) -> str:
     return "".join(c if c.isprintable() else ascii(c)[1:-1] for c in text)
 
 
-def print_table(columns: Iterable[str], rows: Iterable[Sequence[str]], *, numbers: bool) -> None:
+def print_table(
+    columns: Iterable[str], rows: Iterable[Sequence[str]], *, numbers: bool = False
+) -> None:
     """A table whose first column is a name; the others are right-aligned if they are numbers."""
     # Imported here because 'slipstick check' shows no table and shall answer at once.
     from rich.box import SIMPLE_HEAD

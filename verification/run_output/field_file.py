@@ -1,5 +1,6 @@
 """`result.h5`: every field at every increment, with units and meaning next to the numbers."""
 
+import io
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
@@ -65,7 +66,9 @@ def write_fields(result: Result, directory: Path) -> None:
     Every dataset of `increments` has the increment as its first index and one chunk per increment,
     so that one of them can be read without the others. Effects that are off have no dataset.
     """
-    with h5py.File(directory / FIELDS, "w") as file:
+    # Made in memory: the HDF5 library may crash the process when the disk is full.
+    contents = io.BytesIO()
+    with h5py.File(contents, "w") as file:
         file.attrs["description"] = "slipstick, SI units; arrays are [increment, (x, y), i, j]"
         file.attrs["tolerance"] = result.tolerance
         _write(file, "scene", result.scene.model_dump_json(), "", "what was solved (JSON)")
@@ -78,6 +81,7 @@ def write_fields(result: Result, directory: Path) -> None:
             scalars = [quantity.of(increment) for increment in result.increments]
             if any(scalar is not None for scalar in scalars):
                 _write(group, quantity.name, _numbers(scalars), quantity.unit, quantity.meaning)
+    (directory / FIELDS).write_bytes(contents.getbuffer())
 
 
 def _write_field(group: Any, quantity: Quantity, increments: tuple[Increment, ...]) -> None:

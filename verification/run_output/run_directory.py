@@ -17,7 +17,7 @@ from pathlib import Path
 
 from verification.run_output.directory_lock import acquire, release
 from verification.run_output.file_names import RUN_FILES, SUMMARY, TIMING
-from verification.run_output.stop_signals import stop_signals_held
+from verification.run_output.stop_signals import cleaned_up_when_stopped, stop_signals_held
 
 
 class OutputRefused(Exception):
@@ -35,24 +35,26 @@ def run_directory(target: Path, *, overwrite: bool = False) -> Iterator[Path]:
     target = Path(os.path.realpath(target))
     _refuse_what_is_in_the_way(target, overwrite)
     created = _create_parents(target)
+    staging, lock = _create_staging(target, created)
+
+    def clean() -> None:
+        shutil.rmtree(staging, ignore_errors=True)
+        _remove_empty(created)
+
     try:
-        staging, lock = _create_staging(target)
-        try:
+        with cleaned_up_when_stopped(clean):
             yield staging
             with stop_signals_held():
                 _publish(staging, target)
-        finally:
-            shutil.rmtree(staging, ignore_errors=True)
-            release(lock)
-    except BaseException:
-        for directory in created:
-            _remove_if_empty(directory)
-        raise
+    finally:
+        clean()
+        release(lock)
 
 
 def _refuse_what_is_in_the_way(target: Path, overwrite: bool) -> None:
-    if target.exists() and not target.is_dir():
-        raise OutputRefused(f"{target} is a file; --output needs a directory")
+    for place in (target, *target.parents):
+        if place.exists() and not place.is_dir():
+            raise OutputRefused(f"{place} is a file; --output needs a directory")
     if not target.is_dir():
         return
     ours = _is_earlier_run(target)
@@ -85,7 +87,7 @@ def _create_parents(target: Path) -> list[Path]:
     return missing
 
 
-def _create_staging(target: Path) -> tuple[Path, int | None]:
+def _create_staging(target: Path, created: list[Path]) -> tuple[Path, int | None]:
     """Create and lock the hidden directory, and clear away those of runs that were killed.
 
     An existing target hosts it: it may be a mount point of its own, or the only place that may
@@ -100,6 +102,7 @@ def _create_staging(target: Path) -> tuple[Path, int | None]:
         try:
             staging.mkdir()
         except OSError as error:
+            _remove_empty(created)
             raise OutputRefused(f"cannot write into {place}: {error.strerror}") from error
         lock = acquire(staging, wait=True)
         if staging.exists():  # another run may have taken it for abandoned before it was locked
@@ -160,8 +163,10 @@ def _flush(path: Path) -> None:
         os.close(descriptor)
 
 
-def _remove_if_empty(directory: Path) -> None:
-    try:
-        directory.rmdir()
-    except OSError:
-        return
+def _remove_empty(directories: list[Path]) -> None:
+    """Remove these directories, innermost first, as far as nothing is in them."""
+    for directory in directories:
+        try:
+            directory.rmdir()
+        except OSError:
+            return

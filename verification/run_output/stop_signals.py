@@ -1,33 +1,36 @@
-"""Signals that end a run: they clean up first, and wait while files are moved into place."""
+"""Signals that end a process: it cleans up first, and not while files are moved into place."""
 
+import os
 import signal
 import threading
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from types import FrameType
 from typing import Any
 
-Handlers = dict[signal.Signals, Any]
+Handler = Callable[[int, FrameType | None], Any]
 
 STOPS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
-
-
-def _stop(number: int, frame: FrameType | None) -> None:
-    for each in STOPS:  # a second Ctrl-C must not interrupt the clean-up that the first one began
-        signal.signal(each, signal.SIG_IGN)
-    raise SystemExit(128 + number)
+STDERR = 2
+SHOW_CURSOR = b"\x1b[?25h"  # a progress bar hides it
 
 
 @contextmanager
-def stop_signals_unwind() -> Iterator[None]:
-    """Turn the signals into an exit with 128 + number that runs every clean-up on its way."""
-    before = _handled()
-    for number in before:
-        signal.signal(number, _stop)
-    try:
+def cleaned_up_when_stopped(clean: Callable[[], None] = lambda: None) -> Iterator[None]:
+    """End the process with 128 + number on a signal, but call `clean` before.
+
+    The handler leaves by itself: an exception raised from it would be lost wherever Python or a
+    library swallows exceptions, as in the callbacks of the garbage collector.
+    """
+
+    def leave(number: int, frame: FrameType | None) -> None:
+        clean()
+        if os.isatty(STDERR):  # past sys.stderr, which a progress bar may have replaced
+            os.write(STDERR, SHOW_CURSOR + b"\n")
+        os._exit(128 + number)
+
+    with _handled_by(leave):
         yield
-    finally:
-        _restore(before)
 
 
 @contextmanager
@@ -38,25 +41,25 @@ def stop_signals_held() -> Iterator[None]:
     a numerical library would receive the signal instead.
     """
     received: list[int] = []
-    before = _handled()
-    for number in before:
-        signal.signal(number, lambda number, frame: received.append(number))
     try:
-        yield
+        with _handled_by(lambda number, frame: received.append(number)):
+            yield
     finally:
-        _restore(before)
         if received:
             signal.raise_signal(received[0])
 
 
-def _handled() -> Handlers:
-    """The handlers in force, without those that the parent told us to ignore (nohup, `&`)."""
-    if threading.current_thread() is not threading.main_thread():
-        return {}  # Python allows only the main thread to change handlers
-    handlers = {number: signal.getsignal(number) for number in STOPS}
-    return {n: handler for n, handler in handlers.items() if handler is not signal.SIG_IGN}
-
-
-def _restore(handlers: Handlers) -> None:
-    for number, handler in handlers.items():
+@contextmanager
+def _handled_by(handler: Handler) -> Iterator[None]:
+    """Replace the handlers, except where the parent told us to ignore the signal (nohup, `&`)."""
+    before: dict[int, Any] = {}
+    if threading.current_thread() is threading.main_thread():  # others must not change handlers
+        before = {number: signal.getsignal(number) for number in STOPS}
+    before = {number: old for number, old in before.items() if old is not signal.SIG_IGN}
+    for number in before:
         signal.signal(number, handler)
+    try:
+        yield
+    finally:
+        for number, old in before.items():
+            signal.signal(number, old)

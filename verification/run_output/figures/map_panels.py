@@ -12,8 +12,9 @@ from semi_analytical import Result
 from semi_analytical.grid import SurfaceGrid
 from verification.run_output.engineering_units import EngineeringUnit, engineering_unit
 
-PANEL = 2.5  # side in inches
-COLUMNS = 3
+PANEL = 2.4  # longer side in inches
+NARROWEST = 1.0
+COLUMNS = {1: 1, 2: 2, 4: 2}  # by number of panels; three of any other number
 MARGIN = 1.15  # of the contact's extent, so that its edge is seen against the outside
 
 
@@ -42,22 +43,25 @@ class MapFrame:
         Lx, Ly = (length / self.unit.size for length in self.grid.window)
         return -Lx / 2, Lx / 2, -Ly / 2, Ly / 2
 
+    def figure_size(self, panels: int, blocks: int = 1) -> tuple[float, float]:
+        """Sides in inches that give every panel its place, and a colour bar at the right.
+
+        blocks  how many times the panels are repeated, one below the other
+        """
+        columns = COLUMNS.get(panels, 3)
+        rows = math.ceil(panels / columns) * blocks
+        width, height = (max(PANEL * side / max(self.shown), NARROWEST) for side in self.shown)
+        return columns * (width + 0.2) + 1.3, rows * (height + 0.55) + 0.2
+
 
 def _half_extent(centres: NDArray[np.float64], touched: NDArray[np.bool_], cell: float) -> float:
     reach = np.max(np.abs(centres[touched]), initial=0.0) + cell / 2
     return float(min(MARGIN * reach, np.max(centres) + cell / 2))
 
 
-def figure_size(panels: int, rows_of_panels: int = 1) -> tuple[float, float]:
-    """Sides in inches that give every panel its place, the colour bar included."""
-    columns = min(panels, COLUMNS)
-    rows = math.ceil(panels / COLUMNS) * rows_of_panels
-    return columns * PANEL + 1.6, rows * (PANEL + 0.25) + 0.4
-
-
 def map_axes(figure: FigureBase, frame: MapFrame, count: int) -> list[Any]:
     """`count` panels in rows, axes labelled at the left and at the bottom only."""
-    columns = min(count, COLUMNS)
+    columns = COLUMNS.get(count, 3)
     rows = math.ceil(count / columns)
     grid = figure.subplots(rows, columns, sharex=True, sharey=True, squeeze=False)
     panels = list(grid.flat)

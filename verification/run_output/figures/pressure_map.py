@@ -6,7 +6,7 @@ from matplotlib.figure import Figure
 from semi_analytical import Result
 from verification.run_output.engineering_units import engineering_unit
 from verification.run_output.figures import style
-from verification.run_output.figures.map_panels import MapFrame, draw_cells, figure_size, map_axes
+from verification.run_output.figures.map_panels import MapFrame, draw_cells, map_axes
 from verification.run_output.figures.shown_steps import normal_load, runs_of_equal, selected, span
 
 
@@ -16,7 +16,7 @@ def pressure_map(result: Result) -> Figure:
     groups = runs_of_equal(selected(result.steps), lambda step: step.pressure)
     peak = max(step.peak_pressure for step in result.steps)
     unit = engineering_unit(peak, "Pa")
-    figure = style.new_figure(*figure_size(len(groups)))
+    figure = style.new_figure(*frame.figure_size(len(groups)))
     axes = map_axes(figure, frame, len(groups))
     for ax, group in zip(axes, groups, strict=True):
         colours = {"cmap": style.MAGNITUDE_MAP, "vmin": 0.0, "vmax": peak / unit.size}

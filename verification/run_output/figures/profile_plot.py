@@ -52,10 +52,12 @@ def _draw_shear(ax: Any, result: Result, length: EngineeringUnit) -> None:
     unit = engineering_unit(max(float(np.max(np.abs(shear_of(step)[k]))) for step in steps), "Pa")
     mu = result.scene.friction.coefficient if result.scene.friction else None
     if isinstance(mu, float):
-        bound = mu * along_centre_line(steps[-1].pressure) / unit.size
-        ax.fill_between(x, -bound, bound, color=style.GREY, alpha=0.15, linewidth=0)
-        ax.plot(x, bound, color=style.GREY, linewidth=0.8, label="± µp")
-        ax.plot(x, -bound, color=style.GREY, linewidth=0.8)
+        for number, group in enumerate(runs_of_equal(steps, lambda step: step.pressure)):
+            bound = mu * along_centre_line(group[0].pressure) / unit.size
+            ax.fill_between(x, -bound, bound, color=style.GREY, alpha=0.12, linewidth=0)
+            label = "± µp" if number == 0 else None
+            ax.plot(x, bound, color=style.GREY, linewidth=0.8, label=label)
+            ax.plot(x, -bound, color=style.GREY, linewidth=0.8)
     for number, step in enumerate(steps):
         shear = along_centre_line(shear_of(step)[k]) / unit.size
         ax.plot(x, shear, label=span([step]), **_line(number))

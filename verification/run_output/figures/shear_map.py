@@ -9,7 +9,6 @@ from verification.run_output.figures import style
 from verification.run_output.figures.map_panels import (
     MapFrame,
     draw_cells,
-    figure_size,
     map_axes,
     outline,
 )
@@ -33,7 +32,8 @@ def shear_map(result: Result) -> Figure:
     steps = selected(sheared(result.steps))
     largest = [max(float(np.max(np.abs(shear_of(step)[k]))) for step in steps) for k in (0, 1)]
     components = [k for k in (0, 1) if largest[k] > SAME * max(largest)]
-    figure = style.new_figure(*figure_size(len(steps), len(components)))
+    width, height = frame.figure_size(len(steps), len(components))
+    figure = style.new_figure(width, height + 0.3)  # and a line of text at the bottom
     rows = figure.subfigures(len(components), 1, squeeze=False)[:, 0]
     for k, row in zip(components, rows, strict=True):
         unit = engineering_unit(largest[k], "Pa")
@@ -45,6 +45,7 @@ def shear_map(result: Result) -> Figure:
             if step.in_stick is not None:
                 outline(ax, frame, step.in_stick, "black")
             ax.set_title(f"{span([step])}: {tangential_load(step)}")
-        label = f"shear $q_{'xy'[k]}$ ({unit.name})\nblack line: border of stick"
+        label = f"shear $q_{'xy'[k]}$ ({unit.name})"
         row.colorbar(image, ax=axes, label=label, shrink=0.9)
+    rows[-1].supxlabel("black line: border of the stick zone", fontsize="medium")
     return figure

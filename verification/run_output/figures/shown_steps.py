@@ -58,6 +58,8 @@ def tangential_load(step: Increment) -> str:
     """The tangential force at the end of a step, as a title shows it."""
     x, y = (0.0, 0.0) if step.tangential_force is None else map(float, step.tangential_force)
     largest = max(abs(x), abs(y))
+    if largest == 0.0:
+        return "T = 0"
     if abs(y) <= SAME * largest:
         return f"$T_x$ = {_typeset(quantity(x, 'N', 3))}"
     if abs(x) <= SAME * largest:

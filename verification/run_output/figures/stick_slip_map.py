@@ -7,7 +7,7 @@ from matplotlib.patches import Patch
 
 from semi_analytical import Result
 from verification.run_output.figures import style
-from verification.run_output.figures.map_panels import MapFrame, draw_cells, figure_size, map_axes
+from verification.run_output.figures.map_panels import MapFrame, draw_cells, map_axes
 from verification.run_output.figures.shown_steps import selected, span, tangential_load
 
 ZONES = (
@@ -21,8 +21,8 @@ def stick_slip_map(result: Result) -> Figure:
     """Zones of stick and slip at the end of the loading steps."""
     frame = MapFrame.around_contact(result)
     steps = selected([step for step in result.steps if step.in_stick is not None])
-    width, height = figure_size(len(steps))
-    figure = style.new_figure(width - 0.8, height + 0.4)  # a legend below, no colour bar
+    width, height = frame.figure_size(len(steps))
+    figure = style.new_figure(width - 0.6, height + 0.3)  # a legend below, no colour bar
     colours = ListedColormap([colour for _, colour in ZONES])
     for ax, step in zip(map_axes(figure, frame, len(steps)), steps, strict=True):
         # The zone's number in ZONES: stick implies contact.

@@ -1,0 +1,243 @@
+"""Displacement and traction at depth in a layered body, per unit traction on its surface.
+
+Everything below a horizontal plane acts on what lies above through the compliance C of that plane,
+which the compound recursion gives without cancellation. So the traction at the plane follows from
+the one at the surface, tau = M^-1 tau_0 with M of the material between (its determinant is the
+recursion's divisor), and the displacement is C tau. Exponentials only decay; nu = 1/2 is regular.
+Signs and frame: CONVENTIONS.md, THEORY 1.4 to 1.6.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from semi_analytical.frf.compound import OPAQUE, compound_rows, decaying_waves
+from semi_analytical.frf.stack import HalfSpace, Stack
+from semi_analytical.frf.surface import remainder_scalars
+
+Array = NDArray[np.float64]
+
+
+class DepthScalars(NamedTuple):
+    """Fields at one depth as functions of the wavenumber, all real.
+
+    With u_s = iU and t_s = iQ as in `surface.py`, and the traction at depth tau = -(sigma_sz / i,
+    sigma_zz), the first axis of a matrix is the field (along the wave vector, normal), the second
+    one the surface traction (Q, p).
+
+    displacement  (U, u_z), shape (2, 2, wavenumbers) [length^3/force]
+    traction      (tau_s, tau_z), shape (2, 2, wavenumbers), dimensionless
+    transverse_displacement, transverse_traction
+                  of the waves across: u_t and -sigma_tz by t_t, shape (wavenumbers,)
+    """
+
+    displacement: Array
+    traction: Array
+    transverse_displacement: Array
+    transverse_traction: Array
+
+
+class PlaneScalars(NamedTuple):
+    """In-plane stresses in the frame along the wave vector, per unit surface traction.
+
+    along, across  sigma_ss, sigma_tt by (Q, p), shape (2, wavenumbers)
+    shear          sigma_st / i by t_t, shape (wavenumbers,)
+    """
+
+    along: Array
+    across: Array
+    shear: Array
+
+
+@dataclass(frozen=True)
+class Level:
+    """A depth and the material it is seen from: at an interface there are two.
+
+    depth  below the surface [length]
+    layer  index of the layer; the number of layers stands for the base
+    """
+
+    depth: float
+    layer: int
+
+
+class Compliance(NamedTuple):
+    """Answer of everything below a plane: (det C, C11, C12, C22, 1) in units of 1/(2 G alpha).
+
+    shear  transverse, in units of 1/(G alpha)
+    """
+
+    rows: tuple[Array, ...]
+    shear: Array
+
+
+class Descent:
+    """The way of surface tractions down a stack; built once for some wavenumbers, asked for often.
+
+    alpha  wavenumbers [1/length], > 0, shape (wavenumbers,)
+    """
+
+    def __init__(self, stack: Stack, alpha: Array) -> None:
+        self.stack = stack
+        self.alpha = alpha
+        self._tops = np.cumsum([0.0, *(film.thickness for film in stack.layers)])
+        self._below = self._compliances()
+        unit, zero = np.ones_like(alpha), np.zeros_like(alpha)
+        self._traction = [np.array([[unit, zero], [zero, unit]])]
+        self._transverse = [unit]
+        for k, film in enumerate(stack.layers):
+            through, across = _transmitted(
+                self._below[k], film.poisson_ratio, alpha * film.thickness
+            )
+            self._traction.append(_product(through, self._traction[k]))
+            self._transverse.append(across * self._transverse[k])
+
+    def at(self, level: Level) -> DepthScalars:
+        """Fields at a level; at a rigid base its upper side only."""
+        k = level.layer
+        G, nu = material_at(self.stack, level)
+        below = self._below[k]
+        if k < len(self.stack.layers):
+            left = max(0.0, self._tops[k + 1] - level.depth)
+            below = _compliance_above(below, nu, self.alpha * left)
+        through, across = _transmitted(below, nu, self.alpha * (level.depth - self._tops[k]))
+        traction = _product(through, self._traction[k])
+        transverse = across * self._transverse[k]
+        _, c11, c12, c22, _ = below.rows
+        unit = 1 / (2 * G * self.alpha)
+        displacement = unit * _product(np.array([[c11, c12], [c12, c22]]), traction)
+        return DepthScalars(displacement, traction, 2 * unit * below.shear * transverse, transverse)
+
+    def _compliances(self) -> list[Compliance]:
+        """Of what lies below each layer, in units of that layer; last that of the base itself."""
+        one, zero = np.ones_like(self.alpha), np.zeros_like(self.alpha)
+        base = self.stack.base
+        if base is None:
+            here, G = Compliance((zero, zero, zero, zero, one), zero), 1.0
+        else:
+            G, nu = base
+            rows = (3 - 4 * nu, 2 - 2 * nu, 1 - 2 * nu, 2 - 2 * nu, 1.0)
+            here = Compliance(tuple(row * one for row in rows), one)
+        found = [here]
+        for film in reversed(self.stack.layers):
+            below = _changed_units(here, film.shear_modulus / G)
+            found.append(below)
+            here = _compliance_above(below, film.poisson_ratio, self.alpha * film.thickness)
+            G = film.shear_modulus
+        return found[::-1]
+
+
+def material_at(stack: Stack, level: Level) -> HalfSpace:
+    """Elastic constants at a level; raises ValueError in a rigid base."""
+    if level.layer < len(stack.layers):
+        film = stack.layers[level.layer]
+        return HalfSpace(film.shear_modulus, film.poisson_ratio)
+    if stack.base is None:
+        raise ValueError("nothing deforms within a rigid base: there are no fields")
+    return stack.base
+
+
+def remainder_at_depth(stack: Stack, alpha: Array, depth: float) -> DepthScalars:
+    """Fields in the outermost layer minus those of a half-space of its material.
+
+    They come from the surface, where the difference carries no traction and its displacement is
+    known without cancellation, and grow downward as exp(-alpha (2h - z)). Exactly zero without
+    layers. Meant for alpha h < 300; beyond, exp(alpha z) may overflow.
+    """
+    G, nu = stack.outer
+    c11, c12, c22, csh = (2 * G * alpha * c for c in remainder_scalars(stack, alpha))
+    x = alpha * depth
+    e = 1 / (2 * (1 - nu))
+    ch, sh = np.cosh(x), np.sinh(x)
+    f, k = e * x * sh, e * _x_cosh_minus_sinh(x)
+    grown = np.array(
+        [
+            [[ch + f, -sh - k], [(2 * e - 1) * sh + k, ch - f]],
+            [[-2 * e * sh - k, f], [-f, k]],
+        ]
+    )
+    start = np.array([[c11, c12], [c12, c22]])
+    displacement = _product(grown[0], start) / (2 * G * alpha)
+    return DepthScalars(
+        displacement, _product(grown[1], start), csh / (2 * G * alpha) * ch, -csh / 2 * sh
+    )
+
+
+def in_plane(fields: DepthScalars, material: HalfSpace, alpha: Array) -> PlaneScalars:
+    """In-plane stresses from displacement and traction, regular at nu = 1/2 (THEORY 1.6)."""
+    G, nu = material
+    stretch = 2 * G * alpha * fields.displacement[0]
+    squeeze = fields.traction[1]
+    return PlaneScalars(
+        -(stretch + nu * squeeze) / (1 - nu),
+        -nu / (1 - nu) * (stretch + squeeze),
+        G * alpha * fields.transverse_displacement,
+    )
+
+
+def _transmitted(below: Compliance, nu: float, x: Array) -> tuple[Array, Array]:
+    """Traction at a plane per unit traction x = alpha d above it, for waves along and across.
+
+    M is the lower half of exp(-x A), A the matrix of the equations of THEORY 1.4, applied to
+    (C, 1): tau_0 = M tau. Its determinant is the divisor of the compound recursion.
+    """
+    x = np.minimum(x, OPAQUE)
+    decay, w = np.exp(-x), np.exp(-2 * x)
+    e = 1 / (2 * (1 - nu))
+    g = 1 - e
+    ch, sh = (1 + w) / 2, -np.expm1(-2 * x) / 2
+    f, k = e * x * sh, e * _x_cosh_minus_sinh(x, decay)
+    _, c11, c12, c22, _ = below.rows
+    pull = e * (x * ch + sh)
+    m11 = pull * c11 + f * c12 + ch + f
+    m12 = pull * c12 + f * c22 + e * x * ch - g * sh
+    m21 = -f * c11 - k * c12 - e * x * ch - g * sh
+    m22 = -f * c12 - k * c22 + ch - f
+    divisor = compound_rows(below.rows, nu, decaying_waves(x))[4]
+    sagittal = decay / divisor * np.array([[m22, -m12], [-m21, m11]])
+    return sagittal, decay / (ch + sh * below.shear)
+
+
+def _compliance_above(below: Compliance, nu: float, x: Array) -> Compliance:
+    """Carry the compliance upward through x = alpha d of one material."""
+    x = np.minimum(x, OPAQUE)
+    *rows, divisor = compound_rows(below.rows, nu, decaying_waves(x))
+    tanh = np.tanh(x)
+    return Compliance(
+        (*(row / divisor for row in rows), np.ones_like(x)),
+        (below.shear + tanh) / (1 + below.shear * tanh),
+    )
+
+
+def _changed_units(here: Compliance, ratio: float) -> Compliance:
+    """Cross an interface upward: the units change by the ratio of shear moduli, above/below."""
+    det, c11, c12, c22, one = here.rows
+    return Compliance(
+        (det * ratio**2, c11 * ratio, c12 * ratio, c22 * ratio, one), here.shear * ratio
+    )
+
+
+def _x_cosh_minus_sinh(x: Array, scale: Array | float = 1.0) -> Array:
+    """(x cosh x - sinh x) * scale, by series where the two nearly cancel.
+
+    scale  exp(-x) to keep it bounded, or one
+    """
+    series = np.zeros_like(x)
+    small = np.minimum(x, 1.0)
+    for n in range(9, 0, -1):
+        series = (2 * n + series) * small * small / ((2 * n) * (2 * n + 1))
+    if isinstance(scale, float):
+        direct = x * np.cosh(x) - np.sinh(x)
+    else:
+        direct = (x * (1 + scale**2) + np.expm1(-2 * x)) / 2
+    return np.where(x < 1, series * small * scale, direct)
+
+
+def _product(left: Array, right: Array) -> Array:
+    """Matrix product over the first two axes."""
+    result: Array = np.einsum("ijk,jlk->ilk", left, right)
+    return result

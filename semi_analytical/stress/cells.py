@@ -1,0 +1,142 @@
+"""Integrals over loaded cells of the tabulated response at depth.
+
+The response is analytic but at a distance, the clearance, below or above the surface. A cell that
+is small against its distance from there needs few points; one that is not is cut. So cells of any
+size against layers and depths are integrated to rounding.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.ndimage import correlate1d
+
+from semi_analytical.influence.layered_boxes import Boxes, joined
+from semi_analytical.influence.layered_cells import CELL_AVERAGE, FAR, MARGIN
+from semi_analytical.influence.layered_response import BATCH
+from semi_analytical.stress.components import FIELDS, TRACTIONS, empty_response, parity
+from semi_analytical.stress.radial_functions import in_scene_axes
+from semi_analytical.stress.radial_table import DepthTable
+
+Field = NDArray[np.float64]
+
+# Distance of a box in units of its half side, as for the surface.
+CLEAR = 4.0
+
+
+def cell_integrals(
+    table: DepthTable,
+    level: int,
+    clearance: float,
+    spacing: tuple[float, float],
+    shape: tuple[int, int],
+) -> Field:
+    """Fields by unit tractions on the cells at offsets i < nx, j < ny.
+
+    table      up to MARGIN cells beyond the farthest offset
+    level      index in the table
+    clearance  distance of the nearest singularity [length]
+    returns    shape (FIELDS, TRACTIONS, nx, ny)
+    """
+    result = _averaged(table, level, spacing, shape)
+    cells = _near_cells(spacing, shape, clearance)
+    boxes = _clear_boxes(spacing, cells, clearance)
+    near = np.zeros((len(FIELDS), len(TRACTIONS), len(cells)))
+    for part in boxes.batches(BATCH // 4):
+        x, y, weight = part.gauss_points()
+        integrals = np.einsum("ftbp,bp->ftb", _response(table, level, x, y), weight)
+        for total, integral in zip(
+            near.reshape(-1, len(cells)), integrals.reshape(-1, len(part.x)), strict=True
+        ):
+            total += np.bincount(part.cell, integral, len(cells))
+    result[:, :, cells[:, 0], cells[:, 1]] = near
+    return _with_exact_zeros(result)
+
+
+def _with_exact_zeros(result: Field) -> Field:
+    """Odd there: exactly zero, not nearly."""
+    for field in range(len(FIELDS)):
+        for traction in range(len(TRACTIONS)):
+            along_x, along_y = parity(field, traction)
+            if along_x < 0:
+                result[field, traction, 0, :] = 0
+            if along_y < 0:
+                result[field, traction, :, 0] = 0
+    return result
+
+
+def _response(table: DepthTable, level: int, x: Field, y: Field) -> Field:
+    """Fields by unit point forces, shape (FIELDS, TRACTIONS, *x.shape)."""
+    r = np.hypot(x, y)
+    away = np.where(r > 0, r, 1.0)  # on the axis what depends on the direction vanishes
+    functions = table.at(level, r.ravel()).reshape(-1, *x.shape)
+    return in_scene_axes(functions, np.where(r > 0, x / away, 1.0), y / away)
+
+
+def _averaged(
+    table: DepthTable, level: int, spacing: tuple[float, float], shape: tuple[int, int]
+) -> Field:
+    """All cells by a nine-point average along x and y, good for the far ones only."""
+    x = np.arange(shape[0] + MARGIN) * spacing[0]
+    y = np.arange(shape[1] + MARGIN) * spacing[1]
+    points = empty_response((len(x), len(y)))
+    rows = max(1, BATCH // len(y))
+    for start in range(0, len(x), rows):
+        part = slice(start, start + rows)
+        points[:, :, part] = _response(table, level, *np.broadcast_arrays(x[part, None], y))
+    result = empty_response(shape)
+    for field in range(len(FIELDS)):
+        for traction in range(len(TRACTIONS)):
+            along_x, along_y = parity(field, traction)
+            once = _averaged_along(points[field, traction], 0, along_x)
+            result[field, traction] = _averaged_along(once, 1, along_y)
+    return result * (spacing[0] * spacing[1])
+
+
+def _averaged_along(field: Field, axis: int, sign: int) -> Field:
+    """Cell averages along one axis of values at offsets >= 0, shorter by MARGIN."""
+    mirrored = sign * np.flip(np.take(field, range(1, MARGIN + 1), axis), axis)
+    averaged = correlate1d(np.concatenate([mirrored, field], axis), CELL_AVERAGE, axis)
+    return np.take(averaged, range(MARGIN, averaged.shape[axis] - MARGIN), axis)
+
+
+def _near_cells(
+    spacing: tuple[float, float], shape: tuple[int, int], clearance: float
+) -> NDArray[np.intp]:
+    """Indices (i, j) of the cells closer to the singularity than FAR of their longer sides."""
+    radius = FAR * max(spacing)
+    i = np.arange(min(shape[0], int(radius / spacing[0]) + 1))
+    j = np.arange(min(shape[1], int(radius / spacing[1]) + 1))
+    distance = np.hypot(np.hypot((i * spacing[0])[:, None], j * spacing[1]), clearance)
+    return np.argwhere(distance < radius)
+
+
+def _clear_boxes(spacing: tuple[float, float], cells: NDArray[np.intp], clearance: float) -> Boxes:
+    """Cells cut until every box is small against its distance from the singularity."""
+    count = len(cells)
+    offsets = cells.astype(np.float64)
+    boxes = Boxes(
+        offsets[:, 0] * spacing[0],
+        offsets[:, 1] * spacing[1],
+        np.full(count, spacing[0] / 2, np.float64),
+        np.full(count, spacing[1] / 2, np.float64),
+        np.arange(count),
+    )
+    done = []
+    while len(boxes.x):
+        distance = np.hypot(np.hypot(boxes.x, boxes.y), clearance)
+        long = CLEAR * np.maximum(boxes.half_x, boxes.half_y) > distance
+        done.append(boxes.chosen(~long))
+        boxes = _quartered(boxes.chosen(long))
+    return joined(done)
+
+
+def _quartered(boxes: Boxes) -> Boxes:
+    half_x, half_y = boxes.half_x / 2, boxes.half_y / 2
+    return joined(
+        [
+            Boxes(boxes.x + a * half_x, boxes.y + b * half_y, half_x, half_y, boxes.cell)
+            for a in (-1, 1)
+            for b in (-1, 1)
+        ]
+    )

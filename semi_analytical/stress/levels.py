@@ -1,0 +1,97 @@
+"""Depths at which fields are asked for: which material each is seen from, and what to take."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from contact_scene import Body
+from semi_analytical.frf.depth import Level
+from semi_analytical.frf.stack import Stack, stack_of
+
+# A depth this close to an interface, relative to it, is on it.
+ON_INTERFACE = 1e-9
+
+# Default depths in contact radii: dense where the stress of a smooth contact turns.
+DEFAULT_DEPTHS = (*np.linspace(0.0, 1.0, 21), 1.125, 1.25, 1.5, 1.75, 2.0, 2.5, 3.0)
+
+
+def levels_of(stack: Stack, depths: Sequence[float | Level]) -> tuple[Level, ...]:
+    """Depths as levels; a plain number on an interface means its upper side.
+
+    Raises ValueError for a depth that is negative or not finite, or lies in a rigid base, and for
+    a level that is not in the layer it names.
+    """
+    return tuple(
+        _checked(stack, depth) if isinstance(depth, Level) else _level(stack, float(depth))
+        for depth in depths
+    )
+
+
+def interfaces(body: Body | Stack) -> tuple[tuple[Level, ...], ...]:
+    """Both sides of every interface, upper side first; of a rigid base there is one side only."""
+    stack = _stack(body)
+    pairs = []
+    for k, depth in enumerate(_bottoms(stack)):
+        sides = (Level(depth, k), Level(depth, k + 1))
+        on_rigid_base = stack.base is None and k + 1 == len(stack.layers)
+        pairs.append(sides[:1] if on_rigid_base else sides)
+    return tuple(pairs)
+
+
+def default_depths(body: Body | Stack, contact_radius: float) -> tuple[Level, ...]:
+    """From the surface to three contact radii, every layer resolved, both sides of interfaces.
+
+    contact_radius  length over which the tractions act [length]
+    """
+    stack = _stack(body)
+    bottoms = _bottoms(stack)
+    floor = bottoms[-1] if stack.base is None else np.inf
+    depths = [d * contact_radius for d in DEFAULT_DEPTHS if d * contact_radius < floor]
+    for top, bottom in zip((0.0, *bottoms), bottoms, strict=False):
+        # A layer thinner than the spacing above still shows its own gradient.
+        depths += [top + (bottom - top) * part for part in (0.25, 0.5, 0.75)]
+    sides = [side for pair in interfaces(stack) for side in pair]
+    between = [_level(stack, d) for d in depths if not _near_any(d, bottoms, contact_radius)]
+    return tuple(sorted({*between, *sides}, key=lambda level: (level.depth, level.layer)))
+
+
+def _stack(body: Body | Stack) -> Stack:
+    return body if isinstance(body, Stack) else stack_of(body)
+
+
+def _bottoms(stack: Stack) -> tuple[float, ...]:
+    return tuple(float(z) for z in np.cumsum([film.thickness for film in stack.layers]))
+
+
+def _near_any(depth: float, bottoms: Sequence[float], contact_radius: float) -> bool:
+    return any(abs(depth - bottom) <= 1e-6 * contact_radius for bottom in bottoms)
+
+
+def _level(stack: Stack, depth: float) -> Level:
+    if not (np.isfinite(depth) and depth >= 0):
+        raise ValueError(f"depth is {depth}, expected a finite length >= 0: the body fills z >= 0")
+    bottoms = _bottoms(stack)
+    for layer, bottom in enumerate(bottoms):
+        if abs(depth - bottom) <= ON_INTERFACE * bottom:
+            return Level(bottom, layer)
+        if depth < bottom:
+            return Level(depth, layer)
+    if stack.base is None:
+        raise ValueError(
+            f"depth {depth} lies in the rigid base, which begins at {bottoms[-1] if bottoms else 0}"
+            "; ask for depths above it"
+        )
+    return Level(depth, len(bottoms))
+
+
+def _checked(stack: Stack, level: Level) -> Level:
+    bottoms = (0.0, *_bottoms(stack), np.inf)
+    last = len(stack.layers) if stack.base is not None else len(stack.layers) - 1
+    if not 0 <= level.layer <= last:
+        raise ValueError(f"{level} names a layer that is not there; the deepest is {last}")
+    top, bottom = bottoms[level.layer], bottoms[level.layer + 1]
+    if not top <= level.depth <= bottom or not np.isfinite(level.depth):
+        raise ValueError(f"{level} is not in that layer, which reaches from {top} to {bottom}")
+    return level

@@ -1,0 +1,193 @@
+"""`slipstick run` from end to end with the real solver, also when it is stopped on the way."""
+
+import csv
+import json
+import os
+import resource
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import jsonschema
+import pytest
+
+from contact_scene.summary import summary_schema
+from verification.run_output.file_names import SUMMARY
+
+ROOT = Path(__file__).resolve().parents[1]
+
+SCENE = """
+[indenter]
+shape = "sphere"
+radius = "18 mm"
+material = { young_modulus = "420 GPa", poisson_ratio = 0.3 }
+[body]
+material = { young_modulus = "420 GPa", poisson_ratio = 0.3 }
+[friction]
+coefficient = 0.1
+[[loading]]
+normal_force = "1 kN"
+[[loading]]
+tangential_force = ["90 N", 0]
+increments = 2
+[[loading]]
+tangential_force = ["-90 N", 0]
+increments = 3
+[semi_analytical]
+cells = [32, 32]
+window = ["1.2 mm", "1.2 mm"]
+"""
+LONG = ("--set", "loading[2].increments=50000")  # minutes, if nobody stopped it
+FILES = {
+    "summary.json", "timing.json", "result.h5", "profiles.csv", "increments.csv",
+    "pressure.png", "shear.png", "profiles.png", "stick_slip.png", "hysteresis.png",
+}  # fmt: skip
+
+
+@pytest.fixture
+def scene(tmp_path: Path) -> Path:
+    path = tmp_path / "scene.toml"
+    path.write_text(SCENE, encoding="utf-8")
+    return path
+
+
+def command(scene: Path, *options: str) -> list[str]:
+    output = str(scene.parent / "out")
+    return [sys.executable, "-m", "verification", "run", str(scene), "--output", output, *options]
+
+
+def run(scene: Path, *options: str) -> subprocess.CompletedProcess[str]:
+    return subprocess.run(
+        command(scene, *options), cwd=ROOT, capture_output=True, text=True, check=False
+    )
+
+
+def summary(scene: Path) -> dict[str, list[dict[str, object]]]:
+    text = (scene.parent / "out" / SUMMARY).read_text(encoding="utf-8")
+    record: dict[str, list[dict[str, object]]] = json.loads(text)
+    return record
+
+
+def partial_directories(scene: Path) -> list[str]:
+    return [name for name in os.listdir(scene.parent) if name.startswith(".out.partial-")]
+
+
+def test_run_writes_every_file_and_the_same_bytes_again(scene: Path) -> None:
+    outcome = run(scene)
+    assert outcome.returncode == 0, outcome.stderr
+    out = scene.parent / "out"
+    assert set(os.listdir(out)) == FILES
+    jsonschema.validate(summary(scene), summary_schema())
+    first = {name: (out / name).read_bytes() for name in FILES - {"timing.json"}}
+    assert run(scene).returncode == 0
+    assert {name: (out / name).read_bytes() for name in FILES - {"timing.json"}} == first
+
+
+def test_tables_agree_with_the_summary(scene: Path) -> None:
+    assert run(scene, "--no-figures").returncode == 0
+    with open(scene.parent / "out" / "increments.csv", newline="", encoding="utf-8") as file:
+        rows = list(csv.DictReader(file))
+    assert len(rows) == 1 + 2 + 3
+    for number, step in enumerate(summary(scene)["steps"], start=1):
+        last = [row for row in rows if row["step"] == str(number)][-1]
+        for name in ("normal_force", "approach", "contact_radius", "stick_radius"):
+            assert float(last[name]) == step[name]
+
+
+def test_rerun_without_friction_removes_what_it_does_not_call_for(scene: Path) -> None:
+    assert run(scene).returncode == 0
+    frictionless = SCENE.replace("[friction]\ncoefficient = 0.1\n", "")
+    kept = [part for part in frictionless.split("[[loading]]") if "tangential" not in part]
+    grid = "[semi_analytical]" + SCENE.partition("[semi_analytical]")[2]
+    scene.write_text("[[loading]]".join(kept) + grid, encoding="utf-8")
+    assert run(scene).returncode == 0
+    assert set(os.listdir(scene.parent / "out")) == FILES - {
+        "shear.png",
+        "stick_slip.png",
+        "hysteresis.png",
+    }
+
+
+def test_approach_control_has_no_force_residual(scene: Path) -> None:
+    scene.write_text(SCENE.replace('normal_force = "1 kN"', 'approach = "8 um"'), encoding="utf-8")
+    outcome = run(scene, "--no-figures")
+    assert outcome.returncode == 0, outcome.stderr
+    for step in summary(scene)["steps"]:
+        assert isinstance(step["residuals"], dict)
+        assert step["residuals"]["normal_equilibrium"] is None
+
+
+@pytest.mark.parametrize(
+    ("override", "code", "words"),
+    [
+        ("semi_analytical.cells=[8192,8192]", 4, "GiB"),
+        ('semi_analytical.window=["0.5 mm","0.5 mm"]', 2, "edge of the window"),
+        ("body.material.poisson_ratio=0.2", 2, "coupled solver"),
+        ("body.material.poisson_ratio=0.5001", 2, "poisson_ratio"),
+        ('loading[2].tangential_force=["101 N", 0]', 2, "gross sliding"),
+    ],
+)
+def test_refusal_says_why_in_one_message_and_leaves_nothing(
+    scene: Path, override: str, code: int, words: str
+) -> None:
+    outcome = run(scene, "--set", override)
+    assert outcome.returncode == code
+    assert outcome.stderr.count("error: ") == 1
+    assert words in outcome.stderr
+    assert "Traceback" not in outcome.stderr
+    assert os.listdir(scene.parent) == [scene.name]
+
+
+def test_full_disk_ends_with_one_message_and_nothing_written(scene: Path) -> None:
+    """A limit on the size of files stands for it; HDF5 by itself would crash here."""
+    outcome = subprocess.run(
+        command(scene, "--no-figures"),
+        cwd=ROOT,
+        capture_output=True,
+        text=True,
+        check=False,
+        preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (20_000, 20_000)),
+    )
+    assert outcome.returncode == 4
+    assert outcome.stderr.splitlines()[-1].startswith("error: ")
+    assert outcome.stderr.count("\n") == 4  # three steps and the message
+    assert os.listdir(scene.parent) == [scene.name]
+
+
+def stopped_run(scene: Path, number: signal.Signals, after: float) -> int:
+    """Exit code of a long run that gets a signal some seconds after it has begun to solve."""
+    process = subprocess.Popen(
+        command(scene, *LONG), cwd=ROOT, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE
+    )
+    try:
+        assert process.stderr is not None
+        assert process.stderr.readline().startswith(b"step 1/3")
+        time.sleep(after)
+        process.send_signal(number)
+        return process.wait(timeout=30)
+    finally:
+        process.kill()
+        process.communicate()
+
+
+@pytest.mark.parametrize(("number", "code"), [(signal.SIGTERM, 143), (signal.SIGINT, 130)])
+def test_stopped_run_leaves_earlier_results_and_nothing_else(
+    scene: Path, number: signal.Signals, code: int
+) -> None:
+    assert run(scene, "--no-figures").returncode == 0
+    out = scene.parent / "out"
+    before = {path.name: path.read_bytes() for path in out.iterdir()}
+    for after in (0.0, 0.13):
+        assert stopped_run(scene, number, after) == code
+        assert {path.name: path.read_bytes() for path in out.iterdir()} == before
+    assert sorted(os.listdir(scene.parent)) == ["out", scene.name]
+
+
+def test_killed_run_leaves_a_hidden_directory_that_the_next_run_clears_away(scene: Path) -> None:
+    assert stopped_run(scene, signal.SIGKILL, 0.1) == -signal.SIGKILL
+    assert len(partial_directories(scene)) == 1
+    assert not (scene.parent / "out").exists()
+    assert run(scene, "--no-figures").returncode == 0
+    assert sorted(os.listdir(scene.parent)) == ["out", scene.name]

@@ -1,0 +1,96 @@
+"""The cases describe what they say, and their references agree with each other."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from contact_scene import read_scene_file
+from semi_analytical import plan
+from verification.cases import paper_scene as paper
+from verification.cases.case import Case, Derived, Level
+from verification.cases.catalogue import CASES, catalogue, choose
+from verification.cases.loop_history import AMPLITUDE, ExactLoop
+from verification.cases.paper_fretting_loop import paper_fretting_loop
+from verification.cases.refinement import refinement
+from verification.closed_forms.mindlin_deresiewicz import FrettingLoop
+
+SCENES = Path(__file__).resolve().parents[1] / "scenes"
+QUICK = catalogue(Level.QUICK)
+
+
+@pytest.mark.parametrize("level", Level)
+def test_names_are_unique_and_fit_for_commands(level: Level) -> None:
+    cases = catalogue(level)
+    assert len(cases) == len(CASES)
+    assert all(name.isidentifier() and name.islower() for name in cases)
+
+
+@pytest.mark.parametrize("case", QUICK.values(), ids=QUICK)
+def test_labels_and_verdicts_of_a_case_are_unambiguous(case: Case) -> None:
+    labels = [run.label for run in case.runs]
+    assert len(set(labels)) == len(labels)
+    kinds = [(q.name, q.run, type(q.tolerance)) for q in case.quantities]
+    assert len(set(kinds)) == len(kinds)
+    for quantity in case.quantities:
+        assert quantity.run in labels
+        assert len(quantity.tolerance.because) > 10
+        assert quantity.reference.source
+        if isinstance(quantity.tolerance, Derived):
+            assert set(quantity.tolerance.levels) <= set(labels)
+            assert quantity.run == quantity.tolerance.levels[-1]
+
+
+@pytest.mark.parametrize("case", QUICK.values(), ids=QUICK)
+def test_every_scene_of_a_case_is_supported(case: Case) -> None:
+    for run in case.runs:
+        assert plan(run.scene).effects
+
+
+def test_paper_case_is_the_scene_of_the_repository() -> None:
+    case = paper_fretting_loop(Level.STANDARD)
+    file = read_scene_file(SCENES / "fretting_loop.toml")
+    run = case.runs[0]
+    assert run.grid.cells == file.semi_analytical.cells
+    assert run.grid.window == pytest.approx(file.semi_analytical.window)
+    described = run.scene.model_copy(update={"loading": ()})
+    assert described == file.scene.model_copy(update={"loading": ()})
+    for ours, theirs in zip(run.scene.loading, file.scene.loading, strict=True):
+        assert ours.normal_force == theirs.normal_force
+        assert ours.tangential_force == pytest.approx(theirs.tangential_force)
+        assert (ours.increments or 1) == (theirs.increments or 1)
+
+
+def test_paper_scene_has_the_printed_contact() -> None:
+    assert f"{paper.HERTZ.contact_radius * 1e3:.3f}" == "0.388"
+    assert f"{paper.HERTZ.peak_pressure * 1e-9:.4f}" == "3.1684"
+    assert paper.NU_ZERO.young_modulus == pytest.approx(2 * paper.CONTACT_MODULUS)
+
+
+@pytest.mark.parametrize("material", [paper.STEEL, paper.NU_ZERO], ids=["steel", "nu=0"])
+def test_loop_reference_is_mindlin_and_deresiewicz(material: object) -> None:
+    exact = ExactLoop(material)
+    virgin = exact.virgin.virgin
+    loop = FrettingLoop(
+        virgin.load, virgin.contact_radius, virgin.friction_coefficient,
+        virgin.tangential_modulus, AMPLITUDE * paper.FRICTION_LIMIT,
+    )  # fmt: skip
+    assert exact.energy_per_cycle == pytest.approx(loop.energy_per_cycle, rel=1e-12)
+
+
+def test_refinement_has_five_levels_per_octave_and_hits_the_doublings() -> None:
+    levels = refinement(32, 256)
+    assert set(levels) >= {32, 64, 128, 256}
+    assert len(levels) == 16
+    assert np.all(np.diff(levels) > 0)
+    assert all(n % 2 == 0 for n in levels)
+
+
+def test_unknown_case_is_named() -> None:
+    with pytest.raises(KeyError, match="herz"):
+        choose(Level.QUICK, ["hertz_point", "herz"])
+
+
+def test_choice_keeps_the_order_of_the_catalogue() -> None:
+    names = [case.name for case in choose(Level.QUICK, ["load_paths", "hertz_point"])]
+    assert names == ["hertz_point", "load_paths"]

@@ -1,0 +1,189 @@
+"""The report: self-contained, without scripts, the same bytes for the same numbers."""
+
+import json
+import os
+import re
+from dataclasses import replace
+from html.parser import HTMLParser
+from pathlib import Path
+from xml.etree import ElementTree
+
+import jsonschema
+import pytest
+
+from verification.cases.cattaneo_mindlin import cattaneo_mindlin_on
+from verification.cases.hertz_point import hertz_on
+from verification.cases.judgement import judge
+from verification.cases.outcome import CaseOutcome, Status
+from verification.report.files import JUNIT, PAGE, RECORD, SUMMARY, write_report
+from verification.report.numbers import failure_line, plain, value_text
+from verification.report.omissions import OMISSIONS
+from verification.report.page import render_page
+from verification.report.provenance import provenance
+from verification.report.record import Report, count, dump_report, load_report, report_schema
+
+VOID = {"meta", "br", "link", "img", "hr"}
+PAYLOAD = "<script>alert(1)</script>\"'&<svg onload=x>"
+
+
+def made_by(*outcomes: CaseOutcome) -> Report:
+    return Report(
+        level="quick",
+        counts=count(outcomes),
+        cases=outcomes,
+        omissions=OMISSIONS,
+        provenance=provenance("slipstick verify --level quick", {"hertz_point": 0.1}),
+    )
+
+
+@pytest.fixture(scope="module")
+def report() -> Report:
+    hertz = judge(hertz_on((16, 20, 24, 32)))
+    return made_by(hertz, judge(cattaneo_mindlin_on((24, 28, 32))))
+
+
+@pytest.fixture(scope="module")
+def page(report: Report) -> str:
+    return render_page(report)
+
+
+class Outline(HTMLParser):
+    """Tags in order, ids, links within the page, and whether every tag is closed."""
+
+    def __init__(self, text: str) -> None:
+        super().__init__()
+        self.tags: list[tuple[str, dict[str, str | None]]] = []
+        self.open: list[str] = []
+        self.feed(text)
+
+    def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
+        self.tags.append((tag, dict(attrs)))
+        if tag not in VOID:
+            self.open.append(tag)
+
+    def handle_startendtag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
+        self.tags.append((tag, dict(attrs)))
+
+    def handle_endtag(self, tag: str) -> None:
+        assert self.open.pop() == tag
+
+
+def test_page_is_well_formed_and_its_names_are_unique(page: str) -> None:
+    outline = Outline(page)
+    assert outline.open == []
+    ids = [attributes["id"] for _, attributes in outline.tags if "id" in attributes]
+    assert len(set(ids)) == len(ids)
+    for _, attributes in outline.tags:
+        link = attributes.get("href") or attributes.get("xlink:href") or ""
+        if link.startswith("#"):
+            assert link[1:] in ids
+    for name in re.findall(r"url\(#([^)]*)\)", page):
+        assert name in ids
+
+
+def test_page_needs_no_network_and_no_script(page: str) -> None:
+    outline = Outline(page)
+    assert "script" not in {tag for tag, _ in outline.tags}
+    for _, attributes in outline.tags:
+        assert not [name for name in attributes if name.startswith("on")]
+        for name in ("src", "href", "xlink:href"):
+            assert (attributes.get(name) or "#").startswith("#")
+    assert "default-src 'none'" in page
+    assert "@import" not in page
+
+
+def test_tables_have_captions_and_scoped_headings(page: str) -> None:
+    outline = Outline(page)
+    tags = [tag for tag, _ in outline.tags]
+    assert tags.count("table") == tags.count("caption") > 4
+    assert all(attributes.get("scope") for tag, attributes in outline.tags if tag == "th")
+
+
+def test_figures_have_names_and_take_the_colours_of_the_page(page: str, report: Report) -> None:
+    figures = [attributes for tag, attributes in Outline(page).tags if tag == "svg"]
+    assert len(figures) == sum(len(case.charts) for case in report.cases)
+    assert all(figure.get("role") == "img" for figure in figures)
+    assert "var(--series-1)" in page
+    assert "#0072b2" not in page[page.index("<body>") :].lower()
+
+
+def test_verdicts_are_told_by_word_and_sign(page: str) -> None:
+    text = re.sub(r"<[^>]*>", "", page[page.index("<body>") :])
+    assert "✓ pass" in text
+
+
+def test_equal_numbers_give_equal_bytes(report: Report, page: str) -> None:
+    again = made_by(judge(hertz_on((16, 20, 24, 32))), judge(cattaneo_mindlin_on((24, 28, 32))))
+    same = again.model_copy(update={"provenance": report.provenance})
+    assert dump_report(same) == dump_report(report)
+    assert render_page(same) == page
+
+
+def test_record_fulfils_its_schema_and_can_be_rendered_again(
+    report: Report, page: str, tmp_path: Path
+) -> None:
+    write_report(report, tmp_path)
+    assert sorted(os.listdir(tmp_path)) == sorted([PAGE, RECORD, JUNIT, SUMMARY])
+    record = json.loads((tmp_path / RECORD).read_text(encoding="utf-8"))
+    jsonschema.validate(record, report_schema())
+    assert set(record["counts"]) == {"pass", "fail", "inconclusive"}
+    assert render_page(load_report(tmp_path / RECORD)) == page
+    assert (tmp_path / PAGE).stat().st_size < 2e6
+
+
+def test_junit_and_summary_count_the_same_verdicts(report: Report, tmp_path: Path) -> None:
+    write_report(report, tmp_path)
+    suites = ElementTree.parse(tmp_path / JUNIT).getroot()
+    assert len(suites.findall("testsuite/testcase")) == sum(report.counts.values())
+    assert len(suites.findall(".//failure")) == report.counts[Status.FAIL]
+    summary = (tmp_path / SUMMARY).read_text(encoding="utf-8")
+    assert f"{report.counts[Status.PASS]} passed" in summary
+    assert len(summary) < 60_000
+
+
+def test_text_from_a_record_cannot_become_markup(report: Report) -> None:
+    hertz = report.cases[0]
+    chart = hertz.charts[0].model_copy(update={"title": PAYLOAD, "caption": PAYLOAD})
+    verdict = hertz.verdicts[0].model_copy(update={"meaning": PAYLOAD, "source": PAYLOAD})
+    case = hertz.model_copy(
+        update={"title": PAYLOAD, "problem": PAYLOAD, "charts": (chart,), "verdicts": (verdict,)}
+    )
+    text = render_page(made_by(case))
+    assert "<script" not in text
+    assert "<svg onload" not in text
+    assert Outline(text).open == []
+
+
+def test_failure_says_what_where_how_much_and_how_to_see_it_again() -> None:
+    case = hertz_on((16, 20, 24, 32))
+    wrong = replace(case.quantities[0], reference=replace(case.quantities[0].reference, value=9e-6))
+    outcome = judge(replace(case, quantities=(wrong,)))
+    report = made_by(outcome)
+    line = failure_line(outcome.name, outcome.verdicts[0], report.level)
+    assert re.fullmatch(
+        r"FAIL hertz_point/approach \[32x32\]: 8\.36\d+ µm, expected 9\.00000 µm ± [\d.]+ nm "
+        r"\([\d.e+]+ U\); reproduce: slipstick verify hertz_point --level quick",
+        line,
+    )
+    assert report.status is Status.FAIL
+    assert "hertz_point/approach" in render_page(report)
+
+
+@pytest.mark.parametrize(
+    ("value", "unit", "text"),
+    [
+        (None, "Pa", "not finite"),
+        (0.0, "m", "0"),
+        (3.168024e9, "Pa", "3.16802 GPa"),
+        (8.372e-6, "m", "8.37200 µm"),
+        (1.23456789e-5, "", "1.23457e-5"),
+        (4.464276, "°", "4.46428°"),
+    ],
+)
+def test_numbers_are_shown_with_their_unit(value: float | None, unit: str, text: str) -> None:
+    assert value_text(value, unit) == text
+
+
+def test_plain_numbers_have_short_exponents() -> None:
+    assert plain(2.79e-05) == "2.79e-5"
+    assert plain(0.25) == "0.25"

@@ -1,0 +1,156 @@
+"""From a measured number to a verdict."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from typing import TYPE_CHECKING
+
+from verification.cases.case import (
+    Case,
+    Derived,
+    OrderOfConvergence,
+    Quantity,
+    ReferenceKind,
+    Run,
+)
+from verification.cases.outcome import Status, Verdict
+from verification.convergence import numerical_uncertainty, observed_order
+from verification.quantities import largest_residual
+
+if TYPE_CHECKING:
+    from semi_analytical import Result
+
+Results = Mapping[str, "Result"]
+
+# An order is known well enough to be judged if its interval is no wider than this; an observed
+# order may differ from the expected one by as much.
+ORDER_WIDTH = 0.25
+COVERAGE = 2.0  # standard uncertainties in a tolerance
+
+
+def judge_quantity(quantity: Quantity, case: Case, results: Results) -> Verdict:
+    """The measured value against its reference; a value that is not finite fails."""
+    reference, tolerance = quantity.reference, quantity.tolerance
+    value = quantity.measure(results[quantity.run])
+    scale = abs(reference.value) if quantity.scale is None else quantity.scale
+    if isinstance(tolerance, Derived):
+        kind, allowed = "derived", _derived(quantity, tolerance, case, results, scale)
+    else:
+        kind, allowed = "required", tolerance.allowed
+    error = abs(value - reference.value) / scale
+    return Verdict(
+        name=quantity.name,
+        run=quantity.run,
+        meaning=quantity.meaning,
+        unit=quantity.unit,
+        value=finite(value),
+        reference=reference.value,
+        reference_kind=reference.kind,
+        source=reference.source,
+        error=finite(error),
+        allowed=allowed,
+        scale=scale,
+        scale_name=quantity.scale_name,
+        tolerance_kind=kind,
+        because=tolerance.because,
+        status=Status.PASS if error <= allowed else Status.FAIL,  # NaN compares as a failure
+    )
+
+
+def _derived(
+    quantity: Quantity, tolerance: Derived, case: Case, results: Results, scale: float
+) -> float:
+    values = [quantity.measure(results[label]) for label in tolerance.levels]
+    if not all(map(math.isfinite, values)):
+        return tolerance.cap
+    u_num = numerical_uncertainty(_spacings(case, tolerance.levels), values, tolerance.order)
+    return min(tolerance.cap, COVERAGE * math.hypot(u_num, quantity.reference.uncertainty) / scale)
+
+
+def judge_order(study: OrderOfConvergence, case: Case, results: Results) -> Verdict:
+    """The observed order against the expected one, or INCONCLUSIVE where it is not well known."""
+    errors = [study.error(results[label]) for label in study.levels]
+    known = all(math.isfinite(error) and error > 0 for error in errors)
+    observed = observed_order(_spacings(case, study.levels), errors) if known else None
+    difference = math.nan if observed is None else abs(observed.order - study.expected)
+    if observed is not None and observed.half_width > ORDER_WIDTH:
+        status = Status.INCONCLUSIVE
+    else:
+        status = Status.PASS if difference <= ORDER_WIDTH else Status.FAIL
+    return Verdict(
+        name=study.name,
+        run=f"{study.levels[0]} to {study.levels[-1]}",
+        meaning=f"order of convergence: {study.meaning}",
+        unit="",
+        value=None if observed is None else observed.order,
+        reference=study.expected,
+        reference_kind=ReferenceKind.THEORY,
+        source=study.because,
+        error=finite(difference),
+        allowed=ORDER_WIDTH,
+        scale=1.0,
+        scale_name="1",
+        tolerance_kind="order",
+        because=f"an order is judged where its 95 % interval is no wider than ± {ORDER_WIDTH}; "
+        f"{len(study.levels)} grids",
+        status=status,
+        interval=None if observed is None else observed.half_width,
+    )
+
+
+def judge_residuals(case: Case, results: Results) -> Verdict:
+    """The largest residual of any increment of any run that was solved, against its tolerance."""
+    runs = [run for run in case.runs if run.label in results]
+    ratios = [largest_residual(results[run.label]) / run.tolerance for run in runs]
+    # NaN must win, so the comparison is written for it to be the worst
+    worst = max(range(len(runs)), key=lambda n: (math.isnan(ratios[n]), ratios[n]))
+    run = runs[worst]
+    residual = largest_residual(results[run.label])
+    return Verdict(
+        name="largest_residual",
+        run=run.label,
+        meaning=f"largest residual of any increment of the {len(runs)} run(s); it is in this one",
+        unit="",
+        value=finite(residual),
+        reference=0.0,
+        reference_kind=ReferenceKind.IDENTITY,
+        source="the equations of contact and friction, evaluated afresh after every increment",
+        error=finite(residual),
+        allowed=run.tolerance,
+        scale=1.0,
+        scale_name="dimensionless",
+        tolerance_kind="required",
+        because="every increment ends within the tolerance that was asked for",
+        status=Status.PASS if residual <= run.tolerance else Status.FAIL,
+    )
+
+
+def unsolved(run: Run, message: str) -> Verdict:
+    """The verdict on a run that the solver gave up."""
+    return Verdict(
+        name="solved",
+        run=run.label,
+        meaning=f"the solver gave up: {message}",
+        unit="",
+        value=None,
+        reference=0.0,
+        reference_kind=ReferenceKind.IDENTITY,
+        source="every run of a case has a solution",
+        error=None,
+        allowed=run.tolerance,
+        scale=1.0,
+        scale_name="dimensionless",
+        tolerance_kind="required",
+        because="a run without a result cannot be judged",
+        status=Status.FAIL,
+    )
+
+
+def finite(value: float) -> float | None:
+    """The value for a record that holds no NaN and no infinity."""
+    return float(value) if math.isfinite(value) else None
+
+
+def _spacings(case: Case, levels: tuple[str, ...]) -> list[float]:
+    return [max(case.run(label).grid.spacing) for label in levels]

@@ -1,0 +1,35 @@
+"""`junit.xml`: verdicts as test cases, for the tools of continuous integration."""
+
+from __future__ import annotations
+
+from xml.etree import ElementTree
+
+from verification.cases.outcome import CaseOutcome, Status, Verdict
+from verification.report.numbers import failure_line
+from verification.report.record import Report
+
+
+def render_junit(report: Report) -> str:
+    """One suite per case, one test case per verdict; without times, which differ between runs."""
+    root = ElementTree.Element("testsuites", name=f"slipstick verify, {report.level}")
+    for case in report.cases:
+        suite = ElementTree.SubElement(
+            root, "testsuite", name=case.name, tests=str(len(case.verdicts)),
+            failures=str(case.count(Status.FAIL)), errors="0",
+            skipped=str(case.count(Status.INCONCLUSIVE)),
+        )  # fmt: skip
+        for verdict in case.verdicts:
+            _add(suite, case, verdict, report.level)
+    ElementTree.indent(root)
+    text = ElementTree.tostring(root, encoding="unicode")
+    return f'<?xml version="1.0" encoding="UTF-8"?>\n{text}\n'
+
+
+def _add(suite: ElementTree.Element, case: CaseOutcome, verdict: Verdict, level: str) -> None:
+    name = f"{verdict.name} [{verdict.run}]"
+    element = ElementTree.SubElement(suite, "testcase", classname=case.name, name=name)
+    if verdict.status is Status.FAIL:
+        message = failure_line(case.name, verdict, level)
+        ElementTree.SubElement(element, "failure", message=message).text = verdict.because
+    elif verdict.status is Status.INCONCLUSIVE:
+        ElementTree.SubElement(element, "skipped", message=f"inconclusive: {verdict.because}")

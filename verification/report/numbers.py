@@ -1,0 +1,61 @@
+"""Numbers as a reader sees them."""
+
+from __future__ import annotations
+
+from verification.cases.outcome import Verdict
+from verification.run_output.engineering_units import engineering_unit
+
+NOT_FINITE = "not finite"
+PERCENT_SHOWN_TO = 9.995
+
+
+def value_text(value: float | None, unit: str, digits: int = 6) -> str:
+    """A value with its unit."""
+    if value is None:
+        return NOT_FINITE
+    if value == 0:
+        return "0"
+    if unit in ("", "°"):
+        return plain(value, digits) + unit
+    scale = engineering_unit(abs(value), unit)
+    return f"{value / scale.size:#.{digits}g}".rstrip(".") + f" {scale.name}"
+
+
+def plain(value: float | None, digits: int = 3) -> str:
+    """A number without unit: 0.0123, 1.2e-5."""
+    if value is None:
+        return NOT_FINITE
+    mantissa, e, exponent = f"{value:.{digits}g}".partition("e")
+    return f"{mantissa}e{int(exponent)}" if e else mantissa
+
+
+def clearance_text(verdict: Verdict) -> str:
+    """The error as a part of what is allowed: 45 %, or a multiple if much larger."""
+    part = verdict.clearance
+    if part is None:
+        return "–"
+    if 0 < part < 0.005:
+        return "< 1 %"
+    return f"{100 * part:.0f} %" if part < PERCENT_SHOWN_TO else f"{part:.3g} times"
+
+
+def order_text(verdict: Verdict) -> str:
+    """An observed order with its interval."""
+    if verdict.value is None or verdict.interval is None:
+        return NOT_FINITE
+    return f"{verdict.value:.2f} ± {verdict.interval:.2f}"
+
+
+def failure_line(case: str, verdict: Verdict, level: str) -> str:
+    """What failed, where, by how much, and how to see it again."""
+    measured = value_text(verdict.value, verdict.unit)
+    reference = value_text(verdict.reference, verdict.unit)
+    allowed = value_text(verdict.allowed * verdict.scale, verdict.unit, 2)
+    excess = "" if verdict.clearance is None else f" ({verdict.clearance:.2g} U)"
+    text = f"{measured}, expected {reference} ± {allowed}{excess}"
+    if verdict.name == "solved":
+        text = verdict.meaning
+    return (
+        f"FAIL {case}/{verdict.name} [{verdict.run}]: {text}; "
+        f"reproduce: slipstick verify {case} --level {level}"
+    )

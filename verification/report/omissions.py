@@ -1,0 +1,14 @@
+"""What the report does not show: a reader must not take silence for success."""
+
+OMISSIONS = (
+    "Bodies whose normal and tangential problems couple (different materials with friction) and "
+    "coatings are refused by the solver; nothing here is about them.",
+    "There is no second solver yet: every reference is a closed or semi-closed form, or an "
+    "identity.",
+    "There is no baseline yet, so nothing is said about change since an earlier version.",
+    "The paper's own numbers are known from its figures and two printed values only; figure 2 is "
+    "compared with the closed form that the paper compares with.",
+    "Line contact is not solved: the surface grid is finite in both directions.",
+    "For ν > 0 no exact solution of partial slip is known; there the closed form is a companion "
+    "within a stated band.",
+)

@@ -1,0 +1,46 @@
+"""The block of a report that differs between equal runs."""
+
+from __future__ import annotations
+
+import subprocess
+from datetime import UTC, datetime
+from pathlib import Path
+
+from verification.report.record import Provenance
+from verification.run_output.provenance import library_versions, machine, program_version
+
+SOURCE = Path(__file__).resolve().parents[2]
+SECONDS_FOR_GIT = 10
+
+
+def provenance(command: str, seconds: dict[str, float]) -> Provenance:
+    """Versions, machine, commit and times of this process.
+
+    command  the command that makes the same report again
+    seconds  wall seconds by case
+    """
+    commit = _git("rev-parse", "HEAD")
+    return Provenance(
+        program_version=program_version(),
+        commit=commit,
+        changed=commit is not None and bool(_git("status", "--porcelain")),
+        command=command,
+        date=datetime.now(UTC).isoformat(timespec="seconds"),
+        machine=machine(),
+        libraries=library_versions(),
+        seconds={name: round(value, 2) for name, value in seconds.items()},
+    )
+
+
+def _git(*arguments: str) -> str | None:
+    """What git says about the source; None if it is no repository or there is no git."""
+    if not (SOURCE / ".git").exists():
+        return None
+    try:
+        answer = subprocess.run(
+            ["git", "-C", str(SOURCE), *arguments],
+            capture_output=True, text=True, timeout=SECONDS_FOR_GIT, check=True,
+        )  # fmt: skip
+    except (OSError, subprocess.SubprocessError):
+        return None
+    return answer.stdout.strip()

@@ -1,0 +1,53 @@
+"""`summary.md`: the report for a pull request."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from verification.cases.outcome import CaseOutcome, Status
+from verification.report.numbers import clearance_text, failure_line
+from verification.report.page import SYMBOLS, WORDS
+from verification.report.record import Report
+
+
+def counts_text(report: Report) -> str:
+    """How many verdicts ended how."""
+    counts = report.counts
+    return (
+        f"{counts[Status.PASS]} passed, {counts[Status.FAIL]} failed, "
+        f"{counts[Status.INCONCLUSIVE]} inconclusive"
+    )
+
+
+def failure_lines(report: Report) -> list[str]:
+    """One line for every failed verdict."""
+    return [failure_line(case.name, verdict, report.level) for case, verdict in report.failures]
+
+
+def render_summary(report: Report) -> str:
+    """Verdict, failures and one row per case, in Markdown."""
+    return "\n".join(_lines(report)) + "\n"
+
+
+def _lines(report: Report) -> Iterator[str]:
+    yield f"# {SYMBOLS[report.status]} {WORDS[report.status]}: slipstick verify, {report.level}"
+    yield ""
+    yield f"{counts_text(report)}, in {len(report.cases)} cases."
+    if report.failures:
+        yield ""
+        yield from (f"- `{line}`" for line in failure_lines(report))
+    yield ""
+    yield "| case | verdict | verdicts | closest to its limit |"
+    yield "| --- | --- | --- | --- |"
+    for case in report.cases:
+        status = f"{SYMBOLS[case.status]} {WORDS[case.status]}"
+        yield f"| {case.name} | {status} | {len(case.verdicts)} | {_closest(case)} |"
+
+
+def _closest(case: CaseOutcome) -> str:
+    """The verdict that uses most of what is allowed."""
+    known = [verdict for verdict in case.verdicts if verdict.clearance is not None]
+    if not known:
+        return "–"
+    worst = max(known, key=lambda verdict: verdict.clearance or 0.0)
+    return f"{worst.name} [{worst.run}]: {clearance_text(worst)}"

@@ -1,0 +1,1 @@
+"""Measurements for the report: what a choice costs in accuracy."""

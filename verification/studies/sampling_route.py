@@ -1,0 +1,103 @@
+"""What it costs to take the influence coefficients of a coated body from its sampled FRF.
+
+The usual route multiplies the FRF by the transform of one loaded cell, samples the product and
+transforms back. Two parameters have to be chosen: how much finer than the cells the surface is
+sampled (else short waves alias), and how far the period exceeds the window (else the images of
+the load are felt). Here the result is compared with coefficients that need neither.
+"""
+
+from dataclasses import dataclass
+from math import asinh
+
+import numpy as np
+from numpy.typing import NDArray
+
+from semi_analytical.frf.stack import Stack
+from semi_analytical.frf.surface import SurfaceScalars, scalars
+from semi_analytical.influence.layered import LayeredCoefficients
+
+Field = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class SamplingErrors:
+    """Errors of sampled coefficients, signed and relative to the exact coefficient itself.
+
+    refinement  samples per cell side
+    extension   period over window
+    own         normal displacement of the loaded cell
+    neighbour   of the next cell along x
+    far         of the last cell of the window along x
+    far_shape   of the same, after the difference at half that distance is taken off as a constant,
+                as a free rigid approach would do
+    coupling    normal displacement by shear: largest error over largest coefficient
+    """
+
+    refinement: int
+    extension: int
+    own: float
+    neighbour: float
+    far: float
+    far_shape: float
+    coupling: float
+
+
+def sampling_errors(
+    stack: Stack, spacing: float, cells: int, refinement: int, extension: int
+) -> SamplingErrors:
+    """Errors of the sampling route for a square window of square cells.
+
+    spacing     cell side [length]
+    cells       cells along each side of the window
+    refinement  samples per cell side, >= 1
+    extension   period over window, >= 2 to keep the images out of the window
+    """
+    exact = LayeredCoefficients(stack, (spacing, spacing), (cells, cells))
+    zz, zx = sampled_coefficients(stack, spacing, cells, refinement, extension)
+    error = zz[:, 0] - exact.zz[:, 0]
+    relative = error / exact.zz[:, 0]
+    return SamplingErrors(
+        refinement,
+        extension,
+        own=float(relative[0]),
+        neighbour=float(relative[1]),
+        far=float(relative[-1]),
+        far_shape=float((error[-1] - error[cells // 2]) / exact.zz[-1, 0]),
+        coupling=float(np.abs(zx - exact.zx).max() / np.abs(exact.zx).max()),
+    )
+
+
+def sampled_coefficients(
+    stack: Stack, spacing: float, cells: int, refinement: int, extension: int
+) -> tuple[Field, Field]:
+    """Coefficients (zz, zx) at offsets (i, j) < cells by inverse FFT of the sampled FRF."""
+    step = spacing / refinement
+    count = cells * extension * refinement
+    m = 2 * np.pi * np.fft.fftfreq(count, step)[:, None]
+    n = 2 * np.pi * np.fft.rfftfreq(count, step)[None, :]
+    alpha = np.hypot(m, n)
+    alpha[0, 0] = 1.0  # has no response: replaced below
+    response = scalars(stack, alpha)
+    normal = response.c22
+    normal[0, 0] = _mean_about_zero(stack, 2 * np.pi / (count * step)).c22
+    # f_zx = -i (m / alpha) C12; the shortest wave along x has no partner of the other sign.
+    coupling = -1j * m / alpha * response.c12
+    if count % 2 == 0:
+        coupling[count // 2] = 0
+    load = np.sinc(m * spacing / (2 * np.pi)) * np.sinc(n * spacing / (2 * np.pi))
+    chosen = slice(0, cells * refinement, refinement)
+    shape = (count, count)
+    zz, zx = (
+        np.fft.irfft2(frf * load, shape)[chosen, chosen] * refinement**2
+        for frf in (normal, coupling)
+    )
+    return zz, zx
+
+
+def _mean_about_zero(stack: Stack, width: float) -> SurfaceScalars:
+    """Mean of the FRF over the square of one sample about alpha = 0.
+
+    For long waves the FRF is a constant over alpha, whose mean is 4 asinh(1) / width of it.
+    """
+    alpha = 1e-6 * width
+    return SurfaceScalars(*(4 * asinh(1) / width * alpha * c for c in scalars(stack, alpha)))
