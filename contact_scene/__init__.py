@@ -6,6 +6,7 @@ A scene is made in Python from the frozen values named here, or read from a TOML
 
 from contact_scene.array_file import ArrayFile
 from contact_scene.body import Body, Layer
+from contact_scene.body_file import read_body
 from contact_scene.discretisation import SurfaceDiscretisation
 from contact_scene.friction import CoulombFriction, FrictionMap
 from contact_scene.geometry import Cone, Ellipsoid, FlatPunch, HeightMap, Paraboloid, Sphere
@@ -43,6 +44,7 @@ __all__ = [
     "SurfaceDiscretisation",
     "TangentialControl",
     "load_scene",
+    "read_body",
     "read_scene_file",
     "scene_schema",
 ]

@@ -1,9 +1,8 @@
 """Reading a scene file."""
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from os import PathLike
-from pathlib import Path as FilePath
 from typing import Any, cast
 
 from pydantic import TypeAdapter, ValidationError
@@ -12,10 +11,9 @@ from contact_scene.consistency import Parts, inconsistencies
 from contact_scene.discretisation import SurfaceDiscretisation
 from contact_scene.document import SceneDocument
 from contact_scene.mistakes import mistakes
-from contact_scene.override import origin, override
-from contact_scene.problem import Path, Problem, SceneError
+from contact_scene.problem import SceneError
 from contact_scene.scene import Scene
-from contact_scene.toml_file import read_toml
+from contact_scene.source import read_source
 
 
 @dataclass(frozen=True)
@@ -39,16 +37,9 @@ def read_scene_file(path: str | PathLike[str], overrides: Iterable[str] = ()) ->
                arrays count from 1: `loading[2].increments=5`
     Raises `SceneError` with every mistake, each with file, line and key.
     """
-    file = FilePath(path)
-    document, lines = read_toml(file)
-    overridden: dict[Path, str] = {}
-    for assignment in overrides:
-        overridden[override(document, assignment)] = origin(assignment)
-    try:
-        return _checked(document, {"folder": file.parent})
-    except SceneError as error:
-        placed = [_placed(problem, str(file), lines, overridden) for problem in error.problems]
-        raise SceneError(sorted(placed, key=lambda problem: problem.line or 0)) from None
+    source = read_source(path, overrides)
+    with source.placing():
+        return _checked(source.document, {"folder": source.file.parent})
 
 
 def _checked(document: dict[str, Any], context: dict[str, Any]) -> SceneFile:
@@ -84,19 +75,3 @@ def _valid_parts(
         elif not field.is_required():
             parts[name] = field.get_default()
     return cast(Parts, parts)
-
-
-def _placed(
-    problem: Problem, file: str, lines: Mapping[Path, int], overridden: Mapping[Path, str]
-) -> Problem:
-    """The problem with the file and line it belongs to, or with the override."""
-    path = problem.path
-    prefixes = [path[:length] for length in range(len(path), -1, -1)]
-    source = next((overridden[prefix] for prefix in prefixes if prefix in overridden), None)
-    if source is None and path not in lines:  # a table that only an override has made
-        inside = (made for made in overridden if made[: len(path)] == path and path)
-        source = next((overridden[made] for made in inside), None)
-    if source is not None:
-        return replace(problem, file=source)
-    line = next((lines[prefix] for prefix in prefixes if prefix in lines), 1)
-    return replace(problem, file=file, line=line)

@@ -3,13 +3,13 @@
 Towards the edge of a smooth contact the pressure falls like the square root of the distance, so
 p^2 passes through zero with a finite slope. A quadratic fitted to p^2 in cells well inside is
 extended over the edge cells, and each counts with the part of it where the fit is positive. The
-same holds for µp - |q| at the edge of the stick zone (Cattaneo 1938: it is the pressure of a
-smaller contact).
+same holds at the edge of the stick zone for the shear that is missing from full slip: it is the
+pressure of a smaller contact (Cattaneo 1938; Mindlin and Deresiewicz 1953 after a reversal).
 """
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.ndimage import binary_dilation, binary_erosion
+from scipy.ndimage import binary_dilation, binary_erosion, distance_transform_edt
 
 Field = NDArray[np.float64]
 Mask = NDArray[np.bool_]
@@ -40,6 +40,25 @@ def covered_cells(values: Field, inside: Mask) -> float:
     parts = _coverage(*fit)
     believed = (count >= LEAST_CELLS) & (fit[0] < mean) & (parts > 0) & (parts < 1)
     return float(np.count_nonzero(trusted) + np.sum(np.where(believed, parts, inside[i, j])))
+
+
+def stuck_cells(shear: Field, bound: Field, in_stick: Mask) -> float:
+    """Area of the stick zone in cells.
+
+    shear     q (2, nx, ny)
+    bound     friction limit µp (nx, ny), zero outside the contact
+    in_stick  cells that stick
+    What is missing from full slip is taken along the slip of the nearest slipping cell: after a
+    reversal the shear just inside the stick zone still points the old way.
+    """
+    in_slip = (bound > 0) & ~in_stick
+    if not np.any(in_slip):
+        return covered_cells(bound, in_stick)
+    nearest = distance_transform_edt(~in_slip, return_distances=False, return_indices=True)
+    q = shear[:, nearest[0], nearest[1]]
+    direction = q / np.sqrt(q[0] ** 2 + q[1] ** 2)
+    missing = bound * direction - shear
+    return covered_cells(np.sqrt(missing[0] ** 2 + missing[1] ** 2), in_stick)
 
 
 def _fit(

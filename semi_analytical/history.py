@@ -7,8 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from contact_scene import ControlKind, LoadRamp, NormalControl, TangentialControl
-from semi_analytical.admissible_shear import magnitude
-from semi_analytical.contact_area import covered_cells
+from semi_analytical.contact_area import stuck_cells
 from semi_analytical.errors import GrossSliding, SolverError
 from semi_analytical.fields import Increment
 from semi_analytical.increment import State, solve_increment
@@ -114,7 +113,7 @@ def _increment(model: ContactModel, state: State, step: int, index: int, count: 
         gap=model.gap + pressing.displacement - pressing.approach,
         normal_force=state.normal_force if force is None else force,
         approach=pressing.approach,
-        contact_area=covered_cells(p, p > 0) * cell,
+        contact_area=pressing.covered_cells * cell,
         peak_pressure=float(np.max(p)),
         residuals=residuals,
         iterations=pressing.iterations,
@@ -122,7 +121,8 @@ def _increment(model: ContactModel, state: State, step: int, index: int, count: 
     )
     if sheared is None:
         return pressed
-    spare = model.friction_coefficient * p - magnitude(sheared.shear)
+    bound = model.friction_coefficient * p
+    stuck = stuck_cells(sheared.shear, bound, sheared.in_stick) * cell
     return replace(
         pressed,
         residuals=replace(residuals, **vars(sheared.residuals)),
@@ -134,6 +134,6 @@ def _increment(model: ContactModel, state: State, step: int, index: int, count: 
         tangential_force=sheared.force,
         tangential_shift=sheared.shift,
         # Both areas are fitted on their own; where all sticks they may cross by their errors.
-        stick_area=min(covered_cells(spare, sheared.in_stick) * cell, pressed.contact_area),
+        stick_area=min(stuck, pressed.contact_area),
         dissipated_energy=sheared.dissipated_energy,
     )

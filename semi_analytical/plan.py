@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 
 from contact_scene import Body, IsotropicMaterial, Scene
+from contact_scene.material import Material
 from semi_analytical.errors import UnsupportedScene
 
 # |beta| below this is round-off of equal materials given in different units.
@@ -37,15 +38,15 @@ class Plan:
 
 def plan(scene: Scene) -> Plan:
     """Decide the effects of a scene; raises UnsupportedScene for a combination we do not have."""
-    beta = normal_tangential_coupling(scene)
     friction = scene.friction is not None
     loaded = _tangentially_loaded(scene)
     shear = friction and loaded
-    if friction and abs(beta) > UNCOUPLED:
+    coupled, why = _coupling(scene)
+    if friction and coupled:
         raise UnsupportedScene(
-            f"friction between bodies whose normal and tangential problems couple (Dundurs' "
-            f"beta = {beta:.4g}) arrives with the coupled solver; remove [friction], or use "
-            f"bodies with equal (1 - 2 nu) / G, such as two identical ones"
+            f"friction between bodies whose normal and tangential problems couple ({why}) arrives "
+            f"with the coupled solver; remove [friction], or use bodies with equal (1 - 2 nu) / G, "
+            f"such as two identical ones"
         )
     effects = (
         Effect("pressure", True, "the indenter is pressed on"),
@@ -57,7 +58,11 @@ def plan(scene: Scene) -> Plan:
             "[friction] is given" if friction else "the scene has no [friction]",
         ),
         Effect("tangential load", shear, _why_shear(friction, loaded)),
-        Effect("normal-tangential coupling", False, _why_no_coupling(friction, beta)),
+        Effect(
+            "normal-tangential coupling",
+            False,
+            why if friction else "without shear there is nothing for the pressure to couple with",
+        ),
         Effect(
             "load history",
             len(scene.loading) > 1 and shear,
@@ -86,23 +91,40 @@ def _increments(scene: Scene, shear: bool) -> tuple[int, ...]:
     return tuple(counts)
 
 
-def normal_tangential_coupling(scene: Scene) -> float:
-    """Dundurs' beta of the two substrates (Dundurs 1969), zero if they are uncoupled.
+def _coupling(scene: Scene) -> tuple[bool, str]:
+    """Whether pressure moves the surfaces past each other, and why.
 
-    beta = ½ [(1-2ν1)/G1 - (1-2ν2)/G2] / [(1-ν1)/G1 + (1-ν2)/G2]; a rigid body has 1/G = 0.
+    For half-spaces Dundurs' beta decides (Dundurs 1969); a layer couples by itself unless the
+    other body is its mirror image.
     """
-    difference = _coupling(scene.body) - _coupling(scene.indenter)
-    return 0.5 * difference / (_compliance(scene.body) + _compliance(scene.indenter))
+    lower, upper = scene.body, scene.indenter
+    if (lower.material, lower.layers) == (upper.material, upper.layers):
+        return False, "the two bodies are alike: pressure moves both surfaces by the same amount"
+    half_spaces = [_as_half_space(body) for body in (lower, upper)]
+    if None in half_spaces:
+        return True, "a coating moves sideways under pressure, and the other body does not follow"
+    beta = _dundurs_beta(*half_spaces)
+    text = f"Dundurs' beta is {beta:.2g}"
+    if abs(beta) <= UNCOUPLED:
+        return False, f"{text}: pressure does not move the surfaces past each other"
+    return True, f"{text}: pressure moves the surfaces past each other"
 
 
-def _compliance(body: Body) -> float:
-    m = body.material
-    return (1 - m.poisson_ratio) / m.shear_modulus if isinstance(m, IsotropicMaterial) else 0.0
+def _as_half_space(body: Body) -> Material | None:
+    """The material of a body that is the same all through, else None."""
+    alike = all(layer.material == body.material for layer in body.layers)
+    return body.material if alike else None
 
 
-def _coupling(body: Body) -> float:
-    m = body.material
-    return (1 - 2 * m.poisson_ratio) / m.shear_modulus if isinstance(m, IsotropicMaterial) else 0.0
+def _dundurs_beta(lower: Material | None, upper: Material | None) -> float:
+    """½ [(1-2ν1)/G1 - (1-2ν2)/G2] / [(1-ν1)/G1 + (1-ν2)/G2]; a rigid body has 1/G = 0."""
+    difference = total = 0.0
+    for sign, material in ((1, lower), (-1, upper)):
+        if isinstance(material, IsotropicMaterial):
+            nu, G = material.poisson_ratio, material.shear_modulus
+            difference += sign * (1 - 2 * nu) / G
+            total += (1 - nu) / G
+    return 0.5 * difference / total
 
 
 def _tangentially_loaded(scene: Scene) -> bool:
@@ -120,12 +142,6 @@ def _why_shear(friction: bool, loaded: bool) -> str:
     return "a step names a tangential force or shift"
 
 
-def _why_no_coupling(friction: bool, beta: float) -> str:
-    if not friction:
-        return "without shear there is nothing for the pressure to couple with"
-    return f"Dundurs' beta is {abs(beta):.2g}: pressure does not move the surfaces sideways"
-
-
 def _second_body(scene: Scene) -> Effect:
     both = scene.body.deforms and scene.indenter.deforms
     if both:
@@ -135,11 +151,16 @@ def _second_body(scene: Scene) -> Effect:
 
 
 def _layers(scene: Scene) -> Effect:
-    if scene.body.layers or scene.indenter.layers:
-        raise UnsupportedScene(
-            "layered bodies arrive with the layered influence coefficients; remove the layers"
-        )
-    return Effect("layers", False, "no body has layers")
+    where = [
+        f"the {name} has {_count(len(body.layers))}"
+        for name, body in (("body", scene.body), ("indenter", scene.indenter))
+        if body.layers
+    ]
+    return Effect("layers", bool(where), " and ".join(where) or "no body has layers")
+
+
+def _count(layers: int) -> str:
+    return "a layer" if layers == 1 else f"{layers} layers"
 
 
 def _turns(start: tuple[float, float], end: tuple[float, float]) -> bool:

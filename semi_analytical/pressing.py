@@ -7,6 +7,7 @@ from numpy.typing import NDArray
 
 from contact_scene import HeightMap
 from semi_analytical.box import Box, box_around
+from semi_analytical.contact_area import covered_cells
 from semi_analytical.errors import ContactAtWindowEdge, ContactNotResolved, NotConverged
 from semi_analytical.model import ContactModel, doubled
 from semi_analytical.normal import FixedApproach, NormalLoad, PressureSum, solve_normal
@@ -22,13 +23,17 @@ MOST_ATTEMPTS = 4
 
 @dataclass(frozen=True)
 class Pressing:
-    """Pressure and its normal displacement on the whole window, approach, residuals, cost."""
+    """Pressure and its normal displacement on the whole window, approach, residuals, cost.
+
+    covered_cells  contact area in cells, with sub-cell accuracy
+    """
 
     pressure: Field
     displacement: Field
     approach: float
     complementarity: float
     penetration: float
+    covered_cells: float
     iterations: int
 
 
@@ -83,7 +88,7 @@ def press(model: ContactModel, target: NormalTarget, tolerance: float) -> Pressi
         residual = max(measures)
         if residual <= tolerance:
             _refuse_contact_at_edge(p, model)
-            return Pressing(p, u, solution.approach, *measures, iterations)
+            return Pressing(p, u, solution.approach, *measures, covered_cells(p, p > 0), iterations)
         overlap_outside = np.min(np.where(box.mask(model.grid.cells), 0.0, g)) < 0
         box, aim = (whole, aim) if overlap_outside else (box, 0.1 * aim)
         start = np.where(p > 0, p, np.where(g < 0, np.min(p[p > 0]), 0.0))

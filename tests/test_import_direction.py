@@ -16,10 +16,12 @@ PACKAGES = ("contact_scene", "semi_analytical", "fem_reference", "verification")
 
 ORDER = (
     "errors",
+    "free_memory",
     "grid",
     "frf",
     "influence",
     "operator",
+    "stress",
     "admissible_shear",
     "residuals",
     "normal",

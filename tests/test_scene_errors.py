@@ -100,7 +100,7 @@ MISTAKES = {
     "broken increments": (("18\n", "18.0\n"), 14, "loading[2].increments", "got 18.0"),
     "true increments": (("18\n", "true\n"), 14, "loading[2].increments", "got true"),
     "cells": (("256, 256", "256, 7"), 16, "semi_analytical.cells[2]", "from 8 to 16384"),
-    "many cells": (("256, 256", "16384, 16384"), 15, "semi_analytical", "at most"),
+    "many cells": (("256, 256", "256, 16385"), 16, "semi_analytical.cells[2]", "from 8 to 16384"),
     "one cell number": (("[256, 256]", "256"), 16, "semi_analytical.cells", "an array"),
     "window": (('"1.2 mm", ', '"1.2 N", '), 17, "semi_analytical.window[1]", "a positive length"),
     "tolerance": (("1e-8", "0.0"), 18, "semi_analytical.tolerance", "above 1e-14"),

@@ -24,7 +24,7 @@ Patch = pytest.MonkeyPatch
 
 CASES: dict[str, Callable[[], Case]] = {
     "hertz_point": lambda: hertz_on(refinement(32, 128)),
-    "fretting_loop": lambda: fretting_loop_on((48,), quarter=2),
+    "fretting_loop": lambda: fretting_loop_on((96,), quarter=2),
     "near_sliding": lambda: near_sliding_on(64),
     "load_paths": lambda: load_paths_on(32),
 }

@@ -101,10 +101,15 @@ class Descent:
         k = level.layer
         G, nu = material_at(self.stack, level)
         below = self._below[k]
+        crossed = level.depth - self._tops[k]
         if k < len(self.stack.layers):
-            left = max(0.0, self._tops[k + 1] - level.depth)
+            # Its own thickness, not a difference of depths: of a thin layer little would be left.
+            thickness = self.stack.layers[k].thickness
+            if level.depth >= self._tops[k + 1]:
+                crossed = thickness
+            left = max(0.0, thickness - crossed)
             below = _compliance_above(below, nu, self.alpha * left)
-        through, across = _transmitted(below, nu, self.alpha * (level.depth - self._tops[k]))
+        through, across = _transmitted(below, nu, self.alpha * crossed)
         traction = _product(through, self._traction[k])
         transverse = across * self._transverse[k]
         _, c11, c12, c22, _ = below.rows

@@ -1,9 +1,11 @@
 """Influence coefficients of the two bodies of a scene."""
 
 from contact_scene import Body, IsotropicMaterial
-from semi_analytical.errors import UnsupportedScene
+from semi_analytical.frf.stack import stack_of
+from semi_analytical.influence.cache import remembered
 from semi_analytical.influence.closed_form import HalfSpaceCoefficients, RectangleIntegrals
 from semi_analytical.influence.coefficients import Composite, InfluenceCoefficients
+from semi_analytical.influence.layered import LayeredCoefficients
 
 
 def influence_coefficients(
@@ -15,13 +17,20 @@ def influence_coefficients(
     offsets  number of offsets along x and y, the zero offset included
     """
     integrals = RectangleIntegrals(*spacing, offsets)
-    return Composite(_of_body(lower, integrals), _of_body(upper, integrals))
+    return Composite(
+        _of_body(lower, spacing, integrals, offsets), _of_body(upper, spacing, integrals, offsets)
+    )
 
 
-def _of_body(body: Body, integrals: RectangleIntegrals) -> tuple[InfluenceCoefficients, ...]:
+def _of_body(
+    body: Body,
+    spacing: tuple[float, float],
+    integrals: RectangleIntegrals,
+    offsets: tuple[int, int],
+) -> tuple[InfluenceCoefficients, ...]:
     if not body.deforms:
         return ()
     if body.layers or not isinstance(body.material, IsotropicMaterial):
-        raise UnsupportedScene("layered bodies are not supported yet; remove the layers")
+        return (LayeredCoefficients(stack_of(body), spacing, offsets, remembered),)
     material = body.material
     return (HalfSpaceCoefficients(integrals, material.shear_modulus, material.poisson_ratio),)

@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-import os
-from pathlib import Path
-
 from semi_analytical.errors import ResourceRefused
+from semi_analytical.free_memory import available_bytes
 
 # Arrays of the size of the window alive at the peak (six results, three point responses and
 # the work space of one average), and everything that does not grow with the window.
@@ -16,17 +14,6 @@ FIXED = 20 << 20
 def required_bytes(shape: tuple[int, int]) -> int:
     """Peak memory of all `LayeredCoefficients` for offsets of this shape."""
     return 8 * ARRAYS * (shape[0] + 9) * (shape[1] + 9) + FIXED
-
-
-def available_bytes() -> int:
-    """Memory that can be had without swapping, as far as the system tells."""
-    try:
-        for line in Path("/proc/meminfo").read_text(encoding="ascii").splitlines():
-            if line.startswith("MemAvailable:"):
-                return int(line.split()[1]) << 10
-    except OSError:
-        pass
-    return os.sysconf("SC_PHYS_PAGES") * os.sysconf("SC_PAGE_SIZE")
 
 
 def refuse_beyond_memory(shape: tuple[int, int]) -> None:

@@ -12,7 +12,7 @@ application = typer.Typer(
     cls=LazyCommands,
     no_args_is_help=True,
     rich_markup_mode="markdown",
-    epilog="Exit codes: 0 done; 1 an accuracy verdict failed; 2 invalid scene or unwritable output; "
+    epilog="Exit codes: 0 done; 1 accuracy verdict failed; 2 invalid scene or unwritable output; "
     "3 not converged; 4 too little memory or disk; 5 baseline drift; 70 internal error.",
     context_settings={"help_option_names": ["-h", "--help"]},
 )

@@ -31,7 +31,7 @@ COMMANDS: dict[str, LazyCommand] = {
         "run": "Solve a scene and write its results, tables and figures.",
         "verify": "Measure the accuracy against closed forms and write the report.",
         "report": "Render the report again from recorded results.",
-        "schema": "Print the JSON Schema of a scene file or of a run's summary.",
+        "schema": "Print the JSON Schema of a scene file, a summary or a report.",
     }.items()
 }
 

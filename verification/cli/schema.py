@@ -2,7 +2,7 @@
 
 import json
 from enum import StrEnum
-from typing import Annotated
+from typing import Annotated, Any
 
 import typer
 
@@ -12,16 +12,27 @@ class SchemaOf(StrEnum):
 
     SCENE = "scene"
     SUMMARY = "summary"
+    REPORT = "report"
 
 
 def schema(
     of: Annotated[
-        SchemaOf, typer.Argument(help="A scene file, or the summary.json of a run.")
+        SchemaOf, typer.Argument(help="A scene file, the summary.json of a run, or the report.json of a verification.")
     ] = SchemaOf.SCENE,
 ) -> None:
-    """Print the JSON Schema of a scene file or of a run's summary."""
-    from contact_scene import scene_schema
-    from contact_scene.summary import summary_schema
+    """Print the JSON Schema of a scene file, of a run's summary or of a report."""
+    typer.echo(json.dumps(_document(of), indent=2))
 
-    document = scene_schema() if of is SchemaOf.SCENE else summary_schema()
-    typer.echo(json.dumps(document, indent=2))
+
+def _document(of: SchemaOf) -> dict[str, Any]:
+    if of is SchemaOf.SCENE:
+        from contact_scene import scene_schema
+
+        return scene_schema()
+    if of is SchemaOf.SUMMARY:
+        from contact_scene.summary import summary_schema
+
+        return summary_schema()
+    from verification.report.record import report_schema
+
+    return report_schema()

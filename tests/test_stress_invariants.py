@@ -1,0 +1,54 @@
+"""Invariants of the stress do not depend on the axes, and are right where they are known."""
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from semi_analytical.stress import greatest_shear, principal_stresses, von_mises
+
+STRESSES = st.lists(st.floats(-1e9, 1e9), min_size=6, max_size=6).map(np.array)
+
+
+def tensor(s):
+    xx, yy, zz, yz, xz, xy = s
+    return np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
+
+
+def components(t):
+    return np.array([t[0, 0], t[1, 1], t[2, 2], t[1, 2], t[0, 2], t[0, 1]])
+
+
+@given(STRESSES, st.integers(0, 2**32 - 1))
+def test_invariants_do_not_depend_on_the_axes(stress, seed):
+    turn, _ = np.linalg.qr(np.random.default_rng(seed).normal(size=(3, 3)))
+    turned = components(turn @ tensor(stress) @ turn.T)
+    scale = 1e-14 * np.abs(stress).max() + 1e-300
+    for invariant in (von_mises, principal_stresses, greatest_shear):
+        np.testing.assert_allclose(invariant(turned), invariant(stress), rtol=0, atol=30 * scale)
+
+
+@given(STRESSES)
+def test_von_mises_follows_from_the_principal_stresses(stress):
+    a, b, c = principal_stresses(stress)
+    expected = np.sqrt(((a - b) ** 2 + (b - c) ** 2 + (c - a) ** 2) / 2)
+    assert von_mises(stress) == pytest.approx(expected, rel=1e-7, abs=1e-6)
+    assert a >= b >= c
+    assert a + b + c == pytest.approx(stress[:3].sum(), abs=1e-12 * (1 + np.abs(stress).max()) * 10)
+
+
+def test_uniaxial_tension_and_pure_shear():
+    tension, shear = np.array([2.0, 0, 0, 0, 0, 0]), np.array([0, 0, 0, 0, 3.0, 0])
+    assert von_mises(tension) == pytest.approx(2)
+    assert von_mises(shear) == pytest.approx(3 * np.sqrt(3))
+    np.testing.assert_allclose(principal_stresses(shear), [3, 0, -3], atol=1e-15)
+    assert greatest_shear(shear) == pytest.approx(3)
+
+
+def test_components_may_stand_on_any_axis(rng):
+    stress = rng.normal(size=(4, 6, 3, 2))
+    first = np.moveaxis(stress, 1, 0)
+    np.testing.assert_array_equal(von_mises(stress, axis=1), von_mises(first))
+    assert principal_stresses(stress, axis=1).shape == (4, 3, 3, 2)
+    moved = np.moveaxis(principal_stresses(stress, axis=1), 1, 0)
+    np.testing.assert_array_equal(moved, principal_stresses(first))
