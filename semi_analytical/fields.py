@@ -34,6 +34,7 @@ class Increment:
     dissipated_energy      by slip since the start of the history [force length]
     iterations             of the pressure and shear solvers, on the finest grid
     convolutions           scalar convolutions, grids of all sizes
+    halvings               how often the increment was cut in two to converge
     """
 
     step: int
@@ -48,6 +49,7 @@ class Increment:
     residuals: Residuals
     iterations: int
     convolutions: int
+    halvings: int = 0
     status: ContactStatus = ContactStatus.FRICTIONLESS
     shear: VectorField | None = None
     slip: VectorField | None = None

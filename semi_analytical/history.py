@@ -1,14 +1,14 @@
 """March through a load history: state, increment, state."""
 
-from collections.abc import Iterator
-from dataclasses import replace
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from contact_scene import ControlKind, LoadRamp, NormalControl, TangentialControl
 from semi_analytical.contact_area import stuck_cells
-from semi_analytical.errors import GrossSliding, SolverError
+from semi_analytical.errors import GrossSliding, NotConverged, SolverError
 from semi_analytical.fields import Increment
 from semi_analytical.increment import State, solve_increment
 from semi_analytical.model import ContactModel
@@ -18,6 +18,11 @@ from semi_analytical.residuals import Residuals
 from semi_analytical.shearing import TangentialTarget
 
 Vector = NDArray[np.float64]
+Advance = Callable[
+    [ContactModel, State | None, NormalTarget, TangentialTarget | None, float], State
+]
+
+MOST_HALVINGS = 4
 
 
 def march(model: ContactModel, plan: Plan, tolerance: float) -> Iterator[Increment]:
@@ -25,25 +30,70 @@ def march(model: ContactModel, plan: Plan, tolerance: float) -> Iterator[Increme
 
     raises  NotConverged and GrossSliding, with the last converged State as `last_state`
     """
+    advance = _advance(plan)
     state: State | None = None
     for ramp, count in zip(model.scene.load_path(), plan.increments, strict=True):
-        start = state
-        for index, fraction in enumerate(_fractions(model, ramp, count), start=1):
+        path = _Path(model, ramp, state, plan.shear, advance, tolerance)
+        begin = 0.0
+        for index, end in enumerate(_fractions(model, ramp, count), start=1):
             counted = model.convolutions.count
             try:
-                state = solve_increment(
-                    model,
-                    state,
-                    _normal_at(ramp.normal, start, fraction),
-                    _tangential_at(ramp.tangential, start, fraction) if plan.shear else None,
-                    tolerance,
-                )
+                state, halvings = path.reach(state, begin, end, MOST_HALVINGS)
             except SolverError as error:
-                error.last_state = state
                 error.where = f"step {ramp.step}, increment {index} of {count}"
                 raise
             increment = _increment(model, state, ramp.step, index, count)
-            yield replace(increment, convolutions=int(np.ceil(model.convolutions.count - counted)))
+            yield replace(
+                increment,
+                halvings=halvings,
+                convolutions=int(np.ceil(model.convolutions.count - counted)),
+            )
+            begin = end
+
+
+def _advance(plan: Plan) -> Advance:
+    """How one increment is solved: the coupled solver is not even imported where it is not
+    needed."""
+    if not plan.coupling:
+        return solve_increment
+    from semi_analytical.coupled_increment import solve_coupled_increment
+
+    return solve_coupled_increment
+
+
+@dataclass(frozen=True)
+class _Path:
+    """The loads along one ramp, from the state at its start."""
+
+    model: ContactModel
+    ramp: LoadRamp
+    start: State | None
+    shear: bool
+    advance: Advance
+    tolerance: float
+
+    def reach(
+        self, state: State | None, begin: float, end: float, halvings_left: int
+    ) -> tuple[State, int]:
+        """The state at fraction `end`, in two halves where one increment does not converge, and
+        the number of halvings that took."""
+        try:
+            normal = _normal_at(self.ramp.normal, self.start, end)
+            tangential = None
+            if self.shear:
+                tangential = _tangential_at(self.ramp.tangential, self.start, end)
+            return self.advance(self.model, state, normal, tangential, self.tolerance), 0
+        except NotConverged as error:
+            if halvings_left == 0:
+                error.last_state = state
+                raise
+        except SolverError as error:
+            error.last_state = state
+            raise
+        middle = 0.5 * (begin + end)
+        state, first = self.reach(state, begin, middle, halvings_left - 1)
+        state, second = self.reach(state, middle, end, halvings_left - 1)
+        return state, 1 + first + second
 
 
 def _fractions(model: ContactModel, ramp: LoadRamp, count: int) -> list[float]:

@@ -10,9 +10,11 @@ DOUBLE = 8
 # cells each) with their work space, solver vectors. Measured where the contact fills the window,
 # as it does when the window is fitted; a contact of half the window takes a third less.
 PRESSURE_ARRAYS = 41
-SHEAR_ARRAYS = 112
+HISTORY_ARRAYS = 9
+SHEAR_ARRAYS = 100
+# Arrays that every increment leaves behind: pressure and gap; shear, slip and masks.
 PRESSURE_RESULT = 2
-SHEAR_RESULT = 4.5
+SHEAR_RESULT = 5
 
 
 def estimated_bytes(grid: SurfaceGrid, plan: Plan) -> int:
@@ -20,8 +22,9 @@ def estimated_bytes(grid: SurfaceGrid, plan: Plan) -> int:
     cells = grid.cells[0] * grid.cells[1]
     increments = sum(plan.increments)
     work = PRESSURE_ARRAYS + (SHEAR_ARRAYS if plan.shear else 0)
+    work += HISTORY_ARRAYS if increments > 1 else 0
     kept = PRESSURE_RESULT + (SHEAR_RESULT if plan.shear else 0)
-    return int(cells * DOUBLE * (work + kept * increments))
+    return cells * DOUBLE * (work + kept * increments)
 
 
 def refuse_if_too_large(grid: SurfaceGrid, plan: Plan) -> None:

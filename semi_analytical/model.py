@@ -1,6 +1,7 @@
 """The discrete contact model: gap, friction limit and operators on one grid, and a coarser one."""
 
 from functools import cached_property
+from typing import TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,6 +20,7 @@ from semi_analytical.operator import (
 )
 
 Field = NDArray[np.float64]
+Operator = TypeVar("Operator", NormalOperator, TangentialOperator)
 
 COARSEST = 16
 
@@ -69,19 +71,35 @@ class ContactModel:
             self.scene.body, self.scene.indenter, self.grid.spacing, offsets_for(self.grid.cells)
         )
 
+    @property
+    def self_compliance(self) -> float:
+        """Tangential displacement of a cell by its own unit shear [length^3/force]."""
+        return float(0.5 * (self.coefficients.xx[0, 0] + self.coefficients.yy[0, 0]))
+
     def normal_operator(self, shape: tuple[int, int]) -> NormalOperator:
         """Pressure to normal displacement on a box of cells."""
         if shape not in self._normal:
+            self._forget_other_boxes(self._normal, shape)
             self._normal[shape] = NormalOperator(self.coefficients, shape, self.convolutions)
         return self._normal[shape]
 
     def tangential_operator(self, shape: tuple[int, int]) -> TangentialOperator:
         """Shear to tangential displacement on a box of cells."""
         if shape not in self._tangential:
+            self._forget_other_boxes(self._tangential, shape)
             self._tangential[shape] = TangentialOperator(
                 self.coefficients, shape, self.convolutions
             )
         return self._tangential[shape]
+
+    def _forget_other_boxes(
+        self, operators: dict[tuple[int, int], Operator], shape: tuple[int, int]
+    ) -> None:
+        """Keep the operator on the whole window and one more: a contact that grows passes through
+        many boxes and hardly ever returns to one."""
+        if shape != self.grid.cells:
+            for other in operators.keys() - {self.grid.cells}:
+                del operators[other]
 
     def coupling_operator(self, shape: tuple[int, int]) -> CouplingOperator:
         """Shear to normal and pressure to tangential displacement on a box of cells."""

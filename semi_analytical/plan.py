@@ -1,16 +1,26 @@
 """Which effects a scene calls for: the only place that asks what kind of scene this is."""
 
 from dataclasses import dataclass
+from math import ceil, hypot
 
-from contact_scene import Body, IsotropicMaterial, Scene
+from contact_scene import (
+    Body,
+    ControlKind,
+    FrictionMap,
+    IsotropicMaterial,
+    LoadRamp,
+    Scene,
+)
 from contact_scene.material import Material
-from semi_analytical.errors import UnsupportedScene
 
 # |beta| below this is round-off of equal materials given in different units.
 UNCOUPLED = 1e-12
 
-# Increments of a step whose path matters: T changes by about 0.05 µW in each.
+# Increments of a step whose path matters; errors fall as their inverse.
+FIRST_LOADING = 15
 PATH_INCREMENTS = 20
+LARGEST_SHARE = 0.05
+ROUND_OFF = 1e-9
 
 
 @dataclass(frozen=True)
@@ -27,27 +37,24 @@ class Plan:
     """What is computed for a scene. Effects that are off cost nothing downstream.
 
     shear       whether shear tractions are solved for
+    coupling    whether pressure and shear act on each other's problem
     increments  how many increments each loading step takes
     effects     every effect with its reason, as shown to people
     """
 
     shear: bool
+    coupling: bool
     increments: tuple[int, ...]
     effects: tuple[Effect, ...]
 
 
 def plan(scene: Scene) -> Plan:
-    """Decide the effects of a scene; raises UnsupportedScene for a combination we do not have."""
+    """Decide the effects of a scene."""
     friction = scene.friction is not None
     loaded = _tangentially_loaded(scene)
-    shear = friction and loaded
-    coupled, why = _coupling(scene)
-    if friction and coupled:
-        raise UnsupportedScene(
-            f"friction between bodies whose normal and tangential problems couple ({why}) arrives "
-            f"with the coupled solver; remove [friction], or use bodies with equal (1 - 2 nu) / G, "
-            f"such as two identical ones"
-        )
+    couples, why = _coupling(scene)
+    coupling = friction and couples
+    shear = friction and (loaded or coupling)
     effects = (
         Effect("pressure", True, "the indenter is pressed on"),
         _second_body(scene),
@@ -57,10 +64,10 @@ def plan(scene: Scene) -> Plan:
             friction,
             "[friction] is given" if friction else "the scene has no [friction]",
         ),
-        Effect("tangential load", shear, _why_shear(friction, loaded)),
+        Effect("tangential load", friction and loaded, _why_shear(friction, loaded)),
         Effect(
             "normal-tangential coupling",
-            False,
+            coupling,
             why if friction else "without shear there is nothing for the pressure to couple with",
         ),
         Effect(
@@ -71,24 +78,43 @@ def plan(scene: Scene) -> Plan:
             else "the final state does not depend on the path",
         ),
     )
-    return Plan(shear, _increments(scene, shear), effects)
+    return Plan(shear, coupling, _increments(scene, shear, coupling), effects)
 
 
-def _increments(scene: Scene, shear: bool) -> tuple[int, ...]:
+def _increments(scene: Scene, shear: bool, coupling: bool) -> tuple[int, ...]:
     """As asked for; else one wherever the end of the step does not depend on its path."""
     counts = []
-    sheared = False
+    sheared = coupling
     last = (0.0, 0.0)
     for ramp in scene.load_path():
         end = ramp.tangential.end
         sheared = sheared or any(end)
         pressing = ramp.normal.start != ramp.normal.end
         # Force and shift are nearly parallel, so that either tells where the other starts.
-        turning = _turns(ramp.tangential.start or last, end)
-        path_matters = shear and sheared and (pressing or turning)
-        counts.append(ramp.increments or (PATH_INCREMENTS if path_matters else 1))
+        start = ramp.tangential.start or last
+        turning = start[0] * end[1] != start[1] * end[0]
+        shearing = coupling and start != end
+        path_matters = shear and sheared and (pressing or turning or shearing)
+        chosen = _path_increments(scene, ramp, start) if path_matters else 1
+        counts.append(ramp.increments or chosen)
         last = end
     return tuple(counts)
+
+
+def _path_increments(scene: Scene, ramp: LoadRamp, start: tuple[float, float]) -> int:
+    """Fine enough for about one per cent of the shear (first order in the increment): first
+    loading uniform in contact radius, T in parts of the friction limit where that is known."""
+    if ramp.normal.start == 0:
+        return FIRST_LOADING
+    friction = scene.friction
+    by_force = ramp.normal.kind is ramp.tangential.kind is ControlKind.FORCE
+    if not by_force or friction is None or isinstance(friction.coefficient, FrictionMap):
+        return PATH_INCREMENTS
+    limit = friction.coefficient * ramp.normal.end
+    end = ramp.tangential.end
+    change = hypot(end[0] - start[0], end[1] - start[1])
+    least = PATH_INCREMENTS if ramp.normal.start != ramp.normal.end else 1
+    return max(least, ceil(change / (LARGEST_SHARE * limit) - ROUND_OFF)) if limit > 0 else least
 
 
 def _coupling(scene: Scene) -> tuple[bool, str]:
@@ -138,7 +164,7 @@ def _why_shear(friction: bool, loaded: bool) -> str:
     if not friction:
         return "without friction the surfaces carry no shear"
     if not loaded:
-        return "no step pushes sideways, and pressing alone leaves no shear"
+        return "no step pushes sideways"
     return "a step names a tangential force or shift"
 
 
@@ -161,8 +187,3 @@ def _layers(scene: Scene) -> Effect:
 
 def _count(layers: int) -> str:
     return "a layer" if layers == 1 else f"{layers} layers"
-
-
-def _turns(start: tuple[float, float], end: tuple[float, float]) -> bool:
-    """Whether the direction of a tangential load changes within a step."""
-    return start[0] * end[1] != start[1] * end[0]

@@ -65,7 +65,7 @@ def press(model: ContactModel, target: NormalTarget, tolerance: float) -> Pressi
             f"no cell of the window touches: the gap is at least {np.min(model.gap):.4g} m at the "
             f"cell centres; take more cells or a smaller window"
         )
-    start = _nested_start(model, target)
+    start = nested_start(model, target)
     box = box_around(start > 0, MARGIN)
     whole = Box.whole(model.grid.cells)
     allowed = np.isfinite(model.gap)
@@ -87,7 +87,7 @@ def press(model: ContactModel, target: NormalTarget, tolerance: float) -> Pressi
         measures = (complementarity(p, g, solution.approach), penetration(g, solution.approach))
         residual = max(measures)
         if residual <= tolerance:
-            _refuse_contact_at_edge(p, model)
+            refuse_contact_at_edge(p, model)
             return Pressing(p, u, solution.approach, *measures, covered_cells(p, p > 0), iterations)
         overlap_outside = np.min(np.where(box.mask(model.grid.cells), 0.0, g)) < 0
         box, aim = (whole, aim) if overlap_outside else (box, 0.1 * aim)
@@ -95,12 +95,12 @@ def press(model: ContactModel, target: NormalTarget, tolerance: float) -> Pressi
     raise NotConverged("the pressure", iterations, residual, tolerance)
 
 
-def _nested_start(model: ContactModel, target: NormalTarget) -> Field:
-    """A first pressure: the solution of the coarser model, found the same way."""
+def nested_start(model: ContactModel, target: NormalTarget) -> Field:
+    """A first pressure: the frictionless solution of the coarser model, found the same way."""
     coarse = model.coarse
     if coarse is None or not _touches(coarse, target):
         return np.where(np.isfinite(model.gap), 1.0, 0.0)
-    start = _nested_start(coarse, target)
+    start = nested_start(coarse, target)
     operator = coarse.normal_operator(coarse.grid.cells)
     solution = solve_normal(
         operator,
@@ -120,7 +120,8 @@ def _touches(model: ContactModel, target: NormalTarget) -> bool:
     return np.isfinite(least) if target.approach is None else least < target.approach
 
 
-def _refuse_contact_at_edge(p: Field, model: ContactModel) -> None:
+def refuse_contact_at_edge(p: Field, model: ContactModel) -> None:
+    """Raise ContactAtWindowEdge if a cell at the border of the window carries pressure."""
     rim = np.concatenate([p[0], p[-1], p[:, 0], p[:, -1]])
     if np.any(rim > 0):
         w = model.grid.window

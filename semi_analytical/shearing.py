@@ -113,7 +113,6 @@ def _solve(problem: _Problem, tolerance: float) -> TangentialSolution:
         share = solution.shear / np.where(coarse.bound > 0, coarse.bound, 1.0)
         start, shift = doubled(share) * problem.bound, solution.shift
     operator = problem.model.tangential_operator(problem.bound.shape)
-    coefficients = problem.model.coefficients
     return solve_tangential(
         operator,
         operator.precondition,
@@ -122,6 +121,6 @@ def _solve(problem: _Problem, tolerance: float) -> TangentialSolution:
         problem.load.on(problem.model.grid.cell_area),
         start,
         shift,
-        float(0.5 * (coefficients.xx[0, 0] + coefficients.yy[0, 0])),
+        problem.model.self_compliance,
         tolerance,
     )

@@ -95,7 +95,7 @@ def slip_and_stick(
     if load.force is not None:
         if not any(np.any(a) for a in (load.force, last.shear, last.shift)):
             return replace(last, in_stick=bound > 0, iterations=0)
-        if _reaches_limit(load.force, float(np.sum(bound)) * model.grid.cell_area):
+        if reaches_limit(load.force, float(np.sum(bound)) * model.grid.cell_area):
             if np.any(bound):
                 return _at_limit(model, bound, last, load.force)
             return _unresisted(pressure, last, last.shift)
@@ -109,14 +109,14 @@ def slip_and_stick(
         iterations += solution.iterations
         # How far the indenter's particles moved past the body's in this increment.
         passed = solution.shift[:, None, None] + target - solution.displacement
-        residuals = _residuals(model, solution, bound, passed, load)
+        residuals = shear_residuals(model, solution, bound, passed, load)
         if residuals.worst <= tolerance:
-            return _advanced(model, pressure, bound, last, load, solution, passed, residuals)
+            return advanced(model, pressure, bound, last, load, solution, passed, residuals)
         aim *= 0.1
     raise NotConverged("the shear", iterations, residuals.worst, tolerance)
 
 
-def _reaches_limit(force: Vector, limit: float) -> bool:
+def reaches_limit(force: Vector, limit: float) -> bool:
     """Whether a force is at the friction limit; GrossSliding if it is beyond."""
     magnitude = float(np.hypot(*force))
     if magnitude > limit * (1 + AT_LIMIT):
@@ -127,13 +127,17 @@ def _reaches_limit(force: Vector, limit: float) -> bool:
     return magnitude >= limit * (1 - AT_LIMIT)
 
 
-def _residuals(
+def shear_residuals(
     model: ContactModel,
     solution: Shearing,
     bound: Field,
     passed: VectorField,
     load: TangentialTarget,
 ) -> ShearResiduals:
+    """How well a solution obeys friction and carries its load.
+
+    passed  how far the indenter's particles moved past the body's (2, nx, ny)
+    """
     q = solution.shear
     equilibrium = None
     if load.force is not None:
@@ -146,7 +150,7 @@ def _residuals(
     )
 
 
-def _advanced(
+def advanced(
     model: ContactModel,
     pressure: Field,
     bound: Field,

@@ -36,6 +36,8 @@ ORDER = (
     "shearing",
     "stick_slip",
     "increment",
+    "alternation",
+    "coupled_increment",
     "history",
     "discretise",
     "solve",

@@ -144,13 +144,13 @@ def test_in_plane_stresses_jump_as_the_materials_do(name):
 
 
 @pytest.mark.parametrize(
-    ("name", "place"), list(zip(BODIES, [(7, 5), (0, 0), (2, 1), (0, 3)], strict=True))
+    ("name", "place"), list(zip(BODIES, [(5, 3), (0, 0), (2, 1), (0, 3)], strict=True))
 )
 def test_coefficients_are_the_transform_of_the_frf(name, place):
     """Every component by quadrature over the plane of wave vectors, on both sides."""
     stack, spacing = BODIES[name], (0.25, 0.15)
     first = stack.layers[0].thickness
-    levels = (Level(0.7 * first, 0), Level(first + 0.1, 1))
+    levels = (Level(0.9 * first, 0), Level(first + 0.1, 1))
     point = place[0] * spacing[0], place[1] * spacing[1]
     cell = cell_transform(*spacing)
     for level, found in zip(
@@ -162,7 +162,7 @@ def test_coefficients_are_the_transform_of_the_frf(name, place):
             def applied(m, n, transforms=transforms, traction=traction):
                 return [cell(m, n) if k == traction else 0.0 for k in range(len(transforms))]
 
-            expected = fields_at(stack, level, point, applied, reach=np.hypot(*point) + 2)
+            expected = fields_at(stack, level, point, applied, reach=np.hypot(*point) + 1.5)
             for field in range(len(FIELDS)):
                 scale = max(1e-3, np.abs(expected).max())
                 assert found[field, traction][place] == pytest.approx(

@@ -19,7 +19,9 @@ def uniform_load_matrix(stack: Stack) -> NDArray[np.float64]:
         raise ValueError("an elastic half-space moves without bound under a uniform traction")
     shear = sum(film.thickness / film.shear_modulus for film in stack.layers)
     squeeze = sum(
-        film.thickness * (0.5 - film.poisson_ratio) / (film.shear_modulus * (1 - film.poisson_ratio))
+        film.thickness
+        * (0.5 - film.poisson_ratio)
+        / (film.shear_modulus * (1 - film.poisson_ratio))
         for film in stack.layers
     )
     return np.diag([shear, shear, squeeze])

@@ -13,6 +13,7 @@ from semi_analytical.grid import SurfaceGrid
 if TYPE_CHECKING:
     from semi_analytical import Result
     from verification.cases.chart import Chart
+    from verification.cases.table import Table
 
 SOLVER_TOLERANCE = 1e-8
 ROUNDING = 1e-12  # relative uncertainty of a closed form in double precision
@@ -102,6 +103,41 @@ class Quantity:
 
 
 @dataclass(frozen=True)
+class Check:
+    """A number that is measured without solving a scene, and judged against a reference.
+
+    subject  what it is measured on
+    """
+
+    name: str
+    meaning: str
+    unit: str
+    subject: str
+    measure: Callable[[], float]
+    reference: Reference
+    tolerance: Required
+    scale: float | None = None
+    scale_name: str = "the reference"
+
+
+@dataclass(frozen=True)
+class Comparison:
+    """Two runs that must give the same, because they are the same problem said differently.
+
+    runs        labels; the difference is relative to the second
+    difference  0 if they agree, dimensionless
+    """
+
+    name: str
+    meaning: str
+    runs: tuple[str, str]
+    difference: Callable[[Result, Result], float]
+    allowed: float
+    because: str
+    source: str
+
+
+@dataclass(frozen=True)
 class OrderOfConvergence:
     """The rate at which an error falls with the cell side, against the rate theory expects.
 
@@ -136,7 +172,9 @@ class Case:
 
     name     for commands and files: letters, digits and underscores
     problem  what is solved and why the answer is known, for a reader
+    checks   what is judged beside the runs; a case may have nothing else
     charts   figures drawn from the results, by label of the run
+    tables   more numbers than verdicts could show, likewise
     limits   what this case does not show
     """
 
@@ -147,7 +185,10 @@ class Case:
     quantities: tuple[Quantity, ...]
     orders: tuple[OrderOfConvergence, ...] = ()
     findings: tuple[Finding, ...] = ()
+    comparisons: tuple[Comparison, ...] = ()
+    checks: tuple[Check, ...] = ()
     charts: Callable[[Mapping[str, Result]], tuple[Chart, ...]] | None = None
+    tables: Callable[[Mapping[str, Result]], tuple[Table, ...]] | None = None
     limits: tuple[str, ...] = ()
 
     def run(self, label: str) -> Run:

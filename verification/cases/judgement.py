@@ -18,6 +18,8 @@ from verification.cases.outcome import (
 )
 from verification.cases.verdicts import (
     finite,
+    judge_check,
+    judge_comparison,
     judge_order,
     judge_quantity,
     judge_residuals,
@@ -41,7 +43,7 @@ def solve_run(run: Run) -> Result:
 
 
 def judge(case: Case, solve: Solve = solve_run) -> CaseOutcome:
-    """Solve all runs of a case and judge its quantities.
+    """Solve all runs of a case and judge its quantities and checks.
 
     A run that the solver gives up is a failed verdict; what would be measured on it is left out.
     """
@@ -62,6 +64,7 @@ def judge(case: Case, solve: Solve = solve_run) -> CaseOutcome:
         findings=tuple(_measure(f, results) for f in case.findings if f.run in results),
         charts=case.charts(results) if case.charts and not failures else (),
         limits=case.limits,
+        tables=case.tables(results) if case.tables and not failures else (),
     )
 
 
@@ -70,6 +73,8 @@ def _verdicts(case: Case, results: Results) -> tuple[Verdict, ...]:
     studied = [study for study in case.orders if set(study.levels) <= results.keys()]
     return (
         *(judge_quantity(quantity, case, results) for quantity in measured),
+        *(judge_comparison(c, results) for c in case.comparisons if set(c.runs) <= results.keys()),
+        *(judge_check(check) for check in case.checks),
         *(judge_order(study, case, results) for study in studied),
         *([judge_residuals(case, results)] if results else []),
     )

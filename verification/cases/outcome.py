@@ -5,6 +5,7 @@ from enum import StrEnum
 from contact_scene.description import Description
 from contact_scene.summary import EffectSummary
 from verification.cases.chart import Chart
+from verification.cases.table import Table
 
 
 class Status(StrEnum):
@@ -91,6 +92,7 @@ class CaseOutcome(Description):
     findings: tuple[FindingRecord, ...]
     charts: tuple[Chart, ...]
     limits: tuple[str, ...]
+    tables: tuple[Table, ...] = ()
 
     def count(self, status: Status) -> int:
         """How many verdicts have this status."""

@@ -8,11 +8,15 @@ from typing import TYPE_CHECKING
 
 from verification.cases.case import (
     Case,
+    Check,
+    Comparison,
     Derived,
     OrderOfConvergence,
     Quantity,
     ReferenceKind,
+    Required,
     Run,
+    identity,
 )
 from verification.cases.outcome import Status, Verdict
 from verification.convergence import numerical_uncertainty, observed_order
@@ -31,17 +35,43 @@ COVERAGE = 2.0  # standard uncertainties in a tolerance
 
 def judge_quantity(quantity: Quantity, case: Case, results: Results) -> Verdict:
     """The measured value against its reference; a value that is not finite fails."""
-    reference, tolerance = quantity.reference, quantity.tolerance
-    value = quantity.measure(results[quantity.run])
-    scale = abs(reference.value) if quantity.scale is None else quantity.scale
-    if isinstance(tolerance, Derived):
-        kind, allowed = "derived", _derived(quantity, tolerance, case, results, scale)
-    else:
-        kind, allowed = "required", tolerance.allowed
+    value, tolerance = quantity.measure(results[quantity.run]), quantity.tolerance
+    if not isinstance(tolerance, Derived):
+        return _judged(quantity, quantity.run, value, "required", tolerance.allowed)
+    allowed = _derived(quantity, tolerance, case, results, _scale(quantity))
+    return _judged(quantity, quantity.run, value, "derived", allowed)
+
+
+def judge_check(check: Check) -> Verdict:
+    """The measured value against its reference; a value that is not finite fails."""
+    return _judged(check, check.subject, check.measure(), "required", check.tolerance.allowed)
+
+
+def judge_comparison(comparison: Comparison, results: Results) -> Verdict:
+    """The difference of two runs, against zero."""
+    one, other = comparison.runs
+    value = comparison.difference(results[one], results[other])
+    same = Check(
+        comparison.name, comparison.meaning, "", f"{one} and {other}", lambda: value,
+        identity(0.0, comparison.source), Required(comparison.allowed, comparison.because),
+        1.0, "the second run's",
+    )  # fmt: skip
+    return judge_check(same)
+
+
+def _scale(quantity: Quantity | Check) -> float:
+    """What an error is divided by."""
+    return abs(quantity.reference.value) if quantity.scale is None else quantity.scale
+
+
+def _judged(
+    quantity: Quantity | Check, measured_on: str, value: float, kind: str, allowed: float
+) -> Verdict:
+    reference, scale = quantity.reference, _scale(quantity)
     error = abs(value - reference.value) / scale
     return Verdict(
         name=quantity.name,
-        run=quantity.run,
+        run=measured_on,
         meaning=quantity.meaning,
         unit=quantity.unit,
         value=finite(value),
@@ -53,7 +83,7 @@ def judge_quantity(quantity: Quantity, case: Case, results: Results) -> Verdict:
         scale=scale,
         scale_name=quantity.scale_name,
         tolerance_kind=kind,
-        because=tolerance.because,
+        because=quantity.tolerance.because,
         status=Status.PASS if error <= allowed else Status.FAIL,  # NaN compares as a failure
     )
 

@@ -29,6 +29,8 @@ COMMANDS: dict[str, LazyCommand] = {
         "check": "Validate a scene file and say what it describes.",
         "plan": "Say which effects a scene needs, on which grid, in how many increments.",
         "run": "Solve a scene and write its results, tables and figures.",
+        "frf": "Tabulate and plot the surface FRF of the lower body of a scene.",
+        "stress": "Compute displacement and stress below the surface.",
         "verify": "Measure the accuracy against closed forms and write the report.",
         "report": "Render the report again from recorded results.",
         "schema": "Print the JSON Schema of a scene file, a summary or a report.",

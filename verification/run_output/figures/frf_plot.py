@@ -5,6 +5,7 @@ from typing import Any
 
 import numpy as np
 from matplotlib.figure import Figure
+from numpy.typing import NDArray
 
 from verification.run_output.atomic_file import atomic_file
 from verification.run_output.figures import style
@@ -26,7 +27,7 @@ def write_frf_figures(response: FrequencyResponse, directory: Path, title: str) 
 def frf_plot(response: FrequencyResponse, title: str) -> Figure:
     """Magnitudes in m³/N on the left, dimensionless on the right; call within `figure_style`."""
     figure = style.new_figure(9.6, 4.0)
-    figure.suptitle(title, fontsize=9.0)
+    figure.suptitle(title, fontsize=9.0, parse_math=False)
     left, right = figure.subplots(1, 2)
     for n, (name, values) in enumerate(response.columns.items()):
         look: dict[str, Any] = {
@@ -42,7 +43,7 @@ def frf_plot(response: FrequencyResponse, title: str) -> Figure:
     left.set_ylabel("|F| (m³/N)")
     right.set_xscale("log")
     right.set_ylabel("α G F, G of the outermost material")
-    _scale(right, np.abs(list(response.dimensionless.values())))
+    _scale(right, np.array(list(response.dimensionless.values())))
     for ax in (left, right):
         _mark_thicknesses(ax, response)
         ax.set_xlabel("wavenumber α (1/m)")
@@ -51,13 +52,10 @@ def frf_plot(response: FrequencyResponse, title: str) -> Figure:
     return figure
 
 
-def _scale(ax: Any, magnitudes: Any) -> None:
-    """Logarithmic on both sides of zero where the values spread over decades."""
-    largest = float(magnitudes.max())
-    outstanding = float(magnitudes.max(axis=1).min())
-    ends = magnitudes[:3, [0, -1]]
-    smallest = float(ends.min())
-    if largest > WIDE * min(smallest, outstanding or largest):
+def _scale(ax: Any, values: NDArray[np.float64]) -> None:
+    """Logarithmic on both sides of zero where the values, all but C positive, spread wide."""
+    largest, smallest = float(values[:-1].max()), float(values[:-1].min())
+    if largest > WIDE * smallest:
         ax.set_yscale("symlog", linthresh=max(smallest, 1e-6 * largest))
     else:
         ax.axhline(0.0, color="#1a1a1a", linewidth=0.5)

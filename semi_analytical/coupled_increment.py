@@ -1,0 +1,179 @@
+"""One load increment of bodies whose normal and tangential problems couple."""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from semi_analytical.alternation import CoupledProblem, CoupledSolution, solve_coupled
+from semi_analytical.box import Box, box_around
+from semi_analytical.contact_area import covered_cells
+from semi_analytical.errors import GrossSliding, NotConverged
+from semi_analytical.increment import State
+from semi_analytical.model import ContactModel
+from semi_analytical.pressing import (
+    MARGIN,
+    NormalTarget,
+    Pressing,
+    nested_start,
+    refuse_contact_at_edge,
+)
+from semi_analytical.residuals import complementarity, penetration
+from semi_analytical.shearing import Shearing, TangentialTarget
+from semi_analytical.stick_slip import Sheared, advanced, reaches_limit, shear_residuals, untouched
+
+Field = NDArray[np.float64]
+VectorField = NDArray[np.float64]
+
+MOST_ATTEMPTS = 4
+
+
+def solve_coupled_increment(
+    model: ContactModel,
+    before: State | None,
+    normal: NormalTarget,
+    tangential: TangentialTarget | None,
+    tolerance: float,
+) -> State:
+    """The state at the end of an increment in which pressure and shear act on each other.
+
+    Solved in the box around the contact and checked on the whole window with fresh convolutions.
+    raises  NotConverged, GrossSliding, ContactAtWindowEdge
+    """
+    assert tangential is not None
+    last = before.sheared if before is not None and before.sheared is not None else None
+    last = last or untouched(model.grid.cells)
+    if last.shift is None:
+        raise GrossSliding(
+            "the increment before reached the friction limit under force control, where the "
+            "shift is undefined, so the history cannot go on; prescribe tangential_shift instead"
+        )
+    start = _start(model, before, normal)
+    _refuse_beyond_limit(model, start, normal, tangential)
+    box = box_around((start > 0) | (last.shear[0] != 0), MARGIN)
+    whole = Box.whole(model.grid.cells)
+    aim, iterations, residual = tolerance, 0, np.inf
+    shear = last.shear
+    for _ in range(MOST_ATTEMPTS):
+        problem = _problem(model, box, last, normal, tangential)
+        inside = (..., *box.slices)
+        solution = solve_coupled(problem, start[inside], shear[inside], last.shift, 0.5 * aim)
+        iterations += solution.iterations
+        trial = _Trial(model, last, normal, tangential, box, solution, iterations)
+        state, g = trial.state()
+        assert state.sheared is not None
+        residual = max(
+            state.pressing.complementarity,
+            state.pressing.penetration,
+            state.sheared.residuals.worst,
+        )
+        if residual <= tolerance:
+            refuse_contact_at_edge(state.pressing.pressure, model)
+            return state
+        overlap_outside = np.min(np.where(box.mask(model.grid.cells), 0.0, g)) < 0
+        box, aim = (whole, aim) if overlap_outside else (box, 0.1 * aim)
+        start, shear = state.pressing.pressure, state.sheared.shear
+    raise NotConverged("the coupled increment", iterations, residual, tolerance)
+
+
+def _start(model: ContactModel, before: State | None, normal: NormalTarget) -> Field:
+    """The pressure of the state before; where the normal load changes, that of a frictionless
+    contact on a coarser grid, which knows how far the contact reaches."""
+    if before is not None and before.target == normal:
+        return before.pressing.pressure
+    return nested_start(model, normal)
+
+
+def _refuse_beyond_limit(
+    model: ContactModel, start: Field, normal: NormalTarget, tangential: TangentialTarget
+) -> None:
+    """GrossSliding for a force at or beyond the friction limit, where that is known beforehand."""
+    if tangential.force is None or normal.force is None or np.ndim(model.friction_coefficient):
+        return
+    limit = float(model.friction_coefficient) * normal.force
+    if reaches_limit(tangential.force, limit):
+        raise GrossSliding(
+            f"tangential force {np.hypot(*tangential.force):.6g} N is the friction limit: with "
+            f"coupled bodies its state is only reached by sliding; prescribe tangential_shift"
+        )
+
+
+def _problem(
+    model: ContactModel,
+    box: Box,
+    last: Sheared,
+    normal: NormalTarget,
+    tangential: TangentialTarget,
+) -> CoupledProblem:
+    """The increment in a box of cells."""
+    assert last.shift is not None
+    pressed = model.normal_operator(box.shape)
+    sheared = model.tangential_operator(box.shape)
+    coupling = model.coupling_operator(box.shape)
+    target = last.displacement - last.shift[:, None, None]
+    mu = model.friction_coefficient
+    return CoupledProblem(
+        normal=pressed,
+        precondition_normal=pressed.precondition,
+        shear=sheared,
+        precondition_shear=sheared.precondition,
+        normal_by_shear=coupling.normal_by_shear,
+        shear_by_pressure=coupling.tangential_by_pressure,
+        gap=model.gap[box.slices],
+        friction_coefficient=mu[box.slices] if isinstance(mu, np.ndarray) else mu,
+        target=target[(..., *box.slices)],
+        normal_load=normal.on(model),
+        tangential_load=tangential.on(model.grid.cell_area),
+        self_compliance=model.self_compliance,
+    )
+
+
+@dataclass(frozen=True)
+class _Trial:
+    """A solution in a box, to be judged on the whole window."""
+
+    model: ContactModel
+    last: Sheared
+    normal: NormalTarget
+    tangential: TangentialTarget
+    box: Box
+    solution: CoupledSolution
+    iterations: int
+
+    def state(self) -> tuple[State, Field]:
+        """The state that the solution would make, and its gap."""
+        model, solution, cells = self.model, self.solution, self.model.grid.cells
+        p, q = self.box.embed(solution.pressure, cells), self.box.embed(solution.shear, cells)
+        coupling = model.coupling_operator(cells)
+        u_z = model.normal_operator(cells)(p) + coupling.normal_by_shear(q)
+        u_by_q = model.tangential_operator(cells)(q)
+        u_t = u_by_q + coupling.tangential_by_pressure(p)
+        g = np.where(np.isfinite(model.gap), model.gap, np.inf) + u_z - solution.approach
+        pressing = Pressing(
+            pressure=p,
+            displacement=u_z,
+            approach=solution.approach,
+            complementarity=complementarity(p, g, solution.approach),
+            penetration=penetration(g, solution.approach),
+            covered_cells=covered_cells(p, p > 0),
+            iterations=self.iterations,
+        )
+        normal_force = float(np.sum(p)) * model.grid.cell_area
+        return State(self.normal, normal_force, pressing, self._sheared(p, q, u_t, u_by_q)), g
+
+    def _sheared(self, p: Field, q: VectorField, u_t: VectorField, u_by_q: VectorField) -> Sheared:
+        assert self.last.shift is not None
+        model, solution = self.model, self.solution
+        shearing = Shearing(
+            shear=q,
+            displacement=u_by_q,
+            shift=solution.shift,
+            in_slip=self.box.embed(solution.in_slip.astype(np.float64), model.grid.cells) > 0,
+            iterations=0,
+        )
+        target = self.last.displacement - self.last.shift[:, None, None]
+        passed = solution.shift[:, None, None] + target - u_t
+        bound = model.friction_coefficient * p
+        residuals = shear_residuals(model, shearing, bound, passed, self.tangential)
+        after = advanced(model, p, bound, self.last, self.tangential, shearing, passed, residuals)
+        return replace(after, displacement=u_t)

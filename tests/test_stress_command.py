@@ -1,0 +1,170 @@
+"""`slipstick stress` from end to end: from a scene, from a run, and what it refuses."""
+
+import csv
+import json
+import subprocess
+import sys
+from pathlib import Path
+
+import meshio
+import numpy as np
+import pytest
+
+ROOT = Path(__file__).resolve().parents[1]
+
+SCENE = """
+title = "coated"
+[indenter]
+shape = "paraboloid"
+radius = "18 mm"
+material = { young_modulus = "210 GPa", poisson_ratio = 0.3 }
+[body]
+material = { young_modulus = "210 GPa", poisson_ratio = 0.3 }
+[[body.layers]]
+thickness = "0.1 mm"
+material = { young_modulus = "420 GPa", poisson_ratio = 0.25 }
+[[loading]]
+normal_force = "500 N"
+[[loading]]
+normal_force = "1 kN"
+[semi_analytical]
+cells = [32, 32]
+window = ["1.2 mm", "1.2 mm"]
+"""
+FILES = {
+    "stress.json", "stress_maxima.csv", "stress_axis.csv", "stress_section.vtu",
+    "stress_section.png", "stress_axis.png", "stress_interfaces.png",
+}  # fmt: skip
+
+
+def slipstick(*arguments: object) -> subprocess.CompletedProcess[str]:
+    command = [sys.executable, "-m", "verification", *map(str, arguments)]
+    return subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=False)
+
+
+@pytest.fixture(scope="module")
+def place(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A scene, its run in `run`, and the stress of the scene in `out`."""
+    directory = tmp_path_factory.mktemp("stress")
+    scene = directory / "scene.toml"
+    scene.write_text(SCENE, encoding="utf-8")
+    for arguments in (
+        ("run", scene, "-o", directory / "run", "--no-figures"),
+        ("stress", scene, "-o", directory / "out"),
+    ):
+        outcome = slipstick(*arguments)
+        assert outcome.returncode == 0, outcome.stderr
+    return directory
+
+
+def rows(path: Path) -> list[dict[str, str]]:
+    with open(path, newline="", encoding="utf-8") as file:
+        return list(csv.DictReader(file))
+
+
+def test_every_file_is_written(place: Path) -> None:
+    assert {path.name for path in (place / "out").iterdir()} == FILES
+
+
+def test_maxima_name_both_sides_of_the_interface(place: Path) -> None:
+    record = json.loads((place / "out" / "stress.json").read_text(encoding="utf-8"))
+    found = {(e["region"], e["measure"]): e for e in record["maxima"]}
+    regions = {"body", "layer 1", "base", "interface 1 above", "interface 1 below"}
+    assert {region for region, _ in found} == regions
+    for side in ("above", "below"):
+        assert found[f"interface 1 {side}", "von_mises"]["depth"] == pytest.approx(0.1e-3)
+    parts = [found[region, "von_mises"]["value"] for region in ("layer 1", "base")]
+    assert found["body", "von_mises"]["value"] == max(parts)
+    table = rows(place / "out" / "stress_maxima.csv")
+    assert [float(row["value [Pa]"]) for row in table] == [e["value"] for e in record["maxima"]]
+
+
+def test_axis_is_continuous_where_it_must_be_and_jumps_where_it_must(place: Path) -> None:
+    table = rows(place / "out" / "stress_axis.csv")
+    at = [row for row in table if float(row["depth [m]"]) == 0.1e-3]
+    above, below = at
+    assert (above["material"], below["material"]) == ("layer 1", "base")
+    peak = float(table[0]["sigma_zz [Pa]"])
+    for name in ("sigma_zz [Pa]", "u_z [m]"):
+        assert float(above[name]) == pytest.approx(float(below[name]), rel=1e-11)
+    assert abs(float(above["sigma_xx [Pa]"]) - float(below["sigma_xx [Pa]"])) > 1e-2 * abs(peak)
+    # On the axis the surface carries the pressure: what the run has found.
+    summary = json.loads((place / "run" / "summary.json").read_text(encoding="utf-8"))
+    assert -peak == pytest.approx(summary["steps"][-1]["peak_pressure"], rel=1e-3)
+
+
+def test_run_and_scene_give_the_same(place: Path) -> None:
+    outcome = slipstick("stress", place / "run", "-o", place / "of_run", "--no-figures")
+    assert outcome.returncode == 0, outcome.stderr
+    for name in ("stress_maxima.csv", "stress_axis.csv"):
+        one, other = rows(place / "out" / name), rows(place / "of_run" / name)
+        for a, b in zip(one, other, strict=True):
+            for key in a:
+                try:
+                    expected = float(a[key])
+                except ValueError:
+                    assert a[key] == b[key]
+                    continue
+                scale = 1e10 if "Pa" in key else 1.0
+                assert float(b[key]) == pytest.approx(expected, rel=1e-9, abs=1e-12 * scale)
+
+
+def test_step_and_depths_are_the_ones_asked_for(place: Path) -> None:
+    outcome = slipstick(
+        "stress", place / "run", "-o", place / "first", "--no-figures", "--volume",
+        "--step", 1, "--depths", "0, 50 um,2e-4",
+    )  # fmt: skip
+    assert outcome.returncode == 0, outcome.stderr
+    record = json.loads((place / "first" / "stress.json").read_text(encoding="utf-8"))
+    assert record["step"] == 1
+    assert [(level["depth"], level["layer"]) for level in record["levels"]] == [
+        (0.0, 0), (5e-5, 0), (1e-4, 0), (1e-4, 1), (2e-4, 1),
+    ]  # fmt: skip
+    volume = meshio.read(place / "first" / "stress_volume.vtu")
+    assert set(volume.cells_dict) == {"hexahedron"}
+    # Two slabs in the layer, one below it; none across the interface.
+    nx, ny = record["cells"]
+    assert len(volume.cells_dict["hexahedron"]) == 3 * (nx - 1) * (ny - 1)
+    for corners in volume.cells_dict["hexahedron"]:
+        assert len(set(volume.point_data["material"][corners])) == 1
+
+
+def test_mesh_holds_the_fields_of_the_table(place: Path) -> None:
+    section = meshio.read(place / "out" / "stress_section.vtu")
+    depth, x = section.points[:, 2], section.points[:, 0]
+    assert np.all(section.points[:, 1] == 0)
+    left = np.abs(x - x[x < 0].max()) < 1e-12  # half a cell beside the axis
+    table = rows(place / "out" / "stress_axis.csv")
+    expected = [float(row["sigma_zz [Pa]"]) for row in table]
+    peak = max(map(abs, expected))
+    np.testing.assert_allclose(section.point_data["sigma_zz"][left], expected, atol=0.02 * peak)
+    np.testing.assert_array_equal(depth[left], [float(row["depth [m]"]) for row in table])
+
+
+def test_indenter_has_its_own_stress(place: Path) -> None:
+    outcome = slipstick("stress", place / "run", "-o", place / "ball", "--indenter", "--no-figures")
+    assert outcome.returncode == 0, outcome.stderr
+    record = json.loads((place / "ball" / "stress.json").read_text(encoding="utf-8"))
+    assert record["body"] == "indenter"
+    assert {e["region"] for e in record["maxima"]} == {"body"}
+
+
+@pytest.mark.parametrize(
+    ("arguments", "complaint"),
+    [
+        (["{}/run", "--step", "3"], "no step 3"),
+        (["{}/out"], "has no result.h5"),
+        (["{}/run", "--depths", "-1"], "expected a finite length"),
+        (["{}/run", "--depths", "1 kN"], "expected a length"),
+        (["{}/run", "--set", "title=a"], "--set changes a scene"),
+        (["{}/run", "-o", "{}/scene.toml/out"], "is a file"),
+    ],
+)
+def test_what_cannot_be_done_is_refused(place: Path, arguments: list[str], complaint: str) -> None:
+    filled = [argument.format(place) for argument in arguments]
+    if "-o" not in filled:
+        filled += ["-o", str(place / "refused")]
+    outcome = slipstick("stress", *filled)
+    assert outcome.returncode == 2
+    assert complaint in " ".join(outcome.stderr.replace("│", " ").split())
+    assert not (place / "refused").exists()

@@ -1,0 +1,189 @@
+"""The paper's coatings under a rigid paraboloid, without friction."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from verification.cases import paper_scene as paper
+from verification.cases.case import (
+    Case,
+    Derived,
+    Finding,
+    Level,
+    OrderOfConvergence,
+    Quantity,
+    Reference,
+    ReferenceKind,
+    Required,
+    Run,
+)
+from verification.cases.chart import Chart
+from verification.cases.convergence_chart import convergence_chart
+from verification.cases.end_state import approach, contact_radius
+from verification.cases.flat_punch import central_pressure
+from verification.cases.hertz_point import ASKED, label
+from verification.cases.layered_scene import coated, exact_contact, film, pressed, rigid_ball
+from verification.cases.paper_scene import HERTZ
+from verification.cases.profile_chart import Profile, ProfileLabels, Section, profile_chart
+from verification.cases.refinement import part_of_a_cell, refinement
+from verification.metrics import relative_l2
+from verification.references import load_reference
+
+if TYPE_CHECKING:
+    from semi_analytical import Result
+
+SOURCE = "references/coated_frictionless_paraboloid.json: Fredholm equation, two settings agree"
+REQUIRED = {128: 2e-4, 256: 5e-5}  # by cells per side
+STUDIED = 2.0  # E1/E2 of the row whose convergence is studied
+
+
+@dataclass(frozen=True)
+class Coating:
+    """One row of the reference."""
+
+    row: Mapping[str, Any]
+
+    @property
+    def name(self) -> str:
+        """For labels: the ratio of Young's moduli."""
+        return f"E1/E2 = {self.row['E1_over_E2']:g}"
+
+    @property
+    def contact_radius(self) -> float:
+        """Reference contact radius [length]."""
+        return float(self.row["a_over_aH"]) * HERTZ.contact_radius
+
+    def run(self, cells: int) -> Run:
+        """The contact on a window of three contact radii."""
+        body = coated(film(self.row["E1_over_E2"], self.row["h_over_aH"]))
+        title = f"Rigid ball on a coating, {self.name}, h = {self.row['h_over_aH']:g} a_H"
+        half_width = paper.WINDOW_PER_RADIUS / 2 * self.contact_radius
+        return Run(
+            f"{self.name}, {label(cells)}",
+            pressed(title, rigid_ball(), body),
+            paper.square_grid(cells, half_width),
+        )
+
+    def reference(self, key: str, unit: float) -> Reference:
+        """A number of the row, which is relative to the homogeneous substrate's."""
+        value = float(self.row[key]) * unit
+        return Reference(
+            value, ReferenceKind.SEMI_CLOSED, SOURCE, self.row["est_rel_error"] * value
+        )
+
+
+COATINGS = tuple(map(Coating, load_reference("coated_frictionless_paraboloid")["rows"]))
+STUDY = next(c for c in COATINGS if c.row["E1_over_E2"] == STUDIED)
+EXACT = exact_contact(coated(film(STUDIED, STUDY.row["h_over_aH"])))
+
+
+def coated_paraboloid(level: Level = Level.QUICK) -> Case:
+    """The case, on finer grids at higher levels."""
+    finest = {Level.QUICK: 256, Level.STANDARD: 512, Level.FULL: 1024}[level]
+    return coated_paraboloid_on(refinement(32, finest), tuple(REQUIRED))
+
+
+def coated_paraboloid_on(cells: tuple[int, ...], required: tuple[int, ...]) -> Case:
+    """The case on square grids: these for the study, those for all coatings."""
+    study = tuple(STUDY.run(n) for n in cells)
+    others = tuple(c.run(n) for c in COATINGS for n in required if c is not STUDY)
+    levels = tuple(run.label for run in study)
+    return Case(
+        name="coated_paraboloid",
+        title="Rigid ball on coated half-spaces",
+        problem=(
+            "A rigid paraboloid of the paper's radius under 1 kN on a coated half-space (210 GPa, "
+            "ν = 0.3), coatings from a quarter to ten times as stiff, without friction, on windows "
+            "of three contact radii. The references come from an axisymmetric integral equation "
+            "that shares nothing with the surface grid. Under the stiffest coating the largest "
+            "pressure is not at the centre; the centre's is compared."
+        ),
+        runs=(*study, *others),
+        quantities=(
+            *(q for c in COATINGS for n in required for q in _required(c, n) if n in REQUIRED),
+            Quantity(
+                "approach", "approach of the bodies since first touch", "m", levels[-1], approach,
+                STUDY.reference("delta_over_deltaH", HERTZ.approach),
+                Derived(levels, 2.0, 5e-5, "order 2 as for the homogeneous body; the cap is the "
+                        "figure required at 256 x 256"),
+            ),
+            Quantity(
+                "contact_radius", "√(contact area / π), cells at the edge counted in part", "m",
+                levels[-1], contact_radius, STUDY.reference("a_over_aH", HERTZ.contact_radius),
+                Derived(levels, 1.0, part_of_a_cell(0.1, cells[-1], paper.WINDOW_PER_RADIUS),
+                        "order 1: the edge is known to a part of a cell; the cap is a tenth of "
+                        "a cell"),
+            ),
+        ),
+        orders=(
+            OrderOfConvergence(
+                "order_of_pressure", "pressure over the window, L2", levels, pressure_error, 1.0,
+                "as for the homogeneous body: the square-root edge",
+            ),
+            OrderOfConvergence(
+                "order_of_approach", "approach", levels, approach_error, 2.0,
+                "as for the homogeneous body: the errors at the edge cancel",
+            ),
+            OrderOfConvergence(
+                "order_of_central_pressure", "pressure around the axis", levels, centre_error, 2.0,
+                "as for the homogeneous body: the cells lie h/√2 from the axis",
+            ),
+        ),
+        findings=tuple(_constant(*which) for which in _CONSTANTS),
+        charts=lambda results: _charts({name: results[name] for name in levels}),
+    )  # fmt: skip
+
+
+def pressure_error(result: Result) -> float:
+    """Relative L2 error of the pressure of the studied coating."""
+    r = np.hypot(*result.grid.coordinates())
+    return relative_l2(result.steps[-1].pressure, EXACT.pressure(r))
+
+
+def approach_error(result: Result) -> float:
+    """Relative error of the approach."""
+    return abs(approach(result) / EXACT.approach - 1)
+
+
+def centre_error(result: Result) -> float:
+    """Relative error of the pressure at the axis."""
+    return abs(central_pressure(result) / float(EXACT.pressure(0.0)) - 1)
+
+
+_CONSTANTS: tuple[tuple[str, Callable[[Result], float], float, str], ...] = (
+    ("approach", approach_error, 2.0, "hertz_point: 0.049"),
+    ("central pressure", centre_error, 2.0, "hertz_point: 0.24, of which 0.25 is h²/4a²"),
+    ("pressure, L2", pressure_error, 1.0, "hertz_point: 0.55"),
+)
+
+
+def _constant(name: str, error: Callable[[Result], float], order: float, remark: str) -> Finding:
+    return Finding(
+        f"constant_of_{name.split(',')[0].replace(' ', '_')}",
+        f"error of the {name} over (cell side / contact radius)^{order:g}",
+        "", "", lambda result: error(result), remark,
+    )  # fmt: skip
+
+
+def _required(coating: Coating, cells: int) -> tuple[Quantity, Quantity]:
+    run = coating.run(cells).label
+    tolerance = Required(REQUIRED[cells], ASKED)
+    return (
+        Quantity(
+            "approach", "approach of the bodies since first touch", "m", run, approach,
+            coating.reference("delta_over_deltaH", HERTZ.approach), tolerance,
+        ),
+        Quantity(
+            "central_pressure", "pressure of the four cells around the axis", "Pa", run,
+            central_pressure, coating.reference("p0_over_pH", HERTZ.peak_pressure), tolerance,
+        ),
+    )  # fmt: skip
+
+
+def _charts(results: Mapping[str, Result]) -> tuple[Chart, ...]:
+    runs = list(results.values())
+    return ()

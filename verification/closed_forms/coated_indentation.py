@@ -1,0 +1,198 @@
+"""Frictionless indentation of a layered half-space by an axisymmetric indenter, semi-closed.
+
+With the pressure's transform written as p~(k) = ∫₀ᵃ g(s) cos ks ds, contact on the disc r < a is a
+Fredholm equation of the second kind for g (Lebedev and Ufliand 1958; for layers, Perriot and
+Barthel 2004):
+
+    (π/E*) g(s) + (2/E*) ∫₀ᵃ K(s, t) g(t) dt = approach - S(s),
+    K(s, t) = ∫₀^∞ (X(k) - 1) cos ks cos kt dk,   X(k) = k E* F(k) / 2,
+
+with F(k) the normal displacement per unit pressure of wavenumber k, E* the contact modulus that it
+tends to for short waves, and S(s) = s ∫₀ˢ f'(r)/√(s²-r²) dr of the profile f: s²/R for a
+paraboloid, 0 for a flat punch. K is smooth on the scale of the layer's thickness, so Gauss's
+rule converges geometrically. Without layers K = 0.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cached_property
+from math import pi
+
+import numpy as np
+from numpy.polynomial import chebyshev
+from numpy.typing import ArrayLike, NDArray
+from scipy.optimize import brentq
+
+from verification.closed_forms.quadrature import unit_gauss
+from verification.closed_forms.validity import require_positive
+
+Array = NDArray[np.float64]
+Compliance = Callable[[Array], Array]
+
+# exp(-2 k h) (k h)² is below 1e-17 from here on.
+REACH = 24.0
+PANEL_POINTS = 16
+PANEL_PHASE = 8.0
+# Below this part of 1/(a + h) the layer is not felt, even at a contrast of 1e6.
+LONGEST_WAVE = 1e-8
+PRESSURE_ORDER = 20
+
+
+@dataclass(frozen=True)
+class LayeredSurface:
+    """What the surface of two layered bodies answers to pressure.
+
+    compliance       F(k) of both bodies together [length³/force], vectorised
+    contact_modulus  E* of their outermost materials [force/length²]
+    thickness        of the thinner outermost layer: how soon F becomes 2/(k E*) [length]
+    """
+
+    compliance: Compliance
+    contact_modulus: float
+    thickness: float
+
+    def __post_init__(self) -> None:
+        require_positive(contact_modulus=self.contact_modulus, thickness=self.thickness)
+
+    def excess(self, k: Array) -> Array:
+        """X(k) - 1: what the layers add to the outermost material's half-space [1]."""
+        return np.asarray(k * self.contact_modulus * self.compliance(k) / 2 - 1)
+
+
+@dataclass(frozen=True)
+class LayeredIndentation:
+    """State of a contact of radius a [length].
+
+    radius       R of the paraboloid [length]; infinite for a flat punch
+    approach     since first touch [length]
+    load         normal load [force]
+    transform    (X - 1) p~ at the wavenumbers, times the weight of each [force/length]
+    wavenumbers  of Gauss's rule [1/length]
+    """
+
+    surface: LayeredSurface
+    contact_radius: float
+    radius: float
+    approach: float
+    load: float
+    transform: Array
+    wavenumbers: Array
+
+    def pressure(self, r: ArrayLike) -> Array:
+        """Pressure at distance r from the axis [force/length²], zero outside."""
+        a, rho = self.contact_radius, np.abs(np.asarray(r, dtype=float))
+        chord = np.sqrt(np.maximum((a - rho) * (a + rho), 0))
+        smooth = chebyshev.chebval(2 * np.minimum(rho / a, 1) ** 2 - 1, self._smooth)
+        if np.isfinite(self.radius):
+            return np.asarray(chord * smooth)
+        return np.asarray(np.divide(smooth, chord, out=np.zeros_like(rho), where=chord > 0))
+
+    @cached_property
+    def _smooth(self) -> Array:
+        """Chebyshev coefficients in 2r²/a² - 1 of p/√(a²-r²), or p √(a²-r²) of a flat punch."""
+        count = _order(self.contact_radius, self.surface.thickness)
+        x = chebyshev.chebpts1(count)
+        a = self.contact_radius
+        r, chord = a * np.sqrt((1 + x) / 2), a * np.sqrt((1 - x) / 2)
+        rim_factor = 1 / chord if np.isfinite(self.radius) else chord
+        values = self._pressure_at(r, chord) * rim_factor
+        return np.asarray(
+            np.linalg.solve(chebyshev.chebvander(x, count - 1), values)  # well conditioned here
+        )
+
+    def _pressure_at(self, r: Array, chord: Array) -> Array:
+        """g(a)/√(a²-r²) - ∫ᵣᵃ g'(s)/√(s²-r²) ds."""
+        v, weights = unit_gauss(
+            PRESSURE_ORDER + _order(self.contact_radius, self.surface.thickness)
+        )
+        # s² = r² + u² removes the root.
+        s = np.hypot(r[:, None], chord[:, None] * v)
+        rates = np.array([self._rate(row) for row in s])
+        edge = 0.0 if np.isfinite(self.radius) else self._g(np.array([self.contact_radius]))[0]
+        return np.asarray(edge / chord - chord * ((rates / s) @ weights))
+
+    def _g(self, s: Array) -> Array:
+        k = self.wavenumbers
+        right = self.approach - s**2 / self.radius
+        E = self.surface.contact_modulus
+        return np.asarray(
+            E / pi * right - 2 / pi * np.cos(np.multiply.outer(s, k)) @ self.transform
+        )
+
+    def _rate(self, s: Array) -> Array:
+        k = self.wavenumbers
+        E = self.surface.contact_modulus
+        bent = np.sin(np.multiply.outer(s, k)) @ (k * self.transform)
+        return np.asarray(-2 * E / pi * s / self.radius + 2 / pi * bent)
+
+
+def flat_punch(surface: LayeredSurface, contact_radius: float) -> LayeredIndentation:
+    """A flat punch at unit approach; its load is the contact stiffness."""
+    return _solved(surface, contact_radius, np.inf)
+
+
+def paraboloid(surface: LayeredSurface, radius: float, contact_radius: float) -> LayeredIndentation:
+    """A paraboloid pressed to a contact radius."""
+    require_positive(radius=radius)
+    return _solved(surface, contact_radius, radius)
+
+
+def paraboloid_under(load: float, surface: LayeredSurface, radius: float) -> LayeredIndentation:
+    """A paraboloid under a load [force]."""
+    require_positive(load=load, radius=radius)
+    hertz = float(np.cbrt(3 * load * radius / (4 * surface.contact_modulus)))
+
+    def excess(scale: float) -> float:
+        return float(np.log(paraboloid(surface, radius, hertz * np.exp(scale)).load / load))
+
+    low = high = 0.0
+    while excess(low) > 0:
+        low -= 0.5
+    while excess(high) < 0:
+        high += 0.5
+    scale = brentq(excess, low - 1e-3, high + 1e-3, xtol=1e-15, rtol=1e-15)
+    return paraboloid(surface, radius, hertz * float(np.exp(scale)))
+
+
+def _solved(surface: LayeredSurface, a: float, radius: float) -> LayeredIndentation:
+    require_positive(contact_radius=a)
+    k, weight = _wavenumbers(a, surface.thickness)
+    weighted = weight * surface.excess(k)
+    s, weights = unit_gauss(_order(a, surface.thickness))
+    s, weights = a * s, a * weights
+    E = surface.contact_modulus
+    cosines = np.cos(np.outer(s, k))
+    kernel = (cosines * weighted) @ cosines.T
+    matrix = pi / E * np.eye(len(s)) + 2 / E * kernel * weights
+    by_approach, by_profile = np.linalg.solve(
+        matrix, np.column_stack([np.ones_like(s), s**2 / radius])
+    ).T
+    approach = 1.0
+    if np.isfinite(radius):
+        # No edge: g(a) = 0, with g there from the equation itself.
+        edge = np.cos(a * k) * weighted @ (cosines.T * weights)
+        approach = float(
+            (a**2 / radius - 2 / E * (edge @ by_profile)) / (1 - 2 / E * (edge @ by_approach))
+        )
+    g = approach * by_approach - by_profile
+    transform = weighted * (cosines.T @ (weights * g))
+    load = 2 * pi * float(weights @ g)
+    return LayeredIndentation(surface, a, radius, approach, load, transform, k)
+
+
+def _order(a: float, thickness: float) -> int:
+    """Nodes that resolve what varies on the scale of the thickness."""
+    return 50 + int(12 * a / thickness)
+
+
+def _wavenumbers(a: float, thickness: float) -> tuple[Array, Array]:
+    """Gauss points and weights on 0 < k < REACH/h: panels double in width until cos ka limits."""
+    limit, step = REACH / thickness, PANEL_PHASE / (a + thickness)
+    first = LONGEST_WAVE / (a + thickness)
+    doublings = first * 2.0 ** np.arange(np.ceil(np.log2(step / first)) + 1)
+    equal = np.arange(doublings[-1] + step, limit, step)
+    bounds = np.concatenate([[0.0], doublings, equal, [limit]])
+    bounds = np.append(bounds[bounds < limit], limit)
+    points, weights = unit_gauss(PANEL_POINTS)
+    widths = np.diff(bounds)[:, None]
+    return (bounds[:-1, None] + widths * points).ravel(), (widths * weights).ravel()

@@ -1,0 +1,28 @@
+"""First-order influence of a film on the stiffness of a flat punch (Gao, Chiu and Lee 1992).
+
+For film and substrate that differ little the contact stiffness S = W/approach of a flat punch of
+radius a is, with xi = h/a and derivatives at equal materials,
+
+    d ln S / d ln G1 = I0(xi),    (1 - nu) d ln S / d nu1 at fixed G1 = I1(xi).
+
+Analytic and layered, and sharing nothing with a layered FRF: differences of any solver for film on
+substrate must reproduce them.
+"""
+
+from math import atan, log, pi
+
+from verification.closed_forms.validity import require_positive
+
+
+def modulus_weight(xi: float, poisson_ratio: float) -> float:
+    """I0: share of the film's shear modulus in the stiffness [1]."""
+    require_positive(xi=xi)
+    nu = poisson_ratio
+    logarithm = (1 - 2 * nu) * xi * log((1 + xi**2) / xi**2)
+    return 2 / pi * atan(xi) + (logarithm - xi / (1 + xi**2)) / (2 * pi * (1 - nu))
+
+
+def ratio_weight(xi: float) -> float:
+    """I1: share of the film's Poisson ratio in the stiffness [1]."""
+    require_positive(xi=xi)
+    return 2 / pi * atan(xi) + xi / pi * log((1 + xi**2) / xi**2)
