@@ -68,7 +68,7 @@ class Quantity:
 
     def _magnitudes(self, info: ValidationInfo | None) -> tuple[float, float]:
         """Least and largest magnitude of a number that is not zero."""
-        wide = info is not None and bool(info.context) and ANY_MAGNITUDE in info.context
+        wide = info is not None and ANY_MAGNITUDE in (info.context or ())
         smallest, largest = _COMPUTABLE if wide else _PLAUSIBLE
         return (smallest if self.kind.units else 0.0), largest
 

@@ -18,7 +18,7 @@ Vector = NDArray[np.float64]
 MOST_SWEEPS = 100
 # What rounding leaves of a sum of shears, relative to the sum of their magnitudes.
 ROUND_OFF = 1e-14
-# What rounding leaves of the multiplier, which moves every cell that sticks.
+# What rounding leaves of the multiplier, relative to it; all cells that stick move with it.
 MULTIPLIER_ROUND_OFF = 5e-16
 
 
@@ -76,7 +76,7 @@ def project(
         q = z * scale
         defect = np.sum(q, axis=(1, 2)) - total
         error = np.sum(np.abs(defect)) / capacity
-        blur = MULTIPLIER_ROUND_OFF * cells * np.sum(np.abs(multiplier))
+        blur = MULTIPLIER_ROUND_OFF * np.sum(scale) * np.sum(np.abs(multiplier))
         if np.sum(np.abs(defect)) <= ROUND_OFF * np.sum(length * scale) + blur:
             break
         # A cell on its disc answers only across its own direction; the small multiple of the

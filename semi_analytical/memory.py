@@ -9,7 +9,7 @@ DOUBLE = 8
 # Arrays of the size of the window held at once: coefficients, spectra of the padded grid (four
 # cells each) with their work space, solver vectors. Measured where the contact fills the window,
 # as it does when the window is fitted; a contact of half the window takes a third less.
-PRESSURE_ARRAYS = 41
+PRESSURE_ARRAYS = 42
 HISTORY_ARRAYS = 9
 SHEAR_ARRAYS = 100
 # Arrays that every increment leaves behind: pressure and gap; shear, slip and masks.

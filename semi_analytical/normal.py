@@ -73,7 +73,8 @@ class _Problem:
 
     def residual(self, p: Field, g: Field, delta: float) -> float:
         """The larger of complementarity and penetration, relative to the approach."""
-        complementarity = np.sum(np.abs(g) * p) / np.sum(p)
+        total = np.sum(p)  # zero where a step under a fixed approach has overshot
+        complementarity = np.sum(np.abs(g) * p) / total if total > 0 else 0.0
         penetration = -np.min(g, where=self.allowed, initial=0.0)
         return float(max(complementarity, penetration) / abs(delta))
 

@@ -124,7 +124,6 @@ def test_approach_control_has_no_force_residual(scene: Path) -> None:
     [
         ("semi_analytical.cells=[8192,8192]", 4, "GiB"),
         ('semi_analytical.window=["0.5 mm","0.5 mm"]', 2, "edge of the window"),
-        ("body.material.poisson_ratio=0.2", 2, "coupled solver"),
         ("body.material.poisson_ratio=0.5001", 2, "poisson_ratio"),
         ('loading[2].tangential_force=["101 N", 0]', 2, "gross sliding"),
     ],

@@ -88,9 +88,9 @@ def test_axis_is_continuous_where_it_must_be_and_jumps_where_it_must(place: Path
     for name in ("sigma_zz [Pa]", "u_z [m]"):
         assert float(above[name]) == pytest.approx(float(below[name]), rel=1e-11)
     assert abs(float(above["sigma_xx [Pa]"]) - float(below["sigma_xx [Pa]"])) > 1e-2 * abs(peak)
-    # On the axis the surface carries the pressure: what the run has found.
+    # On the axis the surface carries the pressure, between the four cells of the run's largest.
     summary = json.loads((place / "run" / "summary.json").read_text(encoding="utf-8"))
-    assert -peak == pytest.approx(summary["steps"][-1]["peak_pressure"], rel=1e-3)
+    assert -peak == pytest.approx(summary["steps"][-1]["peak_pressure"], rel=5e-3)
 
 
 def test_run_and_scene_give_the_same(place: Path) -> None:
@@ -117,6 +117,8 @@ def test_step_and_depths_are_the_ones_asked_for(place: Path) -> None:
     assert outcome.returncode == 0, outcome.stderr
     record = json.loads((place / "first" / "stress.json").read_text(encoding="utf-8"))
     assert record["step"] == 1
+    summary = json.loads((place / "run" / "summary.json").read_text(encoding="utf-8"))
+    assert record["peak_pressure"] == summary["steps"][0]["peak_pressure"]
     assert [(level["depth"], level["layer"]) for level in record["levels"]] == [
         (0.0, 0), (5e-5, 0), (1e-4, 0), (1e-4, 1), (2e-4, 1),
     ]  # fmt: skip

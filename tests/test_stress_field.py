@@ -2,6 +2,8 @@
 
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 from polar_synthesis import fields_at, hertz_transform
 
 from contact_scene import RIGID, Body, IsotropicMaterial, Layer
@@ -16,12 +18,15 @@ from semi_analytical.stress import (
     subsurface_section,
 )
 from semi_analytical.stress import memory as stress_memory
+from semi_analytical.stress.interpolation import line_weights
 from verification.closed_forms.huber_stress import axis_stress, huber_stress, sliding_axis_shear
 
 NU, MU = 0.3, 0.25
 HALF_SPACE = Stack((), (1.0, NU))
 COATED = Stack([(3.0, 0.2, 0.3), (0.5, 0.5, 0.4)], (1.0, 0.3))
 XX, YY, ZZ, YZ, XZ, XY = range(6)
+GRID = SurfaceGrid((8, 8), (1.0, 1.0))
+LOAD = np.ones((8, 8))
 
 
 def hertz(cells, window=3.0):
@@ -171,6 +176,23 @@ def test_section_is_the_plane_at_y(rng):
             )
 
 
+@given(st.floats(-1.75, 1.75), st.integers(4, 9))
+def test_interpolation_is_exact_for_cubics(at, count):
+    samples = np.linspace(-1.75, 1.75, count)
+
+    def cubic(x):
+        return 1 - 2 * x + 0.3 * x**2 - x**3
+
+    assert line_weights(samples, at) @ cubic(samples) == pytest.approx(cubic(at), abs=1e-12)
+    with pytest.raises(ValueError, match="outside of the samples"):
+        line_weights(samples, 1.8)
+
+
+def test_a_number_on_an_interface_is_its_upper_side():
+    field = subsurface(COATED, GRID, LOAD, None, [0.1, 0.3 * (1 + 1e-15), 0.5, 0.7, 0.8])
+    assert [level.layer for level in field.levels] == [0, 0, 1, 1, 2]
+
+
 def test_turning_the_load_turns_the_field(rng):
     grid = SurfaceGrid((18, 18), (2.0, 2.0))
     pressure, shear = rng.random(grid.cells), rng.normal(size=(2, *grid.cells))
@@ -217,10 +239,6 @@ def test_a_body_of_the_scene_is_taken_as_its_stack():
     of_body = subsurface(body, grid, pressure, None, [0.1])
     of_stack = subsurface(stack_of(body), grid, pressure, None, [0.1])
     np.testing.assert_array_equal(of_body.stress, of_stack.stress)
-
-
-GRID = SurfaceGrid((8, 8), (1.0, 1.0))
-LOAD = np.ones((8, 8))
 
 
 @pytest.mark.parametrize(

@@ -105,22 +105,10 @@ def _integrands(descent: Descent, level: Level) -> Array:
 
 
 def _bessel(x: Array) -> tuple[Array, Array, Array, Array]:
-    """J_0 to J_3; for small arguments J_2 and J_3 by series, where the recurrence cancels."""
+    """J_0 to J_3. The recurrence cancels for small x, where the measure alpha d alpha vanishes."""
     first, second = j0(x), j1(x)
     third = 2 * second / x - first
-    fourth = 4 * third / x - second
-    small = x < 1
-    third[small], fourth[small] = _series(x[small], 2), _series(x[small], 3)
-    return first, second, third, fourth
-
-
-def _series(x: Array, order: int) -> Array:
-    """Bessel function of order 2 or 3 for x < 1."""
-    z = -x * x / 4
-    total = np.ones_like(x)
-    for k in range(9, 0, -1):
-        total = 1 + total * z / (k * (k + order))
-    return (x / 2) ** order / (2 if order == 2 else 6) * total
+    return first, second, third, 4 * third / x - second
 
 
 def _wavenumbers(r: float, limit: float) -> tuple[Array, Array]:

@@ -17,7 +17,10 @@ class SchemaOf(StrEnum):
 
 def schema(
     of: Annotated[
-        SchemaOf, typer.Argument(help="A scene file, the summary.json of a run, or the report.json of a verification.")
+        SchemaOf,
+        typer.Argument(
+            help="A scene file, the summary.json of a run, or the report.json of a verification."
+        ),
     ] = SchemaOf.SCENE,
 ) -> None:
     """Print the JSON Schema of a scene file, of a run's summary or of a report."""

@@ -1,0 +1,19 @@
+"""Small dense problems with the structure of contact, for tests of the iterative solvers."""
+
+import numpy as np
+
+
+def compliance(rng, size: int) -> np.ndarray:
+    """A random symmetric positive definite matrix with a decent condition number."""
+    B = rng.standard_normal((size, 2 * size))
+    return B @ B.T / size + 0.5 * np.eye(size)
+
+
+def as_map(matrix: np.ndarray):
+    """The matrix as a map of fields of any shape."""
+    return lambda field: (matrix @ field.ravel()).reshape(field.shape)
+
+
+def rough_inverse(matrix: np.ndarray):
+    """A preconditioner: the inverse of the diagonal."""
+    return as_map(np.diag(1 / np.diag(matrix)))

@@ -1,0 +1,115 @@
+"""The projection on admissible shears: feasible, nearest, and it gives the sum exactly."""
+
+import numpy as np
+import pytest
+from hypothesis import assume, given
+from hypothesis import strategies as st
+
+from semi_analytical.admissible_shear import magnitude, project, project_on_discs
+
+ROUND_OFF = 1e-12
+
+
+@st.composite
+def problems(draw):
+    """Any shear, a friction limit with zeros in it, and a sum that it can carry."""
+    rng = np.random.default_rng(draw(st.integers(0, 2**32 - 1)))
+    shape = draw(st.tuples(st.integers(2, 7), st.integers(2, 7)))
+    bound = rng.random(shape) * (rng.random(shape) < draw(st.floats(0.3, 1.0)))
+    assume(np.count_nonzero(bound) >= 2)
+    y = draw(st.sampled_from([1e-6, 1.0, 1e3])) * rng.standard_normal((2, *shape))
+    part = draw(st.sampled_from([0.0, 1e-9, 0.3, 0.9, 0.999, 1 - 1e-6]))
+    angle = draw(st.floats(0, 2 * np.pi))
+    total = part * np.sum(bound) * np.array([np.cos(angle), np.sin(angle)])
+    return y, bound, total
+
+
+def assert_feasible(q, bound, total):
+    assert np.all(magnitude(q) <= bound * (1 + ROUND_OFF))
+    assert np.max(np.abs(np.sum(q, axis=(1, 2)) - total)) <= ROUND_OFF * np.sum(bound)
+
+
+def other_admissible(problem, rng):
+    """Some other shear with the same sum: a mixture of two that are feasible by construction."""
+    _, bound, total = problem
+    uniform = bound * (total / np.sum(bound))[:, None, None]
+    angle = 2 * np.pi * rng.random()
+    turned = np.stack([np.cos(angle) * bound, np.sin(angle) * bound])
+    turned -= bound * (np.sum(turned, axis=(1, 2)) / np.sum(bound))[:, None, None]
+    turned += 0.5 * bound * np.sin(7 * np.arange(bound.size)).reshape(bound.shape)
+    turned -= bound * (np.sum(turned, axis=(1, 2)) / np.sum(bound))[:, None, None]
+    room = np.min(bound - magnitude(uniform), where=bound > 0, initial=np.inf)
+    step = room / max(np.max(magnitude(turned)), 1e-300)
+    return uniform + min(step, 1.0) * turned
+
+
+@given(problems())
+def test_projection_is_feasible(problem):
+    q, _ = project(*problem)
+    assert_feasible(q, *problem[1:])
+
+
+@given(problems())
+def test_projection_is_shifted_shear_cut_off_at_the_discs(problem):
+    """The structure that makes it exact: q = P(y + λ) with one vector λ for all cells."""
+    y, bound, total = problem
+    q, multiplier = project(y, bound, total)
+    expected = project_on_discs(y + multiplier[:, None, None], bound)
+    np.testing.assert_allclose(q, expected, rtol=0, atol=1e-11 * np.max(bound))
+
+
+@given(problems(), st.integers(0, 2**32 - 1))
+def test_nothing_admissible_is_nearer(problem, seed):
+    """The variational inequality (y - q)·(z - q) <= 0 for every admissible z."""
+    y, bound, total = problem
+    q, _ = project(*problem)
+    z = other_admissible(problem, np.random.default_rng(seed))
+    assert_feasible(z, bound, total)
+    scale = np.max(np.abs(y - q)) * np.sum(bound)
+    assert np.sum((y - q) * (z - q)) <= 1e-11 * scale
+
+
+@given(problems())
+def test_projecting_twice_changes_nothing(problem):
+    _, bound, total = problem
+    q, _ = project(*problem)
+    again, _ = project(q, bound, total)
+    np.testing.assert_allclose(again, q, rtol=0, atol=1e-11 * np.max(bound))
+
+
+@given(problems())
+def test_projection_does_not_depend_on_the_guess(problem):
+    y, bound, total = problem
+    q, multiplier = project(y, bound, total)
+    again, _ = project(y, bound, total, multiplier + np.array([0.3, -2.0]) * np.max(bound))
+    np.testing.assert_allclose(again, q, rtol=0, atol=1e-9 * np.max(bound))
+
+
+@pytest.mark.parametrize("part", [1e-30, 1e-15, 1e-9, 1e-3])
+def test_a_tiny_sum_is_carried_to_its_own_precision(part, rng):
+    bound = rng.random((9, 9))
+    total = part * np.sum(bound) * np.array([0.6, -0.8])
+    q, _ = project(part * rng.standard_normal((2, 9, 9)), bound, total)
+    assert np.max(np.abs(np.sum(q, axis=(1, 2)) - total)) < 1e-13 * part * np.sum(bound)
+
+
+@pytest.mark.parametrize("distance", [1e-3, 1e-6, 1e-9])
+def test_near_the_limit_every_cell_is_nearly_on_its_disc_along_the_sum(distance, rng):
+    bound = rng.random((9, 9))
+    total = (1 - distance) * np.sum(bound) * np.array([0.6, -0.8])
+    q, _ = project(rng.standard_normal((2, 9, 9)), bound, total)
+    assert_feasible(q, bound, total)
+    along = 0.6 * q[0] - 0.8 * q[1]
+    assert np.sum(bound - along) == pytest.approx(distance * np.sum(bound), rel=1e-2)
+
+
+@given(problems())
+def test_without_a_sum_every_cell_is_projected_alone(problem):
+    y, bound, _ = problem
+    q = project_on_discs(y, bound)
+    inside = magnitude(y) <= bound
+    np.testing.assert_array_equal(q[:, inside], y[:, inside])
+    outside = ~inside & (bound > 0)
+    np.testing.assert_allclose(magnitude(q)[outside], bound[outside], rtol=1e-14)
+    np.testing.assert_allclose(q[0] * y[1], q[1] * y[0], atol=1e-12 * np.max(np.abs(y)))
+    assert np.all(q[:, bound == 0] == 0)

@@ -1,0 +1,128 @@
+"""The FFT operators are the dense matrices of the influence coefficients."""
+
+import numpy as np
+import pytest
+from contact_scenes import steel
+from hypothesis import given
+from hypothesis import strategies as st
+
+from contact_scene import Body, Paraboloid
+from semi_analytical.influence.bodies import influence_coefficients
+from semi_analytical.operator import (
+    Convolutions,
+    NormalOperator,
+    TangentialOperator,
+    offsets_for,
+)
+
+SHAPES = [(6, 5), (2, 7), (7, 11), (16, 8), (13, 17), (31, 3)]
+SPACINGS = [(1.0, 1.0), (0.3, 1.7)]
+ROUND_OFF = 1e-13
+ELASTIC = Body(material=steel()), Paraboloid(radius=1, material=steel(0.3))
+
+
+def coefficients(shape, spacing):
+    return influence_coefficients(*ELASTIC, spacing, offsets_for(shape))
+
+
+def operators(shape, spacing=(0.3, 1.7)):
+    counter = Convolutions()
+    K = coefficients(shape, spacing)
+    return NormalOperator(K, shape, counter), TangentialOperator(K, shape, counter), counter
+
+
+def dense(values, shape, parity):
+    """The matrix of a component from its first quadrant and its parity along x and y."""
+    i, j = (axis.ravel() for axis in np.indices(shape))
+    di, dj = i[:, None] - i, j[:, None] - j
+    sign = np.where(di < 0, parity[0], 1) * np.where(dj < 0, parity[1], 1)
+    return sign * values[np.abs(di), np.abs(dj)]
+
+
+def dense_tangential(K, shape):
+    xx, yy = dense(K.xx, shape, (1, 1)), dense(K.yy, shape, (1, 1))
+    xy = dense(K.xy, shape, (-1, -1))
+    return np.block([[xx, xy], [xy, yy]])
+
+
+@pytest.mark.parametrize("spacing", SPACINGS)
+@pytest.mark.parametrize("shape", SHAPES)
+def test_pressure_operator_is_the_dense_matrix(shape, spacing, rng):
+    A, *_ = operators(shape, spacing)
+    p = rng.standard_normal(shape)
+    expected = dense(coefficients(shape, spacing).zz, shape, (1, 1)) @ p.ravel()
+    assert np.max(np.abs(A(p).ravel() - expected)) < ROUND_OFF * np.max(np.abs(expected))
+
+
+@pytest.mark.parametrize("spacing", SPACINGS)
+@pytest.mark.parametrize("shape", SHAPES)
+def test_shear_operator_is_the_dense_matrix(shape, spacing, rng):
+    _, A, _ = operators(shape, spacing)
+    q = rng.standard_normal((2, *shape))
+    expected = dense_tangential(coefficients(shape, spacing), shape) @ q.ravel()
+    assert np.max(np.abs(A(q).ravel() - expected)) < ROUND_OFF * np.max(np.abs(expected))
+
+
+@pytest.mark.parametrize("shape", [(12, 9), (13, 17)])
+def test_opposite_edges_do_not_see_each_other(shape):
+    """A load on one edge displaces the other as the matrix says, however the grid is padded."""
+    A, *_ = operators(shape)
+    p = np.zeros(shape)
+    p[0, 0] = 1
+    K = coefficients(shape, (0.3, 1.7)).zz
+    np.testing.assert_allclose(A(p), K[: shape[0], : shape[1]], rtol=1e-12)
+
+
+@given(st.tuples(st.integers(2, 24), st.integers(2, 24)), st.integers(0, 2**32 - 1))
+def test_operators_and_preconditioners_are_symmetric_and_positive(shape, seed):
+    rng = np.random.default_rng(seed)
+    normal, tangential, _ = operators(shape)
+    p, other = rng.standard_normal((2, *shape))
+    q, another = rng.standard_normal((2, 2, *shape))
+    for apply, x, y in [
+        (normal, p, other),
+        (normal.precondition, p, other),
+        (tangential, q, another),
+        (tangential.precondition, q, another),
+    ]:
+        A_x, A_y = apply(x), apply(y)
+        scale = np.sqrt(np.sum(x * A_x) * np.sum(y * A_y))
+        assert np.sum(x * A_x) > 0
+        assert abs(np.sum(y * A_x) - np.sum(x * A_y)) < 1e-12 * scale
+
+
+@pytest.mark.parametrize("which", [0, 1], ids=["pressure", "shear"])
+def test_preconditioner_makes_the_spectrum_independent_of_the_mesh(which):
+    """The reason it is there: the spread of the eigenvalues hardly grows with the cells."""
+
+    def spread(shape):
+        A = operators(shape, (1.0, 1.0))[which]
+        lead = (2,) if which else ()
+        units = np.eye(np.prod((*lead, *shape))).reshape(-1, *lead, *shape)
+        M_A = np.array([A.precondition(A(unit)).ravel() for unit in units]).T
+        eigenvalues = np.linalg.eigvals(M_A).real
+        return eigenvalues.max() / eigenvalues.min()
+
+    assert spread((16, 16)) < 1.6 * spread((8, 8))
+
+
+def test_a_pressure_convolution_counts_one_and_a_shear_convolution_two():
+    normal, tangential, counter = operators((8, 6))
+    normal(np.ones((8, 6)))
+    assert counter.count == 1
+    tangential(np.ones((2, 8, 6)))
+    assert counter.count == 3
+    normal.precondition(np.ones((8, 6)))
+    tangential.precondition(np.ones((2, 8, 6)))
+    assert counter.count == 3
+
+
+def test_operator_leaves_its_argument_alone_and_returns_its_own_memory(rng):
+    normal, tangential, _ = operators((8, 6))
+    for apply, x in [(normal, rng.random((8, 6))), (tangential, rng.random((2, 8, 6)))]:
+        before = x.copy()
+        first = apply(x)
+        kept = first.copy()
+        apply(2 * x)
+        np.testing.assert_array_equal(x, before)
+        np.testing.assert_array_equal(first, kept)
