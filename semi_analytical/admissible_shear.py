@@ -64,46 +64,73 @@ def project(
     bound  friction limit µp (nx, ny); |total| must be less than its sum
     guess  where to start the search for λ
     """
-    capacity = np.sum(bound)
-    cells = np.count_nonzero(bound)
-    open_cells = bound > 0
     if guess is None:
-        guess = (total - np.sum(y, axis=(1, 2), where=open_cells)) / cells
+        open_cells = bound > 0
+        excess = np.sum(y, axis=(1, 2), where=open_cells) - total
+        guess = -excess / np.count_nonzero(open_cells)
     multiplier = guess
-    z, length, outside, dual = _dual(y, bound, total, multiplier)
+    shifted = _Shifted.by(multiplier, y, bound, total)
     for _ in range(MOST_SWEEPS):
-        scale = np.where(outside, bound / np.where(outside, length, 1.0), 1.0) * open_cells
-        q = z * scale
-        defect = np.sum(q, axis=(1, 2)) - total
-        error = np.sum(np.abs(defect)) / capacity
-        blur = MULTIPLIER_ROUND_OFF * np.sum(scale) * np.sum(np.abs(multiplier))
-        if np.sum(np.abs(defect)) <= ROUND_OFF * np.sum(length * scale) + blur:
+        blur = MULTIPLIER_ROUND_OFF * np.sum(shifted.scale) * np.sum(np.abs(multiplier))
+        if np.sum(np.abs(shifted.defect)) <= ROUND_OFF * shifted.strength + blur:
             break
-        # A cell on its disc answers only across its own direction; the small multiple of the
-        # identity keeps the step finite while all cells are on theirs and vanishes with the error.
-        w = np.where(outside, scale / np.where(outside, length * length, 1.0), 0.0)
-        xx, yy = np.sum(scale - w * z[0] ** 2), np.sum(scale - w * z[1] ** 2)
-        xy = -np.sum(w * z[0] * z[1])
-        damping = 1e-4 * error * cells
-        step = -np.linalg.solve(np.array([[xx + damping, xy], [xy, yy + damping]]), defect)
-        slope = float(np.sum(defect * step))
+        step = shifted.newton_step()
+        steepest = -float(np.sum(shifted.defect * step))
         part = 1.0
         while True:
-            trial = _dual(y, bound, total, multiplier + part * step)
-            if trial[3] <= dual + 1e-4 * part * slope + ROUND_OFF * abs(dual) or part < 1e-9:
+            trial = _Shifted.by(multiplier + part * step, y, bound, total)
+            # The defect is the slope of the dual: the step may pass the minimum only a little.
+            if np.sum(trial.defect * step) <= 0.5 * steepest or part < 1e-9:
                 break
             part *= 0.5
         multiplier = multiplier + part * step
-        z, length, outside, dual = trial
-    return q, multiplier
+        shifted = trial
+    return shifted.q, multiplier
 
 
-def _dual(
-    y: VectorField, bound: Field, total: Vector, multiplier: Vector
-) -> tuple[VectorField, Field, NDArray[np.bool_], float]:
-    """y + λ, its length, where that is outside the discs, and the dual function of λ."""
-    z = y + everywhere(multiplier)
-    length = magnitude(z)
-    outside = length > bound
-    moreau = np.where(outside, bound * (length - 0.5 * bound), 0.5 * length * length)
-    return z, length, outside, float(np.sum(moreau) - np.sum(multiplier * total))
+@dataclass(frozen=True)
+class _Shifted:
+    """y + λ cut off at the discs.
+
+    z, length  y + λ (2, nx, ny) and its length (nx, ny)
+    outside    where that is longer than the bound
+    scale      factor of the cut (nx, ny): q = scale z
+    defect     Σq - total (2,), the gradient of the dual function of λ
+    """
+
+    z: VectorField
+    length: Field
+    outside: NDArray[np.bool_]
+    scale: Field
+    q: VectorField
+    defect: Vector
+    capacity: float
+
+    @classmethod
+    def by(cls, multiplier: Vector, y: VectorField, bound: Field, total: Vector) -> "_Shifted":
+        z = y + everywhere(multiplier)
+        length = magnitude(z)
+        outside = length > bound
+        scale = np.where(outside, bound / np.where(outside, length, 1.0), 1.0) * (bound > 0)
+        q = z * scale
+        defect = np.sum(q, axis=(1, 2)) - total
+        return cls(z, length, outside, scale, q, defect, float(np.sum(bound)))
+
+    @property
+    def strength(self) -> float:
+        """Σ|q|."""
+        return float(np.sum(self.length * self.scale))
+
+    def newton_step(self) -> Vector:
+        """Change of λ that removes the defect to first order.
+
+        A cell on its disc answers only across its own direction; a small multiple of the
+        identity keeps the step finite while all cells are on theirs and vanishes with the defect.
+        """
+        w = np.where(self.outside, self.scale / np.where(self.outside, self.length**2, 1.0), 0.0)
+        x, y = self.z
+        xx, yy = np.sum(self.scale - w * x * x), np.sum(self.scale - w * y * y)
+        xy = -np.sum(w * x * y)
+        damping = 1e-3 * (xx + yy) * np.sum(np.abs(self.defect)) / self.capacity
+        matrix = np.array([[xx + damping, xy], [xy, yy + damping]])
+        return -np.linalg.solve(matrix, self.defect)

@@ -42,7 +42,8 @@ def synthetic_result(cells: tuple[int, int] = (24, 20), *, friction: bool = True
     if friction:
         increments = [_partial_slip(grid, increments[0], n) for n in range(len(FORCES))]
     counts = tuple(i.increments_in_step for i in increments if i.index == i.increments_in_step)
-    plan = Plan(friction, False, counts, (Effect("friction", friction, "because the scene says so"),))
+    effect = Effect("friction", friction, "because the scene says so")
+    plan = Plan(friction, False, counts, (effect,))
     return Result(synthetic_scene(friction=friction), grid, 1e-8, plan, tuple(increments))
 
 

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, partial
 from math import pi
+from typing import TYPE_CHECKING
 
 from contact_scene import RIGID, Body, IsotropicMaterial, Layer, LoadStep
 from verification.cases import paper_scene as paper
@@ -25,6 +26,9 @@ from verification.cases.hertz_point import label
 from verification.cases.layered_scene import pressed, rigid_ball, semi_closed, surface_of
 from verification.cases.refinement import part_of_a_cell
 from verification.closed_forms.coated_indentation import LayeredIndentation, paraboloid
+
+if TYPE_CHECKING:
+    from semi_analytical import Result
 
 MODULUS = 10e6  # of the layer [Pa]; rubber
 RADIUS = 2e-3  # of the contact [m]
@@ -113,13 +117,17 @@ def thin_layer_on(cells: int) -> Case:
         findings=tuple(
             Finding(
                 "load_over_leading_term", "load over the leading term for a >> h", "", layer.name,
-                lambda result, layer=layer: normal_force(result) / layer.leading_load,
+                partial(_over_leading_term, layer),
                 "the limit itself is 1",
             )
             for layer in LAYERS
         ),
         limits=(f"On {label(cells)} cells only; the orders are those of coated_paraboloid.",),
     )  # fmt: skip
+
+
+def _over_leading_term(layer: ThinLayer, result: Result) -> float:
+    return normal_force(result) / layer.leading_load
 
 
 def _ratio(layer: ThinLayer) -> Check:

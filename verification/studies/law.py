@@ -22,6 +22,7 @@ class Law:
     statement  what holds, in words
     violation  by how much it fails on one random body, 0 if it holds
     allowed    what rounding, or the law's own next order, may leave
+    draws      random bodies it is tried on
     """
 
     name: str
@@ -29,12 +30,13 @@ class Law:
     statement: str
     violation: Callable[[Generator], float]
     allowed: float = ROUNDING
+    draws: int = DRAWS
 
 
-def worst_violation(law: Law, draws: int = DRAWS) -> float:
+def worst_violation(law: Law) -> float:
     """Largest violation over random bodies, the same ones every time; NaN wins."""
     rng = np.random.default_rng([SEED, *law.name.encode()])
-    return float(np.max([law.violation(rng) for _ in range(draws)]))
+    return float(np.max([law.violation(rng) for _ in range(law.draws)]))
 
 
 def apart(F: NDArray[np.complex128], expected: NDArray[np.complex128]) -> float:

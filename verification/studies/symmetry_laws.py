@@ -142,7 +142,7 @@ SYMMETRY_LAWS = (
         _nothing_inserted),
     Law("energy", "P19", "any traction does positive work", _work),
     Law("discrete_symmetry", "P19", "the matrix of influence coefficients of all three components "
-        "is symmetric and does positive work", _symmetric_operator, 1e-11),
+        "is symmetric and does positive work", _symmetric_operator, 1e-11, 40),
     Law("identical_bodies", "P20", "two identical bodies do not couple", _identical),
     Law("half_stiffness", "P20", "two identical half-spaces are one of half the stiffness, "
         "uncoupled", _halved),
