@@ -3,7 +3,8 @@
 The exact projection on {discs, and Σq = total} is what makes the shear problem robust: every
 iterate carries the load and obeys Coulomb's bound, and the multiplier of the sum is the rigid
 shift. The projection is q = P(y + λ) with P the projection on the discs; the two components of λ
-minimise a convex function (the dual), found by a damped Newton method.
+minimise a convex function (the dual), found by a damped Newton method. It works on the gradient of
+that function, Σq - total: its values are differences of large numbers near the friction limit.
 """
 
 from dataclasses import dataclass
@@ -18,6 +19,8 @@ Vector = NDArray[np.float64]
 MOST_SWEEPS = 100
 # What rounding leaves of a sum of shears, relative to the sum of their magnitudes.
 ROUND_OFF = 1e-14
+# Relative distance from the friction limit at which force control loses the shift.
+AT_LIMIT = 1e-9
 # What rounding leaves of the multiplier, relative to it; all cells that stick move with it.
 MULTIPLIER_ROUND_OFF = 5e-16
 
@@ -94,8 +97,9 @@ class _Shifted:
 
     z, length  y + λ (2, nx, ny) and its length (nx, ny)
     outside    where that is longer than the bound
-    scale      factor of the cut (nx, ny): q = scale z
+    scale, q   factor of the cut (nx, ny), and q = scale z
     defect     Σq - total (2,), the gradient of the dual function of λ
+    capacity   sum of the bound
     """
 
     z: VectorField
@@ -108,6 +112,7 @@ class _Shifted:
 
     @classmethod
     def by(cls, multiplier: Vector, y: VectorField, bound: Field, total: Vector) -> "_Shifted":
+        """Shift `y` by a multiplier and cut it off."""
         z = y + everywhere(multiplier)
         length = magnitude(z)
         outside = length > bound

@@ -17,6 +17,8 @@ Mask = NDArray[np.bool_]
 REACH = 4
 LENGTH = 1.7
 LEAST_CELLS = 12
+# The fit at an edge cell must lie below this part of what it was fitted to.
+LEAST_FALL = 0.9
 # Smallest slope that is told from none, per cell and relative to the largest value.
 FLAT = 1e-12
 
@@ -26,9 +28,8 @@ def covered_cells(values: Field, inside: Mask) -> float:
 
     values  (nx, ny), positive inside, falling like a square root towards the edge
     inside  cells whose centre is in the region
-    Edge cells are counted whole or not at all where the region is too thin for a fit, where the
-    values do not fall towards the edge (below a flat punch they rise), and where the fit places
-    the edge elsewhere.
+    Edge cells are counted whole or not at all where the region is too thin for a fit and where
+    the values do not fall towards the edge (below a flat punch they rise).
     """
     square = np.ones((3, 3), dtype=bool)
     trusted = binary_erosion(inside, square)
@@ -37,9 +38,12 @@ def covered_cells(values: Field, inside: Mask) -> float:
     if len(i) == 0:
         return float(np.count_nonzero(inside))
     fit, mean, count = _fit(values**2, trusted, i, j)
-    parts = _coverage(*fit)
-    believed = (count >= LEAST_CELLS) & (fit[0] < mean) & (parts > 0) & (parts < 1)
-    return float(np.count_nonzero(trusted) + np.sum(np.where(believed, parts, inside[i, j])))
+    centre_inside = inside[i, j]
+    parts = np.clip(
+        _coverage(*fit), np.where(centre_inside, 0.5, 0), np.where(centre_inside, 1, 0.5)
+    )
+    believed = (count >= LEAST_CELLS) & (fit[0] < LEAST_FALL * mean)
+    return float(np.count_nonzero(trusted) + np.sum(np.where(believed, parts, centre_inside)))
 
 
 def stuck_cells(shear: Field, bound: Field, in_stick: Mask) -> float:

@@ -17,10 +17,19 @@ from semi_analytical.pressing import (
     Pressing,
     nested_start,
     refuse_contact_at_edge,
+    refuse_unresolved_contact,
 )
 from semi_analytical.residuals import complementarity, penetration
 from semi_analytical.shearing import Shearing, TangentialTarget
-from semi_analytical.stick_slip import Sheared, advanced, reaches_limit, shear_residuals, untouched
+from semi_analytical.stick_slip import (
+    Sheared,
+    advanced,
+    at_limit,
+    reaches_limit,
+    shear_residuals,
+    unresisted,
+    untouched,
+)
 
 Field = NDArray[np.float64]
 VectorField = NDArray[np.float64]
@@ -38,9 +47,10 @@ def solve_coupled_increment(
     """The state at the end of an increment in which pressure and shear act on each other.
 
     Solved in the box around the contact and checked on the whole window with fresh convolutions.
-    raises  NotConverged, GrossSliding, ContactAtWindowEdge
+    raises  NotConverged, GrossSliding, ContactAtWindowEdge, ContactNotResolved
     """
     assert tangential is not None
+    refuse_unresolved_contact(model, normal)
     last = before.sheared if before is not None and before.sheared is not None else None
     last = last or untouched(model.grid.cells)
     if last.shift is None:
@@ -48,11 +58,13 @@ def solve_coupled_increment(
             "the increment before reached the friction limit under force control, where the "
             "shift is undefined, so the history cannot go on; prescribe tangential_shift instead"
         )
-    start = _start(model, before, normal)
-    _refuse_beyond_limit(model, start, normal, tangential)
+    if tangential.force is not None and normal.force is not None:
+        largest = float(np.max(model.friction_coefficient)) * normal.force
+        reaches_limit(tangential.force, largest)
+    start, iterations = _start(model, before, normal)
     box = box_around((start > 0) | (last.shear[0] != 0), MARGIN)
     whole = Box.whole(model.grid.cells)
-    aim, iterations, residual = tolerance, 0, np.inf
+    aim, residual = tolerance, np.inf
     shear = last.shear
     for _ in range(MOST_ATTEMPTS):
         problem = _problem(model, box, last, normal, tangential)
@@ -76,26 +88,13 @@ def solve_coupled_increment(
     raise NotConverged("the coupled increment", iterations, residual, tolerance)
 
 
-def _start(model: ContactModel, before: State | None, normal: NormalTarget) -> Field:
+def _start(model: ContactModel, before: State | None, normal: NormalTarget) -> tuple[Field, int]:
     """The pressure of the state before; where the normal load changes, that of a frictionless
-    contact on a coarser grid, which knows how far the contact reaches."""
+    contact on a coarser grid, which knows how far the contact reaches. With the iterations
+    that took."""
     if before is not None and before.target == normal:
-        return before.pressing.pressure
+        return before.pressing.pressure, 0
     return nested_start(model, normal)
-
-
-def _refuse_beyond_limit(
-    model: ContactModel, start: Field, normal: NormalTarget, tangential: TangentialTarget
-) -> None:
-    """GrossSliding for a force at or beyond the friction limit, where that is known beforehand."""
-    if tangential.force is None or normal.force is None or np.ndim(model.friction_coefficient):
-        return
-    limit = float(model.friction_coefficient) * normal.force
-    if reaches_limit(tangential.force, limit):
-        raise GrossSliding(
-            f"tangential force {np.hypot(*tangential.force):.6g} N is the friction limit: with "
-            f"coupled bodies its state is only reached by sliding; prescribe tangential_shift"
-        )
 
 
 def _problem(
@@ -164,6 +163,9 @@ class _Trial:
     def _sheared(self, p: Field, q: VectorField, u_t: VectorField, u_by_q: VectorField) -> Sheared:
         assert self.last.shift is not None
         model, solution = self.model, self.solution
+        bound = model.friction_coefficient * p
+        if solution.at_limit:
+            return self._slid(p, bound, u_t)
         shearing = Shearing(
             shear=q,
             displacement=u_by_q,
@@ -173,7 +175,15 @@ class _Trial:
         )
         target = self.last.displacement - self.last.shift[:, None, None]
         passed = solution.shift[:, None, None] + target - u_t
-        bound = model.friction_coefficient * p
-        residuals = shear_residuals(model, shearing, bound, passed, self.tangential)
+        residuals = shear_residuals(model, shearing, bound, passed, self.tangential, self.last)
         after = advanced(model, p, bound, self.last, self.tangential, shearing, passed, residuals)
         return replace(after, displacement=u_t)
+
+    def _slid(self, p: Field, bound: Field, u_t: VectorField) -> Sheared:
+        """All slips: at the friction limit, or because there is no friction here."""
+        force = self.tangential.force
+        if force is not None:
+            reaches_limit(force, float(np.sum(bound)) * self.model.grid.cell_area)
+            if np.any(bound):
+                return replace(at_limit(self.model, bound, self.last, force), displacement=u_t)
+        return unresisted(p, u_t, self.last, self.solution.shift)

@@ -14,7 +14,7 @@ from contact_scene import (
     Scene,
     SurfaceDiscretisation,
 )
-from semi_analytical.errors import ContactAtWindowEdge
+from semi_analytical.errors import ContactAtWindowEdge, ContactNotResolved
 from semi_analytical.grid import SurfaceGrid
 from semi_analytical.model import ContactModel
 from semi_analytical.pressing import NormalTarget, press
@@ -56,11 +56,14 @@ def _fitted_window(scene: Scene) -> tuple[float, float]:
     for _ in range(MOST_ENLARGEMENTS):
         grid = SurfaceGrid((SCOUT_CELLS, SCOUT_CELLS), window)
         try:
-            marked = [_contact(scene, grid, load) for load in loads]
+            marked = np.any([_contact(scene, grid, load) for load in loads], axis=0)
         except ContactAtWindowEdge:
             window = (GROWTH * window[0], GROWTH * window[1])
             continue
-        extents = _extents(np.any(marked, axis=0), grid)
+        if not np.any(marked):
+            window = (window[0] / GROWTH, window[1] / GROWTH)
+            continue
+        extents = _extents(marked, grid)
         fitted = (MARGIN * extents[0], MARGIN * extents[1])
         if min(fitted[0] / window[0], fitted[1] / window[1]) > 0.5:
             return fitted
@@ -71,7 +74,11 @@ def _fitted_window(scene: Scene) -> tuple[float, float]:
 
 
 def _contact(scene: Scene, grid: SurfaceGrid, load: NormalTarget) -> NDArray[np.bool_]:
-    return np.asarray(press(ContactModel.of(scene, grid), load, SCOUT_TOLERANCE).pressure > 0)
+    """Cells in contact, none where it is too small for the grid."""
+    try:
+        return np.asarray(press(ContactModel.of(scene, grid), load, SCOUT_TOLERANCE).pressure > 0)
+    except ContactNotResolved:
+        return np.zeros(grid.cells, dtype=bool)
 
 
 def _extents(contact: NDArray[np.bool_], grid: SurfaceGrid) -> tuple[float, float]:

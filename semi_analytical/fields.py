@@ -32,7 +32,7 @@ class Increment:
     tangential_shift       of the indenter relative to the body [length]; None where undefined:
                            without friction, and at the friction limit under force control
     dissipated_energy      by slip since the start of the history [force length]
-    iterations             of the pressure and shear solvers, on the finest grid
+    iterations             of the pressure and shear solvers, grids of all sizes
     convolutions           scalar convolutions, grids of all sizes
     halvings               how often the increment was cut in two to converge
     """

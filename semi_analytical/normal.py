@@ -42,12 +42,14 @@ NormalLoad = PressureSum | FixedApproach
 
 @dataclass(frozen=True)
 class NormalSolution:
-    """Pressure (nx, ny), its displacement u_z (nx, ny), the approach and the iterations spent."""
+    """Pressure (nx, ny), its displacement u_z (nx, ny), the approach, the iterations spent, and
+    the residual of the start."""
 
     pressure: Field
     displacement: Field
     approach: float
     iterations: int
+    first_residual: float
 
 
 @dataclass(frozen=True)
@@ -86,6 +88,7 @@ def solve_normal(
     load: NormalLoad,
     start: Field,
     tolerance: float,
+    enough: float = 0.0,
 ) -> NormalSolution:
     """Pressure and approach for an undeformed gap.
 
@@ -95,6 +98,7 @@ def solve_normal(
     load          Σp or the approach
     start         a first pressure (nx, ny), not zero everywhere
     tolerance     on complementarity Σ|g|p / (δ Σp) and penetration max(-g) / δ, dimensionless
+    enough        part of the residual of the start at which to stop before the tolerance
     raises        NotConverged
     """
     allowed = np.isfinite(gap)
@@ -102,15 +106,17 @@ def solve_normal(
     problem = _Problem(displace, precondition, h, allowed, load)
     p = problem.admissible(np.where(allowed, start, 0.0))
     u = displace(p)
-    iterations, residual = 0, np.inf
-    for _ in range(MOST_STEPS):
+    iterations, first = 0, np.inf
+    for number in range(MOST_STEPS):
         delta = problem.approach(p, u)
         g = u + h - delta
         residual = problem.residual(p, g, delta)
-        if residual <= tolerance:
-            return NormalSolution(p, u, delta, iterations)
+        first = residual if number == 0 else first
+        aim = max(tolerance, enough * first)
+        if residual <= aim:
+            return NormalSolution(p, u, delta, iterations, first)
         # Deep enough to reach the tolerance if the contact set is right, shallow while it is not.
-        depth = max(0.05, 0.3 * tolerance / residual)
+        depth = max(0.05, 0.3 * aim / residual)
         contact = allowed & ((p > 0) | (g < 0))
         newton, newton_u, spent = _solve_on(contact, problem, p, u, delta, depth)
         iterations += spent

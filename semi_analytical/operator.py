@@ -114,7 +114,10 @@ class NormalOperator:
         self._transform = PaddedTransform(shape, counter)
         reach = self._transform.reach
         self._zz = even_transform(coefficients.zz[reach], self._transform.padded)
-        self._inverse_zz = 1 / self._zz[::2, ::2]
+        # A film much stiffer than its base waves beyond the period, which turns some entries
+        # negative; conjugate gradients need a positive preconditioner.
+        size = np.abs(self._zz[::2, ::2])
+        self._inverse_zz = 1 / np.maximum(size, np.finfo(float).eps * np.max(size))
         self._work = self._transform.empty_spectrum()
 
     def __call__(self, pressure: Field) -> Field:

@@ -12,15 +12,22 @@ from contact_scene import (
     Scene,
 )
 from contact_scene.material import Material
+from semi_analytical.errors import UnsupportedScene
 
 # |beta| below this is round-off of equal materials given in different units.
 UNCOUPLED = 1e-12
+
+# The sine of an angle below this is round-off of a load that goes straight.
+STRAIGHT = 1e-9
 
 # Increments of a step whose path matters; errors fall as their inverse.
 FIRST_LOADING = 15
 PATH_INCREMENTS = 20
 LARGEST_SHARE = 0.05
 ROUND_OFF = 1e-9
+
+# Of the shear moduli within a body: beyond, its influence coefficients lose the softest part.
+MOST_CONTRAST = 1e12
 
 
 @dataclass(frozen=True)
@@ -49,7 +56,7 @@ class Plan:
 
 
 def plan(scene: Scene) -> Plan:
-    """Decide the effects of a scene."""
+    """Decide the effects of a scene; raises UnsupportedScene for a layer on next to nothing."""
     friction = scene.friction is not None
     loaded = _tangentially_loaded(scene)
     couples, why = _coupling(scene)
@@ -92,13 +99,19 @@ def _increments(scene: Scene, shear: bool, coupling: bool) -> tuple[int, ...]:
         pressing = ramp.normal.start != ramp.normal.end
         # Force and shift are nearly parallel, so that either tells where the other starts.
         start = ramp.tangential.start or last
-        turning = start[0] * end[1] != start[1] * end[0]
+        turning = _turns(start, end)
         shearing = coupling and start != end
         path_matters = shear and sheared and (pressing or turning or shearing)
         chosen = _path_increments(scene, ramp, start) if path_matters else 1
         counts.append(ramp.increments or chosen)
         last = end
     return tuple(counts)
+
+
+def _turns(start: tuple[float, float], end: tuple[float, float]) -> bool:
+    """Whether a load changes its direction, reversal and round-off apart."""
+    cross = start[0] * end[1] - start[1] * end[0]
+    return abs(cross) > STRAIGHT * hypot(*start) * hypot(*end)
 
 
 def _path_increments(scene: Scene, ramp: LoadRamp, start: tuple[float, float]) -> int:
@@ -177,12 +190,28 @@ def _second_body(scene: Scene) -> Effect:
 
 
 def _layers(scene: Scene) -> Effect:
+    _refuse_free_layers(scene)
     where = [
         f"the {name} has {_count(len(body.layers))}"
         for name, body in (("body", scene.body), ("indenter", scene.indenter))
         if body.layers
     ]
     return Effect("layers", bool(where), " and ".join(where) or "no body has layers")
+
+
+def _refuse_free_layers(scene: Scene) -> None:
+    """A layer on next to nothing is a free plate, which moves without bound."""
+    for name, body in (("body", scene.body), ("indenter", scene.indenter)):
+        materials = [layer.material for layer in body.layers]
+        if isinstance(body.material, IsotropicMaterial):
+            materials.append(body.material)
+        moduli = [material.shear_modulus for material in materials]
+        if moduli and max(moduli) > MOST_CONTRAST * min(moduli):
+            raise UnsupportedScene(
+                f"the materials of the {name} have shear moduli from {min(moduli):.3g} to "
+                f"{max(moduli):.3g} Pa; stiffer than {MOST_CONTRAST:.0e} times the softest, a "
+                f"layer is as good as free or rigid; name a rigid base, or leave the soft part out"
+            )
 
 
 def _count(layers: int) -> str:

@@ -60,16 +60,12 @@ def press(model: ContactModel, target: NormalTarget, tolerance: float) -> Pressi
     repeated more tightly.
     raises  ContactAtWindowEdge, ContactNotResolved, NotConverged
     """
-    if not _touches(model, target):
-        raise ContactNotResolved(
-            f"no cell of the window touches: the gap is at least {np.min(model.gap):.4g} m at the "
-            f"cell centres; take more cells or a smaller window"
-        )
-    start = nested_start(model, target)
+    refuse_unresolved_contact(model, target)
+    start, iterations = nested_start(model, target)
     box = box_around(start > 0, MARGIN)
     whole = Box.whole(model.grid.cells)
     allowed = np.isfinite(model.gap)
-    aim, iterations, residual = tolerance, 0, np.inf
+    aim, residual = tolerance, np.inf
     for _ in range(MOST_ATTEMPTS):
         operator = model.normal_operator(box.shape)
         solution = solve_normal(
@@ -95,12 +91,13 @@ def press(model: ContactModel, target: NormalTarget, tolerance: float) -> Pressi
     raise NotConverged("the pressure", iterations, residual, tolerance)
 
 
-def nested_start(model: ContactModel, target: NormalTarget) -> Field:
-    """A first pressure: the frictionless solution of the coarser model, found the same way."""
+def nested_start(model: ContactModel, target: NormalTarget) -> tuple[Field, int]:
+    """A first pressure: the frictionless solution of the coarser model, found the same way, and
+    the iterations spent on all the coarser grids."""
     coarse = model.coarse
     if coarse is None or not _touches(coarse, target):
-        return np.where(np.isfinite(model.gap), 1.0, 0.0)
-    start = nested_start(coarse, target)
+        return np.where(np.isfinite(model.gap), 1.0, 0.0), 0
+    start, iterations = nested_start(coarse, target)
     operator = coarse.normal_operator(coarse.grid.cells)
     solution = solve_normal(
         operator,
@@ -110,7 +107,8 @@ def nested_start(model: ContactModel, target: NormalTarget) -> Field:
         start,
         COARSE_TOLERANCE,
     )
-    return np.where(np.isfinite(model.gap), doubled(solution.pressure), 0.0)
+    finer = np.where(np.isfinite(model.gap), doubled(solution.pressure), 0.0)
+    return finer, iterations + solution.iterations
 
 
 def _touches(model: ContactModel, target: NormalTarget) -> bool:
@@ -118,6 +116,15 @@ def _touches(model: ContactModel, target: NormalTarget) -> bool:
     approach only those whose gap is smaller."""
     least = float(np.min(model.gap))
     return np.isfinite(least) if target.approach is None else least < target.approach
+
+
+def refuse_unresolved_contact(model: ContactModel, target: NormalTarget) -> None:
+    """Raise ContactNotResolved if no cell of the window touches."""
+    if not _touches(model, target):
+        raise ContactNotResolved(
+            f"no cell of the window touches: the gap is at least {np.min(model.gap):.4g} m at the "
+            f"cell centres; take more cells or a smaller window"
+        )
 
 
 def refuse_contact_at_edge(p: Field, model: ContactModel) -> None:

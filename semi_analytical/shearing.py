@@ -1,6 +1,6 @@
 """The shear of a model at a given pressure: the box around the contact, nested grids within."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -106,14 +106,15 @@ def shear(
 
 def _solve(problem: _Problem, tolerance: float) -> TangentialSolution:
     """Start from the solution on twice as large cells, which starts from the next one."""
-    start, shift = problem.start, problem.shift
+    start, shift, spent = problem.start, problem.shift, 0
     coarse = problem.halved()
     if coarse is not None:
         solution = _solve(coarse, COARSE_TOLERANCE)
         share = solution.shear / np.where(coarse.bound > 0, coarse.bound, 1.0)
         start, shift = doubled(share) * problem.bound, solution.shift
+        spent = solution.iterations
     operator = problem.model.tangential_operator(problem.bound.shape)
-    return solve_tangential(
+    solution = solve_tangential(
         operator,
         operator.precondition,
         problem.bound,
@@ -124,3 +125,4 @@ def _solve(problem: _Problem, tolerance: float) -> TangentialSolution:
         problem.model.self_compliance,
         tolerance,
     )
+    return replace(solution, iterations=spent + solution.iterations)

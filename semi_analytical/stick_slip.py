@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from contact_scene.summary import ContactStatus
+from semi_analytical.admissible_shear import AT_LIMIT
 from semi_analytical.errors import GrossSliding, NotConverged
 from semi_analytical.model import ContactModel
 from semi_analytical.residuals import friction_cone, slip_direction
@@ -17,8 +18,6 @@ Mask = NDArray[np.bool_]
 Vector = NDArray[np.float64]
 
 MOST_ATTEMPTS = 3
-# Relative distance from the friction limit at which force control loses the shift.
-AT_LIMIT = 1e-9
 SLIDING = 1e-6
 
 
@@ -97,11 +96,11 @@ def slip_and_stick(
             return replace(last, in_stick=bound > 0, iterations=0)
         if reaches_limit(load.force, float(np.sum(bound)) * model.grid.cell_area):
             if np.any(bound):
-                return _at_limit(model, bound, last, load.force)
-            return _unresisted(pressure, last, last.shift)
+                return at_limit(model, bound, last, load.force)
+            return unresisted(pressure, np.zeros_like(last.shear), last, last.shift)
     elif not np.any(bound):
         assert load.shift is not None
-        return _unresisted(pressure, last, load.shift)
+        return unresisted(pressure, np.zeros_like(last.shear), last, load.shift)
     target = last.displacement - last.shift[:, None, None]
     aim, iterations = tolerance, 0
     for _ in range(MOST_ATTEMPTS):
@@ -109,7 +108,7 @@ def slip_and_stick(
         iterations += solution.iterations
         # How far the indenter's particles moved past the body's in this increment.
         passed = solution.shift[:, None, None] + target - solution.displacement
-        residuals = shear_residuals(model, solution, bound, passed, load)
+        residuals = shear_residuals(model, solution, bound, passed, load, last)
         if residuals.worst <= tolerance:
             return advanced(model, pressure, bound, last, load, solution, passed, residuals)
         aim *= 0.1
@@ -133,19 +132,22 @@ def shear_residuals(
     bound: Field,
     passed: VectorField,
     load: TangentialTarget,
+    last: Sheared,
 ) -> ShearResiduals:
     """How well a solution obeys friction and carries its load.
 
     passed  how far the indenter's particles moved past the body's (2, nx, ny)
+    last    the state before; where the load returns to nothing only that one shows a scale
     """
     q = solution.shear
     equilibrium = None
     if load.force is not None:
         defect = np.sum(q, axis=(1, 2)) - load.force / model.grid.cell_area
         equilibrium = float(np.hypot(*defect) / np.sum(bound))
+    moved = np.maximum(np.abs(solution.displacement), np.abs(last.displacement))
     return ShearResiduals(
         friction_cone(q, bound),
-        slip_direction(q, bound, passed, solution.displacement),
+        slip_direction(q, bound, passed, moved),
         equilibrium,
     )
 
@@ -189,7 +191,7 @@ def _status(in_stick: Mask, bound: Field, shear_sum: float) -> ContactStatus:
     return ContactStatus.NO_STICK_AREA_LEFT
 
 
-def _at_limit(model: ContactModel, bound: Field, last: Sheared, force: Vector) -> Sheared:
+def at_limit(model: ContactModel, bound: Field, last: Sheared, force: Vector) -> Sheared:
     """Force control at the friction limit: the traction is known, the shift is not."""
     q = bound * (force / np.hypot(*force))[:, None, None]
     defect = np.sum(q, axis=(1, 2)) - force / model.grid.cell_area
@@ -209,15 +211,17 @@ def _at_limit(model: ContactModel, bound: Field, last: Sheared, force: Vector) -
     )
 
 
-def _unresisted(pressure: Field, last: Sheared, shift: Vector) -> Sheared:
-    """Friction vanishes all over the contact: all of it slips, for nothing."""
+def unresisted(pressure: Field, displacement: VectorField, last: Sheared, shift: Vector) -> Sheared:
+    """Friction vanishes all over the contact: all of it slips, for nothing.
+
+    displacement  u_t (2, nx, ny) without shear, by the pressure alone
+    """
     assert last.shift is not None
-    nothing = np.zeros_like(last.shear)
-    passed = (shift - last.shift)[:, None, None] + last.displacement
+    passed = (shift - last.shift)[:, None, None] + last.displacement - displacement
     return replace(
         last,
-        shear=nothing,
-        displacement=nothing,
+        shear=np.zeros_like(last.shear),
+        displacement=displacement,
         shift=shift,
         slip=last.slip - np.where(pressure > 0, passed, 0.0),
         in_stick=np.zeros_like(last.in_stick),

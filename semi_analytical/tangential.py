@@ -37,12 +37,14 @@ MOST_ITERATIONS_PER_STEP = 100
 
 @dataclass(frozen=True)
 class TangentialSolution:
-    """Shear (2, nx, ny), its displacement (2, nx, ny), the shift (2,), the slip zone, the cost."""
+    """Shear (2, nx, ny), its displacement (2, nx, ny), the shift (2,), the slip zone, the residual
+    that is left, and the iterations spent."""
 
     shear: VectorField
     displacement: VectorField
     shift: Vector
     in_slip: NDArray[np.bool_]
+    residual: float
     iterations: int
 
 
@@ -94,6 +96,7 @@ def solve_tangential(
     shift: Vector,
     self_compliance: float,
     tolerance: float,
+    enough: float = 0.0,
 ) -> TangentialSolution:
     """Shear, shift and slip zone of one increment at a given pressure.
 
@@ -105,20 +108,23 @@ def solve_tangential(
     start, shift     first guesses of the shear (2, nx, ny) and of the shift (2,)
     self_compliance  displacement of a cell by its own unit shear [length^3/force]
     tolerance        on Σ|q - P(q + γ(ω + c - A q))| / Σ bound, and on the slip direction
+    enough           part of the residual of the start at which to stop before the tolerance
     raises           NotConverged
     """
     problem = _Problem(displace, precondition, bound, target, load, self_compliance)
     q = problem.admissible(start)
     u = displace(q)
-    iterations, residual = 0, np.inf
+    iterations, first = 0, np.inf
     state = problem.natural(q, u, shift)
-    for _ in range(MOST_STEPS):
+    for number in range(MOST_STEPS):
         slip = everywhere(state.shift) + target - u
         residual = max(state.error, slip_direction(q, bound, slip, u))
-        if residual <= tolerance:
+        first = residual if number == 0 else first
+        aim = max(tolerance, enough * first)
+        if residual <= aim:
             in_slip = (bound > 0) & (magnitude(state.z) > bound)
-            return TangentialSolution(q, u, state.shift, in_slip, iterations)
-        newton, spent = _newton_target(problem, q, u, state, max(0.05, 0.3 * tolerance / residual))
+            return TangentialSolution(q, u, state.shift, in_slip, residual, iterations)
+        newton, spent = _newton_target(problem, q, u, state, max(0.05, 0.3 * aim / residual))
         iterations += spent
         q, u, state = _descend(problem, q, u, state, newton)
     raise NotConverged("the shear", iterations, residual, tolerance)

@@ -74,6 +74,7 @@ def verify(
 def _verified(
     cases: tuple[Case, ...], level: LevelName, names: list[str], directory: Path
 ) -> Report:
+    from verification.benchmarks import benchmarks
     from verification.report.files import refuse_if_unwritable, write_report
     from verification.report.omissions import OMISSIONS
     from verification.report.provenance import provenance
@@ -89,7 +90,7 @@ def _verified(
             counts=count(outcomes),
             cases=outcomes,
             omissions=OMISSIONS,
-            provenance=provenance(command, seconds),
+            provenance=provenance(command, seconds, () if names else benchmarks()),
         )
         write_report(report, directory)
     return report

@@ -182,7 +182,7 @@ def _solved(surface: LayeredSurface, a: float, radius: float) -> LayeredIndentat
 
 def _order(a: float, thickness: float) -> int:
     """Nodes that resolve what varies on the scale of the thickness."""
-    return 50 + int(12 * a / thickness)
+    return 50 + int(4 * a / thickness)
 
 
 def _wavenumbers(a: float, thickness: float) -> tuple[Array, Array]:

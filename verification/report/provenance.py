@@ -3,21 +3,25 @@
 from __future__ import annotations
 
 import subprocess
+from collections.abc import Iterable
 from datetime import UTC, datetime
 from pathlib import Path
 
-from verification.report.record import Provenance
+from verification.report.record import Benchmark, Provenance
 from verification.run_output.provenance import library_versions, machine, program_version
 
 SOURCE = Path(__file__).resolve().parents[2]
 SECONDS_FOR_GIT = 10
 
 
-def provenance(command: str, seconds: dict[str, float]) -> Provenance:
+def provenance(
+    command: str, seconds: dict[str, float], benchmarks: Iterable[Benchmark] = ()
+) -> Provenance:
     """Versions, machine, commit and times of this process.
 
-    command  the command that makes the same report again
-    seconds  wall seconds by case
+    command     the command that makes the same report again
+    seconds     wall seconds by case
+    benchmarks  measured on the way
     """
     commit = _git("rev-parse", "HEAD")
     return Provenance(
@@ -29,6 +33,7 @@ def provenance(command: str, seconds: dict[str, float]) -> Provenance:
         machine=machine(),
         libraries=library_versions(),
         seconds={name: round(value, 2) for name, value in seconds.items()},
+        benchmarks=tuple(benchmarks),
     )
 
 

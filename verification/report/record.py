@@ -10,6 +10,28 @@ from verification.cases.outcome import CaseOutcome, Status, Verdict
 REPORT_VERSION = 1
 
 
+FAR_OVER = 2.0  # times the target
+
+
+class Benchmark(Description):
+    """A measured cost beside its target."""
+
+    name: str
+    meaning: str
+    unit: str
+    """s, or nothing for a ratio."""
+
+    value: float
+    target: float
+
+    @property
+    def outcome(self) -> str:
+        """In words: within, over, or far over the target."""
+        if self.value <= self.target:
+            return "within"
+        return "over" if self.value <= FAR_OVER * self.target else "far over"
+
+
 class Provenance(Description):
     """Who made the numbers, when, on what, and how long it took."""
 
@@ -28,6 +50,9 @@ class Provenance(Description):
     libraries: dict[str, str | None]
     seconds: dict[str, float]
     """Wall seconds by case."""
+
+    benchmarks: tuple[Benchmark, ...] = ()
+    """Costs of this machine at this moment; none if only some cases were run."""
 
 
 class Report(Description):

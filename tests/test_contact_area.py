@@ -1,0 +1,71 @@
+"""Areas are found to a fraction of a cell where pressure falls like a square root."""
+
+import numpy as np
+import pytest
+
+from semi_analytical.contact_area import covered_cells
+
+# Semi-axes in cells, and how well the area is found: a small contact has few cells for the fits.
+ELLIPSES = {
+    "circle": ((20.0, 20.0), 1e-3),
+    "ellipse": ((28.0, 11.0), 2e-3),
+    "small": ((6.3, 6.3), 3e-2),
+}
+
+
+def dome(semi_axes, centre=(0.0, 0.0), cells=72):
+    """The values of an elliptical Hertz pressure at cell centres."""
+    x, y = np.indices((cells, cells)) - 0.5 * (cells - 1)
+    inside = 1 - ((x - centre[0]) / semi_axes[0]) ** 2 - ((y - centre[1]) / semi_axes[1]) ** 2
+    return np.sqrt(np.maximum(inside, 0))
+
+
+@pytest.mark.parametrize("centre", [(0.0, 0.0), (0.3, -0.2), (0.5, 0.5)])
+@pytest.mark.parametrize(("semi_axes", "accuracy"), ELLIPSES.values(), ids=ELLIPSES)
+def test_area_under_a_square_root_is_exact_to_a_small_part_of_a_cell(semi_axes, accuracy, centre):
+    values = dome(semi_axes, centre)
+    # p^2 is a quadratic: only taking the edge as straight within a cell is an approximation.
+    assert covered_cells(values, values > 0) == pytest.approx(
+        np.pi * semi_axes[0] * semi_axes[1], rel=accuracy
+    )
+
+
+def test_two_contacts_count_both():
+    one, other = dome((9, 9), (-18, 0)), dome((12, 12), (16, 5))
+    both = one + other
+    total = covered_cells(one, one > 0) + covered_cells(other, other > 0)
+    assert covered_cells(both, both > 0) == pytest.approx(total, rel=1e-12)
+
+
+def test_area_does_not_depend_on_the_unit_of_the_values():
+    values = dome((20, 20))
+    area = covered_cells(values, values > 0)
+    for unit in (1e-30, 1e12):
+        assert covered_cells(unit * values, values > 0) == pytest.approx(area, rel=1e-9)
+
+
+def test_region_too_small_for_a_fit_counts_its_cells():
+    values = dome((2.2, 2.2))
+    assert covered_cells(values, values > 0) == np.count_nonzero(values)
+
+
+def test_values_that_rise_to_the_edge_count_whole_cells():
+    """Below a flat punch the pressure grows to infinity: nothing tells where in a cell it ends."""
+    disc = dome((20, 20)) > 0
+    x, y = np.indices(disc.shape) - 35.5
+    values = np.where(disc, 1 / np.sqrt(np.where(disc, 401 - x**2 - y**2, 1.0)), 0.0)
+    assert covered_cells(values, disc) == pytest.approx(np.count_nonzero(disc), rel=2e-3)
+
+
+def test_constant_values_count_whole_cells():
+    disc = dome((20, 20)) > 0
+    assert covered_cells(disc.astype(float), disc) == pytest.approx(
+        np.count_nonzero(disc), rel=1e-12
+    )
+
+
+@pytest.mark.parametrize("inside", [False, True], ids=["nothing", "everything"])
+def test_extremes(inside):
+    mask = np.full((12, 12), inside)
+    expected = mask.size if inside else 0
+    assert covered_cells(mask.astype(float), mask) == expected

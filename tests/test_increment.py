@@ -1,0 +1,107 @@
+"""One increment costs what its physics costs: effects that are off are never computed."""
+
+import numpy as np
+import pytest
+from contact_scenes import LOAD, PRESS, RIGID_BALL, A, grid, push, scene
+
+from semi_analytical import SurfaceGrid, pressing, solve
+from semi_analytical.normal import solve_normal
+from semi_analytical.operator import NormalOperator, TangentialOperator
+
+TOLERANCE = 1e-8
+
+
+@pytest.fixture
+def calls(monkeypatch):
+    """Calls of the operators, as (class, cells), in the order in which they come."""
+    made = []
+
+    def spy(kind):
+        plain = kind.__call__
+
+        def counted(self, field):
+            made.append((kind, field.shape[-2:]))
+            return plain(self, field)
+
+        monkeypatch.setattr(kind, "__call__", counted)
+
+    spy(NormalOperator)
+    spy(TangentialOperator)
+    return made
+
+
+def kinds(calls):
+    return {kind for kind, _ in calls}
+
+
+@pytest.mark.parametrize(
+    ("loading", "more"),
+    [
+        ((PRESS,), {"friction": None}),
+        ((PRESS,), {"friction": None, "indenter": RIGID_BALL}),
+        ((PRESS, {"normal_force": 0.5 * LOAD}), {}),
+        ((PRESS, push(0)), {}),
+    ],
+    ids=["frictionless", "frictionless and dissimilar", "only pressed", "no push"],
+)
+def test_without_a_push_no_shear_operator_is_built(loading, more, monkeypatch):
+    def refuse(*_):
+        raise AssertionError("a shear operator is built")
+
+    monkeypatch.setattr(TangentialOperator, "__init__", refuse)
+    for increment in solve(scene(*loading, **more), grid(), TOLERANCE).increments:
+        assert increment.shear is None
+        assert increment.slip is None
+        assert increment.in_stick is None
+        assert increment.dissipated_energy is None
+        assert increment.residuals.slip_direction is None
+
+
+def test_shear_costs_nothing_until_the_first_push(calls):
+    seen = []
+    solve(scene(PRESS, push(0.5)), grid(), TOLERANCE, lambda _: seen.append(kinds(calls)))
+    assert seen[0] == {NormalOperator}
+
+
+def test_pressure_is_not_solved_again_where_the_normal_load_is_held(calls):
+    def after(increment):
+        if increment.step == 1:
+            calls.clear()
+
+    solve(scene(PRESS, push(0.5), push(-0.5)), grid(), TOLERANCE, after)
+    assert kinds(calls) == {TangentialOperator}
+
+
+@pytest.mark.parametrize("cells", [64, 128])
+def test_pressure_takes_few_iterations_and_hardly_more_convolutions(cells, calls, monkeypatch):
+    iterations = []
+
+    def spied(*arguments, **more):
+        solution = solve_normal(*arguments, **more)
+        iterations.append((max(solution.pressure.shape), solution.iterations))
+        return solution
+
+    monkeypatch.setattr(pressing, "solve_normal", spied)
+    solve(scene(PRESS, friction=None), SurfaceGrid((cells, cells), (3 * A, 3 * A)), TOLERANCE)
+    spent = sum(count for size, count in iterations if size > cells / 2)
+    convolved = sum(max(shape) > cells / 2 for _, shape in calls)
+    # Besides one per iteration: the start, admissible parts of steps, the check on the window.
+    assert spent <= 12
+    assert convolved <= 1.5 * spent
+
+
+def test_convolutions_count_what_was_convolved(calls):
+    result = solve(scene(PRESS, push(0.5)), grid(), TOLERANCE)
+    for increment, kind, price in [
+        (result.increments[0], NormalOperator, 1),
+        (result.increments[1], TangentialOperator, 2),
+    ]:
+        assert increment.convolutions == price * sum(kind is made for made, _ in calls)
+
+
+def test_fields_are_reported_on_the_whole_window():
+    increment = solve(scene(PRESS, push(0.5)), SurfaceGrid((48, 40), (4 * A, 3 * A)), TOLERANCE)
+    end = increment.steps[-1]
+    assert end.pressure.shape == end.gap.shape == end.in_contact.shape == (48, 40)
+    assert end.shear.shape == end.slip.shape == (2, 48, 40)
+    assert np.all(end.gap[~end.in_contact] > -1e-8 * end.approach)

@@ -1,0 +1,162 @@
+"""The layered cases of the report pass, and fail when something is broken."""
+
+from collections.abc import Callable
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from semi_analytical.frf import matrix
+from semi_analytical.frf.surface import SurfaceScalars
+from semi_analytical.influence import bodies, layered
+from verification.cases import layered_reference as reference
+from verification.cases.case import Case
+from verification.cases.classical_forms import classical_forms
+from verification.cases.coated_paraboloid import coated_paraboloid_on
+from verification.cases.film_stiffness import film_stiffness
+from verification.cases.frf_laws import frf_laws
+from verification.cases.judgement import judge
+from verification.cases.layered_identities import layered_identities_on
+from verification.cases.outcome import CaseOutcome, Status
+from verification.cases.sampling_route import sampling_route
+from verification.cases.thin_layer import thin_layer_on
+from verification.report.page import render_page
+from verification.report.provenance import provenance
+from verification.report.record import Benchmark, Report, count
+from verification.studies import limit_laws, symmetry_laws
+from verification.studies.law import Law, worst_violation
+
+Patch = pytest.MonkeyPatch
+LAWS = {
+    law.name: replace(law, draws=20) for law in symmetry_laws.SYMMETRY_LAWS + limit_laws.LIMIT_LAWS
+}
+
+
+def failed(outcome: CaseOutcome) -> set[str]:
+    return {verdict.name for verdict in outcome.verdicts if verdict.status is Status.FAIL}
+
+
+@pytest.fixture(autouse=True)
+def fresh() -> None:
+    """Forget what other tests have measured."""
+    for measured in (reference._frf_errors, reference._coefficients):
+        measured.cache_clear()
+
+
+def test_coated_paraboloid_converges_to_the_reference() -> None:
+    outcome = judge(coated_paraboloid_on((32, 48, 64, 96, 128), (128,)))
+    assert failed(outcome) == set()
+    assert len([v for v in outcome.verdicts if v.allowed == 2e-4]) == 10
+
+
+@pytest.mark.parametrize("build", [lambda: layered_identities_on(64), lambda: thin_layer_on(128)])
+def test_layered_contacts_agree_on_coarse_grids(build: Callable[[], Case]) -> None:
+    # Their tolerances are for twice the cells.
+    wide = {v.name for v in judge(build()).verdicts if v.error is None or v.error > 6e-4}
+    assert wide <= {"contact_radius"}
+
+
+@pytest.mark.parametrize("law", LAWS.values(), ids=LAWS)
+def test_law_holds(law: Law) -> None:
+    assert worst_violation(law) <= law.allowed
+
+
+def scalars_by(patch: Patch, module: object, change: Callable[[SurfaceScalars], None]) -> None:
+    """Let a module see wrong scalars of layered bodies."""
+    whole = module.scalars  # type: ignore[attr-defined]
+
+    def wrong(stack: object, alpha: object) -> SurfaceScalars:
+        response = SurfaceScalars(*(np.array(value) for value in whole(stack, alpha)))
+        if stack.layers:  # type: ignore[attr-defined]
+            change(response)
+        return response
+
+    patch.setattr(module, "scalars", wrong)
+
+
+def coupling_turned(response: SurfaceScalars) -> None:
+    np.multiply(response.c12, -1, out=response.c12)
+
+
+def normal_soft(response: SurfaceScalars) -> None:
+    np.multiply(response.c22, 1.001, out=response.c22)
+
+
+def shear_for_normal(response: SurfaceScalars) -> None:
+    response.csh[...] = response.c22
+
+
+@pytest.mark.parametrize("change", [coupling_turned, normal_soft, shear_for_normal])
+def test_wrong_scalars_fail_the_reference_and_the_laws(
+    change: Callable[[SurfaceScalars], None], monkeypatch: Patch
+) -> None:
+    scalars_by(monkeypatch, matrix, change)
+    scalars_by(monkeypatch, reference, change)
+    assert failed(judge(reference.layered_reference())) >= {"scalars", "matrix"}
+    assert worst_violation(LAWS["homogeneous"]) > LAWS["homogeneous"].allowed
+
+
+def test_wrong_stiffness_of_the_film_fails_the_first_order_theory(monkeypatch: Patch) -> None:
+    from verification.cases import film_stiffness as case
+
+    scalars_by(monkeypatch, case, lambda response: np.power(response.c22, 1.01, out=response.c22))
+    assert failed(judge(film_stiffness())) == {"by_shear_modulus", "by_poisson_ratio"}
+
+
+def test_wrong_coefficients_fail_the_reference_and_the_contact(monkeypatch: Patch) -> None:
+    whole = layered.cell_integrals
+    monkeypatch.setattr(layered, "cell_integrals", lambda *given: 1.0005 * whole(*given))
+    monkeypatch.setattr(bodies, "remembered", layered.computed_afresh)
+    assert failed(judge(reference.layered_reference())) == {"influence_coefficients"}
+    assert "approach" in failed(judge(coated_paraboloid_on((128,) * 3, (128,))))
+
+
+def test_layer_left_out_fails_the_identities(monkeypatch: Patch) -> None:
+    whole = bodies.stack_of
+
+    def without_the_last(body: object) -> object:
+        stack = whole(body)
+        return type(stack)(stack.layers[:-1], stack.base)
+
+    monkeypatch.setattr(bodies, "stack_of", without_the_last)
+    assert "same_pressure" in failed(judge(layered_identities_on(32)))
+
+
+def test_nan_in_a_law_is_a_violation() -> None:
+    values = iter([0.0, np.nan, 1.0])
+    law = Law("nan", "P0", "never NaN", lambda rng: next(values), draws=3)
+    assert not worst_violation(law) <= 1
+
+
+@pytest.mark.parametrize(("value", "outcome"), [(1.0, "within"), (1.5, "over"), (3.0, "far over")])
+def test_benchmarks_are_told_in_words(value: float, outcome: str) -> None:
+    benchmark = Benchmark(name="x", meaning="", unit="s", value=value, target=1.0)
+    assert benchmark.outcome == outcome
+
+
+def test_tables_are_shown_and_cannot_become_markup() -> None:
+    outcome = judge(reference.layered_reference())
+    [frf, coefficients] = outcome.tables
+    assert len(frf.rows) == 19
+    assert len(coefficients.rows) == 18
+    hostile = frf.model_copy(update={"title": "<script>", "rows": (("<script>", "&"),)})
+    cases = (outcome.model_copy(update={"tables": (hostile, coefficients)}),)
+    page = render_page(
+        Report(
+            level="quick", counts=count(cases), cases=cases, omissions=(),
+            provenance=provenance("", {}, [Benchmark(name="<b>", meaning="", unit="s", value=1,
+                                                     target=1)]),
+        )
+    )  # fmt: skip
+    assert "<script" not in page
+    assert "&lt;b&gt;" in page
+    assert page.count("G₁/G₂ = 0.5") == 9
+
+
+@pytest.mark.parametrize("build", [classical_forms, sampling_route, frf_laws])
+def test_studies_pass_and_draw(build: Callable[[], Case]) -> None:
+    case = build()
+    assert all(charts.rows for charts in (case.charts({}) if case.charts else ()))
+    assert all(row for table in (case.tables({}) if case.tables else ()) for row in table.rows)
+    if build is not frf_laws:  # one by one above
+        assert failed(judge(case)) == set()

@@ -1,0 +1,174 @@
+"""Symmetries and scalings of the whole solver: no reference solution, only laws."""
+
+import numpy as np
+import pytest
+from contact_scenes import LIMIT, LOAD, MU, NU, PRESS, RADIUS, YOUNG, A, grid, push, scene, steel
+
+from contact_scene import (
+    Body,
+    CoulombFriction,
+    Ellipsoid,
+    HeightMap,
+    IsotropicMaterial,
+    LoadStep,
+    Paraboloid,
+    Scene,
+    SurfaceDiscretisation,
+)
+from semi_analytical import SurfaceGrid, solve, solve_discretised
+
+TOLERANCE = 1e-9
+# Solutions agree to the tolerance, not to round-off, where the arithmetic takes another path.
+SAME = 1e-6
+RADII = (RADIUS, 2 * RADIUS)
+
+
+def loop(rotate=lambda x, y: (x, y)):
+    """A history whose direction turns."""
+    return (
+        PRESS,
+        *({"tangential_force": rotate(x * LIMIT, y * LIMIT)} for x, y in [(0.7, 0), (-0.6, 0)]),
+        {"tangential_force": rotate(0.2 * LIMIT, 0.4 * LIMIT), "increments": 3},
+    )
+
+
+def solved(loading, radii=RADII, cells=(32, 28), window=(3.3 * A, 4.0 * A)):
+    ellipsoid = Ellipsoid(radii=radii, material=steel())
+    return solve(scene(*loading, indenter=ellipsoid), SurfaceGrid(cells, window), TOLERANCE)
+
+
+def assert_close(field, expected):
+    np.testing.assert_allclose(field, expected, rtol=0, atol=SAME * np.max(np.abs(expected)))
+
+
+def test_turning_everything_by_a_right_angle_turns_the_answer():
+    plain = solved(loop()).increments
+    turned = solved(
+        loop(lambda x, y: (-y, x)), RADII[::-1], cells=(28, 32), window=(4.0 * A, 3.3 * A)
+    ).increments
+    for one, other in zip(plain, turned, strict=True):
+        # (x, y) -> (-y, x): the new x runs against the old y
+        assert_close(other.pressure, one.pressure.T[::-1])
+        assert_close(other.shear, np.stack([-one.shear[1].T[::-1], one.shear[0].T[::-1]]))
+        assert other.dissipated_energy == pytest.approx(one.dissipated_energy, rel=SAME)
+
+
+def test_mirroring_the_load_mirrors_the_answer():
+    plain, mirrored = solved(loop()).increments, solved(loop(lambda x, y: (x, -y))).increments
+    for one, other in zip(plain, mirrored, strict=True):
+        assert_close(other.shear[0], one.shear[0][:, ::-1])
+        assert_close(other.shear[1], -one.shear[1][:, ::-1])
+
+
+def test_reversing_the_load_reverses_the_shear():
+    plain, reversed_ = solved(loop()).increments, solved(loop(lambda x, y: (-x, -y))).increments
+    for one, other in zip(plain, reversed_, strict=True):
+        assert_close(other.shear, -one.shear)
+        np.testing.assert_allclose(other.tangential_shift, -one.tangential_shift, atol=1e-15)
+
+
+def scaled(length, stress):
+    """The same problem with lengths and moduli in other proportions."""
+    force = stress * length**2
+    material = IsotropicMaterial(young_modulus=YOUNG * stress, poisson_ratio=NU)
+    loading = [
+        {"normal_force": LOAD * force},
+        {"tangential_force": (0.8 * LIMIT * force, 0.0)},
+        {"tangential_force": (-0.4 * LIMIT * force, 0.0)},
+    ]
+    problem = Scene(
+        indenter=Paraboloid(radius=RADIUS * length, material=material),
+        body=Body(material=material),
+        friction=CoulombFriction(coefficient=MU),
+        loading=[LoadStep(**step) for step in loading],
+    )
+    return solve(problem, grid(32, radius=A * length), TOLERANCE).steps
+
+
+@pytest.mark.parametrize("length", [1e-6, 1e3])
+@pytest.mark.parametrize("stress", [1e-9, 1.0, 1e6])
+def test_result_is_unit_neutral(length, stress):
+    plain, other = scaled(1.0, 1.0), scaled(length, stress)
+    # Round-off only: iterations stop at the same place, so the paths are the same.
+    for one, two in zip(plain, other, strict=True):
+        unit = stress * length**2
+        assert two.approach == pytest.approx(length * one.approach, rel=1e-10)
+        assert two.contact_area == pytest.approx(length**2 * one.contact_area, rel=1e-10)
+        assert two.peak_pressure == pytest.approx(stress * one.peak_pressure, rel=1e-10)
+        assert two.stick_area == pytest.approx(length**2 * one.stick_area, rel=1e-9)
+        assert two.dissipated_energy == pytest.approx(
+            unit * length * one.dissipated_energy, rel=1e-9
+        )
+        assert two.iterations == one.iterations
+
+
+def test_the_same_run_twice_gives_the_same_bits():
+    for one, other in zip(solved(loop()).increments, solved(loop()).increments, strict=True):
+        for name in ("pressure", "shear", "slip", "gap"):
+            np.testing.assert_array_equal(getattr(one, name), getattr(other, name))
+        assert one.iterations == other.iterations
+
+
+def test_answer_does_not_depend_on_the_window():
+    """There is no periodicity: cells of the same size far outside the contact change nothing."""
+    spacing = 3 * A / 32
+    runs = [
+        solve(
+            scene(PRESS, push(0.8), push(-0.3)),
+            SurfaceGrid((n, m), (n * spacing, m * spacing)),
+            TOLERANCE,
+        ).steps[-1]
+        for n, m in [(24, 24), (32, 40), (64, 64)]
+    ]
+    for run in runs[1:]:
+        assert run.approach == pytest.approx(runs[0].approach, rel=1e-8)
+        assert run.dissipated_energy == pytest.approx(runs[0].dissipated_energy, rel=SAME)
+        nx, ny = run.pressure.shape
+        middle = (slice(nx // 2 - 12, nx // 2 + 12), slice(ny // 2 - 12, ny // 2 + 12))
+        assert_close(run.pressure[middle], runs[0].pressure)
+        assert_close(run.shear[(..., *middle)], runs[0].shear)
+
+
+def test_moving_the_surface_by_a_cell_moves_the_answer():
+    spacing, cells = 3 * A / 32, 32
+    x = (np.arange(cells) - 0.5 * (cells - 1)) * spacing
+    noise = 1e-8 * np.sin(3e4 * x[:, None]) * np.cos(2e4 * x)
+    heights = (x[:, None] ** 2 + x**2) / (2 * RADIUS) + noise
+    runs = [
+        solve_discretised(
+            scene(
+                PRESS,
+                push(0.6, 0.3),
+                indenter=HeightMap(
+                    file=np.roll(heights, (shift, -shift), (0, 1)),
+                    spacing=spacing,
+                    material=steel(),
+                ),
+            ),
+            SurfaceDiscretisation(cells=(cells, cells), tolerance=TOLERANCE),
+        ).steps[-1]
+        for shift in (0, 1)
+    ]
+    assert_close(runs[1].pressure, np.roll(runs[0].pressure, (1, -1), (0, 1)))
+    assert_close(runs[1].shear, np.roll(runs[0].shear, (1, -1), (1, 2)))
+
+
+@pytest.mark.parametrize("factor", [2.0, 1e-3, 10.0])
+def test_friction_and_force_in_proportion_leave_the_stick_zone(factor):
+    plain = solve(scene(PRESS, push(0.7)), grid(), TOLERANCE).steps[-1]
+    more = solve(scene(PRESS, push(0.7 * factor), friction=MU * factor), grid(), TOLERANCE)
+    assert_close(more.steps[-1].shear, factor * plain.shear)
+    assert more.steps[-1].stick_area == pytest.approx(plain.stick_area, rel=SAME)
+
+
+def test_a_uniform_friction_map_is_one_coefficient():
+    one = solve(scene(PRESS, push(0.7)), grid(), TOLERANCE).steps[-1]
+    mapped = {"map": np.full((32, 32), MU)}
+    other = solve(scene(PRESS, push(0.7), friction=mapped), grid(), TOLERANCE).steps[-1]
+    np.testing.assert_array_equal(one.shear, other.shear)
+
+
+def test_pressure_does_not_depend_on_friction_between_like_bodies():
+    smooth = solve(scene(PRESS, friction=None), grid(), TOLERANCE).steps[-1]
+    rough = solve(scene(PRESS, push(0.7)), grid(), TOLERANCE).steps[-1]
+    np.testing.assert_array_equal(smooth.pressure, rough.pressure)

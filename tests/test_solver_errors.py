@@ -1,0 +1,116 @@
+"""What the solver refuses, it refuses by name, with what to do, and without a half answer."""
+
+from importlib import import_module
+
+import numpy as np
+import pytest
+from contact_scenes import APPROACH, PRESS, A, grid, push, scene, steel
+
+from contact_scene import FlatPunch, SurfaceDiscretisation
+from semi_analytical import (
+    ContactAtWindowEdge,
+    ContactNotResolved,
+    NotConverged,
+    ResourceRefused,
+    SolverError,
+    SurfaceGrid,
+    UnsupportedScene,
+    memory,
+    plan,
+    solve,
+    solve_discretised,
+    stick_slip,
+)
+
+TOLERANCE = 1e-8
+
+
+def test_contact_at_the_edge_of_the_window_is_refused():
+    with pytest.raises(ContactAtWindowEdge, match=r"step 1.*larger window"):
+        solve(scene(PRESS), grid(contacts=0.9), TOLERANCE)
+
+
+def test_contact_that_grows_to_the_edge_names_the_step_and_keeps_the_state_before():
+    with pytest.raises(ContactAtWindowEdge, match="step 2") as caught:
+        solve(scene(PRESS, {"normal_force": 1e5}), grid(), TOLERANCE)
+    assert caught.value.last_state.normal_force == pytest.approx(1e3)
+
+
+@pytest.mark.parametrize("cells", [31, 32])
+def test_contact_between_the_cell_centres_is_refused(cells):
+    tiny = {"approach": 1e-7 * APPROACH}
+    if cells % 2:  # a centre at the tip touches
+        solve(scene(tiny, friction=None), grid(cells), TOLERANCE)
+        return
+    with pytest.raises(ContactNotResolved, match="more cells"):
+        solve(scene(tiny, friction=None), grid(cells), TOLERANCE)
+
+
+def test_punch_between_the_cell_centres_is_refused():
+    needle = FlatPunch(radius=1e-3 * A, material=steel())
+    with pytest.raises(ContactNotResolved):
+        solve(scene(PRESS, indenter=needle, friction=None), grid(), TOLERANCE)
+
+
+def test_friction_map_of_another_shape_is_refused():
+    friction = {"map": np.full((8, 9), 0.1)}
+    with pytest.raises(UnsupportedScene, match=r"\(8, 9\).*\(32, 32\)"):
+        solve(scene(PRESS, push(0.5), friction=friction), grid(), TOLERANCE)
+
+
+def test_more_memory_than_there_is_is_refused_before_any_is_taken():
+    enormous = SurfaceGrid((2**20, 2**20), (3 * A, 3 * A))
+    with pytest.raises(ResourceRefused, match=r"GiB.*fewer cells"):
+        solve(scene(PRESS), enormous, TOLERANCE)
+
+
+def test_memory_grows_with_cells_increments_and_shear(monkeypatch):
+    small = plan(scene(PRESS, friction=None))
+    sheared, long = plan(scene(PRESS, push(0.5))), plan(scene(PRESS, push(0.5, increments=50)))
+    sizes = [memory.estimated_bytes(grid(64), p) for p in (small, sheared, long)]
+    assert sizes == sorted(sizes)
+    assert memory.estimated_bytes(grid(128), small) == 4 * sizes[0]
+    monkeypatch.setattr(memory, "available_bytes", lambda: sizes[1])
+    memory.refuse_if_too_large(grid(64), sheared)
+    with pytest.raises(ResourceRefused):
+        memory.refuse_if_too_large(grid(64), long)
+
+
+def test_not_converged_says_where_and_carries_the_last_good_state(monkeypatch):
+    def fail(*_, **__):
+        raise NotConverged("the shear", 7, 1e-3, TOLERANCE)
+
+    seen = []
+    monkeypatch.setattr(stick_slip, "shear", fail)
+    with pytest.raises(NotConverged, match=r"step 2, increment 1 of 2.*1\.00e-03.*7") as caught:
+        solve(scene(PRESS, push(0.5, increments=2)), grid(), TOLERANCE, seen.append)
+    error = caught.value
+    assert (error.iterations, error.residual, error.tolerance) == (7, 1e-3, TOLERANCE)
+    np.testing.assert_array_equal(error.last_state.pressing.pressure, seen[-1].pressure)
+
+
+def test_a_window_that_is_left_open_is_enlarged_instead(monkeypatch):
+    module = import_module("semi_analytical.solve")
+    true = module.discretise
+
+    def too_small(*arguments):
+        fitted = true(*arguments)
+        return SurfaceGrid(fitted.cells, (0.6 * fitted.window[0], 0.6 * fitted.window[1]))
+
+    monkeypatch.setattr(module, "discretise", too_small)
+    result = solve_discretised(scene(PRESS), SurfaceDiscretisation(cells=(32, 32)))
+    assert result.steps[0].contact_radius == pytest.approx(A, rel=0.02)
+
+
+@pytest.mark.parametrize(
+    "error",
+    [
+        ContactAtWindowEdge,
+        ContactNotResolved,
+        NotConverged,
+        ResourceRefused,
+        UnsupportedScene,
+    ],
+)
+def test_all_refusals_are_solver_errors(error):
+    assert issubclass(error, SolverError)

@@ -1,0 +1,236 @@
+"""Stick, slip and what the surfaces remember: friction obeyed in hard and easy histories."""
+
+import numpy as np
+import pytest
+from contact_scenes import (
+    APPROACH,
+    INDENTERS,
+    LIMIT,
+    LOAD,
+    MU,
+    PRESS,
+    RADIUS,
+    A,
+    bump,
+    grid,
+    paraboloid,
+    push,
+    scene,
+    slide,
+    steel,
+)
+
+from contact_scene import HeightMap
+from contact_scene.summary import ContactStatus
+from semi_analytical import GrossSliding, SurfaceGrid, solve
+from semi_analytical.admissible_shear import magnitude
+
+TOLERANCE = 1e-8
+CELLS = 32
+SPACING = 3 * A / CELLS
+
+
+def solved(*loading, cells=CELLS, **more):
+    return solve(scene(*loading, **more), grid(cells), TOLERANCE)
+
+
+def height_map(heights):
+    return HeightMap(file=heights, spacing=SPACING, material=steel())
+
+
+def rough():
+    noise = np.random.default_rng(3).standard_normal((CELLS, CELLS))
+    return height_map(bump(CELLS, SPACING) + 0.02 * APPROACH * noise)
+
+
+def two_bumps():
+    x = (np.arange(CELLS) - 0.5 * (CELLS - 1)) * SPACING
+    one, other = ((x[:, None] - c) ** 2 + x**2 for c in (-0.7 * A, 0.7 * A))
+    return height_map(np.minimum(one, other) / (2 * RADIUS))
+
+
+def mapped_friction():
+    values = np.random.default_rng(4).uniform(0, 2 * MU, (CELLS, CELLS))
+    values[values < 0.3 * MU] = 0
+    return {"map": values}
+
+
+ANGLES = np.linspace(0, 2 * np.pi, 5)
+CIRCLE = [push(0.8 * np.cos(t), 0.8 * np.sin(t), increments=3) for t in ANGLES]
+HISTORIES = {
+    **{f"T = {x} of the limit": ((PRESS, push(x)), {}) for x in (0.99, 0.999, 0.9999, 0.99999)},
+    "T at a slant": ((PRESS, push(0.6, -0.7)), {}),
+    "tiny T": ((PRESS, push(1e-9), push(-1e-9)), {}),
+    "T of round-off": ((PRESS, push(1e-17), push(0.5)), {}),
+    "contact of four cells": (({"normal_force": 1e-4 * LOAD}, push(0.9e-4)), {}),
+    "contact of one cell": (({"normal_force": 1e-9 * LOAD}, push(0.9e-9)), {"cells": 33}),
+    "flat punch": ((PRESS, push(0.99)), {"indenter": INDENTERS["flat punch"]}),
+    "cone": ((PRESS, push(0.9), push(-0.9)), {"indenter": INDENTERS["cone"]}),
+    "ellipsoid across": (
+        ({"normal_force": 0.3 * LOAD}, push(0.15, 0.15)),
+        {"indenter": INDENTERS["ellipsoid"]},
+    ),
+    "T on a circle": ((PRESS, *CIRCLE), {}),
+    "rough surface": ((PRESS, push(0.7), push(-0.3, 0.5, increments=4)), {"indenter": rough()}),
+    "two contacts": (
+        ({"normal_force": 0.1 * LOAD}, push(0.07), push(-0.07)),
+        {"indenter": two_bumps()},
+    ),
+    "little friction": ((PRESS, push(0.9e-5)), {"friction": 1e-6}),
+    "much friction": ((PRESS, push(45), push(-45)), {"friction": 5.0}),
+    "mapped friction": ((PRESS, push(0.6), push(-0.6)), {"friction": mapped_friction()}),
+    "W falls at constant T": (
+        (PRESS, push(0.5), {"normal_force": 0.5 / 0.98 * LOAD, "increments": 6}),
+        {},
+    ),
+    "W and T reversed together": (
+        (PRESS, push(0.8), {"normal_force": 0.85 * LOAD, **push(-0.8, increments=6)}),
+        {},
+    ),
+    "unloading and reloading": (
+        (
+            {**PRESS, **push(0.5, increments=4)},
+            {"normal_force": 0.01 * LOAD, **push(0, increments=4)},
+            {**PRESS, **push(0.5, increments=4)},
+        ),
+        {},
+    ),
+    "shift far beyond sliding and back": ((PRESS, slide(1e3), slide(0), slide(-1e3)), {}),
+    "controls in turn": (
+        ({"approach": APPROACH}, slide(0.5), push(0.3), {"normal_force": LOAD}, slide(-0.5)),
+        {},
+    ),
+}
+
+
+@pytest.mark.parametrize(("loading", "more"), HISTORIES.values(), ids=HISTORIES)
+def test_every_increment_obeys_all_equations(loading, more):
+    energy = 0.0
+    for increment in solved(*loading, **more).increments:
+        assert increment.residuals.worst <= TOLERANCE
+        assert np.all(np.isfinite(increment.pressure))
+        assert np.all(np.isfinite(increment.shear))
+        assert increment.dissipated_energy >= energy
+        assert increment.stick_area <= increment.contact_area
+        energy = increment.dissipated_energy
+
+
+def test_shear_is_on_its_disc_where_it_slips_and_within_where_it_sticks():
+    increment = solved(PRESS, push(0.6)).steps[-1]
+    bound = MU * increment.pressure
+    slips = increment.in_contact & ~increment.in_stick
+    np.testing.assert_allclose(magnitude(increment.shear)[slips], bound[slips], rtol=1e-9)
+    assert np.all(magnitude(increment.shear) <= bound * (1 + 1e-12))
+    assert np.all(increment.slip[:, ~slips] == 0)
+
+
+def test_slip_opposes_shear():
+    increment = solved(PRESS, push(0.6)).steps[-1]
+    slips = increment.in_contact & ~increment.in_stick
+    against = -np.sum(increment.shear * increment.slip, axis=0)[slips]
+    product = (magnitude(increment.shear) * magnitude(increment.slip))[slips]
+    np.testing.assert_allclose(against, product, atol=1e-6 * np.max(product))
+
+
+def test_positive_force_shifts_the_indenter_and_shears_the_body_forward():
+    increment = solved(PRESS, push(0.6)).steps[-1]
+    assert increment.tangential_shift[0] > 0
+    assert np.sum(increment.shear[0]) * 9 * A**2 / CELLS**2 == pytest.approx(0.6 * LIMIT)
+
+
+def test_one_increment_per_branch_is_exact():
+    """For nu = 0 slip keeps its direction; a path of increments ends where one step does."""
+    alike = {"indenter": paraboloid(steel(0)), "body": steel(0)}
+    once = solved(PRESS, push(0.8), push(-0.8), **alike).steps[-1]
+    often = solved(PRESS, push(0.8, increments=6), push(-0.8, increments=6), **alike).steps[-1]
+    # Cells that change from stick to slip on the way do so at the end of an increment.
+    assert np.sum(magnitude(once.shear - often.shear)) < 2e-3 * MU * np.sum(once.pressure)
+    assert once.tangential_shift[0] == pytest.approx(often.tangential_shift[0], rel=1e-3)
+
+
+def test_cycles_after_the_first_repeat():
+    cycle = (push(-0.9), push(0.9))
+    steps = solved(PRESS, push(0.9), *cycle * 4).steps
+    for now, later in zip(steps[3:7], steps[5:], strict=False):
+        np.testing.assert_allclose(later.shear, now.shear, atol=1e-6 * np.max(now.pressure))
+    loops = np.diff([step.dissipated_energy for step in steps[1::2]])
+    np.testing.assert_allclose(loops, loops[0], rtol=1e-6)
+
+
+def test_shear_remembers_the_path():
+    direct = solved(PRESS, push(0.4)).steps[-1]
+    detour = solved(PRESS, push(0.9), push(0.4)).steps[-1]
+    assert np.max(np.abs(detour.shear - direct.shear)) > 0.1 * MU * np.max(direct.pressure)
+
+
+def test_elastic_cycle_under_a_stuck_punch_leaves_nothing_behind():
+    steps = solved(PRESS, push(0.1), push(0), indenter=INDENTERS["flat punch"]).steps
+    assert steps[1].status is ContactStatus.FULL_STICK
+    assert np.max(np.abs(steps[2].shear)) < 1e-8 * np.max(steps[1].shear)
+    np.testing.assert_allclose(steps[2].tangential_shift, 0, atol=1e-8 * APPROACH)
+
+
+@pytest.mark.parametrize(
+    ("x", "status"),
+    [
+        (0.0, ContactStatus.FULL_STICK),
+        (0.5, ContactStatus.PARTIAL_SLIP),
+        (0.9999, ContactStatus.NO_STICK_AREA_LEFT),
+        (1.0, ContactStatus.GROSS_SLIDING),
+    ],
+)
+def test_status_names_how_the_load_is_carried(x, status):
+    # A second step, so that a scene without any push still has its shear solved for.
+    assert solved(PRESS, push(x), *([push(0.1)] if x == 0 else [])).steps[1].status is status
+
+
+def test_at_the_friction_limit_the_traction_is_known_and_the_shift_is_not():
+    increment = solved(PRESS, push(0.6, 0.8)).steps[-1]
+    assert increment.tangential_shift is None
+    assert increment.dissipated_energy is None
+    np.testing.assert_allclose(increment.shear[0], 0.6 * MU * increment.pressure, rtol=1e-12)
+
+
+def test_shift_control_slides_through_to_the_limit():
+    far = solved(PRESS, slide(100)).steps[-1]
+    assert far.status is ContactStatus.GROSS_SLIDING
+    assert far.tangential_force[0] == pytest.approx(LIMIT, rel=1e-3)
+    assert np.sum(far.shear**2) == pytest.approx(np.sum((MU * far.pressure) ** 2), rel=1e-9)
+
+
+def test_sliding_without_friction_under_shift_control_costs_nothing():
+    nothing = {"map": np.zeros((CELLS, CELLS))}
+    for friction in (0.0, nothing):
+        increment = solved(PRESS, slide(1), slide(-1), push(0), friction=friction).steps[-1]
+        assert np.all(increment.shear == 0)
+        assert increment.dissipated_energy == 0
+        np.testing.assert_allclose(
+            increment.slip[0][increment.in_contact], 0.1 * APPROACH, rtol=1e-12
+        )
+
+
+def test_force_beyond_what_a_map_of_friction_carries_is_refused_with_the_limit():
+    with pytest.raises(GrossSliding, match=r"step 2.*exceeds the friction limit"):
+        solved(PRESS, push(0.99), friction={"map": np.full((CELLS, CELLS), 0.5 * MU)})
+
+
+def test_unloading_through_the_limit_is_refused_where_it_happens():
+    with pytest.raises(GrossSliding, match="step 3, increment") as caught:
+        solved({"approach": APPROACH}, push(0.9), {"approach": 0.5 * APPROACH, "increments": 4})
+    assert caught.value.last_state is not None
+
+
+def test_a_history_cannot_go_on_from_the_limit():
+    friction = {"map": np.full((CELLS, CELLS), MU)}
+    loading = scene(PRESS, push(0.5), friction=friction)
+    limit = MU * float(solve(loading, grid(CELLS), TOLERANCE).steps[0].normal_force)
+    with pytest.raises(GrossSliding, match="shift is undefined"):
+        solved(PRESS, {"tangential_force": (limit, 0.0)}, push(0.5), friction=friction)
+
+
+@pytest.mark.parametrize("cells", [(8, 8), (9, 9), (13, 17), (8, 60), (37, 31)])
+def test_any_number_of_cells_will_do(cells):
+    window = SurfaceGrid(cells, (3 * A, 3.3 * A))
+    for increment in solve(scene(PRESS, push(0.7), push(0.3)), window, TOLERANCE).increments:
+        assert increment.residuals.worst <= TOLERANCE
+        assert increment.contact_radius == pytest.approx(A, rel=0.15)

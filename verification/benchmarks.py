@@ -1,0 +1,97 @@
+"""What layers cost: `python -m verification.benchmarks` measures it.
+
+Seconds on a shared machine scatter by a tenth and more, so nothing else judges them: the least of
+several repetitions is taken, and only twice the target is a failure here.
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Iterator
+
+import numpy as np
+
+from contact_scene import Layer
+from semi_analytical.frf.stack import Stack, stack_of
+from semi_analytical.influence.layered import LayeredCoefficients
+from semi_analytical.model import ContactModel
+from semi_analytical.normal import PressureSum, solve_normal
+from semi_analytical.operator import offsets_for
+from verification.cases import paper_scene as paper
+from verification.cases.layered_scene import coated, film, pressed, rigid_ball
+from verification.report.record import Benchmark
+
+COMPONENTS = ("zz", "xx", "yy", "xy", "zx", "zy")
+TOLERANCE = 1e-8
+
+
+def benchmarks() -> Iterator[Benchmark]:
+    """Measure, on one thread if the environment says so."""
+    for cells, target, repeats in ((256, 0.6, 3), (1024, 4.0, 1)):
+        yield Benchmark(
+            name=f"coefficients_{cells}",
+            meaning=f"all six influence coefficients of a body with one layer, {cells} x {cells} "
+            "cells, nothing cached",
+            unit="s",
+            value=min(_coefficients(cells) for _ in range(repeats)),
+            target=target,
+        )
+    yield Benchmark(
+        name="iteration_ratio",
+        meaning="an iteration of the pressure solver with a coating over one without, "
+        "256 x 256 cells, per convolution",
+        unit="",
+        value=_iteration_ratio(256, 7),
+        target=1.05,
+    )
+
+
+def _coefficients(cells: int) -> float:
+    stack: Stack = stack_of(coated(film(2.0, 1.0)))
+    grid = paper.hertz_grid(cells)
+    started = time.perf_counter()
+    coefficients = LayeredCoefficients(stack, grid.spacing, offsets_for(grid.cells))
+    for name in COMPONENTS:
+        getattr(coefficients, name)
+    return time.perf_counter() - started
+
+
+def _iteration_ratio(cells: int, repeats: int) -> float:
+    """Least seconds per convolution with a coating over those without, measured in turns."""
+    solves = [_solve(cells, *layers) for layers in ((film(2.0, 1.0),), ())]
+    seconds = [[solve() for solve in solves] for _ in range(repeats)]
+    with_coating, without = (min(column) for column in zip(*seconds, strict=True))
+    return with_coating / without
+
+
+def _solve(cells: int, *layers: Layer) -> Callable[[], float]:
+    """A pressure solve on the whole window, operator ready; gives its seconds per convolution."""
+    grid = paper.hertz_grid(cells)
+    model = ContactModel.of(pressed("benchmark", rigid_ball(), coated(*layers)), grid)
+    operator = model.normal_operator(grid.cells)
+    load = PressureSum(paper.NORMAL_FORCE / grid.cell_area)
+    start = np.ones(grid.cells)
+
+    def solve() -> float:
+        before, started = model.convolutions.count, time.perf_counter()
+        solve_normal(operator, operator.precondition, model.gap, load, start, TOLERANCE)
+        return (time.perf_counter() - started) / (model.convolutions.count - before)
+
+    return solve
+
+
+def main() -> None:
+    """Print the table; exit code 1 if a cost is far over its target."""
+    from verification.cli.terminal import print_table
+
+    measured = list(benchmarks())
+    rows = [
+        (b.name, f"{b.value:.3g} {b.unit}", f"{b.target:g} {b.unit}", b.outcome, b.meaning)
+        for b in measured
+    ]
+    print_table(("benchmark", "measured", "target", "", "what"), rows)
+    raise SystemExit(any(b.outcome == "far over" for b in measured))
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,1 @@
+"""The computations of the sliding studies, each a case that runs in a process of its own."""
