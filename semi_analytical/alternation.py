@@ -28,7 +28,7 @@ from semi_analytical.tangential import TangentialSolution, solve_tangential
 
 MOST_ROUNDS = 150
 # Part of its residual that each inner solve leaves: as much as a round of weak coupling does.
-ENOUGH = 0.05
+ENOUGH = 0.1
 REMEMBERED = 20
 
 

@@ -58,9 +58,9 @@ def solve_coupled_increment(
             "the increment before reached the friction limit under force control, where the "
             "shift is undefined, so the history cannot go on; prescribe tangential_shift instead"
         )
-    if tangential.force is not None and normal.force is not None:
-        largest = float(np.max(model.friction_coefficient)) * normal.force
-        reaches_limit(tangential.force, largest)
+    mu = model.friction_coefficient
+    if isinstance(mu, float) and tangential.force is not None and normal.force is not None:
+        reaches_limit(tangential.force, mu * normal.force)
     start, iterations = _start(model, before, normal)
     box = box_around((start > 0) | (last.shear[0] != 0), MARGIN)
     whole = Box.whole(model.grid.cells)
@@ -69,7 +69,7 @@ def solve_coupled_increment(
     for _ in range(MOST_ATTEMPTS):
         problem = _problem(model, box, last, normal, tangential)
         inside = (..., *box.slices)
-        solution = solve_coupled(problem, start[inside], shear[inside], last.shift, 0.5 * aim)
+        solution = solve_coupled(problem, start[inside], shear[inside], last.shift, 0.8 * aim)
         iterations += solution.iterations
         trial = _Trial(model, last, normal, tangential, box, solution, iterations)
         state, g = trial.state()

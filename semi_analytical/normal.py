@@ -21,6 +21,7 @@ Map = Callable[[Field], Field]
 
 MOST_STEPS = 200
 MOST_ITERATIONS_PER_STEP = 200
+MOST_HALVINGS = 8
 
 
 @dataclass(frozen=True)
@@ -120,16 +121,7 @@ def solve_normal(
         contact = allowed & ((p > 0) | (g < 0))
         newton, newton_u, spent = _solve_on(contact, problem, p, u, delta, depth)
         iterations += spent
-        target = newton
-        if np.min(newton) < 0:
-            target = problem.admissible(newton)
-            newton_u = displace(target)
-        d, d_u = target - p, newton_u - u
-        slope, curvature = np.sum(d * g), np.sum(d * d_u)
-        if slope + 0.5 * curvature <= 0.1 * slope:
-            p, u = target, newton_u
-        else:
-            p, u = _gradient_step(problem, p, u, g)
+        p, u = _step_toward(newton, newton_u, problem, p, u, g)
     raise NotConverged("the pressure", iterations, residual, tolerance)
 
 
@@ -170,6 +162,29 @@ def _solve_on(
         rz, last = np.sum(r * z), rz
         t = z + (rz / last) * t
     return p, u, iterations
+
+
+def _step_toward(
+    newton: Field, newton_u: Field, problem: _Problem, p: Field, u: Field, g: Field
+) -> tuple[Field, Field]:
+    """To the Newton point, cut off at zero, or half as far until the energy falls enough.
+
+    Under a stiff coating pressed cells lift others; cutting off their tension all at once may
+    raise the energy again and again.
+    """
+    step = 1.0
+    for _ in range(MOST_HALVINGS):
+        target = newton if step == 1 else p + step * (newton - p)
+        target_u = newton_u if step == 1 else u + step * (newton_u - u)
+        if np.min(target) < 0:
+            target = problem.admissible(target)
+            target_u = problem.displace(target)
+        d, d_u = target - p, target_u - u
+        slope, curvature = np.sum(d * g), np.sum(d * d_u)
+        if slope + 0.5 * curvature <= 0.1 * slope:
+            return target, target_u
+        step /= 2
+    return _gradient_step(problem, p, u, g)
 
 
 def _gradient_step(problem: _Problem, p: Field, u: Field, g: Field) -> tuple[Field, Field]:

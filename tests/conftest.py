@@ -56,3 +56,9 @@ def pytest_make_collect_report() -> Generator[None, pytest.CollectReport, pytest
     report = yield
     _forbid_skip(report)
     return report
+
+
+@pytest.fixture(autouse=True, scope="session")
+def own_cache(tmp_path_factory: pytest.TempPathFactory) -> None:
+    """Neither read nor fill the cache of whoever runs the tests; subprocesses inherit this."""
+    os.environ["SLIPSTICK_CACHE_DIR"] = str(tmp_path_factory.mktemp("cache"))

@@ -4,7 +4,10 @@ import numpy as np
 import pytest
 from contact_scenes import LOAD, PRESS, RIGID_BALL, A, grid, push, scene
 
-from semi_analytical import SurfaceGrid, pressing, solve
+from semi_analytical import SurfaceGrid, plan, pressing, solve
+from semi_analytical.box import box_around
+from semi_analytical.history import march
+from semi_analytical.model import ContactModel
 from semi_analytical.normal import solve_normal
 from semi_analytical.operator import NormalOperator, TangentialOperator
 
@@ -97,6 +100,17 @@ def test_convolutions_count_what_was_convolved(calls):
         (result.increments[1], TangentialOperator, 2),
     ]:
         assert increment.convolutions == price * sum(kind is made for made, _ in calls)
+
+
+def test_a_growing_contact_does_not_gather_operators():
+    problem = scene({**PRESS, **push(0.5), "increments": 8})
+    model = ContactModel.of(problem, grid(128))
+    boxes = set()
+    for increment in march(model, plan(problem), TOLERANCE):
+        boxes.add(box_around(increment.in_contact, 4).shape)
+        assert len(model._normal) <= 2
+        assert len(model._tangential) <= 2
+    assert len(boxes) > 3
 
 
 def test_fields_are_reported_on_the_whole_window():

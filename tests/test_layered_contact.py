@@ -45,14 +45,16 @@ def test_two_bodies_of_half_the_compliance_are_one() -> None:
     assert np.abs(both.pressure - one.pressure).max() < 1e-8 * one.pressure.max()
 
 
-@pytest.mark.parametrize("contrast", [1e2, 1e4, 1e6])
-def test_stiff_coating_bends_over_its_base(contrast: float) -> None:
-    """The spectrum of its coefficients has negative entries, which the solver must not mind."""
-    lower = body(material(1.0), (1.0, material(contrast)))
+@pytest.mark.parametrize(
+    ("contrast", "thickness"), [(1e2, 1.0), (1e4, 1.0), (1e6, 1.0), (30.0, 0.1), (1e3, 0.1)]
+)
+def test_stiff_coating_bends_over_its_base(contrast: float, thickness: float) -> None:
+    """The spectrum of its coefficients has negative entries, and pressed cells lift others."""
+    lower = body(material(1.0), (thickness, material(contrast)))
     exact = paraboloid(surface_of(lower), RADIUS, 1.0)
     end = solve(pressed(lower, normal_force=exact.load), GRID, 1e-8).steps[-1]
-    assert end.approach == pytest.approx(exact.approach, rel=1e-4)
-    assert end.contact_radius == pytest.approx(1, rel=1e-2)
+    assert end.approach == pytest.approx(exact.approach, rel=2e-4)
+    assert end.contact_radius == pytest.approx(1, rel=4e-2)
 
 
 @pytest.mark.parametrize("thickness", [1e-12, 1e3])

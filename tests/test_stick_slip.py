@@ -24,6 +24,7 @@ from contact_scene import HeightMap
 from contact_scene.summary import ContactStatus
 from semi_analytical import GrossSliding, SurfaceGrid, solve
 from semi_analytical.admissible_shear import magnitude
+from semi_analytical.model import ContactModel
 
 TOLERANCE = 1e-8
 CELLS = 32
@@ -130,6 +131,20 @@ def test_slip_opposes_shear():
     against = -np.sum(increment.shear * increment.slip, axis=0)[slips]
     product = (magnitude(increment.shear) * magnitude(increment.slip))[slips]
     np.testing.assert_allclose(against, product, atol=1e-6 * np.max(product))
+
+
+def test_slip_is_the_displacement_of_the_surfaces_past_each_other():
+    """Summed over any history, eq. (4) of the paper holds for cells that were always in contact."""
+    problem = scene(PRESS, push(0.8), push(-0.7, increments=3), push(0.2, 0.4, increments=3))
+    model = ContactModel.of(problem, grid(CELLS))
+    for increment in solve(problem, grid(CELLS), TOLERANCE).increments:
+        u = model.tangential_operator((CELLS, CELLS))(increment.shear)
+        expected = u - increment.tangential_shift[:, None, None]
+        np.testing.assert_allclose(
+            increment.slip[:, increment.in_contact],
+            expected[:, increment.in_contact],
+            atol=1e-6 * APPROACH,
+        )
 
 
 def test_positive_force_shifts_the_indenter_and_shears_the_body_forward():

@@ -23,6 +23,7 @@ from verification.cases.near_sliding import near_sliding
 from verification.cases.paper_fretting_loop import paper_fretting_loop
 from verification.cases.sampling_route import sampling_route
 from verification.cases.sheared_cone import sheared_cone
+from verification.cases.subsurface_stress import subsurface_stress
 from verification.cases.thin_layer import thin_layer
 
 CASES: tuple[Callable[[Level], Case], ...] = (
@@ -43,6 +44,7 @@ CASES: tuple[Callable[[Level], Case], ...] = (
     layered_identities,
     thin_layer,
     film_stiffness,
+    subsurface_stress,
     layered_reference,
     frf_laws,
     classical_forms,

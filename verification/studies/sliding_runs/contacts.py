@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cached_property
 
 from contact_scene import (
     Body,
@@ -48,7 +47,7 @@ class CoatedContact:
     @property
     def contact_radius(self) -> float:
         """Without friction [length]."""
-        return self._pressed.contact_radius
+        return exact_contact(self._body).contact_radius
 
     @property
     def sliding_displacements(self) -> tuple[float, float]:
@@ -84,10 +83,6 @@ class CoatedContact:
     @property
     def _body(self) -> Body:
         return coated(film(self.modulus_ratio, 1.0))
-
-    @cached_property
-    def _pressed(self):  # type: ignore[no-untyped-def]
-        return exact_contact(self._body)
 
 
 @dataclass(frozen=True)

@@ -99,15 +99,11 @@ def point_of(increment: Increment, before: Increment | None) -> SlidingPoint:
 
 def path_of(result: Result, first_step: int, seconds: float) -> SlidingPath:
     """The increments of a result from the end of the step before `first_step` on."""
-    increments = [i for i in result.increments if i.step >= first_step - 1]
-    start = max(n for n, i in enumerate(increments) if i.step < first_step)
-    shown = increments[start:]
-    return joined(
-        result,
-        [point_of(i, b) for i, b in zip(shown, [None, *shown[:-1]], strict=True)],
-        result.increments,
-        seconds,
-    )
+    increments = result.increments
+    start = sum(i.step < first_step for i in increments) - 1
+    before = [None, *increments]
+    points = [point_of(increments[n], before[n]) for n in range(start, len(increments))]
+    return joined(result, points, increments, seconds)
 
 
 def joined(

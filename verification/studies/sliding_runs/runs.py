@@ -10,7 +10,7 @@ from typing import ClassVar
 import numpy as np
 
 from contact_scene import LoadStep
-from semi_analytical import solve
+from semi_analytical import Result, solve
 from verification.cases.case import SOLVER_TOLERANCE
 from verification.cases.paper_scene import FRICTION_LIMIT, NORMAL_FORCE
 from verification.studies.sliding_runs.contacts import Contact
@@ -96,6 +96,13 @@ class ForceRun:
         return path_of(result, 2, time.perf_counter() - started)
 
 
+def shifts_to(contact: Contact, steps: Steps) -> list[float]:
+    """Shifts at the ends of the increments: fine ones to full slip, others beyond."""
+    fine = FINE_REACH * contact.sliding_scale
+    near = np.linspace(0, fine, steps.tangential + 1)[1:]
+    return [*near.tolist(), *np.linspace(fine, contact.beyond_sliding, steps.beyond + 1)[1:].tolist()]
+
+
 class ShortPath(StrEnum):
     """Ways to each shift that skip the history."""
 
@@ -111,17 +118,15 @@ class ShortPathRun:
     contact: Contact
     cells: int
     path: ShortPath
-    shifts: int
+    steps: Steps
 
     @property
     def name(self) -> str:
-        return f"{self.contact.name}-{self.path}-{self.cells}-{self.shifts}"
+        return f"{self.contact.name}-{self.path}-{self.cells}-{self.steps.text}"
 
     def compute(self) -> SlidingPath:
         started = time.perf_counter()
-        reach = FINE_REACH * self.contact.sliding_scale
-        shifts = [*np.linspace(0, reach, self.shifts + 1)[1:], self.contact.beyond_sliding]
-        results = [self._solved(float(shift)) for shift in shifts]
+        results = [self._solved(shift) for shift in shifts_to(self.contact, self.steps)]
         before = [r.increments[-2] if len(r.increments) > 1 else None for r in results]
         points = [
             point_of(r.increments[-1], b) for r, b in zip(results, before, strict=True)
@@ -129,7 +134,7 @@ class ShortPathRun:
         increments = [i for r in results for i in r.increments]
         return joined(results[-1], points, increments, time.perf_counter() - started)
 
-    def _solved(self, shift: float):  # type: ignore[no-untyped-def]
+    def _solved(self, shift: float) -> Result:
         if self.path is ShortPath.TOTAL:
             loading = [
                 LoadStep(

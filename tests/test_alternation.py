@@ -1,0 +1,205 @@
+"""The coupled solver on small dense problems: the laws of contact and friction, and another way."""
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from random_compliance import as_map, compliance, rough_inverse
+
+from semi_analytical import alternation
+from semi_analytical.admissible_shear import FixedShift, ShearSum, magnitude, project_on_discs
+from semi_analytical.alternation import CoupledProblem, solve_coupled
+from semi_analytical.errors import NotConverged
+from semi_analytical.normal import FixedApproach, PressureSum
+
+TOLERANCE = 1e-11
+SHAPE = (3, 4)
+CELLS = 12
+NO_SHIFT = np.zeros(2)
+ANGLES = st.floats(0, 2 * np.pi)
+
+
+class DenseContact:
+    """Bodies of a few cells that answer any traction (q_x, q_y, p) by a symmetric matrix."""
+
+    def __init__(self, seed, friction, coupling=1.0):
+        rng = np.random.default_rng(seed)
+        self.matrix = compliance(rng, 3 * CELLS)
+        self.matrix[2 * CELLS :, : 2 * CELLS] *= coupling
+        self.matrix[: 2 * CELLS, 2 * CELLS :] *= coupling
+        self.gap = 3 * rng.random(SHAPE)
+        self.gap.flat[0] = 0.0
+        self.target = 0.3 * rng.standard_normal((2, *SHAPE))
+        self.friction = friction
+
+    def displacements(self, p, q):
+        u = self.matrix @ np.concatenate([q.ravel(), p.ravel()])
+        return u[2 * CELLS :].reshape(SHAPE), u[: 2 * CELLS].reshape(2, *SHAPE)
+
+    def problem(self, normal_load, tangential_load):
+        tangent, normal = np.split(np.arange(3 * CELLS), [2 * CELLS])
+        A_tt, A_zz = self.matrix[np.ix_(tangent, tangent)], self.matrix[np.ix_(normal, normal)]
+        A_zt = self.matrix[np.ix_(normal, tangent)]
+        return CoupledProblem(
+            normal=as_map(A_zz),
+            precondition_normal=rough_inverse(A_zz),
+            shear=as_map(A_tt),
+            precondition_shear=rough_inverse(A_tt),
+            normal_by_shear=lambda q: (A_zt @ q.ravel()).reshape(SHAPE),
+            shear_by_pressure=lambda p: (A_zt.T @ p.ravel()).reshape(2, *SHAPE),
+            gap=self.gap,
+            friction_coefficient=self.friction,
+            target=self.target,
+            normal_load=normal_load,
+            tangential_load=tangential_load,
+            self_compliance=float(np.mean(np.diag(A_tt))),
+        )
+
+    def solved(self, normal_load, tangential_load, tolerance=TOLERANCE):
+        problem = self.problem(normal_load, tangential_load)
+        return solve_coupled(problem, np.ones(SHAPE), np.zeros((2, *SHAPE)), NO_SHIFT, tolerance)
+
+    def by_small_steps(self, approach, shift):
+        """Relax each cell on its own, pressure and shear at once: slow, and quite another way."""
+        p, q = np.ones(SHAPE), np.zeros((2, *SHAPE))
+        step = 0.5 / np.linalg.norm(self.matrix, 2)
+        for _ in range(20000):
+            u_z, u_t = self.displacements(p, q)
+            p = np.maximum(p - step * (self.gap + u_z - approach), 0.0)
+            slip = shift[:, None, None] + self.target - u_t
+            q = project_on_discs(q + step * slip, self.friction * p)
+        return p, q
+
+
+def assert_lawful(contact, solution):
+    """No tension, no overlap, no gap under pressure; sticks inside the disc, slips on its edge."""
+    p, q = solution.pressure, solution.shear
+    u_z, u_t = contact.displacements(p, q)
+    g = contact.gap + u_z - solution.approach
+    slip = solution.shift[:, None, None] + contact.target - u_t
+    bound = contact.friction * p
+    assert np.all(p >= 0)
+    assert np.all(g >= -1e-9)
+    assert np.max(np.abs(g * p)) <= 1e-8 * np.max(p)
+    assert np.all(magnitude(q) <= bound + 1e-12 * np.max(p))
+    assert np.all(magnitude(slip)[(p > 0) & ~solution.in_slip] <= 1e-7)
+    against = bound * magnitude(slip) - np.sum(q * slip, axis=0)
+    assert np.max(against) <= 1e-8 * np.max(bound) * (1 + np.max(magnitude(slip)))
+
+
+SEEDS = st.integers(0, 2**32 - 1)
+FRICTION = st.sampled_from([0.01, 0.3, 1.0])
+
+
+@given(SEEDS, FRICTION, st.sampled_from([0.0, 0.3, 0.95]), ANGLES)
+def test_under_forces_all_laws_hold_and_the_loads_are_carried(seed, friction, part, angle):
+    contact, total = DenseContact(seed, friction), 7.0
+    force = part * friction * total * np.array([np.cos(angle), np.sin(angle)])
+    solution = contact.solved(PressureSum(total), ShearSum(force))
+    assert_lawful(contact, solution)
+    assert np.sum(solution.pressure) == pytest.approx(total, rel=1e-12)
+    np.testing.assert_allclose(np.sum(solution.shear, axis=(1, 2)), force, atol=1e-11 * total)
+
+
+@given(SEEDS, FRICTION, st.sampled_from([0.0, 0.3, 30.0]), ANGLES)
+def test_under_prescribed_motions_all_laws_hold(seed, friction, size, angle):
+    contact = DenseContact(seed, friction, coupling=0.5)
+    shift = size * np.array([np.cos(angle), np.sin(angle)])
+    solution = contact.solved(FixedApproach(2.0), FixedShift(shift))
+    assert solution.approach == 2.0
+    np.testing.assert_array_equal(solution.shift, shift)
+    assert_lawful(contact, solution)
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_relaxing_cell_by_cell_ends_in_the_same_state(seed):
+    contact, shift = DenseContact(seed, 0.3), np.array([0.2, -0.1])
+    solution = contact.solved(FixedApproach(1.5), FixedShift(shift))
+    p, q = contact.by_small_steps(1.5, shift)
+    assert np.any(p == 0)
+    assert 0 < np.count_nonzero(solution.in_slip) < np.count_nonzero(p)
+    np.testing.assert_allclose(solution.pressure, p, atol=1e-8)
+    np.testing.assert_allclose(solution.shear, q, atol=1e-8)
+
+
+def test_force_and_motion_control_meet(rng):
+    contact = DenseContact(5, 0.3)
+    forced = contact.solved(PressureSum(7.0), ShearSum(np.array([0.8, -0.4])))
+    moved = contact.solved(FixedApproach(forced.approach), FixedShift(forced.shift))
+    np.testing.assert_allclose(moved.pressure, forced.pressure, atol=1e-8)
+    np.testing.assert_allclose(moved.shear, forced.shear, atol=1e-8)
+
+
+@pytest.fixture
+def plain(monkeypatch):
+    """Each round starts from the answer of the last one."""
+    monkeypatch.setattr(alternation._Anderson, "next", lambda self, p, answer: answer)
+
+
+LOADS = PressureSum(7.0), ShearSum(np.array([0.5, 0.3]))
+
+
+def test_plain_alternation_agrees_where_it_converges(plain, monkeypatch):
+    contact = DenseContact(6, 0.3, coupling=0.3)
+    slowly = contact.solved(*LOADS)
+    monkeypatch.undo()
+    quickly = contact.solved(*LOADS)
+    assert quickly.rounds <= slowly.rounds
+    np.testing.assert_allclose(quickly.pressure, slowly.pressure, atol=1e-9)
+    np.testing.assert_allclose(quickly.shear, slowly.shear, atol=1e-9)
+
+
+def test_strong_coupling_needs_the_extrapolation(plain, monkeypatch):
+    contact = DenseContact(7, 3.0)
+    with pytest.raises(NotConverged, match="coupled increment"):
+        contact.solved(*LOADS)
+    monkeypatch.undo()
+    assert_lawful(contact, contact.solved(*LOADS))
+
+
+def test_a_stop_above_the_tolerance_is_an_error(monkeypatch):
+    monkeypatch.setattr(alternation, "MOST_ROUNDS", 2)
+    with pytest.raises(NotConverged) as caught:
+        DenseContact(8, 0.3).solved(*LOADS)
+    assert caught.value.residual > caught.value.tolerance == TOLERANCE
+
+
+def test_a_start_that_solves_the_problem_takes_one_round():
+    contact = DenseContact(9, 0.3)
+    first = contact.solved(*LOADS)
+    again = solve_coupled(
+        contact.problem(*LOADS), first.pressure, first.shear, first.shift, 10 * TOLERANCE
+    )
+    assert (again.rounds, again.iterations) == (1, 0)
+
+
+def test_a_start_in_equilibrium_with_the_wrong_shear_is_not_taken_for_the_answer():
+    """The pressure fits the first shear, the shear does not fit the load: only a look at both
+    residuals tells."""
+    contact = DenseContact(10, 0.3)
+    before = contact.solved(PressureSum(7.0), ShearSum(np.zeros(2)))
+    after = solve_coupled(
+        contact.problem(*LOADS), before.pressure, before.shear, before.shift, TOLERANCE
+    )
+    assert after.rounds > 1
+    assert_lawful(contact, after)
+
+
+@pytest.mark.parametrize("excess", [1.0, 1.5])
+def test_at_and_beyond_the_friction_limit_all_slips_along_the_force(excess):
+    contact, direction = DenseContact(11, 0.2), np.array([0.6, 0.8])
+    solution = contact.solved(PressureSum(7.0), ShearSum(excess * 0.2 * 7.0 * direction))
+    assert solution.at_limit
+    assert np.all(solution.in_slip == (solution.pressure > 0))
+    expected = 0.2 * solution.pressure * direction[:, None, None]
+    np.testing.assert_allclose(solution.shear, expected, atol=1e-14)
+    u_z, _ = contact.displacements(solution.pressure, solution.shear)
+    g = contact.gap + u_z - solution.approach
+    assert np.max(np.abs(g * solution.pressure)) <= 1e-8 * np.max(solution.pressure)
+
+
+@pytest.mark.parametrize("load", [ShearSum(np.zeros(2)), FixedShift(np.array([0.3, 0.0]))])
+def test_without_friction_there_is_no_shear(load):
+    solution = DenseContact(12, 0.0).solved(PressureSum(7.0), load)
+    assert solution.at_limit
+    assert not np.any(solution.shear)

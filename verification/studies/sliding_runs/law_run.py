@@ -1,0 +1,95 @@
+"""Cases of the gross-sliding study under other readings of the law of friction."""
+
+from __future__ import annotations
+
+import time
+from dataclasses import dataclass
+from typing import ClassVar
+
+import numpy as np
+
+from contact_scene import LoadStep
+from contact_scene.summary import ContactStatus
+from semi_analytical import solve
+from semi_analytical.model import ContactModel
+from verification.cases.case import SOLVER_TOLERANCE
+from verification.cases.paper_scene import FRICTION, FRICTION_LIMIT, NORMAL_FORCE
+from verification.quantities import shear_of
+from verification.studies.sliding_runs.contacts import Contact
+from verification.studies.sliding_runs.friction_laws import (
+    FixedPressure,
+    FrictionLaw,
+    Held,
+    at_rest,
+    shifted,
+)
+from verification.studies.sliding_runs.path import SlidingPath, SlidingPoint, mean_cosine
+from verification.studies.sliding_runs.runs import Steps, shifts_to
+
+SLIDING = 1e-6
+
+
+@dataclass(frozen=True)
+class LawRun:
+    """Press with the product's solver, then shift at that pressure under one reading."""
+
+    record_type: ClassVar = SlidingPath
+    contact: Contact
+    cells: int
+    steps: Steps
+    law: FrictionLaw
+
+    @property
+    def name(self) -> str:
+        return f"{self.contact.name}-{self.law}-{self.cells}-{self.steps.text}"
+
+    def compute(self) -> SlidingPath:
+        started = time.perf_counter()
+        grid = self.contact.grid(self.cells)
+        scene = self.contact.scene(
+            LoadStep(normal_force=NORMAL_FORCE, increments=self.steps.normal)
+        )
+        pressed = solve(scene, grid, SOLVER_TOLERANCE).increments[-1]
+        model = ContactModel.of(scene, grid)
+        problem = FixedPressure.of(
+            model.tangential_operator(grid.cells),
+            FRICTION * pressed.pressure,
+            model.self_compliance,
+        )
+        state, shift = at_rest(problem, shear_of(pressed)), 0.0
+        points = [_point(problem, state, shift, grid.cell_area)]
+        for next_shift in shifts_to(self.contact, self.steps):
+            state = shifted(problem, self.law, state, next_shift - shift)
+            shift = next_shift
+            points.append(_point(problem, state, shift, grid.cell_area))
+        return SlidingPath(
+            points=tuple(points),
+            cell_over_radius=grid.spacing[0] / pressed.contact_radius,
+            increments=len(points),
+            halvings=0,
+            convolutions=int(model.convolutions.count),
+            seconds=time.perf_counter() - started,
+        )
+
+
+def _point(problem: FixedPressure, state: Held, shift: float, cell_area: float) -> SlidingPoint:
+    contact = np.count_nonzero(problem.bound)
+    force = float(np.sum(state.shear[0])) * cell_area / FRICTION_LIMIT
+    sticking = int(np.count_nonzero(state.in_stick))
+    return SlidingPoint(
+        shift=shift,
+        force=force,
+        stick_fraction=sticking / contact,
+        stick_cells=sticking,
+        mean_cosine=mean_cosine(problem.bound, state.shear),
+        full_slip=sticking == 0,
+        status=_status(sticking, force),
+        residual=state.residual,
+    )
+
+
+def _status(sticking: int, force: float) -> ContactStatus:
+    if sticking:
+        return ContactStatus.PARTIAL_SLIP
+    sliding = force >= 1 - SLIDING
+    return ContactStatus.GROSS_SLIDING if sliding else ContactStatus.NO_STICK_AREA_LEFT
