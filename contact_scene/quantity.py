@@ -151,5 +151,5 @@ PoissonRatio = Annotated[
 ]
 FrictionCoefficient = Annotated[float, Quantity(PURE_NUMBER, "a number not below 0", at_least=0.0)]
 Tolerance = Annotated[
-    float, Quantity(PURE_NUMBER, "a number above 1e-14 and at most 0.1", above=1e-14, at_most=0.1)
+    float, Quantity(PURE_NUMBER, "a number from 1e-12 to 0.1", at_least=1e-12, at_most=0.1)
 ]

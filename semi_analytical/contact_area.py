@@ -77,9 +77,9 @@ def _fit(
     use = np.pad(trusted, pad)[at]
     weight = use * np.exp(-(di**2 + dj**2) / (2 * LENGTH**2))
     basis = np.stack([np.ones_like(di), di, dj, di * di, di * dj, dj * dj], axis=-1).astype(float)
-    normal = np.einsum("nk,ka,kb->nab", weight, basis, basis)
-    scale = np.max(phi)
-    right = np.einsum("nk,ka->na", weight * (np.pad(phi, pad)[at] / scale), basis)
+    products = (basis[:, :, None] * basis[:, None, :]).reshape(-1, 36)
+    normal = (weight @ products).reshape(-1, 6, 6)
+    right = (weight * (np.pad(phi, pad)[at] / np.max(phi))) @ basis
     mean = right[:, 0] / np.maximum(normal[:, 0, 0], 1e-30)
     # The ridge decides only what the cells at hand do not.
     normal += 1e-9 * np.eye(6) * (np.trace(normal, axis1=1, axis2=2)[:, None, None] + 1e-30)

@@ -69,7 +69,9 @@ def _fitted_window(scene: Scene) -> tuple[float, float]:
             return fitted
         window = fitted
     raise ContactAtWindowEdge(
-        "no window was found that holds the contact; give one in [semi_analytical]"
+        "no window was found that holds the contact: either it goes on to the end of the shape (a "
+        "sphere pressed to its equator) or it is far larger than expected; give a window in "
+        "[semi_analytical]"
     )
 
 

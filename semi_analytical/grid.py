@@ -10,12 +10,19 @@ from numpy.typing import NDArray
 class SurfaceGrid:
     """Rectangular cells on a window centred at the origin of the contact plane.
 
-    cells   number of cells along x and y
-    window  side lengths of the window [length]
+    cells   number of cells along x and y, at least 2 each
+    window  side lengths of the window [length], positive
+    Raises ValueError for anything else.
     """
 
     cells: tuple[int, int]
     window: tuple[float, float]
+
+    def __post_init__(self) -> None:
+        if min(self.cells) < 2:
+            raise ValueError(f"a grid of {self.cells} cells: give at least 2 along each side")
+        if not all(0 < side < np.inf for side in self.window):
+            raise ValueError(f"a window of {self.window}: give two positive lengths")
 
     @property
     def spacing(self) -> tuple[float, float]:

@@ -165,9 +165,10 @@ class TangentialOperator:
         np.multiply(self._xx, q_x, out=u)
         u += self._xy * q_y
         displacement[0] = self._transform.inverse(u)
-        np.multiply(self._yy, q_y, out=u)
-        u += self._xy * q_x
-        displacement[1] = self._transform.inverse(u)
+        q_x *= self._xy
+        q_y *= self._yy
+        q_y += q_x
+        displacement[1] = self._transform.inverse(q_y)
         return displacement
 
     def precondition(self, displacement: Field) -> Field:

@@ -1,5 +1,7 @@
 """Scenes whose pressure and shear act on each other: a rigid ball on soft or coated bodies."""
 
+from dataclasses import replace
+
 from contact_scenes import LOAD, MU, RADIUS, A
 
 from contact_scene import (
@@ -58,8 +60,6 @@ def push(x, y=0.0, *, friction=MU, increments=2, **more) -> dict:
 
 def coupled_increments(described, grid, tolerance=1e-8):
     """All increments by the coupled solver, called for or not."""
-    from dataclasses import replace
-
     model = ContactModel.of(described, grid)
     forced = replace(plan(described), shear=True, coupling=True)
     return list(march(model, forced, tolerance))

@@ -10,6 +10,12 @@ from semi_analytical.admissible_shear import magnitude, project, project_on_disc
 ROUND_OFF = 1e-12
 
 
+def round_off(problem):
+    """Of a projected shear: its own, and what was lost where a long vector was cut to the disc."""
+    y, bound, _ = problem
+    return ROUND_OFF * np.max(bound) + 1e-14 * np.max(np.abs(y))
+
+
 @st.composite
 def problems(draw):
     """Any shear, a friction limit with zeros in it, and a sum that it can carry."""
@@ -24,9 +30,10 @@ def problems(draw):
     return y, bound, total
 
 
-def assert_feasible(q, bound, total):
+def assert_feasible(q, problem):
+    _, bound, total = problem
     assert np.all(magnitude(q) <= bound * (1 + ROUND_OFF))
-    assert np.max(np.abs(np.sum(q, axis=(1, 2)) - total)) <= ROUND_OFF * np.sum(bound)
+    assert np.max(np.abs(np.sum(q, axis=(1, 2)) - total)) <= bound.size * round_off(problem)
 
 
 def other_admissible(problem, rng):
@@ -46,7 +53,7 @@ def other_admissible(problem, rng):
 @given(problems())
 def test_projection_is_feasible(problem):
     q, _ = project(*problem)
-    assert_feasible(q, *problem[1:])
+    assert_feasible(q, problem)
 
 
 @given(problems())
@@ -55,16 +62,16 @@ def test_projection_is_shifted_shear_cut_off_at_the_discs(problem):
     y, bound, total = problem
     q, multiplier = project(y, bound, total)
     expected = project_on_discs(y + multiplier[:, None, None], bound)
-    np.testing.assert_allclose(q, expected, rtol=0, atol=1e-11 * np.max(bound))
+    np.testing.assert_allclose(q, expected, rtol=0, atol=10 * round_off(problem))
 
 
 @given(problems(), st.integers(0, 2**32 - 1))
 def test_nothing_admissible_is_nearer(problem, seed):
     """The variational inequality (y - q)·(z - q) <= 0 for every admissible z."""
-    y, bound, total = problem
+    y, bound, _ = problem
     q, _ = project(*problem)
     z = other_admissible(problem, np.random.default_rng(seed))
-    assert_feasible(z, bound, total)
+    assert_feasible(z, problem)
     scale = np.max(np.abs(y - q)) * np.sum(bound)
     assert np.sum((y - q) * (z - q)) <= 1e-11 * scale
 
@@ -74,7 +81,7 @@ def test_projecting_twice_changes_nothing(problem):
     _, bound, total = problem
     q, _ = project(*problem)
     again, _ = project(q, bound, total)
-    np.testing.assert_allclose(again, q, rtol=0, atol=1e-11 * np.max(bound))
+    np.testing.assert_allclose(again, q, rtol=0, atol=bound.size * round_off(problem))
 
 
 @given(problems())
@@ -82,7 +89,8 @@ def test_projection_does_not_depend_on_the_guess(problem):
     y, bound, total = problem
     q, multiplier = project(y, bound, total)
     again, _ = project(y, bound, total, multiplier + np.array([0.3, -2.0]) * np.max(bound))
-    np.testing.assert_allclose(again, q, rtol=0, atol=1e-9 * np.max(bound))
+    # Close to the limit λ is long and known to round-off relative to its length.
+    np.testing.assert_allclose(again, q, rtol=0, atol=1e-7 * np.max(bound))
 
 
 @pytest.mark.parametrize("part", [1e-30, 1e-15, 1e-9, 1e-3])
@@ -97,8 +105,9 @@ def test_a_tiny_sum_is_carried_to_its_own_precision(part, rng):
 def test_near_the_limit_every_cell_is_nearly_on_its_disc_along_the_sum(distance, rng):
     bound = rng.random((9, 9))
     total = (1 - distance) * np.sum(bound) * np.array([0.6, -0.8])
-    q, _ = project(rng.standard_normal((2, 9, 9)), bound, total)
-    assert_feasible(q, bound, total)
+    problem = rng.standard_normal((2, 9, 9)), bound, total
+    q, _ = project(*problem)
+    assert_feasible(q, problem)
     along = 0.6 * q[0] - 0.8 * q[1]
     assert np.sum(bound - along) == pytest.approx(distance * np.sum(bound), rel=1e-2)
 

@@ -150,7 +150,7 @@ def test_plain_alternation_agrees_where_it_converges(plain, monkeypatch):
 
 
 def test_strong_coupling_needs_the_extrapolation(plain, monkeypatch):
-    contact = DenseContact(7, 3.0)
+    contact = DenseContact(0, 10.0, coupling=1.5)
     with pytest.raises(NotConverged, match="coupled increment"):
         contact.solved(*LOADS)
     monkeypatch.undo()

@@ -103,7 +103,7 @@ def test_preconditioner_makes_the_spectrum_independent_of_the_mesh(which):
         eigenvalues = np.linalg.eigvals(M_A).real
         return eigenvalues.max() / eigenvalues.min()
 
-    assert spread((16, 16)) < 1.6 * spread((8, 8))
+    assert spread((12, 12)) < 1.6 * spread((6, 6))
 
 
 def test_a_pressure_convolution_counts_one_and_a_shear_convolution_two():

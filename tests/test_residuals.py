@@ -30,7 +30,8 @@ def test_penetration_is_the_deepest_overlap():
 
 def test_friction_cone_is_the_largest_excess():
     assert friction_cone(along(0.3), BOUND) == pytest.approx(0, abs=1e-15)
-    assert friction_cone(along(0.3, np.add(BOUND, [[0, 0.1], [0, 0]])), BOUND) == pytest.approx(0.05)
+    excess = np.array([[0, 0.1], [0, 0]])
+    assert friction_cone(along(0.3, BOUND + excess), BOUND) == pytest.approx(0.05)
 
 
 @pytest.mark.parametrize("angle", [0.0, 0.1, np.pi / 2, np.pi])

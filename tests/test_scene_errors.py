@@ -103,7 +103,7 @@ MISTAKES = {
     "many cells": (("256, 256", "256, 16385"), 16, "semi_analytical.cells[2]", "from 8 to 16384"),
     "one cell number": (("[256, 256]", "256"), 16, "semi_analytical.cells", "an array"),
     "window": (('"1.2 mm", ', '"1.2 N", '), 17, "semi_analytical.window[1]", "a positive length"),
-    "tolerance": (("1e-8", "0.0"), 18, "semi_analytical.tolerance", "above 1e-14"),
+    "tolerance": (("1e-8", "0.0"), 18, "semi_analytical.tolerance", "from 1e-12 to 0.1"),
     "tolerance text": (("1e-8", '"1e-8"'), 18, "semi_analytical.tolerance", "without quotes"),
     "title": (('"x"', "3"), 1, "title", "a text"),
     "long title": (('"x"', '"' + "x" * 501 + '"'), 1, "title", "at most 500"),

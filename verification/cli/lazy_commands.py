@@ -32,6 +32,7 @@ COMMANDS: dict[str, LazyCommand] = {
         "frf": "Tabulate and plot the surface FRF of the lower body of a scene.",
         "stress": "Compute displacement and stress below the surface.",
         "verify": "Measure the accuracy against closed forms and write the report.",
+        "study": "Compute a study on a pool of processes and write its page.",
         "report": "Render the report again from recorded results.",
         "schema": "Print the JSON Schema of a scene file, a summary or a report.",
     }.items()

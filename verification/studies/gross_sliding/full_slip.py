@@ -4,8 +4,10 @@ The stick area falls to zero linearly in the shift: exactly so for Cattaneo and 
 where c²/a² = 1 - shift / (shift at sliding), and to leading order wherever a smooth field passes
 its last extremum. So a line through area against shift gives the shift, and the force is read off
 the smooth curve of force against shift, between the last increment that has stick area and the
-first that has none. The bar is what half a cell more or less of stick radius
-would change, and the scatter about the line.
+first that has none. The bar is what half a cell more or less of stick radius would change, the
+scatter about the line, and how far a straight line between the increments is from the curve. A
+stick zone that is small from the outset and leaves the contact as a whole has no such line: then
+the middle between those two increments is given, and half their distance as bar.
 """
 
 from __future__ import annotations
@@ -25,6 +27,8 @@ LARGEST_FRACTION = 0.12
 # A zone of fewer cells is not resolved.
 FEWEST_CELLS = 4
 FEWEST_POINTS = 3
+# A force that is not known better than this is not known.
+LARGEST_BAR = 0.05
 
 
 @dataclass(frozen=True)
@@ -43,38 +47,55 @@ class FullSlip:
     @property
     def text(self) -> str:
         """Force and bar for people."""
-        return f"{self.force:.3f} ± {self.uncertainty:.3f}"
+        return f"{self.force:.4f} ± {max(self.uncertainty, 0.0001):.4f}"
 
 
 def full_slip(path: SlidingPath) -> FullSlip | None:
-    """Extrapolated full slip; None where the path does not get there or resolves too little."""
+    """Where all slips from then on; None if the path does not get there or is too coarse."""
     end = 1 + max((n for n, p in enumerate(path.points) if not p.full_slip), default=0)
-    points = _resolved(path.points[:end])
-    if len(points) < FEWEST_POINTS or end == len(path.points):
+    if end == len(path.points):
         return None
-    shift = np.array([p.shift for p in points])
-    radius = np.sqrt([p.stick_fraction for p in points])
-    bracket = path.points[end - 1].shift, path.points[end].shift
+    largest = max(range(end), key=lambda n: path.points[n].stick_fraction)
+    if path.points[largest].stick_fraction <= LARGEST_FRACTION:
+        found = _middle(path.points[end - 1], path.points[end])
+    else:
+        points = _resolved(path.points[largest:end])
+        if len(points) < FEWEST_POINTS:
+            return None
+        found = _extrapolated(path, points, end)
+    return found if found.uncertainty <= LARGEST_BAR else None
+
+
+def _middle(last: SlidingPoint, first: SlidingPoint) -> FullSlip:
+    """Between the last increment with stick area and the first without."""
+    force, half = (last.force + first.force) / 2, abs(first.force - last.force) / 2
+    return FullSlip(force, (last.shift + first.shift) / 2, half)
+
+
+def _extrapolated(path: SlidingPath, points: Sequence[SlidingPoint], end: int) -> FullSlip:
+    """The line through these points, kept between increment `end` - 1 and `end`."""
+    shifts, forces = [p.shift for p in path.points], [p.force for p in path.points]
+    curve = PchipInterpolator(shifts, forces)
 
     def force(shift: float) -> float:
-        return float(curve(np.clip(shift, *bracket)))
+        return float(curve(np.clip(shift, shifts[0], shifts[-1])))
 
-    curve = PchipInterpolator([p.shift for p in path.points], [p.force for p in path.points])
-    shift_0, scatter = _intercept(radius**2, shift)
+    shift = np.array([p.shift for p in points])
+    radius = np.sqrt([p.stick_fraction for p in points])
+    fitted, scatter = _intercept(radius**2, shift)
+    inside = float(np.clip(fitted, shifts[end - 1], shifts[end]))
     half_cell = path.cell_over_radius / 2
     by_cell = [_intercept((radius + e) ** 2, shift)[0] for e in (-half_cell, half_cell)]
-    by_scatter = [shift_0 - scatter, shift_0 + scatter]
-    bars = [max(abs(force(s) - force(shift_0)) for s in ends) for ends in (by_cell, by_scatter)]
-    return FullSlip(force(shift_0), float(np.clip(shift_0, *bracket)), hypot(*bars))
+    by_fit = [fitted - scatter, fitted + scatter]
+    bars = [max(abs(force(s) - force(inside)) for s in ends) for ends in (by_cell, by_fit)]
+    straight = float(np.interp(inside, shifts, forces))
+    return FullSlip(force(inside), inside, hypot(*bars, straight - force(inside)))
 
 
 def _resolved(points: Sequence[SlidingPoint]) -> list[SlidingPoint]:
     """Increments whose stick zone is small, but not too small for the cells."""
-    return [
-        p
-        for p in points
-        if p.shift > 0 and p.stick_fraction <= LARGEST_FRACTION and p.stick_cells >= FEWEST_CELLS
-    ]
+    small = [p for p in points if p.stick_fraction <= LARGEST_FRACTION]
+    return [p for p in small if p.stick_cells >= FEWEST_CELLS]
 
 
 def _intercept(area: NDArray[np.float64], shift: NDArray[np.float64]) -> tuple[float, float]:
@@ -85,4 +106,3 @@ def _intercept(area: NDArray[np.float64], shift: NDArray[np.float64]) -> tuple[f
     free = max(1, len(shift) - 2)
     variance = float(np.sum(left**2)) / free * np.linalg.inv(basis.T @ basis)[0, 0]
     return float(coefficients[0]), sqrt(variance)
-

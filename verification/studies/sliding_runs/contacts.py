@@ -87,7 +87,7 @@ class CoatedContact:
 
 @dataclass(frozen=True)
 class AlikeContact:
-    """Two identical bodies with the compliance of the paper's one: pressure and shear do not couple.
+    """Two identical bodies, together as compliant as the paper's one: nothing couples.
 
     poisson_ratio  0: Cattaneo and Mindlin's solution is exact
     """

@@ -9,6 +9,7 @@ from typing import ClassVar
 import numpy as np
 
 from contact_scene import LoadStep
+from contact_scene.description import Description
 from contact_scene.summary import ContactStatus
 from semi_analytical import solve
 from semi_analytical.model import ContactModel
@@ -33,7 +34,7 @@ SLIDING = 1e-6
 class LawRun:
     """Press with the product's solver, then shift at that pressure under one reading."""
 
-    record_type: ClassVar = SlidingPath
+    record_type: ClassVar[type[Description]] = SlidingPath
     contact: Contact
     cells: int
     steps: Steps

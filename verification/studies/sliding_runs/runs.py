@@ -10,6 +10,7 @@ from typing import ClassVar
 import numpy as np
 
 from contact_scene import LoadStep
+from contact_scene.description import Description
 from semi_analytical import Result, solve
 from verification.cases.case import SOLVER_TOLERANCE
 from verification.cases.paper_scene import FRICTION_LIMIT, NORMAL_FORCE
@@ -18,6 +19,8 @@ from verification.studies.sliding_runs.path import SlidingPath, joined, path_of,
 
 # Fine increments reach this far past the shift at which the stick area is expected to vanish.
 FINE_REACH = 1.4
+# Slip that opposes its total lets go later.
+SHORT_REACH = 2.2
 
 
 @dataclass(frozen=True)
@@ -46,7 +49,7 @@ class Steps:
 class ShiftRun:
     """Press, then shift the indenter until all slides, and on."""
 
-    record_type: ClassVar = SlidingPath
+    record_type: ClassVar[type[Description]] = SlidingPath
     contact: Contact
     cells: int
     steps: Steps
@@ -74,7 +77,7 @@ class ShiftRun:
 class ForceRun:
     """Press, then push up to a part of the friction limit, as the paper does."""
 
-    record_type: ClassVar = SlidingPath
+    record_type: ClassVar[type[Description]] = SlidingPath
     contact: Contact
     cells: int
     normal: int
@@ -96,11 +99,14 @@ class ForceRun:
         return path_of(result, 2, time.perf_counter() - started)
 
 
-def shifts_to(contact: Contact, steps: Steps) -> list[float]:
+def shifts_to(contact: Contact, steps: Steps, reach: float = FINE_REACH) -> list[float]:
     """Shifts at the ends of the increments: fine ones to full slip, others beyond."""
-    fine = FINE_REACH * contact.sliding_scale
+    fine = reach * contact.sliding_scale
     near = np.linspace(0, fine, steps.tangential + 1)[1:]
-    return [*near.tolist(), *np.linspace(fine, contact.beyond_sliding, steps.beyond + 1)[1:].tolist()]
+    return [
+        *near.tolist(),
+        *np.linspace(fine, contact.beyond_sliding, steps.beyond + 1)[1:].tolist(),
+    ]
 
 
 class ShortPath(StrEnum):
@@ -114,7 +120,7 @@ class ShortPath(StrEnum):
 class ShortPathRun:
     """Every shift reached anew from untouched bodies by a short path."""
 
-    record_type: ClassVar = SlidingPath
+    record_type: ClassVar[type[Description]] = SlidingPath
     contact: Contact
     cells: int
     path: ShortPath
@@ -126,20 +132,18 @@ class ShortPathRun:
 
     def compute(self) -> SlidingPath:
         started = time.perf_counter()
-        results = [self._solved(shift) for shift in shifts_to(self.contact, self.steps)]
-        before = [r.increments[-2] if len(r.increments) > 1 else None for r in results]
-        points = [
-            point_of(r.increments[-1], b) for r, b in zip(results, before, strict=True)
+        results = [
+            self._solved(shift) for shift in shifts_to(self.contact, self.steps, SHORT_REACH)
         ]
+        before = [r.increments[-2] if len(r.increments) > 1 else None for r in results]
+        points = [point_of(r.increments[-1], b) for r, b in zip(results, before, strict=True)]
         increments = [i for r in results for i in r.increments]
         return joined(results[-1], points, increments, time.perf_counter() - started)
 
     def _solved(self, shift: float) -> Result:
         if self.path is ShortPath.TOTAL:
             loading = [
-                LoadStep(
-                    normal_force=NORMAL_FORCE, tangential_shift=(shift, 0.0), increments=1
-                )
+                LoadStep(normal_force=NORMAL_FORCE, tangential_shift=(shift, 0.0), increments=1)
             ]
         else:
             loading = [

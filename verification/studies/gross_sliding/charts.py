@@ -1,0 +1,112 @@
+"""Figures of the gross-sliding study."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from itertools import product
+
+import numpy as np
+
+from verification.cases.chart import Chart, Curve, Look, Panel, curve
+from verification.studies.gross_sliding.estimate import Estimate
+from verification.studies.gross_sliding.verdicts import PAPER
+from verification.studies.sliding_runs.path import SlidingPath
+
+MICROMETRE = 1e-6
+FINE = 60
+SERIES = 6
+VARIANT_LOOKS = (Look.COMPUTED, Look.POINTS)
+SHOWN_SHIFT = 1.6
+
+Paths = Mapping[str, SlidingPath]
+
+
+def stick_fraction_chart(paths: Paths, scales: Mapping[str, float]) -> Chart:
+    """Stick area against force and against shift.
+
+    scales  shift at the end of each curve's axis unit [length]
+    """
+    force = np.linspace(0, 1, FINE)
+    closed = curve("Cattaneo–Mindlin", force, (1 - force) ** (2 / 3), Look.REFERENCE)
+    by_force = [closed, *(_stick(path, n, "") for n, path in enumerate(paths.values()))]
+    by_shift = [
+        curve("Cattaneo–Mindlin", [0, 1], [1, 0], Look.REFERENCE),
+        *(_stick(path, n, name, scales[name]) for n, (name, path) in enumerate(paths.items())),
+    ]
+    left = Panel(
+        x_label="T / µW", y_label="stick area / contact area",
+        curves=tuple(_unlabelled(by_force)), height=2.2,
+    )  # fmt: skip
+    right = Panel(x_label="shift / sliding scale", y_label="", curves=tuple(by_shift), height=2.2)
+    return Chart(
+        name="stick_fraction",
+        title="Stick area against force and against shift",
+        caption="Part of the contact that sticks while the indenter is shifted, after a normal "
+        "loading that has already made most of the coated contact slip. The jump at the beginning: "
+        "where slip would have to turn back, the surfaces stick again. Grey: Cattaneo and Mindlin. "
+        "The sliding scale is Mindlin's sliding displacement of the identical bodies, and "
+        "for a coating a mean of those of coating and substrate.",
+        rows=((left, right),),
+    )
+
+
+def force_chart(paths: Paths, estimates: Mapping[str, Estimate]) -> Chart:
+    """Force against shift, with the states in which the stick area vanishes."""
+    curves = [
+        curve(name, [p.shift / MICROMETRE for p in path.points], [p.force for p in path.points],
+              series=n)
+        for n, (name, path) in enumerate(paths.items())
+    ]  # fmt: skip
+    marks = curve(
+        "stick area vanishes",
+        [e.full_slip.shift / MICROMETRE for e in estimates.values()],
+        [e.force for e in estimates.values()],
+        Look.MARKS,
+    )
+    end = max(path.points[-1].shift for path in paths.values()) / MICROMETRE
+    paper = curve("0.76 (paper)", [0, end], [PAPER, PAPER], Look.BOUND)
+    return Chart(
+        name="force_against_shift",
+        title="Tangential force against shift",
+        caption="Force over the friction limit while the shift grows to at least three times "
+        "Mindlin's sliding displacement. Dots: the stick area vanishes; the force still grows, "
+        "towards µW. Dashed: the number the paper gives for E1/E2 = 2.",
+        rows=((Panel(
+            x_label="shift (µm)", y_label="T / µW",
+            curves=(paper, *curves, marks), height=2.4,
+        ),),),
+    )  # fmt: skip
+
+
+def variants_chart(paths: Paths) -> Chart:
+    """Force against shift under other readings of the friction law."""
+    end = max(path.points[-1].shift for path in paths.values()) / MICROMETRE
+    curves = [
+        curve(name, [p.shift / MICROMETRE for p in path.points], [p.force for p in path.points],
+              look, series)
+        for (name, path), (look, series) in zip(
+            paths.items(), product(VARIANT_LOOKS, range(SERIES)), strict=False
+        )
+    ]  # fmt: skip
+    paper = curve("0.76 (paper)", [0, end], [PAPER, PAPER], Look.BOUND)
+    return Chart(
+        name="friction_law_variants",
+        title="Other readings of the friction law and other paths, E1/E2 = 2",
+        caption="Force over the friction limit against shift. Dashed: the paper's 0.76. Readings "
+        "that freeze a direction lose part of the friction for good; slip that opposes its total "
+        "instead of its increment turns only slowly into the direction of motion.",
+        rows=((Panel(
+            x_label="shift (µm)", y_label="T / µW", curves=(paper, *curves), height=2.4,
+        ),),),
+    )  # fmt: skip
+
+
+def _stick(path: SlidingPath, series: int, label: str, scale: float | None = None) -> Curve:
+    points = [p for p in path.points if p.stick_fraction > 0 or p.full_slip]
+    x = [p.force if scale is None else p.shift / scale for p in points]
+    shown = [(a, p.stick_fraction) for a, p in zip(x, points, strict=True) if a <= SHOWN_SHIFT]
+    return curve(label, [a for a, _ in shown], [f for _, f in shown], series=series)
+
+
+def _unlabelled(curves: list[Curve]) -> list[Curve]:
+    return [c.model_copy(update={"label": ""}) for c in curves]

@@ -1,0 +1,210 @@
+"""The gross-sliding study: its question, and what is concluded from its records."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+from verification.cases.chart import Chart
+from verification.cases.table import Table
+from verification.report.numbers import plain
+from verification.studies.gross_sliding import verdicts
+from verification.studies.gross_sliding.charts import (
+    MICROMETRE,
+    force_chart,
+    stick_fraction_chart,
+    variants_chart,
+)
+from verification.studies.gross_sliding.estimate import Estimate, estimate
+from verification.studies.gross_sliding.full_slip import full_slip
+from verification.studies.gross_sliding.selection import (
+    ALIKE,
+    PAPER_RATIO,
+    RATIOS,
+    ContactCases,
+    cases,
+    cases_of,
+    null_runs,
+    path_of,
+    variant_name,
+)
+from verification.studies.gross_sliding.verdicts import Variant, largest_force
+from verification.studies.running.study import Conclusion, Records, Settings, Study, StudyCase
+from verification.studies.sliding_runs.path import SlidingPath
+
+REMARKS = (
+    "Assumed, because the paper does not say: substrate E2 = 210 GPa (from its contact radius and "
+    "peak pressure), ν = 0.3 of coating and substrate, a rigid ball, a paraboloid for the sphere, "
+    "normal steps uniform in contact radius.",
+    "Gross sliding cannot begin below µW as a greatest force: in sustained sliding every particle "
+    "slips along the motion, and T = µW. What can happen below µW is that the last cell lets go "
+    "while slip directions still differ; that force is T_fs.",
+    "The friction-law variants keep the pressure of the end of the normal loading and start from "
+    "the shear that the vector law leaves there; 'vector' among them shows what the fixed pressure "
+    "changes. Frozen directions depend on the size of the increments, which the paper does not "
+    "state; all sizes tried are listed.",
+    "The variants are computed on at most 64 × 64 cells unless they say otherwise, at the quick "
+    "level for E1/E2 = 2 only.",
+)
+
+
+@dataclass(frozen=True)
+class _Found:
+    """The records, sorted by what they are for; contacts by the name that people see."""
+
+    settings: Settings
+    records: Records
+
+    @cached_property
+    def contacts(self) -> dict[str, ContactCases]:
+        return {_name(ratio): cases_of(ratio, self.settings) for ratio in RATIOS}
+
+    @cached_property
+    def base(self) -> dict[str, SlidingPath]:
+        """Histories under shift control on the finest grid."""
+        found = {name: path_of(self.records, c.base) for name, c in self.contacts.items()}
+        return {name: path for name, path in found.items() if path is not None}
+
+    @cached_property
+    def null(self) -> dict[str, SlidingPath]:
+        """Histories of the identical bodies."""
+        runs = zip(ALIKE, null_runs(self.settings), strict=True)
+        found = {f"identical, ν = {a.poisson_ratio:g}": path_of(self.records, r) for a, r in runs}
+        return {name: path for name, path in found.items() if path is not None}
+
+    @cached_property
+    def estimates(self) -> dict[str, Estimate]:
+        evidence = {name: c.evidence(self.records) for name, c in self.contacts.items()}
+        found = {name: estimate(e) for name, e in evidence.items() if e is not None}
+        return {name: e for name, e in found.items() if e is not None}
+
+    @cached_property
+    def variant_paths(self) -> dict[str, dict[str, SlidingPath]]:
+        """By contact, then by variant."""
+        return {
+            name: {
+                variant_name(run): path
+                for run in c.variants
+                if (path := path_of(self.records, run)) is not None
+            }
+            for name, c in self.contacts.items()
+        }
+
+    def variants(self, contact: str) -> tuple[Variant, ...]:
+        paths = self.variant_paths[contact]
+        return tuple(Variant(n, full_slip(p), largest_force(p)) for n, p in paths.items())
+
+    @cached_property
+    def product(self) -> tuple[SlidingPath, ...]:
+        """All histories that the product's solver made, the short paths left out."""
+        runs: list[StudyCase] = [*null_runs(self.settings)]
+        for c in self.contacts.values():
+            runs += [*c.histories, c.force]
+        found = (path_of(self.records, run) for run in runs)
+        return tuple(path for path in found if path is not None)
+
+
+def conclude(settings: Settings, records: Records) -> Conclusion:
+    """The verdict from the records that there are."""
+    found = _Found(settings, records)
+    paper = _name(PAPER_RATIO)
+    null = [full_slip(path) for path in found.null.values()]
+    return Conclusion(
+        statements=(
+            verdicts.limit_is_reached(found.base),
+            verdicts.paper_number(found.estimates.get(paper), found.variants(paper)),
+            verdicts.force_is_mean_cosine(found.base),
+            verdicts.slip_opposes_shear(found.base),
+            verdicts.null_tests(*(null if len(null) == len(ALIKE) else (None, None))),
+            verdicts.refinement_agrees(found.estimates),
+            verdicts.converged(found.product),
+        ),
+        tables=(_results(found), _variant_table(found)),
+        charts=_charts(found, paper),
+        remarks=REMARKS,
+    )
+
+
+def _charts(found: _Found, paper: str) -> tuple[Chart, ...]:
+    if not found.base:
+        return ()
+    scales = {name: c.base.contact.sliding_scale for name, c in found.contacts.items()}
+    scales |= {f"identical, ν = {a.poisson_ratio:g}": a.sliding_scale for a in ALIKE}
+    charts = [
+        stick_fraction_chart(found.base | found.null, scales),
+        force_chart(found.base, found.estimates),
+    ]
+    if found.variant_paths[paper] and paper in found.base:
+        product = {"product": found.base[paper]}
+        charts.append(variants_chart(product | found.variant_paths[paper]))
+    return tuple(charts)
+
+
+def _results(found: _Found) -> Table:
+    rows = []
+    for name, path in found.base.items():
+        e = found.estimates.get(name)
+        by_force = path_of(found.records, found.contacts[name].force)
+        in_force = full_slip(by_force) if by_force is not None else None
+        full = [p for p in path.points if p.full_slip and p.shift > 0]
+        rows.append((
+            name,
+            e.text if e else "not resolved",
+            *((plain(v, 2) for v in _parts(e)) if e else ("–",) * 4),
+            in_force.text if in_force else "–",
+            f"{e.full_slip.shift / MICROMETRE:.3f}" if e else "–",
+            f"{largest_force(path):.7f}",
+            f"{full[0].mean_cosine:.4f}" if full else "–",
+        ))  # fmt: skip
+    return Table(
+        title="Where the stick area vanishes, and how far the force still grows",
+        columns=(
+            "contact", "T_fs / µW", "bar: fit, half a cell", "bar: cells", "bar: shift steps",
+            "bar: normal steps", "T_fs / µW by force, 20 steps", "shift at T_fs (µm)",
+            "T_max / µW", "⟨cosψ⟩ in first state without stick",
+        ),
+        rows=tuple(rows),
+        note="T_fs from the halved shift steps on the finest grid. In twenty steps of force the "
+        "increments are coarser, and the difference is theirs.",
+    )  # fmt: skip
+
+
+def _parts(e: Estimate) -> tuple[float, ...]:
+    return e.full_slip.uncertainty, e.by_cells, e.by_shift_steps, e.by_normal_steps
+
+
+def _variant_table(found: _Found) -> Table:
+    rows = [
+        (
+            f"{variant.name}; {contact}",
+            variant.vanishing.text if variant.vanishing else "not resolved",
+            f"{variant.largest:.4f}",
+            "near" if variant.near_paper else "no",
+        )
+        for contact in found.contacts
+        for variant in found.variants(contact)
+    ]
+    return Table(
+        title="Other paths and other readings of the friction law",
+        columns=("variant", "T_fs / µW", "T_max / µW", "near 0.76"),
+        rows=tuple(rows),
+        note="T_max up to three times Mindlin's sliding displacement. On the total slip the stick "
+        "zone is a spot of a few cells that wanders to the trailing edge and leaves there: where "
+        "that happens depends on the cells, so a number near 0.76 on one grid proves nothing.",
+    )
+
+
+def _name(ratio: float) -> str:
+    return f"E1/E2 = {ratio:g}"
+
+
+STUDY = Study(
+    name="gross-sliding",
+    title="Does a coated contact slide grossly at 0.76 µW?",
+    question="The paper reports gross sliding of a coated contact (E1/E2 = 2) once T exceeds "
+    "0.76 µW, although the limit of friction is µW. Here the indenter is shifted until everything "
+    "slides, for four coatings; the paper's law of friction is completed in several ways; and "
+    "physics is judged apart from the paper's number.",
+    cases=cases,
+    conclude=conclude,
+)

@@ -1,0 +1,39 @@
+"""`study.json`: the conclusion of a study with what was lost and who made it."""
+
+from __future__ import annotations
+
+import json
+
+from contact_scene.description import Description
+from verification.cases.outcome import Status
+from verification.report.record import Provenance
+from verification.studies.running.study import STUDY_VERSION, Conclusion, LostCase
+
+
+class StudyRecord(Description):
+    """All that the page of a study shows."""
+
+    schema_version: int = STUDY_VERSION
+    name: str
+    title: str
+    question: str
+    level: str
+    conclusion: Conclusion
+    lost: tuple[LostCase, ...]
+    """Cases that have no record: the conclusion does without them."""
+
+    provenance: Provenance
+
+    @property
+    def status(self) -> Status:
+        """Fail if a statement failed or a case was lost."""
+        outcomes = {statement.outcome for statement in self.conclusion.statements}
+        if self.lost or Status.FAIL in outcomes:
+            return Status.FAIL
+        return Status.INCONCLUSIVE if Status.INCONCLUSIVE in outcomes else Status.PASS
+
+
+def dump_study(record: StudyRecord) -> str:
+    """The record as JSON text, every key present."""
+    values = record.model_dump(mode="json")
+    return json.dumps(values, indent=1, ensure_ascii=False, allow_nan=False) + "\n"
