@@ -30,6 +30,8 @@ MOST_ROUNDS = 150
 # Part of its residual that each inner solve leaves: as much as a round of weak coupling does.
 ENOUGH = 0.1
 REMEMBERED = 20
+# A change of which others explain all but this part teaches nothing.
+DEPENDENT = 1e-8
 
 
 @dataclass(frozen=True)
@@ -148,25 +150,36 @@ def _full_slip(problem: CoupledProblem, bound: Field, shift: Vector) -> Tangenti
 
 
 class _Anderson:
-    """The next point of a fixed-point iteration x -> x + r from the last few pairs (x, r)."""
+    """The next point of a fixed-point iteration x -> x + r, as if r were linear in x.
+
+    What is known of r are pairs of a change of x and the change of r with it, kept orthonormal in
+    the latter (Gram and Schmidt) so that a new pair costs a few sums over the cells.
+    """
 
     def __init__(self, load: NormalLoad) -> None:
         self._load = load
-        self._points: list[Field] = []
-        self._changes: list[Field] = []
+        self._last: tuple[Field, Field] | None = None
+        self._pairs: list[tuple[Field, Field]] = []
 
     def next(self, p: Field, answer: Field) -> Field:
-        """An admissible guess: where the change would vanish if it were linear in the pressure."""
+        """An admissible pressure where r would vanish, after one at which the answer was p + r."""
         r = answer - p
-        self._points = [*self._points, p][-REMEMBERED:]
-        self._changes = [*self._changes, r][-REMEMBERED:]
-        if len(self._points) == 1:
-            return answer
-        d_p = np.diff(self._points, axis=0).reshape(len(self._points) - 1, -1).T
-        d_r = np.diff(self._changes, axis=0).reshape(len(self._points) - 1, -1).T
-        share = np.linalg.lstsq(d_r, r.ravel(), rcond=1e-10)[0]
-        guess = answer - ((d_p + d_r) @ share).reshape(p.shape)
+        if self._last is not None:
+            self._learn(p - self._last[0], r - self._last[1])
+        self._last = p, r
+        guess = answer
+        for d_p, d_r in self._pairs:
+            guess = guess - np.sum(d_r * r) * (d_p + d_r)
         guess = np.where(answer > 0, np.maximum(guess, 0.0), 0.0)
         if isinstance(self._load, PressureSum):
             guess *= self._load.total / np.sum(guess)
         return np.asarray(guess)
+
+    def _learn(self, d_p: Field, d_r: Field) -> None:
+        size = np.sqrt(np.sum(d_r * d_r))
+        for other_p, other_r in self._pairs:
+            share = np.sum(d_r * other_r)
+            d_p, d_r = d_p - share * other_p, d_r - share * other_r
+        rest = np.sqrt(np.sum(d_r * d_r))
+        if rest > DEPENDENT * size:
+            self._pairs = [*self._pairs, (d_p / rest, d_r / rest)][-REMEMBERED:]

@@ -96,7 +96,7 @@ def test_what_is_not_a_positive_length_is_refused_with_an_example(written: Any) 
     [
         (PoissonRatio, [0.5, -0.999, 0.0], [0.5001, -1.0, -2, math.nan, "0.3", True]),
         (FrictionCoefficient, [0.0, 0.1, 3], [-0.1, math.inf, "0.1", False]),
-        (Tolerance, [1e-8, 0.1, 2e-14], [1e-14, 0.2, 0.0, -1e-8, "1e-8"]),
+        (Tolerance, [1e-8, 0.1, 1e-12], [1e-13, 0.2, 0.0, -1e-8, "1e-8"]),
         (
             SlopeAngle,
             [0.01, 1.04, "59.9 deg"],

@@ -33,6 +33,7 @@ class ReferenceKind(StrEnum):
     CLOSED_FORM = "closed form"
     SEMI_CLOSED = "semi-closed"
     THEORY = "theory"
+    EXTERNAL_CODE = "external code"
     IDENTITY = "identity"  # holds exactly by a theorem or by the equations themselves
 
 
@@ -125,7 +126,8 @@ class Comparison:
     """Two runs that must give the same, because they are the same problem said differently.
 
     runs        labels; the difference is relative to the second
-    difference  0 if they agree, dimensionless
+    difference  0 if they agree, dimensionless; or the error of what follows from both
+    kind        where the value comes from that the difference vanishes for
     """
 
     name: str
@@ -135,6 +137,7 @@ class Comparison:
     allowed: float
     because: str
     source: str
+    kind: ReferenceKind = ReferenceKind.IDENTITY
 
 
 @dataclass(frozen=True)

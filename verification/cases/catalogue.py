@@ -12,6 +12,7 @@ from verification.cases.film_stiffness import film_stiffness
 from verification.cases.flat_punch import flat_punch
 from verification.cases.fretting_loop import fretting_loop
 from verification.cases.frf_laws import frf_laws
+from verification.cases.frictional_indentation import frictional_indentation
 from verification.cases.hertz_approach_control import hertz_approach_control
 from verification.cases.hertz_elliptical import hertz_elliptical
 from verification.cases.hertz_exact_sphere import hertz_exact_sphere
@@ -20,9 +21,11 @@ from verification.cases.layered_identities import layered_identities
 from verification.cases.layered_reference import layered_reference
 from verification.cases.load_paths import load_paths
 from verification.cases.near_sliding import near_sliding
+from verification.cases.no_slip_indentation import no_slip_indentation
 from verification.cases.paper_fretting_loop import paper_fretting_loop
 from verification.cases.sampling_route import sampling_route
 from verification.cases.sheared_cone import sheared_cone
+from verification.cases.spence_example import spence_example
 from verification.cases.subsurface_stress import subsurface_stress
 from verification.cases.thin_layer import thin_layer
 
@@ -44,6 +47,9 @@ CASES: tuple[Callable[[Level], Case], ...] = (
     layered_identities,
     thin_layer,
     film_stiffness,
+    frictional_indentation,
+    no_slip_indentation,
+    spence_example,
     subsurface_stress,
     layered_reference,
     frf_laws,

@@ -13,10 +13,10 @@ from verification.cases.case import (
     Derived,
     OrderOfConvergence,
     Quantity,
+    Reference,
     ReferenceKind,
     Required,
     Run,
-    identity,
 )
 from verification.cases.outcome import Status, Verdict
 from verification.convergence import numerical_uncertainty, observed_order
@@ -53,8 +53,8 @@ def judge_comparison(comparison: Comparison, results: Results) -> Verdict:
     value = comparison.difference(results[one], results[other])
     same = Check(
         comparison.name, comparison.meaning, "", f"{one} and {other}", lambda: value,
-        identity(0.0, comparison.source), Required(comparison.allowed, comparison.because),
-        1.0, "the second run's",
+        Reference(0.0, comparison.kind, comparison.source),
+        Required(comparison.allowed, comparison.because), 1.0, "the second run's",
     )  # fmt: skip
     return judge_check(same)
 

@@ -194,8 +194,8 @@ def _charts(found: Mapping[float, TractionRecord]) -> tuple[Chart, ...]:
         name="figure_4_shear",
         title="Figure 4 of the paper: shear profiles in the plane y = 0",
         caption="Shear qₓ over µ times the Hertz pressure at four tangential forces; the thin "
-        "dashed lines are the friction limit ± µp at the largest force. At T = 0 the shear pulls outwards on both "
-        "sides and carries no resultant.",
+        "dashed lines are the friction limit ± µp at the largest force. At T = 0 the shear pulls "
+        "outwards on both sides and carries no resultant.",
         rows=_panels(found, "qₓ / (µ × Hertz pressure)", _shears),
     )
     return pressure, shear

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from itertools import product
+from itertools import cycle, product
 
 import numpy as np
 
@@ -17,6 +17,7 @@ FINE = 60
 SERIES = 6
 VARIANT_LOOKS = (Look.COMPUTED, Look.POINTS)
 SHOWN_SHIFT = 1.6
+MARKED_EVERY = 3
 
 Paths = Mapping[str, SlidingPath]
 
@@ -81,13 +82,12 @@ def force_chart(paths: Paths, estimates: Mapping[str, Estimate]) -> Chart:
 def variants_chart(paths: Paths) -> Chart:
     """Force against shift under other readings of the friction law."""
     end = max(path.points[-1].shift for path in paths.values()) / MICROMETRE
-    curves = [
-        curve(name, [p.shift / MICROMETRE for p in path.points], [p.force for p in path.points],
-              look, series)
-        for (name, path), (look, series) in zip(
-            paths.items(), product(VARIANT_LOOKS, range(SERIES)), strict=False
-        )
-    ]  # fmt: skip
+    looks = zip(paths.items(), cycle(product(VARIANT_LOOKS, range(SERIES))), strict=False)
+    curves = []
+    for (name, path), (look, series) in looks:
+        shown = path.points[:: MARKED_EVERY if look is Look.POINTS else 1]
+        x, y = [p.shift / MICROMETRE for p in shown], [p.force for p in shown]
+        curves.append(curve(name, x, y, look, series))
     paper = curve("0.76 (paper)", [0, end], [PAPER, PAPER], Look.BOUND)
     return Chart(
         name="friction_law_variants",

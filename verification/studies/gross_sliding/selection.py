@@ -34,7 +34,7 @@ LAW_STEPS = Steps(15, 40, 10)
 SHORT_STEPS = Steps(1, 44, 6)
 FORCE_INCREMENTS = 20
 LARGEST_FORCE = 0.99
-FEWER_STEPS = (20, 10)
+OTHER_COUNTS = (80, 20, 10, 5)  # of increments, for directions that freeze
 
 
 @dataclass(frozen=True)
@@ -69,7 +69,7 @@ def cases_of(ratio: float, settings: Settings) -> ContactCases:
     variants: tuple[LawRun | ShortPathRun, ...] = ()
     if ratio == PAPER_RATIO or settings.level is not Level.QUICK:
         few = min(cells, VARIANT_CELLS)
-        frozen = (replace(LAW_STEPS, tangential=count) for count in FEWER_STEPS)
+        frozen = (replace(LAW_STEPS, tangential=count) for count in OTHER_COUNTS)
         variants = (
             *(ShortPathRun(contact, few, path, SHORT_STEPS) for path in ShortPath),
             ShortPathRun(contact, 2 * few, ShortPath.TOTAL, SHORT_STEPS),
@@ -109,9 +109,14 @@ def null_runs(settings: Settings) -> tuple[ShiftRun, ...]:
 
 def variant_name(run: LawRun | ShortPathRun) -> str:
     """What a variant is called in texts."""
+    kind = variant_kind(run)
+    return f"{kind}, {run.cells} cells" if isinstance(run, ShortPathRun) else kind
+
+
+def variant_kind(run: LawRun | ShortPathRun) -> str:
+    """What a variant varies, in words."""
     if isinstance(run, ShortPathRun):
-        path = {ShortPath.ONE_STEP: "one step each", ShortPath.TOTAL: "total slip"}[run.path]
-        return f"{path}, {run.cells} cells"
+        return {ShortPath.ONE_STEP: "one step each", ShortPath.TOTAL: "total slip"}[run.path]
     law = {
         FrictionLaw.VECTOR: "vector law at fixed pressure",
         FrictionLaw.FROZEN_DIRECTIONS: "directions frozen",

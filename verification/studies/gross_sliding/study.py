@@ -26,11 +26,14 @@ from verification.studies.gross_sliding.selection import (
     cases_of,
     null_runs,
     path_of,
+    variant_kind,
     variant_name,
 )
 from verification.studies.gross_sliding.verdicts import Variant, largest_force
 from verification.studies.running.study import Conclusion, Records, Settings, Study, StudyCase
+from verification.studies.sliding_runs.law_run import LawRun
 from verification.studies.sliding_runs.path import SlidingPath
+from verification.studies.sliding_runs.runs import ShortPathRun
 
 REMARKS = (
     "Assumed, because the paper does not say: substrate E2 = 210 GPa (from its contact radius and "
@@ -42,7 +45,7 @@ REMARKS = (
     "The friction-law variants keep the pressure of the end of the normal loading and start from "
     "the shear that the vector law leaves there; 'vector' among them shows what the fixed pressure "
     "changes. Frozen directions depend on the size of the increments, which the paper does not "
-    "state; all sizes tried are listed.",
+    "state: the fewer, the larger the force.",
     "The variants are computed on at most 64 × 64 cells unless they say otherwise, at the quick "
     "level for E1/E2 = 2 only.",
 )
@@ -78,21 +81,19 @@ class _Found:
         found = {name: estimate(e) for name, e in evidence.items() if e is not None}
         return {name: e for name, e in found.items() if e is not None}
 
-    @cached_property
-    def variant_paths(self) -> dict[str, dict[str, SlidingPath]]:
-        """By contact, then by variant."""
-        return {
-            name: {
-                variant_name(run): path
-                for run in c.variants
-                if (path := path_of(self.records, run)) is not None
-            }
-            for name, c in self.contacts.items()
-        }
+    def variant_runs(self, contact: str) -> dict[LawRun | ShortPathRun, SlidingPath]:
+        """The variants of a contact that have a record."""
+        found = {run: path_of(self.records, run) for run in self.contacts[contact].variants}
+        return {run: path for run, path in found.items() if path is not None}
 
     def variants(self, contact: str) -> tuple[Variant, ...]:
-        paths = self.variant_paths[contact]
-        return tuple(Variant(n, full_slip(p), largest_force(p)) for n, p in paths.items())
+        return tuple(
+            Variant(
+                variant_name(run), variant_kind(run), run.cells, full_slip(path),
+                largest_force(path),
+            )
+            for run, path in self.variant_runs(contact).items()
+        )  # fmt: skip
 
     @cached_property
     def product(self) -> tuple[SlidingPath, ...]:
@@ -134,9 +135,9 @@ def _charts(found: _Found, paper: str) -> tuple[Chart, ...]:
         stick_fraction_chart(found.base | found.null, scales),
         force_chart(found.base, found.estimates),
     ]
-    if found.variant_paths[paper] and paper in found.base:
-        product = {"product": found.base[paper]}
-        charts.append(variants_chart(product | found.variant_paths[paper]))
+    variants = {variant_name(run): path for run, path in found.variant_runs(paper).items()}
+    if variants and paper in found.base:
+        charts.append(variants_chart({"product": found.base[paper]} | variants))
     return tuple(charts)
 
 
@@ -150,7 +151,7 @@ def _results(found: _Found) -> Table:
         rows.append((
             name,
             e.text if e else "not resolved",
-            *((plain(v, 2) for v in _parts(e)) if e else ("–",) * 4),
+            ", ".join(plain(v, 2) for v in _parts(e)) if e else "–",
             in_force.text if in_force else "–",
             f"{e.full_slip.shift / MICROMETRE:.3f}" if e else "–",
             f"{largest_force(path):.7f}",
@@ -159,9 +160,9 @@ def _results(found: _Found) -> Table:
     return Table(
         title="Where the stick area vanishes, and how far the force still grows",
         columns=(
-            "contact", "T_fs / µW", "bar: fit, half a cell", "bar: cells", "bar: shift steps",
-            "bar: normal steps", "T_fs / µW by force, 20 steps", "shift at T_fs (µm)",
-            "T_max / µW", "⟨cosψ⟩ in first state without stick",
+            "contact", "T_fs / µW", "bar from fit, cells, steps of shift and W",
+            "T_fs by force, 20 steps", "shift at T_fs (µm)", "T_max / µW",
+            "⟨cosψ⟩, first without stick",
         ),
         rows=tuple(rows),
         note="T_fs from the halved shift steps on the finest grid. In twenty steps of force the "

@@ -1,0 +1,37 @@
+"""Cases that do nothing of interest, for tests of how studies run; workers import this file."""
+
+import os
+from dataclasses import dataclass
+from typing import ClassVar
+
+from contact_scene.description import Description
+
+
+class Number(Description):
+    value: float
+    process: int
+
+
+@dataclass(frozen=True)
+class Square:
+    record_type: ClassVar[type[Description]] = Number
+    of: float
+
+    @property
+    def name(self) -> str:
+        return f"square-{self.of:g}"
+
+    def compute(self) -> Number:
+        return Number(value=self.of**2, process=os.getpid())
+
+
+@dataclass(frozen=True)
+class Refusing(Square):
+    def compute(self) -> Number:
+        raise ArithmeticError("no square today")
+
+
+@dataclass(frozen=True)
+class Dying(Square):
+    def compute(self) -> Number:
+        os._exit(9)
