@@ -29,9 +29,9 @@ from semi_analytical.tangential import TangentialSolution, solve_tangential
 MOST_ROUNDS = 150
 # Part of its residual that each inner solve leaves: as much as a round of weak coupling does.
 ENOUGH = 0.1
-REMEMBERED = 20
-# A change of which others explain all but this part teaches nothing.
-DEPENDENT = 1e-8
+# Where what is known should explain all of a change but this part, and did not foresee it, it is
+# out of date.
+DEPENDENT = 1e-6
 
 
 @dataclass(frozen=True)
@@ -153,7 +153,8 @@ class _Anderson:
     """The next point of a fixed-point iteration x -> x + r, as if r were linear in x.
 
     What is known of r are pairs of a change of x and the change of r with it, kept orthonormal in
-    the latter (Gram and Schmidt) so that a new pair costs a few sums over the cells.
+    the latter (Gram and Schmidt) so that a new pair costs a few sums over the cells. None may be
+    forgotten: later ones lack what they had in common.
     """
 
     def __init__(self, load: NormalLoad) -> None:
@@ -176,10 +177,12 @@ class _Anderson:
         return np.asarray(guess)
 
     def _learn(self, d_p: Field, d_r: Field) -> None:
-        size = np.sqrt(np.sum(d_r * d_r))
+        fresh_p, fresh_r, size = d_p, d_r, np.sqrt(np.sum(d_r * d_r))
         for other_p, other_r in self._pairs:
             share = np.sum(d_r * other_r)
             d_p, d_r = d_p - share * other_p, d_r - share * other_r
         rest = np.sqrt(np.sum(d_r * d_r))
-        if rest > DEPENDENT * size:
-            self._pairs = [*self._pairs, (d_p / rest, d_r / rest)][-REMEMBERED:]
+        if rest <= DEPENDENT * size:
+            self._pairs, d_p, d_r, rest = [], fresh_p, fresh_r, size
+        if rest > 0:
+            self._pairs.append((d_p / rest, d_r / rest))
