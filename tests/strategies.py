@@ -61,7 +61,7 @@ def documents(draw: st.DrawFn) -> Document:
         document["semi_analytical"] = draw(
             st.fixed_dictionaries(
                 {"cells": st.tuples(st.integers(8, 99), st.integers(8, 99)).map(list)},
-                optional={"tolerance": st.floats(1e-13, 0.1)},
+                optional={"tolerance": st.floats(1e-12, 0.1)},
             )
         )
     return document
