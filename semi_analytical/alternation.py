@@ -29,9 +29,9 @@ from semi_analytical.tangential import TangentialSolution, solve_tangential
 MOST_ROUNDS = 150
 # Part of its residual that each inner solve leaves: as much as a round of weak coupling does.
 ENOUGH = 0.1
-# Where what is known should explain all of a change but this part, and did not foresee it, it is
-# out of date.
-DEPENDENT = 1e-6
+REMEMBERED = 30
+# Squared part of a difference below which the others explain it.
+DEPENDENT = 1e-13
 
 
 @dataclass(frozen=True)
@@ -127,7 +127,9 @@ def solve_coupled(
             return CoupledSolution(
                 p, q, delta, shift, sheared.in_slip, at_limit, iterations, rounds
             )
-        p = history.next(p, pressed.pressure)
+        # Where the pressure already fits, only the shear goes on.
+        if pressed.first_residual > tolerance:
+            p = history.next(p, pressed.pressure)
     raise NotConverged("the coupled increment", iterations, residual, tolerance)
 
 
@@ -150,39 +152,31 @@ def _full_slip(problem: CoupledProblem, bound: Field, shift: Vector) -> Tangenti
 
 
 class _Anderson:
-    """The next point of a fixed-point iteration x -> x + r, as if r were linear in x.
-
-    What is known of r are pairs of a change of x and the change of r with it, kept orthonormal in
-    the latter (Gram and Schmidt) so that a new pair costs a few sums over the cells. None may be
-    forgotten: later ones lack what they had in common.
-    """
+    """The next point of a fixed-point iteration x -> x + r, as if r were linear in x."""
 
     def __init__(self, load: NormalLoad) -> None:
         self._load = load
-        self._last: tuple[Field, Field] | None = None
-        self._pairs: list[tuple[Field, Field]] = []
+        self._points: list[Field] = []
+        self._changes: list[Field] = []
 
     def next(self, p: Field, answer: Field) -> Field:
         """An admissible pressure where r would vanish, after one at which the answer was p + r."""
         r = answer - p
-        if self._last is not None:
-            self._learn(p - self._last[0], r - self._last[1])
-        self._last = p, r
-        guess = answer
-        for d_p, d_r in self._pairs:
-            guess = guess - np.sum(d_r * r) * (d_p + d_r)
+        self._points = [*self._points, p][-REMEMBERED:]
+        self._changes = [*self._changes, r][-REMEMBERED:]
+        guess = answer - self._extrapolation(r) if len(self._points) > 1 else answer
         guess = np.where(answer > 0, np.maximum(guess, 0.0), 0.0)
         if isinstance(self._load, PressureSum):
             guess *= self._load.total / np.sum(guess)
         return np.asarray(guess)
 
-    def _learn(self, d_p: Field, d_r: Field) -> None:
-        fresh_p, fresh_r, size = d_p, d_r, np.sqrt(np.sum(d_r * d_r))
-        for other_p, other_r in self._pairs:
-            share = np.sum(d_r * other_r)
-            d_p, d_r = d_p - share * other_p, d_r - share * other_r
-        rest = np.sqrt(np.sum(d_r * d_r))
-        if rest <= DEPENDENT * size:
-            self._pairs, d_p, d_r, rest = [], fresh_p, fresh_r, size
-        if rest > 0:
-            self._pairs.append((d_p / rest, d_r / rest))
+    def _extrapolation(self, r: Field) -> Field:
+        """Σ share (Δx + Δr) over the differences of known points, with Σ share Δr nearest to r."""
+        d_x = np.diff(self._points, axis=0).reshape(len(self._points) - 1, -1)
+        d_r = np.diff(self._changes, axis=0).reshape(len(self._points) - 1, -1)
+        size = np.sqrt(np.sum(d_r * d_r, axis=1))[:, None]
+        unit_x, unit_r = d_x / size, d_r / size
+        # Not by matrix products, whose rounding depends on the number of threads.
+        products = np.einsum("ik,jk->ij", unit_r, unit_r)
+        share = np.linalg.lstsq(products, np.einsum("ik,k->i", unit_r, r.ravel()), DEPENDENT)[0]
+        return np.asarray(np.einsum("i,ik->k", share, unit_x + unit_r)).reshape(r.shape)

@@ -1,4 +1,4 @@
-"""What layers cost: `python -m verification.benchmarks` measures it.
+"""What layers and coupling cost: `python -m verification.benchmarks` measures it.
 
 Seconds on a shared machine scatter by a tenth and more, so nothing else judges them: the least of
 several repetitions is taken, and only twice the target is a failure here.
@@ -11,7 +11,8 @@ from collections.abc import Callable, Iterator
 
 import numpy as np
 
-from contact_scene import Layer
+from contact_scene import Body, CoulombFriction, Layer, LoadStep, Scene
+from semi_analytical import Increment, solve
 from semi_analytical.frf.stack import Stack, stack_of
 from semi_analytical.influence.layered import LayeredCoefficients
 from semi_analytical.model import ContactModel
@@ -43,6 +44,57 @@ def benchmarks() -> Iterator[Benchmark]:
         unit="",
         value=_iteration_ratio(256, 7),
         target=1.05,
+    )
+
+
+def coupled_benchmarks() -> Iterator[Benchmark]:
+    """Measure the paper's figures 3 and 4 up to 0.95 µW: too long for every verification."""
+    convolutions: list[float] = []
+    seconds: list[float] = []
+    histories: list[float] = []
+    for ratio in (0.5, 1.0, 2.0, 4.0):
+        stamps = [time.process_time()]
+
+        def stamp(_: Increment, stamps: list[float] = stamps) -> None:
+            stamps.append(time.process_time())
+
+        scene = _pushed(coated(film(ratio, 1.0)))
+        result = solve(scene, paper.hertz_grid(128), TOLERANCE, stamp)
+        convolutions.append(float(np.median([i.convolutions for i in result.increments])))
+        seconds.append(float(np.median(np.diff(stamps))))
+        histories.append(stamps[-1] - stamps[0])
+    what = "of a ball on a coating with friction, E1/E2 from 0.5 to 4, 128 x 128 cells: the worst"
+    yield Benchmark(
+        name="coupled_convolutions",
+        meaning=f"median convolutions of an increment {what}",
+        unit="",
+        value=max(convolutions),
+        target=250.0,
+    )
+    yield Benchmark(
+        name="coupled_increment",
+        meaning=f"median CPU time of an increment {what}",
+        unit="s",
+        value=max(seconds),
+        target=0.4,
+    )
+    yield Benchmark(
+        name="coupled_history",
+        meaning=f"CPU time of 15 normal and 20 tangential increments {what}",
+        unit="s",
+        value=max(histories),
+        target=15.0,
+    )
+
+
+def _pushed(body: Body) -> Scene:
+    push = LoadStep(tangential_force=(0.95 * paper.FRICTION_LIMIT, 0.0), increments=20)
+    return Scene(
+        title="benchmark",
+        indenter=rigid_ball(),
+        body=body,
+        friction=CoulombFriction(coefficient=paper.FRICTION),
+        loading=(LoadStep(normal_force=paper.NORMAL_FORCE, increments=15), push),
     )
 
 
@@ -84,7 +136,7 @@ def main() -> None:
     """Print the table; exit code 1 if a cost is far over its target."""
     from verification.cli.terminal import print_table
 
-    measured = list(benchmarks())
+    measured = [*benchmarks(), *coupled_benchmarks()]
     rows = [
         (b.name, f"{b.value:.3g} {b.unit}", f"{b.target:g} {b.unit}", b.outcome, b.meaning)
         for b in measured
