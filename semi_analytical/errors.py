@@ -1,29 +1,10 @@
-"""What can go wrong in a solve, one class per thing a caller may want to treat differently."""
+"""What can go wrong in a solve on a surface grid, beside what can go wrong in any solve."""
 
-from typing import Any
-
-
-class SolverError(RuntimeError):
-    """The scene is well formed, but this solve cannot give a trustworthy answer.
-
-    last_state  the last converged state of the history, or None
-    where       the place in the history, such as "step 2, increment 3 of 18"; None before it
-    """
-
-    last_state: Any = None
-    where: str | None = None
-
-    def __str__(self) -> str:
-        message = super().__str__()
-        return message if self.where is None else f"{self.where}: {message}"
-
-
-class UnsupportedScene(SolverError):
-    """The scene asks for physics that this version of the solver does not have."""
-
-
-class GrossSliding(SolverError):
-    """The tangential force exceeds what friction can carry under force control."""
+from contact_scene.solver_errors import GrossSliding as GrossSliding
+from contact_scene.solver_errors import NotConverged as NotConverged
+from contact_scene.solver_errors import ResourceRefused as ResourceRefused
+from contact_scene.solver_errors import SolverError as SolverError
+from contact_scene.solver_errors import UnsupportedScene as UnsupportedScene
 
 
 class ContactAtWindowEdge(SolverError):
@@ -32,25 +13,3 @@ class ContactAtWindowEdge(SolverError):
 
 class ContactNotResolved(SolverError):
     """The contact lies between the cell centres: no cell touches."""
-
-
-class ResourceRefused(SolverError):
-    """The solve would need more memory than this machine has available."""
-
-
-class NotConverged(SolverError):
-    """The iteration stopped above its tolerance; nothing of the failed increment is returned.
-
-    iterations  iterations spent
-    residual    the worst dimensionless residual reached
-    tolerance   what was asked for
-    """
-
-    def __init__(self, problem: str, iterations: int, residual: float, tolerance: float) -> None:
-        super().__init__(
-            f"{problem} did not converge: residual {residual:.2e} after {iterations} iterations, "
-            f"tolerance {tolerance:.1e}; try smaller load increments or a looser tolerance"
-        )
-        self.iterations = iterations
-        self.residual = residual
-        self.tolerance = tolerance

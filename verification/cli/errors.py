@@ -2,7 +2,6 @@
 
 import errno
 import os
-import sys
 import traceback
 from enum import IntEnum
 
@@ -37,9 +36,7 @@ def exit_code(error: Exception) -> ExitCode:
 
 
 def _solver_exit_code(error: Exception) -> ExitCode:
-    if "semi_analytical" not in sys.modules:  # no solver has run, so none can have raised
-        return ExitCode.INTERNAL
-    from semi_analytical.errors import NotConverged, ResourceRefused, SolverError
+    from contact_scene.solver_errors import NotConverged, ResourceRefused, SolverError
 
     if isinstance(error, NotConverged):
         return ExitCode.NOT_CONVERGED

@@ -1,0 +1,51 @@
+"""What can go wrong in a solve, one class per thing a caller may want to treat differently.
+
+Both solvers raise these, so that a caller need not know which one it has called.
+"""
+
+from typing import Any
+
+
+class SolverError(RuntimeError):
+    """The scene is well formed, but this solve cannot give a trustworthy answer.
+
+    last_state  the last converged state of the history, or None
+    where       the place in the history, such as "step 2, increment 3 of 18"; None before it
+    """
+
+    last_state: Any = None
+    where: str | None = None
+
+    def __str__(self) -> str:
+        message = super().__str__()
+        return message if self.where is None else f"{self.where}: {message}"
+
+
+class UnsupportedScene(SolverError):
+    """The scene asks for physics that this version of the solver does not have."""
+
+
+class GrossSliding(SolverError):
+    """The tangential load exceeds what friction can carry under force control."""
+
+
+class ResourceRefused(SolverError):
+    """The solve would need more memory than this machine has available."""
+
+
+class NotConverged(SolverError):
+    """The iteration stopped above its tolerance; nothing of the failed increment is returned.
+
+    iterations  iterations spent
+    residual    the worst dimensionless residual reached
+    tolerance   what was asked for
+    """
+
+    def __init__(self, problem: str, iterations: int, residual: float, tolerance: float) -> None:
+        super().__init__(
+            f"{problem} did not converge: residual {residual:.2e} after {iterations} iterations, "
+            f"tolerance {tolerance:.1e}; try smaller load increments or a looser tolerance"
+        )
+        self.iterations = iterations
+        self.residual = residual
+        self.tolerance = tolerance
