@@ -7,10 +7,10 @@ A scene is made in Python from the frozen values named here, or read from a TOML
 from contact_scene.array_file import ArrayFile
 from contact_scene.body import Body, Layer
 from contact_scene.body_file import read_body
-from contact_scene.discretisation import SurfaceDiscretisation
+from contact_scene.discretisation import FiniteElementDiscretisation, SurfaceDiscretisation
 from contact_scene.friction import CoulombFriction, FrictionMap
 from contact_scene.geometry import Cone, Ellipsoid, FlatPunch, HeightMap, Paraboloid, Sphere
-from contact_scene.load_path import ControlKind, LoadRamp, NormalControl, TangentialControl
+from contact_scene.load_path import ControlKind, LoadRamp, ScalarControl, VectorControl
 from contact_scene.loading import LoadStep
 from contact_scene.material import RIGID, IsotropicMaterial, Rigid
 from contact_scene.problem import Problem, SceneError
@@ -26,6 +26,7 @@ __all__ = [
     "ControlKind",
     "CoulombFriction",
     "Ellipsoid",
+    "FiniteElementDiscretisation",
     "FlatPunch",
     "FrictionMap",
     "HeightMap",
@@ -33,16 +34,16 @@ __all__ = [
     "Layer",
     "LoadRamp",
     "LoadStep",
-    "NormalControl",
     "Paraboloid",
     "Problem",
     "Rigid",
+    "ScalarControl",
     "Scene",
     "SceneError",
     "SceneFile",
     "Sphere",
     "SurfaceDiscretisation",
-    "TangentialControl",
+    "VectorControl",
     "load_scene",
     "read_body",
     "read_scene_file",

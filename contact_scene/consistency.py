@@ -7,8 +7,8 @@ from typing import TypedDict
 from contact_scene.body import Body
 from contact_scene.discretisation import SurfaceDiscretisation
 from contact_scene.friction import CoulombFriction, FrictionMap
-from contact_scene.geometry import HeightMap, Indenter
-from contact_scene.load_path import ControlKind, load_path
+from contact_scene.geometry import FlatPunch, HeightMap, Indenter
+from contact_scene.load_path import ControlKind, LoadRamp, load_path
 from contact_scene.loading import LoadStep
 from contact_scene.problem import Path, Problem
 
@@ -17,6 +17,13 @@ _ROUND_OFF = 1e-12
 # This close to the limit hardly anything sticks: the shift tends to the sliding limit, and
 # nothing can start from it.
 _AT_THE_LIMIT = 1e-6
+
+_SHEARING = {
+    "tangential_force": "a tangential load",
+    "tangential_shift": "a tangential load",
+    "torque": "a torque",
+    "twist": "a twist",
+}
 
 
 class Parts(TypedDict, total=False):
@@ -36,6 +43,7 @@ def inconsistencies(parts: Parts) -> tuple[Problem, ...]:
         *_first_step_does_not_press(parts),
         *_shear_without_friction(parts),
         *_gross_sliding(parts),
+        *_moment_beyond_the_contact(parts),
         *_window_beyond_the_height_map(parts),
         *_cells_unlike_the_friction_map(parts),
     )
@@ -66,12 +74,13 @@ def _shear_without_friction(parts: Parts) -> Iterator[Problem]:
     if "friction" not in parts or parts["friction"] is not None:
         return
     for index, step in enumerate(parts.get("loading", ())):
-        if step.names_tangential:
-            yield Problem(
-                _key_of_shear(index, step),
-                "a tangential load on a frictionless contact",
-                hint="add [friction] with a coefficient, or leave the tangential load out",
-            )
+        for key, load in _SHEARING.items():
+            if getattr(step, key) is not None:
+                yield Problem(
+                    ("loading", index, key),
+                    f"{load} on a frictionless contact",
+                    hint="add [friction] with a coefficient, or leave it out",
+                )
 
 
 def _gross_sliding(parts: Parts) -> Iterator[Problem]:
@@ -108,6 +117,41 @@ def _gross_sliding(parts: Parts) -> Iterator[Problem]:
                     "and a further step follows",
                     hint="stay below the limit, or prescribe tangential_shift instead",
                 )
+
+
+def _moment_beyond_the_contact(parts: Parts) -> Iterator[Problem]:
+    """Steps under force control whose normal force acts beyond the end of the indenter.
+
+    |M| - W reach is convex along a ramp of both, so it suffices to look at the ends.
+    """
+    indenter, loading = parts.get("indenter"), parts.get("loading")
+    if indenter is None or not loading or not loading[0].names_normal:
+        return
+    for index, ramp in enumerate(load_path(loading)):
+        if ControlKind.DISPLACEMENT in (ramp.normal.kind, ramp.tilting.kind):
+            continue
+        for distance, reach in _arms(indenter, ramp):
+            if distance >= reach:
+                moved = "normal_force" if loading[index].moment is None else "moment"
+                yield Problem(
+                    ("loading", index, moved),
+                    f"the moment moves the normal force {distance:.6g} m from the origin, and the "
+                    f"indenter ends at {reach:.6g} m: it tips over",
+                    hint="take a smaller moment, or prescribe tilt instead",
+                )
+                break
+
+
+def _arms(indenter: Indenter, ramp: LoadRamp) -> tuple[tuple[float, float], ...]:
+    """Distances of the normal force from the origin, each with how far the indenter reaches that
+    way; none for shapes without end."""
+    M_x, M_y = ramp.tilting.end
+    x, y = abs(M_y) / ramp.normal.end, abs(M_x) / ramp.normal.end
+    if isinstance(indenter, FlatPunch):
+        return ((math.hypot(x, y), indenter.radius),)
+    if isinstance(indenter, HeightMap):
+        return (x, indenter.extent[0] / 2), (y, indenter.extent[1] / 2)
+    return ()
 
 
 def _window_beyond_the_height_map(parts: Parts) -> Iterator[Problem]:

@@ -1,12 +1,27 @@
-"""How fine the semi-analytical solver shall be: the table `[semi_analytical]`."""
+"""How fine each solver shall be: the tables `[semi_analytical]` and `[fem_reference]`."""
 
-from typing import Annotated
+from typing import Annotated, Literal
 
 from contact_scene.description import Description
-from contact_scene.quantity import PositiveLength, Tolerance
+from contact_scene.quantity import PositiveLength, Quantity, Tolerance
+from contact_scene.units import PURE_NUMBER
 from contact_scene.whole_number import WholeNumber
 
+PATH_ACCURACY = 1e-2
+
 Cells = Annotated[int, WholeNumber(8, 16384)]
+Elements = Annotated[int, WholeNumber(4, 512)]
+Harmonics = Annotated[int, WholeNumber(2, 64)]
+Augmentations = Annotated[int, WholeNumber(0, 100)]
+BoxSize = Annotated[
+    float, Quantity(PURE_NUMBER, "a number from 5 to 1e6", at_least=5.0, at_most=1e6)
+]
+PenaltyFactor = Annotated[
+    float, Quantity(PURE_NUMBER, "a number from 0.01 to 1e4", at_least=0.01, at_most=1e4)
+]
+PathAccuracy = Annotated[
+    float, Quantity(PURE_NUMBER, "a number from 1e-4 to 1", at_least=1e-4, at_most=1.0)
+]
 
 
 class SurfaceDiscretisation(Description):
@@ -21,3 +36,42 @@ class SurfaceDiscretisation(Description):
 
     tolerance: Tolerance = 1e-8
     """Bound of every dimensionless residual at the end of an increment."""
+
+    path_accuracy: PathAccuracy = PATH_ACCURACY
+    """Error of the shear that finite increments may leave at the end of a step, summed over the
+    surface and relative to the friction limit. It sets the increments of steps that name none."""
+
+
+class FiniteElementDiscretisation(Description):
+    """Elements and size of the axisymmetric section, and the tolerance of the solver."""
+
+    elements_per_radius: Elements = 32
+    """Number of elements of equal side over the contact radius."""
+
+    contact_radius: PositiveLength | None = None
+    """Largest contact radius of the history, which the other numbers refer to [length]; absent:
+    estimated. It lays out the mesh and does not decide the answer."""
+
+    box: BoxSize | None = None
+    """Outer radius and depth of the section, in contact radii; absent: chosen, 100 and more where
+    the layers are thick or stiff."""
+
+    mesher: Literal["tensor", "gmsh"] = "tensor"
+    """What makes the mesh: a graded grid of rectangles, or gmsh."""
+
+    harmonics: Harmonics = 8
+    """Highest angular harmonic where a tangential load and the pressure act on one another."""
+
+    penalty: PenaltyFactor = 10.0
+    """Stiffness of the penalty method against overlap and slip, in contact moduli per element."""
+
+    augmentations: Augmentations = 1
+    """How often the penalty method corrects its tractions in an increment."""
+
+    tolerance: Tolerance = 1e-8
+    """Bound of every dimensionless residual at the end of an increment."""
+
+    def refined(self) -> "FiniteElementDiscretisation":
+        """The same with twice the elements; ValueError beyond the bounds."""
+        finer = {**self.model_dump(), "elements_per_radius": 2 * self.elements_per_radius}
+        return FiniteElementDiscretisation.model_validate(finer)

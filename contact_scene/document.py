@@ -1,7 +1,7 @@
 """The whole of a scene file: the scene, and beside it how fine each solver shall be."""
 
 from contact_scene.consistency import Parts
-from contact_scene.discretisation import SurfaceDiscretisation
+from contact_scene.discretisation import FiniteElementDiscretisation, SurfaceDiscretisation
 from contact_scene.scene import Scene
 
 
@@ -10,6 +10,9 @@ class SceneDocument(Scene):
 
     semi_analytical: SurfaceDiscretisation = SurfaceDiscretisation()
     """How fine the semi-analytical solver shall be; absent: chosen for the accuracy."""
+
+    fem_reference: FiniteElementDiscretisation = FiniteElementDiscretisation()
+    """How fine the finite-element reference shall be; absent: chosen."""
 
     def _parts(self) -> Parts:
         return {**super()._parts(), "semi_analytical": self.semi_analytical}

@@ -3,10 +3,12 @@
 from collections.abc import Iterable
 from dataclasses import dataclass
 from enum import Enum
+from typing import Generic, TypeVar
 
 from contact_scene.loading import LoadStep
 
 Vector = tuple[float, float]
+Value = TypeVar("Value", float, Vector)
 
 
 class ControlKind(Enum):
@@ -17,27 +19,21 @@ class ControlKind(Enum):
 
 
 @dataclass(frozen=True)
-class NormalControl:
-    """Normal force [force] or approach [length] from start to end of a step, linearly.
+class Control(Generic[Value]):
+    """A coordinate of the rigid motion, or its force, from start to end of a step, linearly.
 
-    start is None where the step takes over from the other kind: known only once solved.
+    kind   whether start and end are forces [force], moments [force length] for rotations; or
+           displacements [length], rotations [radian]
+    start  None where the step takes over from the other kind: known only once solved
     """
 
     kind: ControlKind
-    start: float | None
-    end: float
+    start: Value | None
+    end: Value
 
 
-@dataclass(frozen=True)
-class TangentialControl:
-    """Tangential force [force] or shift [length], (x, y), from start to end of a step, linearly.
-
-    start is None where the step takes over from the other kind: known only once solved.
-    """
-
-    kind: ControlKind
-    start: Vector | None
-    end: Vector
+ScalarControl = Control[float]
+VectorControl = Control[Vector]
 
 
 @dataclass(frozen=True)
@@ -45,54 +41,64 @@ class LoadRamp:
     """One loading step with nothing left implicit.
 
     step        number of the step, counted from 1
+    normal      normal force or approach
+    tangential  tangential force or shift, (x, y)
+    twisting    torque or twist
+    tilting     moment (Mx, My) or tilt (x, y)
     increments  as asked for in the scene, or None
     """
 
     step: int
-    normal: NormalControl
-    tangential: TangentialControl
+    normal: ScalarControl
+    tangential: VectorControl
+    twisting: ScalarControl
+    tilting: VectorControl
     increments: int | None
+
+
+# The bodies just touch. Until a step names it, a coordinate is free to shift but not to rotate.
+_AT_REST = LoadRamp(
+    step=0,
+    normal=ScalarControl(ControlKind.FORCE, 0.0, 0.0),
+    tangential=VectorControl(ControlKind.FORCE, (0.0, 0.0), (0.0, 0.0)),
+    twisting=ScalarControl(ControlKind.DISPLACEMENT, 0.0, 0.0),
+    tilting=VectorControl(ControlKind.DISPLACEMENT, (0.0, 0.0), (0.0, 0.0)),
+    increments=None,
+)
 
 
 def load_path(loading: Iterable[LoadStep]) -> tuple[LoadRamp, ...]:
     """Resolve steps: what a step does not name is held under its last control.
 
-    Before the first step the bodies just touch: no force, no approach, no shift. The first step
-    must name a normal load.
+    Before the first step the bodies just touch: no load and no motion. The first step must name a
+    normal load.
     """
     ramps: list[LoadRamp] = []
-    normal: NormalControl | None = None
-    tangential: TangentialControl | None = None
+    last = _AT_REST
     for number, step in enumerate(loading, start=1):
-        normal = _next_normal(step, normal)
-        tangential = _next_tangential(step, tangential)
-        ramps.append(LoadRamp(number, normal, tangential, step.increments))
+        if last is _AT_REST and not step.names_normal:
+            raise ValueError("the first step names no normal load")
+        last = LoadRamp(
+            number,
+            _next(step.normal_force, step.approach, last.normal, last is _AT_REST),
+            _next(step.tangential_force, step.tangential_shift, last.tangential, last is _AT_REST),
+            _next(step.torque, step.twist, last.twisting, last is _AT_REST),
+            _next(step.moment, step.tilt, last.tilting, last is _AT_REST),
+            step.increments,
+        )
+        ramps.append(last)
     return tuple(ramps)
 
 
-def _next_normal(step: LoadStep, last: NormalControl | None) -> NormalControl:
-    if step.normal_force is not None:
-        kind, end = ControlKind.FORCE, step.normal_force
-    elif step.approach is not None:
-        kind, end = ControlKind.DISPLACEMENT, step.approach
-    elif last is not None:
-        return NormalControl(last.kind, last.end, last.end)
-    else:
-        raise ValueError("the first step names no normal load")
-    if last is None:
-        return NormalControl(kind, 0.0, end)
-    return NormalControl(kind, last.end if last.kind is kind else None, end)
+def _next(
+    force: Value | None, displacement: Value | None, last: Control[Value], at_rest: bool
+) -> Control[Value]:
+    """What a step does with one coordinate, of which it names at most one control.
 
-
-def _next_tangential(step: LoadStep, last: TangentialControl | None) -> TangentialControl:
-    if step.tangential_force is not None:
-        kind, end = ControlKind.FORCE, step.tangential_force
-    elif step.tangential_shift is not None:
-        kind, end = ControlKind.DISPLACEMENT, step.tangential_shift
-    elif last is not None:
-        return TangentialControl(last.kind, last.end, last.end)
-    else:
-        return TangentialControl(ControlKind.FORCE, (0.0, 0.0), (0.0, 0.0))
-    if last is None:
-        return TangentialControl(kind, (0.0, 0.0), end)
-    return TangentialControl(kind, last.end if last.kind is kind else None, end)
+    at_rest  force and displacement are both zero so far, whichever of them was controlled
+    """
+    named = displacement if force is None else force
+    if named is None:
+        return Control(last.kind, last.end, last.end)
+    kind = ControlKind.DISPLACEMENT if force is None else ControlKind.FORCE
+    return Control(kind, last.end if last.kind is kind or at_rest else None, named)

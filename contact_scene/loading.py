@@ -5,18 +5,27 @@ from typing import Annotated
 from pydantic import model_validator
 
 from contact_scene.description import Description
-from contact_scene.quantity import Force, Length, PositiveForce, PositiveLength
+from contact_scene.quantity import Force, Length, Moment, PositiveForce, PositiveLength, Rotation
 from contact_scene.refusal import refusal
 from contact_scene.whole_number import WholeNumber
 
 MOST_STEPS = 20_000
 Increments = Annotated[int, WholeNumber(1, 100_000)]
 
+# Every coordinate of the indenter's rigid motion is led by its force or by itself.
+CONTROLS = (
+    ("normal_force", "approach"),
+    ("tangential_force", "tangential_shift"),
+    ("torque", "twist"),
+    ("moment", "tilt"),
+)
+
 
 class LoadStep(Description):
     """One step: what it names ramps linearly to the value given, all else is held.
 
-    Forces and shifts are of the indenter relative to the body, with components along x and y.
+    Forces, moments and motions are of the indenter relative to the body, with components along x
+    and y; moments are about the origin. Rotations that no step has named yet are held at zero.
     """
 
     normal_force: PositiveForce | None = None
@@ -31,28 +40,51 @@ class LoadStep(Description):
     tangential_shift: tuple[Length, Length] | None = None
     """Tangential shift (x, y) at the end of the step [length]."""
 
+    torque: Moment | None = None
+    """Torque about z at the end of the step [force length]."""
+
+    twist: Rotation | None = None
+    """Twist, the rotation about z, at the end of the step."""
+
+    moment: tuple[Moment, Moment] | None = None
+    """Moment (Mx, My) = (sum of p y, sum of p x) at the end of the step [force length]: the normal
+    force acts at (My, Mx) / W. (0, 0) lets the indenter tilt freely."""
+
+    tilt: tuple[Rotation, Rotation] | None = None
+    """Tilt (x, y) at the end of the step: slopes that close the gap at positive y and x."""
+
     increments: Increments | None = None
     """Number of the solver's increments within the step; absent: chosen by the solver."""
 
     @model_validator(mode="after")
     def _names_one_control_each(self) -> "LoadStep":
-        if self.normal_force is not None and self.approach is not None:
-            raise refusal("got both normal_force and approach", "one of them")
-        if self.tangential_force is not None and self.tangential_shift is not None:
-            raise refusal("got both tangential_force and tangential_shift", "one of them")
-        if not self.names_normal and not self.names_tangential:
-            raise refusal(
-                "the step names no load",
-                "at least one of normal_force, approach, tangential_force, tangential_shift",
-            )
+        for force, displacement in CONTROLS:
+            if self._names(force) and self._names(displacement):
+                raise refusal(f"got both {force} and {displacement}", "one of them")
+        if not any(self._names(control) for pair in CONTROLS for control in pair):
+            keys = ", ".join(control for pair in CONTROLS for control in pair)
+            raise refusal("the step names no load", f"at least one of {keys}")
         return self
+
+    def _names(self, *keys: str) -> bool:
+        return any(getattr(self, key) is not None for key in keys)
 
     @property
     def names_normal(self) -> bool:
         """Whether the step changes the normal load."""
-        return self.normal_force is not None or self.approach is not None
+        return self._names("normal_force", "approach")
 
     @property
     def names_tangential(self) -> bool:
         """Whether the step changes the tangential load."""
-        return self.tangential_force is not None or self.tangential_shift is not None
+        return self._names("tangential_force", "tangential_shift")
+
+    @property
+    def names_torsion(self) -> bool:
+        """Whether the step changes the torque or the twist."""
+        return self._names("torque", "twist")
+
+    @property
+    def names_tilting(self) -> bool:
+        """Whether the step changes the moment or the tilt."""
+        return self._names("moment", "tilt")

@@ -11,7 +11,17 @@ from pydantic import GetCoreSchemaHandler, GetJsonSchemaHandler, ValidationInfo
 from pydantic_core import CoreSchema, core_schema
 
 from contact_scene.refusal import refusal, shown
-from contact_scene.units import ANGLE, FORCE, LENGTH, PRESSURE, PURE_NUMBER, Kind, UnknownUnit
+from contact_scene.units import (
+    ANGLE,
+    FORCE,
+    LENGTH,
+    MOMENT,
+    PRESSURE,
+    PURE_NUMBER,
+    ROTATION,
+    Kind,
+    UnknownUnit,
+)
 
 # Nothing but "number unit" passes; the unit is a product of at most five simple factors.
 _NUMBER = r"[+-]?(?:[0-9]{1,40}(?:\.[0-9]{0,40})?|\.[0-9]{1,40})(?:[eE][+-]?[0-9]{1,4})?"
@@ -138,6 +148,18 @@ Length = Annotated[float, Quantity(LENGTH, "a length")]
 PositiveLength = Annotated[float, Quantity(LENGTH, "a positive length", above=0.0)]
 Force = Annotated[float, Quantity(FORCE, "a force")]
 PositiveForce = Annotated[float, Quantity(FORCE, "a positive force", above=0.0)]
+Moment = Annotated[float, Quantity(MOMENT, "a moment")]
+# "60 deg" rounds up.
+_MOST_ROTATION = math.nextafter(math.pi / 3, math.inf)
+Rotation = Annotated[
+    float,
+    Quantity(
+        ROTATION,
+        "an angle from -60 to 60 deg",
+        at_least=-_MOST_ROTATION,
+        at_most=_MOST_ROTATION,
+    ),
+]
 PositivePressure = Annotated[float, Quantity(PRESSURE, "a positive pressure", above=0.0)]
 SlopeAngle = Annotated[
     float,

@@ -8,7 +8,7 @@ from typing import Any, cast
 from pydantic import TypeAdapter, ValidationError
 
 from contact_scene.consistency import Parts, inconsistencies
-from contact_scene.discretisation import SurfaceDiscretisation
+from contact_scene.discretisation import FiniteElementDiscretisation, SurfaceDiscretisation
 from contact_scene.document import SceneDocument
 from contact_scene.mistakes import mistakes
 from contact_scene.problem import SceneError
@@ -22,6 +22,7 @@ class SceneFile:
 
     scene: Scene
     semi_analytical: SurfaceDiscretisation
+    fem_reference: FiniteElementDiscretisation
 
 
 def load_scene(path: str | PathLike[str]) -> Scene:
@@ -50,7 +51,7 @@ def _checked(document: dict[str, Any], context: dict[str, Any]) -> SceneFile:
         found += inconsistencies(_valid_parts(document, error, context))
         raise SceneError(found) from None
     scene = Scene.model_construct(**{name: getattr(valid, name) for name in Scene.model_fields})
-    return SceneFile(scene, valid.semi_analytical)
+    return SceneFile(scene, valid.semi_analytical, valid.fem_reference)
 
 
 def _valid_parts(

@@ -7,6 +7,7 @@ from typing import Annotated, Any
 from pydantic import Field
 
 from contact_scene.description import Description
+from contact_scene.path_error import PathError
 
 SUMMARY_VERSION = 1
 
@@ -20,6 +21,10 @@ Metre = Annotated[float, _unit("m")]
 SquareMetre = Annotated[float, _unit("m^2")]
 Pascal = Annotated[float, _unit("Pa")]
 Joule = Annotated[float, _unit("J")]
+PascalMetre = Annotated[float, _unit("Pa m")]
+SquarePascalMetre = Annotated[float, _unit("Pa^2 m")]
+NewtonMetre = Annotated[float, _unit("N m")]
+Radian = Annotated[float, _unit("rad")]
 Ratio = Annotated[float, _unit("1")]
 
 
@@ -55,6 +60,14 @@ class Residuals(Description):
     tangential_equilibrium: Ratio | None = None
     """Difference of the integrated shear from the tangential force, relative to the limit."""
 
+    moment_equilibrium: Ratio | None = None
+    """Difference of the moments of the pressure from the given ones, relative to the pressure times
+    its distance from the origin; null where the tilt is prescribed."""
+
+    torque_equilibrium: Ratio | None = None
+    """Difference of the torque of the shear from the given one, relative to the friction limit
+    times its distance from the origin; null where the twist is prescribed."""
+
 
 class StepSummary(Description):
     """State at the end of one `[[loading]]` table. Vectors are (x, y), of the indenter relative
@@ -81,6 +94,18 @@ class StepSummary(Description):
     tangential_shift: tuple[Metre, Metre] | None = None
     """Tangential shift; null without friction."""
 
+    torque: NewtonMetre | None = None
+    """Torque about z; null where nothing twists."""
+
+    twist: Radian | None = None
+    """Twist, the rotation about z; null where nothing twists, or undefined."""
+
+    moment: tuple[NewtonMetre, NewtonMetre] | None = None
+    """Moments (Mx, My) of the pressure, the sums of p y and p x; null where nothing tilts."""
+
+    tilt: tuple[Radian, Radian] | None = None
+    """Tilt (x, y): slopes that close the gap at positive y and x; null where nothing tilts."""
+
     stick_area: SquareMetre | None = None
     """Area that sticks, with sub-cell accuracy; null without friction."""
 
@@ -89,6 +114,40 @@ class StepSummary(Description):
 
     dissipated_energy: Joule | None = None
     """Energy dissipated by slip since the start of the history; null without friction."""
+
+    elastic_energy: Joule | None = None
+    """Energy stored in both bodies; null for a solver that does not keep the account."""
+
+    input_work: Joule | None = None
+    """Work of forces and moments since the start of the history, by the trapezoidal rule over the
+    increments; null where a motion is undefined, at the friction limit under force control."""
+
+    unresolved_work: Joule | None = None
+    """Part of the input work that is neither stored nor dissipated because increments are finite.
+    It vanishes with them: input_work - unresolved_work is the better value of the work."""
+
+    energy_imbalance: Ratio | None = None
+    """What is missing of input_work = elastic_energy + dissipated_energy + unresolved_work over an
+    increment, relative to the largest of them so far; the largest value in the step."""
+
+    cycle_start: Annotated[int, Field(ge=1)] | None = None
+    """The earlier step, from 1, that ended with the same loads: from its end to the end of this
+    one is a cycle. Null, with the four that follow, where no cycle closes or nothing is sheared."""
+
+    energy_per_cycle: Joule | None = None
+    """Energy dissipated by slip in the cycle."""
+
+    slip_amplitude: Metre | None = None
+    """Half the range of slip in the cycle, at the place where it is largest."""
+
+    ruiz_f1: PascalMetre | None = None
+    """Ruiz's first parameter: largest shear times slip amplitude, at the place where that product
+    is largest (Ruiz, Boddington and Chen 1984)."""
+
+    ruiz_f2: SquarePascalMetre | None = None
+    """Ruiz's second parameter: largest shear times slip amplitude times the largest tension along
+    the surface in the direction of the tangential force, at the place where that product is
+    largest; null unless the stress at the surface was asked for."""
 
     residuals: Residuals
     """How well the state fulfils its equations."""
@@ -147,6 +206,9 @@ class RunSummary(Description):
 
     steps: tuple[StepSummary, ...]
     """One entry for every `[[loading]]` table, in order."""
+
+    path_errors: tuple[PathError, ...] | None = None
+    """What finite increments cost, one entry for every step; null where it was not asked for."""
 
 
 def dump_summary(summary: RunSummary) -> str:

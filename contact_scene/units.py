@@ -50,12 +50,18 @@ _DEGREE = Decimal("0.01745329251994329576923690768488612713443")  # pi/180
 PURE_NUMBER = Kind("", "", MappingProxyType({}))
 LENGTH = Kind("m", '"18 mm"', _table(m="1", cm="1e-2", mm="1e-3", um="1e-6", nm="1e-9"))
 FORCE = Kind("N", '"1 kN"', _table(N="1", uN="1e-6", mN="1e-3", kN="1e3", MN="1e6"))
-PRESSURE = Kind("Pa", '"210 GPa"', _table(Pa="1", kPa="1e3", MPa="1e6", GPa="1e9", TPa="1e12"))
-ANGLE = Kind(
-    "rad",
-    '"20 deg"',
-    MappingProxyType({"rad": Decimal(1), "mrad": Decimal("1e-3"), "deg": _DEGREE, "°": _DEGREE}),
+MOMENT = Kind(
+    "N m",
+    '"2 N m"',
+    _table(
+        **{"N m": "1", "N mm": "1e-3", "uN m": "1e-6", "mN m": "1e-3", "kN m": "1e3"},
+        **{"Nm": "1", "Nmm": "1e-3", "uNm": "1e-6", "mNm": "1e-3", "kNm": "1e3"},
+    ),
 )
+PRESSURE = Kind("Pa", '"210 GPa"', _table(Pa="1", kPa="1e3", MPa="1e6", GPa="1e9", TPa="1e12"))
+_ANGLES = {"rad": Decimal(1), "mrad": Decimal("1e-3"), "deg": _DEGREE, "°": _DEGREE}
+ANGLE = Kind("rad", '"20 deg"', MappingProxyType(_ANGLES))
+ROTATION = Kind("rad", '"0.1 deg"', MappingProxyType(_ANGLES))
 
 
 @cache

@@ -12,13 +12,15 @@ from semi_analytical.errors import (
 )
 from semi_analytical.fields import Increment, Result
 from semi_analytical.grid import SurfaceGrid
-from semi_analytical.plan import Effect, Plan, plan
+from semi_analytical.other_plans import all_effects, one_way
+from semi_analytical.plan import Coupling, Effect, Plan, plan
 from semi_analytical.residuals import Residuals
 from semi_analytical.solve import solve, solve_discretised
 
 __all__ = [
     "ContactAtWindowEdge",
     "ContactNotResolved",
+    "Coupling",
     "Effect",
     "GrossSliding",
     "Increment",
@@ -30,7 +32,9 @@ __all__ = [
     "SolverError",
     "SurfaceGrid",
     "UnsupportedScene",
+    "all_effects",
     "discretise",
+    "one_way",
     "plan",
     "solve",
     "solve_discretised",

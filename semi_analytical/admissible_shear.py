@@ -2,21 +2,21 @@
 
 The exact projection on {discs, and Σq = total} is what makes the shear problem robust: every
 iterate carries the load and obeys Coulomb's bound, and the multiplier of the sum is the rigid
-shift. The projection is q = P(y + λ) with P the projection on the discs; the two components of λ
-minimise a convex function (the dual), found by a damped Newton method. It works on the gradient of
-that function, Σq - total: its values are differences of large numbers near the friction limit.
+shift (see multipliers.py).
 """
 
 from dataclasses import dataclass
+from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
+
+from semi_analytical.multipliers import find_multiplier
 
 Field = NDArray[np.float64]
 VectorField = NDArray[np.float64]
 Vector = NDArray[np.float64]
 
-MOST_SWEEPS = 100
 # What rounding leaves of a sum of shears, relative to the sum of their magnitudes.
 ROUND_OFF = 1e-14
 # Relative distance from the friction limit at which force control loses the shift.
@@ -25,11 +25,84 @@ AT_LIMIT = 1e-9
 MULTIPLIER_ROUND_OFF = 5e-16
 
 
+class TangentialLoad(Protocol):
+    """What leads the indenter in its plane. Its motion is a vector: the shift, and what else it
+    can do."""
+
+    def rigid(self, motion: Vector) -> VectorField:
+        """Displacement of the indenter's particles, to broadcast with (2, nx, ny) [length]."""
+
+    def nearest(
+        self, y: VectorField, bound: Field, gamma: float, motion: Vector
+    ) -> tuple[VectorField, Vector]:
+        """The admissible shear nearest to y + γ rigid(motion), and the motion of the load.
+
+        motion  first guess where the load leaves it free
+        """
+
+    def admissible(self, q: VectorField, bound: Field) -> VectorField:
+        """The nearest shear that friction allows and that carries the load."""
+
+    def free_motions(self, shape: tuple[int, ...]) -> tuple[VectorField, ...]:
+        """Rigid motions whose forces are given, fields of this shape (2, nx, ny)."""
+
+    @property
+    def given(self) -> Vector:
+        """The given forces, in the order of the free motions [force / cell area]."""
+
+    def forces(self, q: VectorField) -> Vector:
+        """Those of a shear."""
+
+    def exhausts(self, bound: Field) -> bool:
+        """Whether friction can carry no more than the load, or nothing at all."""
+
+    def full_slip(self, bound: Field, motion: Vector) -> tuple[VectorField, Vector]:
+        """The shear and the motion where all cells slip."""
+
+
 @dataclass(frozen=True)
 class ShearSum:
     """Force control: the sum Σq of all cell shears, T / cell area, shape (2,)."""
 
     total: Vector
+
+    def rigid(self, motion: Vector) -> VectorField:
+        """The shift, everywhere the same."""
+        return everywhere(motion)
+
+    def nearest(
+        self, y: VectorField, bound: Field, gamma: float, motion: Vector
+    ) -> tuple[VectorField, Vector]:
+        """By projection; the multiplier of the sum is γ times the shift."""
+        q, multiplier = project(y, bound, self.total, gamma * motion)
+        return q, multiplier / gamma
+
+    def admissible(self, q: VectorField, bound: Field) -> VectorField:
+        """On the discs, with the sum."""
+        return project(q, bound, self.total)[0]
+
+    def free_motions(self, shape: tuple[int, ...]) -> tuple[VectorField, ...]:
+        """Along x and along y."""
+        return tuple(np.broadcast_to(everywhere(e), shape) for e in np.eye(2))
+
+    @property
+    def given(self) -> Vector:
+        """The sum."""
+        return self.total
+
+    def forces(self, q: VectorField) -> Vector:
+        """The sum of a shear."""
+        return np.asarray(np.sum(q, axis=(1, 2)))
+
+    def exhausts(self, bound: Field) -> bool:
+        """Whether the force is at the friction limit or beyond."""
+        return float(np.hypot(*self.total)) >= float(np.sum(bound)) * (1 - AT_LIMIT)
+
+    def full_slip(self, bound: Field, motion: Vector) -> tuple[VectorField, Vector]:
+        """All cells pull along the force."""
+        if not np.any(bound):
+            return np.zeros((2, *bound.shape)), motion
+        return bound * everywhere(self.total / np.hypot(*self.total)), motion
 
 
 @dataclass(frozen=True)
@@ -38,8 +111,40 @@ class FixedShift:
 
     shift: Vector
 
+    def rigid(self, motion: Vector) -> VectorField:
+        """The shift, everywhere the same."""
+        return everywhere(motion)
 
-TangentialLoad = ShearSum | FixedShift
+    def nearest(
+        self, y: VectorField, bound: Field, gamma: float, motion: Vector
+    ) -> tuple[VectorField, Vector]:
+        """Cell by cell."""
+        return project_on_discs(y + everywhere(gamma * self.shift), bound), self.shift
+
+    def admissible(self, q: VectorField, bound: Field) -> VectorField:
+        """On the discs."""
+        return project_on_discs(q, bound)
+
+    def free_motions(self, shape: tuple[int, ...]) -> tuple[VectorField, ...]:
+        """None."""
+        return ()
+
+    @property
+    def given(self) -> Vector:
+        """No force."""
+        return np.zeros(0)
+
+    def forces(self, q: VectorField) -> Vector:
+        """No force."""
+        return np.zeros(0)
+
+    def exhausts(self, bound: Field) -> bool:
+        """Only where there is no friction at all."""
+        return not np.any(bound)
+
+    def full_slip(self, bound: Field, motion: Vector) -> tuple[VectorField, Vector]:
+        """Without friction nothing is carried."""
+        return np.zeros((2, *bound.shape)), self.shift
 
 
 def magnitude(v: VectorField) -> Field:
@@ -71,23 +176,7 @@ def project(
         open_cells = bound > 0
         excess = np.sum(y, axis=(1, 2), where=open_cells) - total
         guess = -excess / np.count_nonzero(open_cells)
-    multiplier = guess
-    shifted = _Shifted.by(multiplier, y, bound, total)
-    for _ in range(MOST_SWEEPS):
-        blur = MULTIPLIER_ROUND_OFF * np.sum(shifted.scale) * np.sum(np.abs(multiplier))
-        if np.sum(np.abs(shifted.defect)) <= ROUND_OFF * shifted.strength + blur:
-            break
-        step = shifted.newton_step()
-        steepest = -float(np.sum(shifted.defect * step))
-        part = 1.0
-        while True:
-            trial = _Shifted.by(multiplier + part * step, y, bound, total)
-            # The defect is the slope of the dual: the step may pass the minimum only a little.
-            if np.sum(trial.defect * step) <= 0.5 * steepest or part < 1e-9:
-                break
-            part *= 0.5
-        multiplier = multiplier + part * step
-        shifted = trial
+    shifted, multiplier = find_multiplier(lambda m: _Shifted.by(m, y, bound, total), guess)
     return shifted.q, multiplier
 
 
@@ -125,6 +214,11 @@ class _Shifted:
     def strength(self) -> float:
         """Σ|q|."""
         return float(np.sum(self.length * self.scale))
+
+    def settled(self, multiplier: Vector) -> bool:
+        """Whether the defect is round-off, of the sum or of the multiplier."""
+        blur = MULTIPLIER_ROUND_OFF * np.sum(self.scale) * np.sum(np.abs(multiplier))
+        return bool(np.sum(np.abs(self.defect)) <= ROUND_OFF * self.strength + blur)
 
     def newton_step(self) -> Vector:
         """Change of λ that removes the defect to first order.

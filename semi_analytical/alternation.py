@@ -14,19 +14,18 @@ import numpy as np
 from numpy.typing import NDArray
 
 from semi_analytical.admissible_shear import (
-    AT_LIMIT,
     Field,
-    FixedShift,
     TangentialLoad,
     Vector,
     VectorField,
-    everywhere,
 )
 from semi_analytical.errors import NotConverged
-from semi_analytical.normal import NormalLoad, PressureSum, solve_normal
+from semi_analytical.normal import Motion, NormalLoad, solve_normal
 from semi_analytical.tangential import TangentialSolution, solve_tangential
 
 MOST_ROUNDS = 150
+# A residual above this after so many rounds comes down sooner in two halves of the increment.
+LATE, HOPELESS = 50, 3e-2
 # Part of its residual that each inner solve leaves: as much as a round of weak coupling does.
 ENOUGH = 0.1
 REMEMBERED = 30
@@ -43,7 +42,7 @@ class CoupledProblem:
     shear_by_pressure        u_t by pressure
     gap                      undeformed gap (nx, ny)
     friction_coefficient     µ, a number or (nx, ny)
-    target                   u_t - shift of the state before (2, nx, ny)
+    target                   u_t - motion of the state before (2, nx, ny)
     self_compliance          tangential displacement of a cell by its own unit shear
     """
 
@@ -63,26 +62,37 @@ class CoupledProblem:
 
 @dataclass(frozen=True)
 class CoupledSolution:
-    """Pressure (nx, ny), shear (2, nx, ny), approach, shift (2,), slip zone, iterations, rounds.
+    """Pressure (nx, ny), shear (2, nx, ny), the motions of both loads, slip zone, iterations,
+    rounds.
 
     at_limit  the force is as large as friction can carry or larger: everything slips along it, and
-              the shift is not defined
+              the motion is not defined
     """
 
     pressure: Field
     shear: VectorField
-    approach: float
-    shift: Vector
+    closing: Motion
+    motion: Vector
     in_slip: NDArray[np.bool_]
     at_limit: bool
     iterations: int
     rounds: int
 
+    @property
+    def approach(self) -> float:
+        """Approach of the bodies at the origin [length]."""
+        return float(np.ravel(self.closing)[0])
+
+    @property
+    def shift(self) -> Vector:
+        """Shift of the indenter (2,) [length]."""
+        return self.motion[:2]
+
 
 def solve_coupled(
-    problem: CoupledProblem, pressure: Field, shear: VectorField, shift: Vector, tolerance: float
+    problem: CoupledProblem, pressure: Field, shear: VectorField, motion: Vector, tolerance: float
 ) -> CoupledSolution:
-    """Alternate from a first pressure, shear and shift until all residuals meet the tolerance.
+    """Alternate from a first pressure, shear and motion until all residuals meet the tolerance.
 
     An inner solve reduces the residual that it finds by a fixed factor, and stops early only once
     that meets the tolerance. So a pressure at which the shear was solved, and which is then found
@@ -94,9 +104,9 @@ def solve_coupled(
     history = _Anderson(problem.normal_load)
     for rounds in range(1, MOST_ROUNDS + 1):
         bound = problem.friction_coefficient * p
-        at_limit = _exhausts(problem.tangential_load, bound)
+        at_limit = problem.tangential_load.exhausts(bound)
         if at_limit:
-            sheared = _full_slip(problem, bound, shift)
+            sheared = _full_slip(problem, bound, motion)
         else:
             sheared = solve_tangential(
                 problem.shear,
@@ -105,12 +115,12 @@ def solve_coupled(
                 problem.target - problem.shear_by_pressure(p),
                 problem.tangential_load,
                 q,
-                shift,
+                motion,
                 problem.self_compliance,
                 tolerance,
                 ENOUGH,
             )
-        q, shift = sheared.shear, sheared.shift
+        q, motion = sheared.shear, sheared.motion
         pressed = solve_normal(
             problem.normal,
             problem.precondition_normal,
@@ -123,32 +133,22 @@ def solve_coupled(
         iterations += sheared.iterations + pressed.iterations
         residual = max(sheared.residual, pressed.first_residual)
         if residual <= tolerance:
-            delta = pressed.approach
+            closing = pressed.motion
             return CoupledSolution(
-                p, q, delta, shift, sheared.in_slip, at_limit, iterations, rounds
+                p, q, closing, motion, sheared.in_slip, at_limit, iterations, rounds
             )
+        if rounds == LATE and residual > HOPELESS:
+            break
         # Where the pressure already fits, only the shear goes on.
         if pressed.first_residual > tolerance:
             p = history.next(p, pressed.pressure)
     raise NotConverged("the coupled increment", iterations, residual, tolerance)
 
 
-def _exhausts(load: TangentialLoad, bound: Field) -> bool:
-    """Whether friction can carry no more than the load, or nothing at all."""
-    capacity = float(np.sum(bound))
-    if isinstance(load, FixedShift):
-        return capacity == 0
-    return float(np.hypot(*load.total)) >= capacity * (1 - AT_LIMIT)
-
-
-def _full_slip(problem: CoupledProblem, bound: Field, shift: Vector) -> TangentialSolution:
-    """All cells slip along the force."""
-    load, q = problem.tangential_load, np.zeros((2, *bound.shape))
-    if isinstance(load, FixedShift):
-        shift = load.shift
-    elif np.any(bound):
-        q = bound * everywhere(load.total / np.hypot(*load.total))
-    return TangentialSolution(q, problem.shear(q), shift, bound > 0, 0.0, 0)
+def _full_slip(problem: CoupledProblem, bound: Field, motion: Vector) -> TangentialSolution:
+    """All cells slip, as the load has it."""
+    q, motion = problem.tangential_load.full_slip(bound, motion)
+    return TangentialSolution(q, problem.shear(q), motion, bound > 0, 0.0, 0)
 
 
 class _Anderson:
@@ -166,9 +166,7 @@ class _Anderson:
         self._changes = [*self._changes, r][-REMEMBERED:]
         guess = answer - self._extrapolation(r) if len(self._points) > 1 else answer
         guess = np.where(answer > 0, np.maximum(guess, 0.0), 0.0)
-        if isinstance(self._load, PressureSum):
-            guess *= self._load.total / np.sum(guess)
-        return np.asarray(guess)
+        return self._load.admissible(guess)
 
     def _extrapolation(self, r: Field) -> Field:
         """Σ share (Δx + Δr) over the differences of known points, with Σ share Δr nearest to r."""

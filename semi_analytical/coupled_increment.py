@@ -9,7 +9,13 @@ from semi_analytical.alternation import CoupledProblem, CoupledSolution, solve_c
 from semi_analytical.box import Box, box_around
 from semi_analytical.contact_area import covered_cells
 from semi_analytical.errors import GrossSliding, NotConverged
-from semi_analytical.increment import State
+from semi_analytical.full_slip import (
+    at_limit,
+    reaches_limit,
+    refuse_excessive_torque,
+    unresisted,
+)
+from semi_analytical.increment import State, reached_moment
 from semi_analytical.model import ContactModel
 from semi_analytical.pressing import (
     MARGIN,
@@ -20,16 +26,9 @@ from semi_analytical.pressing import (
     refuse_unresolved_contact,
 )
 from semi_analytical.residuals import complementarity, penetration
+from semi_analytical.sheared import Sheared, first_motion, rigid, surface_target, untouched
 from semi_analytical.shearing import Shearing, TangentialTarget
-from semi_analytical.stick_slip import (
-    Sheared,
-    advanced,
-    at_limit,
-    reaches_limit,
-    shear_residuals,
-    unresisted,
-    untouched,
-)
+from semi_analytical.stick_slip import advanced, shear_residuals
 
 Field = NDArray[np.float64]
 VectorField = NDArray[np.float64]
@@ -65,11 +64,11 @@ def solve_coupled_increment(
     box = box_around((start > 0) | (last.shear[0] != 0), MARGIN)
     whole = Box.whole(model.grid.cells)
     aim, residual = tolerance, np.inf
-    shear = last.shear
+    shear, motion = last.shear, first_motion(last, tangential)
     for _ in range(MOST_ATTEMPTS):
         problem = _problem(model, box, last, normal, tangential)
         inside = (..., *box.slices)
-        solution = solve_coupled(problem, start[inside], shear[inside], last.shift, 0.8 * aim)
+        solution = solve_coupled(problem, start[inside], shear[inside], motion, 0.8 * aim)
         iterations += solution.iterations
         trial = _Trial(model, last, normal, tangential, box, solution, iterations)
         state, g = trial.state()
@@ -105,11 +104,11 @@ def _problem(
     tangential: TangentialTarget,
 ) -> CoupledProblem:
     """The increment in a box of cells."""
-    assert last.shift is not None
     pressed = model.normal_operator(box.shape)
     sheared = model.tangential_operator(box.shape)
     coupling = model.coupling_operator(box.shape)
-    target = last.displacement - last.shift[:, None, None]
+    target = surface_target(model, last, tangential)
+    rotation = None if tangential.torsion is None else model.rotation[(..., *box.slices)]
     mu = model.friction_coefficient
     return CoupledProblem(
         normal=pressed,
@@ -118,11 +117,11 @@ def _problem(
         precondition_shear=sheared.precondition,
         normal_by_shear=coupling.normal_by_shear,
         shear_by_pressure=coupling.tangential_by_pressure,
-        gap=model.gap[box.slices],
+        gap=normal.gap(model)[box.slices],
         friction_coefficient=mu[box.slices] if isinstance(mu, np.ndarray) else mu,
         target=target[(..., *box.slices)],
-        normal_load=normal.on(model),
-        tangential_load=tangential.on(model.grid.cell_area),
+        normal_load=normal.on(model, box),
+        tangential_load=tangential.on(model.grid.cell_area, rotation),
         self_compliance=model.self_compliance,
     )
 
@@ -147,21 +146,27 @@ class _Trial:
         u_z = model.normal_operator(cells)(p) + coupling.normal_by_shear(q)
         u_by_q = model.tangential_operator(cells)(q)
         u_t = u_by_q + coupling.tangential_by_pressure(p)
-        g = np.where(np.isfinite(model.gap), model.gap, np.inf) + u_z - solution.approach
+        gap, load = self.normal.gap(model), self.normal.on(model, Box.whole(cells))
+        g = np.where(np.isfinite(gap), gap, np.inf) + u_z - load.closure(solution.closing)
+        overlap = load.overlap(solution.closing, gap, np.isfinite(gap))
+        approach, tilt = self.normal.reached(model, solution.closing)
         pressing = Pressing(
             pressure=p,
             displacement=u_z,
-            approach=solution.approach,
-            complementarity=complementarity(p, g, solution.approach),
-            penetration=penetration(g, solution.approach),
+            approach=approach,
+            complementarity=complementarity(p, g, overlap),
+            penetration=penetration(g, overlap),
             covered_cells=covered_cells(p, p > 0),
             iterations=self.iterations,
+            tilt=tilt,
         )
         normal_force = float(np.sum(p)) * model.grid.cell_area
-        return State(self.normal, normal_force, pressing, self._sheared(p, q, u_t, u_by_q)), g
+        moment = reached_moment(model, self.normal, p)
+        sheared = self._sheared(p, q, u_t, u_by_q)
+        rounds = self.solution.rounds
+        return State(self.normal, normal_force, pressing, sheared, moment, rounds=rounds), g
 
     def _sheared(self, p: Field, q: VectorField, u_t: VectorField, u_by_q: VectorField) -> Sheared:
-        assert self.last.shift is not None
         model, solution = self.model, self.solution
         bound = model.friction_coefficient * p
         if solution.at_limit:
@@ -169,21 +174,23 @@ class _Trial:
         shearing = Shearing(
             shear=q,
             displacement=u_by_q,
-            shift=solution.shift,
+            motion=solution.motion,
             in_slip=self.box.embed(solution.in_slip.astype(np.float64), model.grid.cells) > 0,
             iterations=0,
         )
-        target = self.last.displacement - self.last.shift[:, None, None]
-        passed = solution.shift[:, None, None] + target - u_t
+        target = surface_target(model, self.last, self.tangential)
+        passed = rigid(model, solution.motion) + target - u_t
         residuals = shear_residuals(model, shearing, bound, passed, self.tangential, self.last)
         after = advanced(model, p, bound, self.last, self.tangential, shearing, passed, residuals)
         return replace(after, displacement=u_t)
 
     def _slid(self, p: Field, bound: Field, u_t: VectorField) -> Sheared:
         """All slips: at the friction limit, or because there is no friction here."""
-        force = self.tangential.force
-        if force is not None:
-            reaches_limit(force, float(np.sum(bound)) * self.model.grid.cell_area)
+        model, last, load = self.model, self.last, self.tangential
+        if load.torsion is not None and load.torsion.torque is not None:
+            refuse_excessive_torque(model, bound, load)
+        elif load.force is not None:
+            reaches_limit(load.force, float(np.sum(bound)) * model.grid.cell_area)
             if np.any(bound):
-                return replace(at_limit(self.model, bound, self.last, force), displacement=u_t)
-        return unresisted(p, u_t, self.last, self.solution.shift)
+                return replace(at_limit(model, bound, last, load), displacement=u_t)
+        return unresisted(model, p, u_t, last, load, self.solution.motion)

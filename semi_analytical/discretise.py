@@ -1,11 +1,13 @@
 """Cells and window for a scene that leaves them open."""
 
+from functools import partial
+from itertools import product
+
 import numpy as np
 from numpy.typing import NDArray
 
 from contact_scene import (
     Cone,
-    ControlKind,
     Ellipsoid,
     FlatPunch,
     FrictionMap,
@@ -16,7 +18,9 @@ from contact_scene import (
 )
 from semi_analytical.errors import ContactAtWindowEdge, ContactNotResolved
 from semi_analytical.grid import SurfaceGrid
+from semi_analytical.load_targets import normal_target
 from semi_analytical.model import ContactModel
+from semi_analytical.plan import plan
 from semi_analytical.pressing import NormalTarget, press
 
 # Peak pressure to about 1e-4 and fields to a few 1e-3 for a smooth contact.
@@ -93,12 +97,37 @@ def _extents(contact: NDArray[np.bool_], grid: SurfaceGrid) -> tuple[float, floa
 
 
 def _largest_loads(scene: Scene) -> list[NormalTarget]:
-    """The largest force and the largest approach of the history, as far as there are any."""
-    ramps = scene.load_path()
-    force = [r.normal.end for r in ramps if r.normal.kind is ControlKind.FORCE]
-    approach = [r.normal.end for r in ramps if r.normal.kind is ControlKind.DISPLACEMENT]
-    loads = [NormalTarget(force=max(force))] if force else []
-    return loads + ([NormalTarget(approach=max(approach))] if approach else [])
+    """Loads among which is the one whose contact reaches farthest from the origin: the largest
+    force and the largest approach of the history, and those that tilt or lean most."""
+    tilts = plan(scene).tilt
+    ends = [normal_target(ramp, None, 1.0, tilts) for ramp in scene.load_path()]
+    measures = (_size, *((partial(_lean, 0), partial(_lean, 1)) if tilts else ()))
+    kinds = [[end for end in ends if _control(end) == kind] for kind in _CONTROLS]
+    farthest = [max(kind, key=measure) for kind in kinds if kind for measure in measures]
+    return list(dict.fromkeys(farthest))
+
+
+_CONTROLS = list(product((True, False), repeat=2))
+
+
+def _control(load: NormalTarget) -> tuple[bool, bool]:
+    """Whether the force is given, and whether the moment is."""
+    return load.force is not None, load.tilting is not None and load.tilting.moment is not None
+
+
+def _size(load: NormalTarget) -> float:
+    """Force or approach."""
+    return load.force or load.approach or 0.0
+
+
+def _lean(axis: int, load: NormalTarget) -> float:
+    """How far a load leans along y (axis 0) or x (axis 1): by its tilt, or by its moment, over the
+    force where that is given too."""
+    assert load.tilting is not None
+    if load.tilting.tilt is not None:
+        return abs(load.tilting.tilt[axis])
+    assert load.tilting.moment is not None
+    return abs(load.tilting.moment[axis]) / (load.force or 1.0)
 
 
 def _guessed_semi_axes(scene: Scene, load: NormalTarget) -> tuple[float, float]:

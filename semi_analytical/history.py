@@ -6,18 +6,25 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from contact_scene import ControlKind, LoadRamp, NormalControl, TangentialControl
+from contact_scene import ControlKind, LoadRamp
+from contact_scene.standing import Mark
+from semi_analytical.admissible_shear import magnitude
+from semi_analytical.balance import balanced
 from semi_analytical.contact_area import stuck_cells
-from semi_analytical.errors import GrossSliding, NotConverged, SolverError
+from semi_analytical.energy import NOTHING_YET
+from semi_analytical.errors import NotConverged, SolverError
 from semi_analytical.fields import Increment
-from semi_analytical.increment import State, solve_increment
+from semi_analytical.increment import State, moment_of, solve_increment
+from semi_analytical.load_targets import normal_target, tangential_target
 from semi_analytical.model import ContactModel
-from semi_analytical.plan import Plan
+from semi_analytical.plan import Coupling, Plan
 from semi_analytical.pressing import NormalTarget
 from semi_analytical.residuals import Residuals
+from semi_analytical.sheared import Sheared, untouched
 from semi_analytical.shearing import TangentialTarget
 
 Vector = NDArray[np.float64]
+VectorField = NDArray[np.float64]
 Advance = Callable[
     [ContactModel, State | None, NormalTarget, TangentialTarget | None, float], State
 ]
@@ -26,36 +33,54 @@ MOST_HALVINGS = 4
 
 
 def march(model: ContactModel, plan: Plan, tolerance: float) -> Iterator[Increment]:
-    """Increments of the scene's load path, one after the other.
+    """Increments of the scene's load path, one after the other; raises what `marked` raises."""
+    return (increment for increment, _ in marked(model, plan, tolerance))
 
+
+def marked(
+    model: ContactModel, plan: Plan, tolerance: float, since: Mark[State] | None = None
+) -> Iterator[tuple[Increment, Mark[State]]]:
+    """Increments of the scene's load path, each with the mark from which the march can go on.
+
+    since   a mark of the same march, to begin after it
     raises  NotConverged and GrossSliding, with the last converged State as `last_state`
     """
     advance = _advance(plan)
-    state: State | None = None
+    state = since.state if since else None
+    done = 0
     for ramp, count in zip(model.scene.load_path(), plan.increments, strict=True):
-        path = _Path(model, ramp, state, plan.shear, advance, tolerance)
-        begin = 0.0
-        for index, end in enumerate(_fractions(model, ramp, count), start=1):
-            counted = model.convolutions.count
+        behind = since.within(done, count) if since else 0
+        start = since.start if since and 0 < behind < count else state
+        path = _Path(model, ramp, start, plan, advance, tolerance)
+        fractions = [0.0, *_fractions(model, ramp, count)]
+        done += behind
+        begin = fractions[behind]
+        for index, end in enumerate(fractions[behind + 1 :], start=behind + 1):
+            counted, before = model.convolutions.count, state
             try:
                 state, halvings = path.reach(state, begin, end, MOST_HALVINGS)
             except SolverError as error:
                 error.where = f"step {ramp.step}, increment {index} of {count}"
                 raise
-            increment = _increment(model, state, ramp.step, index, count)
-            yield replace(
+            increment = _increment(model, before, state, ramp.step, index, count)
+            increment = replace(
                 increment,
                 halvings=halvings,
+                rounds=state.rounds,
                 convolutions=int(np.ceil(model.convolutions.count - counted)),
             )
-            begin = end
+            begin, done = end, done + 1
+            yield increment, Mark(done, state, start)
 
 
 def _advance(plan: Plan) -> Advance:
-    """How one increment is solved: the coupled solver is not even imported where it is not
-    needed."""
-    if not plan.coupling:
+    """How one increment is solved: a solver that is not needed is not even imported."""
+    if plan.coupling is Coupling.NONE:
         return solve_increment
+    if plan.coupling is Coupling.ONE_WAY:
+        from semi_analytical.one_way_increment import solve_one_way_increment
+
+        return solve_one_way_increment
     from semi_analytical.coupled_increment import solve_coupled_increment
 
     return solve_coupled_increment
@@ -68,7 +93,7 @@ class _Path:
     model: ContactModel
     ramp: LoadRamp
     start: State | None
-    shear: bool
+    plan: Plan
     advance: Advance
     tolerance: float
 
@@ -78,11 +103,12 @@ class _Path:
         """The state at fraction `end`, in two halves where one increment does not converge, and
         the number of halvings that took."""
         try:
-            normal = _normal_at(self.ramp.normal, self.start, end)
+            normal = normal_target(self.ramp, self.start, end, self.plan.tilt)
             tangential = None
-            if self.shear:
-                tangential = _tangential_at(self.ramp.tangential, self.start, end)
-            return self.advance(self.model, state, normal, tangential, self.tolerance), 0
+            if self.plan.shear:
+                tangential = tangential_target(self.ramp, self.start, end, self.plan.torsion)
+            after = self.advance(self.model, state, normal, tangential, self.tolerance)
+            return balanced(self.model, state, after), 0
         except NotConverged as error:
             if halvings_left == 0:
                 error.last_state = state
@@ -107,64 +133,35 @@ def _fractions(model: ContactModel, ramp: LoadRamp, count: int) -> list[float]:
     return [(k / count) ** (exponent or 1) for k in range(1, count + 1)]
 
 
-def _normal_at(control: NormalControl, start: State | None, fraction: float) -> NormalTarget:
-    begin = control.start
-    if control.kind is ControlKind.FORCE:
-        if begin is None:
-            assert start is not None
-            begin = start.normal_force
-        return NormalTarget(force=_ramp(begin, control.end, fraction))
-    if begin is None:
-        assert start is not None
-        begin = start.pressing.approach
-    return NormalTarget(approach=_ramp(begin, control.end, fraction))
-
-
-def _ramp(begin: float, end: float, fraction: float) -> float:
-    """Exactly `end` at the end and wherever nothing changes, so that equal loads are equal."""
-    return end if fraction == 1 or begin == end else begin + (end - begin) * fraction
-
-
-def _tangential_at(
-    control: TangentialControl, start: State | None, fraction: float
-) -> TangentialTarget:
-    by_force = control.kind is ControlKind.FORCE
-    begin = None if control.start is None else np.array(control.start)
-    if begin is None:
-        # Taking over from the other control: ramp from where that one has led.
-        sheared = start.sheared if start is not None else None
-        reached = None if sheared is None else sheared.force if by_force else sheared.shift
-        if sheared is not None and reached is None:
-            raise GrossSliding(
-                "the step before reached the friction limit under force control, where the shift "
-                "is undefined; end that step below the limit"
-            )
-        begin = np.zeros(2) if reached is None else reached
-    end = np.array(control.end)
-    value = np.array([_ramp(b, e, fraction) for b, e in zip(begin, end, strict=True)])
-    return TangentialTarget(force=value) if by_force else TangentialTarget(shift=value)
-
-
-def _increment(model: ContactModel, state: State, step: int, index: int, count: int) -> Increment:
-    """The state as it is reported."""
+def _increment(
+    model: ContactModel, before: State | None, state: State, step: int, index: int, count: int
+) -> Increment:
+    """The state as it is reported, with what the increment from the state before has changed."""
     pressing, sheared, cell = state.pressing, state.sheared, model.grid.cell_area
     p = pressing.pressure
-    force = state.target.force
+    force, tilt = state.target.force, pressing.tilt
     residuals = Residuals(
         pressing.complementarity,
         pressing.penetration,
         None if force is None else abs(state.normal_force - force) / force,
+        moment_equilibrium=_moment_equilibrium(model, state),
     )
     pressed = Increment(
         step=step,
         index=index,
         increments_in_step=count,
         pressure=p,
-        gap=model.gap + pressing.displacement - pressing.approach,
+        gap=model.gap + pressing.displacement - pressing.closure(model),
         normal_force=state.normal_force if force is None else force,
         approach=pressing.approach,
+        moment=None if state.moment is None else np.array(state.moment),
+        tilt=None if tilt is None else np.array(tilt),
         contact_area=pressing.covered_cells * cell,
         peak_pressure=float(np.max(p)),
+        elastic_energy=state.energy.elastic,
+        input_work=state.energy.input_work,
+        unresolved_work=state.energy.unresolved,
+        energy_imbalance=state.energy.imbalance(before.energy if before else NOTHING_YET),
         residuals=residuals,
         iterations=pressing.iterations,
         convolutions=0,
@@ -173,17 +170,45 @@ def _increment(model: ContactModel, state: State, step: int, index: int, count: 
         return pressed
     bound = model.friction_coefficient * p
     stuck = stuck_cells(sheared.shear, bound, sheared.in_stick) * cell
-    return replace(
+    increment = replace(
         pressed,
         residuals=replace(residuals, **vars(sheared.residuals)),
         iterations=pressing.iterations + sheared.iterations,
-        status=sheared.status,
+        status=sheared.status if model.scene.friction else pressed.status,
         shear=sheared.shear,
         slip=sheared.slip,
         in_stick=sheared.in_stick,
         tangential_force=sheared.force,
         tangential_shift=sheared.shift,
+        torque=sheared.torque,
+        twist=sheared.twist,
         # Both areas are fitted on their own; where all sticks they may cross by their errors.
         stick_area=min(stuck, pressed.contact_area),
         dissipated_energy=sheared.dissipated_energy,
+    )
+    return _traced(increment, before, sheared)
+
+
+def _moment_equilibrium(model: ContactModel, state: State) -> float | None:
+    """|Σp (y, x) - M| / Σp r where a moment is given."""
+    tilting, p = state.target.tilting, state.pressing.pressure
+    if tilting is None or tilting.moment is None:
+        return None
+    missing = np.subtract(moment_of(model, p), tilting.moment)
+    return float(np.hypot(*missing) / (np.sum(p * magnitude(model.arms)) * model.grid.cell_area))
+
+
+def _traced(increment: Increment, before: State | None, sheared: Sheared) -> Increment:
+    """With what slip leaves on the surface and had left there before the increment; nothing where
+    the motion is undefined."""
+    if sheared.dissipated_energy is None:
+        return increment
+    last = before.sheared if before is not None else None
+    last = last or untouched(sheared.in_stick.shape)
+    return replace(
+        increment,
+        slip_before=last.slip,
+        slip_distance=sheared.slip_distance,
+        dissipation=sheared.dissipation,
+        dissipation_before=last.dissipation,
     )

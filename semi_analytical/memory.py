@@ -3,7 +3,7 @@
 from semi_analytical.errors import ResourceRefused
 from semi_analytical.free_memory import available_bytes
 from semi_analytical.grid import SurfaceGrid
-from semi_analytical.plan import Plan
+from semi_analytical.plan import Coupling, Plan
 
 DOUBLE = 8
 # Arrays of the size of the window held at once: coefficients, spectra of the padded grid (four
@@ -12,12 +12,16 @@ DOUBLE = 8
 PRESSURE_ARRAYS = 42
 HISTORY_ARRAYS = 9
 SHEAR_ARRAYS = 100
+# Arms and unit motions, and what they are multiplied with.
+TILT_ARRAYS = 14
+TORSION_ARRAYS = 40
 # Spectra of the coupling, and the pressures that the alternation remembers: 12 arrays were
 # measured for weak coupling, which remembers a third of what strong coupling may.
-COUPLING_ARRAYS = 60
-# Arrays that every increment leaves behind: pressure and gap; shear, slip and masks.
+COUPLING_ARRAYS = {Coupling.NONE: 0, Coupling.ONE_WAY: 15, Coupling.FULL: 60}
+# Arrays that every increment leaves behind: pressure and gap; shear, slip, its distance and
+# dissipation, and masks.
 PRESSURE_RESULT = 2
-SHEAR_RESULT = 5
+SHEAR_RESULT = 7
 
 
 def estimated_bytes(grid: SurfaceGrid, plan: Plan) -> int:
@@ -25,7 +29,8 @@ def estimated_bytes(grid: SurfaceGrid, plan: Plan) -> int:
     cells = grid.cells[0] * grid.cells[1]
     increments = sum(plan.increments)
     work = PRESSURE_ARRAYS + (SHEAR_ARRAYS if plan.shear else 0)
-    work += COUPLING_ARRAYS if plan.coupling else 0
+    work += (TILT_ARRAYS if plan.tilt else 0) + (TORSION_ARRAYS if plan.torsion else 0)
+    work += COUPLING_ARRAYS[plan.coupling]
     work += HISTORY_ARRAYS if increments > 1 else 0
     kept = PRESSURE_RESULT + (SHEAR_RESULT if plan.shear else 0)
     return cells * DOUBLE * (work + kept * increments)

@@ -71,6 +71,18 @@ class ContactModel:
             self.scene.body, self.scene.indenter, self.grid.spacing, offsets_for(self.grid.cells)
         )
 
+    @cached_property
+    def arms(self) -> Field:
+        """(y, x) of the cells (2, nx, ny): by what unit tilts close the gap [length]."""
+        x, y = self.grid.coordinates()
+        return np.stack([y, x])
+
+    @cached_property
+    def rotation(self) -> Field:
+        """(-y, x) of the cells (2, nx, ny): how a unit twist moves them [length]."""
+        x, y = self.grid.coordinates()
+        return np.stack([-y, x])
+
     @property
     def self_compliance(self) -> float:
         """Tangential displacement of a cell by its own unit shear [length^3/force]."""

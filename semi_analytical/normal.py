@@ -3,12 +3,13 @@
 Among all admissible pressures the contact pressure has the least energy ½ p·A p + h·p (Kalker
 1990, chapter 4). Each step guesses the contact set from the state (p > 0, or the bodies overlap),
 solves the linear problem on it by preconditioned conjugate gradients and makes the answer
-admissible: an active-set Newton step. It is taken when the energy goes down; otherwise a projected
-gradient step is, so that the guesses cannot cycle.
+admissible: an active-set Newton step. It is taken, or part of it, when the energy goes down enough;
+otherwise cells let go one after the other, so that the guesses cannot cycle.
 """
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,11 +18,43 @@ from semi_analytical.errors import NotConverged
 
 Field = NDArray[np.float64]
 Mask = NDArray[np.bool_]
+Vector = NDArray[np.float64]
 Map = Callable[[Field], Field]
 
 MOST_STEPS = 200
 MOST_ITERATIONS_PER_STEP = 200
-MOST_HALVINGS = 8
+MOST_HALVINGS = 5
+# Part of the residual that solves leave while cells still let go: their answers are not kept.
+ROUGHLY = 0.5
+
+
+Motion = float | Vector
+# Takes residuals of the gap and their images under the preconditioner, and returns both without the
+# part that belongs to a rigid motion whose force is given.
+Constraint = Callable[[Field, Field], tuple[Field, Field]]
+
+
+class NormalLoad(Protocol):
+    """What leads the indenter towards the body. Its motion is the approach, or a vector of that
+    and what else it can do."""
+
+    def touches(self, gap: Field) -> bool:
+        """Whether some pressure below an undeformed gap can carry the load."""
+
+    def motion(self, p: Field, s: Field) -> Motion:
+        """The motion that closes a gap s best, as the pressure weighs it."""
+
+    def closure(self, motion: Motion) -> float | Field:
+        """By how much a motion closes the gap [length]."""
+
+    def overlap(self, motion: Motion, gap: Field, allowed: Mask) -> float:
+        """How far undeformed bodies would overlap: the measure of residual gaps [length]."""
+
+    def admissible(self, p: Field) -> Field:
+        """A pressure without tension that carries the load, near the one given."""
+
+    def constraint(self, inside: Field, precondition: Map) -> Constraint:
+        """Keeps given forces as they are while the pressure changes; `inside` is 1 in contact."""
 
 
 @dataclass(frozen=True)
@@ -30,6 +63,38 @@ class PressureSum:
 
     total: float
 
+    def touches(self, gap: Field) -> bool:
+        """Whether there is a body to press on."""
+        return bool(np.isfinite(np.min(gap)))
+
+    def motion(self, p: Field, s: Field) -> Motion:
+        """The approach: the multiplier of the sum."""
+        return float(np.sum(p * s) / np.sum(p))
+
+    def closure(self, motion: Motion) -> float | Field:
+        """The approach, everywhere the same."""
+        return motion
+
+    def overlap(self, motion: Motion, gap: Field, allowed: Mask) -> float:
+        """The approach."""
+        return float(np.abs(motion))
+
+    def admissible(self, p: Field) -> Field:
+        """Cut off at zero and scaled to the sum."""
+        p = np.maximum(p, 0.0)
+        return np.asarray(p * (self.total / np.sum(p)))
+
+    def constraint(self, inside: Field, precondition: Map) -> Constraint:
+        """The residual is known up to a rigid shift, the approach. It is projected out in the
+        metric of the preconditioner, so that the sum of the pressure stays as it is."""
+        response = inside * precondition(inside)
+
+        def constrained(r: Field, z: Field) -> tuple[Field, Field]:
+            shift = np.sum(z) / np.sum(response)
+            return r - shift * inside, z - shift * response
+
+        return constrained
+
 
 @dataclass(frozen=True)
 class FixedApproach:
@@ -37,20 +102,46 @@ class FixedApproach:
 
     approach: float
 
+    def touches(self, gap: Field) -> bool:
+        """Whether the approach closes the gap somewhere."""
+        return float(np.min(gap)) < self.approach
 
-NormalLoad = PressureSum | FixedApproach
+    def motion(self, p: Field, s: Field) -> Motion:
+        """The approach."""
+        return self.approach
+
+    def closure(self, motion: Motion) -> float | Field:
+        """The approach, everywhere the same."""
+        return motion
+
+    def overlap(self, motion: Motion, gap: Field, allowed: Mask) -> float:
+        """The approach."""
+        return float(np.abs(motion))
+
+    def admissible(self, p: Field) -> Field:
+        """Cut off at zero."""
+        return np.maximum(p, 0.0)
+
+    def constraint(self, inside: Field, precondition: Map) -> Constraint:
+        """No force is given."""
+        return lambda r, z: (r, z)
 
 
 @dataclass(frozen=True)
 class NormalSolution:
-    """Pressure (nx, ny), its displacement u_z (nx, ny), the approach, the iterations spent, and
-    the residual of the start."""
+    """Pressure (nx, ny), its displacement u_z (nx, ny), the motion of the load, the iterations
+    spent, and the residual of the start."""
 
     pressure: Field
     displacement: Field
-    approach: float
+    motion: Motion
     iterations: int
     first_residual: float
+
+    @property
+    def approach(self) -> float:
+        """Approach of the bodies at the origin [length]."""
+        return float(np.ravel(self.motion)[0])
 
 
 @dataclass(frozen=True)
@@ -61,25 +152,12 @@ class _Problem:
     allowed: Mask
     load: NormalLoad
 
-    def approach(self, p: Field, u: Field) -> float:
-        """The multiplier of the load: the mean of u + h as the pressure weighs it."""
-        if isinstance(self.load, FixedApproach):
-            return self.load.approach
-        return float(np.sum(p * (u + self.h)) / np.sum(p))
-
-    def admissible(self, p: Field) -> Field:
-        """The pressure without tension, with the sum the load demands."""
-        p = np.maximum(p, 0.0)
-        if isinstance(self.load, PressureSum):
-            p *= self.load.total / np.sum(p)
-        return p
-
-    def residual(self, p: Field, g: Field, delta: float) -> float:
-        """The larger of complementarity and penetration, relative to the approach."""
+    def residual(self, p: Field, g: Field, overlap: float) -> float:
+        """The larger of complementarity and penetration, relative to the overlap."""
         total = np.sum(p)  # zero where a step under a fixed approach has overshot
         complementarity = np.sum(np.abs(g) * p) / total if total > 0 else 0.0
         penetration = -np.min(g, where=self.allowed, initial=0.0)
-        return float(max(complementarity, penetration) / abs(delta))
+        return float(max(complementarity, penetration) / overlap)
 
 
 def solve_normal(
@@ -91,64 +169,55 @@ def solve_normal(
     tolerance: float,
     enough: float = 0.0,
 ) -> NormalSolution:
-    """Pressure and approach for an undeformed gap.
+    """Pressure and motion of the load for an undeformed gap.
 
     displace      pressure (nx, ny) -> normal displacement (nx, ny); symmetric, positive definite
     precondition  roughly the inverse of `displace`; symmetric, positive definite
     gap           undeformed gap (nx, ny) [length]; infinite where the bodies can never touch
-    load          Σp or the approach
+    load          what leads the indenter: Σp or the approach
     start         a first pressure (nx, ny), not zero everywhere
-    tolerance     on complementarity Σ|g|p / (δ Σp) and penetration max(-g) / δ, dimensionless
+    tolerance     on complementarity Σ|g|p / (δ Σp) and penetration max(-g) / δ, dimensionless;
+                  δ is the overlap of the undeformed bodies
     enough        part of the residual of the start at which to stop before the tolerance
     raises        NotConverged
     """
     allowed = np.isfinite(gap)
     h = np.where(allowed, gap, 0.0)
     problem = _Problem(displace, precondition, h, allowed, load)
-    p = problem.admissible(np.where(allowed, start, 0.0))
+    p = load.admissible(np.where(allowed, start, 0.0))
     u = displace(p)
     iterations, first = 0, np.inf
     for number in range(MOST_STEPS):
-        delta = problem.approach(p, u)
-        g = u + h - delta
-        residual = problem.residual(p, g, delta)
+        motion = load.motion(p, u + h)
+        closure = load.closure(motion)
+        g = u + h - closure
+        residual = problem.residual(p, g, load.overlap(motion, h, allowed))
         first = residual if number == 0 else first
         aim = max(tolerance, enough * first)
         if residual <= aim:
-            return NormalSolution(p, u, delta, iterations, first)
+            return NormalSolution(p, u, motion, iterations, first)
         # Deep enough to reach the tolerance if the contact set is right, shallow while it is not.
         depth = max(0.05, 0.3 * aim / residual)
         contact = allowed & ((p > 0) | (g < 0))
-        newton, newton_u, spent = _solve_on(contact, problem, p, u, delta, depth)
+        newton, newton_u, spent = _solve_on(contact, problem, p, u, closure, depth)
         iterations += spent
-        p, u = _step_toward(newton, newton_u, problem, p, u, g)
+        p, u, spent = _step_toward(newton, newton_u, problem, p, u, g, closure)
+        iterations += spent
     raise NotConverged("the pressure", iterations, residual, tolerance)
 
 
 def _solve_on(
-    contact: Mask, problem: _Problem, p: Field, u: Field, delta: float, depth: float
+    contact: Mask, problem: _Problem, p: Field, u: Field, closure: float | Field, depth: float
 ) -> tuple[Field, Field, int]:
     """Close the gap on a given contact set; returns pressure, displacement, iterations.
 
-    Conjugate gradients until the residual norm has fallen by the factor `depth`. Under force
-    control the residual is known up to a rigid shift (the approach), which is projected out in
-    the metric of the preconditioner so that the sum of the pressure stays as it is.
+    Conjugate gradients until the residual norm has fallen by the factor `depth`.
     """
     inside = contact.astype(np.float64)
     p, u = p * inside, u.copy()
-    shift_response = None
-    if isinstance(problem.load, PressureSum):
-        shift_response = inside * problem.precondition(inside)
-    r = inside * (delta - problem.h - u)
-
-    def preconditioned(r: Field) -> tuple[Field, Field]:
-        z = inside * problem.precondition(r)
-        if shift_response is not None:
-            shift = np.sum(z) / np.sum(shift_response)
-            r, z = r - shift * inside, z - shift * shift_response
-        return r, z
-
-    r, z = preconditioned(r)
+    constrained = problem.load.constraint(inside, problem.precondition)
+    r = inside * (closure - problem.h - u)
+    r, z = constrained(r, inside * problem.precondition(r))
     rz = first = np.sum(r * z)
     t = z
     iterations = 0
@@ -158,39 +227,76 @@ def _solve_on(
         step = rz / np.sum(t * A_t)
         p += step * t
         u += step * A_t
-        r, z = preconditioned(r - step * inside * A_t)
+        r = r - step * inside * A_t
+        r, z = constrained(r, inside * problem.precondition(r))
         rz, last = np.sum(r * z), rz
         t = z + (rz / last) * t
     return p, u, iterations
 
 
 def _step_toward(
-    newton: Field, newton_u: Field, problem: _Problem, p: Field, u: Field, g: Field
-) -> tuple[Field, Field]:
+    newton: Field,
+    newton_u: Field,
+    problem: _Problem,
+    p: Field,
+    u: Field,
+    g: Field,
+    closure: float | Field,
+) -> tuple[Field, Field, int]:
     """To the Newton point, cut off at zero, or half as far until the energy falls enough.
 
     Under a stiff coating pressed cells lift others; cutting off their tension all at once may
-    raise the energy again and again.
+    raise the energy again and again. Returns pressure, displacement, iterations.
     """
     step = 1.0
     for _ in range(MOST_HALVINGS):
         target = newton if step == 1 else p + step * (newton - p)
         target_u = newton_u if step == 1 else u + step * (newton_u - u)
         if np.min(target) < 0:
-            target = problem.admissible(target)
+            target = problem.load.admissible(target)
             target_u = problem.displace(target)
         d, d_u = target - p, target_u - u
         slope, curvature = np.sum(d * g), np.sum(d * d_u)
         if slope + 0.5 * curvature <= 0.1 * slope:
-            return target, target_u
+            return target, target_u, 0
         step /= 2
-    return _gradient_step(problem, p, u, g)
+    lower, lower_u, spent = _let_go(newton, newton_u, problem, p, u, closure)
+    if np.sum((lower - p) * g) < 0:
+        return lower, lower_u, spent
+    return *_gradient_step(problem, p, u, g), spent
+
+
+def _let_go(
+    newton: Field,
+    newton_u: Field,
+    problem: _Problem,
+    p: Field,
+    u: Field,
+    closure: float | Field,
+) -> tuple[Field, Field, int]:
+    """Towards the Newton point until the first cells let go, then without these towards the next
+    one, until none is in tension (Lawson and Hanson 1974, chapter 23).
+
+    The energy falls on every part of the way, and every part rids the contact of a cell.
+    """
+    contact = (p > 0) | (newton != 0)
+    iterations = 0
+    while np.any(newton < 0):
+        # How far each cell in tension still is pressed; not at all if it was not before.
+        part_of_way = np.where(newton < 0, p / np.where(newton < 0, p - newton, 1.0), np.inf)
+        part = np.min(part_of_way)
+        contact = contact & (part_of_way > part)
+        p = np.where(contact, p + part * (newton - p), 0.0)
+        u = u + part * (newton_u - u)
+        newton, newton_u, spent = _solve_on(contact, problem, p, u, closure, ROUGHLY)
+        iterations += spent
+    return newton, newton_u, iterations
 
 
 def _gradient_step(problem: _Problem, p: Field, u: Field, g: Field) -> tuple[Field, Field]:
     """Down the projected gradient to the lowest energy on the way: never fails, never fast."""
     unit = np.sum(p) / np.sum(np.abs(u))
-    d = problem.admissible(np.where(problem.allowed, p - unit * g, 0.0)) - p
+    d = problem.load.admissible(np.where(problem.allowed, p - unit * g, 0.0)) - p
     d_u = problem.displace(d)
     step = min(1.0, -np.sum(d * g) / np.sum(d * d_u))
     return p + step * d, u + step * d_u

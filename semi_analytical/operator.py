@@ -223,6 +223,16 @@ class CouplingOperator:
 
 
 def _inverse_2x2(xx: Field, yy: Field, xy: Field) -> tuple[Field, Field, Field]:
-    """Inverse of the symmetric matrix [[xx, xy], [xy, yy]] at every wavenumber."""
+    """Inverse of the symmetric matrix [[xx, xy], [xy, yy]] at every wavenumber; where one is not
+    positive definite, of the matrix with the magnitudes of its eigenvalues instead: films much
+    stiffer than their base wave beyond the period, and conjugate gradients need a positive
+    preconditioner."""
+    mean, half = 0.5 * (xx + yy), np.hypot(0.5 * (xx - yy), xy)
+    least = np.finfo(float).eps * np.max(mean + half)
+    # By how much each eigenvalue is raised: exactly zero where it is positive.
+    lower, upper = (np.maximum(np.abs(e), least) - e for e in (mean - half, mean + half))
+    turned = 0.5 * (upper - lower) / np.where(half > 0, half, 1.0)
+    raised = 0.5 * (upper + lower) - turned * mean
+    xx, yy, xy = xx + raised + turned * xx, yy + raised + turned * yy, xy + turned * xy
     determinant = xx * yy - xy * xy
     return yy / determinant, xx / determinant, -xy / determinant

@@ -1,33 +1,24 @@
 """Which effects a scene calls for: the only place that asks what kind of scene this is."""
 
-from dataclasses import dataclass
-from math import ceil, hypot
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from enum import StrEnum
 
-from contact_scene import (
-    Body,
-    ControlKind,
-    FrictionMap,
-    IsotropicMaterial,
-    LoadRamp,
-    Scene,
-)
+from contact_scene import Body, FrictionMap, IsotropicMaterial, Scene
+from contact_scene.discretisation import PATH_ACCURACY
 from contact_scene.material import Material
 from semi_analytical.errors import UnsupportedScene
+from semi_analytical.path_increments import Bodies, StepIncrements, path_increments, refined
 
 # |beta| below this is round-off of equal materials given in different units.
 UNCOUPLED = 1e-12
 
-# The sine of an angle below this is round-off of a load that goes straight.
-STRAIGHT = 1e-9
-
-# Increments of a step whose path matters; errors fall as their inverse.
-FIRST_LOADING = 15
-PATH_INCREMENTS = 20
-LARGEST_SHARE = 0.05
-ROUND_OFF = 1e-9
-
 # Of the shear moduli within a body: beyond, its influence coefficients lose the softest part.
 MOST_CONTRAST = 1e12
+
+
+# Name of the effect that couples the two problems.
+COUPLING = "normal-tangential coupling"
 
 
 @dataclass(frozen=True)
@@ -39,29 +30,61 @@ class Effect:
     why: str
 
 
+class Coupling(StrEnum):
+    """Which of the two problems feels the tractions of the other."""
+
+    NONE = "none"
+    # Pressure moves the surfaces sideways, shear does not open or close the gap (Goodman 1962).
+    ONE_WAY = "one way"
+    FULL = "full"
+
+
 @dataclass(frozen=True)
 class Plan:
     """What is computed for a scene. Effects that are off cost nothing downstream.
 
     shear       whether shear tractions are solved for
-    coupling    whether pressure and shear act on each other's problem
-    increments  how many increments each loading step takes
+    tilt        whether the indenter tilts, by its moments or as it is led
+    torsion     whether it turns about z
+    coupling    whether and how pressure and shear act on each other's problem
+    path        how many increments each loading step takes, and why
     effects     every effect with its reason, as shown to people
     """
 
     shear: bool
-    coupling: bool
-    increments: tuple[int, ...]
+    tilt: bool
+    torsion: bool
+    coupling: Coupling
+    path: tuple[StepIncrements, ...]
     effects: tuple[Effect, ...]
 
+    @property
+    def increments(self) -> tuple[int, ...]:
+        """How many increments each loading step takes."""
+        return tuple(step.count for step in self.path)
 
-def plan(scene: Scene) -> Plan:
-    """Decide the effects of a scene; raises UnsupportedScene for a layer on next to nothing."""
+    def refined(self, factor: int = 2) -> "Plan":
+        """`factor` times as many increments in every step whose path matters."""
+        return replace(self, path=refined(self.path, factor))
+
+    def cut_into(self, increments: Sequence[int]) -> "Plan":
+        """The same effects with these many increments in each step."""
+        path = zip(self.path, increments, strict=True)
+        return replace(self, path=tuple(replace(step, count=count) for step, count in path))
+
+
+def plan(scene: Scene, path_accuracy: float = PATH_ACCURACY) -> Plan:
+    """Decide the effects of a scene; raises UnsupportedScene for a layer on next to nothing.
+
+    path_accuracy  error of the shear that finite increments may leave, relative to Σµp
+    """
     friction = scene.friction is not None
     loaded = _tangentially_loaded(scene)
     couples, why = _coupling(scene)
-    coupling = friction and couples
-    shear = friction and (loaded or coupling)
+    coupled = friction and couples
+    shear = friction and (loaded or coupled)
+    tilt = any(step.moment is not None or any(step.tilt or (0, 0)) for step in scene.loading)
+    torsion = shear and any(step.torque is not None or step.twist for step in scene.loading)
     effects = (
         Effect("pressure", True, "the indenter is pressed on"),
         _second_body(scene),
@@ -72,9 +95,11 @@ def plan(scene: Scene) -> Plan:
             "[friction] is given" if friction else "the scene has no [friction]",
         ),
         Effect("tangential load", friction and loaded, _why_shear(friction, loaded)),
+        Effect("tilt", tilt, _why_tilt(tilt)),
+        Effect("torsion", torsion, _why_torsion(friction, torsion)),
         Effect(
-            "normal-tangential coupling",
-            coupling,
+            COUPLING,
+            coupled,
             why if friction else "without shear there is nothing for the pressure to couple with",
         ),
         Effect(
@@ -85,49 +110,10 @@ def plan(scene: Scene) -> Plan:
             else "the final state does not depend on the path",
         ),
     )
-    return Plan(shear, coupling, _increments(scene, shear, coupling), effects)
-
-
-def _increments(scene: Scene, shear: bool, coupling: bool) -> tuple[int, ...]:
-    """As asked for; else one wherever the end of the step does not depend on its path."""
-    counts = []
-    sheared = coupling
-    last = (0.0, 0.0)
-    for ramp in scene.load_path():
-        end = ramp.tangential.end
-        sheared = sheared or any(end)
-        pressing = ramp.normal.start != ramp.normal.end
-        # Force and shift are nearly parallel, so that either tells where the other starts.
-        start = ramp.tangential.start or last
-        turning = _turns(start, end)
-        shearing = coupling and start != end
-        path_matters = shear and sheared and (pressing or turning or shearing)
-        chosen = _path_increments(scene, ramp, start) if path_matters else 1
-        counts.append(ramp.increments or chosen)
-        last = end
-    return tuple(counts)
-
-
-def _turns(start: tuple[float, float], end: tuple[float, float]) -> bool:
-    """Whether a load changes its direction, reversal and round-off apart."""
-    cross = start[0] * end[1] - start[1] * end[0]
-    return abs(cross) > STRAIGHT * hypot(*start) * hypot(*end)
-
-
-def _path_increments(scene: Scene, ramp: LoadRamp, start: tuple[float, float]) -> int:
-    """Fine enough for about one per cent of the shear (first order in the increment): first
-    loading uniform in contact radius, T in parts of the friction limit where that is known."""
-    if ramp.normal.start == 0:
-        return FIRST_LOADING
-    friction = scene.friction
-    by_force = ramp.normal.kind is ramp.tangential.kind is ControlKind.FORCE
-    if not by_force or friction is None or isinstance(friction.coefficient, FrictionMap):
-        return PATH_INCREMENTS
-    limit = friction.coefficient * ramp.normal.end
-    end = ramp.tangential.end
-    change = hypot(end[0] - start[0], end[1] - start[1])
-    least = PATH_INCREMENTS if ramp.normal.start != ramp.normal.end else 1
-    return max(least, ceil(change / (LARGEST_SHARE * limit) - ROUND_OFF)) if limit > 0 else least
+    coupling = Coupling.FULL if coupled else Coupling.NONE
+    bodies = Bodies(coupled, _beta(scene), _friction(scene))
+    path = path_increments(scene, shear, bodies, path_accuracy)
+    return Plan(shear, tilt, torsion, coupling, path, effects)
 
 
 def _coupling(scene: Scene) -> tuple[bool, str]:
@@ -139,14 +125,26 @@ def _coupling(scene: Scene) -> tuple[bool, str]:
     lower, upper = scene.body, scene.indenter
     if (lower.material, lower.layers) == (upper.material, upper.layers):
         return False, "the two bodies are alike: pressure moves both surfaces by the same amount"
-    half_spaces = [_as_half_space(body) for body in (lower, upper)]
-    if None in half_spaces:
+    beta = _beta(scene)
+    if beta is None:
         return True, "a coating moves sideways under pressure, and the other body does not follow"
-    beta = _dundurs_beta(*half_spaces)
     text = f"Dundurs' beta is {beta:.2g}"
     if abs(beta) <= UNCOUPLED:
         return False, f"{text}: pressure does not move the surfaces past each other"
     return True, f"{text}: pressure moves the surfaces past each other"
+
+
+def _beta(scene: Scene) -> float | None:
+    """Dundurs' constant of two half-spaces, None if one of them has layers."""
+    half_spaces = [_as_half_space(body) for body in (scene.body, scene.indenter)]
+    return None if None in half_spaces else _dundurs_beta(*half_spaces)
+
+
+def _friction(scene: Scene) -> float | None:
+    """µ where it is one number for the whole surface."""
+    if scene.friction is None or isinstance(scene.friction.coefficient, FrictionMap):
+        return None
+    return scene.friction.coefficient
 
 
 def _as_half_space(body: Body) -> Material | None:
@@ -168,7 +166,9 @@ def _dundurs_beta(lower: Material | None, upper: Material | None) -> float:
 
 def _tangentially_loaded(scene: Scene) -> bool:
     return any(
-        any(step.tangential_force or (0, 0)) or any(step.tangential_shift or (0, 0))
+        any(step.tangential_force or (0, 0))
+        or any(step.tangential_shift or (0, 0))
+        or bool(step.torque or step.twist)
         for step in scene.loading
     )
 
@@ -177,8 +177,22 @@ def _why_shear(friction: bool, loaded: bool) -> str:
     if not friction:
         return "without friction the surfaces carry no shear"
     if not loaded:
-        return "no step pushes sideways"
-    return "a step names a tangential force or shift"
+        return "no step pushes sideways or twists"
+    return "a step names a tangential force or shift, a torque or a twist"
+
+
+def _why_tilt(tilt: bool) -> str:
+    if tilt:
+        return "a step names a moment or a tilt"
+    return "no step names a moment or a tilt: the indenter is held upright"
+
+
+def _why_torsion(friction: bool, torsion: bool) -> str:
+    if not friction:
+        return "without friction the surfaces carry no torque"
+    if torsion:
+        return "a step names a torque or a twist"
+    return "no step names a torque or a twist: the indenter is held from turning"
 
 
 def _second_body(scene: Scene) -> Effect:

@@ -10,10 +10,11 @@ from semi_analytical.box import Box, box_around
 from semi_analytical.contact_area import covered_cells
 from semi_analytical.errors import ContactAtWindowEdge, ContactNotResolved, NotConverged
 from semi_analytical.model import ContactModel, doubled
-from semi_analytical.normal import FixedApproach, NormalLoad, PressureSum, solve_normal
+from semi_analytical.normal import FixedApproach, Motion, NormalLoad, PressureSum, solve_normal
 from semi_analytical.residuals import complementarity, penetration
 
 Field = NDArray[np.float64]
+Pair = tuple[float, float]
 
 # A coarse solution is only a first guess: half a digit better than the next grid needs.
 COARSE_TOLERANCE = 1e-4
@@ -26,6 +27,7 @@ class Pressing:
     """Pressure and its normal displacement on the whole window, approach, residuals, cost.
 
     covered_cells  contact area in cells, with sub-cell accuracy
+    tilt           of the indenter (x, y); None where nothing tilts
     """
 
     pressure: Field
@@ -35,21 +37,73 @@ class Pressing:
     penetration: float
     covered_cells: float
     iterations: int
+    tilt: Pair | None = None
+
+    def closure(self, model: ContactModel) -> float | Field:
+        """By how much the indenter closes the gap [length]."""
+        if self.tilt is None:
+            return self.approach
+        return np.asarray(self.approach + _plane(model, self.tilt))
+
+
+@dataclass(frozen=True)
+class Tilting:
+    """Exactly one of the two controls: moment (M_x, M_y) [force length] or tilt (x, y)."""
+
+    moment: Pair | None = None
+    tilt: Pair | None = None
 
 
 @dataclass(frozen=True)
 class NormalTarget:
-    """Exactly one of the two controls: force W [force] or approach [length]."""
+    """Exactly one of the two controls: force W [force] or approach [length]; and the tilt, None
+    where nothing tilts."""
 
     force: float | None = None
     approach: float | None = None
+    tilting: Tilting | None = None
 
-    def on(self, model: ContactModel) -> NormalLoad:
-        """The load as the solver sees it on one grid."""
-        if self.force is not None:
-            return PressureSum(self.force / model.grid.cell_area)
+    def gap(self, model: ContactModel) -> Field:
+        """The undeformed gap; where the tilt is given, that of the tilted indenter at first
+        touch."""
+        if self.tilting is None or self.tilting.tilt is None:
+            return model.gap
+        return model.gap - _plane(model, self.tilting.tilt) - self._first_touch(model)
+
+    def _first_touch(self, model: ContactModel) -> float:
+        """Approach at which a cell of the tilted indenter first touches [length]."""
+        if self.tilting is None or self.tilting.tilt is None:
+            return 0.0
+        return float(np.min(model.gap - _plane(model, self.tilting.tilt)))
+
+    def on(self, model: ContactModel, box: Box) -> NormalLoad:
+        """The load on that gap, as the solver sees it in a box of one grid."""
+        total = None if self.force is None else self.force / model.grid.cell_area
+        if self.tilting is not None and self.tilting.moment is not None:
+            from semi_analytical.tilting import PressureMoments
+
+            moments = np.array(self.tilting.moment) / model.grid.cell_area
+            arms = model.arms[(..., *box.slices)]
+            cells = np.isfinite(model.gap[box.slices])
+            return PressureMoments(arms, cells, moments, total, self.approach)
+        if total is not None:
+            return PressureSum(total)
         assert self.approach is not None
-        return FixedApproach(self.approach)
+        return FixedApproach(self.approach - self._first_touch(model))
+
+    def reached(self, model: ContactModel, motion: Motion) -> tuple[float, Pair | None]:
+        """Approach and tilt that a motion of the load stands for."""
+        if self.tilting is None:
+            return float(motion), None
+        if self.tilting.tilt is not None:
+            return float(motion) + self._first_touch(model), self.tilting.tilt
+        approach, tilt_x, tilt_y = map(float, np.ravel(motion))
+        return approach, (tilt_x, tilt_y)
+
+
+def _plane(model: ContactModel, tilt: Pair) -> Field:
+    """By how much a tilt closes the gap (nx, ny) [length]."""
+    return np.asarray(tilt[0] * model.arms[0] + tilt[1] * model.arms[1])
 
 
 def press(model: ContactModel, target: NormalTarget, tolerance: float) -> Pressing:
@@ -64,27 +118,32 @@ def press(model: ContactModel, target: NormalTarget, tolerance: float) -> Pressi
     start, iterations = nested_start(model, target)
     box = box_around(start > 0, MARGIN)
     whole = Box.whole(model.grid.cells)
-    allowed = np.isfinite(model.gap)
+    gap = target.gap(model)
+    allowed = np.isfinite(gap)
+    load = target.on(model, whole)
     aim, residual = tolerance, np.inf
     for _ in range(MOST_ATTEMPTS):
         operator = model.normal_operator(box.shape)
         solution = solve_normal(
             operator,
             operator.precondition,
-            model.gap[box.slices],
-            target.on(model),
+            gap[box.slices],
+            target.on(model, box),
             start[box.slices],
             0.5 * aim,
         )
         iterations += solution.iterations
         p = box.embed(solution.pressure, model.grid.cells)
         u = model.normal_operator(whole.shape)(p)
-        g = np.where(allowed, model.gap, np.inf) + u - solution.approach
-        measures = (complementarity(p, g, solution.approach), penetration(g, solution.approach))
+        g = np.where(allowed, gap, np.inf) + u - load.closure(solution.motion)
+        overlap = load.overlap(solution.motion, gap, allowed)
+        measures = (complementarity(p, g, overlap), penetration(g, overlap))
         residual = max(measures)
         if residual <= tolerance:
             refuse_contact_at_edge(p, model)
-            return Pressing(p, u, solution.approach, *measures, covered_cells(p, p > 0), iterations)
+            approach, tilt = target.reached(model, solution.motion)
+            covered = covered_cells(p, p > 0)
+            return Pressing(p, u, approach, *measures, covered, iterations, tilt)
         overlap_outside = np.min(np.where(box.mask(model.grid.cells), 0.0, g)) < 0
         box, aim = (whole, aim) if overlap_outside else (box, 0.1 * aim)
         start = np.where(p > 0, p, np.where(g < 0, np.min(p[p > 0]), 0.0))
@@ -102,8 +161,8 @@ def nested_start(model: ContactModel, target: NormalTarget) -> tuple[Field, int]
     solution = solve_normal(
         operator,
         operator.precondition,
-        coarse.gap,
-        target.on(coarse),
+        target.gap(coarse),
+        target.on(coarse, Box.whole(coarse.grid.cells)),
         start,
         COARSE_TOLERANCE,
     )
@@ -112,29 +171,50 @@ def nested_start(model: ContactModel, target: NormalTarget) -> tuple[Field, int]
 
 
 def _touches(model: ContactModel, target: NormalTarget) -> bool:
-    """Whether any cell can carry pressure: a force brings the nearest ones into contact, an
+    """Whether the cells can carry the load: a force brings the nearest ones into contact, an
     approach only those whose gap is smaller."""
-    least = float(np.min(model.gap))
-    return np.isfinite(least) if target.approach is None else least < target.approach
+    gap = target.gap(model)
+    load = target.on(model, Box.whole(model.grid.cells))
+    return load.touches(gap)
 
 
 def refuse_unresolved_contact(model: ContactModel, target: NormalTarget) -> None:
-    """Raise ContactNotResolved if no cell of the window touches."""
-    if not _touches(model, target):
+    """Raise ContactNotResolved if no cell of the window touches, or none where it would have to;
+    ContactAtWindowEdge if that is for want of window."""
+    if _touches(model, target):
+        return
+    if target.tilting is None or target.tilting.moment is None:
         raise ContactNotResolved(
             f"no cell of the window touches: the gap is at least {np.min(model.gap):.4g} m at the "
             f"cell centres; take more cells or a smaller window"
         )
+    if np.isfinite(_rim(model.gap)).any():
+        raise ContactAtWindowEdge(
+            f"under its moment the normal force acts outside the window; {_wider(model)}"
+        )
+    raise ContactNotResolved(
+        "under its moment the normal force acts beyond the outermost cells of the indenter: it "
+        "tips over; take a smaller moment, or prescribe tilt instead"
+    )
+
+
+def _rim(values: Field) -> Field:
+    """Values at the border of the window."""
+    return np.concatenate([values[0], values[-1], values[:, 0], values[:, -1]])
+
+
+def _wider(model: ContactModel) -> str:
+    """What helps where the window is too small."""
+    if isinstance(model.scene.indenter, HeightMap):
+        return "the height map and the window must reach beyond the contact"
+    return "give a larger window, or leave it out to have it chosen"
 
 
 def refuse_contact_at_edge(p: Field, model: ContactModel) -> None:
     """Raise ContactAtWindowEdge if a cell at the border of the window carries pressure."""
-    rim = np.concatenate([p[0], p[-1], p[:, 0], p[:, -1]])
-    if np.any(rim > 0):
+    if np.any(_rim(p) > 0):
         w = model.grid.window
-        advice = "give a larger window, or leave it out to have it chosen"
-        if isinstance(model.scene.indenter, HeightMap):
-            advice = "the height map and the window must reach beyond the contact"
         raise ContactAtWindowEdge(
-            f"the contact reaches the edge of the window of {w[0]:.4g} m by {w[1]:.4g} m; {advice}"
+            f"the contact reaches the edge of the window of {w[0]:.4g} m by {w[1]:.4g} m; "
+            f"{_wider(model)}"
         )

@@ -22,6 +22,8 @@ class Residuals:
     friction_cone           max(|q| - µp) / max(µp)
     slip_direction          Σ(µp|Δs| + q·Δs) / Σµp|Δs|, Δs the slip increment
     tangential_equilibrium  |Σq - T| / Σµp, under force control
+    moment_equilibrium      |Σp (y, x) - M| / Σp r, under force control of the tilt
+    torque_equilibrium      |Σ(q_y x - q_x y) - M_z| / Σµp r, under force control of the twist
     """
 
     complementarity: float
@@ -30,6 +32,8 @@ class Residuals:
     friction_cone: float | None = None
     slip_direction: float | None = None
     tangential_equilibrium: float | None = None
+    moment_equilibrium: float | None = None
+    torque_equilibrium: float | None = None
 
     @property
     def worst(self) -> float:

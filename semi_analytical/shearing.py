@@ -24,26 +24,46 @@ COARSEST = 16
 
 @dataclass(frozen=True)
 class Shearing:
-    """Shear and its displacement on the whole window, shift, slip zone, and iterations."""
+    """Shear and its displacement on the whole window, the motion of the load, slip zone, and
+    iterations."""
 
     shear: VectorField
     displacement: VectorField
-    shift: Vector
+    motion: Vector
     in_slip: NDArray[np.bool_]
     iterations: int
 
 
 @dataclass(frozen=True)
+class Torsion:
+    """Exactly one of the two controls: torque M_z [force length] or twist."""
+
+    torque: float | None = None
+    twist: float | None = None
+
+
+@dataclass(frozen=True)
 class TangentialTarget:
-    """Exactly one of the two controls: force T [force] or shift [length], each (2,)."""
+    """Exactly one of the two controls: force T [force] or shift [length], each (2,); and the
+    torsion, None where nothing twists."""
 
     force: Vector | None = None
     shift: Vector | None = None
+    torsion: Torsion | None = None
 
-    def on(self, cell_area: float) -> TangentialLoad:
-        """The load as the solver sees it on cells of this area."""
-        if self.force is not None:
-            return ShearSum(self.force / cell_area)
+    def on(self, cell_area: float, rotation: VectorField | None) -> TangentialLoad:
+        """The load as the solver sees it on cells of this area.
+
+        rotation  (-y, x) of the cells (2, nx, ny) [length]; None where nothing twists
+        """
+        total = None if self.force is None else self.force / cell_area
+        if self.torsion is not None and self.torsion.torque is not None:
+            assert rotation is not None
+            from semi_analytical.torsion import ShearMoments
+
+            return ShearMoments(rotation, self.torsion.torque / cell_area, total, self.shift)
+        if total is not None:
+            return ShearSum(total)
         assert self.shift is not None
         return FixedShift(self.shift)
 
@@ -56,8 +76,9 @@ class _Problem:
     bound: Field
     target: VectorField
     start: VectorField
-    shift: Vector
+    motion: Vector
     load: TangentialTarget
+    rotation: VectorField | None
 
     def halved(self) -> "_Problem | None":
         """The same on twice as large cells."""
@@ -69,8 +90,9 @@ class _Problem:
             halved(self.bound),
             halved(self.target),
             halved(self.start),
-            self.shift,
+            self.motion,
             self.load,
+            None if self.rotation is None else halved(self.rotation),
         )
 
 
@@ -80,25 +102,28 @@ def shear(
     target: VectorField,
     load: TangentialTarget,
     start: VectorField,
-    shift: Vector,
+    motion: Vector,
     tolerance: float,
 ) -> Shearing:
     """Solve the shear problem of one increment; all fields on the whole window.
 
-    bound         friction limit µp, not zero everywhere
-    target        c, from the state before (see tangential.solve_tangential)
-    start, shift  of the state before
-    raises        NotConverged
+    bound          friction limit µp, not zero everywhere
+    target         c, from the state before (see tangential.solve_tangential)
+    start, motion  of the state before
+    raises         NotConverged
     """
     box = box_around(bound > 0, margin=0)
     inside = (..., *box.slices)
-    problem = _Problem(model, bound[box.slices], target[inside], start[inside], shift, load)
+    rotation = None if load.torsion is None else model.rotation[inside]
+    problem = _Problem(
+        model, bound[box.slices], target[inside], start[inside], motion, load, rotation
+    )
     solution = _solve(problem, tolerance)
     q = box.embed(solution.shear, model.grid.cells)
     return Shearing(
         shear=q,
         displacement=model.tangential_operator(model.grid.cells)(q),
-        shift=solution.shift,
+        motion=solution.motion,
         in_slip=box.embed(solution.in_slip.astype(np.float64), model.grid.cells) > 0,
         iterations=solution.iterations,
     )
@@ -106,12 +131,12 @@ def shear(
 
 def _solve(problem: _Problem, tolerance: float) -> TangentialSolution:
     """Start from the solution on twice as large cells, which starts from the next one."""
-    start, shift, spent = problem.start, problem.shift, 0
+    start, motion, spent = problem.start, problem.motion, 0
     coarse = problem.halved()
     if coarse is not None:
         solution = _solve(coarse, COARSE_TOLERANCE)
         share = solution.shear / np.where(coarse.bound > 0, coarse.bound, 1.0)
-        start, shift = doubled(share) * problem.bound, solution.shift
+        start, motion = doubled(share) * problem.bound, solution.motion
         spent = solution.iterations
     operator = problem.model.tangential_operator(problem.bound.shape)
     solution = solve_tangential(
@@ -119,9 +144,9 @@ def _solve(problem: _Problem, tolerance: float) -> TangentialSolution:
         operator.precondition,
         problem.bound,
         problem.target,
-        problem.load.on(problem.model.grid.cell_area),
+        problem.load.on(problem.model.grid.cell_area, problem.rotation),
         start,
-        shift,
+        motion,
         problem.model.self_compliance,
         tolerance,
     )

@@ -3,14 +3,16 @@
 from collections.abc import Callable
 
 from contact_scene import HeightMap, Scene, SurfaceDiscretisation
+from contact_scene.standing import Keeper, Standing
 from semi_analytical.discretise import GROWTH, discretise
 from semi_analytical.errors import ContactAtWindowEdge
 from semi_analytical.fields import Increment, Result
 from semi_analytical.grid import SurfaceGrid
-from semi_analytical.history import march
+from semi_analytical.history import marked
 from semi_analytical.memory import refuse_if_too_large
 from semi_analytical.model import ContactModel
-from semi_analytical.plan import plan
+from semi_analytical.plan import Plan
+from semi_analytical.plan import plan as plan_of
 
 Progress = Callable[[Increment], None]
 
@@ -18,7 +20,12 @@ MOST_ENLARGEMENTS = 5
 
 
 def solve(
-    scene: Scene, grid: SurfaceGrid, tolerance: float, progress: Progress | None = None
+    scene: Scene,
+    grid: SurfaceGrid,
+    tolerance: float,
+    progress: Progress | None = None,
+    plan: Plan | None = None,
+    keeper: Keeper | None = None,
 ) -> Result:
     """Contact of a scene on a grid, every increment of its load history.
 
@@ -31,7 +38,11 @@ def solve(
     tolerance
         Bound of every dimensionless residual at the end of every increment.
     progress
-        Called with each increment once it has converged.
+        Called with each increment once it has converged, or is known to have.
+    plan
+        Which effects are computed; those that the scene calls for if absent.
+    keeper
+        Of this very solve: what it has kept is not computed again.
 
     Raises
     ------
@@ -48,19 +59,30 @@ def solve(
     ResourceRefused
         The grid needs more memory than there is.
     """
-    decided = plan(scene)
+    decided = plan_of(scene) if plan is None else plan
     refuse_if_too_large(grid, decided)
     model = ContactModel.of(scene, grid)
-    increments = []
-    for increment in march(model, decided, tolerance):
+    last = keeper.last() if keeper else None
+    since = last if last and last.extent == grid else None
+    increments = [*since.increments] if since else []
+    if progress is not None:
+        for increment in increments:
+            progress(increment)
+    for increment, mark in marked(model, decided, tolerance, since.mark if since else None):
         increments.append(increment)
+        if keeper is not None:
+            keeper.keep(Standing(tuple(increments), mark, grid))
         if progress is not None:
             progress(increment)
     return Result(scene, grid, tolerance, decided, tuple(increments))
 
 
 def solve_discretised(
-    scene: Scene, discretisation: SurfaceDiscretisation, progress: Progress | None = None
+    scene: Scene,
+    discretisation: SurfaceDiscretisation,
+    progress: Progress | None = None,
+    plan: Plan | None = None,
+    keeper: Keeper | None = None,
 ) -> Result:
     """Solve a scene on the grid that its file asks for.
 
@@ -68,12 +90,19 @@ def solve_discretised(
     increment reaches its edge after all; the window of a height map is all of it. Raises what
     `solve` raises.
     """
-    grid = discretise(scene, discretisation)
-    for _ in range(MOST_ENLARGEMENTS):
+    decided = plan_of(scene, discretisation.path_accuracy) if plan is None else plan
+    first = discretise(scene, discretisation)
+    grids = [first]
+    if discretisation.window is None and not isinstance(scene.indenter, HeightMap):
+        for _ in range(MOST_ENLARGEMENTS):
+            L_x, L_y = grids[-1].window
+            grids.append(SurfaceGrid(first.cells, (GROWTH * L_x, GROWTH * L_y)))
+    last = keeper.last() if keeper else None
+    if last and last.extent in grids:  # the smaller ones have been outgrown
+        grids = grids[grids.index(last.extent) :]
+    for grid in grids[:-1]:
         try:
-            return solve(scene, grid, discretisation.tolerance, progress)
+            return solve(scene, grid, discretisation.tolerance, progress, decided, keeper)
         except ContactAtWindowEdge:
-            if discretisation.window is not None or isinstance(scene.indenter, HeightMap):
-                raise
-            grid = SurfaceGrid(grid.cells, (GROWTH * grid.window[0], GROWTH * grid.window[1]))
-    return solve(scene, grid, discretisation.tolerance, progress)
+            continue
+    return solve(scene, grids[-1], discretisation.tolerance, progress, decided, keeper)

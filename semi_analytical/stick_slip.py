@@ -1,77 +1,38 @@
 """The tangential half of an increment: stick, slip, and what the surfaces remember."""
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from contact_scene.summary import ContactStatus
-from semi_analytical.admissible_shear import AT_LIMIT
+from semi_analytical.admissible_shear import magnitude
 from semi_analytical.errors import GrossSliding, NotConverged
+from semi_analytical.full_slip import (
+    at_limit,
+    reaches_limit,
+    refuse_excessive_torque,
+    unresisted,
+)
 from semi_analytical.model import ContactModel
 from semi_analytical.residuals import friction_cone, slip_direction
+from semi_analytical.sheared import (
+    Sheared,
+    ShearResiduals,
+    first_motion,
+    rigid,
+    surface_target,
+    torque_of,
+    torsion_reached,
+)
 from semi_analytical.shearing import Shearing, TangentialTarget, shear
 
 Field = NDArray[np.float64]
 VectorField = NDArray[np.float64]
-Mask = NDArray[np.bool_]
 Vector = NDArray[np.float64]
 
 MOST_ATTEMPTS = 3
 SLIDING = 1e-6
-
-
-@dataclass(frozen=True)
-class ShearResiduals:
-    """See residuals.Residuals; None where the control or the state leaves them undefined."""
-
-    friction_cone: float
-    slip_direction: float | None
-    tangential_equilibrium: float | None
-
-    @property
-    def worst(self) -> float:
-        """The largest of those that apply."""
-        return max(self.friction_cone, self.slip_direction or 0, self.tangential_equilibrium or 0)
-
-
-@dataclass(frozen=True)
-class Sheared:
-    """The tangential part of a state, all fields on the whole window.
-
-    displacement       u_t by the shear; less the shift it remembers where particles met
-    shift              of the indenter; None at the friction limit under force control
-    slip               u_t - shift accumulated while in contact (paper, eq. (4))
-    dissipated_energy  since the start; None where the shift is
-    """
-
-    shear: VectorField
-    displacement: VectorField
-    shift: Vector | None
-    slip: VectorField
-    in_stick: Mask
-    dissipated_energy: float | None
-    status: ContactStatus
-    force: Vector
-    residuals: ShearResiduals
-    iterations: int
-
-
-def untouched(cells: tuple[int, int]) -> Sheared:
-    """Before first touch: no shear, no shift, no slip."""
-    nothing = np.zeros((2, *cells))
-    return Sheared(
-        shear=nothing,
-        displacement=nothing,
-        shift=np.zeros(2),
-        slip=nothing,
-        in_stick=np.zeros(cells, dtype=bool),
-        dissipated_energy=0.0,
-        status=ContactStatus.FULL_STICK,
-        force=np.zeros(2),
-        residuals=ShearResiduals(0.0, 0.0, 0.0),
-        iterations=0,
-    )
 
 
 def slip_and_stick(
@@ -91,23 +52,17 @@ def slip_and_stick(
             "the increment before reached the friction limit under force control, where the "
             "shift is undefined, so the history cannot go on; prescribe tangential_shift instead"
         )
-    if load.force is not None:
-        if not any(np.any(a) for a in (load.force, last.shear, last.shift)):
-            return replace(last, in_stick=bound > 0, iterations=0)
-        if reaches_limit(load.force, float(np.sum(bound)) * model.grid.cell_area):
-            if np.any(bound):
-                return at_limit(model, bound, last, load.force)
-            return unresisted(pressure, np.zeros_like(last.shear), last, last.shift)
-    elif not np.any(bound):
-        assert load.shift is not None
-        return unresisted(pressure, np.zeros_like(last.shear), last, load.shift)
-    target = last.displacement - last.shift[:, None, None]
+    ended = _without_solving(model, pressure, bound, last, load)
+    if ended is not None:
+        return ended
+    target = surface_target(model, last, load)
     aim, iterations = tolerance, 0
     for _ in range(MOST_ATTEMPTS):
-        solution = shear(model, bound, target, load, last.shear, last.shift, 0.5 * aim)
+        motion = first_motion(last, load)
+        solution = shear(model, bound, target, load, last.shear, motion, 0.5 * aim)
         iterations += solution.iterations
         # How far the indenter's particles moved past the body's in this increment.
-        passed = solution.shift[:, None, None] + target - solution.displacement
+        passed = rigid(model, solution.motion) + target - solution.displacement
         residuals = shear_residuals(model, solution, bound, passed, load, last)
         if residuals.worst <= tolerance:
             return advanced(model, pressure, bound, last, load, solution, passed, residuals)
@@ -115,15 +70,29 @@ def slip_and_stick(
     raise NotConverged("the shear", iterations, residuals.worst, tolerance)
 
 
-def reaches_limit(force: Vector, limit: float) -> bool:
-    """Whether a force is at the friction limit; GrossSliding if it is beyond."""
-    magnitude = float(np.hypot(*force))
-    if magnitude > limit * (1 + AT_LIMIT):
-        raise GrossSliding(
-            f"tangential force {magnitude:.6g} N exceeds the friction limit {limit:.6g} N: gross "
-            f"sliding; prescribe tangential_shift instead"
+def _without_solving(
+    model: ContactModel, pressure: Field, bound: Field, last: Sheared, load: TangentialTarget
+) -> Sheared | None:
+    """The state where nothing has moved yet, or all slips; None where there is more to it."""
+    nothing = np.zeros_like(last.shear)
+    if load.torsion is not None and load.torsion.torque is not None:
+        refuse_excessive_torque(model, bound, load)
+        if np.any(bound):
+            return None
+        return unresisted(model, pressure, nothing, last, load, first_motion(last, load))
+    if load.force is None:
+        assert load.shift is not None
+        return (
+            None if np.any(bound) else unresisted(model, pressure, nothing, last, load, load.shift)
         )
-    return magnitude >= limit * (1 - AT_LIMIT)
+    moved = last.shear, last.shift, last.displacement
+    if load.torsion is None and not any(np.any(a) for a in (load.force, *moved)):
+        return replace(last, in_stick=bound > 0, iterations=0)
+    if not reaches_limit(load.force, float(np.sum(bound)) * model.grid.cell_area):
+        return None
+    if np.any(bound):
+        return at_limit(model, bound, last, load)
+    return unresisted(model, pressure, nothing, last, load, first_motion(last, load))
 
 
 def shear_residuals(
@@ -144,11 +113,17 @@ def shear_residuals(
     if load.force is not None:
         defect = np.sum(q, axis=(1, 2)) - load.force / model.grid.cell_area
         equilibrium = float(np.hypot(*defect) / np.sum(bound))
+    torque_equilibrium = None
+    if load.torsion is not None and load.torsion.torque is not None:
+        missing = torque_of(model, q) - load.torsion.torque
+        limit = np.sum(bound * magnitude(model.rotation)) * model.grid.cell_area
+        torque_equilibrium = float(abs(missing) / limit)
     moved = np.maximum(np.abs(solution.displacement), np.abs(last.displacement))
     return ShearResiduals(
         friction_cone(q, bound),
         slip_direction(q, bound, passed, moved),
         equilibrium,
+        torque_equilibrium,
     )
 
 
@@ -164,69 +139,41 @@ def advanced(
 ) -> Sheared:
     """The accepted state: slip and dissipation are added to those of the state before."""
     q, cell = solution.shear, model.grid.cell_area
-    in_stick = (bound > 0) & ~solution.in_slip
+    # A residual of the solver may point against the shear; friction lets nothing slip that way.
+    backward = q[0] * passed[0] + q[1] * passed[1] < 0
+    in_stick = (bound > 0) & (~solution.in_slip | backward)
     slipped = np.where((pressure > 0) & ~in_stick, passed, 0.0)
+    lost = q[0] * slipped[0] + q[1] * slipped[1]
     force = np.sum(q, axis=(1, 2)) * cell
     assert last.dissipated_energy is not None
-    return Sheared(
+    twist, torque = torsion_reached(model, load, solution.motion, q)
+    after = Sheared(
         shear=q,
         displacement=solution.displacement,
-        shift=solution.shift,
+        shift=solution.motion[:2],
         slip=last.slip - slipped,
+        slip_distance=last.slip_distance + np.hypot(*slipped),
+        dissipation=last.dissipation + lost,
         in_stick=in_stick,
-        dissipated_energy=last.dissipated_energy + float(np.sum(q * slipped)) * cell,
-        status=_status(in_stick, bound, float(np.hypot(*force)) / cell),
+        dissipated_energy=last.dissipated_energy + float(np.sum(lost)) * cell,
+        status=ContactStatus.NO_STICK_AREA_LEFT,
         force=force if load.force is None else load.force,
         residuals=residuals,
         iterations=solution.iterations,
+        twist=twist,
+        torque=torque,
     )
+    return replace(after, status=_status(model, after, bound, last))
 
 
-def _status(in_stick: Mask, bound: Field, shear_sum: float) -> ContactStatus:
-    if np.any(in_stick):
-        everything = np.count_nonzero(in_stick) == np.count_nonzero(bound)
+def _status(model: ContactModel, after: Sheared, bound: Field, last: Sheared) -> ContactStatus:
+    if np.any(after.in_stick):
+        everything = np.count_nonzero(after.in_stick) == np.count_nonzero(bound)
         return ContactStatus.FULL_STICK if everything else ContactStatus.PARTIAL_SLIP
-    if shear_sum >= np.sum(bound) * (1 - SLIDING):
-        return ContactStatus.GROSS_SLIDING
-    return ContactStatus.NO_STICK_AREA_LEFT
-
-
-def at_limit(model: ContactModel, bound: Field, last: Sheared, force: Vector) -> Sheared:
-    """Force control at the friction limit: the traction is known, the shift is not."""
-    q = bound * (force / np.hypot(*force))[:, None, None]
-    defect = np.sum(q, axis=(1, 2)) - force / model.grid.cell_area
-    return replace(
-        last,
-        shear=q,
-        displacement=model.tangential_operator(model.grid.cells)(q),
-        shift=None,
-        in_stick=np.zeros_like(bound, dtype=bool),
-        dissipated_energy=None,
-        status=ContactStatus.GROSS_SLIDING,
-        force=force,
-        residuals=ShearResiduals(
-            friction_cone(q, bound), None, float(np.hypot(*defect) / np.sum(bound))
-        ),
-        iterations=0,
-    )
-
-
-def unresisted(pressure: Field, displacement: VectorField, last: Sheared, shift: Vector) -> Sheared:
-    """Friction vanishes all over the contact: all of it slips, for nothing.
-
-    displacement  u_t (2, nx, ny) without shear, by the pressure alone
-    """
-    assert last.shift is not None
-    passed = (shift - last.shift)[:, None, None] + last.displacement - displacement
-    return replace(
-        last,
-        shear=np.zeros_like(last.shear),
-        displacement=displacement,
-        shift=shift,
-        slip=last.slip - np.where(pressure > 0, passed, 0.0),
-        in_stick=np.zeros_like(last.in_stick),
-        status=ContactStatus.GROSS_SLIDING,
-        force=np.zeros(2),
-        residuals=ShearResiduals(0.0, 0.0, 0.0),
-        iterations=0,
-    )
+    if after.twist is None:
+        work, power = float(np.hypot(*after.force)) / model.grid.cell_area, float(np.sum(bound))
+    else:
+        moved = rigid(model, after.motion) - rigid(model, last.motion)
+        work, power = float(np.sum(after.shear * moved)), float(np.sum(bound * magnitude(moved)))
+    sliding = work >= power * (1 - SLIDING)
+    return ContactStatus.GROSS_SLIDING if sliding else ContactStatus.NO_STICK_AREA_LEFT

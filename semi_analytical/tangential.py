@@ -16,15 +16,10 @@ from numpy.typing import NDArray
 
 from semi_analytical.admissible_shear import (
     Field,
-    FixedShift,
-    ShearSum,
     TangentialLoad,
     Vector,
     VectorField,
-    everywhere,
     magnitude,
-    project,
-    project_on_discs,
 )
 from semi_analytical.errors import NotConverged
 from semi_analytical.residuals import slip_direction
@@ -33,19 +28,26 @@ Map = Callable[[VectorField], VectorField]
 
 MOST_STEPS = 120
 MOST_ITERATIONS_PER_STEP = 100
+# Changes of the energy below this part of the work of the shear may be round-off.
+LEVEL = 1e-12
 
 
 @dataclass(frozen=True)
 class TangentialSolution:
-    """Shear (2, nx, ny), its displacement (2, nx, ny), the shift (2,), the slip zone, the residual
-    that is left, and the iterations spent."""
+    """Shear (2, nx, ny), its displacement (2, nx, ny), the motion of the load, the slip zone, the
+    residual that is left, and the iterations spent."""
 
     shear: VectorField
     displacement: VectorField
-    shift: Vector
+    motion: Vector
     in_slip: NDArray[np.bool_]
     residual: float
     iterations: int
+
+    @property
+    def shift(self) -> Vector:
+        """Shift of the indenter (2,) [length]."""
+        return self.motion[:2]
 
 
 @dataclass(frozen=True)
@@ -57,32 +59,25 @@ class _Problem:
     load: TangentialLoad
     self_compliance: float
 
-    def natural(self, q: VectorField, u: VectorField, shift: Vector) -> "_Natural":
+    def natural(self, q: VectorField, u: VectorField, motion: Vector) -> "_Natural":
         """The natural map q -> P(q + γ (ω + c - u)), whose fixed points solve the problem."""
         gamma = 1 / self.self_compliance
         z = q + gamma * (self.target - u)
-        if isinstance(self.load, FixedShift):
-            shift = self.load.shift
-            projected = project_on_discs(z + everywhere(gamma * shift), self.bound)
-        else:
-            projected, multiplier = project(z, self.bound, self.load.total, gamma * shift)
-            shift = multiplier / gamma
-        z += everywhere(gamma * shift)
+        projected, motion = self.load.nearest(z, self.bound, gamma, motion)
+        z += self.load.rigid(gamma * motion)
         error = np.sum(magnitude(projected - q)) / np.sum(self.bound)
-        return _Natural(z, projected, shift, float(error))
+        return _Natural(z, projected, motion, float(error))
 
     def admissible(self, q: VectorField) -> VectorField:
         """The nearest shear that friction allows and that carries the load."""
-        if isinstance(self.load, FixedShift):
-            return project_on_discs(q, self.bound)
-        return project(q, self.bound, self.load.total)[0]
+        return self.load.admissible(q, self.bound)
 
 
 @dataclass(frozen=True)
 class _Natural:
     z: VectorField
     projected: VectorField
-    shift: Vector
+    motion: Vector
     error: float
 
 
@@ -93,19 +88,19 @@ def solve_tangential(
     target: VectorField,
     load: TangentialLoad,
     start: VectorField,
-    shift: Vector,
+    motion: Vector,
     self_compliance: float,
     tolerance: float,
     enough: float = 0.0,
 ) -> TangentialSolution:
-    """Shear, shift and slip zone of one increment at a given pressure.
+    """Shear, motion and slip zone of one increment at a given pressure.
 
     displace         shear (2, nx, ny) -> tangential displacement (2, nx, ny); symmetric, positive
     precondition     roughly the inverse of `displace`; symmetric, positive
     bound            friction limit µp (nx, ny), zero outside the contact [force/length^2]
     target           c (2, nx, ny): cells stick where A q = ω + c [length]
-    load             Σq (with |Σq| < Σ bound) or the shift ω
-    start, shift     first guesses of the shear (2, nx, ny) and of the shift (2,)
+    load             what leads the indenter: Σq (with |Σq| < Σ bound) or the shift ω
+    start, motion    first guesses of the shear (2, nx, ny) and of the motion of the load
     self_compliance  displacement of a cell by its own unit shear [length^3/force]
     tolerance        on Σ|q - P(q + γ(ω + c - A q))| / Σ bound, and on the slip direction
     enough           part of the residual of the start at which to stop before the tolerance
@@ -115,15 +110,15 @@ def solve_tangential(
     q = problem.admissible(start)
     u = displace(q)
     iterations, first = 0, np.inf
-    state = problem.natural(q, u, shift)
+    state = problem.natural(q, u, motion)
     for number in range(MOST_STEPS):
-        slip = everywhere(state.shift) + target - u
+        slip = load.rigid(state.motion) + target - u
         residual = max(state.error, slip_direction(q, bound, slip, u))
         first = residual if number == 0 else first
         aim = max(tolerance, enough * first)
         if residual <= aim:
             in_slip = (bound > 0) & (magnitude(state.z) > bound)
-            return TangentialSolution(q, u, state.shift, in_slip, residual, iterations)
+            return TangentialSolution(q, u, state.motion, in_slip, residual, iterations)
         newton, spent = _newton_target(problem, q, u, state, max(0.05, 0.3 * aim / residual))
         iterations += spent
         q, u, state = _descend(problem, q, u, state, newton)
@@ -160,7 +155,7 @@ def _newton_target(
     base = bound * normal + q * stick
     x, constrain = _carry_load(problem, base, free, preconditioned)
     start_u = u + problem.displace(base + x - q)
-    r = free(everywhere(state.shift) + problem.target - start_u - turning * x)
+    r = free(problem.load.rigid(state.motion) + problem.target - start_u - turning * x)
     r, z = constrain(r, preconditioned(r))
     rz = first = float(np.sum(r * z))
     t = z
@@ -183,25 +178,31 @@ Constraint = Callable[[VectorField, VectorField], tuple[VectorField, VectorField
 def _carry_load(
     problem: _Problem, base: VectorField, free: Map, preconditioned: Map
 ) -> tuple[VectorField, Constraint]:
-    """A correction that makes the sum right, and how to keep it right.
+    """A correction that makes the sums right, and how to keep them right.
 
-    The rigid shift is projected out of residuals r and their images z in the metric of the
+    Free rigid motions are projected out of residuals r and their images z in the metric of the
     preconditioner. Where everything slips one way the sum cannot be corrected along it (the
     pseudo-inverse says so) and is left to the exact projection.
     """
-    if not isinstance(problem.load, ShearSum):
+    motions = problem.load.free_motions(base.shape)
+    if not motions:
         return np.zeros_like(base), lambda r, z: (r, z)
-    units = [free(np.broadcast_to(everywhere(e), base.shape)) for e in np.eye(2)]
+    units = [free(motion) for motion in motions]
     images = [preconditioned(e) for e in units]
     metric = np.array([[np.sum(e * image) for image in images] for e in units])
     inverse = np.linalg.pinv(metric, rcond=1e-12, hermitian=True)
 
     def constrain(r: VectorField, z: VectorField) -> tuple[VectorField, VectorField]:
-        a, b = inverse @ np.sum(z, axis=(1, 2))
-        return r - a * units[0] - b * units[1], z - a * images[0] - b * images[1]
+        shares = inverse @ problem.load.forces(z)
+        for share, unit, image in zip(shares, units, images, strict=True):
+            r, z = r - share * unit, z - share * image
+        return r, z
 
-    a, b = inverse @ (problem.load.total - np.sum(base, axis=(1, 2)))
-    return a * images[0] + b * images[1], constrain
+    shares = inverse @ (problem.load.given - problem.load.forces(base))
+    correction = np.zeros_like(base)
+    for share, image in zip(shares, images, strict=True):
+        correction = correction + share * image
+    return correction, constrain
 
 
 def _descend(
@@ -209,15 +210,17 @@ def _descend(
 ) -> tuple[VectorField, VectorField, _Natural]:
     """Go to the Newton answer, or only part of the way, or down the gradient: always downhill.
 
-    Near the solution energies differ by less than round-off; there the Newton answer is also
-    taken when it halves the natural residual.
+    Near the solution energies differ by less than round-off; only there is the Newton answer also
+    taken when it halves the natural residual. Elsewhere that may lead uphill, and round in circles.
     """
-    gradient = u - problem.target - everywhere(state.shift)
+    gradient = u - problem.target - problem.load.rigid(state.motion)
     d = newton - q
     d_u = problem.displace(d)
     slope, curvature = np.sum(d * gradient), np.sum(d * d_u)
-    at_newton = problem.natural(newton, u + d_u, state.shift)
-    if slope + 0.5 * curvature <= 0.1 * slope or at_newton.error < 0.5 * state.error:
+    at_newton = problem.natural(newton, u + d_u, state.motion)
+    change = slope + 0.5 * curvature
+    level = change <= LEVEL * np.sum(np.abs(q * u))
+    if change <= 0.1 * slope or (level and at_newton.error < 0.5 * state.error):
         return newton, u + d_u, at_newton
     step = min(1.0, -slope / curvature)
     if step < 1e-3:
@@ -225,4 +228,4 @@ def _descend(
         d_u = problem.displace(d)
         step = min(1.0, -np.sum(d * gradient) / np.sum(d * d_u))
     q, u = q + step * d, u + step * d_u
-    return q, u, problem.natural(q, u, state.shift)
+    return q, u, problem.natural(q, u, state.motion)

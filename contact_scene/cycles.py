@@ -1,0 +1,70 @@
+"""Load cycles: where a history of loads returns to a load that it has had before."""
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+from contact_scene.load_path import LoadRamp, ScalarControl, VectorControl
+
+# Loads that differ by less, relative to the largest of their kind, are the same load.
+DIGITS = 9
+
+State = tuple[tuple[str, tuple[float, ...]], ...]
+
+
+@dataclass(frozen=True)
+class LoadCycle:
+    """From the end of one loading step to the end of a later one, where all loads are the same.
+
+    start  step at whose end the cycle begins, from 1
+    end    step at whose end it closes
+    """
+
+    start: int
+    end: int
+
+
+def load_cycles(path: Iterable[LoadRamp]) -> tuple[LoadCycle, ...]:
+    """The shortest cycle that each step closes, for every step that closes one.
+
+    All controls must be the same, force or displacement alike, with the same values. A step that
+    changes nothing holds a load and closes no cycle.
+    """
+    ramps = list(path)
+    scales = _scales(ramps)
+    last: dict[State, int] = {}
+    cycles = []
+    for ramp in ramps:
+        state = _state(ramp, scales)
+        start = last.get(state)
+        if start is not None and start != ramp.step - 1:
+            cycles.append(LoadCycle(start, ramp.step))
+        last[state] = ramp.step
+    return tuple(cycles)
+
+
+def _controls(ramp: LoadRamp) -> tuple[ScalarControl | VectorControl, ...]:
+    return ramp.normal, ramp.tangential, ramp.twisting, ramp.tilting
+
+
+def _values(control: ScalarControl | VectorControl) -> tuple[float, ...]:
+    return control.end if isinstance(control.end, tuple) else (control.end,)
+
+
+def _scales(ramps: list[LoadRamp]) -> list[dict[str, float]]:
+    """The largest value of every coordinate, by force and by displacement."""
+    scales: list[dict[str, float]] = [{} for _ in _controls(ramps[0])] if ramps else []
+    for ramp in ramps:
+        for scale, control in zip(scales, _controls(ramp), strict=True):
+            size = max(map(abs, _values(control)))
+            scale[control.kind.value] = max(scale.get(control.kind.value, 0.0), size)
+    return scales
+
+
+def _state(ramp: LoadRamp, scales: list[dict[str, float]]) -> State:
+    """What two loads have in common that are the same."""
+    state = []
+    for scale, control in zip(scales, _controls(ramp), strict=True):
+        size = scale[control.kind.value] or 1.0
+        values = tuple(round(value / size, DIGITS) for value in _values(control))
+        state.append((control.kind.value, values))
+    return tuple(state)

@@ -1,0 +1,37 @@
+"""Plans other than the one that a scene calls for: to see what an effect is worth, and its cost."""
+
+from dataclasses import replace
+
+from semi_analytical.plan import COUPLING, Coupling, Effect, Plan
+
+# Names of the effects that can be computed where they vanish.
+COMPUTED = ("tangential load", "tilt", "torsion", COUPLING)
+
+
+def all_effects(plan: Plan) -> Plan:
+    """Everything computed, called for or not: the answer is the same, the cost is not."""
+    return replace(
+        plan,
+        shear=True,
+        tilt=True,
+        torsion=True,
+        coupling=Coupling.FULL,
+        effects=tuple(_forced(effect) for effect in plan.effects),
+    )
+
+
+def one_way(plan: Plan) -> Plan:
+    """Pressure moves the surfaces sideways, shear does not act on the pressure (Goodman 1962).
+
+    An approximation of bodies that couple; others it leaves as they are, at a higher cost.
+    """
+    why = "asked for: pressure acts on the shear problem, shear not on the pressure problem"
+    effects = (replace(e, on=True, why=why) if e.name == COUPLING else e for e in plan.effects)
+    return replace(plan, shear=True, coupling=Coupling.ONE_WAY, effects=tuple(effects))
+
+
+def _forced(effect: Effect) -> Effect:
+    """An effect that is computed although it is off says so."""
+    if effect.name not in COMPUTED or effect.on:
+        return effect
+    return replace(effect, on=True, why=f"forced on, though {effect.why}")

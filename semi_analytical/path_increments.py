@@ -1,0 +1,229 @@
+"""Into how many increments the loading steps are cut, by error laws that were measured.
+
+An increment fixes the direction of slip for all of it, and what sticks keeps what it had at the
+end of the increment; both cost accuracy where the state depends on the path. The error is
+Σ|q - q_fine| / Σµp at the end of a step that is cut into n equal increments (a first loading:
+uniform in contact radius). Measured on 64 x 64 and 128 x 128 cells against 64 to 160 increments:
+
+    pressing for the first time, unlike half-spaces      min(½ (m²/n)^(3/2), 1.3/n), m = µ/|β|
+        rigid paraboloid, ν = 0 to 0.45, µ = 0.05 to 4
+    the same with layers                                 as above with m² = 9µ, and 2/n
+        one layer of 0.1 to 3 contact radii, E1/E2 = 1/4 to 4, ν = 0.3, µ = 0.05 to 1
+    pressing and pushing at once, for the first time     2/n
+        bodies that do not couple, T/µW = 0.1 to 0.9
+    pushing sideways under constant normal load          0.3 x min(x, Δx)/n
+        unlike bodies, and turning ones that do not couple; x the largest T/µW of the step,
+        0.3 to 0.99, Δx its change; with layers as above
+    changing the normal load by ΔW later                 0.15 ΔW/W/n, and as above for T;
+        0.6 ΔW/W/n for unlike bodies. W down to 1/5 or up to fivefold, with and without T
+
+Beyond what is named here the laws are guesses; `slipstick run --path-error` measures.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from math import ceil, hypot
+
+from contact_scene import ControlKind, FlatPunch, LoadRamp, Scene
+
+# The sine of an angle below this is round-off of a load that goes straight.
+STRAIGHT = 1e-9
+ROUND_OFF = 1e-9
+MOST = 100_000
+
+PRESSING_FIRST = 0.5
+FULL_STICK = 1.3
+FULL_STICK_LAYERS = 2.0
+LAYERS = 9.0
+BOTH_AT_ONCE = 2.0
+SIDEWAYS = 0.3
+PRESSING_LATER = 0.15
+PRESSING_UNLIKE = 0.6
+
+Vector = tuple[float, float]
+
+
+@dataclass(frozen=True)
+class StepIncrements:
+    """How many increments one loading step takes.
+
+    path_matters  whether the state at its end depends on how finely it is cut
+    why           the reason in one sentence
+    """
+
+    count: int
+    path_matters: bool
+    why: str
+
+
+def refined(steps: Sequence[StepIncrements], factor: int) -> tuple[StepIncrements, ...]:
+    """`factor` times as many increments wherever the path matters."""
+    return tuple(
+        replace(step, count=factor * step.count) if step.path_matters else step for step in steps
+    )
+
+
+@dataclass(frozen=True)
+class Bodies:
+    """What the error laws need of a scene.
+
+    coupled  whether pressure and shear act on each other
+    beta     Dundurs' constant; None if a body has layers
+    friction largest µ, and None where it varies over the surface
+    """
+
+    coupled: bool
+    beta: float | None
+    friction: float | None
+
+
+def path_increments(
+    scene: Scene, shear: bool, bodies: Bodies, accuracy: float
+) -> tuple[StepIncrements, ...]:
+    """As the scene asks; else one where the path does not matter, and enough for the accuracy
+    where it does.
+
+    shear     whether shear is solved for at all
+    accuracy  error of the shear that increments may leave, Σ|error of q| / Σµp
+    """
+    steps = []
+    sheared = bodies.coupled
+    last = (0.0, 0.0)
+    for ramp in scene.load_path():
+        # Force and shift are nearly parallel, so that either tells where the other starts.
+        start = ramp.tangential.start or last
+        way = _Way(ramp, start, isinstance(scene.indenter, FlatPunch))
+        sheared = sheared or way.ends_sheared
+        matters, why = way.matters(bodies.coupled) if shear and sheared else (False, NO_SHEAR)
+        count = 1
+        if matters:
+            count, why = way.count(bodies, accuracy)
+        if ramp.increments is not None:
+            count, why = ramp.increments, "as the scene asks"
+        steps.append(StepIncrements(count, matters, why))
+        last = ramp.tangential.end
+    return tuple(steps)
+
+
+NO_SHEAR = "nothing is sheared: the state does not depend on the path"
+
+
+@dataclass(frozen=True)
+class _Way:
+    """One loading step.
+
+    start  tangential force or shift at its start
+    flat   whether the contact is that of a flat punch
+    """
+
+    ramp: LoadRamp
+    start: Vector
+    flat: bool
+
+    @property
+    def ends_sheared(self) -> bool:
+        """Whether the step names a sideways load."""
+        return any(self.ramp.tangential.end) or self.ramp.twisting.end != 0
+
+    @property
+    def _first(self) -> bool:
+        return self.ramp.normal.start == 0
+
+    @property
+    def _pressing(self) -> bool:
+        ramp = self.ramp
+        return ramp.normal.start != ramp.normal.end or ramp.tilting.start != ramp.tilting.end
+
+    @property
+    def _growing(self) -> bool:
+        """Whether all that the step does is to press harder."""
+        normal, tilting = self.ramp.normal, self.ramp.tilting
+        grows = normal.start is not None and normal.start <= normal.end
+        return grows and tilting.start == tilting.end and not self._moving
+
+    @property
+    def _moving(self) -> bool:
+        """Whether the sideways load changes."""
+        twisting = self.ramp.twisting
+        return self.start != self.ramp.tangential.end or twisting.start != twisting.end
+
+    @property
+    def _turning(self) -> bool:
+        """Whether the sideways load changes its direction, reversal and round-off apart."""
+        start, end = self.start, self.ramp.tangential.end
+        cross = start[0] * end[1] - start[1] * end[0]
+        twists = self.ramp.twisting.start != 0 or self.ramp.twisting.end != 0
+        pushes = any(start) or any(end)
+        if twists and pushes:
+            return self._moving
+        return abs(cross) > STRAIGHT * hypot(*start) * hypot(*end)
+
+    def matters(self, coupled: bool) -> tuple[bool, str]:
+        """Whether the end of the step depends on the path to it, and why not."""
+        if self._first and self.flat:
+            return False, "below a flat punch all tractions grow in proportion"
+        if self._growing and not coupled:
+            return False, "the normal load grows, and nothing slips"
+        if self._pressing or self._turning or (coupled and self._moving):
+            return True, ""
+        return False, "the load goes straight and the bodies do not couple"
+
+    def count(self, bodies: Bodies, accuracy: float) -> tuple[int, str]:
+        """Enough for the accuracy, and by which law."""
+        if self._first and not self._moving:
+            return _pressed_first(bodies, accuracy)
+        if self._first:
+            return _first_order(BOTH_AT_ONCE, accuracy, "pressing and pushing at once")
+        x, change = self._parts_of_limit(bodies)
+        coefficient = SIDEWAYS * x * min(x, change)
+        if self._pressing:
+            rate = PRESSING_UNLIKE if bodies.coupled else PRESSING_LATER
+            coefficient += rate * self._pressing_change
+            return _first_order(coefficient, accuracy, "the normal load changes under shear")
+        why = "the sideways load turns" if self._turning else "pressure and shear are coupled"
+        return _first_order(coefficient, accuracy, why)
+
+    @property
+    def _pressing_change(self) -> float:
+        """Change of the normal load relative to the larger; 1 where that is not known."""
+        normal, tilting = self.ramp.normal, self.ramp.tilting
+        if normal.start is None or tilting.start != tilting.end:
+            return 1.0
+        return abs(normal.end - normal.start) / max(normal.start, normal.end)
+
+    def _parts_of_limit(self, bodies: Bodies) -> tuple[float, float]:
+        """Largest T/µW of the step, and its change; 1 where that is not known before the solve."""
+        if not self._moving:
+            return 0.0, 0.0
+        normal, tangential = self.ramp.normal, self.ramp.tangential
+        by_force = normal.kind is tangential.kind is ControlKind.FORCE
+        known = by_force and normal.start is not None and tangential.start is not None
+        if not known or not bodies.friction or self.ramp.twisting.end != 0:
+            return 1.0, 1.0
+        start, end = self.start, tangential.end
+        limit = bodies.friction * min(normal.start or normal.end, normal.end)
+        change = hypot(end[0] - start[0], end[1] - start[1])
+        return max(hypot(*start), hypot(*end)) / limit, change / limit
+
+
+def _pressed_first(bodies: Bodies, accuracy: float) -> tuple[int, str]:
+    """The stick edge runs outwards with the contact: what matters is how much of it sticks."""
+    layered = bodies.beta is None
+    most = (FULL_STICK_LAYERS if layered else FULL_STICK) / accuracy
+    if bodies.friction is None:
+        return _rounded(most), "pressing bodies that couple, with friction that varies"
+    if layered:
+        m_squared = LAYERS * bodies.friction
+        why = f"pressing coated bodies, µ = {bodies.friction:.2g}"
+    else:
+        m_squared = (bodies.friction / abs(bodies.beta or 1.0)) ** 2
+        why = f"pressing unlike bodies, µ/|β| = {m_squared**0.5:.2g}"
+    return _rounded(min((PRESSING_FIRST / accuracy) ** (2 / 3) * m_squared, most)), why
+
+
+def _first_order(coefficient: float, accuracy: float, why: str) -> tuple[int, str]:
+    return _rounded(coefficient / accuracy), why
+
+
+def _rounded(count: float) -> int:
+    return min(MOST, max(1, ceil(count - ROUND_OFF)))
