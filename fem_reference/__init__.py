@@ -1,6 +1,24 @@
-"""Finite-element reference for the semi-analytical solver: not part of this version.
+"""Finite-element reference: the same scenes by axisymmetric finite elements.
 
-The package will hold an independent axisymmetric finite-element solution of the same scenes. It
-will share `contact_scene` with `semi_analytical`, and no numerics. Until then it holds no code, and
-nothing in the verification report rests on it: this version is judged by closed forms alone.
+It shares `contact_scene` with `semi_analytical` and no numerics, so that the two can be held
+against each other.
 """
+
+from fem_reference.errors import ContactAtZoneEdge
+from fem_reference.fields import Increment, Result
+from fem_reference.plan import Effect, Path, Plan, plan
+from fem_reference.residuals import Residuals
+from fem_reference.solve import Method, solve
+
+__all__ = [
+    "ContactAtZoneEdge",
+    "Effect",
+    "Increment",
+    "Method",
+    "Path",
+    "Plan",
+    "Residuals",
+    "Result",
+    "plan",
+    "solve",
+]

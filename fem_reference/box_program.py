@@ -1,0 +1,193 @@
+"""Convex quadratic programs with bounds: the form that pressure and shear share.
+
+    minimise ½ xᵀA x - cᵀx   with   lower <= x <= upper   and, if asked for,   v·x = t
+
+A is symmetric and positive definite. Contact pressure is one of them with bounds (0, ∞), its
+gradient the gap and the multiplier of its load the approach; shear below a given friction limit is
+another with bounds ±µp, its gradient the slip and its multiplier the shift (Tresca's problem).
+
+A guess which components sit at which bound is improved by a primal-dual active set step at a time
+(Hintermüller, Ito and Kunisch 2002): on the free components the equations are solved exactly, and
+none jumps from one bound to the other without having been free. That takes few steps but might
+cycle; then a primal active set method takes over, which releases one component at a time, never
+increases the energy and therefore ends (Nocedal and Wright 2006, section 16.5).
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.linalg import cho_factor, cho_solve
+
+from contact_scene.solver_errors import NotConverged
+
+Field = NDArray[np.float64]
+Matrix = NDArray[np.float64]
+Sides = NDArray[np.int8]
+
+MOST_STEPS = 60
+MOST_RELEASES = 50  # per component
+# Of the largest value: beyond a bound by less is round-off.
+ROUND_OFF = 1e-13
+
+
+@dataclass(frozen=True)
+class Total:
+    """The condition v·x = t; v > 0 wherever the bounds leave room."""
+
+    weights: Field
+    value: float
+
+
+@dataclass(frozen=True)
+class BoxProgram:
+    """One program; `total` is None without a condition on the sum."""
+
+    matrix: Matrix
+    right: Field
+    lower: Field
+    upper: Field
+    total: Total | None = None
+
+
+@dataclass(frozen=True)
+class BoxSolution:
+    """The minimiser.
+
+    values      x
+    multiplier  λ of the total, with A x = c + λ v on the free components; 0 without a total
+    sides       -1, 0, +1: at the lower bound, free, at the upper one; 0 where these are equal
+    steps       linear systems solved
+    """
+
+    values: Field
+    multiplier: float
+    sides: Sides
+    steps: int
+
+
+def solve_box(program: BoxProgram, guess: Sides) -> BoxSolution:
+    """The minimiser, from a guess of the sides; raises NotConverged.
+
+    The program must be feasible: the total, if any, lies between those of the two bounds.
+    """
+    fixed = program.lower == program.upper
+    sides = np.where(fixed, -1, guess).astype(np.int8)
+    seen: set[bytes] = set()
+    for step in range(1, MOST_STEPS + 1):
+        if program.total is not None and not np.any(sides == 0):
+            break
+        x, multiplier = _on_free(program, sides)
+        after = _moved(program, x, multiplier, sides, fixed)
+        if np.array_equal(after, sides):
+            return _solution(program, x, multiplier, sides, step)
+        sides = after
+        if sides.tobytes() in seen:
+            break
+        seen.add(sides.tobytes())
+    return _descend(program, fixed, len(seen))
+
+
+def _on_free(program: BoxProgram, sides: Sides) -> tuple[Field, float]:
+    """The solution where nothing leaves its side, and the multiplier."""
+    A, c, total = program.matrix, program.right, program.total
+    free = sides == 0
+    x = np.where(sides < 0, program.lower, program.upper)
+    x[free] = 0.0
+    if not np.any(free):
+        return x, 0.0
+    held = ~free
+    factor = cho_factor(A[np.ix_(free, free)], lower=True, check_finite=False)
+    rest = c[free] - A[np.ix_(free, held)] @ x[held]
+    y = cho_solve(factor, rest, check_finite=False)
+    if total is None:
+        x[free] = y
+        return x, 0.0
+    v = total.weights
+    per_multiplier = cho_solve(factor, v[free], check_finite=False)
+    missing = total.value - np.sum(v[held] * x[held]) - np.sum(v[free] * y)
+    multiplier = float(missing / np.sum(v[free] * per_multiplier))
+    x[free] = y + multiplier * per_multiplier
+    return x, multiplier
+
+
+def _gradient(program: BoxProgram, x: Field, multiplier: float) -> Field:
+    gradient = program.matrix @ x - program.right
+    if program.total is not None:
+        gradient -= multiplier * program.total.weights
+    return np.asarray(gradient)
+
+
+def _moved(
+    program: BoxProgram, x: Field, multiplier: float, sides: Sides, fixed: NDArray[np.bool_]
+) -> Sides:
+    """Free components beyond a bound go to it; held ones that pull inwards become free."""
+    little = ROUND_OFF * np.max(np.abs(x), initial=0.0)
+    gradient = _gradient(program, x, multiplier)
+    noise = ROUND_OFF * (np.abs(program.matrix) @ np.abs(x) + np.abs(program.right))
+    after = sides.copy()
+    free = sides == 0
+    after[free & (x < program.lower - little)] = -1
+    after[free & (x > program.upper + little)] = 1
+    after[(sides < 0) & (gradient < -noise) & ~fixed] = 0
+    after[(sides > 0) & (gradient > noise) & ~fixed] = 0
+    return after
+
+
+def _solution(
+    program: BoxProgram, x: Field, multiplier: float, sides: Sides, steps: int
+) -> BoxSolution:
+    """Without the round-off beyond the bounds; a component without room is at neither side."""
+    room = program.lower < program.upper
+    within = np.clip(x, program.lower, program.upper)
+    return BoxSolution(within, multiplier, np.where(room, sides, 0).astype(np.int8), steps)
+
+
+def _descend(program: BoxProgram, fixed: NDArray[np.bool_], spent: int) -> BoxSolution:
+    """From a feasible point, downhill along the faces of the box."""
+    sides = np.where(fixed, -1, 0).astype(np.int8)
+    x = _feasible(program)
+    size = 1 / np.sqrt(np.diag(program.matrix))
+    for step in range(spent + 1, spent + MOST_RELEASES * len(x) + 1):
+        goal, multiplier = _on_free(program, sides)
+        part, blocking, side = _room(program, x, goal, sides)
+        x = x + part * (goal - x)
+        if blocking is not None:
+            sides[blocking] = side
+            x[blocking] = program.lower[blocking] if side < 0 else program.upper[blocking]
+            continue
+        moved = _moved(program, x, multiplier, sides, fixed)
+        pulling = (moved == 0) & (sides != 0)
+        if not np.any(pulling):
+            return _solution(program, x, multiplier, sides, step)
+        force = np.abs(_gradient(program, x, multiplier)) * size
+        sides[np.argmax(np.where(pulling, force, -1.0))] = 0
+    raise NotConverged("the active set", spent + MOST_RELEASES * len(x), np.inf, ROUND_OFF)
+
+
+def _feasible(program: BoxProgram) -> Field:
+    """A point within the bounds that has the total."""
+    lower, upper, total = program.lower, program.upper, program.total
+    if total is None:
+        return np.where(np.isfinite(upper), 0.5 * (lower + upper), lower)
+    least = np.sum(total.weights * lower)
+    endless = ~np.isfinite(upper)
+    if np.any(endless):
+        share = (total.value - least) / np.sum(total.weights[endless])
+        return np.where(endless, lower + share, lower)
+    part = (total.value - least) / (np.sum(total.weights * upper) - least)
+    return np.asarray(lower + part * (upper - lower))
+
+
+def _room(
+    program: BoxProgram, x: Field, goal: Field, sides: Sides
+) -> tuple[float, int | None, int]:
+    """How far x may go towards the goal, which component blocks, and at which of its bounds."""
+    step = np.where(sides == 0, goal - x, 0.0)
+    limit = np.where(step < 0, program.lower, program.upper)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        part = np.where(step != 0, (limit - x) / step, np.inf)
+    first = int(np.argmin(part))
+    if part[first] >= 1:
+        return 1.0, None, 0
+    return max(0.0, float(part[first])), first, -1 if step[first] < 0 else 1

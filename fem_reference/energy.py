@@ -1,0 +1,65 @@
+"""Work put in and energy stored, from what an increment reports."""
+
+from collections.abc import Sequence
+from math import pi
+
+import numpy as np
+from numpy.typing import NDArray
+
+from contact_scene import Scene
+from fem_reference.fields import Increment
+from fem_reference.hats import Hats, hats_on
+from fem_reference.plan import Path, Plan
+
+Field = NDArray[np.float64]
+
+
+def input_work(increments: Sequence[Increment]) -> tuple[float | None, ...]:
+    """Σ ½ (f₀ + f₁)(ω₁ - ω₀) since the start of the history, at the end of every increment
+    [force length]: forces and moments f over their conjugate motions ω. None once a motion is
+    undefined, at the friction limit under force control."""
+    work: list[float | None] = []
+    total: float | None = 0.0
+    forces, motions = np.zeros(4), np.zeros(4)
+    for increment in increments:
+        now, place = _loads(increment)
+        if total is None or place is None:
+            total = None
+        else:
+            total += float(np.sum(0.5 * (forces + now) * (place - motions)))
+            forces, motions = now, place
+        work.append(total)
+    return tuple(work)
+
+
+def elastic_energy(scene: Scene, plan: Plan, increment: Increment) -> float | None:
+    """½ ∫ p u_z dA, the energy stored in both bodies without shear [force length].
+
+    Where there is pressure the surfaces touch, so that u_z = ω - h: no displacement is computed.
+    None on paths with shear, of whose displacement an increment knows the slipped part only.
+    """
+    if plan.path is not Path.PRESSING:
+        return None
+    carrying = increment.pressure > 0
+    hats = _hats(increment.radii)
+    gap = hats.of(lambda r: np.asarray(scene.indenter.initial_gap(r, 0.0)))
+    p = np.where(carrying, increment.pressure, 0.0)
+    return float(pi * np.sum(p * (increment.approach * hats.weights - np.where(carrying, gap, 0))))
+
+
+def _hats(radii: Field) -> Hats:
+    """Hats whose corners are the rings."""
+    nodes = np.empty(2 * len(radii) - 1)
+    nodes[::2] = radii
+    nodes[1::2] = 0.5 * (radii[:-1] + radii[1:])
+    return hats_on(nodes)
+
+
+def _loads(increment: Increment) -> tuple[Field, Field | None]:
+    """Forces (W, T_x, T_y, M_z) and motions (ω_z, ω_x, ω_y, φ_z); None where undefined."""
+    force, shift = increment.tangential_force, increment.tangential_shift
+    torque, twist = increment.torque, increment.twist
+    now = np.array([increment.normal_force, *(force or (0.0, 0.0)), torque or 0.0])
+    if (force is not None and shift is None) or (torque is not None and twist is None):
+        return now, None
+    return now, np.array([increment.approach, *(shift or (0.0, 0.0)), twist or 0.0])

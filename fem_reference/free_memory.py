@@ -1,0 +1,41 @@
+"""What a factorisation will need, and whether this machine has it."""
+
+import os
+from pathlib import Path
+
+import numpy as np
+
+from contact_scene.solver_errors import ResourceRefused
+
+# Entries of both factors per component, unknown and halving of the mesh; with unknown pressures.
+FILL, FILL_WITH_PRESSURE = 5.0, 11.0
+BYTES_PER_ENTRY = 24  # values and indices, and a copy while the contact zone is cut out
+COPIES_OF_ELEMENTS = 8
+
+
+def required_bytes(elements: int, unknowns: int, components: int, with_pressure: bool) -> float:
+    """Largest amount in use while a section is assembled and factored, within a factor of two."""
+    fill = FILL_WITH_PRESSURE if with_pressure else FILL
+    entries = fill * components * unknowns * np.log2(max(unknowns, 2))
+    matrices = 8.0 * elements * (9 * components) ** 2
+    return float(BYTES_PER_ENTRY * entries + COPIES_OF_ELEMENTS * matrices)
+
+
+def require_memory(needed: float) -> None:
+    """Raise ResourceRefused unless so many bytes can be had without swapping."""
+    free = available_bytes()
+    if needed > free:
+        raise ResourceRefused(
+            f"the finite-element matrix needs about {needed / 1e9:.1f} GB of memory, of which "
+            f"{free / 1e9:.1f} GB are free: take fewer elements_per_radius"
+        )
+
+
+def available_bytes() -> float:
+    """Free memory and what the system can hand back at once, as far as it tells."""
+    status = Path("/proc/meminfo")
+    lines = status.read_text(encoding="ascii").splitlines() if status.exists() else []
+    for name, _, size in (line.partition(":") for line in lines):
+        if name == "MemAvailable":
+            return 1024.0 * float(size.split()[0])
+    return float(os.sysconf("SC_PHYS_PAGES")) * os.sysconf("SC_PAGE_SIZE")

@@ -1,0 +1,98 @@
+"""Points around the contact, and the harmonics that their values determine.
+
+Everything is mirror symmetric in θ: q_r, p and the displacements u_r, u_z are sums of cos nθ, q_θ
+and u_θ of sin nθ, so that the half circle is enough. There are as many harmonics as unknowns on a
+ring: one more and they could not be told apart, one less and the tangential problem is singular.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.fft import dct, dst
+
+Matrix = NDArray[np.float64]
+Vector = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class AngularGrid:
+    """Angles on the half circle with the transforms between point values and amplitudes.
+
+    angles    θ_j (points,)
+    weights   what part of the full circle each point stands for (points,), summing to 2π
+    cosines   amplitudes of cos nθ from point values (harmonics, points)
+    sines     amplitudes of sin nθ likewise; zero where sin nθ vanishes at all points
+    """
+
+    angles: Vector
+    weights: Vector
+    cosines: Matrix
+    sines: Matrix
+
+    @property
+    def points(self) -> int:
+        """Number of points on a ring."""
+        return len(self.angles)
+
+    @property
+    def highest(self) -> int:
+        """The highest harmonic n."""
+        return len(self.cosines) - 1
+
+    @property
+    def transforms(self) -> tuple[Matrix, Matrix, Matrix]:
+        """Amplitudes from point values for the components r, θ, z."""
+        return self.cosines, self.sines, self.cosines
+
+    @property
+    def norms(self) -> Vector:
+        """c_n with Σ_j weight_j f_j cos nθ_j = c_n f_n: 2π for constants and for the harmonic that
+        alternates from point to point, π for all others (harmonics,)."""
+        powers = [np.sum(d**2 / self.weights, axis=1) for d in (self.cosines, self.sines)]
+        return np.asarray(1 / np.maximum(*powers))
+
+    def amplitudes(self, values: Matrix) -> Matrix:
+        """Amplitudes (3, rings, harmonics) of r, θ, z components from point values (3, rings,
+        points)."""
+        return np.stack([f @ d.T for f, d in zip(values, self.transforms, strict=True)])
+
+    def at_points(self, amplitudes: Matrix) -> Matrix:
+        """Values (3, rings, points) of the r, θ, z components with these amplitudes (3, rings,
+        harmonics)."""
+        cosines, sines = self.modes(self.angles)
+        return np.stack([f @ m for f, m in zip(amplitudes, (cosines, sines, cosines), strict=True)])
+
+    def modes(self, angles: Vector) -> tuple[Matrix, Matrix]:
+        """cos nθ and sin nθ at any angles (harmonics, angles)."""
+        phase = np.outer(np.arange(self.highest + 1), angles)
+        return np.cos(phase), np.sin(phase)
+
+
+def axisymmetric_grid() -> AngularGrid:
+    """One point for the whole ring: q_r and p do not depend on θ, and there is no q_θ."""
+    return AngularGrid(np.zeros(1), np.full(1, 2 * np.pi), np.ones((1, 1)), np.zeros((1, 1)))
+
+
+def end_grid(highest: int) -> AngularGrid:
+    """θ_j = πj/J, j = 0…J: with points on the line y = 0, where q_θ vanishes."""
+    J = highest
+    share = np.full(J + 1, 2 * np.pi / J)
+    share[[0, J]] /= 2
+    cosines = dct(np.eye(J + 1), type=1, axis=0) / J
+    cosines[[0, J]] /= 2
+    sines = np.zeros((J + 1, J + 1))
+    sines[1:J, 1:J] = dst(np.eye(J - 1), type=1, axis=0) / J
+    return AngularGrid(np.pi * np.arange(J + 1) / J, share, cosines, sines)
+
+
+def mid_grid(highest: int) -> AngularGrid:
+    """θ_j = π(j + ½)/J, j = 0…J−1: between the points of the end grid; sin Jθ, but no cos Jθ."""
+    J = highest
+    cosines = np.zeros((J + 1, J))
+    cosines[:J] = dct(np.eye(J), type=2, axis=0) / J
+    cosines[0] /= 2
+    sines = np.zeros((J + 1, J))
+    sines[1:] = dst(np.eye(J), type=2, axis=0) / J
+    sines[J] /= 2
+    return AngularGrid(np.pi * (np.arange(J) + 0.5) / J, np.full(J, 2 * np.pi / J), cosines, sines)

@@ -1,0 +1,136 @@
+"""What every method needs of a scene on one mesh: compliance, gap and friction."""
+
+from dataclasses import replace
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from contact_scene import (
+    Body,
+    FiniteElementDiscretisation,
+    FlatPunch,
+    IsotropicMaterial,
+    Scene,
+)
+from contact_scene.friction import FrictionMap
+from fem_reference.compliance import NodalCompliance, composite
+from fem_reference.hats import Hats, hats_on
+from fem_reference.motion import TORSION, Motion, motion
+from fem_reference.scales import Scales
+from fem_reference.section_mesh import SectionMesh, section_mesh
+
+Field = NDArray[np.float64]
+
+
+class ContactModel:
+    """Two bodies of a scene, meshed. Compliances are condensed when first asked for, then kept.
+
+    lengths and forces are those of the scene; only the meshes are in units of `scales`.
+
+    sections        lower and upper mesh; None for a rigid body
+    factorizations  sparse factorisations spent so far
+    settled         names of motions that are condensed, or whose condensation is counted elsewhere:
+                    by the part of a history that was solved before it was interrupted
+    """
+
+    def __init__(
+        self,
+        scene: Scene,
+        scales: Scales,
+        sections: tuple[SectionMesh | None, SectionMesh | None],
+    ) -> None:
+        self.scene = scene
+        self.scales = scales
+        self.sections = sections
+        self.factorizations = 0
+        self.settled: set[str] = set()
+        self._compliances: dict[Motion, NodalCompliance] = {}
+
+    @classmethod
+    def of(
+        cls, scene: Scene, discretisation: FiniteElementDiscretisation, radius: float
+    ) -> "ContactModel":
+        """The model for contacts up to a radius [length]."""
+        scales = Scales(radius, outermost_modulus(scene))
+        lower, upper = (scales.dimensionless(body) for body in (scene.body, scene.indenter))
+        section = _section(lower, discretisation)
+        other = section if lower == upper else _section(upper, discretisation)
+        return cls(scene, scales, (section, other))
+
+    @cached_property
+    def radii(self) -> Field:
+        """Of the nodes in the contact zone, corner and midside alternating [length]."""
+        section = next(section for section in self.sections if section is not None)
+        return np.asarray(section.radii * self.scales.length)
+
+    @cached_property
+    def hats(self) -> Hats:
+        """Of the corners that can carry traction: below a flat punch they end at its rim."""
+        indenter = self.scene.indenter
+        return hats_on(self.radii, indenter.radius if isinstance(indenter, FlatPunch) else np.inf)
+
+    @property
+    def ends_at_rim(self) -> bool:
+        """Whether the contact is as large as the indenter lets it be, whatever the load."""
+        return isinstance(self.scene.indenter, FlatPunch)
+
+    @property
+    def friction_coefficient(self) -> float:
+        """µ; zero without friction."""
+        friction = self.scene.friction
+        if friction is None or isinstance(friction.coefficient, FrictionMap):
+            return 0.0
+        return friction.coefficient
+
+    def gap(self, r: Field) -> Field:
+        """Undeformed gap at a radius [length], taken where a particle was before any load."""
+        return np.asarray(self.scene.indenter.initial_gap(r, 0.0))
+
+    def compliance(self, harmonic: int) -> NodalCompliance:
+        """Displacement of the lower surface relative to the upper per nodal force [length/force]:
+        pressing for n = 0, then (r, theta, z)."""
+        return self._condensed(motion(harmonic))
+
+    def torsion(self) -> NodalCompliance:
+        """The same for circumferential displacement and force."""
+        return self._condensed(TORSION)
+
+    def _condensed(self, of: Motion) -> NodalCompliance:
+        if of not in self._compliances:
+            condensed = composite(*self.sections, of)
+            name = f"{of.harmonic} {of.components}"
+            if name not in self.settled:
+                self.factorizations += condensed.factorizations
+                self.settled.add(name)
+            self._compliances[of] = replace(
+                condensed,
+                radii=self.radii,
+                matrix=condensed.matrix / (self.scales.modulus * self.scales.length),
+            )
+        return self._compliances[of]
+
+
+def _section(body: Body, discretisation: FiniteElementDiscretisation) -> SectionMesh | None:
+    if not body.deforms:
+        return None
+    make = section_mesh
+    if discretisation.mesher == "gmsh":
+        # Only here: gmsh needs libraries that not every machine has.
+        from fem_reference.gmsh_mesh import gmsh_section_mesh as make
+    return make(body, discretisation.elements_per_radius, discretisation.box)
+
+
+def outermost_modulus(scene: Scene) -> float:
+    """Young's modulus of the outermost elastic material, if need be the indenter's
+    [force/length^2]."""
+    for body in (scene.body, scene.indenter):
+        for material in _materials(body):
+            return material.young_modulus
+    raise ValueError("two rigid bodies")
+
+
+def _materials(body: Body) -> list[IsotropicMaterial]:
+    """The elastic ones, outermost first."""
+    substrate = [body.material] if isinstance(body.material, IsotropicMaterial) else []
+    return [*(layer.material for layer in body.layers), *substrate]

@@ -1,0 +1,94 @@
+"""Scenes that are not axisymmetric enough, refused by name before any work."""
+
+from math import hypot
+
+from contact_scene import (
+    ControlKind,
+    Ellipsoid,
+    FrictionMap,
+    HeightMap,
+    IsotropicMaterial,
+    Scene,
+)
+from contact_scene.solver_errors import UnsupportedScene
+
+# The sine of an angle below this is round-off of a load that goes straight.
+STRAIGHT = 1e-9
+# Of the moduli within a body: beyond, its stiffness matrix loses the softest part.
+MOST_CONTRAST = 1e8
+
+
+def refuse_shapes(scene: Scene) -> None:
+    """Shapes and friction that are not the same all around; raises UnsupportedScene."""
+    indenter, friction = scene.indenter, scene.friction
+    if isinstance(indenter, HeightMap):
+        raise UnsupportedScene(
+            "the indenter is a height map, and this solver takes bodies of revolution; solve it "
+            "with the semi-analytical solver"
+        )
+    if isinstance(indenter, Ellipsoid) and indenter.radii[0] != indenter.radii[1]:
+        raise UnsupportedScene(
+            f"the ellipsoid has radii {indenter.radii[0]:.6g} m and {indenter.radii[1]:.6g} m, and "
+            f"this solver takes bodies of revolution; make them equal"
+        )
+    if friction is not None and isinstance(friction.coefficient, FrictionMap):
+        raise UnsupportedScene(
+            "friction is given as a map, and this solver takes one coefficient; name one number"
+        )
+
+
+def refuse_loads(scene: Scene, loaded: bool, twisted: bool, coupled: bool) -> None:
+    """Loads that are not along one line or about one axis; raises UnsupportedScene.
+
+    coupled  whether pressing alone leaves shear
+    """
+    if any(any(ramp.tilting.end) for ramp in scene.load_path()):
+        raise UnsupportedScene(
+            "a step names a moment or a tilt, and this solver keeps the indenter upright; leave it "
+            "out"
+        )
+    free = any(ramp.tilting.kind is ControlKind.FORCE for ramp in scene.load_path())
+    if free and loaded and coupled:
+        raise UnsupportedScene(
+            "the indenter may tilt freely under a tangential load, and this solver keeps it "
+            "upright; prescribe the tilt"
+        )
+    if twisted and loaded:
+        raise UnsupportedScene(
+            "steps name a tangential load and a torsion, and this solver takes one of them; leave "
+            "the other out"
+        )
+    if twisted and coupled:
+        raise UnsupportedScene(
+            "the indenter is twisted where pressing alone leaves radial shear, and this solver "
+            "does not combine the two; take bodies that are alike, or leave the torsion out"
+        )
+    ends = [ramp.tangential.end for ramp in scene.load_path()]
+    longest = max(ends, key=lambda end: hypot(*end))
+    for end in ends:
+        if _turns(longest, end):
+            raise UnsupportedScene(
+                f"the tangential load goes along {longest} and along {end}, and this solver takes "
+                f"one direction; keep to a straight line"
+            )
+
+
+def _turns(one: tuple[float, float], other: tuple[float, float]) -> bool:
+    """Whether two loads are not on one line, round-off apart."""
+    cross = one[0] * other[1] - one[1] * other[0]
+    return abs(cross) > STRAIGHT * hypot(*one) * hypot(*other)
+
+
+def refuse_contrast(scene: Scene) -> None:
+    """Bodies as good as rigid and free next to each other; raises UnsupportedScene."""
+    for name, body in (("body", scene.body), ("indenter", scene.indenter)):
+        materials = [layer.material for layer in body.layers]
+        if isinstance(body.material, IsotropicMaterial):
+            materials.append(body.material)
+        moduli = [material.shear_modulus for material in materials]
+        if moduli and max(moduli) > MOST_CONTRAST * min(moduli):
+            raise UnsupportedScene(
+                f"the materials of the {name} have shear moduli from {min(moduli):.3g} to "
+                f"{max(moduli):.3g} Pa, and finite elements carry a ratio up to "
+                f"{MOST_CONTRAST:.0e}; name a rigid base, or leave the soft part out"
+            )

@@ -1,0 +1,126 @@
+"""What any mesh of a body has to fit: outer edges, interfaces, contact zone and element sizes."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from contact_scene.body import Body
+from contact_scene.material import IsotropicMaterial
+from contact_scene.solver_errors import SolverError, UnsupportedScene
+
+GROWTH = 1.2
+"""Ratio of neighbouring elements away from the contact."""
+
+CONTACT_ZONE = 1.1
+"""Equal elements reach at least to this multiple of the contact radius."""
+
+LAYER_ELEMENTS = 2
+"""Fewest elements across a layer. Two are five quadratic nodes: enough for a film that bends and
+shears while the load varies over many thicknesses, and a thicker one gets more."""
+
+SMALLEST_BOX = 2.0
+THINNEST_LAYER = 1e-4
+"""In units of the element beside it: flatter elements than that spoil the matrix."""
+
+
+@dataclass(frozen=True)
+class SectionOutline:
+    """Edges of the section 0 <= r <= box, 0 <= z <= depth, in units of the contact radius.
+
+    size        side of the elements in the contact zone
+    zone        outer radius of the contact zone: an even number of elements
+    box         outer radius
+    interfaces  depths of the interfaces and of the base, increasing; the base is the last
+    materials   above each of these, moduli in one common unit
+    rigid_base  whether the base is the surface of a rigid substrate, not a cut through an elastic
+    """
+
+    size: float
+    zone: float
+    box: float
+    interfaces: tuple[float, ...]
+    materials: tuple[IsotropicMaterial, ...]
+    rigid_base: bool
+
+    @property
+    def depth(self) -> float:
+        """Depth of the base."""
+        return self.interfaces[-1]
+
+    @property
+    def pieces(self) -> tuple[tuple[float, float], ...]:
+        """Upper and lower depth of every layer, the substrate as the last."""
+        return tuple(zip((0.0, *self.interfaces[:-1]), self.interfaces, strict=True))
+
+
+def section_outline(
+    body: Body, elements_per_radius: int, box: float | None = None, zone: float = CONTACT_ZONE
+) -> SectionOutline:
+    """The outline for a body whose unit of length is the contact radius.
+
+    elements_per_radius  N: the elements of the contact zone have the side 1/N
+    box                  outer radius and depth of the section; None: `sufficient_box`
+    zone                 the contact zone reaches at least so far
+    Raises ValueError for sizes that make no mesh, UnsupportedScene for layers too thin for one,
+    SolverError for a box too small for the body.
+    """
+    if elements_per_radius < 2:
+        raise ValueError(f"{elements_per_radius} elements per contact radius: give at least 2")
+    across = 2 * int(np.ceil(zone * elements_per_radius / 2 - 1e-9))
+    size = 1.0 / elements_per_radius
+    zone = across * size
+    outer = sufficient_box(body) if box is None else float(box)
+    depths = [float(depth) for depth in np.cumsum([x.thickness for x in body.layers])]
+    materials = [layer.material for layer in body.layers]
+    if isinstance(body.material, IsotropicMaterial):
+        materials.append(body.material)
+        depths.append(outer)
+    if not (SMALLEST_BOX * zone <= outer < np.inf and depths == sorted(depths)):
+        raise SolverError(
+            f"a section of {outer:g} contact radii does not hold a contact zone of {zone:g} and "
+            f"layers of {sum(x.thickness for x in body.layers):g}: give a larger box"
+        )
+    thinnest = min([x.thickness for x in body.layers], default=np.inf)
+    if thinnest < THINNEST_LAYER * size:
+        raise UnsupportedScene(
+            f"a layer is {thinnest:g} contact radii thick, below {THINNEST_LAYER:g} of the element "
+            f"beside it ({size:g}): leave it out, or take more elements per radius"
+        )
+    rigid = not isinstance(body.material, IsotropicMaterial)
+    return SectionOutline(size, zone, outer, tuple(depths), tuple(materials), rigid)
+
+
+def sufficient_box(body: Body) -> float:
+    """Radius at which the substrate's own displacements stand in for those of the stack.
+
+    With x the sum over the layers of thickness times relative difference from the substrate's
+    stiffness, they leave an error of about x / L^2 in the shift, relative to it, and less in the
+    approach; a stack that spreads the load, x > 1, one of 0.06 x^2 / L^2. Here that is 1e-5.
+    """
+    thickness = sum(layer.thickness for layer in body.layers)
+    x = 0.0
+    if isinstance(body.material, IsotropicMaterial):
+        x = sum(
+            layer.thickness * _difference(layer.material, body.material) for layer in body.layers
+        )
+    return float(max(100.0, 300.0 * np.sqrt(x), 100.0 * x, 10.0 * thickness))
+
+
+def _difference(layer: IsotropicMaterial, substrate: IsotropicMaterial) -> float:
+    """The larger of the relative differences of the shear and the plane-strain modulus."""
+    return max(
+        abs(layer.shear_modulus / substrate.shear_modulus - 1.0),
+        abs(layer.plane_strain_modulus / substrate.plane_strain_modulus - 1.0),
+    )
+
+
+def graded(start: float, end: float, origin: float, size: float) -> NDArray[np.float64]:
+    """Lines from start to end; elements have `size` at the origin and grow by GROWTH from there."""
+    slope = np.log(GROWTH)
+    reach = size * slope / (GROWTH - 1.0)
+    lower, upper = np.log(reach + slope * (np.array([start, end]) - origin)) / slope
+    count = max(LAYER_ELEMENTS, int(np.ceil(upper - lower - 1e-9)))
+    lines = origin + (np.exp(slope * np.linspace(lower, upper, count + 1)) - reach) / slope
+    lines[0], lines[-1] = start, end
+    return lines

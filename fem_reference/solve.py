@@ -1,0 +1,134 @@
+"""Solve a scene: plan, mesh, model, march."""
+
+from collections.abc import Callable, Iterator
+from dataclasses import replace
+from enum import Enum
+from typing import Any
+
+from contact_scene import FiniteElementDiscretisation, Scene
+from contact_scene.standing import Keeper, Mark, Standing
+from fem_reference.errors import ContactAtZoneEdge
+from fem_reference.expected_radius import expected_radius
+from fem_reference.fields import Increment, Result
+from fem_reference.history import Method as Solver
+from fem_reference.history import marked
+from fem_reference.model import ContactModel
+from fem_reference.plan import Path, Plan, plan
+
+Progress = Callable[[Increment], None]
+
+GROWTH = 1.2
+MOST_ENLARGEMENTS = 8
+
+
+class Method(Enum):
+    """How contact and friction are enforced."""
+
+    COMPLEMENTARITY = "complementarity"
+    PENALTY = "penalty"
+
+
+def solve(
+    scene: Scene,
+    discretisation: FiniteElementDiscretisation,
+    method: Method = Method.COMPLEMENTARITY,
+    progress: Progress | None = None,
+    keeper: Keeper | None = None,
+) -> Result:
+    """Contact of a scene by axisymmetric finite elements, every increment of its load history.
+
+    Parameters
+    ----------
+    scene
+        What is solved.
+    discretisation
+        How many elements, how large the section is, and the tolerance of every residual.
+    method
+        How contact and friction are enforced.
+    progress
+        Called with each increment once it has converged; again from the first one where the
+        contact has outgrown the mesh and a larger one is taken.
+    keeper
+        Of this very solve: what it has kept is not computed again.
+
+    Raises
+    ------
+    UnsupportedScene
+        The scene is not axisymmetric enough, by name.
+    ContactAtZoneEdge
+        The contact reaches the end of the zone that `discretisation.contact_radius` asks for.
+    GrossSliding
+        A tangential force or torque exceeds the friction limit.
+    NotConverged
+        An increment stopped above the tolerance; `last_state` holds the last good one.
+    """
+    decided = plan(scene)
+    radii = [discretisation.contact_radius or expected_radius(scene)]
+    if discretisation.contact_radius is None:
+        for _ in range(MOST_ENLARGEMENTS - 1):
+            radii.append(GROWTH * radii[-1])
+    last = keeper.last() if keeper else None
+    if last and last.extent in radii:  # the smaller ones have been outgrown
+        radii = radii[radii.index(last.extent) :]
+    for radius in radii:
+        model = ContactModel.of(scene, discretisation, radius)
+        since = last if last and last.extent == radius else None
+        if since:
+            model.settled.update(since.settled)
+        solver = _solver(model, decided, discretisation, method)
+        history = marked(scene, decided, solver, discretisation.tolerance, since)
+        try:
+            increments = tuple(_told(model, radius, history, since, progress, keeper))
+            return Result(scene, discretisation, model.sections, decided, increments)
+        except ContactAtZoneEdge as error:
+            grown = error
+    raise grown
+
+
+def _solver(
+    model: ContactModel,
+    decided: Plan,
+    discretisation: FiniteElementDiscretisation,
+    method: Method,
+) -> Solver[Any]:
+    """The method on a model; imported only where it is used."""
+    if method is Method.PENALTY:
+        from fem_reference.penalty_law import Penalty
+        from fem_reference.penalty_method import penalty_method
+
+        penalty = Penalty(discretisation.penalty, discretisation.augmentations)
+        return penalty_method(model, decided, penalty, discretisation.harmonics)
+    if decided.path is Path.HARMONICS:
+        from fem_reference.harmonics.angular_grid import end_grid
+        from fem_reference.harmonics.method import harmonic_method
+
+        return harmonic_method(model, decided, end_grid(discretisation.harmonics))
+    from fem_reference.complementarity import complementarity_method
+
+    return complementarity_method(model, decided)
+
+
+def _told(
+    model: ContactModel,
+    radius: float,
+    history: Iterator[tuple[Increment, Mark[Any]]],
+    since: Standing | None,
+    progress: Progress | None,
+    keeper: Keeper | None,
+) -> Iterator[Increment]:
+    """Increments, those of the past first, with the sparse factorisations that fell to them."""
+    told: list[Increment] = []
+    for increment in since.increments if since else ():
+        if progress is not None:
+            progress(increment)
+        told.append(increment)
+        yield increment
+    counted = 0
+    for increment, mark in history:
+        spent, counted = model.factorizations - counted, model.factorizations
+        told.append(replace(increment, factorizations=spent))
+        if keeper is not None:
+            keeper.keep(Standing(tuple(told), mark, radius, tuple(sorted(model.settled))))
+        if progress is not None:
+            progress(told[-1])
+        yield told[-1]
