@@ -24,13 +24,16 @@ class NodalCompliance:
     matrix           (c, m, c, m), symmetric. The generalised forces are the integrals of
                      psi_i t r dr of the traction amplitudes t, with psi the quadratic trace
                      functions; no 2 pi, no pi
-    factorizations   sparse factorisations spent; 0 where the cache had it
+    factorizations   sparse factorisations that it takes, in the cache or not: what a scene costs must
+                     not depend on what was solved before
+    from_cache       whether nothing had to be factorised
     """
 
     motion: Motion
     radii: NDArray[np.float64]
     matrix: NDArray[np.float64]
     factorizations: int
+    from_cache: bool = False
 
     @property
     def harmonic(self) -> int:
@@ -47,7 +50,7 @@ def condense(section: SectionMesh, motion: Motion) -> NodalCompliance:
     key, shape = _identity(section, motion), (count, radii.size) * 2
     matrix = stored(key, shape)
     if matrix is not None:
-        return NodalCompliance(motion, radii, matrix, 0)
+        return NodalCompliance(motion, radii, matrix, 1, from_cache=True)
     matrix = FactoredSection(section, motion).compliance()
     store(key, matrix)
     return NodalCompliance(motion, radii, matrix, 1)
@@ -67,7 +70,8 @@ def composite(
         raise ValueError("two rigid bodies have no compliance")
     if any(not np.array_equal(body.radii, bodies[0].radii) for body in bodies):
         raise ValueError("the contact nodes of the two bodies differ: mesh both with the same N")
-    parts = {id(body): condense(body, motion) for body in bodies}
+    distinct = {id(body): body for body in bodies}
+    parts = {key: condense(body, motion) for key, body in distinct.items()}
     J = np.array([1.0, 1.0, -1.0])[list(motion.components)]
     matrix = np.zeros_like(parts[id(bodies[0])].matrix)
     if lower is not None:
@@ -75,7 +79,8 @@ def composite(
     if upper is not None:
         matrix += J[:, None, None, None] * parts[id(upper)].matrix * J[:, None]
     factorizations = sum(part.factorizations for part in parts.values())
-    return NodalCompliance(motion, bodies[0].radii, matrix, factorizations)
+    from_cache = all(part.from_cache for part in parts.values())
+    return NodalCompliance(motion, bodies[0].radii, matrix, factorizations, from_cache)
 
 
 def _identity(section: SectionMesh, motion: Motion) -> str:

@@ -17,6 +17,7 @@ from contact_scene import (
 from semi_analytical import plan
 from semi_analytical.history import march
 from semi_analytical.model import ContactModel
+from semi_analytical.plan import Coupling
 
 # Under a rigid ball it has the contact of the two alike bodies of `contact_scenes`.
 SUBSTRATE = IsotropicMaterial(young_modulus=210e9, poisson_ratio=0.3)
@@ -61,5 +62,5 @@ def push(x, y=0.0, *, friction=MU, increments=2, **more) -> dict:
 def coupled_increments(described, grid, tolerance=1e-8):
     """All increments by the coupled solver, called for or not."""
     model = ContactModel.of(described, grid)
-    forced = replace(plan(described), shear=True, coupling=True)
+    forced = replace(plan(described), shear=True, coupling=Coupling.FULL)
     return list(march(model, forced, tolerance))

@@ -35,6 +35,9 @@ _NORMAL = st.fixed_dictionaries({"normal_force": FORCES}) | st.fixed_dictionarie
 )
 # Shift control only: whatever the forces are, it never exceeds the friction limit.
 _TANGENTIAL = st.fixed_dictionaries({"tangential_shift": st.tuples(LENGTHS, LENGTHS).map(list)})
+_ANGLES = st.floats(1e-9, 1.0) | st.integers(-60, 60).map(lambda n: f"{n} deg")
+_TILTING = st.fixed_dictionaries({"tilt": st.tuples(_ANGLES, _ANGLES).map(list)})
+_TORSION = st.fixed_dictionaries({"twist": _ANGLES})
 _INCREMENTS = st.fixed_dictionaries({}, optional={"increments": st.integers(1, 100)})
 
 
@@ -46,7 +49,9 @@ def _merged(*tables: Document) -> Document:
 def documents(draw: st.DrawFn) -> Document:
     """Valid contents of a scene file."""
     friction = draw(st.none() | st.fixed_dictionaries({"coefficient": st.floats(0.0, 2.0)}))
-    kinds = _NORMAL if friction is None else _NORMAL | _TANGENTIAL
+    kinds = _NORMAL | _TILTING
+    if friction is not None:
+        kinds = kinds | _TANGENTIAL | _TORSION
     later = st.lists(st.builds(_merged, kinds, _INCREMENTS), max_size=4)
     document = {
         "indenter": draw(INDENTERS),
@@ -61,7 +66,22 @@ def documents(draw: st.DrawFn) -> Document:
         document["semi_analytical"] = draw(
             st.fixed_dictionaries(
                 {"cells": st.tuples(st.integers(8, 99), st.integers(8, 99)).map(list)},
-                optional={"tolerance": st.floats(1e-12, 0.1)},
+                optional={
+                    "tolerance": st.floats(1e-12, 0.1),
+                    "path_accuracy": st.floats(1e-4, 1.0),
+                },
+            )
+        )
+    if draw(st.booleans()):
+        document["fem_reference"] = draw(
+            st.fixed_dictionaries(
+                {"elements_per_radius": st.integers(4, 512)},
+                optional={
+                    "box": st.floats(5.0, 1e6),
+                    "mesher": st.sampled_from(["tensor", "gmsh"]),
+                    "harmonics": st.integers(2, 64),
+                    "tolerance": st.floats(1e-12, 0.1),
+                },
             )
         )
     return document

@@ -1,6 +1,7 @@
 """Cases that do nothing of interest, for tests of how studies run; workers import this file."""
 
 import os
+import signal
 from dataclasses import dataclass
 from typing import ClassVar
 
@@ -35,3 +36,10 @@ class Refusing(Square):
 class Dying(Square):
     def compute(self) -> Number:
         os._exit(9)
+
+
+@dataclass(frozen=True)
+class Killed(Square):
+    def compute(self) -> Number:
+        os.kill(os.getpid(), signal.SIGKILL)
+        raise AssertionError

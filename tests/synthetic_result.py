@@ -10,7 +10,8 @@ from contact_scene import CoulombFriction, IsotropicMaterial, LoadStep, Parabolo
 from contact_scene.summary import ContactStatus
 from semi_analytical.fields import Field, Increment, Result
 from semi_analytical.grid import SurfaceGrid
-from semi_analytical.plan import Effect, Plan
+from semi_analytical.path_increments import StepIncrements
+from semi_analytical.plan import Coupling, Effect, Plan
 from semi_analytical.residuals import Residuals
 
 STEEL = IsotropicMaterial(young_modulus=420e9, poisson_ratio=0.3)
@@ -43,7 +44,11 @@ def synthetic_result(cells: tuple[int, int] = (24, 20), *, friction: bool = True
         increments = [_partial_slip(grid, increments[0], n) for n in range(len(FORCES))]
     counts = tuple(i.increments_in_step for i in increments if i.index == i.increments_in_step)
     effect = Effect("friction", friction, "because the scene says so")
-    plan = Plan(friction, False, counts, (effect,))
+    path = tuple(StepIncrements(count, False, "as it is") for count in counts)
+    plan = Plan(
+        shear=friction, coupling=Coupling.NONE, tilt=False, torsion=False, path=path,
+        effects=(effect,),
+    )  # fmt: skip
     return Result(synthetic_scene(friction=friction), grid, 1e-8, plan, tuple(increments))
 
 
@@ -59,6 +64,10 @@ def _indentation(grid: SurfaceGrid) -> Increment:
         approach=8e-6,
         contact_area=np.pi * RADIUS**2,
         peak_pressure=PEAK,
+        elastic_energy=3.2e-3,
+        input_work=4e-3,
+        unresolved_work=8e-4,
+        energy_imbalance=0.0,
         residuals=Residuals(complementarity=1e-10, penetration=2e-10, normal_equilibrium=0.0),
         iterations=ITERATIONS,
         convolutions=CONVOLUTIONS,
@@ -71,7 +80,8 @@ def _partial_slip(grid: SurfaceGrid, indentation: Increment, number: int) -> Inc
     stick_radius = RADIUS * np.cbrt(1 - abs(force) / (MU * indentation.normal_force))
     shear = MU * np.sign(force) * (indentation.pressure - _hertz(radius, stick_radius))
     in_stick = indentation.in_contact & (radius < stick_radius)
-    slip = np.where(indentation.in_contact & ~in_stick, -np.sign(force) * 1e-7, 0.0)
+    slips = indentation.in_contact & ~in_stick
+    slip = np.where(slips, -np.sign(force) * 1e-7, 0.0)
     step, index, of = STEPS[number]
     changes: dict[str, Any] = {
         "step": step,
@@ -84,6 +94,11 @@ def _partial_slip(grid: SurfaceGrid, indentation: Increment, number: int) -> Inc
         "tangential_shift": np.array([0.9e-8 * force, 0.0]),
         "stick_area": float(np.pi * stick_radius**2),
         "dissipated_energy": 1e-6 * number,
+        "input_work": 4e-3 + 1e-6 * number,
+        "dissipation": np.where(slips, 2.0 * number, 0.0),
+        "dissipation_before": np.where(slips, 2.0 * max(number - 1, 0), 0.0),
+        "slip_distance": np.where(slips, 1e-7 * number, 0.0),
+        "slip_before": np.zeros((2, *grid.cells)),
         "residuals": replace(indentation.residuals, friction_cone=WORST_RESIDUAL),
         "status": ContactStatus.PARTIAL_SLIP if force else ContactStatus.FULL_STICK,
     }

@@ -61,7 +61,9 @@ def solver(monkeypatch: pytest.MonkeyPatch) -> Callable[[Exception | None], None
     """Replace the solver by one that hands out a ready result, or fails as it is told."""
 
     def replace_by(failure: Exception | None) -> None:
-        def solve(scene: Any, discretisation: Any, progress: Any) -> Any:
+        def solve(
+            scene: Any, discretisation: Any, progress: Any, plan: Any, keeper: Any = None
+        ) -> Any:
             result = synthetic_result()
             for increment in result.increments:
                 progress(increment)

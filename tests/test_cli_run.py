@@ -43,6 +43,7 @@ LONG = ("--set", "loading[2].increments=50000")  # minutes, if nobody stopped it
 FILES = {
     "summary.json", "timing.json", "result.h5", "profiles.csv", "increments.csv",
     "pressure.png", "shear.png", "profiles.png", "stick_slip.png", "hysteresis.png",
+    "dissipation.png",
 }  # fmt: skip
 
 
@@ -85,6 +86,18 @@ def test_run_writes_every_file_and_the_same_bytes_again(scene: Path) -> None:
     assert {name: (out / name).read_bytes() for name in FILES - {"timing.json"}} == first
 
 
+def test_stress_at_the_surface_is_there_if_asked_for(scene: Path) -> None:
+    """Back to no force: the loads of step 1, so that a cycle closes."""
+    closed = ("--set", "loading[3].tangential_force=[0, 0]", "--no-figures")
+    for options, known in (((), False), (("--surface-stress",), True)):
+        outcome = run(scene, *closed, *options)
+        assert outcome.returncode == 0, outcome.stderr
+        end = summary(scene)["steps"][-1]
+        assert end["cycle_start"] == 1
+        assert (end["ruiz_f2"] is not None) == known
+    assert (scene.parent / "out" / "cycles.csv").exists()
+
+
 def test_tables_agree_with_the_summary(scene: Path) -> None:
     assert run(scene, "--no-figures").returncode == 0
     with open(scene.parent / "out" / "increments.csv", newline="", encoding="utf-8") as file:
@@ -107,6 +120,7 @@ def test_rerun_without_friction_removes_what_it_does_not_call_for(scene: Path) -
         "shear.png",
         "stick_slip.png",
         "hysteresis.png",
+        "dissipation.png",
     }
 
 

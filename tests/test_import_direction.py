@@ -1,7 +1,7 @@
 """Imports go one way: scene <- solvers <- verification <- tests (CONTRIBUTING.md).
 
-`ORDER` is the reading order of `semi_analytical`: a module imports only from entries above its own.
-An entry that is a package stands for all its modules. A new module has to be placed in the list.
+`ORDERS` holds the reading order of each solver: a module imports only from entries above its own.
+An entry that is a package stands for all its modules. A new module has to be placed in its list.
 """
 
 import ast
@@ -22,26 +22,100 @@ ORDER = (
     "influence",
     "operator",
     "stress",
+    "multipliers",
     "admissible_shear",
+    "energy",
     "residuals",
     "normal",
+    "tilting",
     "tangential",
+    "torsion",
     "contact_area",
+    "path_increments",
     "plan",
+    "other_plans",
     "fields",
     "memory",
     "model",
     "box",
     "pressing",
     "shearing",
+    "sheared",
+    "full_slip",
     "stick_slip",
     "increment",
+    "balance",
+    "one_way_increment",
     "alternation",
     "coupled_increment",
+    "load_targets",
     "history",
+    "fretting",
     "discretise",
     "solve",
 )
+
+FEM_ORDER = (
+    "errors",
+    "free_memory",
+    "scales",
+    "section_outline",
+    "section_mesh",
+    "gmsh_mesh",
+    "mesh_file",
+    "far_field",
+    "motion",
+    "elasticity",
+    "elimination_order",
+    "numbering",
+    "assembly",
+    "factored_section",
+    "stored_compliance",
+    "compliance",
+    "hats",
+    "path",
+    "coupling",
+    "refusals",
+    "effects",
+    "plan",
+    "loads",
+    "residuals",
+    "fields",
+    "energy",
+    "model",
+    "history",
+    "box_program",
+    "edge",
+    "contact_problem",
+    "pressing",
+    "shearing",
+    "state",
+    "slipping",
+    "together",
+    "alternation",
+    "increment",
+    "complementarity",
+    "harmonics",
+    "stress",
+    "gauss_points",
+    "coulomb_return",
+    "penalty_law",
+    "penalty_surface",
+    "penalty_edge",
+    "penalty_problem",
+    "penalty_contact",
+    "penalty_step",
+    "penalty_newton",
+    "penalty_springs",
+    "penalty_state",
+    "augmentation",
+    "penalty_residuals",
+    "penalty_increment",
+    "penalty_method",
+    "expected_radius",
+    "solve",
+)
+ORDERS = {"semi_analytical": ORDER, "fem_reference": FEM_ORDER}
 
 # What the modules within each name may not import.
 FORBIDDEN = {
@@ -97,9 +171,10 @@ def imports(name: str, path: Path, known: dict[str, Path]) -> Iterator[str]:
 
 
 def rank(name: str) -> int | None:
-    """Place of a module of semi_analytical in ORDER; None for the package itself or a stranger."""
-    member = name.removeprefix("semi_analytical.").partition(".")[0]
-    return ORDER.index(member) if member in ORDER else None
+    """Place of a solver's module in its order; None for the package itself or a stranger."""
+    package, _, rest = name.partition(".")
+    order, member = ORDERS.get(package, ()), rest.partition(".")[0]
+    return order.index(member) if member in order else None
 
 
 def objection(name: str, target: str) -> str | None:
@@ -113,13 +188,14 @@ def objection(name: str, target: str) -> str | None:
         allowed = {"numpy", "scipy", *sys.stdlib_module_names}
         if not within(target, "verification.closed_forms") and target.split(".")[0] not in allowed:
             return f"{name} imports {target}: closed forms rest on numpy and scipy alone"
-    if name.startswith("semi_analytical.") and within(target, "semi_analytical"):
+    solver, _, rest = name.partition(".")
+    if solver in ORDERS and rest and within(target, solver):
         own, other = rank(name), rank(target)
         same_package = name.split(".")[1] == target.partition(".")[2].partition(".")[0]
         if other is None:
             return f"{name} imports {target}: import from the module that defines it"
         if own is not None and other >= own and not same_package:
-            return f"{name} imports {target}: which stands below it in ORDER"
+            return f"{name} imports {target}: which stands below it in its order"
     return None
 
 
@@ -127,9 +203,9 @@ def violations(root: Path) -> list[str]:
     """All broken rules under root, one sentence each."""
     known = modules(root)
     found = [
-        f"{name} has no place in ORDER"
+        f"{name} has no place in the order of its package"
         for name in known
-        if name.startswith("semi_analytical.") and rank(name) is None
+        if name.partition(".")[0] in ORDERS and "." in name and rank(name) is None
     ]
     for name, path in known.items():
         reasons = (objection(name, target) for target in imports(name, path, known))
@@ -152,7 +228,9 @@ PLANTED = {
     "semi_analytical/normal.py": "from contact_scene import Scene",
     "semi_analytical/tangential.py": "from . import grid",
     "semi_analytical/helpers.py": "import math",
-    "fem_reference/mesh.py": "import importlib\nimportlib.import_module('semi_analytical.grid')",
+    "fem_reference/motion.py": "import importlib\nimportlib.import_module('semi_analytical.grid')",
+    "fem_reference/hats.py": "from fem_reference.model import ContactModel",
+    "fem_reference/mesh.py": "import numpy as np",
     "verification/closed_forms/hertz.py": "from contact_scene import Scene",
     "verification/closed_forms/cone.py": "from verification.metrics import relative_error",
     "verification/closed_forms/flat_punch.py": "import pint",
@@ -164,6 +242,8 @@ SOUND = {
     "semi_analytical/influence/from_frf.py": "from ..frf.half_space import f\nfrom . import cell",
     "semi_analytical/influence/cell.py": "from semi_analytical.grid import SurfaceGrid",
     "semi_analytical/frf/half_space.py": "import numpy as np",
+    "fem_reference/hats.py": "from fem_reference.compliance import NodalCompliance",
+    "fem_reference/compliance.py": "from .motion import motion",
     "semi_analytical/solve.py": "from . import grid\nfrom contact_scene import Scene",
     "verification/closed_forms/hertz.py": "import scipy.special\nfrom . import cone",
     "verification/closed_forms/cone.py": "from numpy import pi",

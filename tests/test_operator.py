@@ -6,12 +6,13 @@ from contact_scenes import steel
 from hypothesis import given
 from hypothesis import strategies as st
 
-from contact_scene import Body, Paraboloid
+from contact_scene import RIGID, Body, IsotropicMaterial, Layer, Paraboloid
 from semi_analytical.influence.bodies import influence_coefficients
 from semi_analytical.operator import (
     Convolutions,
     NormalOperator,
     TangentialOperator,
+    _inverse_2x2,
     offsets_for,
 )
 
@@ -126,3 +127,36 @@ def test_operator_leaves_its_argument_alone_and_returns_its_own_memory(rng):
         apply(2 * x)
         np.testing.assert_array_equal(x, before)
         np.testing.assert_array_equal(first, kept)
+
+
+STIFF_FILMS = [(1e3, 0.003, (48, 48)), (1e3, 0.003, (12, 48)), (1e4, 0.01, (48, 48))]
+
+
+@pytest.mark.parametrize(("ratio", "thickness", "shape"), STIFF_FILMS)
+def test_shear_preconditioner_is_positive_below_stiff_films(ratio, thickness, shape):
+    """Though the spectrum it inverts is not: such films wave beyond the period of the grid."""
+    film = IsotropicMaterial(young_modulus=ratio, poisson_ratio=0.5)
+    base = IsotropicMaterial(young_modulus=1.0, poisson_ratio=0.3)
+    body = Body(material=base, layers=(Layer(thickness=thickness, material=film),))
+    rigid = Paraboloid(radius=1, material=RIGID)
+    K = influence_coefficients(body, rigid, (2.6 / 48, 2.6 / 48), offsets_for(shape))
+    A = TangentialOperator(K, shape, Convolutions())
+    xx, yy, xy = (spectrum[::2, ::2] for spectrum in (A._xx, A._yy, A._xy))
+    assert np.min(0.5 * (xx + yy) - np.hypot(0.5 * (xx - yy), xy)) < 0
+    i, j = np.meshgrid(*map(np.arange, shape), indexing="ij")
+    for m in range(shape[0] // 2 + 1):
+        for n in range(shape[1] // 2 + 1):
+            wave = np.cos(2 * np.pi * (m * i / shape[0] + n * j / shape[1]))
+            for direction in ((1, 0), (0, 1), (1, 1), (1, -1)):
+                v = np.multiply.outer(direction, wave)
+                assert np.sum(v * A.precondition(v)) > 0
+
+
+@given(st.floats(-1, 1), st.floats(-1, 1), st.floats(-1, 1))
+def test_inverse_has_the_magnitudes_of_the_eigenvalues(xx, yy, xy):
+    values, vectors = np.linalg.eigh([[xx, xy], [xy, yy]])
+    if np.min(np.abs(values)) > 1e-3:
+        expected = vectors @ np.diag(1 / np.abs(values)) @ vectors.T
+        got = _inverse_2x2(*(np.array([[value]]) for value in (xx, yy, xy)))
+        got = np.array([[got[0], got[2]], [got[2], got[1]]]).reshape(2, 2)
+        np.testing.assert_allclose(got, expected, atol=1e-10 * np.max(np.abs(expected)))

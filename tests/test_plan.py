@@ -3,7 +3,7 @@
 import pytest
 from contact_scenes import PRESS, RIGID_BALL, paraboloid, push, scene, slide, steel
 
-from semi_analytical import plan
+from semi_analytical import Coupling, plan
 
 ONE, MANY = False, True
 
@@ -95,4 +95,4 @@ def test_unlike_bodies_couple_where_there_is_friction(indenter, body):
 def test_bodies_with_equal_ratios_do_not_couple(indenter, body):
     decided = plan(scene(PRESS, push(0.5), indenter=indenter, body=body))
     assert decided.shear
-    assert not decided.coupling
+    assert decided.coupling is Coupling.NONE

@@ -10,6 +10,7 @@ from verification.references import load_reference
     "name",
     [
         "coated_frictionless_paraboloid",
+        "external_code_calculix",
         "frf",
         "influence_coefficients",
         "frictional_indentation_homogeneous",

@@ -118,6 +118,7 @@ def test_profile_holds_the_numbers_of_the_line_y_0(tmp_path: Path, ny: int) -> N
         "shear_y",
         "slip_x",
         "slip_y",
+        "dissipation",
     ]
     assert len(table) == 24 * len(result.steps)
     assert {row["y"] for row in table} == {"0.0"}
@@ -138,7 +139,8 @@ def test_centre_line_is_second_order_between_two_rows() -> None:
 def test_frictionless_profile_leaves_shear_and_slip_empty(frictionless: Path) -> None:
     row = rows(frictionless / "profiles.csv")[12]
     assert float(row["pressure"]) > 0
-    assert [row[key] for key in ("shear_x", "shear_y", "slip_x", "slip_y")] == [""] * 4
+    off = ("shear_x", "shear_y", "slip_x", "slip_y", "dissipation")
+    assert [row[key] for key in off] == [""] * 5
 
 
 def test_increment_table_has_one_row_per_increment(written: tuple[Result, Path]) -> None:
@@ -158,7 +160,10 @@ def test_field_file_holds_every_increment_bit_for_bit(
     result, directory = written
     with h5py.File(directory / "result.h5") as file:
         group: Any = file["increments"]
-        for name in ("pressure", "shear", "slip", "gap", "in_contact", "in_stick"):
+        for name in (
+            *("pressure", "shear", "slip", "gap", "in_contact", "in_stick"),
+            *("slip_increment", "slip_distance", "dissipation", "dissipation_increment"),
+        ):
             stored = group[name]
             assert stored.chunks == (1, *stored.shape[1:])
             expected = np.stack([getattr(i, name) for i in result.increments])
@@ -173,7 +178,11 @@ def test_field_file_holds_every_increment_bit_for_bit(
 def test_effects_that_are_off_have_no_dataset_and_no_figure(frictionless: Path) -> None:
     with h5py.File(frictionless / "result.h5") as file:
         group: Any = file["increments"]
-        assert not {"shear", "slip", "in_stick", "tangential_force", "stick_area"} & set(group)
+        off = {"shear", "slip", "in_stick", "tangential_force", "stick_area", "dissipation"}
+        assert not off & set(group)
+        assert "elastic_energy" in group
+        assert "last_cycle" not in file
+    assert not (frictionless / "cycles.csv").exists()
     assert {path.name for path in frictionless.glob("*.png")} == {"pressure.png", "profiles.png"}
 
 

@@ -16,6 +16,7 @@ from contact_scene import (
     RIGID,
     Body,
     CoulombFriction,
+    FiniteElementDiscretisation,
     FrictionMap,
     HeightMap,
     IsotropicMaterial,
@@ -72,9 +73,11 @@ def test_a_scene_is_the_same_from_a_file_and_from_python(
     path = tmp_path_factory.mktemp("scene") / "scene.toml"
     path.write_text(as_toml(document), encoding="utf-8")
     discretisation = document.pop("semi_analytical", {})
+    elements = document.pop("fem_reference", {})
     file = read_scene_file(path)
     assert file.scene == Scene.model_validate(document)
     assert file.semi_analytical == SurfaceDiscretisation.model_validate(discretisation)
+    assert file.fem_reference == FiniteElementDiscretisation.model_validate(elements)
 
 
 IN_SI = """

@@ -8,14 +8,15 @@ from contact_scene import (
     Body,
     ControlKind,
     CoulombFriction,
+    FlatPunch,
     IsotropicMaterial,
     LoadStep,
-    NormalControl,
     Problem,
+    ScalarControl,
     Scene,
     SceneError,
     Sphere,
-    TangentialControl,
+    VectorControl,
 )
 
 STEEL = IsotropicMaterial(young_modulus=210e9, poisson_ratio=0.3)
@@ -50,30 +51,30 @@ def test_what_a_step_does_not_name_is_held_under_its_last_control() -> None:
     assert [ramp.step for ramp in path] == [1, 2, 3, 4, 5, 6, 7]
     assert [ramp.increments for ramp in path] == [None, 3, None, None, None, None, None]
     assert [ramp.normal for ramp in path] == [
-        NormalControl(FORCE, 0.0, 100.0),
-        NormalControl(FORCE, 100.0, 100.0),
-        NormalControl(FORCE, 100.0, 200.0),
-        NormalControl(DISPLACEMENT, None, 1e-6),  # the approach so far: known once solved
-        NormalControl(DISPLACEMENT, 1e-6, 1e-6),
-        NormalControl(DISPLACEMENT, 1e-6, 2e-6),
-        NormalControl(FORCE, None, 50.0),
+        ScalarControl(FORCE, 0.0, 100.0),
+        ScalarControl(FORCE, 100.0, 100.0),
+        ScalarControl(FORCE, 100.0, 200.0),
+        ScalarControl(DISPLACEMENT, None, 1e-6),  # the approach so far: known once solved
+        ScalarControl(DISPLACEMENT, 1e-6, 1e-6),
+        ScalarControl(DISPLACEMENT, 1e-6, 2e-6),
+        ScalarControl(FORCE, None, 50.0),
     ]
-    held = TangentialControl(FORCE, (5.0, 0.0), (5.0, 0.0))
+    held = VectorControl(FORCE, (5.0, 0.0), (5.0, 0.0))
     assert [ramp.tangential for ramp in path] == [
-        TangentialControl(FORCE, (0.0, 0.0), (0.0, 0.0)),
-        TangentialControl(FORCE, (0.0, 0.0), (5.0, 0.0)),
+        VectorControl(FORCE, (0.0, 0.0), (0.0, 0.0)),
+        VectorControl(FORCE, (0.0, 0.0), (5.0, 0.0)),
         held,
         held,
-        TangentialControl(DISPLACEMENT, None, (1e-6, -1e-6)),
-        TangentialControl(DISPLACEMENT, (1e-6, -1e-6), (0.0, 0.0)),
-        TangentialControl(DISPLACEMENT, (0.0, 0.0), (0.0, 0.0)),
+        VectorControl(DISPLACEMENT, None, (1e-6, -1e-6)),
+        VectorControl(DISPLACEMENT, (1e-6, -1e-6), (0.0, 0.0)),
+        VectorControl(DISPLACEMENT, (0.0, 0.0), (0.0, 0.0)),
     ]
 
 
 def test_the_first_step_ramps_everything_it_names_from_first_touch() -> None:
     (ramp,) = scene({"approach": 1e-6, "tangential_shift": (1e-7, 0.0)}).load_path()
-    assert ramp.normal == NormalControl(DISPLACEMENT, 0.0, 1e-6)
-    assert ramp.tangential == TangentialControl(DISPLACEMENT, (0.0, 0.0), (1e-7, 0.0))
+    assert ramp.normal == ScalarControl(DISPLACEMENT, 0.0, 1e-6)
+    assert ramp.tangential == VectorControl(DISPLACEMENT, (0.0, 0.0), (1e-7, 0.0))
 
 
 def test_gross_sliding_is_refused_with_the_limit_and_a_way_out() -> None:
@@ -153,3 +154,65 @@ def test_the_first_step_must_press() -> None:
     (problem,) = problems({"tangential_force": (0.0, 0.0)}, {"normal_force": 1.0})
     assert problem.key == "loading[1]"
     assert "press" in problem.message
+
+
+def test_rotations_that_no_step_has_named_are_held_at_zero() -> None:
+    path = scene(
+        {"normal_force": 100.0},
+        {"moment": (0.1, -0.2), "torque": 0.3},
+        {"twist": 0.01, "tilt": (0.0, 0.0)},
+    ).load_path()
+    assert [ramp.twisting for ramp in path] == [
+        ScalarControl(DISPLACEMENT, 0.0, 0.0),
+        ScalarControl(FORCE, None, 0.3),  # the torque that holding took: known once solved
+        ScalarControl(DISPLACEMENT, None, 0.01),
+    ]
+    assert [ramp.tilting for ramp in path] == [
+        VectorControl(DISPLACEMENT, (0.0, 0.0), (0.0, 0.0)),
+        VectorControl(FORCE, None, (0.1, -0.2)),
+        VectorControl(DISPLACEMENT, None, (0.0, 0.0)),
+    ]
+    (first,) = scene({"normal_force": 100.0, "moment": (0.1, 0.0), "torque": 0.3}).load_path()
+    assert first.tilting == VectorControl(FORCE, (0.0, 0.0), (0.1, 0.0))
+    assert first.twisting == ScalarControl(FORCE, 0.0, 0.3)
+
+
+@pytest.mark.parametrize("key", ["torque", "twist"])
+def test_a_frictionless_contact_takes_no_torsion(key: str) -> None:
+    (problem,) = problems({"normal_force": 1.0}, {key: 0.1}, mu=None)
+    assert problem.key == f"loading[2].{key}"
+    assert f"a {key} on a frictionless contact" in problem.message
+    scene({"normal_force": 1.0, "moment": (0.1, 0.0)}, {"tilt": (0.1, 0.0)}, mu=None)
+
+
+@pytest.mark.parametrize(
+    ("steps", "key"),
+    [
+        ([{"normal_force": 100.0, "moment": (0.0, 0.2)}], "loading[1].moment"),
+        ([{"normal_force": 100.0}, {"moment": (0.15, -0.15)}], "loading[2].moment"),
+        (
+            [{"normal_force": 100.0, "moment": (0.19, 0.0)}, {"normal_force": 90.0}],
+            "loading[2].normal_force",
+        ),
+        ([{"approach": 1e-6, "moment": (9.0, 0.0)}], None),  # its normal force comes out later
+        ([{"normal_force": 100.0, "moment": (0.0, 0.199)}], None),
+    ],
+)
+def test_a_moment_that_tips_a_flat_punch_over_is_refused(
+    steps: list[dict[str, Any]], key: str | None
+) -> None:
+    def punch() -> Scene:
+        return Scene(
+            indenter=FlatPunch(radius=0.002, material=STEEL),
+            body=Body(material=STEEL),
+            loading=tuple(LoadStep(**step) for step in steps),
+        )
+
+    if key is None:
+        punch()
+        return
+    with pytest.raises(SceneError) as caught:
+        punch()
+    (problem,) = caught.value.problems
+    assert problem.key == key
+    assert "tips over" in problem.message

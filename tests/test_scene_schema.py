@@ -53,6 +53,7 @@ def test_it_admits_every_scene_shipped(path: Path) -> None:
         ("loading", [{"normal_force": 1, "tangential_force": [1]}]),
         ("semi_analytical", {"cells": [256, 4]}),
         ("semi_analytical", {"tolerance": 1}),
+        ("semi_analytical", {"path_accuracy": 0}),
         ("friction", {"coefficient": -1}),
         ("extra", 1),
     ],

@@ -1,17 +1,27 @@
 """How studies run: records are kept, nothing is computed twice, a lost case costs only itself."""
 
+import html
 import os
 import signal
 import subprocess
 import sys
 import time
+from collections.abc import Callable
+from concurrent.futures import Future
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import pytest
-from study_cases import Dying, Number, Refusing, Square
+from study_cases import Dying, Killed, Number, Refusing, Square
 
-from verification.studies.running.case_pool import CaseEnd, run_cases
-from verification.studies.running.case_store import CaseStore, content_hash
+from verification.cases.case import Level
+from verification.report.provenance import provenance
+from verification.studies.catalogue import STUDIES
+from verification.studies.running.case_pool import KILLED, Answer, CaseEnd, run_cases
+from verification.studies.running.case_store import CaseStore, DamagedRecord, content_hash
+from verification.studies.running.files import stored_studies, write_study
+from verification.studies.running.record import StudyRecord
+from verification.studies.running.study import Settings
 
 ROOT = Path(__file__).resolve().parents[1]
 STUDY = ("study", "coated-tractions", "--cells", "16", "--output", "out")
@@ -24,19 +34,88 @@ def command(*arguments: str) -> list[str]:
     return [sys.executable, "-c", code, *arguments]
 
 
+@dataclass
+class InThisProcess:
+    """Workers without a process; `code` is what they say their sources are."""
+
+    elsewhere: bool = False
+    code: bytes | None = None
+
+    def submit(self, compute: Callable[..., Answer], case: Square) -> Future[Answer]:
+        future: Future[Answer] = Future()
+        answer = compute(case)
+        future.set_result(answer if self.code is None else replace(answer, code=self.code))
+        return future
+
+    def close(self) -> None:
+        pass
+
+
 def slipstick(*arguments: str, cwd: Path) -> subprocess.CompletedProcess[str]:
     return subprocess.run(
         command(*arguments), cwd=cwd, capture_output=True, text=True, check=False, timeout=120
     )
 
 
-def test_record_is_read_back_and_a_broken_one_is_not(tmp_path: Path) -> None:
+def test_record_is_read_back(tmp_path: Path) -> None:
     store, case = CaseStore(tmp_path), Square(3.0)
     assert store.load(case) is None
     store.save(case, Number(value=9.0, process=1))
     assert store.load(case) == Number(value=9.0, process=1)
-    whole = store.path(case).read_text(encoding="utf-8")
-    store.path(case).write_text(whole[: len(whole) // 2], encoding="utf-8")
+
+
+@pytest.mark.parametrize(
+    ("damage", "problem"),
+    [
+        (lambda whole: whole[: len(whole) // 2], "is damaged"),
+        (lambda whole: whole.replace(b"9.0", b"8.0"), "its numbers have changed"),
+        (lambda whole: whole.replace(b"square-3", b"square-4"), "is the record of square-4"),
+        (lambda whole: b'{"other": 1}', "is damaged"),
+        (lambda whole: b"[" * 100_000, "is damaged"),
+        (lambda whole: b"\xff\x00" * 20, "is damaged"),
+        (lambda whole: b"", "is damaged"),
+    ],
+)
+def test_file_that_is_not_the_record_is_named_and_computed_again(
+    damage: Callable[[bytes], bytes], problem: str, tmp_path: Path
+) -> None:
+    store, case = CaseStore(tmp_path), Square(3.0)
+    store.save(case, Number(value=9.0, process=1))
+    path = store.path(case)
+    path.write_bytes(damage(path.read_bytes()))
+    with pytest.raises(DamagedRecord, match=problem) as error:
+        store.load(case)
+    assert str(path) in str(error.value)
+    (end,) = run_cases([case], store, InThisProcess(), lambda end: None)
+    assert str(path) in end.damaged
+    assert not end.stored
+    assert store.load(case) == end.record == Number(value=9.0, process=os.getpid())
+
+
+def test_record_of_other_sources_is_not_taken(tmp_path: Path) -> None:
+    store, case = CaseStore(tmp_path), Square(3.0)
+    store.save(case, Number(value=9.0, process=1), b"other sources")
+    assert store.load(case) is None
+    store.save(case, Number(value=9.0, process=2))
+    assert len(list(tmp_path.iterdir())) == 2
+    assert store.load(case) == Number(value=9.0, process=2)
+
+
+def test_fresh_takes_nothing_from_the_store(tmp_path: Path) -> None:
+    store, case = CaseStore(tmp_path), Square(3.0)
+    store.save(case, Number(value=9.0, process=1))
+    (end,) = run_cases([case], store, InThisProcess(), lambda end: None, fresh=True)
+    assert not end.stored
+    assert store.load(case) == Number(value=9.0, process=os.getpid())
+
+
+@pytest.mark.parametrize("elsewhere", [False, True])
+def test_only_workers_elsewhere_must_have_the_same_sources(elsewhere: bool, tmp_path: Path) -> None:
+    """A source that is edited during a run of hours does not stop it; nothing false is stored."""
+    store, case, pool = CaseStore(tmp_path), Square(3.0), InThisProcess(elsewhere, b"edited")
+    (end,) = run_cases([case], store, pool, lambda end: None)
+    assert (end.lost is None) is not elsewhere
+    assert (end.record is None) is elsewhere
     assert store.load(case) is None
 
 
@@ -48,7 +127,10 @@ def test_other_values_and_other_kinds_have_other_files() -> None:
 
 def test_failing_and_dying_cases_are_named_and_the_others_finish(tmp_path: Path) -> None:
     seen: list[CaseEnd] = []
-    cases = (Square(1.0), Dying(10.0), Square(2.0), Refusing(20.0), Square(3.0), Square(4.0))
+    cases = (
+        Square(1.0), Dying(10.0), Square(2.0), Refusing(20.0), Square(3.0), Killed(30.0),
+        Square(4.0),
+    )  # fmt: skip
     ends = run_cases(cases, CaseStore(tmp_path), 2, seen.append)
     assert [end.case for end in ends] == list(cases)
     assert {end.case.name for end in seen} == {case.name for case in cases}
@@ -56,7 +138,7 @@ def test_failing_and_dying_cases_are_named_and_the_others_finish(tmp_path: Path)
     assert values == {"square-1": 1.0, "square-2": 4.0, "square-3": 9.0, "square-4": 16.0}
     lost = {end.lost.name: end.lost.reason for end in ends if end.lost is not None}
     assert lost == {
-        "square-10": "its process died", "square-20": "ArithmeticError: no square today"
+        "square-10": KILLED, "square-20": "ArithmeticError: no square today", "square-30": KILLED
     }  # fmt: skip
 
     again = run_cases(cases[:1] + cases[2:3], CaseStore(tmp_path), 2, seen.append)
@@ -129,3 +211,38 @@ def test_studies_are_listed_and_mistakes_are_refused(tmp_path: Path) -> None:
     assert "coated-tractions" in unknown.stderr
     assert slipstick("study", "gross-sliding", "--cells", "33", cwd=tmp_path).returncode == 2
     assert list(tmp_path.iterdir()) == []
+
+
+def stored(directory: Path, name: str = "stability") -> StudyRecord:
+    """A study without cases, stored as its command stores it."""
+    chosen = STUDIES[name]
+    record = StudyRecord(
+        name=chosen.name, title=chosen.title, question="Is 1 < 2?", level="quick",
+        conclusion=chosen.conclude(Settings(Level.QUICK), {}).model_copy(
+            update={"answer": "Yes, 1 < 2."}
+        ),
+        lost=(), provenance=provenance("slipstick study", {}),
+    )  # fmt: skip
+    write_study(record, {}, directory / name)
+    return record
+
+
+@pytest.mark.parametrize("name", STUDIES)
+def test_stored_study_is_found_again_and_its_page_shows_the_answer(
+    name: str, tmp_path: Path
+) -> None:
+    record = stored(tmp_path, name)
+    assert stored_studies(tmp_path) == (record,)
+    page = (tmp_path / name / "index.html").read_text(encoding="utf-8")
+    assert "Yes, 1 &lt; 2." in page
+    for statement in record.conclusion.statements:
+        assert statement.claim in html.unescape(page)
+
+
+def test_stored_study_that_cannot_be_read_is_named(tmp_path: Path) -> None:
+    assert stored_studies(tmp_path) == ()
+    stored(tmp_path)
+    path = tmp_path / "stability" / "study.json"
+    path.write_text(path.read_text(encoding="utf-8")[:100], encoding="utf-8")
+    with pytest.raises(ValueError, match=r"stability.study\.json"):
+        stored_studies(tmp_path)

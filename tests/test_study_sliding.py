@@ -143,6 +143,23 @@ def test_null_test_fails_if_identical_bodies_slide_early() -> None:
     assert verdicts.null_tests(None, exact).outcome is Status.INCONCLUSIVE
 
 
+def test_coated_contact_must_stick_until_the_limit_without_coupling() -> None:
+    def left_out(vanishing: FullSlip | None) -> Variant:
+        return Variant("coupling left out", "coupling left out", 64, vanishing, 1.0)
+
+    near, early = full_slip(cattaneo(0.999)), full_slip(cattaneo(0.9))
+    assert verdicts.uncoupled_sticks({"a": left_out(near)}).outcome is Status.PASS
+    assert verdicts.uncoupled_sticks({"a": left_out(early)}).outcome is Status.FAIL
+    assert verdicts.uncoupled_sticks({"a": left_out(None)}).outcome is Status.INCONCLUSIVE
+    assert verdicts.uncoupled_sticks({}).outcome is Status.INCONCLUSIVE
+
+
+def test_answer_follows_the_largest_force() -> None:
+    assert verdicts.answer(cattaneo(0.97), found(0.97)).startswith("No:")
+    assert not verdicts.answer(cattaneo(0.7, largest=0.76), found(0.7)).startswith("No")
+    assert verdicts.answer(None, None) == ""
+
+
 def test_coarse_numerics_fail_rather_than_decide() -> None:
     assert verdicts.refinement_agrees({"a": found(0.97)}).outcome is Status.PASS
     assert verdicts.refinement_agrees({"a": found(0.97, bar=0.1)}).outcome is Status.FAIL

@@ -4,13 +4,9 @@ from collections.abc import Callable
 from functools import cache
 from typing import Any
 
-import numpy as np
 import pytest
 
-from semi_analytical import increment, stick_slip
 from semi_analytical.errors import NotConverged
-from semi_analytical.model import ContactModel
-from semi_analytical.operator import NormalOperator, TangentialOperator
 from verification.cases.case import Case
 from verification.cases.fretting_loop import fretting_loop_on
 from verification.cases.hertz_point import hertz_on
@@ -19,8 +15,8 @@ from verification.cases.load_paths import load_paths_on
 from verification.cases.near_sliding import near_sliding_on
 from verification.cases.outcome import CaseOutcome, Status
 from verification.cases.refinement import refinement
-
-Patch = pytest.MonkeyPatch
+from verification.seeded_defects.defect import planted
+from verification.seeded_defects.registry import DEFECTS
 
 CASES: dict[str, Callable[[], Case]] = {
     "hertz_point": lambda: hertz_on(refinement(32, 128)),
@@ -39,60 +35,18 @@ def healthy(name: str) -> CaseOutcome:
     return judge(CASES[name]())
 
 
-def scale(patch: Patch, owner: type, factor: float) -> None:
-    whole = owner.__call__
-    patch.setattr(owner, "__call__", lambda self, traction: factor * whole(self, traction))
-
-
-def normal_operator_stiff(patch: Patch) -> None:
-    scale(patch, NormalOperator, 1 / 1.003)
-
-
-def normal_operator_soft(patch: Patch) -> None:
-    scale(patch, NormalOperator, 1.003)
-
-
-def tangential_operator_soft(patch: Patch) -> None:
-    scale(patch, TangentialOperator, 1.003)
-
-
-def friction_off_by_root_two(patch: Patch) -> None:
-    patch.setattr(
-        ContactModel,
-        "friction_coefficient",
-        property(lambda self: self.scene.friction.coefficient * np.sqrt(2)),
-    )
-
-
-def slip_memory_dropped(patch: Patch) -> None:
-    whole = increment.slip_and_stick
-
-    def forgetful(model: Any, pressure: Any, last: Any, *rest: Any) -> Any:
-        return whole(model, pressure, stick_slip.untouched(model.grid.cells), *rest)
-
-    patch.setattr(increment, "slip_and_stick", forgetful)
-
-
-def gap_too_deep(patch: Patch) -> None:
-    patch.setattr(
-        ContactModel,
-        "of",
-        classmethod(lambda cls, scene, grid, whole=ContactModel.of: deeper(whole(scene, grid))),
-    )
-
-
-def deeper(model: ContactModel) -> ContactModel:
-    model.gap = 1.003 * model.gap
-    return model
-
-
-DEFECTS = {
-    normal_operator_stiff: ("hertz_point", "approach"),
-    normal_operator_soft: ("hertz_point", "peak_pressure"),
-    gap_too_deep: ("hertz_point", "approach"),
-    tangential_operator_soft: ("fretting_loop", "largest_shift_error"),
-    friction_off_by_root_two: ("fretting_loop", "largest_shear_error"),
-    slip_memory_dropped: ("fretting_loop", "energy_per_cycle"),
+# Defects of the registry, with a case that is smaller than the catalogue's and what it must see.
+SEEN_BY = {
+    "normal-bias-stiff": ("hertz_point", "approach"),
+    "normal-bias": ("hertz_point", "peak_pressure"),
+    "gap-too-deep": ("hertz_point", "approach"),
+    "tangential-bias": ("fretting_loop", "largest_shift_error"),
+    "friction-root-two": ("fretting_loop", "largest_shear_error"),
+    "history-dropped": ("fretting_loop", "energy_per_cycle"),
+    "work-halved": ("fretting_loop", "largest_energy_imbalance"),
+    "dissipation-halved": ("fretting_loop", "largest_energy_imbalance"),
+    "slip-range": ("fretting_loop", "ruiz_f1"),
+    "tension-across": ("fretting_loop", "ruiz_f2"),
 }
 
 
@@ -101,19 +55,19 @@ def test_healthy_solver_passes(name: str) -> None:
     assert failed(healthy(name)) == set()
 
 
-@pytest.mark.parametrize("plant", DEFECTS, ids=lambda plant: plant.__name__)
-def test_planted_defect_fails(plant: Callable[[Patch], None], monkeypatch: Patch) -> None:
-    name, quantity = DEFECTS[plant]
-    plant(monkeypatch)
-    assert quantity in failed(judge(CASES[name]()))
+@pytest.mark.parametrize("defect", SEEN_BY)
+def test_planted_defect_fails(defect: str) -> None:
+    name, quantity = SEEN_BY[defect]
+    with planted(DEFECTS[defect]):
+        assert quantity in failed(judge(CASES[name]()))
 
 
-def test_friction_defect_is_seen_while_sliding(monkeypatch: Patch) -> None:
-    friction_off_by_root_two(monkeypatch)
-    assert "sliding_force" in failed(judge(CASES["near_sliding"]()))
+def test_friction_defect_is_seen_while_sliding() -> None:
+    with planted(DEFECTS["friction-root-two"]):
+        assert "sliding_force" in failed(judge(CASES["near_sliding"]()))
 
 
-def test_residual_above_tolerance_fails(monkeypatch: Patch) -> None:
+def test_residual_above_tolerance_fails() -> None:
     case = CASES["load_paths"]()
     lax = {run.label: run for run in case.runs}
 

@@ -101,14 +101,16 @@ def test_tables_have_captions_and_scoped_headings(page: str) -> None:
 
 def test_figures_have_names_and_take_the_colours_of_the_page(page: str, report: Report) -> None:
     figures = [attributes for tag, attributes in Outline(page).tags if tag == "svg"]
-    assert len(figures) == sum(len(case.charts) for case in report.cases)
+    drawn = sum(len(case.charts) + len(case.scenes) for case in report.cases)
+    assert len(figures) == drawn
     assert all(figure.get("role") == "img" for figure in figures)
+    assert page.count("<title id=") == page.count("<desc id=") == drawn
     assert "var(--series-1)" in page
-    assert "#0072b2" not in page[page.index("<body>") :].lower()
+    assert "#0072b2" not in page[page.index("<body ") :].lower()
 
 
 def test_verdicts_are_told_by_word_and_sign(page: str) -> None:
-    text = re.sub(r"<[^>]*>", "", page[page.index("<body>") :])
+    text = re.sub(r"<[^>]*>", "", page[page.index("<body ") :])
     assert "✓ pass" in text
 
 

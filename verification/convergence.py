@@ -1,12 +1,30 @@
-"""What refinement says: the uncertainty of a value, and the observed order of an error."""
+"""What refinement says: the uncertainty of a value, the observed order, and the limit.
+
+A size h is a cell side, or the part of a loading step that one increment takes. Either a reference
+is known and the errors at several h are (`observed_order`), or it is not and order and limit come
+from the values themselves (`refined_value`).
+"""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
+from scipy.optimize import brentq, minimize_scalar
 from scipy.stats import t as student
 
 CONFIDENCE = 0.95
+# An order is known well enough to be judged if its interval is no wider than this; an observed
+# order may differ from the expected one by as much.
+ORDER_WIDTH = 0.25
+# Orders of the two finest triplets differ by no more than this where the values are asymptotic.
+TRIPLETS_AGREE = 0.2
+ORDERS = (0.05, 6.0)
+COARSE_STEPS = 60
+ROUNDING = 1e-20
+
+Vector = NDArray[np.float64]
+Triplets = tuple[float | None, float | None]
 
 
 @dataclass(frozen=True)
@@ -16,44 +34,193 @@ class ObservedOrder:
     order: float
     half_width: float
 
+    def agrees_with(self, expected: float) -> bool | None:
+        """Whether this is the expected order; None where the interval is too wide to tell."""
+        if self.half_width > ORDER_WIDTH:
+            return None
+        return abs(self.order - expected) <= ORDER_WIDTH
 
-def observed_order(spacings: Sequence[float], errors: Sequence[float]) -> ObservedOrder:
+
+@dataclass(frozen=True)
+class RefinedValue:
+    """What several levels say about a value whose limit nobody has vouched for.
+
+    observed     order p of f(h) = f0 + C h^p by least squares; None where no p explains the values
+    triplets     p through two different triplets of levels, the finer first; levels of a triplet
+                 are about a factor of two apart where there are enough
+    limit        f0 with the expected order
+    uncertainty  of the limit, standard: scatter of the fit, and the other limits that the two
+                 finest levels alone and the observed order give
+    """
+
+    observed: ObservedOrder | None
+    triplets: Triplets
+    limit: float
+    uncertainty: float
+
+    @property
+    def is_asymptotic(self) -> bool:
+        """Whether two different triplets give the same order."""
+        return triplets_agree(self.triplets)
+
+
+def triplets_agree(orders: Triplets) -> bool:
+    """Whether both orders exist and are the same."""
+    last, before = orders
+    return last is not None and before is not None and abs(last - before) <= TRIPLETS_AGREE
+
+
+def observed_order(sizes: Sequence[float], errors: Sequence[float]) -> ObservedOrder:
     """Least-squares order p of error = C h^p over at least three levels of refinement.
 
-    spacings  cell sides h [length], all different
-    errors    errors > 0 at these
+    sizes   h, all different
+    errors  errors > 0 at these
     """
-    if len(spacings) < 3:
-        raise ValueError(f"{len(spacings)} levels cannot give an interval; use at least 3")
-    x, y = np.log(np.asarray(spacings)), np.log(np.asarray(errors))
+    if len(sizes) < 3:
+        raise ValueError(f"{len(sizes)} levels cannot give an interval; use at least 3")
+    x, y = np.log(np.asarray(sizes)), np.log(np.asarray(errors))
     spread = np.sum((x - x.mean()) ** 2)
     order = np.sum((x - x.mean()) * (y - y.mean())) / spread
     scatter = y - y.mean() - order * (x - x.mean())
     freedom = len(x) - 2
     deviation = np.sqrt(np.sum(scatter**2) / freedom / spread)
-    return ObservedOrder(
-        float(order), float(student.ppf((1 + CONFIDENCE) / 2, freedom) * deviation)
-    )
+    return ObservedOrder(float(order), _half_width(float(deviation), freedom))
 
 
-def numerical_uncertainty(
-    spacings: Sequence[float], values: Sequence[float], order: float
-) -> float:
-    """Standard uncertainty of the value on the finest grid, from f(h) = f0 + C h^p.
+def refined_value(sizes: Sequence[float], values: Sequence[float], expected: float) -> RefinedValue:
+    """Order and limit of a value from at least four levels, in any order.
 
-    spacings  cell sides h, at least three levels [length]
-    values    f(h) there
-    order     the expected p; fixed, because a fitted p lets three values explain anything
-    returns   √((C h^p)² + s²) at the finest h, s the scatter there: same unit as values
-
-    The scatter is taken to fall like the error, so levels are weighted by 1/h^p: otherwise the
-    coarsest grid would decide about the finest.
+    sizes     h, all different
+    values    f(h)
+    expected  the order that theory expects; the limit rests on it
     """
-    if len(spacings) < 3:
-        raise ValueError(f"{len(spacings)} levels cannot show a scatter; use at least 3")
-    f = np.asarray(values, dtype=float)
-    term = (np.asarray(spacings, dtype=float) / min(spacings)) ** order
-    matrix = np.column_stack([1 / term, np.ones_like(term)])
-    (limit, coefficient), *_ = np.linalg.lstsq(matrix, f / term, rcond=None)
-    scatter = np.sqrt(np.sum(((f - limit) / term - coefficient) ** 2) / (len(f) - 2))
-    return float(np.hypot(coefficient, scatter))
+    if len(sizes) < 4:
+        raise ValueError(f"{len(sizes)} levels cannot give order and limit; use at least 4")
+    finest_first = np.argsort(sizes)
+    h = np.asarray(sizes, dtype=float)[finest_first]
+    f = np.asarray(values, dtype=float)[finest_first]
+    h /= h[0]
+    observed = _fitted_order(h, f, expected)
+    limit, uncertainty = _limit(h, f, expected)
+    if observed is not None:
+        other = _line(h, f, observed.order, expected).limit
+        uncertainty = float(np.hypot(uncertainty, limit - other))
+    stride = _stride(h, reach=2)
+    finest, before = (slice(k, k + 2 * stride + 1, stride) for k in (0, 1))
+    triplets = _triplet_order(h[finest], f[finest]), _triplet_order(h[before], f[before])
+    return RefinedValue(observed, triplets, limit, uncertainty)
+
+
+def triplets_of_changes(sizes: Sequence[float], changes: Sequence[float]) -> Triplets:
+    """Orders by two triplets of levels, from the changes between neighbours of one ratio.
+
+    sizes    h of the coarser level of each change, coarse to fine, at least three
+    changes  > 0
+    """
+    h, d = np.asarray(sizes, dtype=float)[::-1], np.asarray(changes, dtype=float)[::-1]
+    k = _stride(h, reach=1)
+    last, before = (float(np.log(d[n + k] / d[n]) / np.log(h[n + k] / h[n])) for n in (0, 1))
+    return last, before
+
+
+def _stride(h: Vector, reach: int) -> int:
+    """Levels from one member of a triplet to the next, so that two triplets fit in.
+
+    reach  steps of that many levels that a triplet needs
+    """
+    wanted = max(1, round(float(np.log(2) / np.log(h[1] / h[0]))))
+    return min(wanted, (len(h) - 2) // reach)
+
+
+def numerical_uncertainty(sizes: Sequence[float], values: Sequence[float], order: float) -> float:
+    """Standard uncertainty of the value on the finest level, from f(h) = f0 + C h^p.
+
+    sizes    h, at least three levels
+    values   f(h) there
+    order    the expected p; fixed, because a fitted p lets three values explain anything
+    returns  √((C h^p)² + s²) at the finest h, s the scatter there: same unit as values
+    """
+    if len(sizes) < 3:
+        raise ValueError(f"{len(sizes)} levels cannot show a scatter; use at least 3")
+    h = np.asarray(sizes, dtype=float) / min(sizes)
+    fit = _line(h, np.asarray(values, dtype=float), order, order)
+    return float(np.hypot(fit.coefficient, np.sqrt(fit.squares / (len(h) - 2))))
+
+
+@dataclass(frozen=True)
+class _Line:
+    """f = limit + coefficient h^p, and the weighted squares that are left."""
+
+    limit: float
+    coefficient: float
+    squares: float
+
+
+def _line(h: Vector, f: Vector, order: float, weight_order: float) -> _Line:
+    """Linear least squares. The scatter is taken to fall like the error, so levels are weighted
+    by 1/h^p: otherwise the coarsest level would decide about the finest."""
+    weight = h**-weight_order
+    matrix = np.column_stack([weight, weight * h**order])
+    (limit, coefficient), *_ = np.linalg.lstsq(matrix, weight * f, rcond=None)
+    left = weight * (f - limit - coefficient * h**order)
+    return _Line(float(limit), float(coefficient), float(np.sum(left**2)))
+
+
+def _limit(h: Vector, f: Vector, order: float) -> tuple[float, float]:
+    """Richardson's value and its standard uncertainty."""
+    fit = _line(h, f, order, order)
+    weight = h**-order
+    normal = np.array([[np.sum(weight**2), np.sum(weight)], [np.sum(weight), float(len(h))]])
+    scatter = fit.squares / (len(h) - 2) * np.linalg.inv(normal)[0, 0]
+    two_finest = f[0] - (f[1] - f[0]) / ((h[1] / h[0]) ** order - 1)
+    return fit.limit, float(np.hypot(np.sqrt(scatter), fit.limit - two_finest))
+
+
+def _fitted_order(h: Vector, f: Vector, expected: float) -> ObservedOrder | None:
+    """The p that leaves least, weights held at those of the expected order; its interval from
+    the tangent of the model. None where the best p lies at the end of what is sensible."""
+    spread = float(np.ptp(f))
+    if spread == 0:
+        return None
+    f = f / spread
+
+    def left(order: float) -> float:
+        return _line(h, f, order, expected).squares
+
+    trial = np.linspace(*ORDERS, COARSE_STEPS)
+    best = int(np.argmin([left(order) for order in trial]))
+    if best in (0, len(trial) - 1):
+        return None
+    found = minimize_scalar(left, bounds=(trial[best - 1], trial[best + 1]), method="bounded")
+    order, fit = float(found.x), _line(h, f, float(found.x), expected)
+    weight = h**-expected
+    powers = weight * h**order
+    # What limit and coefficient cannot imitate of a change of p tells how well p is known.
+    plane, _ = np.linalg.qr(np.column_stack([weight, powers]))
+    along = fit.coefficient * powers * np.log(h)
+    across = along - plane @ (plane.T @ along)
+    lever = float(np.sum(across**2))
+    if lever <= ROUNDING * float(np.sum(along**2)):
+        return None
+    freedom = len(h) - 3
+    return ObservedOrder(order, _half_width(float(np.sqrt(fit.squares / freedom / lever)), freedom))
+
+
+def _triplet_order(h: Vector, f: Vector) -> float | None:
+    """p of three values, finest first; None where they do not come closer in one direction."""
+    fine, coarse = f[1] - f[0], f[2] - f[1]
+    if fine == 0 or coarse / fine <= 0:
+        return None
+
+    def mismatch(order: float) -> float:
+        powers = h**order
+        return float((powers[2] - powers[1]) / (powers[1] - powers[0]) - coarse / fine)
+
+    low, high = ORDERS
+    if mismatch(low) * mismatch(high) > 0:
+        return None
+    return float(brentq(mismatch, low, high))
+
+
+def _half_width(deviation: float, freedom: int) -> float:
+    return float(student.ppf((1 + CONFIDENCE) / 2, freedom) * deviation)

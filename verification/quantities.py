@@ -13,6 +13,25 @@ from contact_scene.summary import Residuals
 Field = NDArray[np.float64]
 Components = Sequence[float] | NDArray[np.float64]  # along x and y
 
+# Scalars and vectors of an increment that are followed under refinement, with their units; the
+# names are those of `summary.json`. What a solver does not have is left out.
+SCALARS = {
+    "normal_force": "N",
+    "approach": "m",
+    "contact_radius": "m",
+    "peak_pressure": "Pa",
+    "torque": "N m",
+    "twist": "rad",
+    "stick_radius": "m",
+    "dissipated_energy": "J",
+}
+VECTORS = {
+    "tangential_force": "N",
+    "tangential_shift": "m",
+    "moment": "N m",
+    "tilt": "rad",
+}
+
 # Below this part of the peak friction limit the direction of a traction is round-off.
 LEAST_SHEAR = 1e-6
 
@@ -82,6 +101,25 @@ def largest_residual(result: SolvedHistory) -> float:
         if (value := getattr(increment.residuals, name)) is not None
     ]
     return float(np.max(values))
+
+
+def named_values(increment: object) -> dict[str, float]:
+    """The scalars that an increment has, components with _x and _y; in SI."""
+    values = {}
+    for name in SCALARS:
+        value = getattr(increment, name, None)
+        if value is not None:
+            values[name] = float(value)
+    for name in VECTORS:
+        vector = getattr(increment, name, None)
+        if vector is not None:
+            values |= {f"{name}_{axis}": float(v) for axis, v in zip("xy", vector, strict=True)}
+    return values
+
+
+def unit_of(name: str) -> str:
+    """The unit of a name of `named_values`."""
+    return SCALARS.get(name) or VECTORS[name.removesuffix("_x").removesuffix("_y")]
 
 
 def force_along_x(increment: SolvedIncrement) -> float:

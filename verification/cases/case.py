@@ -5,14 +5,15 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from enum import IntEnum, StrEnum
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from contact_scene import Scene
 from semi_analytical.grid import SurfaceGrid
 
 if TYPE_CHECKING:
-    from semi_analytical import Result
+    from semi_analytical import Plan
     from verification.cases.chart import Chart
+    from verification.cases.section_run import SectionRun
     from verification.cases.table import Table
 
 SOLVER_TOLERANCE = 1e-8
@@ -34,17 +35,27 @@ class ReferenceKind(StrEnum):
     SEMI_CLOSED = "semi-closed"
     THEORY = "theory"
     EXTERNAL_CODE = "external code"
+    OTHER_SOLVER = "other solver"
     IDENTITY = "identity"  # holds exactly by a theorem or by the equations themselves
 
 
 @dataclass(frozen=True)
 class Run:
-    """One solve: a scene on a grid to a tolerance. The label names it within its case."""
+    """One solve: a scene on a grid to a tolerance. The label names it within its case.
+
+    effects  from the plan of the scene to the one to solve with; None: as planned
+    """
 
     label: str
     scene: Scene
     grid: SurfaceGrid
     tolerance: float = SOLVER_TOLERANCE
+    effects: Callable[[Plan], Plan] | None = None
+
+    @property
+    def spacing(self) -> float:
+        """The longer side of a cell [length]."""
+        return max(self.grid.spacing)
 
 
 @dataclass(frozen=True)
@@ -96,7 +107,7 @@ class Quantity:
     meaning: str
     unit: str
     run: str
-    measure: Callable[[Result], float]
+    measure: Callable[[Any], float]
     reference: Reference
     tolerance: Required | Derived
     scale: float | None = None
@@ -133,7 +144,7 @@ class Comparison:
     name: str
     meaning: str
     runs: tuple[str, str]
-    difference: Callable[[Result, Result], float]
+    difference: Callable[[Any, Any], float]
     allowed: float
     because: str
     source: str
@@ -152,7 +163,29 @@ class OrderOfConvergence:
     name: str
     meaning: str
     levels: tuple[str, ...]
-    error: Callable[[Result], float]
+    error: Callable[[Any], float]
+    expected: float
+    because: str
+
+
+@dataclass(frozen=True)
+class OrderOfChange:
+    """The rate at which neighbouring levels approach each other, where the exact answer is not
+    known or has the error of another kind of refinement: a change falls with the order of the
+    error.
+
+    levels    coarse to fine, each by the same factor of refinement
+    change    from the first of two levels to the second, > 0
+    size      what is refined, h of a level
+    expected  order p of h^p
+    because   why this order
+    """
+
+    name: str
+    meaning: str
+    levels: tuple[str, ...]
+    change: Callable[[Any, Any], float]
+    size: Callable[[Any], float]
     expected: float
     because: str
 
@@ -165,7 +198,7 @@ class Finding:
     meaning: str
     unit: str
     run: str
-    measure: Callable[[Result], float]
+    measure: Callable[[Any], float]
     remark: str
 
 
@@ -175,6 +208,7 @@ class Case:
 
     name     for commands and files: letters, digits and underscores
     problem  what is solved and why the answer is known, for a reader
+    runs     by either solver; what is measured takes the result of the run it names
     checks   what is judged beside the runs; a case may have nothing else
     charts   figures drawn from the results, by label of the run
     tables   more numbers than verdicts could show, likewise
@@ -184,17 +218,17 @@ class Case:
     name: str
     title: str
     problem: str
-    runs: tuple[Run, ...]
+    runs: tuple[Run | SectionRun, ...]
     quantities: tuple[Quantity, ...]
-    orders: tuple[OrderOfConvergence, ...] = ()
+    orders: tuple[OrderOfConvergence | OrderOfChange, ...] = ()
     findings: tuple[Finding, ...] = ()
     comparisons: tuple[Comparison, ...] = ()
     checks: tuple[Check, ...] = ()
-    charts: Callable[[Mapping[str, Result]], tuple[Chart, ...]] | None = None
-    tables: Callable[[Mapping[str, Result]], tuple[Table, ...]] | None = None
+    charts: Callable[[Mapping[str, Any]], tuple[Chart, ...]] | None = None
+    tables: Callable[[Mapping[str, Any]], tuple[Table, ...]] | None = None
     limits: tuple[str, ...] = ()
 
-    def run(self, label: str) -> Run:
+    def run(self, label: str) -> Run | SectionRun:
         """The run of this label; KeyError if there is none."""
         return {run.label: run for run in self.runs}[label]
 

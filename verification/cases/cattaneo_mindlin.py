@@ -90,6 +90,20 @@ def error_at(step: int, part: float) -> Callable[[Result], float]:
     return error
 
 
+def slip_error_at(step: int, part: float) -> Callable[[Result], float]:
+    """Mean of |s - s_exact| over the contact at the end of a loading step, both components
+    [length]."""
+
+    def error(result: Result) -> float:
+        end = result.steps[step - 1]
+        assert end.slip is not None
+        exact = EXACT[part].slip(np.hypot(*result.grid.coordinates()))
+        missed = np.hypot(end.slip[0] - exact, end.slip[1])
+        return float(np.mean(missed[end.in_contact]))
+
+    return error
+
+
 def _at(step: int, part: float, levels: tuple[str, ...], finest_cells: int) -> tuple[Quantity, ...]:
     exact, finest = EXACT[part], levels[-1]
 
@@ -118,6 +132,13 @@ def _at(step: int, part: float, levels: tuple[str, ...], finest_cells: int) -> t
             f"shift_at_{part:g}", f"tangential shift at {part:g} µW", "m", finest, shift,
             closed_form(exact.shift, SOURCE, SLIDING_SHIFT),
             Required(1e-4, "required of the fretting loop, which passes through here"),
+            SLIDING_SHIFT, "the shift at gross sliding",
+        ),
+        Quantity(
+            f"slip_at_{part:g}", f"mean difference of the slip in the contact at {part:g} µW", "m",
+            finest, slip_error_at(step, part), exact_zero(SOURCE),
+            Derived(levels, 1.5, 1e-4, "order 3/2 of the shear's L1 error; the cap is what is "
+                    "required of the shift, of which slip is a part"),
             SLIDING_SHIFT, "the shift at gross sliding",
         ),
     )  # fmt: skip

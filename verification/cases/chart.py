@@ -17,6 +17,7 @@ class Look(StrEnum):
     BOUND = "bound"
     SLOPE = "slope"
     MARKS = "marks"
+    TILES = "tiles"  # places of a map that belong to one class
 
 
 class Curve(Description):
@@ -40,6 +41,12 @@ class Panel(Description):
     height: float = 1.0
     notes: tuple[tuple[float, float, str], ...] = ()
     """Short texts at (x, y)."""
+
+    x_places: tuple[str, ...] = ()
+    """Names of the places 0, 1, … along x, where these are no numbers."""
+
+    y_places: tuple[str, ...] = ()
+    """The same along y."""
 
 
 class Chart(Description):

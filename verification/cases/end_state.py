@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypeAlias
 
 from verification.quantities import force_along_x, shift_along_x
 
 if TYPE_CHECKING:
-    from semi_analytical import Result
+    import fem_reference
+    import semi_analytical
+
+    Result: TypeAlias = semi_analytical.Result | fem_reference.Result
 
 
 def normal_force(result: Result) -> float:
@@ -21,7 +24,7 @@ def approach(result: Result) -> float:
 
 
 def peak_pressure(result: Result) -> float:
-    """Largest pressure of any cell [force/length²]."""
+    """Largest pressure of any cell or ring [force/length²]."""
     return float(result.steps[-1].peak_pressure)
 
 
@@ -36,11 +39,11 @@ def stick_radius(result: Result) -> float:
     return float("nan") if radius is None else float(radius)
 
 
-def shift(result: Result) -> float:
+def shift(result: semi_analytical.Result) -> float:
     """Tangential shift along x [length]."""
     return shift_along_x(result.steps[-1])
 
 
-def tangential_force(result: Result) -> float:
+def tangential_force(result: semi_analytical.Result) -> float:
     """Tangential force along x [force]."""
     return force_along_x(result.steps[-1])

@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from verification.cases import paper_scene as paper
 from verification.cases.case import (
     Case,
@@ -19,7 +21,14 @@ from verification.cases.case import (
 from verification.cases.chart import Chart
 from verification.cases.hertz_point import ASKED, label
 from verification.cases.loop_charts import hysteresis_chart
-from verification.cases.loop_history import ExactLoop, loop_energy, loop_steps
+from verification.cases.loop_history import (
+    ExactLoop,
+    largest_f2,
+    largest_imbalance,
+    loop_cycle,
+    loop_energy,
+    loop_steps,
+)
 from verification.cases.paper_scene import HERTZ, NU_ZERO
 from verification.cases.refinement import part_of_a_cell
 
@@ -29,6 +38,9 @@ if TYPE_CHECKING:
 SOURCE = "Mindlin and Deresiewicz 1953"
 EXACT = ExactLoop(NU_ZERO)
 LARGEST_SHIFT = EXACT.end.shift
+CYCLED = EXACT.cycled
+LARGEST_SLIP = float(CYCLED.slip_amplitude(HERTZ.contact_radius))
+RUIZ = "Ruiz, Boddington and Chen 1984, on Mindlin and Deresiewicz 1953"
 # The contact fills 1/1.1 of the window: cells beside it carry nothing.
 WINDOW_PER_RADIUS = 2.2
 REQUIRED_SHEAR = {128: 2e-3, 256: 1e-3}
@@ -53,7 +65,9 @@ def fretting_loop_on(cells: tuple[int, ...], quarter: int) -> Case:
         problem=(
             "The contact of cattaneo_mindlin on a window of 2.2 contact radii, sheared to 0.9 µW, "
             "back to -0.9 µW and again to 0.9 µW. After a reversal the slip of before stays locked "
-            "in, so this judges the memory of the history and not only its last load."
+            "in, so this judges the memory of the history and not only its last load. Of the cycle "
+            "it judges what is reported for fretting: slip amplitude, Ruiz's parameters, and "
+            "whether work, stored and dissipated energy balance."
         ),
         runs=(*runs, wide),
         quantities=tuple(q for n in cells for q in _quantities(n)),
@@ -75,6 +89,10 @@ def shear_allowed(cells: int) -> float:
 
 
 def _quantities(cells: int) -> tuple[Quantity, ...]:
+    return *_of_the_history(cells), *_of_the_cycle(cells)
+
+
+def _of_the_history(cells: int) -> tuple[Quantity, ...]:
     run = label(cells)
     return (
         Quantity(
@@ -98,6 +116,46 @@ def _quantities(cells: int) -> tuple[Quantity, ...]:
         Quantity(
             "energy_per_cycle", "energy dissipated from 0.9 µW to -0.9 µW and back", "J", run,
             loop_energy, closed_form(EXACT.energy_per_cycle, SOURCE), Required(5e-4, ASKED),
+        ),
+        Quantity(
+            "largest_energy_imbalance", "largest part of the energy that an increment cannot "
+            "account for: work put in, less what is stored, dissipated and left to the increment",
+            "", run, largest_imbalance, exact_zero("first law"), Required(1e-6, ASKED),
+            1.0, "the largest energy so far",
+        ),
+    )  # fmt: skip
+
+
+def _of_the_cycle(cells: int) -> tuple[Quantity, ...]:
+    run = label(cells)
+    return (
+        Quantity(
+            "slip_amplitude", "half the range of slip in the cycle, where it is largest", "m", run,
+            lambda result: float(np.max(loop_cycle(result).slip_amplitude)),
+            closed_form(LARGEST_SLIP, SOURCE),
+            Required(part_of_a_cell(1.5, cells, WINDOW_PER_RADIUS), "slip is largest at the edge, "
+                     "and known where the edge runs through a cell: up to half a cell beside it, "
+                     "where it differs by three times its distance over the radius"),
+        ),
+        Quantity(
+            "largest_slip_amplitude_error", "largest difference of half the range of slip in the "
+            "contact", "m", run, EXACT.largest_slip_amplitude_error, exact_zero(SOURCE),
+            Required(1e-3, "no more than is asked of the shear on 256 cells; like that it falls "
+                     "with the power 3/2 of the cell"),
+            LARGEST_SLIP, "the largest slip amplitude",
+        ),
+        Quantity(
+            "ruiz_f1", "largest shear times slip amplitude", "Pa m", run,
+            lambda result: float(np.max(loop_cycle(result).ruiz_f1)),
+            closed_form(CYCLED.largest_f1, RUIZ),
+            Required(1e-3, "as for the slip amplitude: both factors are known there"),
+        ),
+        Quantity(
+            "ruiz_f2", "largest shear times slip amplitude times tension of the surface", "Pa^2 m",
+            run, largest_f2,
+            closed_form(CYCLED.largest_f2, RUIZ),
+            Required(3e-2, "largest 0.03 a from the edge, where the shear ends as a square root "
+                     "and the stress of cells of constant shear errs with the root of the cell"),
         ),
     )  # fmt: skip
 

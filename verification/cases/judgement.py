@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from typing import TYPE_CHECKING
+from typing import Any
 
 import semi_analytical
 from contact_scene import Scene, SurfaceDiscretisation
@@ -16,6 +16,8 @@ from verification.cases.outcome import (
     SceneRecord,
     Verdict,
 )
+from verification.cases.section_run import SectionRun
+from verification.cases.section_sketch import section_sketch
 from verification.cases.verdicts import (
     finite,
     judge_check,
@@ -28,18 +30,22 @@ from verification.cases.verdicts import (
 from verification.cli.scene_text import describe
 from verification.quantities import largest_residual
 
-if TYPE_CHECKING:
-    from semi_analytical import Result
+Results = Mapping[str, Any]
+AnyRun = Run | SectionRun
+Solve = Callable[[AnyRun], Any]
 
-Results = Mapping[str, "Result"]
-Solve = Callable[[Run], "Result"]
-
-DISCRETISATION = ("title", "cells", "window", "tolerance")  # words of a scene file, not a scene
+# Words of a scene file that are not of its scene.
+DISCRETISATION = ("title", "cells", "window", "tolerance", "path accuracy")
 
 
-def solve_run(run: Run) -> Result:
-    """Solve one run of a case with the semi-analytical solver."""
-    return semi_analytical.solve(run.scene, run.grid, run.tolerance)
+def solve_run(run: AnyRun) -> Any:
+    """Solve one run of a case with the solver that it is for."""
+    if isinstance(run, SectionRun):
+        return run.solve()
+    decided = semi_analytical.plan(run.scene)
+    if run.effects is not None:
+        decided = run.effects(decided)
+    return semi_analytical.solve(run.scene, run.grid, run.tolerance, plan=decided)
 
 
 def judge(case: Case, solve: Solve = solve_run) -> CaseOutcome:
@@ -47,7 +53,7 @@ def judge(case: Case, solve: Solve = solve_run) -> CaseOutcome:
 
     A run that the solver gives up is a failed verdict; what would be measured on it is left out.
     """
-    results: dict[str, Result] = {}
+    results: dict[str, Any] = {}
     failures: list[Verdict] = []
     for run in case.runs:
         try:
@@ -97,15 +103,19 @@ def _measure(finding: Finding, results: Results) -> FindingRecord:
     )
 
 
-def _run_record(run: Run, result: Result) -> RunRecord:
+def _run_record(run: AnyRun, result: Any) -> RunRecord:
+    grid = run.grid if isinstance(run, Run) else None
+    mesh = run.discretisation if isinstance(run, SectionRun) else None
     return RunRecord(
         label=run.label,
-        cells=run.grid.cells,
-        window=run.grid.window,
+        cells=grid.cells if grid else None,
+        window=grid.window if grid else None,
+        elements_per_radius=mesh.elements_per_radius if mesh else None,
         tolerance=run.tolerance,
         increments=len(result.increments),
         iterations=sum(increment.iterations for increment in result.increments),
-        convolutions=sum(increment.convolutions for increment in result.increments),
+        convolutions=sum(i.convolutions for i in result.increments) if grid else 0,
+        factorizations=sum(i.factorizations for i in result.increments) if mesh else 0,
         largest_residual=finite(largest_residual(result)),
     )
 
@@ -121,5 +131,11 @@ def _scenes(case: Case, results: Results) -> tuple[SceneRecord, ...]:
                 title=run.scene.title,
                 lines=tuple(line for line in lines if line[0] not in DISCRETISATION),
                 effects=tuple(EffectSummary(name=e.name, on=e.on, why=e.why) for e in effects),
+                sketch=section_sketch(run.scene, _largest_radius(results[run.label])),
             )
     return tuple(records.values())
+
+
+def _largest_radius(result: Any) -> float:
+    """The largest contact radius of a history [length]."""
+    return max(float(increment.contact_radius) for increment in result.increments)

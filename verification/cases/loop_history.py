@@ -13,12 +13,14 @@ from contact_scene import IsotropicMaterial
 from contact_scene.loading import LoadStep
 from verification.cases import paper_scene as paper
 from verification.cases.paper_scene import FRICTION
+from verification.closed_forms.ruiz import CycledContact
 from verification.closed_forms.tangential_history import TangentialHistory
 from verification.metrics import shear_error
 from verification.quantities import energy_between, force_along_x, shear_of, shift_along_x
 
 if TYPE_CHECKING:
     from semi_analytical import Increment, Result
+    from semi_analytical.fretting import FrettingCycle
 
 AMPLITUDE = 0.9  # of µW
 LOADED, UNLOADED, RELOADED = 2, 3, 4  # loading steps that end at T*, -T*, T*
@@ -80,6 +82,20 @@ class ExactLoop:
         """Largest difference of the shift from the closed form over any increment [length]."""
         return float(np.max([abs(shift_along_x(i) - e.shift) for i, e in self.along(result)]))
 
+    @property
+    def cycled(self) -> CycledContact:
+        """The steady cycle, for ν = 0."""
+        force = AMPLITUDE * paper.FRICTION_LIMIT
+        return CycledContact(paper.partial_slip(self.material, force), paper.HERTZ.peak_pressure)
+
+    def largest_slip_amplitude_error(self, result: Result) -> float:
+        """Largest difference of the slip amplitude from the closed form in the contact [length]."""
+        a = paper.HERTZ.contact_radius
+        r = np.hypot(*result.grid.coordinates())
+        expected = self.cycled.slip_amplitude(np.minimum(r, a))
+        error = np.abs(loop_cycle(result).slip_amplitude - expected)
+        return float(np.max(error[r < a]))
+
     def largest_stick_radius_error(self, result: Result) -> float:
         """Largest difference of the stick radius from the closed form [length]."""
         return float(np.max([
@@ -90,3 +106,23 @@ class ExactLoop:
 def loop_energy(result: Result) -> float:
     """Energy dissipated from T* to -T* and back [force*length]."""
     return energy_between(result, LOADED, RELOADED)
+
+
+def loop_cycle(result: Result, *, surface_stress: bool = False) -> FrettingCycle:
+    """What the loop does to the surface."""
+    from semi_analytical.fretting import fretting_cycles
+
+    (cycle,) = fretting_cycles(result, surface_stress=surface_stress)
+    return cycle
+
+
+def largest_f2(result: Result) -> float:
+    """Ruiz's second parameter of the loop [force²/length³]."""
+    f2 = loop_cycle(result, surface_stress=True).ruiz_f2
+    assert f2 is not None
+    return float(np.max(f2))
+
+
+def largest_imbalance(result: Result) -> float:
+    """Largest part of the energy that any increment cannot account for [1]."""
+    return max(i.energy_imbalance for i in result.increments if i.energy_imbalance is not None)

@@ -4,7 +4,9 @@ from enum import StrEnum
 
 from contact_scene.description import Description
 from contact_scene.summary import EffectSummary
+from verification.cases.change import Change, CounterChange, Gone, Origin
 from verification.cases.chart import Chart
+from verification.cases.section_sketch import SectionSketch
 from verification.cases.table import Table
 
 
@@ -28,6 +30,9 @@ class Verdict(Description):
     reference: float
     reference_kind: str
     source: str
+    reference_uncertainty: float | None = None
+    """Standard uncertainty of the reference, in its unit; null where it has none."""
+
     error: float | None
     """|value - reference| / scale."""
 
@@ -41,6 +46,9 @@ class Verdict(Description):
     status: Status
     interval: float | None = None
     """Half-width of the 95 % interval of an observed order."""
+
+    regression: Change | None = None
+    """Against the recorded value; null if the case has no baseline of this level."""
 
     @property
     def clearance(self) -> float | None:
@@ -57,19 +65,31 @@ class FindingRecord(Description):
     unit: str
     value: float | None
     remark: str
+    regression: Change | None = None
+    """Against the recorded value; null if the case has no baseline of this level."""
 
 
 class RunRecord(Description):
     """One solve and its deterministic cost."""
 
     label: str
-    cells: tuple[int, int]
-    window: tuple[float, float]
+    cells: tuple[int, int] | None
+    window: tuple[float, float] | None
+    """Cells and window of the surface; null for finite elements."""
+
+    elements_per_radius: int | None = None
+    """Elements over the contact radius; null for a surface grid."""
+
     tolerance: float
     increments: int
     iterations: int
     convolutions: int
+    factorizations: int = 0
+    """Sparse factorisations of finite elements."""
+
     largest_residual: float | None
+    changes: tuple[CounterChange, ...] = ()
+    """Counts that differ from the recorded ones."""
 
 
 class SceneRecord(Description):
@@ -78,6 +98,8 @@ class SceneRecord(Description):
     title: str
     lines: tuple[tuple[str, str], ...]
     effects: tuple[EffectSummary, ...]
+    sketch: SectionSketch | None = None
+    """The scene in section, to scale; null where it was not solved."""
 
 
 class CaseOutcome(Description):
@@ -93,6 +115,11 @@ class CaseOutcome(Description):
     charts: tuple[Chart, ...]
     limits: tuple[str, ...]
     tables: tuple[Table, ...] = ()
+    baseline: Origin | None = None
+    """Where the recorded numbers are from; null if there are none of this level."""
+
+    gone: tuple[Gone, ...] = ()
+    """What was recorded and is not measured any more."""
 
     def count(self, status: Status) -> int:
         """How many verdicts have this status."""

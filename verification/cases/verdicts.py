@@ -4,13 +4,15 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from typing import TYPE_CHECKING
+from itertools import pairwise
+from typing import TYPE_CHECKING, Any
 
 from verification.cases.case import (
     Case,
     Check,
     Comparison,
     Derived,
+    OrderOfChange,
     OrderOfConvergence,
     Quantity,
     Reference,
@@ -19,17 +21,14 @@ from verification.cases.case import (
     Run,
 )
 from verification.cases.outcome import Status, Verdict
-from verification.convergence import numerical_uncertainty, observed_order
+from verification.convergence import ORDER_WIDTH, numerical_uncertainty, observed_order
 from verification.quantities import largest_residual
 
 if TYPE_CHECKING:
-    from semi_analytical import Result
+    from verification.cases.section_run import SectionRun
 
-Results = Mapping[str, "Result"]
+Results = Mapping[str, Any]
 
-# An order is known well enough to be judged if its interval is no wider than this; an observed
-# order may differ from the expected one by as much.
-ORDER_WIDTH = 0.25
 COVERAGE = 2.0  # standard uncertainties in a tolerance
 
 
@@ -78,6 +77,7 @@ def _judged(
         reference=reference.value,
         reference_kind=reference.kind,
         source=reference.source,
+        reference_uncertainty=reference.uncertainty or None,
         error=finite(error),
         allowed=allowed,
         scale=scale,
@@ -91,23 +91,33 @@ def _judged(
 def _derived(
     quantity: Quantity, tolerance: Derived, case: Case, results: Results, scale: float
 ) -> float:
+    return min(tolerance.cap, expanded_uncertainty(quantity, tolerance, case, results) / scale)
+
+
+def expanded_uncertainty(
+    quantity: Quantity, tolerance: Derived, case: Case, results: Results
+) -> float:
+    """2 √(u_num² + u_ref²), in the unit of the quantity; infinite where a level has no number."""
     values = [quantity.measure(results[label]) for label in tolerance.levels]
     if not all(map(math.isfinite, values)):
-        return tolerance.cap
+        return math.inf
     u_num = numerical_uncertainty(_spacings(case, tolerance.levels), values, tolerance.order)
-    return min(tolerance.cap, COVERAGE * math.hypot(u_num, quantity.reference.uncertainty) / scale)
+    return COVERAGE * math.hypot(u_num, quantity.reference.uncertainty)
 
 
-def judge_order(study: OrderOfConvergence, case: Case, results: Results) -> Verdict:
+def judge_order(study: OrderOfConvergence | OrderOfChange, case: Case, results: Results) -> Verdict:
     """The observed order against the expected one, or INCONCLUSIVE where it is not well known."""
-    errors = [study.error(results[label]) for label in study.levels]
-    known = all(math.isfinite(error) and error > 0 for error in errors)
-    observed = observed_order(_spacings(case, study.levels), errors) if known else None
-    difference = math.nan if observed is None else abs(observed.order - study.expected)
-    if observed is not None and observed.half_width > ORDER_WIDTH:
-        status = Status.INCONCLUSIVE
+    levels = [results[label] for label in study.levels]
+    if isinstance(study, OrderOfChange):
+        sizes = [study.size(level) for level in levels[:-1]]
+        errors = [study.change(*pair) for pair in pairwise(levels)]
     else:
-        status = Status.PASS if difference <= ORDER_WIDTH else Status.FAIL
+        sizes = _spacings(case, study.levels)
+        errors = [study.error(level) for level in levels]
+    known = all(math.isfinite(error) and error > 0 for error in errors)
+    observed = observed_order(sizes, errors) if known else None
+    difference = math.nan if observed is None else abs(observed.order - study.expected)
+    agrees = False if observed is None else observed.agrees_with(study.expected)
     return Verdict(
         name=study.name,
         run=f"{study.levels[0]} to {study.levels[-1]}",
@@ -123,10 +133,17 @@ def judge_order(study: OrderOfConvergence, case: Case, results: Results) -> Verd
         scale_name="1",
         tolerance_kind="order",
         because=f"an order is judged where its 95 % interval is no wider than ± {ORDER_WIDTH}; "
-        f"{len(study.levels)} grids",
-        status=status,
+        f"{len(study.levels)} levels",
+        status=order_status(agrees),
         interval=None if observed is None else observed.half_width,
     )
+
+
+def order_status(agrees: bool | None) -> Status:
+    """The verdict on an order; None where it is not known well enough."""
+    if agrees is None:
+        return Status.INCONCLUSIVE
+    return Status.PASS if agrees else Status.FAIL
 
 
 def judge_residuals(case: Case, results: Results) -> Verdict:
@@ -156,7 +173,7 @@ def judge_residuals(case: Case, results: Results) -> Verdict:
     )
 
 
-def unsolved(run: Run, message: str) -> Verdict:
+def unsolved(run: Run | SectionRun, message: str) -> Verdict:
     """The verdict on a run that the solver gave up."""
     return Verdict(
         name="solved",
@@ -183,4 +200,4 @@ def finite(value: float) -> float | None:
 
 
 def _spacings(case: Case, levels: tuple[str, ...]) -> list[float]:
-    return [max(case.run(label).grid.spacing) for label in levels]
+    return [case.run(label).spacing for label in levels]

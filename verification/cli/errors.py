@@ -24,9 +24,10 @@ DISK_FULL = {errno.ENOSPC, errno.EDQUOT, errno.EFBIG}
 def exit_code(error: Exception) -> ExitCode:
     """The exit code that stands for this kind of failure."""
     from contact_scene import SceneError
+    from verification.regression.refusal import BaselineRefused
     from verification.run_output.run_directory import OutputRefused
 
-    if isinstance(error, SceneError | OutputRefused):
+    if isinstance(error, SceneError | OutputRefused | BaselineRefused):
         return ExitCode.INVALID
     if isinstance(error, MemoryError):
         return ExitCode.RESOURCES_REFUSED

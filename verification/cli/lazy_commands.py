@@ -32,6 +32,8 @@ COMMANDS: dict[str, LazyCommand] = {
         "frf": "Tabulate and plot the surface FRF of the lower body of a scene.",
         "stress": "Compute displacement and stress below the surface.",
         "verify": "Measure the accuracy against closed forms and write the report.",
+        "compare": "Say what changed since the numbers that were accepted, or since a report.",
+        "baseline": "List the accepted numbers, or accept those of a report.",
         "study": "Compute a study on a pool of processes and write its page.",
         "report": "Render the report again from recorded results.",
         "schema": "Print the JSON Schema of a scene file, a summary or a report.",

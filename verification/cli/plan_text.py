@@ -16,11 +16,22 @@ def work(plan: Plan, grid: SurfaceGrid, asked: SurfaceDiscretisation) -> Iterato
     chosen = f" ({' and '.join(left_open)} chosen)" if left_open else ""
     yield "grid", grid_text(grid) + chosen
     yield "tolerance", f"{asked.tolerance:.3g}"
-    yield "increments", _increments(plan.increments)
+    yield "increments", increments_text(plan.increments)
+    if any(step.path_matters for step in plan.path):
+        yield "path accuracy", f"{asked.path_accuracy:.3g}, where the scene names no increments"
     yield "memory", f"about {estimated_bytes(grid, plan) / 2**20:.0f} MiB"
 
 
-def _increments(counts: tuple[int, ...]) -> str:
+def reasons(plan: Plan) -> Iterator[tuple[str, str, str]]:
+    """Steps, what they are cut into and why; the beginning of a long history."""
+    for number, step in enumerate(plan.path[:MOST_STEPS_SHOWN], start=1):
+        yield str(number), str(step.count), step.why
+    if len(plan.path) > MOST_STEPS_SHOWN:
+        yield "…", "", ""
+
+
+def increments_text(counts: tuple[int, ...]) -> str:
+    """How many, and of a short history how many in every step."""
     if len(counts) == 1:
         return str(counts[0])
     shown = " + ".join(map(str, counts[:MOST_STEPS_SHOWN]))

@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from verification.cli.errors import ExitCode
+from verification.cli.report_file import read_report
 
 
 def report(
@@ -21,19 +21,9 @@ def report(
     For a report of an earlier version, or one of which only report.json was kept. Exit code 2 if
     there is none, or none that this version can read.
     """
-    from verification.report.files import PAGE, RECORD, refuse_if_unwritable, write_report
-    from verification.report.record import load_report
+    from verification.report.files import PAGE, refuse_if_unwritable, write_report
 
-    record = directory / RECORD
-    if not record.is_file():
-        typer.echo(f"error: {record} does not exist; 'slipstick verify' makes it", err=True)
-        raise typer.Exit(ExitCode.INVALID)
-    try:
-        loaded = load_report(record)
-    except ValueError as error:
-        reason = str(error).splitlines()[0]
-        typer.echo(f"error: {record} is not a report of this version: {reason}", err=True)
-        raise typer.Exit(ExitCode.INVALID) from None
+    loaded = read_report(directory)
     refuse_if_unwritable(directory)
     write_report(loaded, directory)
     typer.echo(f"report: {directory / PAGE}")

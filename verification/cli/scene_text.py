@@ -82,15 +82,18 @@ def _changes(ramp: LoadRamp) -> Iterator[str]:
     """What moves within a step; what is held goes without saying."""
     from contact_scene import ControlKind
 
-    by_force = ramp.normal.kind is ControlKind.FORCE
-    if ramp.normal.start != ramp.normal.end:
-        name, unit = ("normal force", "N") if by_force else ("approach", "m")
-        yield f"{name} {_from(ramp.normal.start, unit)}to {quantity(ramp.normal.end, unit, 6)}"
-    by_force = ramp.tangential.kind is ControlKind.FORCE
-    if ramp.tangential.start != ramp.tangential.end:
-        name, unit = ("tangential force", "N") if by_force else ("tangential shift", "m")
-        yield f"{name} {_from(ramp.tangential.start, unit)}to {_vector(ramp.tangential.end, unit)}"
-    if ramp.normal.start == ramp.normal.end and ramp.tangential.start == ramp.tangential.end:
+    moves = False
+    for control, force, displacement in (
+        (ramp.normal, ("normal force", "N"), ("approach", "m")),
+        (ramp.tangential, ("tangential force", "N"), ("tangential shift", "m")),
+        (ramp.twisting, ("torque", "N m"), ("twist", "rad")),
+        (ramp.tilting, ("moment", "N m"), ("tilt", "rad")),
+    ):
+        name, unit = force if control.kind is ControlKind.FORCE else displacement
+        if control.start != control.end:
+            moves = True
+            yield f"{name} {_from(control.start, unit)}to {_load(control.end, unit)}"
+    if not moves:
         yield "held"
 
 
@@ -98,8 +101,11 @@ def _from(start: float | tuple[float, float] | None, unit: str) -> str:
     """Where a ramp starts, if that is known before solving and not the unloaded state."""
     if start is None or start in (0.0, (0.0, 0.0)):
         return ""
-    text = _vector(start, unit) if isinstance(start, tuple) else quantity(start, unit, 6)
-    return f"from {text} "
+    return f"from {_load(start, unit)} "
+
+
+def _load(value: float | tuple[float, float], unit: str) -> str:
+    return _vector(value, unit) if isinstance(value, tuple) else quantity(value, unit, 6)
 
 
 def _vector(vector: tuple[float, float], unit: str) -> str:
@@ -112,3 +118,4 @@ def _discretisation(discretisation: SurfaceDiscretisation) -> Iterator[Line]:
     yield "cells", "chosen" if cells is None else f"{cells[0]} x {cells[1]}"
     yield "window", "chosen" if window is None else _value("window", window)
     yield "tolerance", f"{discretisation.tolerance:.3g}"
+    yield "path accuracy", f"{discretisation.path_accuracy:.3g}"

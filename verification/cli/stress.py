@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from verification.cli.scene_options import SetOption
+from verification.cli.solver_option import SolverName, SolverOption
 
 if TYPE_CHECKING:
     from contact_scene import Body
@@ -60,15 +61,28 @@ def stress(
         bool, typer.Option("--figures/--no-figures", help="Draw figures, or leave them out.")
     ] = True,
     overrides: SetOption = None,
+    solver: SolverOption = SolverName.SEMI_ANALYTICAL,
 ) -> None:
     """Stress in layers and substrate: maxima, sections, lines, and both sides of interfaces.
 
     Writes stress.json, tables (CSV), the section y = 0 for ParaView (VTU) and figures into DIR.
     """
+    _refuse_file_in_the_way(output)
+    if _is_on_section(source, solver):
+        from verification.cli.section_stress import stress_on_section
+
+        if depths is not None or volume:
+            raise typer.BadParameter("finite elements give the stress at their nodes in one plane: "
+                                     "leave --depths and --volume out")  # fmt: skip
+        if source.is_dir() and overrides:
+            raise typer.BadParameter("--set changes a scene, and this is a run that was solved")
+        stress_on_section(
+            source, output, step, solver, overrides or [], indenter=indenter, figures=figures
+        )
+        return
     from semi_analytical.stress import interfaces, subsurface
     from verification.run_output.stress_extremes import extremes
 
-    _refuse_file_in_the_way(output)
     state = _state(source, step, overrides or []).with_margin()
     which, body, sign = ("indenter", state.indenter, -1) if indenter else ("body", state.body, 1)
     if not body.deforms:
@@ -80,6 +94,15 @@ def stress(
     found = extremes(field, sides)
     _write(state, which, field, sides, found, output, figures, volume)
     _print(found, output)
+
+
+def _is_on_section(source: Path, solver: SolverName) -> bool:
+    """Whether finite elements solve the scene, or have solved the run."""
+    if not source.is_dir():
+        return solver.is_fem
+    from verification.run_output.section.stress_state import is_section_run
+
+    return is_section_run(source)
 
 
 def _refuse_file_in_the_way(output: Path) -> None:
@@ -107,8 +130,10 @@ def _solved(scene: Path, overrides: list[str]) -> Result:
     from verification.cli.progress import solve_progress
 
     contents = read_scene_file(scene, overrides)
-    with solve_progress(plan(contents.scene).increments) as observe:
-        return solve_discretised(contents.scene, contents.semi_analytical, progress=observe)
+    asked = contents.semi_analytical
+    decided = plan(contents.scene, asked.path_accuracy)
+    with solve_progress(decided.increments) as observe:
+        return solve_discretised(contents.scene, asked, progress=observe, plan=decided)
 
 
 def _levels(body: Body, depths: str | None, contact_radius: float) -> tuple[Level, ...]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shlex
 from enum import StrEnum
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
@@ -9,12 +10,16 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from verification.cli.errors import ExitCode
+from verification.cli.scene_options import SetOption
+from verification.cli.scheduler_option import SchedulerOption, workers_at
 
 if TYPE_CHECKING:
+    from verification.studies.running.case_pool import Workers
     from verification.studies.running.record import StudyRecord
     from verification.studies.running.study import Settings, Study
 
 LEAST_CELLS = 16
+LEAST_LEVELS, MOST_LEVELS = 4, 10
 
 
 class LevelName(StrEnum):
@@ -28,6 +33,34 @@ class LevelName(StrEnum):
 def study(
     name: Annotated[
         str | None, typer.Argument(metavar="[NAME]", help="The study; --list names them.")
+    ] = None,
+    scene: Annotated[
+        Path | None,
+        typer.Argument(
+            metavar="[SCENE]",
+            show_default=False,
+            help="Scene file (TOML) of the studies that refine: increments and mesh.",
+        ),
+    ] = None,
+    overrides: SetOption = None,
+    step: Annotated[
+        int | None,
+        typer.Option(
+            metavar="N",
+            min=1,
+            show_default=False,
+            help="Loading step of SCENE at whose end quantities are read; the last if absent.",
+        ),
+    ] = None,
+    levels: Annotated[
+        int | None,
+        typer.Option(
+            metavar="N",
+            min=LEAST_LEVELS,
+            max=MOST_LEVELS,
+            show_default=False,
+            help="Levels of refinement of SCENE; 4, 5 or 6 by --level if absent.",
+        ),
     ] = None,
     output: Annotated[
         Path | None,
@@ -54,6 +87,7 @@ def study(
     workers: Annotated[
         int, typer.Option("--workers", metavar="N", min=1, help="Processes at a time.")
     ] = 2,
+    scheduler: SchedulerOption = None,
     list_studies: Annotated[
         bool, typer.Option("--list", help="List the studies and stop.")
     ] = False,
@@ -65,31 +99,42 @@ def study(
     failed or a case was lost.
     """  # fmt: skip
     from verification.cases.case import Level
-    from verification.studies.catalogue import STUDIES
+    from verification.studies.catalogue import SCENE_STUDIES, STUDIES
     from verification.studies.running.study import Settings
 
     if list_studies:
         from verification.cli.terminal import print_table
 
-        rows = ((known.name, known.title) for known in STUDIES.values())
+        rows = [(known.name, known.title) for known in STUDIES.values()]
+        rows += [(f"{known} SCENE", title) for known, (title, _) in SCENE_STUDIES.items()]
         print_table(("study", "title"), rows)
         return
-    if name not in STUDIES:
-        known = ", ".join(STUDIES)
+    if name not in STUDIES and name not in SCENE_STUDIES:
+        known = ", ".join([*STUDIES, *SCENE_STUDIES])
         problem = "name a study" if name is None else f"no study is called '{name}'"
         raise typer.BadParameter(f"{problem}; there are {known}")
+    if (scene is None) == (name in SCENE_STUDIES):
+        problem = "needs a scene file" if scene is None else "takes no scene file"
+        raise typer.BadParameter(f"study {name} {problem}")
     if cells is not None and cells % 2:
         raise typer.BadParameter(f"--cells {cells} is odd, and half of them are needed too")
-    directory = output or Path("out") / f"study-{name}-{level}"
-    settings = Settings(Level[level.name], cells)
-    record = _studied(STUDIES[name], settings, _command(name, level, cells), directory, workers)
+    settings = Settings(Level[level.name], cells, levels)
+    if scene is None:
+        chosen = STUDIES[name]
+        directory = output or Path("out") / f"study-{name}-{level}"
+    else:
+        chosen = _scene_study(name, scene, overrides or [], step, settings)
+        directory = output or Path("out") / f"study-{name}-{scene.stem}-{level}"
+    command = _command(name, level, cells, scene, overrides or [], step, levels)
+    pool = workers_at(scheduler, workers)
+    record = _studied(chosen, settings, command, directory, pool)
     _print_outcome(record, directory)
     if record.status == "fail":
         raise typer.Exit(ExitCode.ACCURACY)
 
 
 def _studied(
-    study: Study, settings: Settings, command: str, directory: Path, workers: int
+    study: Study, settings: Settings, command: str, directory: Path, workers: int | Workers
 ) -> StudyRecord:
     from verification.cli.study_progress import study_progress
     from verification.report.files import refuse_if_unwritable
@@ -121,9 +166,37 @@ def _studied(
     return record
 
 
-def _command(name: str, level: LevelName, cells: int | None) -> str:
-    finest = "" if cells is None else f" --cells {cells}"
-    return f"slipstick study {name} --level {level}{finest}"
+def _scene_study(
+    name: str, scene: Path, overrides: list[str], step: int | None, settings: Settings
+) -> Study:
+    """The study of a scene, once it is clear that it can be made as asked."""
+    from verification.studies.catalogue import SCENE_STUDIES
+    from verification.studies.refinement.level_run import CannotRefine
+
+    _, study_of = SCENE_STUDIES[name]
+    try:
+        study = study_of(scene, overrides, step)
+        study.cases(settings)
+    except CannotRefine as error:
+        raise typer.BadParameter(str(error)) from None
+    return study
+
+
+def _command(
+    name: str,
+    level: LevelName,
+    cells: int | None,
+    scene: Path | None,
+    overrides: list[str],
+    step: int | None,
+    levels: int | None,
+) -> str:
+    """The command that makes the same study again."""
+    words = ["slipstick", "study", name, *([] if scene is None else [str(scene)])]
+    words += ["--level", level.value, *(w for change in overrides for w in ("--set", change))]
+    for option, value in (("--cells", cells), ("--step", step), ("--levels", levels)):
+        words += [] if value is None else [option, str(value)]
+    return shlex.join(words)
 
 
 def _print_outcome(record: StudyRecord, directory: Path) -> None:

@@ -26,6 +26,8 @@ def study_progress(cases: int) -> Iterator[Observer]:
     started = time.monotonic()
 
     def line(end: CaseEnd, done: int) -> None:
+        if end.damaged:
+            console.print(f"{end.damaged}; computed again", markup=False)
         console.print(
             f"{done}/{cases} {_how(end)} {end.case.name}, {time.monotonic() - started:.0f} s",
             markup=False,
@@ -50,6 +52,8 @@ def study_progress(cases: int) -> Iterator[Observer]:
 
         def advance(end: CaseEnd) -> None:
             bar.update(task, advance=1, description=end.case.name)
+            if end.damaged:
+                console.print(f"{end.damaged}; computed again", markup=False)
             if end.lost is not None:
                 console.print(f"LOST {end.case.name}: {end.lost.reason}", markup=False)
 

@@ -15,6 +15,11 @@ def print_pairs(pairs: Iterable[tuple[str, str]]) -> None:
         typer.echo(f"  {typer.style(word.ljust(width), bold=True)}  {harmless(meaning)}")
 
 
+def tell(text: str) -> None:
+    """A line for people, apart from what the command puts out."""
+    typer.echo(harmless(text), err=True)
+
+
 def harmless(text: str) -> str:
     """The text without control characters: a scene must not steer the terminal that shows it."""
     return "".join(c if c.isprintable() else ascii(c)[1:-1] for c in text)

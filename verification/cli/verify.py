@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import time
 from enum import StrEnum
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
@@ -10,11 +9,15 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from verification.cli.errors import ExitCode
+from verification.cli.scheduler_option import SchedulerOption, workers_at
 
 if TYPE_CHECKING:
     from verification.cases.case import Case
-    from verification.cases.outcome import CaseOutcome
     from verification.report.record import Report
+    from verification.studies.running.case_pool import Workers
+
+
+MOST_WARNINGS = 20
 
 
 class LevelName(StrEnum):
@@ -46,14 +49,43 @@ def verify(
     list_cases: Annotated[
         bool, typer.Option("--list", help="List the cases of the level and stop.")
     ] = False,
+    workers: Annotated[
+        int | None,
+        typer.Option(
+            "--workers",
+            metavar="N",
+            min=1,
+            show_default=False,
+            help="Cases at a time, each in a process of its own; one per core if absent.",
+        ),
+    ] = None,
+    fresh: Annotated[
+        bool, typer.Option("--fresh", help="Compute again what earlier runs have left in DIR.")
+    ] = False,
+    scheduler: SchedulerOption = None,
+    studies: Annotated[
+        Path | None,
+        typer.Option(
+            "--studies",
+            metavar="DIR",
+            show_default=False,
+            help="Folder whose studies the report shows; reports/studies and out if absent.",
+        ),
+    ] = None,
 ) -> None:
     """Measure the accuracy against closed forms and write the report.
 
-    Exit code 0 if nothing failed, 1 if a verdict failed. DIR receives index.html (the report, to
-    be opened in a browser), report.json, junit.xml and summary.md.
+    Exit code 0 if nothing failed, 1 if a verdict failed; what is new since the baseline is printed
+    and is no failure ('slipstick compare' has an exit code for it). DIR receives index.html (the
+    report, to be opened in a browser), report.json, junit.xml and summary.md.
+
+    Every finished case leaves a record in DIR/cases: the same command goes on where a killed one
+    stopped, and computes again what other sources or libraries made. A case whose worker dies has
+    failed; the others are finished.
     """  # fmt: skip
     from verification.cases.case import Level
     from verification.cases.catalogue import catalogue, choose
+    from verification.studies.running.local_workers import cores
 
     chosen = Level[level.name]
     try:
@@ -65,50 +97,56 @@ def verify(
         _print_list(cases)
         return
     directory = output or Path("reports") / (f"{level}-selection" if names else level)
-    report = _verified(cases, level, names or [], directory)
+    places = None if studies is None else (studies,)
+    pool = workers_at(scheduler, workers or cores())
+    report = _verified(cases, level, names or [], directory, pool, places, fresh=fresh)
     _print_outcome(report, directory)
     if report.failures:
         raise typer.Exit(ExitCode.ACCURACY)
 
 
 def _verified(
-    cases: tuple[Case, ...], level: LevelName, names: list[str], directory: Path
+    cases: tuple[Case, ...],
+    level: LevelName,
+    names: list[str],
+    directory: Path,
+    workers: int | Workers,
+    places: tuple[Path, ...] | None,
+    *,
+    fresh: bool,
 ) -> Report:
     from verification.benchmarks import benchmarks
+    from verification.cli.judged_cases import judged
+    from verification.regression.baseline_files import read_baselines
+    from verification.regression.comparison import compared
     from verification.report.files import refuse_if_unwritable, write_report
     from verification.report.omissions import OMISSIONS
     from verification.report.provenance import provenance
     from verification.report.record import Report, count
+    from verification.report.sections import PLACES, stored_records
     from verification.run_output.stop_signals import cleaned_up_when_stopped
 
     with cleaned_up_when_stopped():
         refuse_if_unwritable(directory)
-        outcomes, seconds = _judged(cases)
+        baselines = read_baselines()  # a damaged one is better known before hours of work
+        try:
+            studies = stored_records(PLACES if places is None else places)
+        except ValueError as error:
+            typer.echo(f"error: {error}; --studies names another folder", err=True)
+            raise typer.Exit(ExitCode.INVALID) from None
+        outcomes, seconds = judged(cases, level.name, directory, workers, fresh=fresh)
         command = " ".join(["slipstick verify", *names, f"--level {level}"])
-        report = Report(
+        measured = Report(
             level=level,
             counts=count(outcomes),
             cases=outcomes,
             omissions=OMISSIONS,
             provenance=provenance(command, seconds, () if names else benchmarks()),
+            studies=studies,
         )
+        report = compared(measured, baselines)
         write_report(report, directory)
     return report
-
-
-def _judged(cases: tuple[Case, ...]) -> tuple[tuple[CaseOutcome, ...], dict[str, float]]:
-    from verification.cases.judgement import judge, solve_run
-    from verification.cli.verify_progress import verify_progress
-
-    outcomes: list[CaseOutcome] = []
-    seconds: dict[str, float] = {}
-    with verify_progress(sum(len(case.runs) for case in cases)) as progress:
-        for case in cases:
-            started = time.perf_counter()
-            outcomes.append(judge(case, progress.watching(case, solve_run)))
-            seconds[case.name] = time.perf_counter() - started
-            progress.finished(outcomes[-1], seconds[case.name])
-    return tuple(outcomes), seconds
 
 
 def _print_list(cases: tuple[Case, ...]) -> None:
@@ -119,11 +157,19 @@ def _print_list(cases: tuple[Case, ...]) -> None:
 
 
 def _print_outcome(report: Report, directory: Path) -> None:
+    from verification.cases.change import ChangeKind
+    from verification.report.changes import change_rows, changes_text
     from verification.report.files import PAGE
     from verification.report.page import SYMBOLS, WORDS
     from verification.report.summary_text import counts_text, failure_lines
 
     for line in failure_lines(report):
         typer.echo(line)
+    rows = [row for row in change_rows(report) if row.kind is not ChangeKind.OUTSIDE]
+    for row in rows[:MOST_WARNINGS]:
+        typer.echo(f"WARN {row.line}")
+    if len(rows) > MOST_WARNINGS:
+        typer.echo(f"WARN and {len(rows) - MOST_WARNINGS} more: slipstick compare {directory}")
+    typer.echo(f"since the baseline: {changes_text(report)}")
     typer.echo(f"{SYMBOLS[report.status]} {WORDS[report.status]}: {counts_text(report)}")
     typer.echo(f"report: {directory / PAGE}")

@@ -5,13 +5,21 @@ from __future__ import annotations
 from xml.etree import ElementTree
 
 from verification.cases.outcome import CaseOutcome, Status, Verdict
+from verification.report.changes import case_rows
 from verification.report.numbers import failure_line
 from verification.report.record import Report
 
 
 def render_junit(report: Report) -> str:
-    """One suite per case, one test case per verdict; without times, which differ between runs."""
-    root = ElementTree.Element("testsuites", name=f"slipstick verify, {report.level}")
+    """One suite per case, one test case per verdict; without times, which differ between runs.
+
+    What is new since the baseline is text of its suite: it is no failure.
+    """
+    root = ElementTree.Element(
+        "testsuites", name=f"slipstick verify, {report.level}",
+        tests=str(sum(report.counts.values())), failures=str(report.counts[Status.FAIL]),
+        errors="0", skipped=str(report.counts[Status.INCONCLUSIVE]),
+    )  # fmt: skip
     for case in report.cases:
         suite = ElementTree.SubElement(
             root, "testsuite", name=case.name, tests=str(len(case.verdicts)),
@@ -20,6 +28,7 @@ def render_junit(report: Report) -> str:
         )  # fmt: skip
         for verdict in case.verdicts:
             _add(suite, case, verdict, report.level)
+        _add_changes(suite, case)
     ElementTree.indent(root)
     text = ElementTree.tostring(root, encoding="unicode")
     return f'<?xml version="1.0" encoding="UTF-8"?>\n{text}\n'
@@ -33,3 +42,11 @@ def _add(suite: ElementTree.Element, case: CaseOutcome, verdict: Verdict, level:
         ElementTree.SubElement(element, "failure", message=message).text = verdict.because
     elif verdict.status is Status.INCONCLUSIVE:
         ElementTree.SubElement(element, "skipped", message=f"inconclusive: {verdict.because}")
+
+
+def _add_changes(suite: ElementTree.Element, case: CaseOutcome) -> None:
+    lines = [row.line for row in case_rows(case) if row.kind.matters]
+    if case.baseline is None:
+        lines = ["no baseline yet"]
+    if lines:
+        ElementTree.SubElement(suite, "system-out").text = "\n".join(lines)

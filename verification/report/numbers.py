@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from verification.cases.change import Change
 from verification.cases.outcome import Verdict
 from verification.run_output.engineering_units import engineering_unit
 
 NOT_FINITE = "not finite"
+ROUNDING = 1e-12
 PERCENT_SHOWN_TO = 9.995
 
 
@@ -39,6 +41,12 @@ def clearance_text(verdict: Verdict) -> str:
     return f"{100 * part:.0f} %" if part < PERCENT_SHOWN_TO else f"{part:.3g} times"
 
 
+def uncertainty_text(verdict: Verdict) -> str:
+    """The reference's own uncertainty relative to what errors are; empty where it is rounding."""
+    part = (verdict.reference_uncertainty or 0.0) / verdict.scale
+    return f"± {plain(part, 2)}, " if part > ROUNDING else ""
+
+
 def order_text(verdict: Verdict) -> str:
     """An observed order with its interval."""
     if verdict.value is None or verdict.interval is None:
@@ -46,8 +54,13 @@ def order_text(verdict: Verdict) -> str:
     return f"{verdict.value:.2f} ± {verdict.interval:.2f}"
 
 
+def moved_text(change: Change) -> str:
+    """How far a number is from the recorded one, in units of what is allowed."""
+    return "–" if change.moved is None else f"{plain(change.moved, 2)} U"
+
+
 def failure_line(case: str, verdict: Verdict, level: str) -> str:
-    """What failed, where, by how much, and how to see it again."""
+    """What failed, where, by how much, since when, and how to see it again."""
     measured = value_text(verdict.value, verdict.unit)
     reference = value_text(verdict.reference, verdict.unit)
     allowed = value_text(verdict.allowed * verdict.scale, verdict.unit, 2)
@@ -56,6 +69,14 @@ def failure_line(case: str, verdict: Verdict, level: str) -> str:
     if verdict.name == "solved":
         text = verdict.meaning
     return (
-        f"FAIL {case}/{verdict.name} [{verdict.run}]: {text}; "
+        f"FAIL {case}/{verdict.name} [{verdict.run}]: {text}; {_was_text(verdict)}"
         f"reproduce: slipstick verify {case} --level {level}"
     )
+
+
+def _was_text(verdict: Verdict) -> str:
+    """The recorded value and the commit it is from, where there is one."""
+    change = verdict.regression
+    if change is None or not change.recorded:
+        return ""
+    return f"was {value_text(change.was, verdict.unit)} at {change.since}; "

@@ -8,18 +8,47 @@ import jinja2
 from markupsafe import Markup
 
 from verification.cases.chart import Chart
-from verification.cases.outcome import Status, Verdict
-from verification.report.numbers import clearance_text, order_text, plain, value_text
+from verification.cases.outcome import CaseOutcome, SceneRecord, Status, Verdict
+from verification.report.answers import answers
+from verification.report.changes import (
+    change_counts,
+    change_rows,
+    changes_text,
+    origins,
+    without_baseline,
+)
+from verification.report.numbers import (
+    clearance_text,
+    order_text,
+    plain,
+    uncertainty_text,
+    value_text,
+)
 from verification.report.record import Report
+from verification.report.sections import study_of, study_section
+from verification.report.shared_styles import with_shared_styles
+from verification.report.sketch import sketch_svg, thin_layers
 from verification.report.svg import inline_svg
 
 SYMBOLS = {Status.PASS: "✓", Status.FAIL: "✗", Status.INCONCLUSIVE: "?"}
 WORDS = {Status.PASS: "pass", Status.FAIL: "FAIL", Status.INCONCLUSIVE: "inconclusive"}
 
+# Cases whose sheets stand in another section than the others.
+PAPER, FREQUENCY_RESPONSE = "paper", "frf"
+PLACES = {
+    "paper_fretting_loop": PAPER,
+    "frf_laws": FREQUENCY_RESPONSE,
+    "layered_reference": FREQUENCY_RESPONSE,
+    "sampling_route": FREQUENCY_RESPONSE,
+}
+
+MANY_ROWS = 24  # a longer table is folded
+LONG_CELL = 18  # characters; a longer text is broken into lines
+
 
 def render_page(report: Report) -> str:
     """The report as HTML; equal records give equal text."""
-    return _environment().get_template("page.html").render(report=report)
+    return with_shared_styles(_environment().get_template("page.html").render(report=report))
 
 
 @cache
@@ -32,16 +61,46 @@ def _environment() -> jinja2.Environment:
         lstrip_blocks=True,
     )
     environment.filters.update(
-        value=value_text, plain=plain, clearance=clearance_text, order=order_text, svg=_figure
+        value=value_text, plain=plain, clearance=clearance_text, order=order_text,
+        uncertainty=uncertainty_text, svg=_figure,
+    )  # fmt: skip
+    environment.globals.update(
+        symbols=SYMBOLS,
+        words=WORDS,
+        Status=Status,
+        MANY_ROWS=MANY_ROWS,
+        LONG_CELL=LONG_CELL,
+        bar=_bar,
+        sheets=_sheets,
+        sketch=_sketch,
+        thin=_thin,
+        kinds=_kinds,
+        budget=_budget,
+        references=_references,
+        answers=answers,
+        study_section=study_section,
     )
     environment.globals.update(
-        symbols=SYMBOLS, words=WORDS, Status=Status, bar=_bar, figures=_headline_figures
+        change_counts=change_counts,
+        change_rows=change_rows,
+        changes_text=changes_text,
+        origins=origins,
+        without_baseline=without_baseline,
     )
     return environment
 
 
-def _figure(chart: Chart) -> Markup:
-    return Markup(inline_svg(chart))  # our own drawing, escaped where it holds text
+def _figure(chart: Chart, prefix: str = "") -> Markup:
+    return Markup(inline_svg(chart, prefix))  # our own drawing, escaped where it holds text
+
+
+def _sketch(scene: SceneRecord, name: str) -> Markup:
+    assert scene.sketch is not None
+    return Markup(sketch_svg(scene.sketch, name, scene.title))
+
+
+def _thin(scene: SceneRecord) -> bool:
+    return scene.sketch is not None and thin_layers(scene.sketch)
 
 
 def _bar(verdict: Verdict) -> float:
@@ -50,6 +109,38 @@ def _bar(verdict: Verdict) -> float:
     return 100.0 if part is None else round(min(100.0, 100 * part), 1)
 
 
-def _headline_figures(report: Report) -> list[Chart]:
-    """The paper's figures, which have a section of their own."""
-    return [c for case in report.cases for c in case.charts if c.name.startswith("paper_figure")]
+def _sheets(report: Report, place: str) -> list[CaseOutcome]:
+    """The cases whose sheets belong to a section; most belong to `cases`."""
+    return [case for case in report.cases if PLACES.get(case.name, "cases") == place]
+
+
+def _kinds(report: Report) -> dict[str, dict[Status, int]]:
+    """Verdicts by what they judge, and how they ended."""
+    verdicts = [verdict for case in report.cases for verdict in case.verdicts]
+    kinds = {
+        "against a reference": [v for v in verdicts if v.tolerance_kind != "order"],
+        "order of convergence": [v for v in verdicts if v.tolerance_kind == "order"],
+    }
+    return {
+        kind: {status: sum(v.status is status for v in of) for status in Status}
+        for kind, of in kinds.items()
+    }
+
+
+def _references(case: CaseOutcome) -> dict[str, list[str]]:
+    """Where references are from and why tolerances are what they are, each once, with verdicts."""
+    found: dict[str, list[str]] = {}
+    for v in case.verdicts:
+        text = (
+            f"Reference: {v.reference_kind}; {v.source}. Tolerance {v.tolerance_kind}, relative to "
+            f"{v.scale_name}: {v.because}."
+        )
+        found.setdefault(text, []).append(f"{v.name}, {v.run}")
+    return found
+
+
+def _budget(report: Report, case: CaseOutcome) -> Chart | None:
+    """The error budget of a case, if its study has one of it."""
+    record = study_of(report, "error-budget")
+    charts = () if record is None else record.conclusion.charts
+    return next((chart for chart in charts if chart.name == f"budget_{case.name}"), None)

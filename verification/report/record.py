@@ -6,53 +6,12 @@ from typing import Any
 
 from contact_scene.description import Description
 from verification.cases.outcome import CaseOutcome, Status, Verdict
+from verification.report.provenance_record import Benchmark, Provenance
+from verification.studies.running.record import StudyRecord
+
+__all__ = ["Benchmark", "Provenance", "Report"]
 
 REPORT_VERSION = 1
-
-
-FAR_OVER = 2.0  # times the target
-
-
-class Benchmark(Description):
-    """A measured cost beside its target."""
-
-    name: str
-    meaning: str
-    unit: str
-    """s, or nothing for a ratio."""
-
-    value: float
-    target: float
-
-    @property
-    def outcome(self) -> str:
-        """In words: within, over, or far over the target."""
-        if self.value <= self.target:
-            return "within"
-        return "over" if self.value <= FAR_OVER * self.target else "far over"
-
-
-class Provenance(Description):
-    """Who made the numbers, when, on what, and how long it took."""
-
-    program_version: str
-    commit: str | None
-    """Commit of the source; null outside a repository."""
-
-    changed: bool
-    """Whether the source differed from that commit."""
-
-    command: str
-    date: str
-    """Coordinated universal time, ISO 8601."""
-
-    machine: dict[str, str | int | None]
-    libraries: dict[str, str | None]
-    seconds: dict[str, float]
-    """Wall seconds by case."""
-
-    benchmarks: tuple[Benchmark, ...] = ()
-    """Costs of this machine at this moment; none if only some cases were run."""
 
 
 class Report(Description):
@@ -68,6 +27,8 @@ class Report(Description):
     """What is not verified, and known limits."""
 
     provenance: Provenance
+    studies: tuple[StudyRecord, ...] = ()
+    """Records of studies, each made by its own command."""
 
     @property
     def status(self) -> Status:

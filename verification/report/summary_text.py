@@ -5,9 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from verification.cases.outcome import CaseOutcome, Status
+from verification.report.changes import change_rows, changes_text, origins
 from verification.report.numbers import clearance_text, failure_line
 from verification.report.page import SYMBOLS, WORDS
 from verification.report.record import Report
+
+MOST_LINES = 40  # of failures, and of changes: a pull request's comment holds 65 kB
 
 
 def counts_text(report: Report) -> str:
@@ -35,8 +38,23 @@ def _lines(report: Report) -> Iterator[str]:
     yield f"{counts_text(report)}, in {len(report.cases)} cases."
     if report.failures:
         yield ""
-        yield from (f"- `{line}`" for line in failure_lines(report))
+        lines = failure_lines(report)
+        yield from (f"- `{line}`" for line in lines[:MOST_LINES])
+        if len(lines) > MOST_LINES:
+            yield f"- and {len(lines) - MOST_LINES} more"
     yield ""
+    yield from _changes(report)
+    yield ""
+    if report.studies:
+        yield (
+            "Studies: "
+            + ", ".join(
+                f"{study.name} {SYMBOLS[study.status]} {WORDS[study.status]} ({study.level})"
+                for study in report.studies
+            )
+            + "."
+        )
+        yield ""
     yield "| case | verdict | verdicts | closest to its limit |"
     yield "| --- | --- | --- | --- |"
     for case in report.cases:
@@ -51,3 +69,24 @@ def _closest(case: CaseOutcome) -> str:
         return "–"
     worst = max(known, key=lambda verdict: verdict.clearance or 0.0)
     return f"{worst.name} [{worst.run}]: {clearance_text(worst)}"
+
+
+def _changes(report: Report) -> Iterator[str]:
+    """What is new since the baseline."""
+    yield f"Since the baseline: {changes_text(report)}."
+    for origin, names in origins(report):
+        text = f"- {len(names)} of the cases: {origin.name}, {origin.date[:10]}, {origin.reason}"
+        yield f"{text}; differs here: {'; '.join(origin.differs)}" if origin.differs else text
+    rows = change_rows(report)
+    if not rows:
+        return
+    yield ""
+    yield "| change | quantity | was | is | moved by | remark |"
+    yield "| --- | --- | --- | --- | --- | --- |"
+    for row in rows[:MOST_LINES]:
+        quantity = f"{row.case}/{row.name} [{row.run}]"
+        cells = (row.kind, quantity, row.was, row.now, row.moved, row.remark)
+        yield f"| {' | '.join(cell.replace('|', '/') for cell in cells)} |"
+    if len(rows) > MOST_LINES:
+        yield ""
+        yield f"and {len(rows) - MOST_LINES} more; `slipstick compare` lists them."

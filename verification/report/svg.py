@@ -9,6 +9,7 @@ from html import escape
 import matplotlib
 
 from verification.cases.chart import Chart
+from verification.report.compact_svg import compact
 from verification.report.drawing import INK, REFERENCE_COLOUR, draw
 from verification.run_output.figures import style
 
@@ -21,8 +22,11 @@ VARIABLES = {
 NO_METADATA = {"Date": None, "Creator": None, "Format": None, "Type": None}
 
 
-def inline_svg(chart: Chart) -> str:
-    """The chart as an SVG element; equal charts give equal text."""
+def inline_svg(chart: Chart, prefix: str = "") -> str:
+    """The chart as an SVG element; equal charts give equal text.
+
+    prefix  of its ids, where a page shows a chart twice
+    """
     with style.figure_style():
         # Text stays text: it can be searched, read out, and takes the page's colour.
         matplotlib.rcParams.update({"svg.fonttype": "none", "svg.hashsalt": chart.name})
@@ -30,26 +34,24 @@ def inline_svg(chart: Chart) -> str:
         draw(chart).savefig(buffer, format="svg", metadata=NO_METADATA)
     svg = buffer.getvalue()
     svg = svg[svg.index("<svg") :].strip()
-    svg = re.sub(r"<metadata>.*?</metadata>", "", svg, flags=re.DOTALL)
-    svg = _with_own_names(svg, chart.name)
+    name = _id(prefix + chart.name)
+    svg = compact(svg, name)
     for colour, variable in VARIABLES.items():
         svg = re.sub(re.escape(colour), f"var({variable})", svg, flags=re.IGNORECASE)
-    return _labelled(svg, chart)
+    return _labelled(svg, chart, name)
 
 
-def _with_own_names(svg: str, name: str) -> str:
-    """Prefix every id, so that two figures of a page cannot refer to each other's parts."""
-    svg = re.sub(r'\bid="', f'id="{name}-', svg)
-    svg = re.sub(r'(xlink:href|href)="#', rf'\1="#{name}-', svg)
-    return svg.replace("url(#", f"url(#{name}-")
+def _id(name: str) -> str:
+    """A name that can stand in an attribute and in a reference to it."""
+    return re.sub(r"[^A-Za-z0-9_.-]", "_", name)
 
 
-def _labelled(svg: str, chart: Chart) -> str:
-    """A name for those who do not see the figure, and no fixed size."""
+def _labelled(svg: str, chart: Chart, name: str) -> str:
+    """A name and a text for those who do not see the figure, and no fixed size."""
     opening, rest = svg.split(">", 1)
     opening = re.sub(r'\s(width|height)="[^"]*"', "", opening)
-    title_id = f"{chart.name}-name"
     return (
-        f'{opening} role="img" aria-labelledby="{title_id}">'
-        f'<title id="{title_id}">{escape(chart.title)}. {escape(chart.caption)}</title>{rest}'
+        f'{opening} role="img" aria-labelledby="{name}-name {name}-text">'
+        f'<title id="{name}-name">{escape(chart.title)}</title>'
+        f'<desc id="{name}-text">{escape(chart.caption)}</desc>{rest}'
     )

@@ -1,7 +1,7 @@
 """`result.h5`: every field at every increment, with units and meaning next to the numbers."""
 
 import io
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -10,6 +10,7 @@ import h5py
 import numpy as np
 
 from semi_analytical import Increment, Result
+from semi_analytical.fretting import FrettingCycle
 from verification.run_output.file_names import FIELDS
 
 # Level 1 with shuffled bytes is within a tenth of the size of level 9 on these fields, at a
@@ -37,6 +38,12 @@ FIELD_QUANTITIES = (
     Quantity("shear", "Pa", "tangential traction (x, y) on the lower body", lambda i: i.shear),
     Quantity("slip", "m", "slip (x, y) of the lower body relative to the indenter, since the start",
              lambda i: i.slip),
+    Quantity("slip_increment", "m", "slip (x, y) within the increment", lambda i: i.slip_increment),
+    Quantity("slip_distance", "m", "way slipped since the start", lambda i: i.slip_distance),
+    Quantity("dissipation", "J/m^2", "energy per area lost to friction since the start",
+             lambda i: i.dissipation),
+    Quantity("dissipation_increment", "J/m^2", "the same within the increment",
+             lambda i: i.dissipation_increment),
     Quantity("in_stick", "", "whether the cell is in contact and sticks", lambda i: i.in_stick),
 )  # fmt: skip
 
@@ -47,6 +54,11 @@ SCALAR_QUANTITIES = (
     Quantity("approach", "m", "of the bodies since first touch", lambda i: i.approach),
     Quantity("tangential_force", "N", "(x, y), of the indenter", lambda i: i.tangential_force),
     Quantity("tangential_shift", "m", "(x, y), of the indenter", lambda i: i.tangential_shift),
+    Quantity("torque", "N m", "about z, of the indenter", lambda i: i.torque),
+    Quantity("twist", "rad", "about z, of the indenter", lambda i: i.twist),
+    Quantity("moment", "N m", "(x, y), sums of pressure times y and x", lambda i: i.moment),
+    Quantity("tilt", "rad", "(x, y), slopes that close the gap at positive y and x",
+             lambda i: i.tilt),
     Quantity("contact_area", "m^2", "with parts of cells", lambda i: i.contact_area),
     Quantity("contact_radius", "m", "sqrt(contact_area / pi)", lambda i: i.contact_radius),
     Quantity("stick_area", "m^2", "with parts of cells", lambda i: i.stick_area),
@@ -54,14 +66,32 @@ SCALAR_QUANTITIES = (
     Quantity("peak_pressure", "Pa", "largest pressure of a cell", lambda i: i.peak_pressure),
     Quantity("dissipated_energy", "J", "by friction, since the start",
              lambda i: i.dissipated_energy),
+    Quantity("elastic_energy", "J", "stored in both bodies", lambda i: i.elastic_energy),
+    Quantity("input_work", "J", "of forces and moments since the start, trapezoidal rule",
+             lambda i: i.input_work),
+    Quantity("unresolved_work", "J", "of the input work, what finite increments leave open",
+             lambda i: i.unresolved_work),
+    Quantity("energy_imbalance", "", "of the increment, over the largest energy so far",
+             lambda i: i.energy_imbalance),
     Quantity("worst_residual", "", "largest dimensionless residual", lambda i: i.residuals.worst),
     Quantity("iterations", "", "of the increment", lambda i: i.iterations),
     Quantity("convolutions", "", "of the increment", lambda i: i.convolutions),
 )  # fmt: skip
 
 
-def write_fields(result: Result, directory: Path) -> None:
-    """Write grid, scene, fields and scalars; equal results give equal bytes.
+CYCLE_FIELDS = (
+    ("dissipation", "J/m^2", "energy per area lost to friction in the cycle"),
+    ("slip_amplitude", "m", "half the range of slip in the cycle"),
+    ("largest_shear", "Pa", "largest shear in the cycle"),
+    ("ruiz_f1", "Pa m", "largest shear times slip amplitude"),
+    ("surface_tension", "Pa", "largest stress of the surface along the tangential force"),
+    ("ruiz_f2", "Pa^2 m", "ruiz_f1 times the surface tension, zero under compression"),
+)
+
+
+def write_fields(result: Result, cycles: Sequence[FrettingCycle], directory: Path) -> None:
+    """Write grid, scene, fields and scalars, and of the last cycle the fields; equal results give
+    equal bytes.
 
     Every dataset of `increments` has the increment as its first index and one chunk per increment,
     so that one of them can be read without the others. Effects that are off have no dataset.
@@ -81,7 +111,18 @@ def write_fields(result: Result, directory: Path) -> None:
             scalars = [quantity.of(increment) for increment in result.increments]
             if any(scalar is not None for scalar in scalars):
                 _write(group, quantity.name, _numbers(scalars), quantity.unit, quantity.meaning)
+        if cycles:
+            _write_cycle(file.create_group("last_cycle", track_order=False), cycles[-1])
     (directory / FIELDS).write_bytes(contents.getbuffer())
+
+
+def _write_cycle(group: Any, cycle: FrettingCycle) -> None:
+    group.attrs["start_step"], group.attrs["end_step"] = cycle.cycle.start, cycle.cycle.end
+    for name, unit, meaning in CYCLE_FIELDS:
+        values = getattr(cycle, name)
+        if values is not None:
+            dataset = group.create_dataset(name, data=values, track_times=False, **COMPRESSION)
+            _describe(dataset, unit, meaning)
 
 
 def _write_field(group: Any, quantity: Quantity, increments: tuple[Increment, ...]) -> None:

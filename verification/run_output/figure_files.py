@@ -1,12 +1,15 @@
 """The figures a scene calls for."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from pathlib import Path
 
 from matplotlib.figure import Figure
 
 from semi_analytical import Result
+from semi_analytical.fretting import FrettingCycle
 from verification.run_output import file_names
+from verification.run_output.figures.dissipation_map import dissipating, dissipation_map
+from verification.run_output.figures.fretting_map import fretting_map
 from verification.run_output.figures.hysteresis_plot import hysteresis_plot, moved
 from verification.run_output.figures.loading_plot import loading_plot
 from verification.run_output.figures.pressure_map import pressure_map
@@ -19,11 +22,14 @@ from verification.run_output.figures.style import figure_style, save
 FEWEST_POINTS = 3  # of a curve; with fewer there is only a line
 
 
-def write_figures(result: Result, directory: Path) -> None:
-    """Draw what the scene calls for; equal results give equal bytes on equal libraries."""
+def write_figures(result: Result, cycles: Sequence[FrettingCycle], directory: Path) -> None:
+    """Draw what the scene calls for, and the last cycle if there is one; equal results give equal
+    bytes on equal libraries."""
     with figure_style():
         for name, draw in _figures_called_for(result).items():
             save(draw(result), directory / name)
+        if cycles:
+            save(fretting_map(result, cycles[-1]), directory / file_names.FRETTING_FIGURE)
 
 
 def _figures_called_for(result: Result) -> dict[str, Callable[[Result], Figure]]:
@@ -34,6 +40,8 @@ def _figures_called_for(result: Result) -> dict[str, Callable[[Result], Figure]]
     if sheared(result.steps):
         figures[file_names.SHEAR_FIGURE] = shear_map
         figures[file_names.STICK_SLIP_FIGURE] = stick_slip_map
+    if dissipating(result.steps):
+        figures[file_names.DISSIPATION_FIGURE] = dissipation_map
     if len(moved(result.increments)) >= FEWEST_POINTS:
         figures[file_names.HYSTERESIS_FIGURE] = hysteresis_plot
     if len({increment.approach for increment in result.increments}) >= FEWEST_POINTS:

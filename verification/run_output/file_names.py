@@ -5,13 +5,17 @@ TIMING = "timing.json"
 FIELDS = "result.h5"
 PROFILES = "profiles.csv"
 INCREMENTS = "increments.csv"
+CYCLES = "cycles.csv"
 
 PRESSURE_FIGURE = "pressure.png"
 SHEAR_FIGURE = "shear.png"
 PROFILE_FIGURE = "profiles.png"
 STICK_SLIP_FIGURE = "stick_slip.png"
+SLIP_FIGURE = "slip.png"
 LOADING_FIGURE = "loading_curve.png"
 HYSTERESIS_FIGURE = "hysteresis.png"
+DISSIPATION_FIGURE = "dissipation.png"
+FRETTING_FIGURE = "fretting.png"
 
 RUN_FILES = (
     SUMMARY,
@@ -19,10 +23,14 @@ RUN_FILES = (
     FIELDS,
     PROFILES,
     INCREMENTS,
+    CYCLES,
     PRESSURE_FIGURE,
     SHEAR_FIGURE,
     PROFILE_FIGURE,
     STICK_SLIP_FIGURE,
+    SLIP_FIGURE,
     LOADING_FIGURE,
     HYSTERESIS_FIGURE,
+    DISSIPATION_FIGURE,
+    FRETTING_FIGURE,
 )

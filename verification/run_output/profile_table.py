@@ -1,4 +1,4 @@
-"""`profiles.csv`: tractions and slip along y = 0 at the end of every loading step, in SI."""
+"""`profiles.csv`: tractions, slip and dissipation along y = 0 at the end of steps, in SI."""
 
 import csv
 from collections.abc import Iterator
@@ -8,7 +8,7 @@ from semi_analytical import Increment, Result
 from verification.run_output.centre_line import along_centre_line
 from verification.run_output.file_names import PROFILES
 
-COLUMNS = ("step", "x", "y", "pressure", "shear_x", "shear_y", "slip_x", "slip_y")
+COLUMNS = ("step", "x", "y", "pressure", "shear_x", "shear_y", "slip_x", "slip_y", "dissipation")
 
 
 def write_profiles(result: Result, directory: Path) -> None:
@@ -30,5 +30,6 @@ def _rows(step: Increment, x: list[float]) -> Iterator[tuple[object, ...]]:
     pressure = along_centre_line(step.pressure).tolist()
     shear = [nothing] * 2 if step.shear is None else along_centre_line(step.shear).tolist()
     slip = [nothing] * 2 if step.slip is None else along_centre_line(step.slip).tolist()
-    for values in zip(x, pressure, *shear, *slip, strict=True):
+    lost = nothing if step.dissipation is None else along_centre_line(step.dissipation).tolist()
+    for values in zip(x, pressure, *shear, *slip, lost, strict=True):
         yield (step.step, values[0], 0.0, *values[1:])

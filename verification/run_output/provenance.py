@@ -4,7 +4,7 @@ import os
 import platform
 from importlib.metadata import PackageNotFoundError, version
 
-LIBRARIES = ("numpy", "scipy", "h5py", "matplotlib", "pydantic")
+LIBRARIES = ("numpy", "scipy", "scikit-fem", "gmsh", "meshio", "h5py", "matplotlib", "pydantic")
 
 
 def program_version() -> str:

@@ -2,20 +2,35 @@
 
 from pathlib import Path
 
+from contact_scene.path_error import PathError
 from semi_analytical import Result
+from semi_analytical.fretting import fretting_cycles
+from verification.run_output.cycle_table import write_cycles
 from verification.run_output.field_file import write_fields
 from verification.run_output.increment_table import write_increments
 from verification.run_output.profile_table import write_profiles
 from verification.run_output.summary_file import write_summary
 
 
-def write_result(result: Result, directory: Path, *, with_figures: bool = True) -> None:
-    """Write summary, fields, tables and figures into a directory that has none of them."""
-    write_summary(result, directory)
+def write_result(
+    result: Result,
+    directory: Path,
+    *,
+    with_figures: bool = True,
+    surface_stress: bool = False,
+    path_errors: tuple[PathError, ...] | None = None,
+) -> None:
+    """Write summary, fields, tables and figures into a directory that has none of them.
+
+    surface_stress  also compute the stress at the surface that Ruiz's second parameter takes
+    """
+    cycles = fretting_cycles(result, surface_stress=surface_stress)
+    write_summary(result, cycles, directory, path_errors)
     write_profiles(result, directory)
     write_increments(result, directory)
-    write_fields(result, directory)
+    write_cycles(cycles, result.grid, directory)
+    write_fields(result, cycles, directory)
     if with_figures:
         from verification.run_output.figure_files import write_figures
 
-        write_figures(result, directory)
+        write_figures(result, cycles, directory)

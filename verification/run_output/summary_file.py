@@ -1,10 +1,14 @@
 """`summary.json`: the state at the end of every loading step."""
 
+from collections.abc import Sequence
+from itertools import groupby
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from contact_scene.path_error import PathError
 from contact_scene.summary import (
     EffectSummary,
     Residuals,
@@ -13,19 +17,30 @@ from contact_scene.summary import (
     dump_summary,
 )
 from semi_analytical import Increment, Result
+from semi_analytical.fretting import FrettingCycle
 from verification.run_output.file_names import SUMMARY
 
 Pair = tuple[float, float]
 
 
-def write_summary(result: Result, directory: Path) -> None:
+def write_summary(
+    result: Result,
+    cycles: Sequence[FrettingCycle],
+    directory: Path,
+    path_errors: tuple[PathError, ...] | None = None,
+) -> None:
     """Write the summary; equal results give equal bytes."""
-    (directory / SUMMARY).write_text(dump_summary(summary_of(result)), encoding="utf-8")
+    text = dump_summary(summary_of(result, cycles, path_errors))
+    (directory / SUMMARY).write_text(text, encoding="utf-8")
 
 
-def summary_of(result: Result) -> RunSummary:
+def summary_of(
+    result: Result,
+    cycles: Sequence[FrettingCycle],
+    path_errors: tuple[PathError, ...] | None = None,
+) -> RunSummary:
     """The record that all solvers share."""
-    counts = _counts(result.increments, len(result.steps))
+    closed = {cycle.cycle.end: cycle for cycle in cycles}
     return RunSummary(
         title=result.scene.title,
         solver="semi_analytical",
@@ -34,24 +49,34 @@ def summary_of(result: Result) -> RunSummary:
         window=result.grid.window,
         effects=tuple(EffectSummary(name=e.name, on=e.on, why=e.why) for e in result.plan.effects),
         steps=tuple(
-            _step_summary(end, *count) for end, count in zip(result.steps, counts, strict=True)
+            _step_summary(list(within), closed.get(step))
+            for step, within in groupby(result.increments, lambda increment: increment.step)
         ),
+        path_errors=path_errors,
     )
 
 
-def _counts(increments: tuple[Increment, ...], steps: int) -> list[tuple[int, int]]:
-    """Iterations and convolutions of every step, its increments taken together."""
-    counts = [(0, 0)] * steps
-    for increment in increments:
-        iterations, convolutions = counts[increment.step - 1]
-        counts[increment.step - 1] = (
-            iterations + increment.iterations,
-            convolutions + increment.convolutions,
-        )
-    return counts
+def _cycle_keys(cycle: FrettingCycle | None) -> dict[str, Any]:
+    """The keys of a step that closes a cycle; none of them for others."""
+    if cycle is None:
+        return {}
+    f2 = cycle.ruiz_f2
+    return {
+        "cycle_start": cycle.cycle.start,
+        "energy_per_cycle": cycle.dissipated_energy,
+        "slip_amplitude": float(np.max(cycle.slip_amplitude)),
+        "ruiz_f1": float(np.max(cycle.ruiz_f1)),
+        "ruiz_f2": None if f2 is None else float(np.max(f2)),
+    }
 
 
-def _step_summary(end: Increment, iterations: int, convolutions: int) -> StepSummary:
+def _step_summary(within: Sequence[Increment], cycle: FrettingCycle | None) -> StepSummary:
+    """The state at the end of a step, the cost of its increments taken together.
+
+    cycle  the one that the step closes
+    """
+    end = within[-1]
+    imbalances = [i.energy_imbalance for i in within if i.energy_imbalance is not None]
     return StepSummary(
         normal_force=float(end.normal_force),
         approach=float(end.approach),
@@ -60,14 +85,23 @@ def _step_summary(end: Increment, iterations: int, convolutions: int) -> StepSum
         peak_pressure=float(end.peak_pressure),
         tangential_force=_pair(end.tangential_force),
         tangential_shift=_pair(end.tangential_shift),
+        torque=_number(end.torque),
+        twist=_number(end.twist),
+        moment=_pair(end.moment),
+        tilt=_pair(end.tilt),
         stick_area=_number(end.stick_area),
         stick_radius=_number(end.stick_radius),
         dissipated_energy=_number(end.dissipated_energy),
+        elastic_energy=float(end.elastic_energy),
+        input_work=_number(end.input_work),
+        unresolved_work=_number(end.unresolved_work),
+        energy_imbalance=max(imbalances, default=None),
+        **_cycle_keys(cycle),
         residuals=Residuals.model_validate(
             {name: _number(getattr(end.residuals, name)) for name in Residuals.model_fields}
         ),
-        iterations=iterations,
-        convolutions=convolutions,
+        iterations=sum(i.iterations for i in within),
+        convolutions=sum(i.convolutions for i in within),
         status=end.status,
     )
 

@@ -1,16 +1,24 @@
 """Tangential force against shift: the fretting loop."""
 
+from __future__ import annotations
+
 from collections.abc import Sequence
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from semi_analytical import Increment, Result
 from verification.run_output.engineering_units import engineering_unit, quantity
 from verification.run_output.figures import style
 from verification.run_output.figures.shown_steps import AT_MOST
+
+if TYPE_CHECKING:
+    import fem_reference
+    import semi_analytical
+
+    Increment = semi_analytical.Increment | fem_reference.Increment
+    Result = semi_analytical.Result | fem_reference.Result
 
 Values = NDArray[np.float64]
 

@@ -1,10 +1,19 @@
 """Normal force against approach."""
 
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
 from matplotlib.figure import Figure
 
-from semi_analytical import Result
 from verification.run_output.engineering_units import engineering_unit
 from verification.run_output.figures import style
+
+if TYPE_CHECKING:
+    import fem_reference
+    import semi_analytical
+
+    Result = semi_analytical.Result | fem_reference.Result
 
 
 def loading_plot(result: Result) -> Figure:

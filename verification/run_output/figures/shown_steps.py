@@ -1,6 +1,7 @@
 """Which loading steps a figure shows, and what it calls them."""
 
 from collections.abc import Callable, Sequence
+from typing import TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,9 +13,10 @@ AT_MOST = 6
 SAME = 1e-6  # relative to the largest value: what no eye tells apart in a figure
 
 Field = Callable[[Increment], NDArray[np.float64]]
+Step = TypeVar("Step")
 
 
-def selected(steps: Sequence[Increment]) -> list[Increment]:
+def selected(steps: Sequence[Step]) -> list[Step]:
     """All steps if they are few, otherwise evenly spaced ones with the first and the last."""
     if len(steps) <= AT_MOST:
         return list(steps)

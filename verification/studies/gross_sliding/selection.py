@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 
+from semi_analytical import Coupling
 from verification.cases.case import Level
 from verification.studies.gross_sliding.estimate import Evidence
 from verification.studies.running.study import Records, Settings, StudyCase
@@ -37,6 +38,10 @@ LARGEST_FORCE = 0.99
 OTHER_COUNTS = (80, 20, 10, 5)  # of increments, for directions that freeze
 
 
+VariantRun = LawRun | ShortPathRun | ShiftRun
+UNCOUPLED = "coupling left out"
+
+
 @dataclass(frozen=True)
 class ContactCases:
     """Everything that is computed for one coated contact."""
@@ -46,7 +51,7 @@ class ContactCases:
     half_shift: ShiftRun
     half_normal: ShiftRun
     force: ForceRun
-    variants: tuple[LawRun | ShortPathRun, ...]
+    variants: tuple[VariantRun, ...]
 
     @property
     def histories(self) -> tuple[ShiftRun, ...]:
@@ -66,7 +71,7 @@ def cases_of(ratio: float, settings: Settings) -> ContactCases:
     cells, steps = settings.cells or CELLS[settings.level], STEPS[settings.level]
     base = ShiftRun(contact, cells, steps)
     coarse = replace(base, cells=cells // 2)
-    variants: tuple[LawRun | ShortPathRun, ...] = ()
+    variants: tuple[VariantRun, ...] = ()
     if ratio == PAPER_RATIO or settings.level is not Level.QUICK:
         few = min(cells, VARIANT_CELLS)
         frozen = (replace(LAW_STEPS, tangential=count) for count in OTHER_COUNTS)
@@ -75,6 +80,7 @@ def cases_of(ratio: float, settings: Settings) -> ContactCases:
             ShortPathRun(contact, 2 * few, ShortPath.TOTAL, SHORT_STEPS),
             *(LawRun(contact, few, LAW_STEPS, law) for law in FrictionLaw),
             *(LawRun(contact, few, s, FrictionLaw.FROZEN_DIRECTIONS) for s in frozen),
+            *(ShiftRun(contact, few, LAW_STEPS, c) for c in (Coupling.ONE_WAY, Coupling.NONE)),
         )
     return ContactCases(
         base,
@@ -107,14 +113,16 @@ def null_runs(settings: Settings) -> tuple[ShiftRun, ...]:
     return tuple(ShiftRun(alike, cells, steps) for alike in ALIKE)
 
 
-def variant_name(run: LawRun | ShortPathRun) -> str:
+def variant_name(run: VariantRun) -> str:
     """What a variant is called in texts."""
     kind = variant_kind(run)
     return f"{kind}, {run.cells} cells" if isinstance(run, ShortPathRun) else kind
 
 
-def variant_kind(run: LawRun | ShortPathRun) -> str:
+def variant_kind(run: VariantRun) -> str:
     """What a variant varies, in words."""
+    if isinstance(run, ShiftRun):
+        return UNCOUPLED if run.coupling is Coupling.NONE else "coupled one way"
     if isinstance(run, ShortPathRun):
         return {ShortPath.ONE_STEP: "one step each", ShortPath.TOTAL: "total slip"}[run.path]
     law = {

@@ -21,7 +21,9 @@ from verification.studies.gross_sliding.selection import (
     ALIKE,
     PAPER_RATIO,
     RATIOS,
+    UNCOUPLED,
     ContactCases,
+    VariantRun,
     cases,
     cases_of,
     null_runs,
@@ -31,9 +33,7 @@ from verification.studies.gross_sliding.selection import (
 )
 from verification.studies.gross_sliding.verdicts import Variant, largest_force
 from verification.studies.running.study import Conclusion, Records, Settings, Study, StudyCase
-from verification.studies.sliding_runs.law_run import LawRun
 from verification.studies.sliding_runs.path import SlidingPath
-from verification.studies.sliding_runs.runs import ShortPathRun
 
 REMARKS = (
     "Assumed, because the paper does not say: substrate E2 = 210 GPa (from its contact radius and "
@@ -42,6 +42,8 @@ REMARKS = (
     "Gross sliding cannot begin below µW as a greatest force: in sustained sliding every particle "
     "slips along the motion, and T = µW. What can happen below µW is that the last cell lets go "
     "while slip directions still differ; that force is T_fs.",
+    "Two variants leave out part of the coupling, to which the paper attributes its number: the "
+    "shear's effect on the pressure (one way), or both effects.",
     "The friction-law variants keep the pressure of the end of the normal loading and start from "
     "the shear that the vector law leaves there; 'vector' among them shows what the fixed pressure "
     "changes. Frozen directions depend on the size of the increments, which the paper does not "
@@ -81,7 +83,7 @@ class _Found:
         found = {name: estimate(e) for name, e in evidence.items() if e is not None}
         return {name: e for name, e in found.items() if e is not None}
 
-    def variant_runs(self, contact: str) -> dict[LawRun | ShortPathRun, SlidingPath]:
+    def variant_runs(self, contact: str) -> dict[VariantRun, SlidingPath]:
         """The variants of a contact that have a record."""
         found = {run: path_of(self.records, run) for run in self.contacts[contact].variants}
         return {run: path for run, path in found.items() if path is not None}
@@ -111,12 +113,21 @@ def conclude(settings: Settings, records: Records) -> Conclusion:
     paper = _name(PAPER_RATIO)
     null = [full_slip(path) for path in found.null.values()]
     return Conclusion(
+        answer=verdicts.answer(found.base.get(paper), found.estimates.get(paper)),
         statements=(
             verdicts.limit_is_reached(found.base),
             verdicts.paper_number(found.estimates.get(paper), found.variants(paper)),
             verdicts.force_is_mean_cosine(found.base),
             verdicts.slip_opposes_shear(found.base),
             verdicts.null_tests(*(null if len(null) == len(ALIKE) else (None, None))),
+            verdicts.uncoupled_sticks(
+                {
+                    name: v
+                    for name in found.contacts
+                    for v in found.variants(name)
+                    if v.kind == UNCOUPLED
+                }
+            ),
             verdicts.refinement_agrees(found.estimates),
             verdicts.converged(found.product),
         ),

@@ -136,6 +136,35 @@ def null_tests(exact: FullSlip | None, alike: FullSlip | None) -> Statement:
     )
 
 
+def uncoupled_sticks(variants: Mapping[str, Variant]) -> Statement:
+    """With the coupling left out, a coated contact keeps stick area nearly up to µW."""
+    found = {name: v.vanishing for name, v in variants.items()}
+    known = [fs for fs in found.values() if fs is not None]
+    good = all(ALIKE_AT_LEAST <= fs.force <= 1 + COVERAGE * fs.uncertainty for fs in known)
+    return Statement(
+        claim="null test: without coupling coated contacts stick until µW",
+        outcome=_judged(bool(known) and len(known) == len(found), good),
+        measured=_listed({n: "not resolved" if fs is None else f"T_fs/µW = {fs.text}"
+                          for n, fs in found.items()}),
+        because="the paper attributes its number to the coupling: left out, it must be gone; "
+        f"allowed from {ALIKE_AT_LEAST:g}, because for ν = 0.3 shear is not all along x",
+    )  # fmt: skip
+
+
+def answer(path: SlidingPath | None, found: Estimate | None) -> str:
+    """To the title's question; empty where the history was not computed."""
+    if path is None:
+        return ""
+    largest = largest_force(path)
+    grossly = "No" if largest >= 1 - SHORT_OF_LIMIT else "The limit of friction is not reached"
+    vanishes = f"at {found.text} µW" if found else "at a force that was not resolved"
+    return (
+        f"{grossly}: under a growing shift the force of E1/E2 = 2 goes on to {largest:.4f} µW. "
+        f"Its last stick area vanishes {vanishes} (the paper: {PAPER:g}); even then the directions "
+        "of slip still differ, so that friction is not exhausted."
+    )
+
+
 def refinement_agrees(estimates: Mapping[str, Estimate]) -> Statement:
     """Cells and steps change T_fs by less than would matter for the comparison with the paper."""
     away = {n: abs(e.force - PAPER) / e.uncertainty for n, e in estimates.items()}

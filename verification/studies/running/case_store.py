@@ -1,26 +1,28 @@
 """Records of finished cases, one file each, named by what was asked and by which code.
 
-A file appears whole or not at all, so a study that was killed goes on where it stopped; a file that
-cannot be read is computed again.
+A file appears whole or not at all, so what was killed goes on where it stopped. A file says what it
+is the record of and holds the hash of its own numbers; one that is not such a file, whole and
+unchanged, is named and computed again.
 """
 
 from __future__ import annotations
 
 import hashlib
-import inspect
 import json
 from dataclasses import asdict, dataclass
-from functools import cache
 from pathlib import Path
 from typing import Any
 
-import contact_scene
-import semi_analytical
 from contact_scene.description import Description
+from verification.code_digest import code_digest
 from verification.run_output.atomic_file import atomic_file
 from verification.studies.running.study import StudyCase
 
 DIGITS = 16
+
+
+class DamagedRecord(Exception):
+    """A file stands in a record's place and is not that record."""
 
 
 @dataclass(frozen=True)
@@ -29,38 +31,45 @@ class CaseStore:
 
     directory: Path
 
-    def path(self, case: StudyCase) -> Path:
-        """Where the record of a case is or will be."""
-        return self.directory / f"{case.name}-{content_hash(case)}.json"
+    def path(self, case: StudyCase, code: bytes | None = None) -> Path:
+        """Where the record of a case is or will be, by the code of this digest or by ours."""
+        return self.directory / f"{case.name}-{content_hash(case, code)}.json"
 
     def load(self, case: StudyCase) -> Description | None:
-        """The record; None if there is none, or none that this version can read."""
+        """The record; None if there is none. Raises DamagedRecord, which names the file."""
+        path = self.path(case)
         try:
-            return case.record_type.model_validate_json(self.path(case).read_bytes())
-        except (OSError, ValueError):
+            content = path.read_bytes()
+        except FileNotFoundError:
             return None
+        except OSError as error:
+            raise DamagedRecord(f"{path} cannot be read: {error.strerror}") from error
+        try:
+            document = json.loads(content)
+            values = document["record"]
+            if document["of"] != path.stem:
+                raise DamagedRecord(f"{path} is the record of {document['of']}")
+            if document["sha256"] != _digest(values):
+                raise DamagedRecord(f"{path} is damaged: its numbers have changed")
+            return case.record_type.model_validate_json(json.dumps(values))
+        except (ValueError, KeyError, TypeError, RecursionError) as error:
+            raise DamagedRecord(f"{path} is damaged: no whole record of this version") from error
 
-    def save(self, case: StudyCase, record: Description) -> None:
-        """Write the record, whole or not at all."""
-        with atomic_file(self.path(case)) as temporary:
-            temporary.write_text(record.model_dump_json(indent=1) + "\n", encoding="utf-8")
+    def save(self, case: StudyCase, record: Description, code: bytes | None = None) -> None:
+        """Write the record that code of this digest has made, or ours; whole or not at all."""
+        path, values = self.path(case, code), record.model_dump(mode="json")
+        document = {"of": path.stem, "sha256": _digest(values), "record": values}
+        with atomic_file(path) as temporary:
+            temporary.write_text(json.dumps(document, indent=1) + "\n", encoding="utf-8")
 
 
-def content_hash(case: StudyCase) -> str:
-    """Digest of the case's kind and values, and of the code that would compute it."""
+def content_hash(case: StudyCase, code: bytes | None = None) -> str:
+    """Digest of the case's kind and values, and of the code that computes it, if not ours."""
     kind = type(case)
     asked: Any = asdict(case)  # type: ignore[call-overload]
     text = json.dumps([kind.__module__, kind.__qualname__, asked], sort_keys=True)
-    digest = hashlib.sha256(text.encode() + _code_digest(inspect.getfile(kind)))
-    return digest.hexdigest()[:DIGITS]
+    return hashlib.sha256(text.encode() + (code or code_digest())).hexdigest()[:DIGITS]
 
 
-@cache
-def _code_digest(file: str) -> bytes:
-    """Of the scene, of the solver, and of the package that holds the case."""
-    places = (contact_scene.__file__, semi_analytical.__file__, file)
-    digest = hashlib.sha256()
-    for place in places:
-        for source in sorted(Path(place).parent.rglob("*.py")):
-            digest.update(source.read_bytes())
-    return digest.digest()
+def _digest(values: Any) -> str:
+    return hashlib.sha256(json.dumps(values, sort_keys=True).encode()).hexdigest()

@@ -41,6 +41,20 @@ def render_study(record: StudyRecord) -> str:
     return _environment().get_template("study.html").render(study=record)
 
 
+def stored_studies(directory: Path) -> tuple[StudyRecord, ...]:
+    """The records of all studies that have left theirs in a folder of this directory, by name.
+
+    raises  ValueError for a record that is broken or of another version, naming its file
+    """
+    records = []
+    for path in sorted(directory.glob(f"*/{RECORD}")):
+        try:
+            records.append(StudyRecord.model_validate_json(path.read_bytes()))
+        except ValueError as error:
+            raise ValueError(f"{path} is no record of a study that can be read") from error
+    return tuple(sorted(records, key=lambda record: record.name))
+
+
 def _write_figure(chart: Chart, directory: Path) -> None:
     with style.figure_style():
         figure = draw(chart)

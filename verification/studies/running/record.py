@@ -6,7 +6,7 @@ import json
 
 from contact_scene.description import Description
 from verification.cases.outcome import Status
-from verification.report.record import Provenance
+from verification.report.provenance_record import Provenance
 from verification.studies.running.study import STUDY_VERSION, Conclusion, LostCase
 
 

@@ -35,12 +35,14 @@ class StudyCase(Protocol):
 class Settings:
     """How much is computed.
 
-    level  decides what is left open
-    cells  of the finest grid along each side; None leaves it to the level
+    level   decides what is left open
+    cells   of the finest grid along each side; None leaves it to the level
+    levels  of refinement, for studies that refine; None leaves it to the level
     """
 
     level: Level
     cells: int | None = None
+    levels: int | None = None
 
 
 class Statement(Description):
@@ -65,6 +67,9 @@ class Conclusion(Description):
     """What a study shows. Texts are for people; the numbers behind them are in the records."""
 
     statements: tuple[Statement, ...]
+    answer: str = ""
+    """To the question of the study, in a sentence; empty where only the statements answer it."""
+
     tables: tuple[Table, ...] = ()
     charts: tuple[Chart, ...] = ()
     remarks: tuple[str, ...] = ()

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import StrEnum
 from typing import ClassVar
 
@@ -11,7 +11,7 @@ import numpy as np
 
 from contact_scene import LoadStep
 from contact_scene.description import Description
-from semi_analytical import Result, solve
+from semi_analytical import Coupling, Result, plan, solve
 from verification.cases.case import SOLVER_TOLERANCE
 from verification.cases.paper_scene import FRICTION_LIMIT, NORMAL_FORCE
 from verification.studies.sliding_runs.contacts import Contact
@@ -47,16 +47,22 @@ class Steps:
 
 @dataclass(frozen=True)
 class ShiftRun:
-    """Press, then shift the indenter until all slides, and on."""
+    """Press, then shift the indenter until all slides, and on.
+
+    coupling  None: as the bodies have it
+    """
 
     record_type: ClassVar[type[Description]] = SlidingPath
     contact: Contact
     cells: int
     steps: Steps
+    coupling: Coupling | None = None
 
     @property
     def name(self) -> str:
-        return f"{self.contact.name}-shift-{self.cells}-{self.steps.text}"
+        other = "" if self.coupling is None else f"-{self.coupling.name.lower()}-coupling"
+        other = other.replace("_", "-")
+        return f"{self.contact.name}-shift-{self.cells}-{self.steps.text}{other}"
 
     def compute(self) -> SlidingPath:
         contact, steps = self.contact, self.steps
@@ -69,7 +75,10 @@ class ShiftRun:
             ),
             LoadStep(tangential_shift=(contact.beyond_sliding, 0.0), increments=steps.beyond),
         )
-        result = solve(scene, contact.grid(self.cells), SOLVER_TOLERANCE)
+        decided = plan(scene)
+        if self.coupling is not None:
+            decided = replace(decided, coupling=self.coupling)
+        result = solve(scene, contact.grid(self.cells), SOLVER_TOLERANCE, plan=decided)
         return path_of(result, 2, time.perf_counter() - started)
 
 

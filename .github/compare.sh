@@ -1,0 +1,19 @@
+#!/usr/bin/env bash
+# Says what changed since the baseline, in the log and on the page of the job.
+# A drift within what the references allow (5) is a warning; what begins to fail (1), and a baseline
+# that cannot be read (2), are failures.
+#
+# usage: compare.sh REPORT
+set -euo pipefail
+
+report=$1
+cd -- "$(dirname -- "${BASH_SOURCE[0]}")/.."
+if [ -s "$report/summary.md" ]; then cat "$report/summary.md" >>"${GITHUB_STEP_SUMMARY:-/dev/stderr}"; fi
+status=0
+.venv/bin/slipstick compare "$report" || status=$?
+if [ "$status" = 5 ]; then
+    echo "::warning title=Baseline drift::Numbers differ from the accepted ones, within their tolerances;" \
+        "if they are right: slipstick baseline --accept --because '...' --from REPORT"
+    status=0
+fi
+exit "$status"

@@ -1,0 +1,120 @@
+"""Records of reports for tests: all that a page can hold, without a solve."""
+
+from contact_scene import (
+    RIGID,
+    Body,
+    CoulombFriction,
+    IsotropicMaterial,
+    Layer,
+    LoadStep,
+    Paraboloid,
+    Scene,
+)
+from contact_scene.summary import EffectSummary
+from verification.cases.chart import Chart, Look, Panel, curve
+from verification.cases.outcome import CaseOutcome, RunRecord, SceneRecord, Status, Verdict
+from verification.cases.section_sketch import SectionSketch, section_sketch
+from verification.cases.table import Table
+from verification.report.omissions import OMISSIONS
+from verification.report.provenance_record import Provenance
+from verification.report.record import Report, count
+from verification.studies.running.record import StudyRecord
+from verification.studies.running.study import Conclusion, LostCase, Statement
+
+STEEL = IsotropicMaterial(young_modulus=210e9, poisson_ratio=0.3)
+COATED = Scene(
+    title="A coated body",
+    indenter=Paraboloid(radius=18e-3, material=RIGID),
+    body=Body(material=STEEL, layers=(Layer(thickness=4e-4, material=STEEL),)),
+    friction=CoulombFriction(coefficient=0.1),
+    loading=(LoadStep(normal_force=1e3), LoadStep(tangential_force=(60.0, 0.0))),
+)
+RADIUS = 4e-4
+
+
+def sketch(scene: Scene = COATED, contact_radius: float = RADIUS) -> SectionSketch:
+    """The section of a scene."""
+    drawn = section_sketch(scene, contact_radius)
+    assert drawn is not None
+    return drawn
+
+
+def made_by() -> Provenance:
+    """Somebody."""
+    return Provenance(
+        program_version="0.0", commit=None, changed=False, command="slipstick verify",
+        date="2000-01-01T00:00:00+00:00", machine={}, libraries={}, seconds={},
+    )  # fmt: skip
+
+
+def verdict(name: str, value: float, reference: float, run: str = "run") -> Verdict:
+    """A verdict that allows 1 %."""
+    error = abs(value - reference) / abs(reference)
+    return Verdict(
+        name=name, run=run, meaning="what it is", unit="m", value=value, reference=reference,
+        reference_kind="closed form", source="somebody", reference_uncertainty=reference * 1e-6,
+        error=error, allowed=0.01, scale=abs(reference), scale_name="the reference",
+        tolerance_kind="required", because="asked for",
+        status=Status.PASS if error <= 0.01 else Status.FAIL,
+    )  # fmt: skip
+
+
+def run_record(cells: int | None, elements: int | None) -> RunRecord:
+    """A run of either solver."""
+    return RunRecord(
+        label="run", cells=None if cells is None else (cells, cells),
+        window=None if cells is None else (1e-3, 1e-3), elements_per_radius=elements,
+        tolerance=1e-8, increments=1, iterations=9, convolutions=18, largest_residual=1e-9,
+    )  # fmt: skip
+
+
+def chart(name: str, text: str = "A chart") -> Chart:
+    """A line and marks."""
+    line = curve(text, [0, 1, 2], [1, 3, 2])
+    marks = curve("marks", [1], [3], Look.MARKS)
+    return Chart(name=name, title=text, caption=text, rows=((Panel(
+        x_label=text, y_label="y", curves=(line, marks), notes=((1.0, 1.5, text),)
+    ),),))  # fmt: skip
+
+
+def case(
+    name: str,
+    values: dict[str, tuple[float, float]],
+    run: RunRecord,
+    text: str = "A case",
+    *,
+    drawn: bool = True,
+) -> CaseOutcome:
+    """A case of verdicts (value, reference)."""
+    effects = (EffectSummary(name="friction", on=True, why=text),)
+    return CaseOutcome(
+        name=name, title=text, problem=text,
+        scenes=(SceneRecord(title=text, lines=(("body", text),), effects=effects,
+                            sketch=sketch()),),
+        runs=(run,), findings=(), limits=(text,),
+        charts=(chart(f"{name}_chart", text),) if drawn else (),
+        verdicts=tuple(verdict(n, value, reference) for n, (value, reference) in values.items()),
+        tables=(Table(title=text, columns=("a", "b"), rows=((text, text),) * 30, note=text),),
+    )  # fmt: skip
+
+
+def study(name: str, answer: str = "", level: str = "quick", text: str = "A study") -> StudyRecord:
+    """A study with one statement, a chart and a table."""
+    return StudyRecord(
+        name=name, title=text, question=text, level=level,
+        conclusion=Conclusion(
+            statements=(Statement(claim=text, outcome=Status.PASS, measured=text, because=text),),
+            answer=answer, charts=(chart("force_against_shift", text),),
+            tables=(Table(title=text, columns=("a", "b"), rows=((text, text),)),), remarks=(text,),
+        ),
+        lost=(LostCase(name="lost-one", reason=text),) if level == "full" else (),
+        provenance=made_by(),
+    )  # fmt: skip
+
+
+def report_of(cases: tuple[CaseOutcome, ...], studies: tuple[StudyRecord, ...] = ()) -> Report:
+    """A report of these."""
+    return Report(
+        level="quick", counts=count(cases), cases=cases, omissions=OMISSIONS,
+        provenance=made_by(), studies=studies,
+    )  # fmt: skip

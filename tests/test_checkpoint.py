@@ -1,0 +1,374 @@
+"""Going on from a checkpoint gives the same bits; what is not its own it names and leaves alone."""
+
+import hashlib
+import os
+import pickle
+from collections.abc import Callable, Iterator
+from contextlib import nullcontext
+from dataclasses import dataclass, field, fields, is_dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+import fem_reference
+import semi_analytical
+from contact_scene import (
+    Body,
+    CoulombFriction,
+    FiniteElementDiscretisation,
+    IsotropicMaterial,
+    Layer,
+    LoadStep,
+    Scene,
+    Sphere,
+    SurfaceDiscretisation,
+)
+from contact_scene.solver_errors import GrossSliding
+from contact_scene.standing import Keeper, Standing
+from semi_analytical.discretise import GROWTH
+from semi_analytical.grid import SurfaceGrid
+from verification.run_output.checkpoint import Checkpoint, checkpointed
+from verification.run_output.checkpoint_file import FORMAT, Unusable, packed, unpacked
+
+STEEL = IsotropicMaterial(young_modulus=210e9, poisson_ratio=0.3)
+SOFT = IsotropicMaterial(young_modulus=70e9, poisson_ratio=0.33)
+BALL = Sphere(radius=0.01, material=STEEL)
+PLAIN = Body(material=STEEL)
+COATED = Body(material=STEEL, layers=(Layer(thickness=5e-5, material=SOFT),))
+PRESSED = LoadStep(normal_force=100.0, increments=2)
+LOOP = (
+    PRESSED,
+    LoadStep(tangential_force=(20.0, 0.0), increments=2),
+    LoadStep(tangential_force=(-15.0, 0.0), increments=2),
+)
+LED = (*LOOP, LoadStep(tangential_shift=(1e-8, 0.0), increments=3))
+TURNED = (PRESSED, LoadStep(torque=1e-4, increments=2), LoadStep(torque=-1e-4, increments=2))
+TILTED = (
+    LoadStep(normal_force=100.0, moment=(0.0, 1e-3), increments=2),
+    LoadStep(tangential_force=(20.0, 0.0), increments=2),
+)
+SURFACE = SurfaceDiscretisation(cells=(24, 24))
+SECTION = FiniteElementDiscretisation(elements_per_radius=4, contact_radius=3e-4)
+Solve = Callable[[Keeper | None], Any]
+
+
+def scene(body: Body, loading: tuple[LoadStep, ...]) -> Scene:
+    friction = CoulombFriction(coefficient=0.3)
+    return Scene(title="killed", indenter=BALL, body=body, friction=friction, loading=loading)
+
+
+def on_surface(body: Body, loading: tuple[LoadStep, ...]) -> Solve:
+    return lambda keeper: semi_analytical.solve_discretised(
+        scene(body, loading), SURFACE, keeper=keeper
+    )
+
+
+def on_section(body: Body, loading: tuple[LoadStep, ...], method: fem_reference.Method) -> Solve:
+    return lambda keeper: fem_reference.solve(scene(body, loading), SECTION, method, keeper=keeper)
+
+
+SOLVES = {
+    "similar": on_surface(PLAIN, LED),
+    "coupled": on_surface(COATED, LOOP),
+    "torsion": on_surface(PLAIN, TURNED),
+    "tilt": on_surface(PLAIN, TILTED),
+    **{
+        f"{name} by {method.value}": on_section(body, loading, method)
+        for method in fem_reference.Method
+        for name, body, loading in (("similar", PLAIN, LED), ("coupled", COATED, LOOP))
+    },
+}
+
+
+@pytest.fixture(autouse=True)
+def _no_stored_compliances(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("SLIPSTICK_CACHE_DIR", os.devnull)
+
+
+@dataclass
+class All:
+    """Keeps every standing in memory; `since` is what it says was kept before."""
+
+    since: Standing | None = None
+    kept: list[Standing] = field(default_factory=list)
+
+    def last(self) -> Standing | None:
+        return self.since
+
+    def keep(self, standing: Standing) -> None:
+        self.kept.append(standing)
+
+
+class Killed(BaseException):
+    """Stands for the end of a process."""
+
+
+@dataclass
+class Ending:
+    """Passes on to a keeper, and dies after so many increments."""
+
+    keeper: Keeper
+    lives: int
+
+    def last(self) -> Standing | None:
+        return self.keeper.last()
+
+    def keep(self, standing: Standing) -> None:
+        self.keeper.keep(standing)
+        self.lives -= 1
+        if not self.lives:
+            raise Killed
+
+
+def differences(one: Any, other: Any, where: str = "") -> Iterator[str]:
+    """Where two values differ by a bit."""
+    if isinstance(one, np.ndarray):
+        if (one.dtype, one.shape, one.tobytes()) != (other.dtype, other.shape, other.tobytes()):
+            yield where
+    elif is_dataclass(one):
+        for member in fields(one):
+            name = member.name
+            yield from differences(getattr(one, name), getattr(other, name), f"{where}.{name}")
+    elif isinstance(one, tuple):
+        for number, pair in enumerate(zip(one, other, strict=True)):
+            yield from differences(*pair, f"{where}[{number}]")
+    elif repr(one) != repr(other):
+        yield where
+
+
+def checkpoint(directory: Path, said: list[str], identity: str = "this solve") -> Checkpoint:
+    return Checkpoint(directory / "checkpoint", identity, said.append, 0.0)
+
+
+@pytest.fixture(autouse=True)
+def _every_increment(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("verification.run_output.checkpoint.SHARE", np.inf)
+
+
+@pytest.mark.parametrize("name", SOLVES)
+def test_going_on_after_any_increment_gives_the_same_bits(name: str, tmp_path: Path) -> None:
+    solve, every = SOLVES[name], All()
+    whole = solve(every)
+    assert len(every.kept) == len(whole.increments)
+    # Within a ramp and at its end; where meshes are condensed again each time, once of each.
+    for standing in every.kept[2:4] if name.startswith("coupled by") else every.kept:
+        path = tmp_path / "standing"
+        path.write_bytes(packed(standing, "this solve"))
+        resumed = All(unpacked(path, "this solve"))
+        again = solve(resumed)
+        assert len(resumed.kept) == len(whole.increments) - standing.mark.done
+        assert [*differences(whole.increments, again.increments)] == []
+
+
+@pytest.mark.parametrize("name", ["similar", "similar by penalty"])
+def test_going_on_takes_the_same_way(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    """An increment that has to be halved is halved at the same load."""
+    ways: list[tuple[float, float]] = []
+    for history in (semi_analytical.history, fem_reference.history):
+        reach = history._Path.reach
+
+        def told(
+            self: Any, state: Any, begin: float, end: float, *rest: Any, to: Any = reach
+        ) -> Any:
+            ways.append((begin, end))
+            return to(self, state, begin, end, *rest)
+
+        monkeypatch.setattr(history._Path, "reach", told)
+    every = All()
+    SOLVES[name](every)
+    whole = ways[:]
+    for standing in every.kept:
+        ways.clear()
+        SOLVES[name](All(standing))
+        assert ways == whole[len(whole) - len(ways) :]
+        assert len(ways) == len(every.kept) - standing.mark.done
+
+
+def test_solve_that_dies_again_and_again_ends_as_if_it_never_had(tmp_path: Path) -> None:
+    solve = SOLVES["coupled"]
+    whole, said = solve(None), []
+    for death in range(len(whole.increments)):
+        keeper = checkpoint(tmp_path, said)
+        with pytest.raises(Killed):
+            solve(Ending(keeper, 1))
+        keeper.close()
+        assert len(said) == (death > 0)
+        said.clear()
+    keeper = checkpoint(tmp_path, said)
+    again = solve(keeper)
+    assert f"after increment {len(whole.increments)}" in said[0]
+    assert [*differences(whole.increments, again.increments)] == []
+    keeper.remove()
+    assert [*tmp_path.iterdir()] == []
+
+
+def test_grids_that_were_outgrown_are_not_tried_again() -> None:
+    asked, pressing = scene(PLAIN, LOOP), All()
+    grid = semi_analytical.discretise(asked, SURFACE)
+    L = GROWTH * grid.window[0]
+    larger = SurfaceGrid(grid.cells, (L, L))
+    whole = semi_analytical.solve(asked, larger, SURFACE.tolerance, keeper=pressing)
+    resumed = All(pressing.kept[2])
+    again = semi_analytical.solve_discretised(asked, SURFACE, keeper=resumed)
+    assert again.grid == larger
+    assert [*differences(whole.increments, again.increments)] == []
+
+
+def changed(content: bytes) -> bytes:
+    return content[:-40] + bytes([content[-40] ^ 1]) + content[-39:]
+
+
+@pytest.mark.parametrize(
+    ("damage", "problem"),
+    [
+        (changed, "is damaged"),
+        (lambda content: content[:-1], "is damaged"),
+        (lambda content: b"", "is no checkpoint of this version"),
+        (lambda content: b"PK" + content, "is no checkpoint of this version"),
+        (lambda content: content.replace(b"this solve", b"that solve", 1), "is of another scene"),
+        (lambda content: packed(np.ones(3), "this solve"), "holds something else"),
+    ],
+)
+@pytest.mark.parametrize("number", [0, 2])
+def test_part_that_cannot_be_used_is_named_and_computed_again(
+    damage: Callable[[bytes], bytes], problem: str, number: int, tmp_path: Path
+) -> None:
+    solve, said = SOLVES["similar"], []
+    keeper = checkpoint(tmp_path, said)
+    whole = solve(keeper)
+    keeper.close()
+    path = tmp_path / "checkpoint" / f"part-{number:06d}"
+    path.write_bytes(damage(path.read_bytes()))
+    keeper = checkpoint(tmp_path, said)
+    last = keeper.last()
+    assert (last.mark.done if last else 0) == number
+    assert str(path) in said[0]
+    assert problem in said[0]
+    assert [*differences(whole.increments, solve(keeper).increments)] == []
+
+
+def test_parts_of_another_place_in_the_history_are_not_joined(tmp_path: Path) -> None:
+    said: list[str] = []
+    keeper = checkpoint(tmp_path, said)
+    SOLVES["similar"](keeper)
+    keeper.close()
+    parts = tmp_path / "checkpoint"
+    (parts / "part-000003").write_bytes((parts / "part-000005").read_bytes())
+    last = checkpoint(tmp_path, said).last()
+    assert last is not None
+    assert last.mark.done == 3
+    assert "does not follow" in said[0]
+
+
+def test_checkpoint_of_another_solve_is_named_and_replaced(tmp_path: Path) -> None:
+    said: list[str] = []
+    keeper = checkpoint(tmp_path, said, "an earlier scene")
+    SOLVES["similar"](keeper)
+    keeper.close()
+    keeper = checkpoint(tmp_path, said)
+    assert keeper.last() is None
+    assert "another scene, solver, discretisation or version" in said[0]
+    SOLVES["coupled"](keeper)
+    keeper.close()
+    assert checkpoint(tmp_path, said).last() is not None
+    assert checkpoint(tmp_path, said, "an earlier scene").last() is None
+
+
+@dataclass
+class Trap:
+    """What runs a command when a pickle is read without care."""
+
+    directory: str
+
+    def __reduce__(self) -> Any:
+        return os.mkdir, (self.directory,)
+
+
+@pytest.mark.parametrize("protocol", [0, 2, 5])
+def test_file_of_a_stranger_runs_nothing(protocol: int, tmp_path: Path) -> None:
+    content = pickle.dumps(Trap(str(tmp_path / "made")), protocol)
+    own = hashlib.sha256(content).hexdigest().encode()
+    (tmp_path / "part").write_bytes(b"\n".join([FORMAT, b"this solve", own, content]))
+    with pytest.raises(Unusable, match="does not belong into a checkpoint"):
+        unpacked(tmp_path / "part", "this solve")
+    assert not (tmp_path / "made").exists()
+
+
+@pytest.mark.parametrize(
+    "name",
+    ["fem_reference.stored_compliance\nos.system", "fem_reference.stored_compliance\nstore",
+     "semi_analytical.solve\nsolve", "numpy\nload", "verification.cli\nmain"],
+)  # fmt: skip
+def test_functions_are_not_looked_up(name: str, tmp_path: Path) -> None:
+    content = f"c{name}\n.".encode()
+    own = hashlib.sha256(content).hexdigest().encode()
+    (tmp_path / "part").write_bytes(b"\n".join([FORMAT, b"this solve", own, content]))
+    with pytest.raises(Unusable, match="does not belong into a checkpoint"):
+        unpacked(tmp_path / "part", "this solve")
+
+
+def test_second_run_into_the_same_directory_leaves_the_first_alone(tmp_path: Path) -> None:
+    said: list[str] = []
+    first, second = checkpoint(tmp_path, said), checkpoint(tmp_path, said)
+    with pytest.raises(Killed):
+        SOLVES["similar"](Ending(first, 3))
+    before = {path: path.read_bytes() for path in (tmp_path / "checkpoint").iterdir()}
+    SOLVES["coupled"](second)
+    second.remove()
+    assert {path: path.read_bytes() for path in (tmp_path / "checkpoint").iterdir()} == before
+    first.close()
+    third = checkpoint(tmp_path, said)
+    assert third.last() is not None
+
+
+def test_short_run_leaves_nothing_at_any_time(tmp_path: Path) -> None:
+    keeper = Checkpoint(tmp_path / "checkpoint", "this solve", print, 5.0)
+    SOLVES["similar"](keeper)
+    assert [*tmp_path.iterdir()] == []
+
+
+def test_full_disk_costs_the_checkpoint_alone(tmp_path: Path) -> None:
+    said: list[str] = []
+    (tmp_path / "file").touch()
+    keeper = Checkpoint(tmp_path / "file" / "checkpoint", "this solve", said.append, 0.0)
+    assert [*differences(SOLVES["similar"](keeper), SOLVES["similar"](None))] == []
+    assert len(said) == 1
+    assert "no checkpoint could be written" in said[0]
+
+
+@pytest.mark.parametrize(
+    ("error", "stays"), [(None, False), (GrossSliding("no"), False), (OSError(28, "full"), True)]
+)
+def test_checkpoint_stays_only_where_it_is_of_use(
+    error: Exception | None, stays: bool, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("verification.run_output.checkpoint.SECONDS_BETWEEN", 0.0)
+    outcome = nullcontext() if error is None else pytest.raises(type(error))
+    with outcome, checkpointed(tmp_path / "out", "this solve", print) as keeper:
+        SOLVES["similar"](keeper)
+        assert (tmp_path / ".out.checkpoint").is_dir()
+        if error is not None:
+            raise error
+    assert (tmp_path / ".out.checkpoint").is_dir() is stays
+
+
+def killed_once_done(target: Path) -> None:
+    with checkpointed(target, "this solve", print) as keeper:
+        SOLVES["similar"](keeper)
+        target.mkdir()
+        raise Killed
+
+
+def test_checkpoint_of_a_run_that_was_killed_once_it_was_done_is_cleared_away(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The directory is there, and what was kept beside it before it appeared."""
+    monkeypatch.setattr("verification.run_output.checkpoint.SECONDS_BETWEEN", 0.0)
+    with pytest.raises(Killed):
+        killed_once_done(tmp_path / "out")
+    assert (tmp_path / ".out.checkpoint").is_dir()
+    with checkpointed(tmp_path / "out", "this solve", print) as keeper:
+        assert keeper.last() is not None
+    assert [path.name for path in tmp_path.rglob("*")] == ["out"]

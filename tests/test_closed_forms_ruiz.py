@@ -1,0 +1,95 @@
+"""Closed forms of the surface stress and of Ruiz's parameters: consistent before they judge."""
+
+import numpy as np
+import pytest
+from scipy.integrate import quad
+
+from verification.closed_forms.cattaneo_mindlin import PartialSlip
+from verification.closed_forms.ruiz import CycledContact
+from verification.closed_forms.sheared_surface import (
+    stress_by_hertz_pressure,
+    stress_by_hertz_shear,
+    trailing_edge_tension,
+)
+
+POISSON_RATIOS = [0.0, 0.3, 0.5]
+# Peak pressure of load and radius 1.
+PEAK = 1.5 / np.pi
+
+
+@pytest.mark.parametrize("nu", POISSON_RATIOS)
+@pytest.mark.parametrize("x", [1.05, -1.4, 6.0])
+def test_stress_beyond_a_sheared_circle_is_that_of_the_forces_in_it(x: float, nu: float) -> None:
+    """Cerruti's point force, added up over the circle in polar coordinates about its centre."""
+
+    def of_ring(r: float) -> float:
+        def of_force(angle: float) -> float:
+            X, Y = x - r * np.cos(angle), -r * np.sin(angle)
+            R = np.hypot(X, Y)
+            return float(-(3 * nu * X**3 / R**5 + (1 - 2 * nu) * X / R**3) / np.pi)
+
+        return r * np.sqrt(1 - r**2) * 2 * quad(of_force, 0, np.pi, epsrel=1e-9)[0]
+
+    expected = quad(of_ring, 0, 1, epsrel=1e-8)[0]
+    assert stress_by_hertz_shear(x, 1.0, 1.0, nu) == pytest.approx(expected, rel=1e-6)
+
+
+@pytest.mark.parametrize("nu", POISSON_RATIOS)
+def test_stress_is_continuous_across_the_edge_and_odd(nu: float) -> None:
+    x = np.array([1 - 1e-12, 1 + 1e-12])
+    inside, outside = stress_by_hertz_shear(x, 1.0, 1.0, nu)
+    assert outside == pytest.approx(inside, rel=1e-5)
+    np.testing.assert_array_equal(
+        stress_by_hertz_shear(-3 * x, 1.0, 1.0, nu), -stress_by_hertz_shear(3 * x, 1.0, 1.0, nu)
+    )
+
+
+@pytest.mark.parametrize("nu", POISSON_RATIOS)
+def test_far_away_only_the_resultant_counts(nu: float) -> None:
+    x, force = 1e3, 2 * np.pi / 3
+    point = -force / np.pi * (1 + nu) / x**2
+    assert stress_by_hertz_shear(x, 1.0, 1.0, nu) == pytest.approx(point, rel=1e-5)
+
+
+@pytest.mark.parametrize("nu", POISSON_RATIOS)
+@pytest.mark.parametrize("mu", [0.0, 0.1, 0.7])
+def test_a_sliding_contact_is_most_in_tension_at_its_trailing_edge(nu: float, mu: float) -> None:
+    x = np.linspace(-3, 3, 6001)
+    stress = stress_by_hertz_pressure(x, 1.0, 2.0, nu) + stress_by_hertz_shear(x, 1.0, 2 * mu, nu)
+    assert np.max(stress) == pytest.approx(trailing_edge_tension(2.0, mu, nu), rel=1e-9, abs=1e-12)
+    if mu > 0:
+        assert x[np.argmax(stress)] == pytest.approx(-1.0, abs=1e-9)
+
+
+def cycled(ratio: float, length: float = 1.0, modulus: float = 1.0) -> CycledContact:
+    force = modulus * length**2
+    end = PartialSlip(force, length, 0.3, 0.25 * modulus, 0.3 * ratio * force)
+    return CycledContact(end, PEAK * modulus)
+
+
+def test_sliding_contacts_reach_the_tension_of_the_trailing_edge() -> None:
+    assert cycled(1.0).surface_tension(1.0) == pytest.approx(trailing_edge_tension(PEAK, 0.3, 0.0))
+
+
+def test_parameters_grow_with_the_force_and_vanish_without() -> None:
+    f1, f2 = np.array([(c.largest_f1, c.largest_f2) for c in map(cycled, (0.01, 0.3, 0.6, 0.9))]).T
+    assert np.all(np.diff(f1) > 0)
+    assert np.all(np.diff(f2) > 0)
+    assert f1[0] < 1e-3 * f1[-1]
+
+
+def test_parameters_scale() -> None:
+    one, other = cycled(0.8), cycled(0.8, length=1e-3, modulus=1e9)
+    assert other.largest_f1 == pytest.approx(1e6 * one.largest_f1, rel=1e-12)
+    assert other.largest_f2 == pytest.approx(1e15 * one.largest_f2, rel=1e-12)
+
+
+def test_dissipation_per_cycle_is_four_times_friction_times_amplitude() -> None:
+    """Two passes over the range 2 δ with friction τ: 4 F1 per area, summed over the contact."""
+    contact = cycled(0.9)
+    a, c = 1.0, contact.end.stick_radius
+    total = quad(
+        lambda r: float(contact.largest_shear(r) * contact.slip_amplitude(r)) * 2 * np.pi * r,
+        c, a, epsrel=1e-10,
+    )[0]  # fmt: skip
+    assert 4 * total == pytest.approx(4 * contact.end.dissipated_energy, rel=1e-8)

@@ -1,0 +1,110 @@
+"""Cases on a dask cluster: the same records as here, and only from the same sources."""
+
+import os
+import subprocess
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+from types import SimpleNamespace
+from typing import Any
+
+import pytest
+from study_cases import Killed, Number, Refusing, Square
+
+from verification.studies.running import cluster
+from verification.studies.running.case_pool import OTHER_CODE, run_cases
+from verification.studies.running.case_store import CaseStore
+from verification.studies.running.cluster import ClusterUnavailable, ClusterWorkers
+
+ROOT = Path(__file__).resolve().parents[1]
+
+
+def without(name: str) -> Any:
+    raise ModuleNotFoundError(f"No module named '{name}'", name=name)
+
+
+def test_address_that_is_none_is_refused_with_what_one_looks_like() -> None:
+    for address in ("localhost:8786", "http://localhost", "", "tcp:/x"):
+        with pytest.raises(ClusterUnavailable, match="tcp://host:port or tls://host:port"):
+            ClusterWorkers(address)
+
+
+def test_missing_library_is_named_with_the_way_to_it(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(cluster, "importlib", SimpleNamespace(import_module=without))
+    with pytest.raises(ClusterUnavailable, match=r"pip install 'slipstick\[cluster\]'"):
+        ClusterWorkers("tcp://127.0.0.1:1")
+
+
+def test_silent_address_is_named(monkeypatch: pytest.MonkeyPatch) -> None:
+    def client(*_: Any, **__: Any) -> Any:
+        raise OSError("timed out")
+
+    library = SimpleNamespace(Client=client)
+    loaded = SimpleNamespace(import_module=lambda name: library)
+    monkeypatch.setattr(cluster, "importlib", loaded)
+    with pytest.raises(ClusterUnavailable, match=r"tcp://127.0.0.1:1: timed out"):
+        ClusterWorkers("tcp://127.0.0.1:1")
+
+
+@pytest.mark.parametrize("command", [["verify"], ["study", "coated-tractions"]])
+def test_command_refuses_before_any_work(command: list[str], tmp_path: Path) -> None:
+    code = (
+        f"import sys; sys.path.insert(0, {str(ROOT)!r}); from verification.cli import main; main()"
+    )
+    outcome = subprocess.run(
+        [sys.executable, "-c", code, *command, "--scheduler", "localhost:8786"],
+        cwd=tmp_path, capture_output=True, text=True, check=False, timeout=120,
+    )  # fmt: skip
+    assert outcome.returncode == 2
+    assert "tcp://host:port" in outcome.stderr
+    assert list(tmp_path.iterdir()) == []
+
+
+@pytest.fixture(scope="module")
+def address() -> Iterator[str]:
+    distributed = pytest.importorskip("distributed")
+    with distributed.LocalCluster(
+        n_workers=2, threads_per_worker=1, dashboard_address=None
+    ) as local:
+        yield local.scheduler_address
+
+
+@pytest.mark.slow
+def test_cluster_gives_the_records_and_names_what_is_lost(address: str, tmp_path: Path) -> None:
+    cases = (Square(1.0), Refusing(20.0), Square(2.0), Killed(30.0), Square(3.0))
+    store = CaseStore(tmp_path)
+    ends = run_cases(cases, store, ClusterWorkers(address), lambda end: None)
+    values = {end.case.name: end.record.value for end in ends if isinstance(end.record, Number)}
+    assert values == {"square-1": 1.0, "square-2": 4.0, "square-3": 9.0}
+    lost = {end.lost.name: end.lost.reason for end in ends if end.lost is not None}
+    assert lost["square-20"] == "ArithmeticError: no square today"
+    assert lost["square-30"].startswith("KilledWorker")
+    processes = {end.record.process for end in ends if isinstance(end.record, Number)}
+    assert os.getpid() not in processes
+    assert store.load(cases[0]) == ends[0].record
+
+
+@pytest.mark.slow
+def test_workers_of_other_sources_are_refused(
+    address: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("verification.studies.running.case_pool.code_digest", lambda: b"other")
+    (end,) = run_cases([Square(1.0)], CaseStore(tmp_path), ClusterWorkers(address), print)
+    assert end.record is None
+    assert end.lost is not None
+    assert end.lost.reason == OTHER_CODE
+
+
+@pytest.mark.slow
+@pytest.mark.timeout(900)
+def test_verification_on_a_cluster_gives_the_report_of_this_machine(
+    address: str, tmp_path: Path
+) -> None:
+    from verification.cases.case import Level
+    from verification.cases.catalogue import choose
+    from verification.cli.judged_cases import judged
+
+    cases = choose(Level.QUICK, ("dissimilar_bodies", "fem_torsion"))
+    here, _ = judged(cases, "QUICK", tmp_path / "here", 1, fresh=False)
+    there, _ = judged(cases, "QUICK", tmp_path / "there", ClusterWorkers(address), fresh=False)
+    assert there == here

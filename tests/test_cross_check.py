@@ -1,0 +1,154 @@
+"""The cross-check of both solvers: what it measures, and that it can fail."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import fem_reference
+import semi_analytical
+from contact_scene import IsotropicMaterial
+from verification.cases.case import Level
+from verification.cases.cross_check import Sides, cross_check_on
+from verification.cases.cross_check_contacts import FRICTIONS, RATIOS, THICKNESSES, CheckedContact
+from verification.cases.cross_check_stress import stress_difference
+from verification.cases.judgement import judge, solve_run
+from verification.cases.outcome import Status
+from verification.cases.section_run import SectionRun
+from verification.studies.cross_check.contact_run import CrossCheckRecord, CrossCheckRun
+from verification.studies.cross_check.difference import Difference, differences
+from verification.studies.cross_check.study import STUDY
+from verification.studies.running.study import Settings
+
+SMOOTH = CheckedContact(2.0, 1.0, 0.0)
+ROUGH = CheckedContact(0.5, 1.0, 0.1)
+QUICK = Settings(Level.QUICK)
+
+
+@pytest.fixture(scope="module")
+def record() -> CrossCheckRecord:
+    return CrossCheckRun(2.0, 1.0, 0.0, 64, 32).compute()
+
+
+def test_both_solvers_agree_and_say_what_they_leave(record: CrossCheckRecord) -> None:
+    found = differences(record)
+    assert set(found) == {"pressure", "approach"}
+    for one in found.values():
+        assert one.status is Status.PASS
+        assert one.joint > 0
+        assert one.to_reference is not None
+        assert max(one.to_reference) < one.required
+
+
+def test_a_record_comes_back_from_its_text(record: CrossCheckRecord) -> None:
+    assert CrossCheckRecord.model_validate_json(record.model_dump_json()) == record
+
+
+def test_the_matrix_has_every_contact_once() -> None:
+    cases = STUDY.cases(QUICK)
+    assert len({case.name for case in cases}) == len(RATIOS) * len(THICKNESSES) * len(FRICTIONS)
+
+
+def test_own_errors_decide_between_fail_and_inconclusive() -> None:
+    small, large = 1e-4, 1e-2
+    assert Difference(0.9e-3, 1e-3, small, small, None).status is Status.PASS
+    assert Difference(5e-3, 1e-3, small, large, None).status is Status.INCONCLUSIVE
+    assert Difference(5e-3, 1e-3, small, small, None).status is Status.FAIL
+    assert Difference(0.0, 1.0, 0.0, 0.0, (2.0, 1.0)).nearer == "elements"
+
+
+def test_study_concludes_from_the_records_there_are(record: CrossCheckRecord) -> None:
+    case = next(c for c in STUDY.cases(QUICK) if c.name.startswith("2-1-0-"))
+    conclusion = STUDY.conclude(QUICK, {case.name: record})
+    by_claim = {statement.claim: statement for statement in conclusion.statements}
+    agree = by_claim["both solvers agree: pressure, r < 0.9 a, over p₀"]
+    assert agree.outcome is Status.PASS
+    assert "1 of 1 contacts" in agree.measured
+    # One of 54 is no verdict on all.
+    assert by_claim["every increment converged"].outcome is Status.INCONCLUSIVE
+    assert {chart.name for chart in conclusion.charts} == {
+        "pressure_differences",
+        "shear_differences",
+    }
+    assert all(len(chart.rows) == len(RATIOS) for chart in conclusion.charts)
+    assert len(
+        STUDY.exports(QUICK, {case.name: record})["differences.csv"].splitlines()
+    ) == 1 + len(record.radii)
+
+
+@pytest.mark.parametrize("wrong", ["pressure", "shear", "approach"])
+def test_a_side_that_is_wrong_fails(record: CrossCheckRecord, wrong: str) -> None:
+    side = record.semi_analytical
+    ones = (1.0,) * len(record.radii)
+    changes: dict[str, object] = {
+        "pressure": {"pressure": tuple(1.03 * p for p in side.pressure)},
+        "shear": {"shear": ones},
+        "approach": {"numbers": side.numbers | {"approach": 1.002 * side.numbers["approach"]}},
+    }
+    changed = side.model_copy(update=changes[wrong])
+    (statement,) = (
+        s
+        for s in STUDY.conclude(
+            QUICK,
+            {CrossCheckRun(2.0, 1.0, 0.0, 128, 64).name: record.model_copy(
+                update={"semi_analytical": changed})},
+        ).statements
+        if f"agree: {wrong}" in s.claim
+    )  # fmt: skip
+    assert statement.outcome is Status.FAIL
+
+
+def test_profiles_of_both_solvers_are_at_the_same_radii() -> None:
+    radii = ROUGH.radii(8, 32)
+    on_cells = ROUGH.on_grid(semi_analytical.solve(ROUGH.scene, ROUGH.grid(32), 1e-8), radii)
+    on_rings = ROUGH.on_rings(fem_reference.solve(ROUGH.scene, ROUGH.mesh(16)), radii)
+    np.testing.assert_allclose(on_cells.pressure, on_rings.pressure, atol=0.05)
+    np.testing.assert_allclose(on_cells.shear, on_rings.shear, atol=0.1)
+    with pytest.raises(ValueError, match="rings"):
+        ROUGH.on_rings(fem_reference.solve(ROUGH.scene, ROUGH.mesh(16)), radii + 0.01)
+
+
+def test_the_edge_of_stick_is_not_judged() -> None:
+    radii = ROUGH.radii(32, 64)
+    kept = ROUGH.away_from_stick_edge(radii, 0.5 * ROUGH.contact_radius, 64, 32)
+    assert not kept[np.argmin(np.abs(radii - 0.5))]
+    assert kept[0]
+    assert kept[-1]
+
+
+def stiffer_film(run: object) -> object:
+    """The run of elements with a coating of 1.02 times the modulus; that of cells as it is."""
+    if not isinstance(run, SectionRun):
+        return solve_run(run)  # type: ignore[arg-type]
+    body = run.scene.body
+    (layer,) = body.layers
+    E, nu = layer.material.young_modulus, layer.material.poisson_ratio
+    material = IsotropicMaterial(young_modulus=1.02 * E, poisson_ratio=nu)
+    other = body.model_copy(update={"layers": (layer.model_copy(update={"material": material}),)})
+    return solve_run(replace(run, scene=run.scene.model_copy(update={"body": other})))
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("broken", [False, True], ids=["same bodies", "another coating"])
+def test_case_tells_bodies_apart(broken: bool) -> None:
+    case = cross_check_on((Sides(SMOOTH, 96, 64),))
+    outcome = judge(case, stiffer_film if broken else solve_run)
+    failed = {verdict.name for verdict in outcome.verdicts if verdict.status is Status.FAIL}
+    expected = {"approach_difference", "pressure_difference", "stress_difference"}
+    assert failed == (expected if broken else set())
+    assert {chart.name for chart in outcome.charts} == {
+        "cross_check_profiles",
+        "cross_check_stress",
+    }
+
+
+@pytest.mark.slow
+def test_stress_of_other_tractions_differs() -> None:
+    one = semi_analytical.solve(SMOOTH.scene, SMOOTH.grid(48), 1e-8)
+    other = fem_reference.solve(SMOOTH.scene, SMOOTH.mesh(16))
+    assert stress_difference(SMOOTH, one, other) < 0.02
+    weaker = replace(
+        other,
+        increments=tuple(replace(i, pressure=0.9 * i.pressure) for i in other.increments),
+    )
+    assert stress_difference(SMOOTH, one, weaker) > 0.05

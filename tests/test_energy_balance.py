@@ -1,0 +1,285 @@
+"""First law: work put in is stored or dissipated, in every increment and whatever the history."""
+
+from dataclasses import replace
+from itertools import pairwise
+
+import contact_scenes
+import coupled_scenes
+import numpy as np
+import pytest
+from contact_scenes import (
+    APPROACH,
+    LIMIT,
+    LOAD,
+    MU,
+    PRESS,
+    RADIUS,
+    A,
+    grid,
+    paraboloid,
+    push,
+    slide,
+)
+from coupled_scenes import bulk, coated
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from contact_scene import RIGID, Body, FlatPunch
+from contact_scene.summary import ContactStatus
+from semi_analytical import NotConverged, SurfaceGrid, history, one_way, plan, solve
+from semi_analytical.balance import balanced
+from semi_analytical.energy import NOTHING_YET
+from semi_analytical.increment import solve_increment
+from semi_analytical.model import ContactModel
+from semi_analytical.pressing import NormalTarget
+from semi_analytical.shearing import TangentialTarget
+
+TOLERANCE = 1e-8
+# Balance of the first law asked for; the equations are solved to the tolerance above.
+CLOSES = 1e-6
+GRID = grid(20, 1.6)
+
+PARTS = st.integers(1, 20).map(lambda n: n / 20)
+SHIFTS = st.integers(-40, 40).map(lambda n: n / 10)
+TURNS = st.integers(-10, 10).map(lambda n: n * 1e-4)
+STEPS = st.one_of(
+    st.builds(lambda w: {"normal_force": w * LOAD}, PARTS),
+    st.builds(lambda d: {"approach": d * APPROACH}, PARTS),
+    st.builds(slide, SHIFTS, SHIFTS),
+    st.builds(lambda w, s: {"normal_force": w * LOAD, **slide(s)}, PARTS, SHIFTS),
+    st.builds(lambda turn: {"twist": turn}, TURNS),
+    st.builds(lambda x, y: {"tilt": (x, y)}, TURNS, TURNS),
+)
+HISTORIES = st.lists(
+    st.builds(lambda step, n: {**step, "increments": n}, STEPS, st.integers(1, 2)),
+    min_size=1,
+    max_size=3,
+).map(lambda steps: [{**PRESS, "increments": 1}, *steps])
+BODIES = {
+    "alike": lambda loading: contact_scenes.scene(*loading),
+    "coated": lambda loading: coupled_scenes.scene(*loading, body=coated()),
+    "nu = 0": lambda loading: coupled_scenes.scene(*loading, body=bulk(0.0)),
+    "indenter coupled, friction strong": lambda loading: coupled_scenes.scene(
+        *loading, body=Body(material=RIGID), indenter=paraboloid(), friction=0.6
+    ),
+    "frictionless": lambda loading: contact_scenes.scene(
+        *(without_friction(step) for step in loading), friction=None
+    ),
+}
+
+
+def without_friction(step):
+    """The same but for what needs friction; what is left then presses on."""
+    kept = {key: step[key] for key in step if key not in ("tangential_shift", "twist")}
+    return kept if len(kept) > 1 else {**PRESS, **kept}
+
+
+def assert_first_law(increments, cell_area):
+    for increment in increments:
+        assert increment.energy_imbalance <= CLOSES
+        assert increment.elastic_energy > 0
+        if increment.shear is None:
+            continue
+        assert np.all(increment.dissipation_increment >= 0)
+        assert np.all(increment.slip_distance >= np.hypot(*increment.slip) * (1 - 1e-12))
+        lost = float(np.sum(increment.dissipation)) * cell_area
+        assert lost == pytest.approx(increment.dissipated_energy, rel=1e-11, abs=1e-25)
+
+
+@pytest.mark.parametrize("body", BODIES.values(), ids=BODIES)
+@settings(max_examples=5)
+@given(history=HISTORIES)
+def test_work_is_stored_or_dissipated_over_any_history(body, history):
+    result = solve(body(history), GRID, TOLERANCE)
+    assert_first_law(result.increments, GRID.cell_area)
+
+
+def punch(*loading):
+    return coupled_scenes.scene(*loading, indenter=FlatPunch(radius=A, material=RIGID))
+
+
+NAMED = {
+    "unloading and reversal": contact_scenes.scene(
+        PRESS, push(0.9, increments=3), push(-0.9, increments=3), push(0.0)
+    ),
+    "load and force together": contact_scenes.scene(
+        {**PRESS, **push(0.5, 0.2), "increments": 3},
+        {"normal_force": 0.3 * LOAD, **push(0.1, -0.1), "increments": 4},
+    ),
+    "sliding": contact_scenes.scene(PRESS, slide(20, 5), slide(-20)),
+    "held in sliding": contact_scenes.scene(
+        PRESS, slide(20), {"normal_force": 0.5 * LOAD, "increments": 2}, slide(20)
+    ),
+    "torque": contact_scenes.scene(
+        PRESS, {"torque": 0.3 * LIMIT * A}, {"torque": -0.3 * LIMIT * A, **push(0.2)}
+    ),
+    "free to tilt": punch(PRESS, {"moment": (0.02 * LOAD * A, 0.1 * LOAD * A)}, push(0.4)),
+    "no friction": coupled_scenes.scene(PRESS, slide(3), friction=0.0),
+}
+
+
+@pytest.mark.parametrize("scene", NAMED.values(), ids=NAMED)
+def test_work_is_stored_or_dissipated(scene):
+    result = solve(scene, grid(24, 1.6), TOLERANCE)
+    assert_first_law(result.increments, result.grid.cell_area)
+
+
+@pytest.mark.parametrize("tolerance", [1e-2, 1e-12])
+def test_friction_never_gives_energy_back(tolerance):
+    """Nor does what a solver leaves as residual, however much that is."""
+    still = {"normal_force": LOAD, "increments": 3}
+    described = contact_scenes.scene(PRESS, slide(3), still, slide(3.0), slide(2.9999999))
+    for increment in solve(described, grid(48), tolerance).increments:
+        assert np.all(increment.dissipation_increment >= 0)
+
+
+def test_the_balance_takes_no_convolution():
+    model = ContactModel.of(contact_scenes.scene(PRESS, push(0.5)), GRID)
+    before = solve_increment(
+        model, None, NormalTarget(force=LOAD), TangentialTarget(force=np.zeros(2)), TOLERANCE
+    )
+    after = solve_increment(
+        model, before, before.target, TangentialTarget(force=np.array([20.0, 0.0])), TOLERANCE
+    )
+    counted = model.convolutions.count
+    known = balanced(model, balanced(model, None, before), after)
+    assert model.convolutions.count == counted
+    assert known.energy.elastic > 0
+
+
+def test_surfaces_that_violate_reciprocity_do_not_balance():
+    """Goodman's one-way coupling has no elastic energy; the balance says how much that matters."""
+    described = coupled_scenes.scene(coupled_scenes.press(), coupled_scenes.push(0.8))
+    full, half = (
+        max(i.energy_imbalance for i in solve(described, GRID, TOLERANCE, plan=chosen).increments)
+        for chosen in (plan(described), one_way(plan(described)))
+    )
+    assert full <= CLOSES
+    assert half > 1e-4
+
+
+def test_a_ball_stores_two_fifths_of_load_times_approach():
+    """Hertz: W grows as the 3/2 power of the approach."""
+    (end,) = solve(contact_scenes.scene(PRESS, friction=None), grid(96, 1.2), TOLERANCE).increments
+    assert end.elastic_energy == pytest.approx(0.4 * LOAD * APPROACH, rel=1e-4)
+    # One increment sees a straight line from zero: ½ W δ.
+    assert end.input_work == pytest.approx(0.5 * LOAD * APPROACH, rel=1e-4)
+
+
+def unresolved(*loading, **more):
+    described = contact_scenes.scene(*loading, **more)
+    steps = solve(described, grid(32), 1e-9).steps
+    return np.diff([0.0, *(step.unresolved_work for step in steps)])
+
+
+REFINED = {
+    "pressing": lambda n: unresolved({**PRESS, "increments": n}, friction=None)[0],
+    "unloading": lambda n: unresolved(
+        PRESS, {"normal_force": 0.3 * LOAD, "increments": n}, friction=None
+    )[1],
+    "pushing": lambda n: unresolved(PRESS, push(0.9, increments=n))[1],
+    "reversal": lambda n: unresolved(PRESS, push(0.9), push(-0.9, increments=2 * n))[2],
+}
+
+
+@pytest.mark.parametrize("work", REFINED.values(), ids=REFINED)
+def test_what_increments_leave_open_vanishes_with_their_square(work):
+    coarse, fine = work(4), work(16)
+    order = np.log(coarse / fine) / np.log(4)
+    assert order == pytest.approx(2.0, abs=0.2)
+
+
+def test_with_friction_under_a_growing_load_it_vanishes_too():
+    """First order: friction at the end of an increment is not that of its middle."""
+    left = [
+        abs(solve(coupled_scenes.scene(coupled_scenes.press(increments=n)), GRID, 1e-9)
+            .increments[-1].unresolved_work)
+        for n in (2, 6, 18)
+    ]  # fmt: skip
+    for coarse, fine in pairwise(left):
+        assert fine < coarse / 2.5
+
+
+def test_energies_scale_with_modulus_and_volume():
+    length, modulus = 1e3, 3e-4
+    loading = (PRESS, push(0.8), push(-0.8))
+    scaled = [
+        {
+            "normal_force": modulus * length**2 * LOAD,
+            "tangential_force": (modulus * length**2 * x * LIMIT, 0.0),
+        }
+        for x in (0.0, 0.8, -0.8)
+    ]
+    indenter, body = (
+        paraboloid(contact_scenes.steel(young_modulus=modulus * contact_scenes.YOUNG))
+        for _ in range(2)
+    )
+    large = contact_scenes.scene(
+        *scaled,
+        indenter=indenter.model_copy(update={"radius": length * RADIUS}),
+        body=body.material,
+    )
+    wide = SurfaceGrid(GRID.cells, tuple(length * side for side in GRID.window))
+    one = solve(contact_scenes.scene(*loading), GRID, TOLERANCE).increments[-1]
+    other = solve(large, wide, TOLERANCE).increments[-1]
+    for name in ("elastic_energy", "input_work", "dissipated_energy", "unresolved_work"):
+        expected = modulus * length**3 * getattr(one, name)
+        assert getattr(other, name) == pytest.approx(expected, rel=1e-6)
+
+
+def test_an_increment_in_two_halves_adds_up_both(monkeypatch):
+    """The halves are not reported, their work and their dissipation are."""
+    loading = (PRESS, push(0.6, increments=1))
+    halves = (PRESS, push(0.6, increments=2))
+    expected = solve(contact_scenes.scene(*halves), GRID, TOLERANCE).increments[-1]
+    refused = []
+
+    def solve_or_refuse(model, before, normal, tangential, tolerance):
+        if before is not None and not refused:
+            refused.append(True)
+            raise NotConverged("the shear", 1, 1.0, tolerance)
+        return solve_increment(model, before, normal, tangential, tolerance)
+
+    monkeypatch.setattr(history, "solve_increment", solve_or_refuse)
+    end = solve(contact_scenes.scene(*loading), GRID, TOLERANCE).increments[-1]
+    assert end.halvings == 1
+    assert end.energy_imbalance <= CLOSES
+    for name in ("elastic_energy", "input_work", "dissipated_energy", "unresolved_work"):
+        assert getattr(end, name) == pytest.approx(getattr(expected, name), rel=1e-9)
+    np.testing.assert_allclose(end.dissipation, expected.dissipation, atol=1e-9)
+    np.testing.assert_array_equal(end.dissipation_increment, end.dissipation)
+
+
+def test_at_the_limit_under_force_control_work_and_slip_are_undefined():
+    end = solve(contact_scenes.scene(PRESS, push(1.0)), GRID, TOLERANCE).increments[-1]
+    assert end.status is ContactStatus.GROSS_SLIDING
+    assert end.elastic_energy > 0
+    undefined = "input_work unresolved_work energy_imbalance dissipated_energy dissipation"
+    for name in (*undefined.split(), "slip_distance", "slip_increment", "dissipation_increment"):
+        assert getattr(end, name) is None, name
+
+
+def test_increments_add_up_to_what_they_have_led_to():
+    result = solve(contact_scenes.scene(PRESS, push(0.9), push(-0.9)), GRID, TOLERANCE)
+    last = result.increments[-1]
+    slips = [i.slip_increment for i in result.increments]
+    lost = [i.dissipation_increment for i in result.increments]
+    np.testing.assert_allclose(np.sum(slips, axis=0), last.slip, atol=1e-12 * APPROACH)
+    np.testing.assert_allclose(np.sum(lost, axis=0), last.dissipation, rtol=1e-12)
+    way = np.sum([np.hypot(*slip) for slip in slips], axis=0)
+    np.testing.assert_allclose(way, last.slip_distance, atol=1e-12 * APPROACH)
+    # Back and forth: the way is longer than the distance.
+    assert np.max(last.slip_distance - np.hypot(*last.slip)) > 0.1 * np.max(way)
+    # Friction µp over the way, as the pressure stays: wear of Archard and dissipation go together.
+    expected = MU * last.pressure * last.slip_distance
+    np.testing.assert_allclose(last.dissipation, expected, atol=1e-6 * np.max(expected))
+
+
+def test_the_balance_of_a_wrong_displacement_is_open():
+    model = ContactModel.of(contact_scenes.scene(PRESS), GRID)
+    state = solve_increment(model, None, NormalTarget(force=LOAD), None, TOLERANCE)
+    wrong = replace(state.pressing, displacement=1.001 * state.pressing.displacement)
+    first = balanced(model, None, state)
+    spoilt = balanced(model, first, replace(state, pressing=wrong))
+    assert first.energy.imbalance(NOTHING_YET) <= CLOSES
+    assert spoilt.energy.imbalance(first.energy) > 1e-4

@@ -1,0 +1,398 @@
+"""Condensed compliances against Hankel integrals, punches with closed forms, and themselves."""
+
+import os
+from dataclasses import replace
+from math import inf, isinf, pi
+
+import numpy as np
+import pytest
+from hankel_responses import Coating, Patch, nodal_forces, patch_energy
+
+from contact_scene import RIGID, Body, IsotropicMaterial, Layer
+from contact_scene.solver_errors import ResourceRefused
+from fem_reference import factored_section, free_memory, stored_compliance
+from fem_reference.compliance import composite, condense
+from fem_reference.factored_section import FactoredSection
+from fem_reference.gmsh_mesh import GmshMissing, gmsh_section_mesh
+from fem_reference.hats import hats_on
+from fem_reference.motion import PRESSING, SHEARING, TORSION, motion
+from fem_reference.section_mesh import SectionMesh, section_mesh
+from fem_reference.section_outline import sufficient_box
+
+NU = 0.3
+HALF_SPACE = Body(material=IsotropicMaterial(young_modulus=2 * (1 + NU), poisson_ratio=NU))
+PATCHES = {
+    "pressure": (PRESSING, Patch(0, 0, 0, 1)),
+    "radial shear": (PRESSING, Patch(0, 1, 1, 0)),
+    "both": (PRESSING, Patch(0, -1, -1, 1)),
+    "torsion": (TORSION, Patch(0, -1, 1, 0)),
+    "shear": (SHEARING, Patch(1, 1, 0, 0)),
+    "all of n = 1": (SHEARING, Patch(1, 1, 0.7, 1.2)),
+    "all of n = 2": (motion(2), Patch(2, 1, 0.7, 1.2)),
+    "all of n = 4": (motion(4), Patch(4, 1, 0.7, 1.2)),
+    "all of n = 8": (motion(8), Patch(8, 1, 0.7, 1.2)),
+}
+MOTIONS = {"pressing": PRESSING, "torsion": TORSION, "shearing": SHEARING, "n = 3": motion(3)}
+COATINGS = {
+    "half as stiff": (0.5, 0.3, 1.0, 0.3, 1.0),
+    "twice as stiff": (2.0, 0.3, 1.0, 0.3, 1.0),
+    "four times as stiff": (4.0, 0.3, 1.0, 0.3, 0.5),
+    "thin and stiff": (4.0, 0.3, 1.0, 0.3, 0.01),
+    "thin and soft": (0.25, 0.3, 1.0, 0.3, 0.01),
+    "on a rigid base": (1.0, 0.3, inf, 0.3, 0.5),
+    "nearly incompressible": (1.0, 0.499, 1.0, 0.3, 0.3),
+    "incompressible": (1.0, 0.5, 1.0, 0.3, 0.3),
+    "incompressible on a rigid base": (1.0, 0.5, inf, 0.3, 0.1),
+    "on an incompressible substrate": (1.0, 0.3, 1.0, 0.5, 0.3),
+    "all incompressible": (1.0, 0.5, 1.0, 0.5, 0.3),
+}
+
+
+def coated(E1, nu1, E2, nu2, h):
+    """The body, and its Hankel responses."""
+    layer = IsotropicMaterial(young_modulus=E1, poisson_ratio=nu1)
+    base = RIGID if isinf(E2) else IsotropicMaterial(young_modulus=E2, poisson_ratio=nu2)
+    body = Body(material=base, layers=(Layer(thickness=h, material=layer),))
+    return body, Coating(E1 / (2 + 2 * nu1), nu1, E2 / (2 + 2 * nu2), nu2, h)
+
+
+def energy_error(compliance, patch, responses, signs=(1,)):
+    forces = nodal_forces(patch, compliance.radii)[list(compliance.motion.components)]
+    energy = np.einsum("ci,cidj,dj->", forces, compliance.matrix, forces)
+    return energy / patch_energy(responses, patch, signs) - 1
+
+
+def bound(harmonic, N):
+    """Of the energy: what the elements under a patch leave falls with N^-3, the rest is 2e-5."""
+    return 2e-5 + 3e-4 * (1 + harmonic / 2) ** 2.4 * (8 / N) ** 3
+
+
+@pytest.mark.parametrize("patch", PATCHES)
+def test_patch_energies_agree_with_hankel_integrals(patch):
+    of, load = PATCHES[patch]
+    body, response = coated(*COATINGS["twice as stiff"])
+    error = energy_error(condense(section_mesh(body, 16), of), load, [response])
+    assert abs(error) < bound(of.harmonic, 16)
+
+
+@pytest.mark.parametrize("patch", ["both", "torsion", "all of n = 1"])
+@pytest.mark.parametrize("coating", COATINGS)
+def test_every_kind_of_coating_agrees_with_hankel_integrals(coating, patch):
+    of, load = PATCHES[patch]
+    body, response = coated(*COATINGS[coating])
+    error = energy_error(condense(section_mesh(body, 8), of), load, [response])
+    assert abs(error) < bound(of.harmonic, 8)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("patch", ["both", "torsion", "all of n = 1", "all of n = 8"])
+@pytest.mark.parametrize("coating", COATINGS)
+def test_finer_patches_agree_with_hankel_integrals(coating, patch):
+    of, load = PATCHES[patch]
+    body, response = coated(*COATINGS[coating])
+    error = energy_error(condense(section_mesh(body, 64), of), load, [response])
+    assert abs(error) < bound(of.harmonic, 64)
+
+
+@pytest.mark.parametrize("patch", ["both", "all of n = 2"])
+def test_both_meshers_give_the_same_compliance(patch):
+    of, load = PATCHES[patch]
+    body, _ = coated(*COATINGS["twice as stiff"])
+    tensor = condense(section_mesh(body, 12), of)
+    try:
+        gmsh = condense(gmsh_section_mesh(body, 12), of)
+    except GmshMissing as missing:
+        pytest.skip(str(missing))
+    assert np.array_equal(gmsh.radii, tensor.radii)
+    forces = nodal_forces(load, tensor.radii)[list(of.components)]
+    ours, theirs = (np.einsum("cidj,dj->ci", c.matrix, forces) for c in (tensor, gmsh))
+    assert np.abs(ours - theirs).max() < 2e-4 * np.abs(ours).max()
+    energies = [np.sum(forces * u) for u in (ours, theirs)]
+    assert energies[1] == pytest.approx(energies[0], rel=4e-5)
+
+
+@pytest.mark.parametrize("patch", ["torsion", "all of n = 4"])
+def test_error_falls_under_refinement(patch):
+    """At least with the third power of the element: the patch ends in a kink of its curvature."""
+    of, load = PATCHES[patch]
+    coarse = section_mesh(HALF_SPACE, 4, box=20.0)
+    response = [Coating(1.0, NU, 1.0, NU, 1.0)]
+    errors = [
+        abs(energy_error(condense(section, of), load, response))
+        for section in (coarse, coarse.refined())
+    ]
+    assert errors[0] > 8 * errors[1]
+
+
+@pytest.mark.parametrize("patch", ["radial shear", "both", "torsion", "all of n = 2"])
+def test_compliances_of_two_bodies_add_with_the_normal_turned(patch):
+    of, load = PATCHES[patch]
+    (lower, below), (upper, above) = (
+        coated(*COATINGS[x]) for x in ("half as stiff", "incompressible")
+    )
+    sections = section_mesh(lower, 8), section_mesh(upper, 8)
+    both = composite(*sections, of)
+    assert abs(energy_error(both, load, [below, above], (1, -1))) < bound(of.harmonic, 8)
+    alone = composite(None, sections[1], of)
+    assert abs(energy_error(alone, load, [above], (-1,))) < bound(of.harmonic, 8)
+
+
+def test_bodies_alike_are_condensed_once_and_uncoupled():
+    section = section_mesh(HALF_SPACE, 6)
+    pair = composite(section, section, PRESSING)
+    assert pair.factorizations == 1
+    assert not np.any(pair.matrix[0, :, 1])
+    assert np.array_equal(pair.matrix[1, :, 1], 2 * condense(section, PRESSING).matrix[1, :, 1])
+
+
+def test_two_rigid_bodies_or_unequal_meshes_are_refused():
+    with pytest.raises(ValueError, match="two rigid bodies"):
+        composite(None, None, PRESSING)
+    with pytest.raises(ValueError, match="same N"):
+        composite(section_mesh(HALF_SPACE, 4), section_mesh(HALF_SPACE, 6), PRESSING)
+
+
+@pytest.mark.parametrize("of", MOTIONS.values(), ids=MOTIONS)
+def test_reciprocity_and_positive_energy(of):
+    body, _ = coated(*COATINGS["incompressible"])
+    compliance = condense(section_mesh(body, 6), of)
+    c, m = compliance.matrix.shape[:2]
+    matrix = compliance.matrix.reshape(c * m, c * m)
+    assert np.array_equal(matrix, matrix.T)
+    # On the axis some displacements are zero or equal: forces on them do no work of their own.
+    eigenvalues = np.linalg.eigvalsh(matrix)
+    at_rest = (
+        c - sum(1 for factor in of.on_axis if factor) + max(0, np.count_nonzero(of.on_axis) - 1)
+    )
+    assert np.all(eigenvalues[at_rest:] > 1e-4 * eigenvalues[-1] / m)
+    assert np.all(np.abs(eigenvalues[:at_rest]) < 1e-12 * eigenvalues[-1])
+
+
+def rigid_disc_stiffness(section, of, displacement):
+    """Resultant of tractions linear between nodes that give the disc r < 1 a weak displacement."""
+    compliance = condense(section, of)
+    hats = hats_on(compliance.radii, 1.0)
+    loads = np.zeros((len(of.components) * compliance.radii.size, 0))
+    columns, right, resultants = [loads], [], []
+    for c, factor in displacement.items():
+        place = of.components.index(c)
+        block = np.zeros((len(of.components), *hats.products.shape))
+        block[place] = hats.products
+        columns.append(block.reshape(-1, hats.radii.size))
+        right.append(factor * (hats.arms if of is TORSION else hats.weights))
+        resultants.append(of.resultant[place] * (hats.arms if of is TORSION else hats.weights))
+    products, right = np.hstack(columns), np.concatenate(right)
+    matrix = products.T @ compliance.matrix.reshape(len(products), -1) @ products
+    tractions = np.linalg.lstsq(matrix, right, rcond=1e-13)[0]
+    return float(np.concatenate(resultants) @ tractions)
+
+
+DISCS = {
+    # Flat punch W = 4 G a / (1 - nu); Reissner and Sagoci M = 16 G a^3 / 3; shear without pressure,
+    # free to dilate: T = 8 G a / (2 - nu). Here G = a = 1.
+    "flat punch": (PRESSING, {2: 1.0}, 4 / (1 - NU), 0.0209),
+    "Reissner and Sagoci": (TORSION, {1: 1.0}, 16 / 3, 0.0495),
+    "sheared disc": (SHEARING, {0: 1.0, 1: -1.0}, 8 / (2 - NU), 0.0140),
+}
+
+
+@pytest.mark.parametrize("disc", DISCS)
+def test_rigid_discs_have_their_stiffness(disc):
+    """The root singularity at the rim leaves an error of first order, which extrapolates away."""
+    of, displacement, exact, slope = DISCS[disc]
+    N = (8, 16)
+    errors = [
+        rigid_disc_stiffness(section_mesh(HALF_SPACE, n), of, displacement) / exact - 1 for n in N
+    ]
+    assert errors[1] == pytest.approx(-slope / N[1], rel=0.05)
+    assert 2 * errors[1] - errors[0] == pytest.approx(0, abs=2e-4)
+
+
+def energy_in_a_box(body, of, load, box):
+    compliance = condense(section_mesh(body, 4, box=box), of)
+    forces = nodal_forces(load, compliance.radii)[list(of.components)]
+    return np.einsum("ci,cidj,dj->", forces, compliance.matrix, forces)
+
+
+@pytest.mark.parametrize(
+    ("patch", "moving", "at_rest"),
+    [("pressure", 5e-4, 0.05), ("shear", 2e-3, 0.05), ("torsion", 5e-5, 5e-4)],
+)
+def test_the_box_moves_with_the_far_field_of_the_load(patch, moving, at_rest):
+    """Even a small one hardly disturbs; one at rest would."""
+    of, load = PATCHES[patch]
+    large = energy_in_a_box(HALF_SPACE, of, load, 50.0)
+    assert abs(energy_in_a_box(HALF_SPACE, of, load, 5.0) / large - 1) < moving
+    fixed = replace(of, far_field=None)
+    assert abs(energy_in_a_box(HALF_SPACE, fixed, load, 5.0) / large - 1) > at_rest
+
+
+@pytest.mark.parametrize("patch", ["pressure", "shear"])
+@pytest.mark.parametrize(
+    ("modulus", "thickness"),
+    [(0.2, 10.0), (5.0, 0.1), (5.0, 10.0), (1000.0, 0.5), (0.0, 40.0)],
+)
+def test_the_chosen_box_suffices(modulus, thickness, patch):
+    """Moduli in units of the substrate's; the last one is on a rigid base."""
+    body, _ = coated(modulus or 1.0, 0.3, 1.0 if modulus else inf, 0.3, thickness)
+    of, load = PATCHES[patch]
+    larger = energy_in_a_box(body, of, load, 4 * sufficient_box(body))
+    assert energy_in_a_box(body, of, load, None) == pytest.approx(larger, rel=2e-5)
+
+
+def test_displacement_below_uniform_pressure():
+    """On the axis, from Boussinesq's solution: p/2G (2(1-nu)(s-z) + z - z^2/s), s^2 = 1 + z^2."""
+    factored = FactoredSection(section_mesh(HALF_SPACE, 16), PRESSING)
+    hats = hats_on(factored.section.radii, 1.0)
+    forces = np.zeros((2, factored.surface.size, 1))
+    forces[1, :, 0] = hats.products.sum(axis=1)
+    field = factored.displacement(forces)[1, :, 0]
+    axis = factored.nodes[0] == 0.0
+    z = factored.nodes[1, axis]
+    s = np.hypot(1, z)
+    exact = ((1 - NU) * 2 * (s - z) + z - z**2 / s) / 2
+    assert field[axis] == pytest.approx(exact, abs=2e-5)
+
+
+@pytest.mark.parametrize("of", MOTIONS.values(), ids=MOTIONS)
+@pytest.mark.parametrize("coating", ["twice as stiff", "incompressible", "on a rigid base"])
+def test_solved_fields_agree_with_the_condensed_compliance(monkeypatch, coating, of):
+    monkeypatch.setattr(factored_section, "BLOCK", 3)
+    factored = FactoredSection(section_mesh(coated(*COATINGS[coating])[0], 4), of)
+    condensed = factored.compliance().reshape(len(of.components) * factored.surface.size, -1)
+    unit_forces = np.eye(len(condensed)).reshape(len(of.components), -1, len(condensed))
+    field = factored.displacement(unit_forces)
+    on_surface = field[:, factored.surface].reshape(condensed.shape)
+    # The far field leaves an asymmetry, which the compliance has lost.
+    symmetric = (on_surface + on_surface.T) / 2
+    assert np.abs(symmetric - condensed).max() < 1e-11 * np.abs(condensed).max()
+    assert np.abs(on_surface - condensed).max() < 1e-5 * np.abs(condensed).max()
+    assert np.array_equal(
+        factored.displacement(unit_forces, factored.surface), field[:, factored.surface]
+    )
+
+
+def test_units_do_not_matter():
+    """Moduli times a power of two: the same bits; the length has no other unit than the radius."""
+    stiff = HALF_SPACE.material.model_copy(update={"young_modulus": 2**40 * 2 * (1 + NU)})
+    one, other = (
+        condense(section_mesh(Body(material=material), 6), SHEARING).matrix
+        for material in (HALF_SPACE.material, stiff)
+    )
+    assert np.array_equal(one, 2**40 * other)
+
+
+@pytest.fixture(name="cache")
+def own_directory(tmp_path, monkeypatch):
+    monkeypatch.setenv("SLIPSTICK_CACHE_DIR", str(tmp_path))
+    return tmp_path
+
+
+def test_a_compliance_is_computed_once(cache):
+    section = section_mesh(HALF_SPACE, 4)
+    first, second = condense(section, SHEARING), condense(section_mesh(HALF_SPACE, 4), SHEARING)
+    assert (first.from_cache, second.from_cache) == (False, True)
+    assert first.factorizations == second.factorizations == 1
+    assert np.array_equal(first.matrix, second.matrix)
+    assert len(list(cache.iterdir())) == 1
+    for other in (motion(2), PRESSING, TORSION):
+        assert not condense(section, other).from_cache
+    assert not condense(section_mesh(HALF_SPACE, 4, box=101.0), SHEARING).from_cache
+    assert not condense(section_mesh(coated(1, 0.3, 2, 0.3, 1)[0], 4), SHEARING).from_cache
+    points = section.points.copy()
+    points[:, np.all((points > 2) & (points < 10), axis=0)] *= 1.01
+    moved = SectionMesh(points, section.quads, section.outline)
+    assert not condense(moved, SHEARING).from_cache
+    assert len(list(cache.iterdir())) == 7
+
+
+def flip(content):
+    return content[:-200] + bytes([content[-200] ^ 1]) + content[-199:]
+
+
+@pytest.mark.parametrize(
+    "damage", [flip, lambda x: x[:-1], lambda x: x[:100], lambda x: b"", lambda x: b"PK\3\4" * 99]
+)
+def test_damaged_entries_are_computed_again(cache, damage):
+    section = section_mesh(HALF_SPACE, 4)
+    sound = condense(section, PRESSING)
+    (entry,) = cache.iterdir()
+    entry.write_bytes(damage(entry.read_bytes()))
+    again = condense(section, PRESSING)
+    assert not again.from_cache
+    assert np.array_equal(again.matrix, sound.matrix)
+    assert condense(section, PRESSING).from_cache
+
+
+def test_a_renamed_entry_is_not_believed(cache):
+    section = section_mesh(HALF_SPACE, 4)
+    condense(section, PRESSING)
+    (entry,) = cache.iterdir()
+    stiff = condense(section_mesh(coated(9, 0.3, 9, 0.3, 1)[0], 4), PRESSING)
+    (other,) = set(cache.iterdir()) - {entry}
+    other.write_bytes(entry.read_bytes())
+    again = condense(section_mesh(coated(9, 0.3, 9, 0.3, 1)[0], 4), PRESSING)
+    assert not again.from_cache
+    assert np.array_equal(again.matrix, stiff.matrix)
+
+
+def test_without_a_place_to_write_nothing_is_kept(cache, monkeypatch):
+    (cache / "file").write_text("")
+    monkeypatch.setenv("SLIPSTICK_CACHE_DIR", str(cache / "file"))
+    section = section_mesh(HALF_SPACE, 4)
+    assert not condense(section, PRESSING).from_cache
+    assert not condense(section, PRESSING).from_cache
+
+
+def test_the_oldest_entries_make_room(cache, monkeypatch):
+    sections = [section_mesh(HALF_SPACE, 4, box=box) for box in (50.0, 60.0, 70.0)]
+    for section in sections[:2]:
+        condense(section, TORSION)
+    size = max(entry.stat().st_size for entry in cache.iterdir())
+    for entry in cache.iterdir():
+        os.utime(entry, (0, 0))
+    monkeypatch.setattr(stored_compliance, "MOST_BYTES", 2.5 * size)
+    condense(sections[0], TORSION)
+    condense(sections[2], TORSION)
+    assert [condense(sections[i], TORSION).from_cache for i in (0, 2, 1)] == [True, True, False]
+
+
+def test_no_more_than_one_factorisation_is_spent(monkeypatch):
+    calls = []
+
+    def counted(*arguments, **options):
+        calls.append(1)
+        return factorise(*arguments, **options)
+
+    factorise = factored_section.splu
+    monkeypatch.setattr(factored_section, "splu", counted)
+    FactoredSection(section_mesh(coated(*COATINGS["incompressible"])[0], 4), SHEARING).compliance()
+    assert len(calls) == 1
+
+
+@pytest.mark.parametrize("coating", ["twice as stiff", "all incompressible"])
+@pytest.mark.parametrize("of", MOTIONS.values(), ids=MOTIONS)
+def test_fill_of_the_factors_is_foreseen(of, coating):
+    factored = FactoredSection(section_mesh(coated(*COATINGS[coating])[0], 8), of)
+    mixed = coating == "all incompressible" and of is not TORSION
+    fill = free_memory.FILL_WITH_PRESSURE if mixed else free_memory.FILL
+    n = factored._numbering.size
+    moving = np.unique(factored._numbering.column[:, factored.surface])
+    assert factored._numbering.contact + np.count_nonzero(moving >= 0) == n
+    assert 0.4 < factored._lu.nnz / (fill * len(of.components) * n * np.log2(n)) < 1.1
+
+
+def test_too_little_memory_is_refused_before_any_factorisation(monkeypatch):
+    monkeypatch.setattr(free_memory, "available_bytes", lambda: 1e6)
+    monkeypatch.delattr(factored_section, "splu")
+    with pytest.raises(ResourceRefused, match=r"about 0\.0 GB.*elements_per_radius"):
+        FactoredSection(section_mesh(HALF_SPACE, 4), PRESSING)
+
+
+def test_resultants():
+    radii = np.array([0.0, 0.5, 1.0])
+    assert np.allclose(PRESSING.resultant_weights(radii), [[0, 0, 0], [2 * pi] * 3])
+    assert np.allclose(TORSION.resultant_weights(radii), [2 * pi * radii])
+    assert np.allclose(SHEARING.resultant_weights(radii), [[pi] * 3, [-pi] * 3, [0] * 3])
+    with pytest.raises(ValueError, match="harmonic -1"):
+        motion(-1)

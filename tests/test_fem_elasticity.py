@@ -1,0 +1,144 @@
+"""Fields that elasticity knows exactly are exact on any mesh of quadrilaterals."""
+
+import numpy as np
+import pytest
+from skfem import MeshQuad
+
+from contact_scene import Body, IsotropicMaterial, Layer
+from fem_reference.elasticity import dilatation, element_stiffness, section_basis
+from fem_reference.gmsh_mesh import GmshMissing, gmsh_section_mesh
+from fem_reference.section_mesh import SectionMesh, section_mesh
+
+R = 10.0
+ALL, PLANE, ANGULAR = (0, 1, 2), (0, 2), (1,)
+
+
+def distorted_section(rng, poisson_ratio=0.3, young_modulus=1.0):
+    """A homogeneous square of quadrilaterals, none of them a rectangle."""
+    material = IsotropicMaterial(young_modulus=young_modulus, poisson_ratio=poisson_ratio)
+    section = section_mesh(Body(material=material), 2, box=R)
+    points = section.points.copy()
+    inside = np.all((points > 0) & (points < R), axis=0)
+    gaps = [np.min(np.diff(np.unique(section.points[axis]))) for axis in (0, 1)]
+    shift = rng.uniform(-0.3, 0.3, points.shape) * np.reshape(gaps, (2, 1))
+    points[:, inside] += shift[:, inside]
+    return SectionMesh(points, section.quads, section.outline)
+
+
+def nodal(basis, components, field):
+    """(c, n) values of u_r, u_theta, u_z at the nodes."""
+    values = np.broadcast_arrays(*field(*basis.nodes), basis.nodes[0])[:3]
+    return np.stack(values)[list(components)]
+
+
+def nodal_forces(section, harmonic, components, field):
+    """Nodes, nodal values and the forces that hold them."""
+    basis = section_basis(section)
+    values = nodal(basis, components, field)
+    local = values[:, basis.elements].transpose(1, 0, 2).reshape(len(basis.elements), -1)
+    elements = element_stiffness(basis, section, harmonic, components)
+    forces = np.zeros_like(values)
+    by_element = np.einsum("eij,ej->ei", elements, local).reshape(-1, len(components), 9)
+    np.add.at(forces, (slice(None), basis.elements), by_element.transpose(1, 0, 2))
+    return basis.nodes, values, forces
+
+
+RIGID_MOTIONS = {
+    "along z": (0, PLANE, lambda r, z: (0, 0, 1)),
+    "about z": (0, ANGULAR, lambda r, z: (0, r, 0)),
+    "along x": (1, ALL, lambda r, z: (1, -1, 0)),
+    "about y": (1, ALL, lambda r, z: (z, -z, -r)),
+}
+
+
+@pytest.mark.parametrize("motion", RIGID_MOTIONS.values(), ids=RIGID_MOTIONS)
+def test_rigid_motions_carry_no_stress(rng, motion):
+    _, _, forces = nodal_forces(distorted_section(rng), *motion)
+    assert np.abs(forces).max() < 1e-12 * R
+
+
+def equilibrium_fields(nu):
+    """Quadratic fields free of body forces: harmonic, components, field, energy per E, R^4 or R^2
+    and length: twice the strain energy over the factor pi or 2 pi of the angle."""
+    G = 1 / (2 * (1 + nu))
+    return {
+        "tension": (0, PLANE, lambda r, z: (-nu * r, 0, z), R**2 / 2),
+        "twisting": (0, ANGULAR, lambda r, z: (0, r * z, 0), G * R**4 / 4),
+        "bending": (
+            1,
+            ALL,
+            lambda r, z: (-(z**2 + nu * r**2) / 2, (z**2 - nu * r**2) / 2, r * z),
+            R**4 / 4,
+        ),
+        "plane shear": (2, ALL, lambda r, z: (r, -r, 0), 4 * G * R**2),
+        "warping": (2, ALL, lambda r, z: (2 * r * z, -2 * r * z, -(r**2)), None),
+        "third harmonic": (3, ALL, lambda r, z: (r**2, -(r**2), 0), 8 * G * R**4),
+    }
+
+
+@pytest.mark.parametrize("nu", [-0.9, 0.0, 0.3, 0.499])
+@pytest.mark.parametrize("name", equilibrium_fields(0.3))
+def test_quadratic_fields_are_exact(rng, name, nu):
+    harmonic, components, field, energy = equilibrium_fields(nu)[name]
+    nodes, values, forces = nodal_forces(distorted_section(rng, nu), harmonic, components, field)
+    r, z = nodes
+    inside = (r > 0) & (r < R) & (z > 0) & (z < R)
+    softening = min(1 + nu, 1 - 2 * nu)  # forces of elements are larger by its inverse, and cancel
+    assert np.abs(forces[:, inside]).max() < 1e-13 * np.abs(forces).max() / softening
+    if energy is not None:
+        assert np.sum(values * forces) == pytest.approx(energy * R, rel=1e-11)
+
+
+@pytest.mark.parametrize("nu", [-0.9, 0.3, 0.49999, 0.5])
+@pytest.mark.parametrize(("harmonic", "components"), [(0, PLANE), (0, ANGULAR), (1, ALL), (5, ALL)])
+def test_stiffness_is_symmetric_and_never_negative(rng, nu, harmonic, components):
+    section = distorted_section(rng, nu)
+    elements = element_stiffness(section_basis(section), section, harmonic, components)
+    largest = np.abs(elements).max(axis=(1, 2))
+    assert np.all(np.abs(elements - elements.transpose(0, 2, 1)).max(axis=(1, 2)) < 1e-13 * largest)
+    assert np.all(np.linalg.eigvalsh(elements)[:, 0] > -1e-12 * largest)
+
+
+def test_stiffness_is_quadratic_in_the_harmonic(rng):
+    section = distorted_section(rng)
+    basis = section_basis(section)
+    K = [element_stiffness(basis, section, n, ALL) for n in range(5)]
+    for n in (3, 4):
+        by_three = K[0] * (n - 1) * (n - 2) / 2 - K[1] * n * (n - 2) + K[2] * n * (n - 1) / 2
+        assert np.abs(K[n] - by_three).max() < 1e-12 * np.abs(K[n]).max()
+
+
+def test_every_layer_has_its_own_moduli():
+    hard = IsotropicMaterial(young_modulus=8.0, poisson_ratio=0.0)
+    soft = IsotropicMaterial(young_modulus=2.0, poisson_ratio=0.0)
+    body = Body(material=soft, layers=(Layer(thickness=1.0, material=hard),))
+    section = section_mesh(body, 2, box=R)
+    _, values, forces = nodal_forces(section, 0, PLANE, lambda r, z: (0, 0, z))
+    assert np.sum(values * forces) == pytest.approx((8 * 1 + 2 * 9) * R**2 / 2)
+
+
+@pytest.mark.parametrize("nu", [-0.9, 0.0, 0.3, 0.4999, 0.49999, 0.5])
+def test_resistance_to_volume_strain_is_lambda_or_an_unknown_pressure(rng, nu):
+    """lambda = E nu / (1 + nu)(1 - 2 nu) or, where that is beyond 1e4 mu, its inverse."""
+    resistance = dilatation(distorted_section(rng, nu))
+    inverse = (1 + nu) * (1 - 2 * nu)
+    if nu > 0.49995:
+        assert np.all(resistance.mixed)
+        assert not np.any(resistance.resistance)
+        assert resistance.compliance == pytest.approx(inverse / nu, rel=1e-9)
+    else:
+        assert not np.any(resistance.mixed)
+        assert not np.any(resistance.compliance)
+        assert resistance.resistance == pytest.approx(nu / inverse, rel=1e-9)
+
+
+def test_gmsh_quadrilaterals_pass_the_quadratic_patch_test():
+    material = IsotropicMaterial(young_modulus=1.0, poisson_ratio=0.3)
+    try:
+        section = gmsh_section_mesh(Body(material=material), 4, box=R)
+    except GmshMissing as missing:
+        pytest.skip(str(missing))
+    assert MeshQuad(section.points, section.quads).is_valid()
+    harmonic, components, field, energy = equilibrium_fields(0.3)["bending"]
+    _, values, forces = nodal_forces(section, harmonic, components, field)
+    assert np.sum(values * forces) == pytest.approx(energy * R, rel=1e-11)

@@ -1,0 +1,405 @@
+"""Laws of the contact solver on points (r, θ), on compliances that know no finite elements."""
+
+import numpy as np
+import pytest
+from fem_point_contacts import (
+    NU_ZERO,
+    RINGS,
+    STEEL,
+    STILL,
+    TOLERANCE,
+    along_load,
+    cartesian,
+    contact,
+    hertz_force,
+    pressed,
+    sheared,
+)
+from hankel_responses import Coating
+from hypothesis import given
+from hypothesis import strategies as st
+
+from contact_scene.solver_errors import GrossSliding, NotConverged
+from contact_scene.summary import ContactStatus
+from fem_reference.harmonics.admissible_shear import into_discs, project
+from fem_reference.harmonics.angular_grid import axisymmetric_grid, end_grid, mid_grid
+from fem_reference.harmonics.increment import advance
+from fem_reference.harmonics.shearing import ShearProblem, solve_shear
+from fem_reference.loads import NormalTarget, TangentialTarget
+from verification.closed_forms.cattaneo_mindlin import PartialSlip
+
+GRIDS = (axisymmetric_grid(), end_grid(2), end_grid(7), mid_grid(2), mid_grid(7))
+MU = 0.1
+COATED = Coating(2.0, 0.3, 1.0, 0.3, 1.0)
+PARTS = (0.3, 0.6, 0.9)
+
+
+def grid_name(grid):
+    if grid.highest == 0:
+        return "rings"
+    return f"{'end' if grid.angles[0] == 0 else 'mid'}{grid.highest}"
+
+
+def uncoupled(nu, **more):
+    """Two bodies of one material."""
+    body = STEEL if nu else NU_ZERO
+    of = contact(body, body, mu=MU, **more)
+    return of, pressed(of, hertz_force(nu, bodies=2), 1)
+
+
+def cattaneo(nu, force, normal):
+    return PartialSlip(normal, 1.0, MU, 4 / (2 * (2 - nu)), force)
+
+
+# transforms and compliance
+
+
+@pytest.mark.parametrize("grid", GRIDS, ids=grid_name)
+def test_point_values_and_amplitudes_say_the_same(grid):
+    values = np.random.default_rng(1).normal(size=(3, 5, grid.points))
+    values[1, :, ~np.any(grid.sines, axis=0)] = 0.0
+    np.testing.assert_allclose(grid.at_points(grid.amplitudes(values)), values, atol=1e-13)
+
+
+@pytest.mark.parametrize("grid", GRIDS, ids=grid_name)
+def test_there_are_as_many_harmonics_as_unknowns_on_a_ring(grid):
+    assert np.linalg.matrix_rank(grid.cosines) == grid.points
+    assert np.linalg.matrix_rank(grid.sines) == np.count_nonzero(np.any(grid.sines, axis=0))
+
+
+@pytest.mark.parametrize("grid", GRIDS, ids=grid_name)
+def test_compliance_is_symmetric_and_positive(grid):
+    K = contact(STEEL, grid=grid).compliance.matrix
+    np.testing.assert_allclose(K, K.T, atol=1e-15 * np.max(K))
+    assert np.min(np.linalg.eigvalsh(K)) > 0
+
+
+@pytest.mark.parametrize("springs", [(0.0, 0.0), (0.3, 0.7)])
+@pytest.mark.parametrize("grid", GRIDS, ids=grid_name)
+def test_displacement_by_harmonics_is_that_of_the_matrix(grid, springs):
+    compliance = contact(COATED, grid=grid, springs=springs).compliance
+    t = tractions(compliance)
+    u_t, u_z = compliance.displacement(t[2], t[:2])
+    by_matrix = (compliance.matrix @ t.ravel()).reshape(3, -1) / compliance.areas
+    np.testing.assert_allclose(np.stack([*u_t, u_z]), by_matrix, atol=1e-12 * np.max(by_matrix))
+
+
+def tractions(compliance):
+    """Any that mirror symmetry allows (3, points)."""
+    t = np.random.default_rng(2).normal(size=(3, len(compliance.areas)))
+    t[1, np.concatenate([[True], forbidden(compliance)])] = 0.0
+    if compliance.grid.highest == 0:
+        t[0, 0] = 0.0
+    return t
+
+
+def forbidden(compliance):
+    """Points off the axis where symmetry leaves no q_θ."""
+    rings, _ = compliance.shape
+    return np.tile(~np.any(compliance.grid.sines, axis=0), rings - 1)
+
+
+@pytest.mark.parametrize("grid", GRIDS[1:], ids=grid_name)
+def test_shear_along_x_has_the_resultant_of_its_profile(grid):
+    compliance = contact(STEEL, grid=grid).compliance
+    f = np.random.default_rng(3).normal(size=compliance.shape[0])
+    q = f[compliance.ring_of_point] * compliance.e_x
+    resultant = np.sum(compliance.along_x * q)
+    assert resultant == pytest.approx(2 * np.pi * np.sum(compliance.rings.areas * f), rel=1e-13)
+    q_x, q_y = cartesian(grid, compliance.vector_on_grid(q))
+    np.testing.assert_allclose(q_x, f[:, None] + 0 * q_x, atol=1e-14)
+    np.testing.assert_allclose(q_y, 0 * q_y, atol=1e-14)
+
+
+# the disc problem
+
+
+@given(
+    st.integers(1, 40),
+    st.integers(0, 2**31),
+    st.floats(-0.999999, 0.999999),
+    st.floats(0, 3),
+)
+def test_projection_is_nearest_and_has_the_total(points, seed, part, spread):
+    rng = np.random.default_rng(seed)
+    q, along = rng.normal(size=(2, 2, points))
+    bound, stiffness = 10 ** rng.uniform(-spread, spread, size=(2, points))
+    most = np.sum(bound * np.hypot(*along))
+    total = part * most
+    nearest, multiplier = project(q, bound, stiffness, along, total)
+    assert np.sum(along * nearest) == pytest.approx(total, abs=1e-12 * most)
+    assert np.all(np.hypot(*nearest) <= bound * (1 + 1e-14))
+    moved = into_discs(q + multiplier * along / stiffness, bound)
+    np.testing.assert_allclose(nearest, moved, rtol=0, atol=1e-12 * np.max(bound))
+
+
+def fista(problem, rounds):
+    """The shear by accelerated projected gradients with restarts: slow, and never fails."""
+    K, c, along = problem.compliance, problem.forced(), problem.along
+    stretch = np.sqrt(np.tile(problem.stiffness(), 2))
+    d = problem.stiffness() * np.linalg.eigvalsh(K / np.outer(stretch, stretch))[-1]
+    q, _ = project(np.zeros_like(c), problem.bound, d, along, problem.load.force)
+    y, t = q, 1.0
+    for _ in range(rounds):
+        slope = (K @ y.ravel()).reshape(c.shape) - c
+        after, _ = project(y - slope / d, problem.bound, d, along, problem.load.force)
+        uphill = np.sum((y - after) * d * (after - q)) > 0
+        t, last = (1.0, 1.0) if uphill else ((1 + np.sqrt(1 + 4 * t**2)) / 2, t)
+        y, q = after + (last - 1) / t * (after - q), after
+    return q
+
+
+@pytest.mark.parametrize(
+    "load",
+    [
+        TangentialTarget(force=0.0),
+        TangentialTarget(force=1.0),
+        TangentialTarget(force=2.0),
+        TangentialTarget(shift=0.4),
+    ],
+    ids=["no force", "half the limit", "near the limit", "shift"],
+)
+def test_shear_is_that_of_accelerated_gradients(load):
+    compliance = contact(STEEL, mu=MU).compliance
+    points = len(compliance.areas)
+    r = compliance.rings.radii[compliance.ring_of_point]
+    inside = np.flatnonzero(r < 0.99)
+    both = np.concatenate([inside, points + inside])
+    # Up to 2π/3 can be carried; the radial motion is of the kind that pressure leaves.
+    w, r = compliance.areas[inside], r[inside]
+    problem = ShearProblem(
+        compliance=compliance.matrix[np.ix_(both, both)],
+        target=w * np.stack([0.3 * r * (2 - r), 0 * r]),
+        areas=w,
+        along=compliance.along_x[:, inside],
+        bound=np.sqrt(1 - r**2),
+        load=load,
+    )
+    solved = solve_shear(problem, np.zeros_like(problem.target), 1e-12)
+    assert np.any(solved.in_slip)
+    np.testing.assert_allclose(solved.shear, fista(problem, 1500), atol=2e-6)
+
+
+# closed forms
+
+
+def test_bonded_disc_and_flat_punch():
+    """T = 8 G a ω/(2 − ν) (Mindlin 1949) and W = 4 G a δ/(1 − ν) (Boussinesq): from below, as any
+    choice of tractions, and half as far on rings half as wide."""
+    short = {}
+    for per_radius in (8, 16):
+        compliance = contact(STEEL, per_radius=per_radius, reach=1.0, power=0).compliance
+        points = len(compliance.areas)
+        K_t, K_z = compliance.matrix[: 2 * points, : 2 * points], compliance.matrix[2 * points :]
+        along, w = compliance.along_x.ravel(), compliance.areas
+        disc = np.sum(along * np.linalg.solve(K_t, along)) / (8 / (2 - 0.3))
+        punch = np.sum(w * np.linalg.solve(K_z[:, 2 * points :], w)) / (4 / (1 - 0.3))
+        short[per_radius] = np.array([1 - disc, 1 - punch])
+    assert np.all((short[16] > 0) & (short[16] < 4e-3))
+    np.testing.assert_allclose(short[8] / short[16], 2.0, rtol=0.05)
+
+
+@pytest.mark.parametrize("part", PARTS)
+def test_cattaneo_mindlin_where_it_is_exact(part):
+    of, state = uncoupled(0.0)
+    force = part * MU * state.normal_force
+    state = sheared(of, state, force)
+    exact = cattaneo(0.0, force, state.normal_force)
+    q_x, q_y = along_load(state)
+    missing = np.abs(q_x - exact.shear(of.compliance.rings.radii)[:, None])
+    areas = np.outer(of.compliance.rings.areas, of.compliance.grid.weights)
+    assert np.sum(areas * missing) < 0.035 * MU * state.normal_force
+    assert state.tangential_shift == pytest.approx(exact.shift, rel=2.5e-3)
+    assert np.max(np.abs(q_y)) < 4e-3 * MU * np.max(state.pressure)
+    stuck = np.sqrt(np.sum(of.compliance.areas[state.in_stick]) / np.pi)
+    assert stuck == pytest.approx(exact.stick_radius, abs=0.6 / RINGS)
+
+
+def test_vector_law_turns_the_shear_of_alike_bodies_with_poisson_ratio():
+    """Up to 4 % across the load, and a stiffer contact than Mindlin's by parts of a per mille
+    (Munisamy, Hills and Nowell 1994); measured against ν = 0 on the same points."""
+    stiffer = []
+    for nu in (0.0, 0.3):
+        of, state = uncoupled(nu)
+        state = sheared(of, state, 0.6 * MU * state.normal_force)
+        exact = cattaneo(nu, state.tangential_force, state.normal_force)
+        stiffer.append(state.tangential_shift / exact.shift)
+    _, q_y = along_load(state)
+    assert 0.036 < np.max(np.abs(q_y)) / (MU * np.max(state.pressure)) < 0.046
+    assert -1e-3 < stiffer[1] / stiffer[0] - 1 < -2e-4
+
+
+def test_history_after_reversal_is_that_of_the_mirror():
+    of, state = uncoupled(0.0)
+    force = 0.9 * MU * state.normal_force
+    there = sheared(of, state, force)
+    back = sheared(of, there, -force)
+    np.testing.assert_allclose(back.shear, -there.shear, atol=1e-8 * np.max(there.shear))
+    assert back.tangential_shift == pytest.approx(-there.tangential_shift, rel=1e-7)
+    again = sheared(of, back, force)
+    np.testing.assert_allclose(again.shear, there.shear, atol=1e-8 * np.max(there.shear))
+    assert there.dissipated_energy < back.dissipated_energy < again.dissipated_energy
+
+
+# coupled contacts
+
+
+@pytest.fixture(scope="module", params=["rigid on steel", "coated", "dissimilar"])
+def coupled(request):
+    bodies = {
+        "rigid on steel": (STEEL,),
+        "coated": (COATED,),
+        "dissimilar": (STEEL, Coating(3.0, 0.1, 3.0, 0.1, 1.0)),
+    }[request.param]
+    of = contact(*bodies, mu=MU)
+    return of, pressed(of, hertz_force(0.3, bodies=len(bodies)), 5)
+
+
+def test_residuals_are_below_the_tolerance(coupled):
+    of, state = coupled
+    for part in (0.3, 0.6, 0.9):
+        state = sheared(of, state, part * MU * state.normal_force)
+        assert state.residuals.worst <= TOLERANCE
+        assert state.status is ContactStatus.PARTIAL_SLIP
+
+
+def test_opposite_load_gives_the_mirrored_state(coupled):
+    of, start = coupled
+    force = 0.5 * MU * start.normal_force
+    there, back = sheared(of, start, force), sheared(of, start, -force)
+    p_there, p_back = (of.compliance.scalar_on_grid(s.pressure) for s in (there, back))
+    q_there, q_back = (of.compliance.vector_on_grid(s.shear)[:, 1:] for s in (there, back))
+    np.testing.assert_allclose(p_back[:, ::-1], p_there, atol=1e-7)
+    np.testing.assert_allclose(q_back[0, :, ::-1], q_there[0], atol=1e-7)
+    np.testing.assert_allclose(-q_back[1, :, ::-1], q_there[1], atol=1e-7)
+    assert back.tangential_shift == pytest.approx(-there.tangential_shift, rel=1e-7)
+
+
+def test_force_and_displacement_lead_to_the_same_state(coupled):
+    of, start = coupled
+    by_force = advance(
+        of, start, NormalTarget(force=1.1 * start.normal_force),
+        TangentialTarget(force=0.6 * MU * start.normal_force), 1e-10,
+    )  # fmt: skip
+    by_motion = advance(
+        of, start, NormalTarget(approach=by_force.approach),
+        TangentialTarget(shift=by_force.tangential_shift), 1e-10,
+    )  # fmt: skip
+    np.testing.assert_allclose(by_motion.pressure, by_force.pressure, atol=1e-9)
+    np.testing.assert_allclose(by_motion.shear, by_force.shear, atol=1e-9)
+
+
+def test_coupling_has_the_sign_of_the_closed_form(coupled):
+    """Friction resists the surface that pressure pulls inwards: it points outwards on the softer
+    body, and less load is needed without it."""
+    of, state = coupled
+    q_r = of.compliance.vector_on_grid(state.shear)[0, :, 0]
+    assert np.min(q_r) > -1e-9
+    assert np.max(q_r) > 0.5 * MU
+
+
+def test_more_harmonics_bring_the_shear_closer():
+    """On the line of the load, where all end grids have points."""
+    on_line, shifts = {}, {}
+    for grid in (end_grid(2), end_grid(4), end_grid(8), mid_grid(8)):
+        of = contact(STEEL, mu=MU, grid=grid)
+        state = pressed(of, hertz_force(0.3), 5)
+        state = sheared(of, state, *(part * MU * state.normal_force for part in PARTS))
+        q_x, _ = along_load(state)
+        on_line[grid_name(grid)], shifts[grid_name(grid)] = q_x[:, [0, -1]], state.tangential_shift
+    off = {name: np.mean(np.abs(q - on_line["end8"])) for name, q in on_line.items()}
+    assert off["end4"] < 0.6 * off["end2"]
+    assert shifts["end4"] == pytest.approx(shifts["end8"], rel=4e-3)
+    assert shifts["mid8"] == pytest.approx(shifts["end8"], rel=1e-3)
+
+
+@pytest.mark.parametrize("mu", [1.0, 2.0, 3.0])
+def test_strong_coupling_converges(mu):
+    """µ|β| = 1 and beyond, where plain turns between pressure and shear do not."""
+    of = contact(NU_ZERO, mu=mu)
+    state = pressed(of, hertz_force(0.0), 3)
+    state = sheared(of, state, *(part * mu * state.normal_force for part in (0.2, 0.5, 0.9)))
+    assert state.residuals.worst <= TOLERANCE
+
+
+def test_failure_is_loud():
+    of = contact(NU_ZERO, mu=8.0)
+    state = pressed(of, hertz_force(0.0), 3)
+    with pytest.raises(NotConverged) as failure:
+        sheared(of, state, 0.9 * 8.0 * state.normal_force)
+    assert failure.value.residual > failure.value.tolerance
+
+
+# at and beyond the friction limit
+
+
+def test_force_beyond_the_friction_limit_is_refused(coupled):
+    of, state = coupled
+    with pytest.raises(GrossSliding, match="exceeds the friction limit"):
+        sheared(of, state, 1.001 * MU * state.normal_force)
+
+
+def test_at_the_friction_limit_all_shear_is_along_the_load(coupled):
+    of, state = coupled
+    state = sheared(of, state, MU * state.normal_force)
+    q_x, q_y = along_load(state)
+    p = of.compliance.scalar_on_grid(state.pressure)
+    np.testing.assert_allclose(q_x, MU * p, atol=1e-12)
+    assert np.max(np.abs(q_y)) < 1e-12
+    assert state.status is ContactStatus.GROSS_SLIDING
+    assert state.tangential_shift is None
+    with pytest.raises(GrossSliding, match="prescribe tangential_shift"):
+        sheared(of, state, 0.5 * MU * state.normal_force)
+
+
+def test_sliding_on_and_on_reaches_the_friction_limit(coupled):
+    """Sustained sliding leaves no shear but along it, whatever came before."""
+    of, state = coupled
+    normal = NormalTarget(force=state.normal_force)
+    for _ in range(3):
+        shift = state.tangential_shift + 20 * MU
+        state = advance(of, state, normal, TangentialTarget(shift=shift), TOLERANCE)
+    assert state.tangential_force == pytest.approx(MU * state.normal_force, rel=1e-4)
+    assert state.residuals.worst <= TOLERANCE
+
+
+def test_without_friction_there_is_no_shear():
+    of = contact(STEEL, mu=0.0)
+    state = pressed(of, hertz_force(0.3), 1)
+    state = advance(
+        of, state, NormalTarget(force=state.normal_force), TangentialTarget(shift=0.1), TOLERANCE
+    )
+    assert not np.any(state.shear)
+    assert state.dissipated_energy == 0
+
+
+# springs
+
+
+def test_springs_deepen_the_approach_by_their_energy():
+    """To first order δ grows by s d(½∫p² dA)/dW, for Hertz's pressure 3 s W / 4π a²."""
+    force, spring = hertz_force(0.3), 2e-3
+    stiff, soft = (
+        pressed(contact(STEEL, mu=0.0, springs=(s, s)), force, 1).approach for s in (0.0, spring)
+    )
+    assert (soft - stiff) / spring == pytest.approx(3 * force / (4 * np.pi), rel=0.1)
+
+
+def test_stiff_springs_leave_the_law_itself():
+    shear = []
+    for spring in (0.0, 1e-9):
+        of = contact(STEEL, mu=MU, springs=(spring, spring))
+        state = pressed(of, hertz_force(0.3), 3)
+        shear.append(sheared(of, state, 0.6 * MU * state.normal_force).shear)
+    np.testing.assert_allclose(shear[1], shear[0], atol=1e-6)
+
+
+def test_pressing_on_points_is_pressing_on_rings():
+    of = contact(STEEL, mu=MU)
+    lifted = pressed(of, hertz_force(0.3), 3)
+    full = None
+    for k in (1, 2, 3):
+        target = NormalTarget(force=lifted.normal_force * (k / 3) ** 3)
+        full = advance(of, full, target, STILL, TOLERANCE)
+    np.testing.assert_allclose(full.pressure, lifted.pressure, atol=2e-3)
+    assert full.approach == pytest.approx(lifted.approach, rel=1e-5)

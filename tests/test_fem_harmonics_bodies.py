@@ -1,0 +1,226 @@
+"""The contact solver on points (r, θ) with finite-element bodies, as `solve` calls it."""
+
+import numpy as np
+import pytest
+from fem_scenes import elements, solved
+from hankel_responses import Coating
+from ring_responses import half_space, rings
+
+from contact_scene import (
+    RIGID,
+    Body,
+    CoulombFriction,
+    FlatPunch,
+    IsotropicMaterial,
+    Layer,
+    LoadStep,
+    Paraboloid,
+    Scene,
+)
+from contact_scene.solver_errors import ResourceRefused, UnsupportedScene
+from fem_reference import Method, solve
+from fem_reference.complementarity import complementarity_method
+from fem_reference.harmonics.angular_grid import end_grid
+from fem_reference.harmonics.method import STILL, harmonic_method
+from fem_reference.harmonics.point_contact import point_contact
+from fem_reference.harmonics.ring_compliance import ring_compliance
+from fem_reference.harmonics.surface_tractions import tractions_at
+from fem_reference.history import march
+from fem_reference.loads import Loads, NormalTarget
+from fem_reference.model import ContactModel
+from fem_reference.plan import plan
+
+STEEL = IsotropicMaterial(young_modulus=210e9, poisson_ratio=0.3)
+HARD = IsotropicMaterial(young_modulus=420e9, poisson_ratio=0.2)
+FORCE, MU, RADIUS = 1e3, 0.2, 18e-3
+FEW = {"harmonics": 3}
+
+
+def coated(scale=1.0, stiffness=1.0):
+    """A hard layer of about the contact radius on steel."""
+    hard, soft = (
+        IsotropicMaterial(young_modulus=stiffness * m.young_modulus, poisson_ratio=m.poisson_ratio)
+        for m in (HARD, STEEL)
+    )
+    return Body(material=soft, layers=(Layer(thickness=0.3e-3 * scale, material=hard),))
+
+
+def sheared(*steps, scale=1.0, stiffness=1.0, indenter=None):
+    """A rigid ball pressed on the coating in three increments and then led along `steps`."""
+    unit = stiffness * scale**2
+    return Scene(
+        indenter=indenter or Paraboloid(radius=RADIUS * scale, material=RIGID),
+        body=coated(scale, stiffness),
+        friction=CoulombFriction(coefficient=MU),
+        loading=(
+            LoadStep(normal_force=FORCE * unit, increments=3),
+            *(
+                LoadStep(
+                    tangential_force=(x * MU * FORCE * unit, y * MU * FORCE * unit), increments=2
+                )
+                for x, y in steps
+            ),
+        ),
+    )
+
+
+def along_x():
+    return sheared((0.5, 0.0), (-0.2, 0.0))
+
+
+@pytest.fixture(scope="module")
+def result():
+    return solved(along_x(), 8, **FEW)
+
+
+BODIES = {
+    "coated": (Paraboloid(radius=1.0, material=RIGID), (Coating(2.0, 0.2, 1.0, 0.3, 0.5),)),
+    "dissimilar": (
+        Paraboloid(radius=1.0, material=IsotropicMaterial(young_modulus=9.0, poisson_ratio=0.0)),
+        (Coating(2.0, 0.2, 1.0, 0.3, 0.5), half_space(0.0)),
+    ),
+}
+
+
+@pytest.mark.parametrize("name", BODIES)
+def test_compliance_of_rings_is_that_of_hankel_transforms(name):
+    """Energies of smooth tractions in every component, n = 0…3; the signs of what mixes shear
+    and pressure are those of two bodies pressed together."""
+    indenter, known = BODIES[name]
+    if len(known) == 2:
+        known = (known[0], Coating(4.5, 0.0, 4.5, 0.0, 1.0))
+    layer, base = (
+        IsotropicMaterial(young_modulus=2 * G * (1 + nu), poisson_ratio=nu)
+        for G, nu in ((2.0, 0.2), (1.0, 0.3))
+    )
+    body = Body(material=base, layers=(Layer(thickness=0.5, material=layer),))
+    scene = Scene(indenter=indenter, body=body, loading=(LoadStep(normal_force=1.0),))
+    model = ContactModel.of(scene, elements(8), 1.0)
+    ours = ring_compliance(model, 3)
+    theirs = rings(8, float(ours.radii[-1]), 3, *known)
+    np.testing.assert_allclose(ours.radii, theirs.radii, atol=1e-12)
+    np.testing.assert_allclose(ours.areas, theirs.areas, rtol=1e-12)
+    r = ours.radii
+    inside = np.maximum(1 - r**2, 0.0) ** 2
+    for n, (A, exact) in enumerate(zip(ours.harmonics, theirs.harmonics, strict=True)):
+        low, high = r ** abs(n - 1) * inside, r ** (n + 1) * inside
+        p = r**n * inside
+        for t in ((high + low, high - low, 0 * r), (low, -low, p), (0 * r, 0 * r, p)):
+            energy, known = (np.einsum("ai,aibk,bk->", t, C, t) for C in (A, exact))
+            assert energy == pytest.approx(known, rel=3e-3)
+
+
+def test_pressing_is_that_of_the_axisymmetric_method():
+    scene = along_x()
+    model = ContactModel.of(scene, elements(16), 0.32e-3)
+    decided = plan(scene)
+    ours = harmonic_method(model, decided)
+    only_pressed = scene.model_copy(update={"loading": scene.loading[:1]})
+    theirs = complementarity_method(model, plan(only_pressed))
+    a = b = None
+    for part in (0.2, 0.5, 1.0):
+        load = NormalTarget(force=part * FORCE)
+        a = ours.advance(a, Loads(load, STILL), 1e-10)
+        b = theirs.advance(b, Loads(load), 1e-10)
+    p0 = np.max(b.pressure)
+    np.testing.assert_allclose(a.pressure, b.pressure, atol=1e-8 * p0)
+    np.testing.assert_allclose(a.shear[0], b.slid.shear, atol=1e-8 * MU * p0)
+    assert a.approach == pytest.approx(b.approach, rel=1e-10)
+
+
+def test_residuals_and_equilibrium(result):
+    for increment in result.increments:
+        assert increment.residuals.worst <= 1e-8
+    assert [i.tangential_force[0] for i in result.steps] == pytest.approx(
+        [0.0, 0.5 * MU * FORCE, -0.2 * MU * FORCE], abs=1e-8
+    )
+    assert result.steps[1].tangential_shift[0] > 0
+
+
+def test_load_in_any_direction_is_the_same_load(result):
+    turned = solved(sheared((0.3, 0.4), (-0.12, -0.16)), 8, **FEW)
+    assert turned.plan.direction == pytest.approx((0.6, 0.8))
+    for a, b in zip(turned.increments, result.increments, strict=True):
+        np.testing.assert_allclose(a.pressure, b.pressure, rtol=1e-9)
+        assert a.tangential_shift == pytest.approx(
+            (0.6 * b.tangential_shift[0], 0.8 * b.tangential_shift[0]), rel=1e-9
+        )
+        x, y = np.array([0.05e-3, 0.2e-3]), np.array([0.1e-3, -0.05e-3])
+        q, p = tractions_at(b, x, y)
+        q_turned, p_turned = tractions_at(a, 0.6 * x - 0.8 * y, 0.8 * x + 0.6 * y, (0.6, 0.8))
+        np.testing.assert_allclose(p_turned, p, rtol=1e-9)
+        expected = [0.6 * q[0] - 0.8 * q[1], 0.8 * q[0] + 0.6 * q[1]]
+        np.testing.assert_allclose(q_turned, expected, rtol=1e-7, atol=1e-6 * np.max(np.abs(q)))
+
+
+def test_tractions_anywhere_are_those_of_the_points(result):
+    end = result.steps[1]
+    r, theta = np.meshgrid(end.radii, end.angles, indexing="ij")
+    q, p = tractions_at(end, r * np.cos(theta), r * np.sin(theta))
+    q_mirrored, p_mirrored = tractions_at(end, r * np.cos(theta), -r * np.sin(theta))
+    p0 = end.peak_pressure
+    np.testing.assert_allclose(p, end.pressure, atol=1e-9 * p0)
+    np.testing.assert_allclose(p_mirrored, p, atol=1e-9 * p0)
+    np.testing.assert_allclose(q_mirrored, q * np.array([1, -1])[:, None, None], atol=1e-9 * p0)
+    radial = q[0] * np.cos(theta) + q[1] * np.sin(theta)
+    np.testing.assert_allclose(radial, end.shear_radial, atol=1e-9 * p0)
+
+
+def test_result_knows_no_units(result):
+    scale, stiffness = 1e-6, 1e3
+    other = solved(sheared((0.5, 0.0), (-0.2, 0.0), scale=scale, stiffness=stiffness), 8, **FEW)
+    for a, b in zip(other.steps, result.steps, strict=True):
+        np.testing.assert_allclose(a.pressure, stiffness * b.pressure, rtol=1e-6)
+        shear = stiffness * b.shear_radial
+        np.testing.assert_allclose(a.shear_radial, shear, atol=1e-7 * np.max(np.abs(shear)))
+        assert a.approach == pytest.approx(scale * b.approach, rel=1e-9)
+
+
+def test_no_point_exceeds_the_friction_limit_and_energy_is_lost(result):
+    for increment in result.steps[1:]:
+        size = np.hypot(increment.shear_radial, increment.shear_circumferential)
+        assert np.all(size <= MU * increment.pressure + 1e-8 * MU * increment.peak_pressure)
+        slips = (increment.pressure > 0) & ~increment.in_stick
+        np.testing.assert_allclose(size[slips], MU * increment.pressure[slips], rtol=1e-6)
+    energy = [i.dissipated_energy for i in result.increments]
+    assert np.all(np.diff(energy) >= 0)
+    assert energy[-1] > 0
+
+
+def test_load_that_turns_is_refused_by_name():
+    with pytest.raises(UnsupportedScene, match="one direction"):
+        solved(sheared((0.5, 0.0), (0.3, 0.3)), 8, **FEW)
+
+
+def test_penalty_is_springs_between_the_surfaces(result):
+    by_penalty = elements(8, penalty=100.0, augmentations=0, **FEW)
+    soft = solve(along_x(), by_penalty, method=Method.PENALTY)
+    end, exact = soft.steps[-1], result.steps[-1]
+    assert end.path == "springs"
+    assert end.overlap > 0
+    assert end.approach == pytest.approx(exact.approach, rel=5e-3)
+    assert end.approach > exact.approach
+
+
+def test_flat_punch_keeps_its_rim():
+    punch = FlatPunch(radius=0.3e-3, material=RIGID)
+    result = solved(sheared((0.5, 0.0), indenter=punch), 8, **FEW)
+    assert result.steps[-1].contact_radius == pytest.approx(0.3e-3, rel=1e-9)
+    assert result.steps[-1].residuals.worst <= 1e-8
+
+
+def test_too_many_points_are_refused_before_anything_is_condensed(monkeypatch):
+    monkeypatch.setattr("fem_reference.free_memory.available_bytes", lambda: 1e6)
+    scene = along_x()
+    model = ContactModel.of(scene, elements(8), 0.32e-3)
+    with pytest.raises(ResourceRefused, match="GB"):
+        point_contact(model, end_grid(8), (0.0, 0.0))
+    assert model.factorizations == 0
+
+
+def test_nothing_but_the_first_harmonic_is_condensed_before_it_is_needed():
+    scene = along_x()
+    model = ContactModel.of(scene, elements(8), 0.32e-3)
+    increments = march(scene, plan(scene), harmonic_method(model, plan(scene)), 1e-8)
+    next(increments)
+    assert model.factorizations == 1

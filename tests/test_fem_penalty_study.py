@@ -1,0 +1,99 @@
+"""The study of the penalty: what it computes, and that its statements can fail."""
+
+from collections.abc import Callable
+from math import pi
+
+import pytest
+
+from verification.cases.case import Level
+from verification.cases.outcome import Status
+from verification.studies.penalty.case import HERTZIAN, PenaltyCase, PenaltyRecord
+from verification.studies.penalty.study import STUDY
+from verification.studies.running.study import Conclusion, Settings
+
+SETTINGS = Settings(Level.QUICK)
+Change = Callable[[PenaltyCase, PenaltyRecord], PenaltyRecord]
+
+
+def ideal(case: PenaltyCase) -> PenaltyRecord:
+    """What springs in series with an exact mesh would give."""
+    k = case.springs_per_radius
+    left = 1 / k if case.augmentations == 0 else 1e-3 / k
+    frictionless = case.contact == HERTZIAN
+    return PenaltyRecord(
+        approach=left / pi + 1e-7,
+        pressure=left,
+        peak=-0.54 * left if frictionless else None,
+        ripple=1e-2 if frictionless else None,
+        shear=None if frictionless else 1e-3,
+        overlap=left,
+        largest_residual=1e-10,
+        increments=1 if frictionless else case.increments,
+        halvings=0,
+        by_springs=1,
+        systems=10,
+        seconds=1.0,
+    )
+
+
+def concluded(change: Change = lambda case, record: record) -> Conclusion:
+    records = {case.name: change(case, ideal(case)) for case in STUDY.cases(SETTINGS)}
+    return STUDY.conclude(SETTINGS, records)
+
+
+def failed(conclusion: Conclusion) -> list[str]:
+    return [s.claim for s in conclusion.statements if s.outcome is Status.FAIL]
+
+
+def test_every_case_has_a_name_of_its_own() -> None:
+    for level in Level:
+        names = [case.name for case in STUDY.cases(Settings(level))]
+        assert len(set(names)) == len(names)
+
+
+def test_ideal_springs_pass() -> None:
+    conclusion = concluded()
+    assert not conclusion.failed
+    assert all(s.outcome in (Status.PASS, None) for s in conclusion.statements)
+    assert len(conclusion.charts) == 5
+    assert all(panel.curves for c in conclusion.charts for row in c.rows for panel in row)
+
+
+@pytest.mark.parametrize(
+    ("update", "claim"),
+    [
+        ({"largest_residual": 2e-8}, "every increment converges"),
+        ({"approach": 5e-3}, "springs alone make the approach"),
+        ({"peak": -3e-3}, "Hertz at c = 10"),
+        ({"shear": 4e-2}, "pressing with friction"),
+    ],
+)
+def test_every_judged_statement_can_fail(update: dict[str, float], claim: str) -> None:
+    conclusion = concluded(lambda case, record: record.model_copy(update=update))
+    assert any(text.startswith(claim) for text in failed(conclusion))
+
+
+def test_missing_cases_leave_it_open() -> None:
+    conclusion = STUDY.conclude(SETTINGS, {})
+    judged = [s.outcome for s in conclusion.statements if s.outcome is not None]
+    assert set(judged) == {Status.INCONCLUSIVE}
+    assert conclusion.charts == ()
+
+
+def test_case_measures_its_errors() -> None:
+    bare, augmented = (PenaltyCase(HERTZIAN, 8, 10.0, n).compute() for n in (0, 1))
+    case = PenaltyCase(HERTZIAN, 8, 10.0, 0)
+    assert bare.approach * case.springs_per_radius == pytest.approx(1 / pi, rel=0.1)
+    assert abs(augmented.approach) < 0.1 * bare.approach
+    assert augmented.overlap < 0.2 * bare.overlap
+    frictional = PenaltyCase("weak", 8, increments=3).compute()
+    assert frictional.increments == 3
+    assert frictional.shear is not None
+    assert frictional.largest_residual <= 1e-8
+
+
+def test_every_run_is_exported() -> None:
+    cases = STUDY.cases(SETTINGS)
+    records = {case.name: ideal(case) for case in cases}
+    lines = STUDY.exports(SETTINGS, records)["errors.csv"].splitlines()
+    assert len(lines) == 1 + len(cases)

@@ -1,0 +1,219 @@
+"""Contact pushed sideways or twisted, by finite elements: partial slip and its memory."""
+
+import numpy as np
+import pytest
+from contact_scenes import (
+    INDENTERS,
+    LIMIT,
+    LOAD,
+    MU,
+    NU,
+    PRESS,
+    RIGID_BALL,
+    YOUNG,
+    A,
+    hertz,
+    paraboloid,
+    push,
+    scene,
+    steel,
+)
+from fem_scenes import elements, end, solved
+
+from contact_scene.solver_errors import GrossSliding
+from contact_scene.summary import ContactStatus
+from fem_reference import Increment, solve
+from verification.closed_forms.cattaneo_mindlin import PartialSlip
+from verification.closed_forms.moduli import tangential_modulus
+from verification.closed_forms.tangential_history import TangentialHistory
+from verification.closed_forms.torsion import StuckTorsion, TorsionalPartialSlip
+
+G = steel().shear_modulus
+HERTZ = hertz()
+VIRGIN = PartialSlip(
+    LOAD, A, MU, tangential_modulus((YOUNG, NU), (YOUNG, NU)), 0.0
+)  # fmt: skip
+UNTWISTED = TorsionalPartialSlip(A, HERTZ.peak_pressure, MU, G / 2, A)
+PUNCH = INDENTERS["flat punch"]
+
+
+def loaded(*parts: float) -> TangentialHistory:
+    """Mindlin and Deresiewicz after these parts of the friction limit in turn."""
+    history = TangentialHistory(VIRGIN)
+    for part in parts:
+        history = history.loaded_to(part * LIMIT)
+    return history
+
+
+def shift_along_x(increment: Increment) -> float:
+    assert increment.tangential_shift is not None
+    return increment.tangential_shift[0]
+
+
+@pytest.mark.parametrize("part", [0.3, 0.6, 0.9])
+def test_cattaneo_and_mindlin(part: float) -> None:
+    found, exact = end(scene(PRESS, push(part))), loaded(part)
+    assert shift_along_x(found) == pytest.approx(exact.shift, rel=4e-3)
+    assert found.stick_radius == pytest.approx(exact.stick_radius, abs=4e-3 * A)
+    assert found.status is ContactStatus.PARTIAL_SLIP
+    apart = np.abs(found.radii - exact.stick_radius) > 0.1 * A
+    error = np.abs(found.shear_along_load - exact.shear(found.radii))
+    assert np.max(error[apart & (found.radii < 0.85 * A)]) < 0.02 * MU * HERTZ.peak_pressure
+
+
+@pytest.mark.parametrize("parts", [(0.9, -0.9, 0.9), (0.8, 0.2, 0.6, -0.3), (0.5, -0.5, 0.9)])
+def test_history_is_remembered_through_reversals(parts: tuple[float, ...]) -> None:
+    """Shift and loss follow the closed form of any history, as exactly as the first loading. The
+    edge of stick is known to a fifth of an element where an older one is next to it."""
+    result = solved(scene(PRESS, *map(push, parts)))
+    largest = loaded(0.9).shift
+    for number, step in enumerate(result.steps[1:], start=1):
+        exact = loaded(*parts[:number])
+        assert shift_along_x(step) == pytest.approx(exact.shift, abs=4e-3 * largest)
+        scale = loaded(0.9, -0.9).dissipated_energy
+        assert step.dissipated_energy == pytest.approx(exact.dissipated_energy, abs=6e-3 * scale)
+        assert step.stick_radius == pytest.approx(exact.stick_radius, abs=0.2 / 16 * A)
+
+
+def test_slip_adds_up_over_the_history() -> None:
+    """Mindlin and Deresiewicz again, with ν = 0, for which the closed form has the slip."""
+    soft = steel(0.0)
+    contact = hertz(LOAD, 0.0)
+    virgin = PartialSlip(
+        LOAD, contact.contact_radius, MU, tangential_modulus((YOUNG, 0.0), (YOUNG, 0.0)), 0.0
+    )
+    parts = (0.9, -0.6, 0.3)
+    asked = scene(PRESS, *map(push, parts), indenter=paraboloid(soft), body=soft)
+    history = TangentialHistory(virgin)
+    for part, step in zip(parts, solved(asked).steps[1:], strict=True):
+        history = history.loaded_to(part * LIMIT)
+        r = step.radii
+        judged = r < 0.9 * contact.contact_radius
+        error = np.abs(step.slip_along_load - history.slip(np.minimum(r, contact.contact_radius)))
+        assert np.max(error[judged]) < 0.02 * virgin.sliding_shift
+
+
+def test_one_increment_on_a_branch_is_as_good_as_many() -> None:
+    one, many = (end(scene(PRESS, push(0.9), push(-0.6, increments=n))) for n in (1, 13))
+    assert many.shear_along_load == pytest.approx(
+        one.shear_along_load, abs=1e-9 * MU * HERTZ.peak_pressure
+    )
+    assert shift_along_x(many) == pytest.approx(shift_along_x(one), rel=1e-9)
+
+
+def test_mirrored_load_has_the_mirrored_answer() -> None:
+    right, left = end(scene(PRESS, push(0.7))), end(scene(PRESS, push(-0.7)))
+    assert left.tangential_shift == pytest.approx([-x for x in right.tangential_shift])
+    # The plan measures along the load, so that to it the two are one and the same.
+    assert np.array_equal(left.shear_along_load, right.shear_along_load)
+    back = end(scene(PRESS, push(0.2), push(-0.7)))
+    forth = end(scene(PRESS, push(-0.2), push(0.7)))
+    assert np.array_equal(back.shear_along_load, forth.shear_along_load)
+
+
+def test_oblique_load_is_the_same_along_its_line() -> None:
+    along, oblique = end(scene(PRESS, push(0.5))), end(scene(PRESS, push(0.3, 0.4)))
+    assert oblique.shear_along_load == pytest.approx(along.shear_along_load, rel=1e-9, abs=1.0)
+    x, y = oblique.tangential_shift
+    assert np.hypot(x, y) == pytest.approx(shift_along_x(along), rel=1e-9)
+    assert y / x == pytest.approx(4 / 3, rel=1e-12)
+
+
+def test_force_and_shift_lead_to_the_same_state() -> None:
+    by_force = end(scene(PRESS, push(0.7)))
+    by_shift = end(scene(PRESS, {"tangential_shift": by_force.tangential_shift}))
+    assert by_shift.tangential_force == pytest.approx((0.7 * LIMIT, 0.0), rel=1e-9)
+    assert by_shift.shear_along_load == pytest.approx(by_force.shear_along_load, rel=1e-8, abs=1.0)
+
+
+def test_control_takes_over_where_the_other_has_led() -> None:
+    """Force, then shift from where the force has led, then force from where the shift has."""
+    result = solved(
+        scene(
+            PRESS, push(0.5), {"tangential_shift": (loaded(0.8).shift, 0.0), "increments": 4},
+            push(0.9, increments=3),
+        )
+    )  # fmt: skip
+    forces = [increment.tangential_force[0] / LIMIT for increment in result.increments[1:]]
+    assert np.all(np.diff(forces) > 0)
+    assert forces[0] == 0.5
+    assert forces[4] == pytest.approx(0.8, abs=5e-3)
+    assert result.increments[-1].stick_radius == pytest.approx(
+        end(scene(PRESS, push(0.9))).stick_radius, rel=1e-9
+    )
+
+
+def test_sliding_contact_carries_all_that_friction_can() -> None:
+    sliding = end(scene(PRESS, {"tangential_shift": (3 * VIRGIN.sliding_shift, 0.0)}))
+    assert sliding.status is ContactStatus.GROSS_SLIDING
+    assert sliding.tangential_force[0] == pytest.approx(LIMIT, rel=1e-9)
+    assert sliding.stick_radius == 0
+    at_limit = end(scene(PRESS, push(1.0)))
+    assert at_limit.status is ContactStatus.GROSS_SLIDING
+    assert at_limit.tangential_shift is None
+    assert at_limit.dissipated_energy is None
+    assert at_limit.shear_along_load == pytest.approx(sliding.shear_along_load)
+
+
+def test_gross_sliding_under_force_is_refused_by_name() -> None:
+    """Unloading by approach leaves too little pressure: nothing in the scene gives that away."""
+    asked = scene(PRESS, push(0.5), {"approach": 0.2 * HERTZ.approach, "increments": 5})
+    with pytest.raises(GrossSliding, match="prescribe the shift") as caught:
+        solve(asked, elements())
+    assert caught.value.where.startswith("step 3, increment")
+    assert caught.value.last_state.tangential_force == (0.5 * LIMIT, 0.0)
+
+
+def test_less_pressure_under_constant_shear_slips_inwards() -> None:
+    result = solved(scene(PRESS, push(0.5), {"normal_force": 0.6 * LOAD, "increments": 10}))
+    radii = [step.stick_radius for step in result.increments[1:]]
+    assert np.all(np.diff(radii) < 0)
+    shifts = [shift_along_x(step) for step in result.increments[1:]]
+    assert np.all(np.diff(shifts) > 0)
+    assert max(i.residuals.worst for i in result.increments) < 1e-11
+
+
+def test_stuck_disc_twists_as_reissner_and_sagoci() -> None:
+    torque = 1e-3
+    found = end(scene(PRESS, {"torque": torque}, indenter=PUNCH, friction=10.0))
+    assert found.twist == pytest.approx(StuckTorsion(A, G / 2, torque).twist, rel=5e-3)
+    assert found.status is ContactStatus.FULL_STICK
+
+
+@pytest.mark.parametrize("part", [0.4, 0.6, 0.9])
+def test_twisted_ball_slips_from_its_edge(part: float) -> None:
+    torque = part * UNTWISTED.sliding_moment
+    exact = TorsionalPartialSlip.under_moment(torque, A, HERTZ.peak_pressure, MU, G / 2)
+    found = end(scene(PRESS, {"torque": torque}), 32)
+    assert found.twist == pytest.approx(exact.twist, rel=6e-3)
+    assert found.stick_radius == pytest.approx(exact.stick_radius, abs=3e-3 * A)
+    apart = (np.abs(found.radii - exact.stick_radius) > 0.1 * A) & (found.radii < 0.85 * A)
+    error = np.abs(found.shear_circumferential - exact.shear(found.radii))
+    assert np.max(error[apart]) < 0.02 * MU * HERTZ.peak_pressure
+
+
+def test_torsion_needs_no_alike_bodies() -> None:
+    """Where pressing leaves no shear by itself: here for a body that keeps its volume."""
+    soft = steel(0.5, 3e9)
+    found = end(scene(PRESS, {"torque": 1e-4}, indenter=RIGID_BALL, body=soft, friction=10.0))
+    assert found.torque == 1e-4
+    assert found.twist > 0
+
+
+def test_torque_and_twist_lead_to_the_same_state() -> None:
+    torque = 0.6 * UNTWISTED.sliding_moment
+    by_torque = end(scene(PRESS, {"torque": torque}))
+    by_twist = end(scene(PRESS, {"twist": by_torque.twist}))
+    assert by_twist.torque == pytest.approx(torque, rel=1e-9)
+    with pytest.raises(GrossSliding, match="torque"):
+        end(scene(PRESS, {"torque": 1.2 * UNTWISTED.sliding_moment}))
+
+
+def test_equations_hold_to_round_off() -> None:
+    loop = scene(PRESS, push(0.9), push(-0.9), push(0.9))
+    twisted = scene(PRESS, {"torque": 0.01}, {"torque": -0.01}, {"twist": 0.0})
+    for asked in (loop, twisted):
+        result = solved(asked)
+        assert max(i.residuals.worst for i in result.increments) < 1e-11
+        energy = [i.dissipated_energy for i in result.increments]
+        assert np.all(np.diff(energy) >= 0)

@@ -1,0 +1,179 @@
+"""Stress of a section: closed forms, equilibrium, interfaces, units."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from fem_scenes import elements
+
+from contact_scene import RIGID, Body, IsotropicMaterial, Layer
+from contact_scene.solver_errors import UnsupportedScene
+from fem_reference.stress import SectionField, SurfaceTractions, subsurface
+from verification.closed_forms.huber_stress import huber_stress, sliding_axis_shear
+
+A, P0, MU = 1e-3, 1e9, 0.3
+STEEL = IsotropicMaterial(young_modulus=210e9, poisson_ratio=0.3)
+FILM = IsotropicMaterial(young_modulus=420e9, poisson_ratio=0.2)
+COATED = Body(material=STEEL, layers=(Layer(thickness=0.5 * A, material=FILM),))
+RINGS = A * np.sin(np.linspace(0, np.pi / 2, 200))
+PRESSURE = P0 * np.cos(np.linspace(0, np.pi / 2, 200))
+RR, TT, ZZ, TZ, RZ, RT = range(6)
+
+PRESSED = SurfaceTractions(RINGS, PRESSURE)
+OUTWARD = replace(PRESSED, shear_radial=MU * PRESSURE * RINGS / A)
+AROUND = replace(PRESSED, shear_circumferential=MU * PRESSURE * RINGS / A)
+ALONG = replace(PRESSED, shear_along_load=MU * PRESSURE)
+
+
+@pytest.fixture(scope="module")
+def bare() -> SectionField:
+    """A half-space under Hertz's pressure and the shear of sliding."""
+    return subsurface(Body(material=STEEL), ALONG, elements(16))
+
+
+@pytest.fixture(scope="module", params=[OUTWARD, AROUND, ALONG], ids=["out", "around", "along"])
+def coated(request: pytest.FixtureRequest) -> tuple[SurfaceTractions, SectionField]:
+    return request.param, subsurface(COATED, request.param, elements(16))
+
+
+def test_stress_below_hertz_is_hubers(bare: SectionField) -> None:
+    r, z = bare.points
+    judged = (r < 2 * A) & (z < 3 * A) & (z > 0) & (np.hypot(r - A, z) > 0.2 * A)
+    exact = huber_stress(r[judged], z[judged], A, P0, STEEL.poisson_ratio)
+    (pressed, _) = bare.parts
+    components = {RR: exact.radial, TT: exact.hoop, ZZ: exact.axial, RZ: exact.shear}
+    for component, expected in components.items():
+        assert np.max(np.abs(pressed.stress[component, judged] - expected)) < 4e-3 * P0
+
+
+def test_finer_meshes_come_nearer_to_huber() -> None:
+    errors = []
+    for count in (8, 32):
+        field = subsurface(Body(material=STEEL), PRESSED, elements(count))
+        chosen = field.axis[field.points[1, field.axis] < 3 * A]
+        exact = huber_stress(0.0, field.points[1, chosen], A, P0, STEEL.poisson_ratio)
+        errors.append(np.max(np.abs(field.stress()[RR, chosen] - exact.radial)))
+    assert errors[1] < 0.25 * errors[0]
+    assert errors[1] < 1e-3 * P0
+
+
+def test_sliding_leaves_hamiltons_shear_on_the_axis(bare: SectionField) -> None:
+    chosen = bare.axis[bare.points[1, bare.axis] < 3 * A]
+    exact = sliding_axis_shear(bare.points[1, chosen], A, MU * P0)
+    assert np.max(np.abs(bare.stress(0.0)[RZ, chosen] - exact)) < 1e-3 * P0
+    # Behind the axis outwards is backwards.
+    assert np.max(np.abs(bare.stress(np.pi)[RZ, chosen] + exact)) < 1e-3 * P0
+
+
+def test_stress_at_the_surface_is_the_traction(
+    coated: tuple[SurfaceTractions, SectionField],
+) -> None:
+    tractions, field = coated
+    r, z = field.points
+    inside = (z == 0) & (r > 0.1 * A) & (r < 0.8 * A)
+
+    def at(traction: np.ndarray | None) -> np.ndarray:
+        return np.zeros(inside.sum()) if traction is None else np.interp(r[inside], RINGS, traction)
+
+    along = at(tractions.shear_along_load)
+    ahead, across = field.stress(0.0)[:, inside], field.stress(np.pi / 2)[:, inside]
+    around = at(tractions.shear_circumferential)
+    for found, expected in (
+        (ahead[ZZ], -at(PRESSURE)),
+        (ahead[RZ], -at(tractions.shear_radial) - along),
+        (ahead[TZ], -around),
+        (across[TZ], along - around),
+    ):
+        assert np.max(np.abs(found - expected)) < 0.02 * P0
+
+
+def test_loads_pass_through_an_interface(coated: tuple[SurfaceTractions, SectionField]) -> None:
+    """Normal force, tangential force and torque of the stress are those of the tractions."""
+    tractions, field = coated
+    for material in (0, 1):
+        side = field.side(0.5 * A, material)
+        r = field.points[0, side]
+        ahead, across = field.stress(0.0)[:, side], field.stress(np.pi / 2)[:, side]
+        behind = field.stress(np.pi)[:, side]
+        normal = integral(r, -0.5 * (ahead[ZZ] + behind[ZZ]))
+        assert normal == pytest.approx(2 / 3 * np.pi * A**2 * P0, rel=0.01)
+        if tractions.shear_along_load is not None:
+            outward = 0.5 * (ahead[RZ] - behind[RZ])
+            force = integral(r, -0.5 * (outward - across[TZ]))
+            assert force == pytest.approx(2 / 3 * np.pi * A**2 * MU * P0, rel=0.01)
+        if tractions.shear_circumferential is not None:
+            # ∫ √(1-x²) x³ dx from 0 to 1 is 2/15.
+            torque = 2 * np.pi * MU * P0 * A**3 * 2 / 15
+            assert integral(r, -ahead[TZ] * r) == pytest.approx(torque, rel=0.01)
+
+
+def integral(r: np.ndarray, values: np.ndarray) -> float:
+    return float(2 * np.pi * np.trapezoid(values * r, r))
+
+
+def test_tractions_are_continuous_across_an_interface_and_the_rest_jumps(
+    coated: tuple[SurfaceTractions, SectionField],
+) -> None:
+    _, field = coated
+    above, below = (field.side(0.5 * A, material) for material in (0, 1))
+    near = field.points[0, above] < 2 * A
+    for theta in (0.0, 1.0):
+        one, other = (field.stress(theta)[:, side][:, near] for side in (above, below))
+        jump = np.abs(one - other) / P0
+        assert np.max(jump[[ZZ, RZ, TZ]]) < 0.02
+        assert np.max(jump[RR]) > 0.2
+        # In-plane strains are continuous: from those below follows the stress above.
+        E, nu = STEEL.young_modulus, STEEL.poisson_ratio
+        e_rr = (other[RR] - nu * (other[TT] + other[ZZ])) / E
+        e_tt = (other[TT] - nu * (other[RR] + other[ZZ])) / E
+        E, nu = FILM.young_modulus, FILM.poisson_ratio
+        demanded = E / (1 - nu**2) * (e_rr + nu * e_tt) + nu / (1 - nu) * one[ZZ]
+        assert np.max(np.abs(one[RR] - demanded)) < 0.02 * P0
+
+
+def test_shear_on_points_of_rings_is_the_shear_along_the_load(bare: SectionField) -> None:
+    angles = np.pi * np.arange(3) / 2
+    f = MU * PRESSURE[:, None]
+    tractions = SurfaceTractions(
+        RINGS,
+        np.repeat(PRESSURE[:, None], 3, axis=1),
+        angles,
+        shear_radial=f * np.cos(angles),
+        shear_circumferential=-f * np.sin(angles),
+    )
+    field = subsurface(Body(material=STEEL), tractions, elements(16))
+    assert [part.motion.harmonic for part in field.parts] == [0, 1]
+    for theta in (0.0, 0.7):
+        np.testing.assert_allclose(field.stress(theta), bare.stress(theta), atol=1e-9 * P0)
+        np.testing.assert_allclose(field.displacement(theta), bare.displacement(theta), atol=1e-16)
+
+
+def test_units_change_no_bit() -> None:
+    length, stress = 2.0**-20, 2.0**10
+    small = Body(
+        material=IsotropicMaterial(young_modulus=stress * 210e9, poisson_ratio=0.3),
+    )
+    one = subsurface(Body(material=STEEL), PRESSED, elements(8))
+    other = subsurface(small, SurfaceTractions(length * RINGS, stress * PRESSURE), elements(8))
+    np.testing.assert_array_equal(other.stress(), stress * one.stress())
+    np.testing.assert_array_equal(other.displacement(), length * one.displacement())
+
+
+def test_the_indenter_carries_the_shear_reversed() -> None:
+    lower = subsurface(COATED, OUTWARD, elements(8))
+    turned = replace(OUTWARD, shear_radial=-OUTWARD.shear_radial)  # type: ignore[operator]
+    upper = subsurface(COATED, turned, elements(8), upper=True)
+    np.testing.assert_array_equal(upper.stress(), lower.stress())
+
+
+@pytest.mark.parametrize(
+    ("body", "error"),
+    [
+        (Body(material=RIGID), ValueError),
+        (Body(material=IsotropicMaterial(young_modulus=1e6, poisson_ratio=0.5)), UnsupportedScene),
+    ],
+    ids=["rigid", "incompressible"],
+)
+def test_bodies_without_such_a_stress_are_refused(body: Body, error: type[Exception]) -> None:
+    with pytest.raises(error):
+        subsurface(body, PRESSED, elements(8))

@@ -1,0 +1,286 @@
+"""Load cycles: where they close, and what they do to the surface."""
+
+import json
+import subprocess
+import sys
+from itertools import combinations
+from math import cos, pi, sin
+from pathlib import Path
+
+import contact_scenes
+import coupled_scenes
+import h5py
+import numpy as np
+import pytest
+from contact_scenes import APPROACH, LIMIT, LOAD, MU, PRESS, A, grid, paraboloid, push, slide
+
+from contact_scene import RIGID, Body, LoadStep
+from contact_scene.cycles import load_cycles
+from contact_scene.load_path import load_path
+from semi_analytical import SurfaceGrid, solve
+from semi_analytical.fretting import _half_diameter, fretting_cycles
+from verification.cases import paper_scene as paper
+from verification.closed_forms.cattaneo_mindlin import PartialSlip
+from verification.closed_forms.moduli import tangential_modulus
+from verification.closed_forms.ruiz import CycledContact
+from verification.closed_forms.sheared_surface import trailing_edge_tension
+from verification.run_output.result_files import write_result
+
+ROOT = Path(__file__).resolve().parents[1]
+TOLERANCE = 1e-8
+LOOP = (PRESS, push(0.9, increments=4), push(-0.9, increments=8), push(0.9, increments=8))
+CIRCLE = [push(0.5 * cos(k * pi / 2), 0.5 * sin(k * pi / 2)) for k in range(9)]
+
+HISTORIES = {
+    "there and back": (LOOP, [(2, 4)]),
+    "to nothing and back": ((PRESS, push(0.9), push(0.0)), [(1, 3)]),
+    "holding is no cycle": ((PRESS, push(0.9), push(0.9), push(-0.9), push(0.9)), [(3, 5)]),
+    "every turn closes one": (
+        (PRESS, *(push(x) for x in (0.9, -0.9, 0.9, -0.9, 0.9))),
+        [(2, 4), (3, 5), (4, 6)],
+    ),
+    "on a circle, with round-off": ((PRESS, *CIRCLE), [(k, k + 4) for k in range(2, 7)]),
+    "of the load": ((PRESS, {"normal_force": 0.5 * LOAD}, PRESS), [(1, 3)]),
+    "both together": (({**PRESS, **push(0.5)}, {**PRESS, **push(0.1)}, PRESS, push(0.5)), [(1, 4)]),
+    "a shift is not a force": ((PRESS, push(0.5), slide(1), push(0.5)), [(2, 4)]),
+    "of the torque": ((PRESS, {"torque": 1.0}, {"torque": -1.0}, {"torque": 1.0}), [(2, 4)]),
+    "not the twist": ((PRESS, push(0.5), {"twist": 1e-3}, push(0.0), push(0.5)), [(3, 5)]),
+    "never back": ((PRESS, push(0.1), push(0.2), push(0.3)), []),
+}
+
+
+@pytest.mark.parametrize(("loading", "expected"), HISTORIES.values(), ids=HISTORIES)
+def test_a_cycle_closes_where_all_loads_return(loading, expected):
+    found = load_cycles(load_path([LoadStep(**step) for step in loading]))
+    assert [(cycle.start, cycle.end) for cycle in found] == expected
+
+
+def test_a_range_is_the_largest_distance_of_two_points():
+    paths = np.random.default_rng(1).standard_normal((7, 2, 50))
+    expected = [
+        max(np.hypot(*(one - other)) for one, other in combinations(paths[..., k], 2))
+        for k in range(50)
+    ]
+    np.testing.assert_allclose(_half_diameter(paths), 0.5 * np.array(expected), rtol=1e-14)
+
+
+NU_ZERO = contact_scenes.steel(0.0, 2 * paper.CONTACT_MODULUS)
+
+
+def loop(cells, *loading, window=1.1):
+    """The ball with ν = 0, where the closed form holds."""
+    described = contact_scenes.scene(*(loading or LOOP), indenter=paraboloid(NU_ZERO), body=NU_ZERO)
+    return solve(described, grid(cells, window), TOLERANCE)
+
+
+@pytest.fixture(scope="module")
+def fine():
+    return loop(128)
+
+
+def exact():
+    constants = (NU_ZERO.young_modulus, NU_ZERO.poisson_ratio)
+    modulus = tangential_modulus(constants, constants)
+    return CycledContact(PartialSlip(LOAD, A, MU, modulus, 0.9 * LIMIT), paper.HERTZ.peak_pressure)
+
+
+def test_slip_amplitude_is_that_of_mindlin_and_deresiewicz(fine):
+    (cycle,) = fretting_cycles(fine)
+    r = np.hypot(*fine.grid.coordinates())
+    expected = np.where(r < A, exact().slip_amplitude(np.minimum(r, A)), 0.0)
+    largest = exact().slip_amplitude(A)
+    error = np.abs(cycle.slip_amplitude - expected)[r < A]
+    assert np.max(error) <= 1e-3 * largest
+    # The largest cell is one of those that the edge runs through.
+    assert np.max(cycle.slip_amplitude) == pytest.approx(largest, rel=1e-2)
+    assert not np.any(cycle.slip_amplitude[r > 1.03 * A])
+
+
+def test_ruiz_parameters_are_those_of_the_closed_form(fine):
+    (cycle,) = fretting_cycles(fine, surface_stress=True)
+    assert np.max(cycle.ruiz_f1) == pytest.approx(exact().largest_f1, rel=1e-3)
+    # Tension reaches three cells into the contact: at 256 cells the error is 0.9 %.
+    assert np.max(cycle.ruiz_f2) == pytest.approx(exact().largest_f2, rel=3e-2)
+    i, j = np.unravel_index(np.argmax(cycle.ruiz_f2), cycle.ruiz_f2.shape)
+    place = np.hypot(fine.grid.x[i], fine.grid.y[j])
+    assert abs(fine.grid.y[j]) < 0.05 * A < 0.9 * A < place < A
+    assert np.all(cycle.ruiz_f2[cycle.surface_tension < 0] == 0)
+
+
+def test_the_energy_of_a_cycle_is_four_times_its_ruiz_work(fine):
+    """Constant µp over twice the whole range: 4 τ δ per area."""
+    (cycle,) = fretting_cycles(fine)
+    np.testing.assert_allclose(
+        cycle.dissipation, 4 * cycle.ruiz_f1, atol=1e-6 * np.max(cycle.dissipation)
+    )
+    total = float(np.sum(cycle.dissipation)) * fine.grid.cell_area
+    assert cycle.dissipated_energy == pytest.approx(total, rel=1e-10)
+    assert total == pytest.approx(4 * exact().end.dissipated_energy, rel=1e-4)
+
+
+def test_it_does_not_matter_where_in_the_cycle_one_begins():
+    """From no force, up, down and back to none: the same range of slip and the same friction."""
+    around, from_nothing = (
+        fretting_cycles(loop(32, PRESS, *steps), surface_stress=True)[-1]
+        for steps in ((push(0.9), push(-0.9), push(0.9)), (push(0.9), push(-0.9), push(0.0)))
+    )
+    for name in ("slip_amplitude", "ruiz_f1", "ruiz_f2"):
+        expected = getattr(around, name)
+        error = np.abs(getattr(from_nothing, name) - expected)
+        assert np.max(error) <= 2e-2 * np.max(expected), name
+
+
+def test_the_area_of_the_loop_is_the_energy_of_the_cycle():
+    """Of the polygon through the increments, second order in these."""
+    errors = []
+    for n in (2, 4, 8):
+        steps = (PRESS, *(push(x, increments=k * n) for x, k in ((0.9, 1), (-0.9, 2), (0.9, 2))))
+        (cycle,) = fretting_cycles(loop(24, *steps))
+        errors.append(abs(cycle.input_work / cycle.dissipated_energy - 1))
+    assert errors[-1] < 1e-2
+    assert errors[0] / errors[1] > 3
+    assert errors[1] / errors[2] > 3
+
+
+def test_a_sliding_contact_finds_the_tension_of_its_trailing_edge():
+    """Half order in the cell: the pressure ends as a square root."""
+    expected = trailing_edge_tension(paper.HERTZ.peak_pressure, 0.3, 0.3)
+    errors = []
+    for cells in (32, 128):
+        described = contact_scenes.scene(PRESS, slide(20), slide(-20), slide(20), friction=0.3)
+        (cycle,) = fretting_cycles(solve(described, grid(cells, 1.1), 1e-6), surface_stress=True)
+        errors.append(1 - np.max(cycle.surface_tension) / expected)
+    assert 0 < errors[1] < 0.1
+    assert errors[1] < 0.75 * errors[0]
+
+
+def test_parameters_scale_with_length_and_modulus():
+    length, modulus = 1e-3, 1e2
+    one = loop(32, PRESS, push(0.8), push(-0.8), push(0.8))
+    force = modulus * length**2
+    loads = [
+        {"normal_force": force * LOAD, "tangential_force": (force * x * LIMIT, 0.0)}
+        for x in (0.0, 0.8, -0.8, 0.8)
+    ]
+    stiff = contact_scenes.steel(0.0, modulus * NU_ZERO.young_modulus)
+    ball = paraboloid(stiff).model_copy(update={"radius": length * contact_scenes.RADIUS})
+    small = SurfaceGrid(one.grid.cells, tuple(length * side for side in one.grid.window))
+    other = solve(contact_scenes.scene(*loads, indenter=ball, body=stiff), small, TOLERANCE)
+    (cycle,), (scaled,) = (fretting_cycles(result, surface_stress=True) for result in (one, other))
+    for name, factor in (
+        ("slip_amplitude", length),
+        ("ruiz_f1", modulus * length),
+        ("ruiz_f2", modulus**2 * length),
+    ):
+        expected = factor * np.max(getattr(cycle, name))
+        assert np.max(getattr(scaled, name)) == pytest.approx(expected, rel=1e-5), name
+
+
+def test_a_force_along_y_gives_the_same_turned_by_a_quarter():
+    along_x, along_y = (
+        fretting_cycles(solve(contact_scenes.scene(PRESS, *steps), grid(32), TOLERANCE),
+                        surface_stress=True)[0]
+        for steps in (
+            (push(0.8), push(-0.8), push(0.8)),
+            (push(0.0, 0.8), push(0.0, -0.8), push(0.0, 0.8)),
+        )
+    )  # fmt: skip
+    for name in ("slip_amplitude", "ruiz_f1", "ruiz_f2"):
+        one, other = getattr(along_x, name), getattr(along_y, name)
+        np.testing.assert_allclose(other, one.T, atol=1e-5 * np.max(one))
+
+
+def test_a_rigid_body_leaves_the_tension_to_the_indenter():
+    """Both surfaces of like bodies carry the same; opposite shear, the other edge trails."""
+    soft = coupled_scenes.SUBSTRATE
+    loading = [{**step, "increments": 3} for step in (PRESS, push(0.8), push(-0.8), push(0.8))]
+    lower = coupled_scenes.scene(*loading, body=Body(material=soft))
+    upper = coupled_scenes.scene(*loading, body=Body(material=RIGID), indenter=paraboloid(soft))
+    one, other = (
+        fretting_cycles(solve(described, grid(24), TOLERANCE), surface_stress=True)[0]
+        for described in (lower, upper)
+    )
+    assert np.max(other.surface_tension) == pytest.approx(np.max(one.surface_tension), rel=1e-3)
+    assert np.max(other.ruiz_f2) == pytest.approx(np.max(one.ruiz_f2), rel=1e-2)
+
+
+@pytest.mark.parametrize(
+    "loading",
+    [
+        (PRESS, {"normal_force": 0.5 * LOAD}, PRESS),
+        (PRESS, *({"torque": x * LIMIT * A} for x in (0.2, -0.2, 0.2))),
+        # The force is then a sum of shear, with its round-off.
+        ({**PRESS, **slide(0)}, *({"twist": x * 1e-3} for x in (1, -1, 1))),
+    ],
+    ids=["load", "torque", "twist without a shift"],
+)
+def test_without_a_change_of_force_tension_has_no_direction(loading):
+    described = coupled_scenes.scene(*({**step, "increments": 2} for step in loading))
+    cycles = fretting_cycles(solve(described, grid(24), TOLERANCE), surface_stress=True)
+    assert cycles
+    for cycle in cycles:
+        assert cycle.surface_tension is None
+        assert cycle.ruiz_f2 is None
+        assert np.max(cycle.ruiz_f1) > 0
+
+
+def test_a_cycle_that_ends_at_the_limit_of_friction_has_no_slip():
+    described = contact_scenes.scene(PRESS, push(1.0, increments=1))
+    assert fretting_cycles(solve(described, grid(24), TOLERANCE)) == ()
+
+
+def test_cycles_reach_all_files(tmp_path):
+    result = loop(32, PRESS, push(0.8), push(-0.8), push(0.8), push(-0.8))
+    write_result(result, tmp_path, surface_stress=True)
+    last = fretting_cycles(result, surface_stress=True)[-1]
+    steps = json.loads((tmp_path / "summary.json").read_text(encoding="utf-8"))["steps"]
+    assert [step["cycle_start"] for step in steps] == [None, None, None, 2, 3]
+    assert steps[2]["slip_amplitude"] is None
+    assert steps[4]["slip_amplitude"] == np.max(last.slip_amplitude)
+    assert steps[4]["ruiz_f2"] == np.max(last.ruiz_f2)
+    assert steps[4]["energy_per_cycle"] == last.dissipated_energy
+    assert all(step["energy_imbalance"] <= 1e-6 for step in steps)
+    rows = (tmp_path / "cycles.csv").read_text(encoding="utf-8").splitlines()
+    assert len(rows) == 3
+    assert rows[-1].startswith("3,5,")
+    with h5py.File(tmp_path / "result.h5") as file:
+        group = file["last_cycle"]
+        assert (group.attrs["start_step"], group.attrs["end_step"]) == (3, 5)
+        for name, unit in (("slip_amplitude", "m"), ("ruiz_f1", "Pa m"), ("ruiz_f2", "Pa^2 m")):
+            np.testing.assert_array_equal(group[name][:], getattr(last, name))
+            assert group[name].attrs["unit"] == unit
+    assert {"dissipation.png", "fretting.png"} <= {path.name for path in tmp_path.iterdir()}
+
+
+UNASKED = """
+import sys
+sys.path.insert(0, {tests!r})
+from contact_scenes import PRESS, grid, push, scene
+from semi_analytical import solve
+from semi_analytical.fretting import fretting_cycles
+result = solve(scene(PRESS, push(0.5), push(-0.5), push(0.5)), grid(16), 1e-8)
+(cycle,) = fretting_cycles(result)
+assert cycle.ruiz_f2 is None
+assert not [name for name in sys.modules if name.startswith("semi_analytical.stress")]
+(cycle,) = fretting_cycles(result, surface_stress=True)
+assert "semi_analytical.stress" in sys.modules
+"""
+
+
+def test_stress_is_neither_imported_nor_computed_unless_asked_for():
+    script = UNASKED.format(tests=str(ROOT / "tests"))
+    ran = subprocess.run(
+        [sys.executable, "-c", script], capture_output=True, text=True, check=False
+    )
+    assert ran.returncode == 0, ran.stderr
+
+
+def test_slip_amplitude_is_half_the_way_of_a_body_slid_back_and_forth():
+    """Far beyond the friction limit the surfaces follow hardly at all."""
+    far = 10 * APPROACH
+    steps = [{"tangential_shift": (x * far, 0.0), "increments": 1} for x in (1, -1, 1)]
+    result = solve(contact_scenes.scene(PRESS, *steps), grid(24), TOLERANCE)
+    (cycle,) = fretting_cycles(result)
+    slid = cycle.slip_amplitude[result.increments[-1].in_contact]
+    # The surfaces' own displacement, there and back, is what the slip falls short of the way.
+    np.testing.assert_allclose(slid, far, rtol=0.02)

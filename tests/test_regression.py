@@ -1,0 +1,558 @@
+"""Numbers beside the recorded ones: what counts as a change, and who may accept one."""
+
+import json
+import re
+from collections.abc import Callable
+from pathlib import Path
+from xml.etree import ElementTree
+
+import pytest
+
+from verification.cases.case import Level
+from verification.cases.catalogue import catalogue
+from verification.cases.change import ChangeKind
+from verification.cases.hertz_point import hertz_on
+from verification.cases.judgement import judge
+from verification.cases.outcome import CaseOutcome, FindingRecord, Status, Verdict
+from verification.cases.refinement import refinement
+from verification.cli import main
+from verification.regression import baseline_files
+from verification.regression.acceptance import accept, baselines_of
+from verification.regression.baseline import COUNTERS, key_of
+from verification.regression.baseline_files import BASELINES, dump_baseline, read_baselines
+from verification.regression.comparison import compared
+from verification.regression.refusal import BaselineRefused
+from verification.report.changes import change_counts, change_rows
+from verification.report.files import RECORD, write_report
+from verification.report.junit import render_junit
+from verification.report.numbers import failure_line
+from verification.report.page import render_page
+from verification.report.record import Provenance, Report, count
+from verification.report.summary_text import MOST_LINES, render_summary
+
+COMMIT = "1a2b3c4d5e6f708192a3b4c5d6e7f8091a2b3c4d"
+REASON = "first numbers | of <b>this</b> test"
+MACHINE: dict[str, str | int | None] = {"processor": "one", "python": "3.11.7"}
+ELSEWHERE = {**MACHINE, "processor": "another"}
+
+
+def report_of(
+    *cases: CaseOutcome, changed: bool = False, machine: dict[str, str | int | None] = MACHINE
+) -> Report:
+    return Report(
+        level="quick",
+        counts=count(cases),
+        cases=cases,
+        omissions=(),
+        provenance=Provenance(
+            program_version="0.1.0",
+            commit=COMMIT,
+            changed=changed,
+            command="slipstick verify --level quick",
+            date="2026-11-21T12:00:00+00:00",
+            machine=machine,
+            libraries={"numpy": "2.4.6"},
+            seconds={},
+        ),
+    )
+
+
+@pytest.fixture(scope="module")
+def healthy() -> CaseOutcome:
+    """A case that passes, without figures and with one verdict of each name."""
+    measured = judge(hertz_on(refinement(32, 128)))
+    verdicts = {verdict.name: verdict for verdict in measured.verdicts}
+    finding = FindingRecord(
+        name="cells", run="32x32", meaning="cells in contact", unit="", value=0.25, remark=""
+    )
+    return measured.model_copy(
+        update={"verdicts": tuple(verdicts.values()), "findings": (finding,), "charts": ()}
+    )
+
+
+def with_verdict(case: CaseOutcome, name: str, **changes: object) -> CaseOutcome:
+    verdicts = [v.model_copy(update=changes) if v.name == name else v for v in case.verdicts]
+    return case.model_copy(update={"verdicts": tuple(verdicts)})
+
+
+def with_value(case: CaseOutcome, name: str, value: float) -> CaseOutcome:
+    """The case as it is judged if the quantity had this value."""
+    verdict = find(case, name)
+    error = abs(value - verdict.reference) / verdict.scale
+    status = Status.PASS if error <= verdict.allowed else Status.FAIL
+    return with_verdict(case, name, value=value, error=error, status=status)
+
+
+def with_counts(case: CaseOutcome, **counts: int) -> CaseOutcome:
+    first, *others = case.runs
+    return case.model_copy(update={"runs": (first.model_copy(update=counts), *others)})
+
+
+def find(case: CaseOutcome, name: str) -> Verdict:
+    return next(verdict for verdict in case.verdicts if verdict.name == name)
+
+
+def compare(now: CaseOutcome, was: CaseOutcome, *, elsewhere: bool = False) -> CaseOutcome:
+    report = report_of(now, machine=ELSEWHERE if elsewhere else MACHINE)
+    return compared(report, baselines_of(report_of(was), REASON)).cases[0]
+
+
+def kind_of(
+    now: CaseOutcome, was: CaseOutcome, name: str, *, elsewhere: bool = False
+) -> ChangeKind:
+    change = find(compare(now, was, elsewhere=elsewhere), name).regression
+    assert change is not None
+    return change.kind
+
+
+def shifted(case: CaseOutcome, name: str, part: float, *, of: str = "value") -> CaseOutcome:
+    """A quantity moved away from its reference by a part of itself or of what is allowed."""
+    verdict = find(case, name)
+    assert verdict.value is not None
+    size = abs(verdict.value) if of == "value" else verdict.allowed * verdict.scale
+    away = 1 if verdict.value >= verdict.reference else -1
+    return with_value(case, name, verdict.value + away * part * size)
+
+
+# ---- what counts as a change -------------------------------------------------------------------
+
+
+def test_equal_numbers_are_unchanged(healthy: CaseOutcome) -> None:
+    report = compared(report_of(healthy), baselines_of(report_of(healthy), REASON))
+    judged = len(healthy.verdicts) + len(healthy.findings)
+    assert change_counts(report) == {ChangeKind.UNCHANGED: judged}
+    assert change_rows(report) == []
+
+
+@pytest.mark.parametrize(
+    ("part", "kind"),
+    [
+        (1e-12, ChangeKind.UNCHANGED),
+        (0.9e-8, ChangeKind.UNCHANGED),
+        (1.1e-8, ChangeKind.DRIFT),
+        (1e-6, ChangeKind.DRIFT),
+    ],
+)
+@pytest.mark.parametrize("name", ["approach", "contact_radius"])
+def test_eight_digits_are_kept(
+    healthy: CaseOutcome, name: str, part: float, kind: ChangeKind
+) -> None:
+    assert kind_of(shifted(healthy, name, part), healthy, name) is kind
+
+
+@pytest.mark.parametrize(
+    ("part", "of", "kind"),
+    [
+        (1e-12, "value", ChangeKind.UNCHANGED),
+        (1e-7, "value", ChangeKind.NOT_JUDGED),
+        (0.009, "allowed", ChangeKind.NOT_JUDGED),
+        (0.1, "allowed", ChangeKind.DRIFT),
+        (3.0, "allowed", ChangeKind.OUTSIDE),
+    ],
+)
+def test_last_digits_are_judged_on_the_same_machine_alone(
+    healthy: CaseOutcome, part: float, of: str, kind: ChangeKind
+) -> None:
+    moved = shifted(healthy, "approach", part, of=of)
+    assert kind_of(moved, healthy, "approach", elsewhere=True) is kind
+
+
+def test_what_solves_may_leave_is_judged_on_the_same_machine_alone(healthy: CaseOutcome) -> None:
+    was, now = (with_value(healthy, "largest_residual", value) for value in (2e-9, 7e-9))
+    assert kind_of(now, was, "largest_residual") is ChangeKind.DRIFT
+    assert kind_of(now, was, "largest_residual", elsewhere=True) is ChangeKind.NOT_JUDGED
+
+
+def test_other_machine_is_said_by_what_differs(healthy: CaseOutcome) -> None:
+    origin = compare(healthy, healthy, elsewhere=True).baseline
+    assert origin is not None
+    assert origin.differs == ("processor: another, was one",)
+    assert compare(healthy, healthy).baseline == origin.model_copy(update={"differs": ()})
+
+
+def test_move_is_told_in_units_of_the_tolerance(healthy: CaseOutcome) -> None:
+    change = find(compare(shifted(healthy, "approach", 0.25, of="U"), healthy), "approach")
+    assert change.regression is not None
+    assert change.regression.moved == pytest.approx(0.25)
+    assert change.regression.was == find(healthy, "approach").value
+
+
+def test_verdict_that_begins_to_fail_is_outside(healthy: CaseOutcome) -> None:
+    failing = shifted(healthy, "approach", 3.0, of="U")
+    assert kind_of(failing, healthy, "approach") is ChangeKind.OUTSIDE
+    assert kind_of(failing, failing, "approach") is ChangeKind.UNCHANGED
+    assert kind_of(healthy, failing, "approach") is ChangeKind.BETTER
+
+
+def test_error_that_falls_far_is_suspicious(healthy: CaseOutcome) -> None:
+    verdict = find(healthy, "approach")
+    allowed = verdict.allowed * verdict.scale
+    poor = with_value(healthy, "approach", verdict.reference + 0.8 * allowed)
+    for part, kind in ((0.3, ChangeKind.BETTER), (0.6, ChangeKind.DRIFT)):
+        now = with_value(healthy, "approach", verdict.reference - part * allowed)
+        assert kind_of(now, poor, "approach") is kind
+
+
+def test_error_that_was_small_is_not_suspicious(healthy: CaseOutcome) -> None:
+    verdict = find(healthy, "approach")
+    allowed = verdict.allowed * verdict.scale
+    now, was = (
+        with_value(healthy, "approach", verdict.reference + part * allowed)
+        for part in (0.001, 0.03)
+    )
+    assert kind_of(now, was, "approach") is ChangeKind.DRIFT
+
+
+@pytest.mark.parametrize(
+    ("change", "remark"),
+    [
+        ({"allowed": 0.5}, "tolerance"),
+        ({"reference": 9e-6}, "reference was"),
+        ({"status": Status.INCONCLUSIVE}, "was pass"),
+        ({"unit": "mm"}, "unit was m"),
+    ],
+)
+def test_judging_otherwise_is_drift_even_of_the_same_value(
+    healthy: CaseOutcome, change: dict[str, object], remark: str
+) -> None:
+    now = find(compare(with_verdict(healthy, "approach", **change), healthy), "approach")
+    assert now.regression is not None
+    assert now.regression.kind is ChangeKind.DRIFT
+    assert remark in now.regression.remark
+
+
+def test_wider_tolerance_does_not_make_a_move_smaller(healthy: CaseOutcome) -> None:
+    moved = shifted(healthy, "approach", 0.5, of="U")
+    wide = with_verdict(moved, "approach", allowed=100 * find(healthy, "approach").allowed)
+    change = find(compare(wide, healthy), "approach").regression
+    assert change is not None
+    assert change.moved == pytest.approx(0.5)
+
+
+def test_number_that_is_not_finite_is_a_change(healthy: CaseOutcome) -> None:
+    broken = with_verdict(healthy, "order_of_pressure", value=None, status=Status.INCONCLUSIVE)
+    assert kind_of(broken, healthy, "order_of_pressure") is ChangeKind.DRIFT
+    assert kind_of(broken, broken, "order_of_pressure") is ChangeKind.UNCHANGED
+
+
+def test_finding_is_judged_on_the_same_machine_alone(healthy: CaseOutcome) -> None:
+    other = healthy.findings[0].model_copy(update={"value": 0.2500001})
+    moved = healthy.model_copy(update={"findings": (other,)})
+    for elsewhere, kind in ((False, ChangeKind.DRIFT), (True, ChangeKind.NOT_JUDGED)):
+        change = compare(moved, healthy, elsewhere=elsewhere).findings[0].regression
+        assert change is not None
+        assert change.kind is kind
+
+
+@pytest.mark.parametrize("name", COUNTERS)
+def test_counts_are_exact_on_the_same_machine(healthy: CaseOutcome, name: str) -> None:
+    was = with_counts(healthy, **{name: 20})
+    for now, kind in ((20, None), (21, ChangeKind.DRIFT), (19, ChangeKind.DRIFT)):
+        assert count_kind(with_counts(healthy, **{name: now}), was) is kind
+
+
+def test_counts_may_differ_by_a_quarter_elsewhere(healthy: CaseOutcome) -> None:
+    was = with_counts(healthy, iterations=20)
+    for now, kind in ((21, ChangeKind.NOT_JUDGED), (26, ChangeKind.DRIFT), (15, ChangeKind.DRIFT)):
+        assert count_kind(with_counts(healthy, iterations=now), was, elsewhere=True) is kind
+
+
+def count_kind(now: CaseOutcome, was: CaseOutcome, *, elsewhere: bool = False) -> ChangeKind | None:
+    changes = compare(now, was, elsewhere=elsewhere).runs[0].changes
+    return changes[0].kind if changes else None
+
+
+def test_what_appears_is_new_and_what_disappears_is_gone(healthy: CaseOutcome) -> None:
+    fewer = healthy.model_copy(
+        update={"verdicts": healthy.verdicts[1:], "findings": (), "runs": healthy.runs[1:]}
+    )
+    grown, shrunk = compare(healthy, fewer), compare(fewer, healthy)
+    appeared = grown.verdicts[0].regression
+    assert appeared is not None
+    assert appeared.kind is ChangeKind.NEW
+    assert {gone.name for gone in shrunk.gone} == {healthy.verdicts[0].name, "cells", "run"}
+    assert grown.gone == ()
+
+
+def test_case_without_baseline_is_a_state_of_its_own(healthy: CaseOutcome) -> None:
+    report = compared(report_of(healthy), {})
+    assert report.cases[0].baseline is None
+    assert change_rows(report) == []
+    assert "no baseline yet of level quick" in render_summary(report)
+    assert "no baseline yet" in render_junit(report)
+    assert "There is no baseline yet of level quick" in render_page(report)
+
+
+def test_largest_residual_may_be_found_in_another_run(healthy: CaseOutcome) -> None:
+    moved = with_verdict(healthy, "largest_residual", run="16x16")
+    assert key_of(find(moved, "largest_residual")) == key_of(find(healthy, "largest_residual"))
+    assert compare(moved, healthy).gone == ()
+
+
+def test_numbers_of_a_case_have_keys_of_their_own() -> None:
+    for case in catalogue(Level.QUICK).values():
+        keys = [(q.name, q.run, type(q.tolerance)) for q in case.quantities]
+        keys += [(c.name, c.subject, type(c.tolerance)) for c in case.checks]
+        keys += [(c.name, " and ".join(c.runs), object) for c in case.comparisons]
+        assert len(set(keys)) == len(keys), case.name
+        found = [(finding.name, finding.run) for finding in case.findings]
+        assert len(set(found)) == len(found), case.name
+
+
+# ---- files -------------------------------------------------------------------------------------
+
+
+def test_baseline_returns_every_bit_and_equal_reports_give_equal_bytes(
+    healthy: CaseOutcome, tmp_path: Path
+) -> None:
+    (file,) = accept(report_of(healthy), REASON, tmp_path)
+    once = file.read_bytes()
+    baseline = read_baselines(tmp_path)[healthy.name]
+    assert dump_baseline(baseline).encode() == once
+    values = [quantity.value for quantity in baseline.levels["quick"].quantities]
+    assert values == [verdict.value for verdict in healthy.verdicts]
+    accept(compared(report_of(healthy), read_baselines(tmp_path)), REASON, tmp_path)
+    assert file.read_bytes() == once
+
+
+def test_recording_says_who_made_it_and_why(healthy: CaseOutcome, tmp_path: Path) -> None:
+    accept(report_of(healthy), f"  {REASON}\n", tmp_path)
+    by = read_baselines(tmp_path)[healthy.name].levels["quick"].by
+    assert (by.reason, by.commit, by.processor) == (REASON, COMMIT, "one")
+    assert by.command == "slipstick verify --level quick"
+    assert by.libraries == {"numpy": "2.4.6"}
+
+
+def test_levels_are_recorded_side_by_side(healthy: CaseOutcome, tmp_path: Path) -> None:
+    for level in ("full", "quick"):
+        accept(report_of(healthy).model_copy(update={"level": level}), REASON, tmp_path)
+    assert list(read_baselines(tmp_path)[healthy.name].levels) == ["quick", "full"]
+
+
+def test_missing_folder_holds_no_baseline(tmp_path: Path) -> None:
+    assert read_baselines(tmp_path / "absent") == {}
+
+
+DAMAGE: dict[str, Callable[[str], str]] = {
+    "truncated": lambda text: text[: len(text) // 2],
+    "empty": lambda text: "",
+    "foreign": lambda text: '{"other": 1}',
+    "other case": lambda text: text.replace('"hertz_point"', '"hertz_line"'),
+    "other level": lambda text: text.replace('"quick"', '"quickest"'),
+    "other version": lambda text: text.replace('"schema_version": 1', '"schema_version": 9'),
+    "not finite": lambda text: re.sub(r'"allowed": [^,]*', '"allowed": NaN', text),
+    "words for numbers": lambda text: re.sub(r'"value": [^,]*', '"value": "small"', text),
+}
+
+
+@pytest.mark.parametrize("damage", DAMAGE.values(), ids=DAMAGE)
+def test_damaged_baseline_is_named(
+    healthy: CaseOutcome, tmp_path: Path, damage: Callable[[str], str]
+) -> None:
+    (file,) = accept(report_of(healthy), REASON, tmp_path)
+    file.write_text(damage(file.read_text(encoding="utf-8")), encoding="utf-8")
+    with pytest.raises(BaselineRefused, match=r"hertz_point\.json .*accept it anew"):
+        read_baselines(tmp_path)
+    before = file.read_bytes()
+    with pytest.raises(BaselineRefused):
+        accept(report_of(healthy), REASON, tmp_path)
+    assert file.read_bytes() == before
+
+
+def test_every_baseline_belongs_to_a_case() -> None:
+    assert read_baselines().keys() <= catalogue(Level.QUICK).keys()
+    assert {path.suffix for path in BASELINES.glob("*.*")} <= {".json", ".py"}
+
+
+# ---- accepting ---------------------------------------------------------------------------------
+
+
+def test_unacceptable_reports_are_refused_and_nothing_is_written(
+    healthy: CaseOutcome, tmp_path: Path
+) -> None:
+    failing = shifted(healthy, "approach", 3.0, of="U")
+    for report, reason, names, said in (
+        (report_of(healthy), "", (), "needs a reason"),
+        (report_of(healthy), " \n\t", (), "needs a reason"),
+        (report_of(failing), REASON, (), "1 failed, the first is hertz_point/approach"),
+        (report_of(healthy, changed=True), REASON, (), "no commit holds"),
+        (report_of(healthy), REASON, ("herz",), "no case herz"),
+    ):
+        with pytest.raises(BaselineRefused, match=said):
+            accept(report, reason, tmp_path, names)
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_failures_and_changes_are_accepted_on_demand(healthy: CaseOutcome, tmp_path: Path) -> None:
+    failing = report_of(shifted(healthy, "approach", 3.0, of="U"), changed=True)
+    accept(failing, REASON, tmp_path, with_failures=True, with_changes=True)
+    recorded = read_baselines(tmp_path)[healthy.name].levels["quick"]
+    assert recorded.status is Status.FAIL
+    assert recorded.by.changed
+
+
+def test_only_the_named_cases_are_accepted(healthy: CaseOutcome, tmp_path: Path) -> None:
+    other = healthy.model_copy(update={"name": "other"})
+    (file,) = accept(report_of(healthy, other), REASON, tmp_path, ["other"])
+    assert file.name == "other.json"
+
+
+# ---- the report --------------------------------------------------------------------------------
+
+
+def test_failure_line_says_since_when(healthy: CaseOutcome) -> None:
+    case = compare(shifted(healthy, "approach", 3.0, of="U"), healthy)
+    line = failure_line(case.name, find(case, "approach"), "quick")
+    assert re.fullmatch(
+        r"FAIL hertz_point/approach \[128x128\]: [\d.]+ µm, expected [\d.]+ µm ± [\d.]+ nm "
+        r"\([\d.]+ U\); was [\d.]+ µm at 1a2b3c4; "
+        r"reproduce: slipstick verify hertz_point --level quick",
+        line,
+    )
+
+
+def test_every_form_of_the_report_shows_what_changed(healthy: CaseOutcome) -> None:
+    moved = with_counts(shifted(healthy, "approach", 1e-6), iterations=9999)
+    report = compared(report_of(moved), baselines_of(report_of(healthy), REASON))
+    (shift, counts) = change_rows(report)
+    assert (shift.name, shift.kind) == ("approach", ChangeKind.DRIFT)
+    assert (counts.name, counts.now) == ("iterations", "9999")
+    page, summary, junit = render_page(report), render_summary(report), render_junit(report)
+    for text in (page, summary, junit):
+        assert shift.was in text
+        assert shift.now in text
+        assert "9999" in text
+    assert "1a2b3c4" in page
+    assert "<b>this" not in page
+    assert page.index("since the baseline") < page.index("<h2>Cases")
+    suites = ElementTree.fromstring(junit.partition("\n")[2])
+    assert suites.get("tests") == str(len(healthy.verdicts))
+    assert suites.findall(".//failure") == []
+
+
+def test_summary_stays_short_however_much_changed(healthy: CaseOutcome) -> None:
+    many = [
+        find(healthy, "approach").model_copy(update={"name": f"quantity_{n}", "run": "r" * 200})
+        for n in range(500)
+    ]
+    case = healthy.model_copy(update={"verdicts": tuple(many)})
+    report = compared(report_of(case), baselines_of(report_of(healthy), REASON))
+    summary = render_summary(report)
+    assert len(change_rows(report)) > 500
+    assert len(summary.encode()) < 60_000
+    assert f"and {len(change_rows(report)) - MOST_LINES} more" in summary
+
+
+# ---- commands ----------------------------------------------------------------------------------
+
+
+def slipstick(*arguments: object) -> int:
+    with pytest.raises(SystemExit) as leaving:
+        main([str(argument) for argument in arguments])
+    return int(leaving.value.code or 0)
+
+
+@pytest.fixture
+def places(healthy: CaseOutcome, tmp_path: Path) -> tuple[Path, Path]:
+    """A report and its baselines."""
+    report, baselines = tmp_path / "report", tmp_path / "baselines"
+    report.mkdir()
+    write_report(report_of(healthy), report)
+    accept(report_of(healthy), REASON, baselines)
+    return report, baselines
+
+
+@pytest.mark.parametrize(
+    ("part", "code", "said"),
+    [
+        (0.0, 0, "unchanged"),
+        (1e-12, 0, "unchanged"),
+        (1e-6, 5, "1 drift"),
+        (0.1, 1, "FAIL hertz_point/approach"),
+    ],
+)
+def test_comparison_ends_by_what_changed(
+    healthy: CaseOutcome,
+    places: tuple[Path, Path],
+    capsys: pytest.CaptureFixture[str],
+    part: float,
+    code: int,
+    said: str,
+) -> None:
+    report, baselines = places
+    write_report(report_of(shifted(healthy, "approach", part)), report)
+    assert slipstick("compare", report, "--baseline", baselines) == code
+    output = capsys.readouterr().out
+    assert said in output
+    assert ("reproduce: slipstick verify hertz_point" in output) == (code > 0)
+
+
+def test_reports_are_compared_with_each_other(
+    healthy: CaseOutcome, places: tuple[Path, Path], tmp_path: Path
+) -> None:
+    now = tmp_path / "now"
+    now.mkdir()
+    write_report(report_of(with_counts(healthy, iterations=9999)), now)
+    assert slipstick("compare", now, "--baseline", places[0] / RECORD) == 5
+    assert slipstick("compare", places[0] / RECORD, "--baseline", places[0]) == 0
+
+
+def test_comparison_without_baseline_says_so_and_is_no_failure(
+    places: tuple[Path, Path], tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (tmp_path / "none").mkdir()
+    assert slipstick("compare", places[0], "--baseline", tmp_path / "none") == 0
+    assert "no baseline yet of level quick" in capsys.readouterr().out
+
+
+def test_damaged_baseline_ends_the_commands_before_any_work(
+    places: tuple[Path, Path],
+    tmp_path: Path,
+    capsys: pytest.CaptureFixture[str],
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    report, baselines = places
+    (baselines / "hertz_point.json").write_text("{", encoding="utf-8")
+    assert slipstick("compare", report, "--baseline", baselines) == 2
+    monkeypatch.setattr(baseline_files, "BASELINES", baselines)
+    assert slipstick("verify", "hertz_point", "--output", tmp_path / "out") == 2
+    assert capsys.readouterr().err.count("is damaged") == 2
+    assert list((tmp_path / "out").iterdir()) == []
+
+
+def test_verification_warns_of_drift_and_passes(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    output, baselines = tmp_path / "out", tmp_path / "baselines"
+    monkeypatch.setattr(baseline_files, "BASELINES", baselines)
+    verify = ("verify", "dissimilar_bodies", "--output", output)
+    assert slipstick(*verify) == 0
+    assert "no baseline yet" in capsys.readouterr().out
+    accepted = ("baseline", "--accept", "--with-changes", "--from", output, "--to", baselines)
+    assert slipstick(*accepted, "--because", "as computed") == 0
+    file = baselines / "dissimilar_bodies.json"
+    content = json.loads(file.read_text(encoding="utf-8"))
+    content["levels"]["quick"]["runs"][0]["iterations"] += 1
+    content["levels"]["quick"]["quantities"][0]["value"] *= 1 + 1e-6
+    file.write_text(json.dumps(content), encoding="utf-8")
+    capsys.readouterr()
+    assert slipstick(*verify) == 0
+    printed = capsys.readouterr().out
+    assert len(re.findall(r"^WARN drift dissimilar_bodies/", printed, re.MULTILINE)) == 2
+    assert slipstick("compare", output) == 5
+
+
+def test_acceptance_needs_its_reason(
+    places: tuple[Path, Path], tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    new = tmp_path / "new"
+    assert slipstick("baseline", "--accept", "--from", places[0], "--to", new) == 2
+    assert "needs a reason" in capsys.readouterr().err
+    assert slipstick("baseline", "--because", "it is", "--from", places[0], "--to", new) == 2
+    assert not new.exists()
+    words = ("--because", "it is right", "--from", places[0], "--to", new)
+    assert slipstick("baseline", "--accept", *words) == 0
+    assert slipstick("baseline", "--to", new) == 0
+    listed = capsys.readouterr().out
+    assert "it is right" in listed
+    assert "1a2b3c4" in listed

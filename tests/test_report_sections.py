@@ -1,0 +1,202 @@
+"""The report's page: its order, what it answers, what is missing, and how scenes are drawn."""
+
+import re
+from pathlib import Path
+
+import pytest
+from report_examples import COATED, RADIUS, case, report_of, run_record, sketch, study, verdict
+
+from contact_scene import RIGID, FlatPunch, LoadStep, Scene
+from verification.cases.outcome import Status
+from verification.cases.section_sketch import HALF_WIDTH, section_sketch
+from verification.report.answers import answers
+from verification.report.both_solvers import CELLS, ELEMENTS, shared_references
+from verification.report.compact_svg import compact
+from verification.report.page import render_page
+from verification.report.record import Report
+from verification.report.sections import TITLES, stored_records, study_section
+from verification.report.sketch import sketch_svg, thin_layers
+from verification.report.summary_text import render_summary
+from verification.studies.catalogue import STUDIES
+from verification.studies.running.record import StudyRecord, dump_study
+
+SECTIONS = (
+    "verdict", "baseline", "answers", "cases", "solvers", "paper", "frf", "cost", "stability",
+    "defects", "omissions", "provenance",
+)  # fmt: skip
+
+
+def of_both(cells: float, elements: float) -> Report:
+    """Both solvers on one reference of 1 µm."""
+    return report_of((
+        case("hertz_point", {"approach": (cells, 1e-6)}, run_record(64, None)),
+        case("fem_hertz", {"approach": (elements, 1e-6)}, run_record(None, 32)),
+    ))  # fmt: skip
+
+
+def test_sections_come_in_their_order_and_the_contents_lead_to_each() -> None:
+    page = render_page(of_both(1e-6, 1e-6))
+    found = re.findall(r'<(?:section|header) id="([^"]*)"', page)
+    assert tuple(found) == SECTIONS
+    contents = page[page.index("<nav") : page.index("</nav>")]
+    assert tuple(re.findall(r'<li><a href="#(\w+)">(?!<span)', contents)) == SECTIONS
+
+
+def test_three_kinds_of_verdict_are_counted_apart() -> None:
+    good = case("one", {"approach": (1e-6, 1e-6), "radius": (2e-6, 1e-6)}, run_record(64, None))
+    rate = verdict("rate", 2.0, 2.0).model_copy(update={"tolerance_kind": "order"})
+    page = render_page(report_of((good.model_copy(update={"verdicts": (*good.verdicts, rate)}),)))
+    table = page[page.index("Three kinds of verdict") :]
+    rows = re.findall(r'<tr><th scope="row">([\w ]+)</th>(.*)</tr>', table)[:2]
+    assert [(name, re.findall(r"\d+", cells)) for name, cells in rows] == [
+        ("against a reference", ["1", "1", "0"]),
+        ("order of convergence", ["1", "0", "0"]),
+    ]
+
+
+@pytest.mark.parametrize(
+    ("cells", "elements", "nearer", "apart"),
+    [(1.001e-6, 1.2e-6, CELLS, "20 %"), (1.3e-6, 0.999e-6, ELEMENTS, "30 %")],
+)
+def test_the_nearer_solver_is_the_one_with_the_smaller_error(
+    cells: float, elements: float, nearer: str, apart: str
+) -> None:
+    report = of_both(cells, elements)
+    (shared,) = shared_references(report)
+    assert shared.nearer == nearer
+    text = " ".join(answers(report)[2].sentences)
+    assert f"{nearer} nearer" in text
+    assert apart in text
+
+
+def test_values_of_different_references_are_not_compared() -> None:
+    one = case("hertz_point", {"approach": (1e-6, 1e-6)}, run_record(64, None))
+    other = case("fem_hertz", {"approach": (2e-6, 2e-6)}, run_record(None, 32))
+    assert shared_references(report_of((one, other))) == ()
+
+
+def test_a_study_answers_its_question_in_its_own_words() -> None:
+    report = report_of((), (study("gross-sliding", "No, for a reason."),))
+    (sliding, cost, both) = answers(report)
+    assert sliding.sentences == ("No, for a reason.",)
+    assert sliding.chart is not None
+    assert sliding.missing is None
+    assert cost.sentences == both.sentences == ()
+    assert cost.missing is not None
+    assert both.missing is not None
+
+
+@pytest.mark.parametrize("name", TITLES)
+def test_a_missing_study_names_the_command_that_makes_it(name: str) -> None:
+    section = study_section(report_of(()), name)
+    assert section.record is None
+    page = render_page(report_of(()))
+    article = page[page.index(f'id="study-{name}"') :].split("</article>")[0]
+    assert name in STUDIES
+    assert f"slipstick study {name} --level quick" in article
+
+
+def test_a_study_that_was_made_is_shown_with_its_level_and_what_it_lost() -> None:
+    page = render_page(report_of((), (study("stability", level="full"),)))
+    article = page[page.index('id="study-stability"') :].split("</article>")[0]
+    assert "Level full" in article
+    assert "lost-one" in article
+    assert "not run" not in article.lower()
+
+
+def test_the_highest_level_of_a_study_is_shown_and_of_equals_the_latest(tmp_path: Path) -> None:
+    def store(place: str, record: StudyRecord, date: str) -> None:
+        made = record.provenance.model_copy(update={"date": date})
+        (tmp_path / place).mkdir(parents=True)
+        text = dump_study(record.model_copy(update={"provenance": made}))
+        (tmp_path / place / "study.json").write_text(text, encoding="utf-8")
+
+    store("a/full", study("stability", "old", "full"), "2001")
+    store("b/full", study("stability", "new", "full"), "2002")
+    store("a/quick", study("stability", "quick", "quick"), "2003")
+    store("a/other", study("no-such-place", "x"), "2003")
+    for places in (("a", "b"), ("b", "a")):
+        (chosen,) = stored_records(tmp_path / place for place in places)
+        assert chosen.conclusion.answer == "new"
+    assert stored_records([tmp_path / "nowhere"]) == ()
+
+
+def test_a_broken_record_of_a_study_is_named(tmp_path: Path) -> None:
+    (tmp_path / "broken").mkdir()
+    (tmp_path / "broken" / "study.json").write_text("{", encoding="utf-8")
+    with pytest.raises(ValueError, match=r"broken/study\.json"):
+        stored_records([tmp_path])
+
+
+def test_summary_names_the_studies() -> None:
+    assert "stability ✓ pass (quick)" in render_summary(report_of((), (study("stability"),)))
+
+
+def test_a_scene_is_drawn_to_scale() -> None:
+    svg = sketch_svg(sketch(), "name", "title")
+    ((left, right),) = re.findall(r'class="contact" x1="([\d.]+)" y1="[\d.]+" x2="([\d.]+)"', svg)
+    ((height,),) = [re.findall(r'class="layer-0"[^>]*height="([\d.]+)"', svg)]
+    across = float(right) - float(left)
+    assert float(height) / across == pytest.approx(4e-4 / (2 * RADIUS), abs=1e-3)
+    assert not thin_layers(sketch())
+
+
+def test_a_layer_too_thin_to_be_drawn_is_said_to_be() -> None:
+    assert thin_layers(sketch(contact_radius=1e3 * RADIUS))
+
+
+def test_a_punch_ends_at_its_rim() -> None:
+    punch = Scene(
+        title="",
+        indenter=FlatPunch(radius=RADIUS, material=RIGID),
+        body=COATED.body,
+        loading=(LoadStep(approach=1e-6),),
+    )
+    drawn = sketch(punch)
+    assert drawn.outline[0][0] == -drawn.outline[-1][0] == pytest.approx(-RADIUS, rel=1e-6)
+    assert drawn.half_width == pytest.approx(HALF_WIDTH * RADIUS)
+    assert drawn.loads == ("ω_z",)
+    assert all(gap == 0 for _, gap in drawn.outline)
+
+
+def test_a_scene_without_contact_has_no_picture() -> None:
+    assert section_sketch(COATED, 0.0) is None
+
+
+def test_loads_and_materials_are_told_in_words() -> None:
+    svg = sketch_svg(sketch(), "name", "title")
+    assert "W (normal force), T (tangential force)" in svg
+    assert "E = 210 GPa" in svg
+    assert "µ = 0.1" in svg
+
+
+def test_a_compact_drawing_keeps_what_is_referred_to() -> None:
+    svg = (
+        '<svg><metadata>x</metadata><g id="figure_1"><g id="a"><defs><path id="m1" d="M 0 0 \n'
+        'L 1.23456 0"/></defs><use xlink:href="#m1" x="2.000000"/></g>'
+        '<g clip-path="url(#p1)"/><clipPath id="p1"/></g><g id="b">\n</g></svg>'
+    )
+    text = compact(svg, "one")
+    ids = re.findall(r' id="([^"]*)"', text)
+    assert len(ids) == len(set(ids)) == 2
+    assert set(re.findall(r'(?:href="#|url\(#)([^")]*)', text)) == set(ids)
+    assert "L1.23 0" in text
+    assert 'x="2"' in text
+    assert "<g>" not in text
+    assert text.count("<g clip") == text.count("<g") == 1
+    assert "</g>" not in text
+    assert not set(ids) & set(re.findall(r' id="([^"]*)"', compact(svg, "two")))
+
+
+def test_a_failure_leads_the_page() -> None:
+    report = of_both(1e-6, 2e-6)
+    assert report.status is Status.FAIL
+    header = render_page(report).split("</header>")[0]
+    assert "✗" in header
+    assert "slipstick verify fem_hertz --level quick" in header
+
+
+def test_a_failed_study_leads_the_page_too() -> None:
+    header = render_page(report_of((), (study("stability", level="full"),))).split("</header>")[0]
+    assert 'href="#study-stability"' in header
+    assert "cases were lost" in header

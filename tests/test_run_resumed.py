@@ -1,0 +1,128 @@
+"""A run that is killed loses an increment at most, and its files are those of one that is not."""
+
+import os
+import random
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parents[1]
+SCENE = """
+[indenter]
+shape = "sphere"
+radius = "10 mm"
+material = { young_modulus = "210 GPa", poisson_ratio = 0.3 }
+[body]
+material = { young_modulus = "210 GPa", poisson_ratio = 0.3 }
+[[body.layers]]
+thickness = "50 um"
+material = { young_modulus = "70 GPa", poisson_ratio = 0.33 }
+[friction]
+coefficient = 0.3
+[[loading]]
+normal_force = 100
+increments = 4
+[[loading]]
+tangential_force = [20, 0]
+increments = 8
+[[loading]]
+tangential_force = [-20, 0]
+increments = 8
+[semi_analytical]
+cells = [32, 32]
+[fem_reference]
+elements_per_radius = 6
+"""
+# With a checkpoint after every increment.
+RUN = f"""
+import sys
+sys.path.insert(0, {str(ROOT)!r})
+import verification.run_output.checkpoint as checkpoint
+checkpoint.SECONDS_BETWEEN, checkpoint.SHARE = 0.0, float("inf")
+from verification.cli import main
+main()
+"""
+
+
+def started(directory: Path, *options: str) -> "subprocess.Popen[str]":
+    (directory / "scene.toml").write_text(SCENE, encoding="utf-8")
+    command = [sys.executable, "-c", RUN, "run", "scene.toml", "-o", "out", "--no-figures"]
+    return subprocess.Popen(
+        [*command, *options], cwd=directory, text=True,
+        env=os.environ | {"SLIPSTICK_CACHE_DIR": os.devnull},  # its hits are counted in the results
+        stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+    )  # fmt: skip
+
+
+def results(directory: Path) -> dict[str, bytes]:
+    """All files but the one that says how long it took; nothing else is left anywhere."""
+    assert {path.name for path in directory.iterdir()} == {"scene.toml", "out"}
+    files = visible(directory)
+    assert {"result.h5", "summary.json"} <= files.keys()
+    assert len(files) + 1 == len(os.listdir(directory / "out"))
+    return files
+
+
+def visible(directory: Path) -> dict[str, bytes]:
+    """The results, whatever else a killed run has left."""
+    paths = [path for path in (directory / "out").iterdir() if path.is_file()]
+    return {path.name: path.read_bytes() for path in paths if path.name != "timing.json"}
+
+
+def uninterrupted(directory: Path, *options: str) -> dict[str, bytes]:
+    directory.mkdir()
+    process = started(directory, *options)
+    _, log = process.communicate(timeout=170)
+    assert process.returncode == 0, log
+    return results(directory)
+
+
+def parts(directory: Path) -> int:
+    return len(list((directory / ".out.checkpoint").glob("part-*")))
+
+
+def test_killed_run_goes_on_and_leaves_the_same_bytes(tmp_path: Path) -> None:
+    expected = uninterrupted(tmp_path / "whole")
+    killed = tmp_path / "killed"
+    killed.mkdir()
+    process = started(killed)
+    deadline = time.monotonic() + 150
+    while parts(killed) < 6 and time.monotonic() < deadline:
+        time.sleep(0.005)
+    process.send_signal(signal.SIGKILL)
+    process.communicate()
+    done = parts(killed)
+    assert done >= 6
+    assert not (killed / "out").exists()
+    process = started(killed)
+    _, log = process.communicate(timeout=170)
+    assert process.returncode == 0, log
+    assert f"going on after increment {done} of an interrupted run" in log
+    assert results(killed) == expected
+
+
+@pytest.mark.slow
+@pytest.mark.timeout(1800)
+@pytest.mark.parametrize(
+    "options", [(), ("--path-error",), ("--solver", "fem"), ("--solver", "fem-complementarity")]
+)
+def test_run_survives_kills_at_any_time(options: tuple[str, ...], tmp_path: Path) -> None:
+    expected = uninterrupted(tmp_path / "whole", *options)
+    killed, chance = tmp_path / "killed", random.Random(7)
+    killed.mkdir()
+    for _ in range(25):
+        process = started(killed, *options)
+        time.sleep(chance.uniform(0.3, 4.0))
+        process.send_signal(signal.SIGKILL)
+        process.communicate()
+        if (killed / "out" / "summary.json").exists():
+            assert visible(killed) == expected
+    process = started(killed, *options)
+    _, log = process.communicate(timeout=170)
+    assert process.returncode == 0, log
+    assert "damaged" not in log
+    assert results(killed) == expected

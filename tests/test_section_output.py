@@ -1,0 +1,283 @@
+"""The files of a result on a section, and the commands that write and read them."""
+
+import csv
+import json
+from pathlib import Path
+
+import h5py
+import jsonschema
+import meshio
+import numpy as np
+import pytest
+from fem_scenes import solved
+
+from contact_scene import (
+    Body,
+    CoulombFriction,
+    IsotropicMaterial,
+    Layer,
+    LoadStep,
+    Paraboloid,
+    Scene,
+)
+from contact_scene.summary import load_summary, summary_schema
+from fem_reference import Method, Result, solve
+from fem_reference.energy import elastic_energy, input_work
+from verification.cases.layered_scene import coated, exact_contact, film
+from verification.cli.application import main
+from verification.run_output.field_file import FIELDS
+from verification.run_output.file_names import RUN_FILES, SUMMARY
+from verification.run_output.section.fretting_cycles import section_cycles
+from verification.run_output.section.result_files import write_section_result
+
+STEEL = IsotropicMaterial(young_modulus=210e9, poisson_ratio=0.3)
+FILM = Layer(thickness=0.2e-3, material=IsotropicMaterial(young_modulus=4e11, poisson_ratio=0.2))
+FRICTION = CoulombFriction(coefficient=0.1)
+BALL = Paraboloid(radius=18e-3, material=STEEL)
+PRESS = LoadStep(normal_force=1e3)
+PUSH, PULL = (LoadStep(tangential_force=(t, 0.0), increments=2) for t in (60.0, -60.0))
+TURN = LoadStep(torque=0.01, increments=2)
+
+HERTZ = Scene(title="Hertz", indenter=BALL, body=Body(material=STEEL), loading=(PRESS,))
+LOOP = HERTZ.model_copy(
+    update={"title": "loop", "friction": FRICTION, "loading": (PRESS, PUSH, PULL, PUSH)}
+)
+COATED = LOOP.model_copy(
+    update={
+        "title": "coated",
+        "body": Body(material=STEEL, layers=(FILM,)),
+        "loading": (PRESS, PUSH),
+    }
+)
+TWISTED = LOOP.model_copy(update={"title": "twisted", "loading": (PRESS, TURN)})
+SCENES = {scene.title: scene for scene in (HERTZ, LOOP, COATED, TWISTED)}
+
+
+@pytest.fixture(scope="module", params=SCENES)
+def written(
+    request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory
+) -> tuple[Result, Path]:
+    result = solved(SCENES[request.param], 8, harmonics=2)
+    directory = tmp_path_factory.mktemp("written")
+    write_section_result(result, Method.COMPLEMENTARITY, directory, with_figures=True)
+    return result, directory
+
+
+def rows(path: Path) -> list[dict[str, str]]:
+    with open(path, newline="", encoding="utf-8") as file:
+        return list(csv.DictReader(file))
+
+
+def test_every_file_has_a_known_name(written: tuple[Result, Path]) -> None:
+    assert {path.name for path in written[1].iterdir()} <= set(RUN_FILES)
+
+
+def test_equal_results_give_equal_bytes(written: tuple[Result, Path], tmp_path: Path) -> None:
+    result, first = written
+    again = solve(result.scene, result.discretisation)
+    write_section_result(again, Method.COMPLEMENTARITY, tmp_path)
+    for path in first.iterdir():
+        assert path.read_bytes() == (tmp_path / path.name).read_bytes() or path.name in (
+            # What the cache of compliances had the second time was not factored.
+            SUMMARY,
+            "increments.csv",
+        )
+
+
+def test_summary_fulfils_the_schema_of_every_solver(written: tuple[Result, Path]) -> None:
+    result, directory = written
+    text = (directory / SUMMARY).read_text(encoding="utf-8")
+    jsonschema.validate(json.loads(text), summary_schema())
+    summary = load_summary(text)
+    assert summary.solver == "fem_reference.complementarity"
+    assert summary.cells is summary.window is None
+    assert len(summary.steps) == len(result.scene.loading)
+    for step, end in zip(summary.steps, result.steps, strict=True):
+        assert step.convolutions is None
+        assert step.approach == end.approach
+        assert step.dissipated_energy == end.dissipated_energy
+        assert step.status is end.status
+    assert sum(step.factorizations or 0 for step in summary.steps) == sum(
+        increment.factorizations for increment in result.increments
+    )
+
+
+def test_profiles_are_the_fields_at_the_ends_of_steps(written: tuple[Result, Path]) -> None:
+    result, directory = written
+    found = rows(directory / "profiles.csv")
+    for number, end in enumerate(result.steps, 1):
+        of_step = [row for row in found if int(row["step"]) == number]
+        assert [float(row["pressure"]) for row in of_step] == end.pressure.ravel().tolist()
+        for name in ("shear_radial", "shear_along_load", "shear_circumferential"):
+            field = getattr(end, name)
+            column = [row[name] for row in of_step]
+            assert column == (
+                [""] * len(column) if field is None else [repr(v) for v in field.ravel().tolist()]
+            )
+
+
+def test_increments_are_all_there(written: tuple[Result, Path]) -> None:
+    result, directory = written
+    found = rows(directory / "increments.csv")
+    assert len(found) == len(result.increments)
+    for row, increment in zip(found, result.increments, strict=True):
+        assert float(row["approach"]) == increment.approach
+        assert row["torque"] == ("" if increment.torque is None else repr(increment.torque))
+
+
+def test_fields_have_every_increment(written: tuple[Result, Path]) -> None:
+    result, directory = written
+    with h5py.File(directory / FIELDS) as file:
+        group = file["increments"]
+        np.testing.assert_array_equal(file["radii"][:], result.increments[0].radii)
+        for n, increment in enumerate(result.increments):
+            stored = group["pressure"][n]
+            if increment.pressure.ndim < stored.ndim:
+                stored = stored[:, 0]
+            np.testing.assert_array_equal(stored, increment.pressure)
+            assert group["approach"][n] == increment.approach
+
+
+def test_elastic_energy_of_a_hertz_contact_is_two_fifths_of_load_times_approach() -> None:
+    result = solved(HERTZ, 32)
+    end = result.steps[-1]
+    stored = elastic_energy(result.scene, result.plan, end)
+    assert stored == pytest.approx(0.4 * end.normal_force * end.approach, rel=1e-3)
+
+
+def test_work_of_many_increments_is_the_energy_stored() -> None:
+    scene = HERTZ.model_copy(update={"loading": (LoadStep(normal_force=1e3, increments=40),)})
+    result = solved(scene, 16)
+    stored = elastic_energy(scene, result.plan, result.increments[-1])
+    assert input_work(result.increments)[-1] == pytest.approx(stored, rel=3e-3)
+
+
+def test_work_in_a_closed_cycle_is_dissipated() -> None:
+    loading = (PRESS, *(step.model_copy(update={"increments": 20}) for step in (PUSH, PULL, PUSH)))
+    result = solved(LOOP.model_copy(update={"loading": loading}), 16)
+    (cycle,) = section_cycles(result)
+    assert (cycle.cycle.start, cycle.cycle.end) == (2, 4)
+    work = dict(
+        zip([i.step for i in result.increments], input_work(result.increments), strict=True)
+    )
+    assert work[4] is not None
+    assert work[2] is not None
+    assert work[4] - work[2] == pytest.approx(cycle.dissipated_energy, rel=0.05)
+    assert cycle.slip_amplitude > 0
+    assert cycle.ruiz_f1 > 0
+
+
+def test_no_energy_is_stated_where_shear_keeps_a_part() -> None:
+    result = solved(LOOP, 8)
+    assert elastic_energy(result.scene, result.plan, result.steps[-1]) is None
+
+
+TOML = """
+title = "coated"
+[indenter]
+shape = "paraboloid"
+radius = "18 mm"
+material = "rigid"
+[body]
+material = { young_modulus = "210 GPa", poisson_ratio = 0.3 }
+[[body.layers]]
+thickness = "0.2 mm"
+material = { young_modulus = "420 GPa", poisson_ratio = 0.3 }
+[friction]
+coefficient = 0.1
+[[loading]]
+normal_force = "1 kN"
+increments = 3
+[fem_reference]
+elements_per_radius = 8
+[semi_analytical]
+cells = [16, 16]
+"""
+
+
+@pytest.fixture(scope="module")
+def place(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A scene, and its runs by both methods."""
+    directory = tmp_path_factory.mktemp("commands")
+    (directory / "scene.toml").write_text(TOML, encoding="utf-8")
+    for solver in ("fem", "fem-complementarity"):
+        asked = ("-o", directory / solver, "--solver", solver, "--no-figures")
+        assert slipstick("run", directory / "scene.toml", *asked) == 0
+    return directory
+
+
+def slipstick(*arguments: object) -> object:
+    """The exit code of the command."""
+    with pytest.raises(SystemExit) as left:
+        main([str(argument) for argument in arguments])
+    return left.value.code
+
+
+@pytest.mark.parametrize(
+    ("solver", "name"),
+    [("fem", "fem_reference.penalty"), ("fem-complementarity", "fem_reference.complementarity")],
+)
+def test_run_names_its_solver(place: Path, solver: str, name: str) -> None:
+    summary = load_summary((place / solver / SUMMARY).read_text(encoding="utf-8"))
+    assert summary.solver == name
+    bodies = coated(Layer(thickness=0.2e-3, material=film(2.0, 1.0).material))
+    assert summary.steps[-1].approach == pytest.approx(exact_contact(bodies).approach, rel=0.01)
+    assert (summary.steps[-1].stick_radius or 0.0) < summary.steps[-1].contact_radius
+
+
+def test_the_other_solvers_table_is_ignored(place: Path) -> None:
+    code = slipstick("run", place / "scene.toml", "-o", place / "again", "--solver", "fem",
+                     "--set", "semi_analytical.cells=[32,32]", "--no-figures")  # fmt: skip
+    assert code == 0
+    assert (place / "again/profiles.csv").read_bytes() == (place / "fem/profiles.csv").read_bytes()
+
+
+def test_own_table_is_heeded(place: Path) -> None:
+    code = slipstick("run", place / "scene.toml", "-o", place / "finer", "--solver", "fem",
+                     "--set", "fem_reference.elements_per_radius=12", "--no-figures")  # fmt: skip
+    assert code == 0
+    assert len(rows(place / "finer/profiles.csv")) > len(rows(place / "fem/profiles.csv"))
+
+
+def test_plan_says_mesh_and_factorisations(place: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert slipstick("plan", place / "scene.toml", "--solver", "fem") == 0
+    shown = capsys.readouterr().out
+    for word in ("penalty of 10", "8 elements per contact radius", "factorisations", "increments"):
+        assert word in shown
+
+
+def test_stress_of_a_run_keeps_both_sides_of_an_interface(place: Path) -> None:
+    assert slipstick("stress", place / "fem-complementarity", "-o", place / "stress") == 0
+    record = json.loads((place / "stress/stress.json").read_text(encoding="utf-8"))
+    assert "Gauss points" in record["recovery"]
+    found = rows(place / "stress/stress_interfaces.csv")
+    on_axis = {row["side"]: row for row in found if float(row["x [m]"]) == 0}
+    above, below = (float(on_axis[side]["sigma_rr [Pa]"]) for side in ("above", "below"))
+    assert above - below > 1e8
+    mesh = meshio.read(place / "stress/stress_section.vtu")
+    assert set(mesh.cells_dict) == {"quad9"}
+    assert {"sigma_rr", "sigma_rz", "von_mises", "material"} <= set(mesh.point_data)
+    axis = rows(place / "stress/stress_axis.csv")
+    depths = [float(row["depth [m]"]) for row in axis]
+    assert depths == sorted(depths)
+    assert float(axis[0]["sigma_zz [Pa]"]) < -1e9
+
+
+REFUSED = {
+    "a step names a moment": ("run", "--set", "loading[1].moment=[0.1,0]"),
+    "--path-error is of the semi-analytical solver": ("run", "--path-error"),
+    "--volume out": ("stress", "--volume"),
+}
+
+
+@pytest.mark.parametrize("words", REFUSED)
+def test_what_finite_elements_do_not_do_is_refused(
+    place: Path, words: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    command, *options = REFUSED[words]
+    target = place / "refused"
+    code = slipstick(command, place / "scene.toml", "-o", target, "--solver", "fem", *options)
+    assert code == 2
+    said = capsys.readouterr().err
+    assert words in " ".join(said.replace("│", " ").split())
+    assert not target.exists()

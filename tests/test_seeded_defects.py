@@ -1,0 +1,183 @@
+"""The harness sees what is broken, passes what is whole, and leaves no defect behind."""
+
+from types import FunctionType
+from typing import Any
+
+import pytest
+
+from contact_scene.description import Description
+from semi_analytical.influence.layered_response import Components
+from verification.cases.case import Level
+from verification.cases.catalogue import CASES
+from verification.cases.outcome import Status
+from verification.seeded_defects.defect import planted, product_modules
+from verification.seeded_defects.healthy_contacts import FAMILIES, NOT_ASYMPTOTIC
+from verification.seeded_defects.outputs import PLANTED
+from verification.seeded_defects.registry import DEFECTS
+from verification.studies.running import case_store
+from verification.studies.running.study import Settings
+from verification.studies.seeded_defects.defect_run import (
+    HEALTHY,
+    Caught,
+    DefectRecord,
+    DefectRun,
+)
+from verification.studies.seeded_defects.findings import (
+    defect_runs,
+    healthy_runs,
+    passes_gate,
+    seen,
+)
+from verification.studies.seeded_defects.healthy_run import HealthyRecord, HealthyRun, Sample
+from verification.studies.seeded_defects.study import STUDY
+
+QUICK = Settings(Level.QUICK)
+# Cases that take a fraction of a second.
+FAST = (
+    "dissimilar_bodies",
+    "hertz_approach_control",
+    "layered_reference",
+    "near_sliding",
+    "subsurface_stress",
+    "tilted_punch",
+)
+FAST_RUNS = [
+    DefectRun(defect.name, case)
+    for defect in DEFECTS.values()
+    if (case := next((case for case in defect.cases if case in FAST), None))
+]
+Runs = dict[str, Description]
+
+
+def namespaces() -> dict[tuple[str, str], Any]:
+    """What every name of the product stands for: of its modules, and of their classes."""
+    found: dict[tuple[str, str], Any] = {}
+    for module in (*product_modules(), case_store):
+        for name, value in vars(module).items():
+            if isinstance(value, type) and value.__module__ == module.__name__:
+                place = f"{module.__name__}.{name}"
+                found |= {(place, inner): held for inner, held in vars(value).items()}
+            if isinstance(value, type | FunctionType | Components):
+                found[module.__name__, name] = value
+    return found
+
+
+def different(one: dict[tuple[str, str], Any], other: dict[tuple[str, str], Any]) -> set[Any]:
+    return {key for key in one | other if one.get(key) is not other.get(key)}
+
+
+def test_defects_are_many_and_name_cases_of_the_catalogue() -> None:
+    known = {build.__name__ for build in CASES}
+    assert len(DEFECTS) >= 22
+    for defect in DEFECTS.values():
+        assert defect.cases
+        assert set(defect.cases) <= known
+        assert defect.broken.endswith(".")
+
+
+@pytest.mark.parametrize("name", DEFECTS)
+def test_defect_changes_something_and_leaves_nothing_behind(name: str) -> None:
+    before = namespaces()
+    with planted(DEFECTS[name]):
+        during = namespaces()
+    after = namespaces()
+    assert different(before, during)
+    assert not different(before, {key: after[key] for key in before})
+
+
+def test_defect_is_taken_out_when_something_goes_wrong_under_it() -> None:
+    before = namespaces()
+    with pytest.raises(ArithmeticError), planted(DEFECTS["normal-bias"]):
+        raise ArithmeticError
+    assert not different(before, namespaces())
+
+
+@pytest.mark.parametrize("case", FAST)
+def test_healthy_solvers_pass(case: str) -> None:
+    assert DefectRun(HEALTHY, case).compute().caught == ()
+
+
+@pytest.mark.parametrize("run", FAST_RUNS, ids=lambda run: run.name)
+def test_defect_is_caught(run: DefectRun) -> None:
+    assert run.compute().caught
+
+
+@pytest.mark.parametrize("defect", PLANTED, ids=lambda defect: defect.name)
+def test_planted_error_fails_where_a_fixed_gate_passes_it(defect: Any) -> None:
+    record = DefectRun(defect.name, "hertz_point").compute()
+    assert record.caught
+    assert passes_gate(record)
+
+
+@pytest.mark.parametrize("family", sorted(set(FAMILIES) - set(NOT_ASYMPTOTIC)))
+def test_healthy_contact_raises_no_alarm(family: str) -> None:
+    record = HealthyRun(family, 0).compute()
+    assert record.failed == ()
+    assert record.samples
+    assert record.samples == HealthyRun(family, 0).compute().samples
+
+
+def test_truncated_file_is_named() -> None:
+    (caught,) = DefectRun("record-truncated", "dissimilar_bodies").compute().caught
+    assert caught.how == "named error"
+    assert "DamagedRecord" in caught.reason
+
+
+def a_failure() -> Caught:
+    return Caught(quantity="approach", run="128x128", how="reference", clearance=3.0)
+
+
+def whole_study() -> Runs:
+    """Records of a study in which all is as it should be."""
+    healthy = DefectRecord(caught=(), verdicts=3, inconclusive=0, largest_error=1e-5)
+    sick = healthy.model_copy(update={"caught": (a_failure(),)})
+    sample = Sample(quantity="approach", error=1e-5, allowed=1e-4, uncertainty=2e-5)
+    record = HealthyRecord(samples=(sample,) * 2, verdicts=3, failed=(), inconclusive=0)
+    runs: Runs = {r.name: sick if r.defect else healthy for r in defect_runs(QUICK)}
+    return runs | {run.name: record for run in healthy_runs()}
+
+
+def outcomes(records: Runs) -> list[Status | None]:
+    return [statement.outcome for statement in STUDY.conclude(QUICK, records).statements]
+
+
+def test_study_passes_when_all_is_caught_and_nothing_else() -> None:
+    assert outcomes(whole_study()) == [Status.PASS] * 5 + [None]
+    assert set(STUDY.exports(QUICK, whole_study())) == {"defects.csv", "healthy.csv"}
+
+
+def test_study_without_records_is_inconclusive() -> None:
+    assert set(outcomes({})) == {Status.INCONCLUSIVE, None}
+
+
+def test_missed_defect_fails_the_study() -> None:
+    records = whole_study()
+    for run in defect_runs(QUICK):
+        if run.defect == "bias":
+            records[run.name] = records[DefectRun(HEALTHY, run.case).name]
+    assert outcomes(records)[0] is Status.FAIL
+    assert outcomes(records)[2] is Status.FAIL
+
+
+def test_verdict_that_fails_without_the_defect_catches_nothing() -> None:
+    records = whole_study()
+    defect = DEFECTS["fe-weight"]
+    for case in defect.cases:
+        records[DefectRun(HEALTHY, case).name] = records[DefectRun(defect.name, case).name]
+    assert not seen(QUICK, records, defect).sightings
+    assert outcomes(records)[1] is Status.FAIL
+
+
+def test_false_alarm_fails_the_study() -> None:
+    records = whole_study()
+    name = healthy_runs()[0].name
+    records[name] = records[name].model_copy(update={"failed": ("approach",)})
+    assert outcomes(records)[3] is Status.FAIL
+
+
+def test_error_bars_that_are_too_short_fail_the_study() -> None:
+    records = whole_study()
+    short = Sample(quantity="approach", error=1e-4, allowed=1e-3, uncertainty=2e-5)
+    for run in healthy_runs()[::10]:
+        records[run.name] = records[run.name].model_copy(update={"samples": (short, short)})
+    assert outcomes(records)[4] is Status.FAIL

@@ -1,0 +1,299 @@
+"""Studies of refinement: orders from planted records, levels of a scene, and what is written."""
+
+import json
+import shutil
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from semi_analytical import UnsupportedScene
+from verification.cases.case import Level
+from verification.cases.outcome import Status
+from verification.cli import main
+from verification.studies.refinement.expected import SHEAR, Expected
+from verification.studies.refinement.fit import Fit, fits
+from verification.studies.refinement.level_record import (
+    LevelRecord,
+    StoredField,
+    at_centres,
+    shear_change,
+)
+from verification.studies.refinement.level_run import CannotRefine, LevelRun
+from verification.studies.refinement.study import increments_study, mesh_study
+from verification.studies.running.study import Settings
+
+TOLERANCE = 1e-8
+FIRST, SECOND = Expected(1.0, "planted"), Expected(2.0, "planted")
+APPROACH = 8e-6
+
+SCENE = """
+title = "Turning"
+[indenter]
+shape = "paraboloid"
+radius = "18 mm"
+material = { young_modulus = "420 GPa", poisson_ratio = 0 }
+[body]
+material = { young_modulus = "420 GPa", poisson_ratio = 0 }
+[friction]
+coefficient = 0.1
+[[loading]]
+normal_force = "1 kN"
+[[loading]]
+tangential_force = ["60 N", 0]
+increments = 3
+[[loading]]
+tangential_force = [0, "60 N"]
+increments = 16
+[semi_analytical]
+cells = [24, 24]
+window = ["0.9 mm", "0.9 mm"]
+"""
+
+
+PUSHED = """
+title = "Pushed"
+[indenter]
+shape = "paraboloid"
+radius = "18 mm"
+material = "rigid"
+[body]
+material = { young_modulus = "210 GPa", poisson_ratio = 0.3 }
+[friction]
+coefficient = 0.1
+[[loading]]
+normal_force = "1 kN"
+increments = 2
+[[loading]]
+tangential_force = ["60 N", 0]
+increments = 8
+[semi_analytical]
+cells = [48, 48]
+window = ["0.9 mm", "0.9 mm"]
+"""
+
+
+@pytest.fixture
+def scene_file(tmp_path: Path) -> Path:
+    path = tmp_path / "turning.toml"
+    path.write_text(SCENE)
+    return path
+
+
+def planted(size: float, relative_error: float, bump: float = 0.0) -> LevelRecord:
+    """A level whose approach and shear have this relative error."""
+    x = np.linspace(-1, 1, 16)
+    shape = np.exp(-4 * (x[:, None] ** 2 + x[None, :] ** 2))
+    shear = np.stack([(1 + relative_error) * shape, bump * shape])
+    values = {
+        "normal_force": 1e3,
+        "approach": APPROACH * (1 + relative_error),
+        "contact_radius": 4e-4,
+        "tangential_shift_x": 1e-6,
+        "tangential_shift_y": 1e-18 * size,
+    }
+    return LevelRecord(
+        size=size,
+        cells=(16, 16),
+        increments=(1, round(1 / size)),
+        values=values,
+        shear=StoredField.of(shear),
+        limit=float(2 * shape.mean()),
+        largest_residual=1e-9,
+        iterations=10,
+        convolutions=100,
+        seconds=1.0,
+    )
+
+
+SIZES = 0.25 * 2.0 ** -np.arange(6)
+
+
+def of_planted(errors: np.ndarray, expected: Expected) -> dict[str, Fit]:
+    records = [planted(h, e) for h, e in zip(SIZES, errors, strict=True)]
+    found = fits(records, {"approach": expected, SHEAR: expected}, TOLERANCE)
+    return {fit.name: fit for fit in found}
+
+
+@pytest.mark.parametrize("expected", [FIRST, SECOND], ids=["first", "second"])
+def test_planted_order_and_limit_are_found(expected: Expected) -> None:
+    found = of_planted(0.1 * SIZES**expected.order, expected)
+    assert {fit.status for fit in found.values()} == {Status.PASS}
+    assert found["approach"].limit == pytest.approx(APPROACH, rel=1e-9)
+    assert found["approach"].remaining == pytest.approx(0.1 * SIZES[-1] ** expected.order, rel=1e-2)
+    assert found[SHEAR].remaining == pytest.approx(0.05 * SIZES[-1] ** expected.order, rel=1e-2)
+
+
+@pytest.mark.parametrize(
+    "name", ["approach", SHEAR]
+)  # a term of first order, a tenth of the factor: 4e-4 on the finest level
+def test_planted_first_order_term_fails_a_second_order_quantity(name: str) -> None:
+    found = of_planted(0.1 * SIZES**2 + 0.05 * SIZES, SECOND)
+    assert found[name].status is Status.FAIL
+
+
+def test_planted_floor_is_not_passed() -> None:
+    errors = np.maximum(0.1 * SIZES**2, 0.1 * SIZES[3] ** 2) * (1 + 1e-3 * np.arange(6))
+    assert of_planted(errors, SECOND)["approach"].status is not Status.PASS
+
+
+def test_levels_that_alternate_are_inconclusive_although_the_interval_is_narrow() -> None:
+    """Even levels off by -3 %, odd ones by +3 %: the mean order is right, triplets disagree."""
+    fit = of_planted(0.1 * SIZES * (1 + 0.03 * (-1.0) ** np.arange(6)), FIRST)["approach"]
+    assert fit.observed is not None
+    assert fit.observed.agrees_with(1.0)
+    assert fit.status is Status.INCONCLUSIVE
+
+
+def test_planted_noise_is_inconclusive(rng: np.random.Generator) -> None:
+    errors = 0.1 * SIZES * (1 + 0.7 * rng.standard_normal(6))
+    found = of_planted(errors, FIRST)
+    assert found["approach"].status is Status.INCONCLUSIVE
+    assert found[SHEAR].status is Status.INCONCLUSIVE
+
+
+def test_what_does_not_change_or_vanishes_by_symmetry_is_left_out() -> None:
+    assert set(of_planted(0.1 * SIZES, FIRST)) == {"approach", SHEAR}
+    assert of_planted(1e-9 * SIZES, FIRST) == {}
+
+
+def test_without_an_expected_order_nothing_is_judged() -> None:
+    records = [planted(h, 0.1 * h) for h in SIZES]
+    assert all(fit.status is None for fit in fits(records, {}, TOLERANCE))
+
+
+def test_fields_are_compared_as_vectors() -> None:
+    one, other = planted(0.1, 0.0), planted(0.05, 0.03, bump=0.04)
+    assert shear_change(one, other) == pytest.approx(0.05 / 2, rel=1e-6)
+
+
+def test_stored_fields_come_back() -> None:
+    field = np.random.default_rng(3).standard_normal((2, 5, 7))
+    np.testing.assert_allclose(StoredField.of(field).field(), field, rtol=1e-7)
+
+
+@pytest.mark.parametrize("cells", [(8, 12), (16, 12), (21, 10)])
+def test_values_at_other_centres_are_exact_for_planes(cells: tuple[int, int]) -> None:
+    def plane(nx: int, ny: int) -> np.ndarray:
+        x, y = ((np.arange(n) + 0.5) / n for n in (nx, ny))
+        return 1 + 2 * x[:, None] - 3 * y[None, :]
+
+    inside = (slice(2, -2), slice(2, -2))
+    found = at_centres(cells, plane(16, 12))
+    np.testing.assert_allclose(found[inside], plane(*cells)[inside], rtol=1e-12)
+
+
+def levels(study, settings: Settings) -> list[LevelRun]:
+    return list(study.cases(settings))
+
+
+def test_only_steps_whose_path_matters_are_refined(scene_file: Path) -> None:
+    runs = levels(increments_study(scene_file, (), None), Settings(Level.STANDARD))
+    assert [run.increments for run in runs] == [(1, 3, 8 * 2**k) for k in range(5)]
+    assert [run.size for run in runs] == [1 / (8 * 2**k) for k in range(5)]
+    assert {run.cells for run in runs} == {(24, 24)}
+
+
+def test_grids_become_finer_by_the_root_of_two_at_the_same_increments(scene_file: Path) -> None:
+    runs = levels(mesh_study(scene_file, (), 2), Settings(Level.QUICK, cells=64))
+    assert [run.cells[0] for run in runs] == [22, 32, 46, 64]
+    assert {run.increments for run in runs} == {(1, 3)}
+    assert {run.window for run in runs} == {(9e-4, 9e-4)}
+
+
+def test_a_path_that_does_not_matter_is_not_studied(scene_file: Path) -> None:
+    study = increments_study(scene_file, (), 2)
+    assert levels(study, Settings(Level.QUICK)) == []
+    (statement,) = study.conclude(Settings(Level.QUICK), {}).statements
+    assert "one increment per step is exact" in statement.measured
+
+
+def test_what_cannot_be_refined_is_refused(scene_file: Path) -> None:
+    with pytest.raises(CannotRefine, match="the scene has 3"):
+        increments_study(scene_file, (), 4)
+    study = mesh_study(scene_file, (), None)
+    with pytest.raises(CannotRefine, match="fewer than 16"):
+        study.cases(Settings(Level.QUICK))
+    np.save(scene_file.parent / "mu.npy", np.full((24, 24), 0.1))
+    with pytest.raises(UnsupportedScene, match="fixes the cells"):
+        mesh_study(scene_file, ["friction.coefficient={map='mu.npy'}"], None)
+
+
+def test_other_contents_of_the_file_are_other_cases(scene_file: Path) -> None:
+    settings = Settings(Level.QUICK)
+    before = levels(increments_study(scene_file, (), None), settings)
+    scene_file.write_text(SCENE.replace("0.1", "0.2"))
+    assert before != levels(increments_study(scene_file, (), None), settings)
+
+
+@pytest.mark.slow
+def test_orders_of_a_push_between_unlike_bodies_are_first(tmp_path: Path) -> None:
+    path = tmp_path / "pushed.toml"
+    path.write_text(PUSHED)
+    settings = Settings(Level.FULL)
+    study = increments_study(path, (), None)
+    records = {run.name: run.compute() for run in levels(study, settings)}
+    outcomes = {s.claim: s.outcome for s in study.conclude(settings, records).statements}
+    assert outcomes["order of the shear (L1)"] is Status.PASS
+    assert outcomes["order of the tangential shift along x"] is Status.PASS
+    assert outcomes["every increment converged"] is Status.PASS
+
+
+def test_four_levels_give_values_and_no_verdict_on_orders() -> None:
+    records = [planted(h, 0.1 * h) for h in SIZES[:4]]
+    (approach, shear) = fits(records, {"approach": FIRST, SHEAR: FIRST}, TOLERANCE)
+    assert approach.status is shear.status is Status.INCONCLUSIVE
+    assert approach.limit == pytest.approx(APPROACH, rel=1e-9)
+
+
+def leave_well(arguments: list[str]) -> None:
+    with pytest.raises(SystemExit) as leaving:
+        main(arguments)
+    assert leaving.value.code == 0
+
+
+def test_study_resumes_to_the_same_bytes(
+    scene_file: Path, monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(scene_file.parent)
+    folder = scene_file.parent
+    coarse = ("--cells", "16", "--set", "loading[3].increments=2")
+    command = ("study", "increments", "turning.toml", *coarse, "--workers", "1")
+    leave_well([*command, "--output", "one"])
+    shutil.copytree(folder / "one" / "cases", folder / "two" / "cases")
+    for record in sorted((folder / "two" / "cases").glob("*.json"))[::2]:
+        record.unlink()
+    capfd.readouterr()
+    leave_well([*command, "--output", "two"])
+    assert capfd.readouterr().err.count("already there") == 2
+    for name in ("levels.csv", "orders.json", "figures/increments_errors.svg"):
+        assert (folder / "one" / name).read_bytes() == (folder / "two" / name).read_bytes(), name
+    orders = json.loads((folder / "one" / "orders.json").read_text())
+    assert orders[SHEAR]["status"] == "inconclusive"
+    assert orders[SHEAR]["expected"] == 1.0
+    page = (folder / "one" / "index.html").read_text(encoding="utf-8")
+    assert "backward Euler" in page
+    assert "<svg" in page
+
+
+@pytest.mark.parametrize(
+    ("arguments", "text"),
+    [
+        (("study", "increments"), "needs a scene file"),
+        (("study", "coated-tractions", "turning.toml"), "takes no scene file"),
+        (("study", "mesh", "turning.toml"), "coarsest of 4 grids"),
+        (("study", "increments", "turning.toml", "--step", "9"), "the scene has 3"),
+    ],
+)
+def test_mistakes_on_the_command_line_are_named(
+    scene_file: Path,
+    arguments: tuple[str, ...],
+    text: str,
+    monkeypatch: pytest.MonkeyPatch,
+    capfd: pytest.CaptureFixture[str],
+) -> None:
+    monkeypatch.chdir(scene_file.parent)
+    with pytest.raises(SystemExit) as leaving:
+        main(arguments)
+    assert leaving.value.code == 2
+    assert text in capfd.readouterr().err

@@ -1,0 +1,224 @@
+"""The stability map: its cells, its verdicts, and that it cannot be fooled in silence."""
+
+from dataclasses import replace
+from itertools import combinations
+
+import numpy as np
+import pytest
+
+from semi_analytical import Increment, NotConverged
+from verification.cases.case import Level
+from verification.cases.chart import Look
+from verification.cases.outcome import Status
+from verification.studies.running.case_store import CaseStore
+from verification.studies.running.study import Settings
+from verification.studies.stability import judged, solvers, study, verdicts
+from verification.studies.stability.cell import LoadingPath, StabilityCell, Surface
+from verification.studies.stability.charts import view_chart
+from verification.studies.stability.observed import observed
+from verification.studies.stability.pose import Posed, pose
+from verification.studies.stability.record import CellRecord, Verdict
+from verification.studies.stability.solvers import Solved, by_superposition
+from verification.studies.stability.views import study_cells, views
+
+ORDINARY = StabilityCell(cells=16)
+HALF_SPACE = replace(ORDINARY, modulus_ratio=1.0)
+GOOD = CellRecord(
+    verdict=Verdict.CONVERGED, tolerance=1e-8, residual=2e-9, observed=3e-9, increments=4,
+    rounds=7, way="alternation", iterations=80, convolutions=400,
+)  # fmt: skip
+
+
+@pytest.mark.parametrize(("level", "least"), [(Level.QUICK, 100), (Level.FULL, 2000)])
+def test_a_level_has_enough_cells_with_names_of_their_own(level: Level, least: int) -> None:
+    cells = study_cells(level, 32)
+    assert len(cells) >= least
+    assert len({cell.name for cell in cells}) == len(set(cells)) == len(cells)
+    assert {cell.path for cell in cells} == set(LoadingPath)
+    assert {cell.surface for cell in cells} == set(Surface)
+
+
+def test_different_cells_have_different_names_and_files(tmp_path: object) -> None:
+    cells = [
+        ORDINARY, *(replace(ORDINARY, **{key: value}) for key, value in
+        {"friction": 0.3, "push": 0.3, "modulus_ratio": 0.3, "thickness": 0.3, "load": 0.3,
+         "poisson_ratio": 0.2, "base_ratio": 0.2, "length": 0.3, "modulus": 0.3, "cells": 24,
+         "path": LoadingPath.LOOP, "surface": Surface.ROUGH}.items()),
+    ]  # fmt: skip
+    assert len({cell.name for cell in cells}) == len(cells)
+    store = CaseStore(tmp_path)
+    assert all(store.path(a) != store.path(b) for a, b in combinations(cells, 2))
+
+
+@pytest.mark.parametrize(
+    "cell",
+    [
+        ORDINARY,
+        *(replace(ORDINARY, path=path, push=0.8) for path in LoadingPath),
+        *(replace(ORDINARY, surface=surface, push=0.99) for surface in Surface),
+        replace(ORDINARY, push=0.99999, poisson_ratio=0.0, base_ratio=0.0, modulus_ratio=1.0),
+        replace(ORDINARY, push=1.0),
+        replace(ORDINARY, length=1e-9),
+        replace(ORDINARY, load=1e-5),
+        replace(ORDINARY, friction=1e-6),
+        replace(ORDINARY, modulus_ratio=1e3, thickness=0.01, poisson_ratio=0.5),
+        replace(ORDINARY, modulus_ratio=1e-3, thickness=10.0),
+        # Accepting Newton steps uphill for their residual went round in circles here,
+        replace(HALF_SPACE, path=LoadingPath.APPROACH, friction=1.0, push=0.8, cells=32),
+        # here cells let go one after the other below a film that lifts them,
+        replace(ORDINARY, modulus_ratio=1e6, thickness=0.1, path=LoadingPath.PRESS, cells=32),
+        # and here the shear's preconditioner was not positive.
+        replace(ORDINARY, modulus_ratio=1e3, thickness=0.003, poisson_ratio=0.5, cells=48),
+    ],
+    ids=lambda cell: cell.name,
+)
+def test_hard_cell_converges(cell: StabilityCell) -> None:
+    record = cell.compute()
+    assert record.verdict is Verdict.CONVERGED, record.reason
+    assert record.residual is not None
+    assert record.residual <= record.tolerance <= 1e-7
+    assert record.halvings == 0
+
+
+def test_more_than_friction_carries_is_refused() -> None:
+    record = replace(ORDINARY, push=1.001).compute()
+    assert record.verdict is Verdict.REFUSED
+    assert "friction limit" in record.reason
+
+
+def test_scale_changes_nothing() -> None:
+    records = [
+        replace(ORDINARY, length=length, modulus=modulus).compute()
+        for length, modulus in ((1e-3, 210e9), (1e-9, 1e3), (1.0, 1e12))
+    ]
+    # Round-off may cost or save an iteration.
+    spent = [r.convolutions for r in records]
+    assert max(spent) - min(spent) <= 0.02 * max(spent)
+
+
+def solved_cell() -> tuple[list[Increment], float]:
+    solved = by_superposition(pose(replace(ORDINARY, path=LoadingPath.LOOP)))
+    return list(solved.increments), solved.cell_area
+
+
+DEFECTS = {
+    "tension": lambda i: {
+        "pressure": np.where(i.pressure > 0, i.pressure, -1e-6 * i.peak_pressure)
+    },
+    "overlap": lambda i: {"gap": i.gap - 1e-6 * i.approach},
+    "pressure across a gap": lambda i: {"gap": np.where(i.pressure > 0, 1e-6 * i.approach, i.gap)},
+    "another normal force": lambda i: {"pressure": i.pressure * (1 + 1e-6)},
+    "more shear than friction allows": lambda i: {"shear": i.shear * (1 + 1e-6)},
+    "another tangential force": lambda i: {"tangential_force": i.tangential_force * (1 + 1e-6)},
+    "slip along the shear": lambda i: {"slip": -i.slip},
+    "slip aside": lambda i: {"slip": np.stack([-i.slip[1], i.slip[0]])},
+    "energy won by friction": lambda i: {"dissipated_energy": -i.dissipated_energy},
+    "not a number": lambda i: {"pressure": np.where(i.pressure > 0, np.nan, 0.0)},
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("defect", DEFECTS)
+def test_a_wrong_field_is_seen_in_the_fields_alone(defect: str) -> None:
+    increments, cell_area = solved_cell()
+    assert observed(increments, cell_area, 0.1) <= 1e-8
+    increments[-1] = replace(increments[-1], **DEFECTS[defect](increments[-1]))
+    assert observed(increments, cell_area, 0.1) > 2e-7
+
+
+def test_an_answer_above_the_tolerance_is_silent_failure(monkeypatch: pytest.MonkeyPatch) -> None:
+    def careless(posed: Posed) -> Solved:
+        return by_superposition(replace(posed, tolerance=1e-4))
+
+    monkeypatch.setitem(judged.SOLVERS, ORDINARY.solver, careless)
+    assert ORDINARY.compute().verdict is Verdict.SILENT
+
+
+def test_giving_up_is_recorded_with_its_residual(monkeypatch: pytest.MonkeyPatch) -> None:
+    def helpless(posed: Posed) -> Solved:
+        raise NotConverged("the shear", 60, 1e-3, 1e-8)
+
+    monkeypatch.setitem(judged.SOLVERS, ORDINARY.solver, helpless)
+    record = ORDINARY.compute()
+    assert record.verdict is Verdict.NOT_CONVERGED
+    assert record.residual == 1e-3
+    assert "NotConverged" in record.reason
+
+
+def test_the_way_of_the_solver_is_told() -> None:
+    ways = [
+        replace(ORDINARY, **change).compute().way
+        for change in ({}, {"surface": Surface.ALIKE_BALL},
+                       {"surface": Surface.ALIKE_BALL, "path": LoadingPath.PRESS})
+    ]  # fmt: skip
+    assert ways == ["alternation, extrapolated", "pressure, then shear", "pressure alone"]
+
+
+def test_contact_that_outgrows_its_window_gets_a_larger_one(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    narrow = pose(ORDINARY)
+    grid = replace(narrow.grid, window=tuple(0.7 * side for side in narrow.grid.window))
+    assert len(solvers.by_superposition(replace(narrow, grid=grid)).increments) == 4
+
+
+def records() -> dict[str, CellRecord]:
+    """Good records of all cells of the quick level."""
+    found = {}
+    for cell in study.cases(Settings(Level.QUICK)):
+        refused = cell.push > 1
+        found[cell.name] = GOOD.model_copy(
+            update={"verdict": Verdict.REFUSED, "reason": "too much"} if refused else {}
+        )
+    return found
+
+
+def outcomes(found: dict[str, CellRecord]) -> list[Status | None]:
+    return [s.outcome for s in study.conclude(Settings(Level.QUICK), found).statements]
+
+
+@pytest.mark.parametrize(
+    ("verdict", "failing"),
+    [(Verdict.SILENT, 0), (Verdict.NOT_CONVERGED, 1), (Verdict.REFUSED, 2)],
+)
+def test_one_bad_cell_fails_the_statement_that_names_it(verdict: Verdict, failing: int) -> None:
+    assert outcomes(records()) == [Status.PASS] * 3 + [None]
+    bad = GOOD.model_copy(update={"verdict": verdict, "reason": "because"})
+    name = study.cases(Settings(Level.QUICK))[7].name
+    statements = study.conclude(Settings(Level.QUICK), records() | {name: bad}).statements
+    judged_as = [s.outcome for s in statements]
+    assert judged_as[failing] is Status.FAIL
+    assert judged_as.count(Status.FAIL) == 1
+    assert name in statements[failing].measured
+
+
+def test_missing_records_make_the_map_inconclusive_not_good() -> None:
+    assert outcomes({}) == [Status.INCONCLUSIVE] * 3 + [None]
+
+
+def test_a_place_shows_the_worst_of_its_cells_and_the_dearest() -> None:
+    view = views(Level.STANDARD, 32)[0]
+    place = view.at(view.values(view.x)[0], view.values(view.y)[0])
+    assert len(place) > 1
+    found = {cell.name: GOOD for cell in view.cells}
+    found[place[0].name] = GOOD.model_copy(update={"convolutions": 12_345})
+    found[place[1].name] = GOOD.model_copy(update={"verdict": Verdict.NOT_CONVERGED})
+    panel = view_chart(view, found).rows[0][0]
+    at = {(c.label, x, y) for c in panel.curves for x, y in zip(c.x, c.y, strict=True)}
+    assert ("not converged", 0.0, 0.0) in at
+    assert sum((x, y) == (0.0, 0.0) for _, x, y in at) == 1
+    assert (0.0, 0.0, "12k") in panel.notes
+    assert {c.look for c in panel.curves} == {Look.TILES}
+    assert len({c.series for c in panel.curves}) == len(panel.curves)
+
+
+def test_every_cell_is_a_line_of_the_table() -> None:
+    lines = study.exports(Settings(Level.QUICK), records())["cells.csv"].splitlines()
+    assert len(lines) == 1 + len(study.cases(Settings(Level.QUICK)))
+    assert lines[0].startswith("cell,friction,push,modulus_ratio")
+
+
+def test_verdicts_name_at_most_a_dozen_cells() -> None:
+    bad = GOOD.model_copy(update={"verdict": Verdict.SILENT})
+    cells = study.cases(Settings(Level.QUICK))
+    text = verdicts.nothing_silent(dict.fromkeys(cells, bad)).measured
+    assert f"and {len(cells) - verdicts.MOST_NAMED} more" in text

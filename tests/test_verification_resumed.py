@@ -1,0 +1,156 @@
+"""A killed verification loses no finished case; its report is that of one that was not killed."""
+
+import json
+import os
+import random
+import re
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from verification.cases.case import Level
+from verification.cases.catalogue import choose
+from verification.cases.judged_case import lost
+from verification.cases.outcome import Status
+from verification.report.files import PAGE, RECORD
+
+ROOT = Path(__file__).resolve().parents[1]
+# Of every kind: on a surface grid, on a section, and without a solve.
+CASES = ("dissimilar_bodies", "load_paths", "fem_torsion", "classical_forms")
+
+
+def started(directory: Path, *options: str) -> "subprocess.Popen[str]":
+    code = (
+        f"import sys; sys.path.insert(0, {str(ROOT)!r}); from verification.cli import main; main()"
+    )
+    return subprocess.Popen(
+        [sys.executable, "-c", code, "verify", *CASES, "-o", str(directory), *options],
+        stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+    )  # fmt: skip
+
+
+def ended(process: "subprocess.Popen[str]") -> tuple[str, str]:
+    return process.communicate(timeout=170)
+
+
+def records(directory: Path) -> dict[str, int]:
+    """When the records of finished cases were written; every one of them is whole."""
+    found = list((directory / "cases").glob("[a-z]*.json"))
+    for path in found:
+        json.loads(path.read_bytes())
+    return {path.name: path.stat().st_mtime_ns for path in found}
+
+
+def wait_for_records(directory: Path, count: int) -> None:
+    deadline = time.monotonic() + 150
+    while len(records(directory)) < count and time.monotonic() < deadline:
+        time.sleep(0.05)
+
+
+def report(directory: Path) -> dict[str, Any]:
+    """What of a report has to be equal: everything but who made it and how long it took."""
+    record = json.loads((directory / RECORD).read_bytes())
+    assert (directory / PAGE).exists()
+    return {key: value for key, value in record.items() if key != "provenance"}
+
+
+def workers_of(process: int) -> list[int]:
+    """Processes that it has started to compute cases."""
+    children = Path(f"/proc/{process}/task").glob("*/children")
+    pids = [int(pid) for path in children for pid in path.read_text().split()]
+    return [pid for pid in pids if b"spawn_main" in Path(f"/proc/{pid}/cmdline").read_bytes()]
+
+
+@pytest.fixture(scope="module")
+def uninterrupted(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    directory = tmp_path_factory.mktemp("verify") / "report"
+    process = started(directory, "--workers", "2")
+    _, log = ended(process)
+    assert process.returncode == 0, log
+    assert re.search(r"\(1 of 4, about \d+ s left\)", log)
+    return directory
+
+
+def test_killed_verification_goes_on_where_it_stopped(uninterrupted: Path, tmp_path: Path) -> None:
+    process = started(tmp_path, "--workers", "1")
+    wait_for_records(tmp_path, 1)
+    process.send_signal(signal.SIGKILL)
+    ended(process)
+    kept = records(tmp_path)
+    assert 0 < len(kept) < len(CASES)
+    assert not (tmp_path / RECORD).exists()
+
+    process = started(tmp_path)
+    _, log = ended(process)
+    assert process.returncode == 0, log
+    assert log.count("already there") == len(kept)
+    assert records(tmp_path) | kept == records(tmp_path)
+    assert report(tmp_path) == report(uninterrupted)
+
+
+@pytest.mark.slow
+def test_killed_worker_costs_its_case_alone(uninterrupted: Path, tmp_path: Path) -> None:
+    process = started(tmp_path, "--workers", "1")
+    while not (workers := workers_of(process.pid)):
+        time.sleep(0.02)
+    time.sleep(0.5)
+    os.kill(workers[0], signal.SIGKILL)
+    out, log = ended(process)
+    assert process.returncode == 1, log
+    assert "LOST           dissimilar_bodies" in log
+    failures = [line for line in out.splitlines() if line.startswith("FAIL")]
+    assert len(failures) == 1
+    assert "dissimilar_bodies/solved" in failures[0]
+    assert "its worker was killed" in failures[0]
+    others, expected = report(tmp_path)["cases"], report(uninterrupted)["cases"]
+    assert others[1:] == expected[1:]
+
+    process = started(tmp_path)
+    _, log = ended(process)
+    assert process.returncode == 0, log
+    assert log.count("already there") == len(CASES) - 1
+    assert report(tmp_path) == report(uninterrupted)
+
+
+@pytest.mark.slow
+@pytest.mark.timeout(900)
+def test_verification_survives_ten_kills(uninterrupted: Path, tmp_path: Path) -> None:
+    chance = random.Random(11)
+    for _ in range(10):
+        process = started(tmp_path)
+        time.sleep(chance.uniform(0.5, 12))
+        process.send_signal(signal.SIGKILL)
+        ended(process)
+        records(tmp_path)
+    process = started(tmp_path)
+    _, log = ended(process)
+    assert process.returncode == 0, log
+    assert report(tmp_path) == report(uninterrupted)
+
+
+def test_damaged_record_is_named_and_computed_again(uninterrupted: Path, tmp_path: Path) -> None:
+    target = tmp_path / "cases"
+    target.mkdir()
+    for path in (uninterrupted / "cases").glob("[a-z]*.json"):
+        content = path.read_bytes()
+        damaged = path.name.startswith("classical_forms")
+        (target / path.name).write_bytes(content[:-100] if damaged else content)
+    process = started(tmp_path)
+    _, log = ended(process)
+    assert process.returncode == 0, log
+    assert log.count("is damaged") == 1
+    assert log.count("already there") == len(CASES) - 1
+    assert report(tmp_path) == report(uninterrupted)
+
+
+def test_lost_case_is_a_failed_verdict() -> None:
+    (case,) = choose(Level.QUICK, ["load_paths"])
+    outcome = lost(case, "its worker was killed")
+    assert outcome.status is Status.FAIL
+    assert [verdict.name for verdict in outcome.verdicts] == ["solved"]
+    assert "its worker was killed" in outcome.verdicts[0].meaning

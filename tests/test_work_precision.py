@@ -1,0 +1,288 @@
+"""What accuracy costs: the Pareto line, the cheapest setting, the counters, and the peers."""
+
+from __future__ import annotations
+
+import json
+import os
+import subprocess
+import sys
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from semi_analytical.frf.stack import Stack, stack_of
+from semi_analytical.influence.layered import LayeredCoefficients
+from verification.cases.case import Level
+from verification.cases.layered_scene import coated, film
+from verification.cases.outcome import Status
+from verification.peers import measure
+from verification.peers.environment import PEERS, Peer, made_environment
+from verification.peers.measure import errors_of, peer_run, request_of
+from verification.studies.running.study import Conclusion, Settings
+from verification.studies.work_precision.cold_cache import CACHE, cold_cache
+from verification.studies.work_precision.contacts import CONTACTS
+from verification.studies.work_precision.point import (
+    TARGETS,
+    Point,
+    cheapest,
+    dependable,
+    pareto,
+)
+from verification.studies.work_precision.points import points_of
+from verification.studies.work_precision.setting import Measured, Method, PrecisionCase
+from verification.studies.work_precision.study import STUDY, cases
+from verification.studies.work_precision.usual_route import SampledCoefficients, Sampling
+
+SETTINGS = Settings(Level.QUICK)
+positive = st.floats(1e-6, 1.0)
+points = st.lists(
+    st.builds(
+        lambda method, fineness, error, seconds: Point(method, "", "", fineness, error, seconds),
+        st.sampled_from(["one", "other"]),
+        st.integers(1, 64),
+        positive,
+        positive,
+    ),
+    max_size=20,
+)
+
+
+def seconds(point: Point) -> float:
+    return point.seconds
+
+
+@given(points)
+def test_no_point_beats_one_of_the_pareto_line(all_points: list[Point]) -> None:
+    line = pareto(all_points, seconds)
+    for kept in line:
+        assert not any(
+            p.seconds <= kept.seconds
+            and p.error <= kept.error
+            and (p.seconds, p.error) != (kept.seconds, kept.error)
+            for p in all_points
+        )
+
+
+@given(points)
+def test_every_point_is_beaten_by_the_pareto_line_or_on_it(all_points: list[Point]) -> None:
+    line = pareto(all_points, seconds)
+    for p in all_points:
+        assert any(kept.seconds <= p.seconds and kept.error <= p.error for kept in line)
+
+
+@given(points, st.sampled_from(TARGETS))
+def test_the_cheapest_is_on_the_pareto_line(all_points: list[Point], target: float) -> None:
+    best = cheapest(all_points, target, seconds)
+    good = [p for p in all_points if p.error <= target]
+    assert (best is None) == (not good)
+    if best is not None:
+        assert best.seconds == min(p.seconds for p in good)
+        assert (best.seconds, best.error) in {
+            (p.seconds, p.error) for p in pareto(all_points, seconds)
+        }
+
+
+@given(points)
+def test_a_finer_setting_of_a_curve_is_never_less_dependable(all_points: list[Point]) -> None:
+    steady = dependable(all_points)
+    assert sorted(p.seconds for p in steady) == sorted(p.seconds for p in all_points)
+    for p in steady:
+        finer = [q for q in all_points if q.method == p.method and q.fineness > p.fineness]
+        assert all(q.error <= p.error for q in finer)
+
+
+def test_a_change_of_sign_earns_nothing() -> None:
+    lucky = Point("m", "", "lucky", 16, 1e-6, 0.1)
+    honest = Point("m", "", "honest", 32, 1e-3, 0.2)
+    assert cheapest((lucky, honest), 1e-4, seconds) == lucky
+    assert cheapest(dependable((lucky, honest)), 1e-4, seconds) is None
+
+
+def measured(case: PrecisionCase) -> Measured:
+    """Errors of order two and seconds that go with the cells, the same for all methods."""
+    error = 2.0 / case.fineness**2
+    return Measured(
+        errors=dict.fromkeys(CONTACTS[case.contact].errors, error),
+        operations=1e3 * case.fineness**2,
+        unknowns=case.fineness**2,
+        increments=1,
+        seconds=1e-5 * case.fineness**2,
+        repeats=5,
+    )
+
+
+def concluded(change: Callable[[Measured], Measured] = lambda record: record) -> Conclusion:
+    records = {case.name: change(measured(case)) for case in cases(SETTINGS)}
+    return STUDY.conclude(SETTINGS, records)
+
+
+def test_every_setting_has_a_name_of_its_own() -> None:
+    for level in Level:
+        names = [case.name for case in STUDY.cases(Settings(level))]
+        assert len(set(names)) == len(names)
+
+
+def test_good_settings_pass_and_poor_ones_fail() -> None:
+    assert not concluded().failed
+    poor = concluded(lambda r: r.model_copy(update={"errors": dict.fromkeys(r.errors, 0.5)}))
+    claims = [s.claim for s in poor.statements if s.outcome is Status.FAIL]
+    assert claims == ["every quantity is had to 1 %"]
+
+
+def test_a_lost_setting_fails_the_study() -> None:
+    records = {case.name: measured(case) for case in cases(SETTINGS)[1:]}
+    conclusion = STUDY.conclude(SETTINGS, records)
+    assert conclusion.statements[0].outcome is Status.FAIL
+    assert STUDY.conclude(SETTINGS, {}).failed
+
+
+def test_extrapolation_leaves_what_is_not_of_order_two() -> None:
+    constant = 1e-3
+    found = {
+        case: measured(case).model_copy(
+            update={"errors": {"approach": constant + 2.0 / case.fineness**2}}
+        )
+        for case in cases(SETTINGS)
+        if case.contact == "hertz"
+    }
+    extrapolated = [
+        p for p in points_of(found, "hertz", "approach") if p.method == Method.EXTRAPOLATED.value
+    ]
+    assert extrapolated
+    assert all(p.error == pytest.approx(constant) for p in extrapolated)
+    paid = {p.fineness: p.seconds for p in extrapolated}
+    assert paid[64] == pytest.approx(1e-5 * (64**2 + 32**2))
+
+
+@pytest.mark.parametrize(
+    ("method", "options"),
+    [
+        (Method.SURFACE, {}),
+        (Method.SAMPLED, {"sampling": (1, 1)}),
+        (Method.ELEMENTS, {}),
+        (Method.PENALTY, {"penalty": 10.0}),
+    ],
+)
+def test_counters_are_the_same_at_every_run(method: Method, options: dict[str, Any]) -> None:
+    case = PrecisionCase("coated", method, 8 if "elements" in method else 16, **options)
+    first, second = case.compute(), case.compute()
+    clock = {"seconds", "repeats"}
+    assert first.model_dump(exclude=clock) == second.model_dump(exclude=clock)
+    assert first.operations > 0
+
+
+def test_a_measurement_starts_from_an_empty_cache(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv(CACHE, "/somewhere/else")
+    with cold_cache():
+        place = Path(os.environ[CACHE])
+        assert list(place.iterdir()) == []
+    assert os.environ[CACHE] == "/somewhere/else"
+    assert not place.exists()
+
+
+def test_sampled_coefficients_tend_to_the_exact_ones() -> None:
+    stack: Stack = stack_of(coated(film(2.0, 1.0)))
+    side, n = 2e-5, 8
+    exact = LayeredCoefficients(stack, (side, side), (n + 1, n + 1))
+
+    def errors(how: Sampling) -> dict[str, float]:
+        sampled = SampledCoefficients(stack, (side, side), (n + 1, n + 1), how)
+        inner = (slice(0, n // 2), slice(0, n // 2))
+        return {
+            name: float(
+                np.max(np.abs(getattr(sampled, name) - getattr(exact, name))[inner])
+                / np.max(np.abs(getattr(exact, name)))
+            )
+            for name in ("zz", "xx", "yy", "xy", "zx", "zy")
+        }
+
+    coarse, fine = errors(Sampling(1, 2)), errors(Sampling(8, 8))
+    for name, error in fine.items():
+        assert error < 8e-3, name  # what sampling leaves: the loaded cell has 7.3e-3
+        assert error < 0.5 * coarse[name], name
+
+
+def answered(contact: str, cells: int) -> dict[str, Any]:
+    """The closed form, as a driver would send it."""
+    request = request_of(contact, cells)
+    x = (np.arange(cells) + 0.5) * request["window"] / cells - request["window"] / 2
+    r = np.hypot(x[:, None], x[None, :])
+    unit, c = measure.UNIT, (1 - measure.PART) ** (1 / 3)
+    shear = measure.FRICTION * (unit.pressure(r) - c * unit.pressure(r / c))
+    return {
+        "version": "1", "iterations": 3, "converged": True, "seconds": 0.1, "repeats": 5,
+        "approach": -unit.approach, "pressure": unit.pressure(r).tolist(),
+        "shear": [shear.tolist(), np.zeros_like(shear).tolist()],
+    }  # fmt: skip
+
+
+def driver_that_prints(text: str) -> Callable[..., subprocess.CompletedProcess[str]]:
+    def run(*command: Any, **options: Any) -> subprocess.CompletedProcess[str]:
+        json.loads(options["input"])
+        return subprocess.CompletedProcess(command, 0, stdout=text, stderr="")
+
+    return run
+
+
+@pytest.mark.parametrize("contact", ["hertz", "cattaneo"])
+def test_the_closed_form_has_no_error_as_an_answer(contact: str) -> None:
+    run = driver_that_prints(json.dumps(answered(contact, 16)))
+    record = peer_run(Path("python"), PEERS[0], contact, 16, run)
+    assert "lost" not in record
+    limit = {"peak": 0.01}  # no cell is at the centre
+    assert all(abs(error) < limit.get(name, 1e-12) for name, error in record["errors"].items())
+
+
+@pytest.mark.parametrize(
+    ("text", "reason"),
+    [
+        ('{"cannot": "no friction"}', "no friction"),
+        ("", "JSONDecodeError"),
+        ('{"pressure": [[1]]}', "KeyError"),
+        (json.dumps(answered("hertz", 8)), "shape (8, 8)"),
+        (json.dumps(answered("hertz", 16) | {"pressure": [[float("nan")] * 16] * 16}), "finite"),
+    ],
+)
+def test_an_answer_that_is_none_is_reported(text: str, reason: str) -> None:
+    record = peer_run(Path("python"), PEERS[0], "hertz", 16, driver_that_prints(text))
+    assert reason in record["lost"]
+    assert "errors" not in record
+
+
+def test_a_driver_that_dies_is_reported() -> None:
+    missing = Peer("nothing==1", "nothing_of_this_name")
+    record = peer_run(Path(sys.executable), missing, "hertz", 16)
+    assert "nothing_of_this_name_driver" in record["lost"]
+
+
+@pytest.mark.parametrize("peer", PEERS, ids=lambda peer: str(peer.module))
+def test_a_driver_without_its_code_is_reported(peer: Peer) -> None:
+    record = peer_run(Path(sys.executable), peer, "hertz", 16)
+    assert f"No module named '{peer.module}'" in record["lost"]
+
+
+def test_a_peer_that_cannot_be_installed_is_left_out_and_named(tmp_path: Path) -> None:
+    asked: list[list[str]] = []
+
+    def run(command: list[str], **options: Any) -> subprocess.CompletedProcess[str]:
+        asked.append(command)
+        fails = "aspher" in command[-1]
+        return subprocess.CompletedProcess(command, int(fails), "", "a\nno compiler\n")
+
+    installed = made_environment(tmp_path, run=run)
+    assert installed.missing == {"aspher==0.1.3.post1": "no compiler"}
+    assert [peer.module for peer in installed.peers()] == ["tamaas", "ContactMechanics"]
+    assert asked[0][1:3] == ["-m", "venv"]
+    assert all("==" in peer.distribution for peer in PEERS)
+
+
+def test_errors_of_a_peer_are_those_of_the_study() -> None:
+    request = request_of("hertz", 16)
+    found = answered("hertz", 16)
+    found["pressure"] = (1.01 * np.array(found["pressure"])).tolist()
+    assert errors_of("hertz", request, found)["pressure"] == pytest.approx(0.01)

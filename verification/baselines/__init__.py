@@ -1,0 +1,1 @@
+"""Recorded numbers, one file per case; `slipstick baseline --accept --because …` writes them."""

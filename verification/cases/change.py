@@ -1,0 +1,96 @@
+"""A number beside the one that was recorded for it: the verdict on regression."""
+
+from enum import StrEnum
+
+from contact_scene.description import Description
+
+SHORT_COMMIT = 7
+
+
+class ChangeKind(StrEnum):
+    """How a number compares with the recorded one."""
+
+    UNCHANGED = "unchanged"
+    NOT_JUDGED = "not judged"
+    """Differs by no more than another processor or other versions explain."""
+
+    DRIFT = "drift"
+    """Differs, and is still within what its reference allows, or has none."""
+
+    BETTER = "better"
+    """The error has fallen far without a reason on record."""
+
+    OUTSIDE = "outside"
+    """Fails, and did not when it was recorded."""
+
+    NEW = "new"
+    GONE = "gone"
+
+    @property
+    def matters(self) -> bool:
+        """Whether the baseline does not describe the number any more."""
+        return self not in (ChangeKind.UNCHANGED, ChangeKind.NOT_JUDGED)
+
+
+class Change(Description):
+    """A quantity or finding beside the recorded one."""
+
+    kind: ChangeKind
+    recorded: bool = True
+    """Whether there is anything to compare with."""
+
+    was: float | None = None
+    """Null if nothing was recorded, or a number that is not finite."""
+
+    moved: float | None = None
+    """|value - was| as a part of the allowed error; null where nothing is allowed or known."""
+
+    since: str
+    """Commit that the recorded number is from, as a reader sees it."""
+
+    remark: str = ""
+
+
+class CounterChange(Description):
+    """A deterministic count of a solve that differs from the recorded one."""
+
+    name: str
+    kind: ChangeKind
+    was: int
+    remark: str = ""
+
+
+class Gone(Description):
+    """What was recorded and is not measured any more."""
+
+    name: str
+    run: str
+    unit: str
+    was: float | None
+
+
+class Origin(Description):
+    """Where the recorded numbers of a case come from."""
+
+    commit: str | None
+    changed: bool
+    """Whether the source differed from that commit."""
+
+    date: str
+    reason: str
+    """Why they were accepted."""
+
+    differs: tuple[str, ...] = ()
+    """What is different now, of processor and versions; last digits and counts are judged only
+    where nothing is."""
+
+    @property
+    def name(self) -> str:
+        """The commit as a reader sees it."""
+        return commit_text(self.commit, changed=self.changed)
+
+
+def commit_text(commit: str | None, *, changed: bool = False) -> str:
+    """A commit in a sentence."""
+    text = "an unknown commit" if commit is None else commit[:SHORT_COMMIT]
+    return f"{text} with changes" if changed else text

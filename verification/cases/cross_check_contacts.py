@@ -1,0 +1,207 @@
+"""Coated contacts for both solvers, and what is compared: profiles over the radius, and numbers."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.ndimage import map_coordinates
+
+from contact_scene import CoulombFriction, FiniteElementDiscretisation, LoadStep, Scene
+from semi_analytical.grid import SurfaceGrid
+from verification.cases import paper_scene as paper
+from verification.cases.case import SOLVER_TOLERANCE
+from verification.cases.indentation_reference import COATED, STRONG, WEAK
+from verification.cases.layered_scene import coated, exact_contact, film, rigid_ball
+from verification.cases.paper_scene import HERTZ
+from verification.cases.radial_profile import outward
+from verification.closed_forms.coated_indentation import LayeredIndentation
+from verification.quantities import shear_of
+
+if TYPE_CHECKING:
+    import fem_reference
+    import semi_analytical
+
+Field = NDArray[np.float64]
+
+RATIOS = (0.25, 0.5, 1.0, 2.0, 4.0, 10.0)
+THICKNESSES = (0.25, 1.0, 2.0)
+FRICTIONS = (0.0, 0.1, 0.3)
+
+# By µ; the same for both solvers, uniform in contact radius. The more of the contact sticks, the
+# longer the shear remembers every increment.
+INCREMENTS = {0.0: 1, 0.1: 20, 0.3: 40}
+EDGE = 2.0  # cells or elements to each side of the edge of stick, where the shear has a kink
+MARGIN = 1.15  # half a window in contact radii without friction
+JUDGED_WITHIN = 0.9
+DIRECTIONS = 16
+EVEN = 1e-9
+
+# Pressing with friction: the solution without increments, by modulus ratio, thickness, friction;
+# where the moduli are equal the coating is none.
+FRICTIONAL = {
+    (2.0, 1.0, 0.1): COATED,
+    **{(1.0, thickness, one.friction): one for thickness in THICKNESSES for one in (WEAK, STRONG)},
+}
+
+
+@dataclass(frozen=True)
+class Profiles:
+    """Tractions at some radii, over the largest pressure without friction and µ times it.
+
+    shear  outward; zero without friction
+    """
+
+    pressure: Field
+    shear: Field
+
+
+@dataclass(frozen=True)
+class CheckedContact:
+    """The paper's ball, rigid, pressed on a coated half-space.
+
+    modulus_ratio  E1 / E2, coating over substrate
+    thickness      over the Hertz radius without a coating
+    friction       µ
+    """
+
+    modulus_ratio: float
+    thickness: float
+    friction: float
+
+    @property
+    def name(self) -> str:
+        """For people."""
+        return f"E1/E2 = {self.modulus_ratio:g}, h = {self.thickness:g} a_H, µ = {self.friction:g}"
+
+    @property
+    def file_name(self) -> str:
+        """For files."""
+        return f"{self.modulus_ratio:g}-{self.thickness:g}-{self.friction:g}".replace(".", "p")
+
+    @property
+    def scene(self) -> Scene:
+        """What both solvers solve."""
+        mu = self.friction
+        return Scene(
+            title=f"Rigid ball on a coated half-space, {self.name}",
+            indenter=rigid_ball(),
+            body=coated(film(self.modulus_ratio, self.thickness)),
+            friction=CoulombFriction(coefficient=mu) if mu else None,
+            loading=(LoadStep(normal_force=paper.NORMAL_FORCE, increments=INCREMENTS[mu]),),
+        )
+
+    @property
+    def frictionless(self) -> LayeredIndentation:
+        """Semi-closed, by an integral equation that is of neither solver."""
+        return exact_contact(coated(film(self.modulus_ratio, self.thickness)))
+
+    @property
+    def contact_radius(self) -> float:
+        """Without friction: what lengths are counted in [length]."""
+        return self.frictionless.contact_radius
+
+    @property
+    def peak_pressure(self) -> float:
+        """At the axis, without friction: what pressures are counted in [force/length^2]."""
+        return float(self.frictionless.pressure(0.0))
+
+    def grid(self, cells: int) -> SurfaceGrid:
+        """A square grid around the contact."""
+        return paper.square_grid(cells, MARGIN * self.contact_radius)
+
+    def mesh(self, elements: int) -> FiniteElementDiscretisation:
+        """Elements over the contact radius without friction, so that finer meshes keep the rings of
+        coarser ones."""
+        return FiniteElementDiscretisation(
+            elements_per_radius=elements,
+            contact_radius=self.contact_radius,
+            tolerance=SOLVER_TOLERANCE,
+        )
+
+    def radii(self, elements: int, cells: int, within: float = JUDGED_WITHIN) -> Field:
+        """Where tractions are judged: the rings of a mesh, over the contact radius, from two
+        elements and two cells off the axis. Nearer the outward shear turns round within a cell."""
+        rings = np.arange(2, elements + 1) / elements
+        judged = (rings >= 2 * 2 * MARGIN / cells) & (rings <= within * (1 + EVEN))
+        return np.asarray(rings[judged])
+
+    def away_from_stick_edge(
+        self, radii: Field, stick_radius: float | None, cells: int, elements: int
+    ) -> NDArray[np.bool_]:
+        """Which radii are further from the edge of stick than two cells and two elements."""
+        if stick_radius is None:
+            return np.ones(len(radii), dtype=bool)
+        width = EDGE * max(2 * MARGIN / cells, 1 / elements)
+        return np.asarray(np.abs(radii - stick_radius / self.contact_radius) > width)
+
+    def on_grid(self, result: semi_analytical.Result, radii: Field) -> Profiles:
+        """Means over the directions, by cubic splines between the cells."""
+        end, r = result.steps[-1], radii * self.contact_radius
+        p = _around(end.pressure, result.grid, r) / self.peak_pressure
+        if not self.friction:
+            return Profiles(p, np.zeros_like(p))
+        q = _around(outward(shear_of(end), result.grid), result.grid, r)
+        return Profiles(p, q / (self.friction * self.peak_pressure))
+
+    def on_rings(self, result: fem_reference.Result, radii: Field) -> Profiles:
+        """Values of the rings."""
+        end = result.steps[-1]
+        found = np.rint(radii * self.contact_radius / (end.radii[1] - end.radii[0])).astype(int)
+        if not np.allclose(end.radii[found], radii * self.contact_radius, rtol=EVEN, atol=0.0):
+            raise ValueError("the rings of the result are not at the radii that are asked for")
+        p = end.pressure[found] / self.peak_pressure
+        if end.shear_radial is None:
+            return Profiles(p, np.zeros_like(p))
+        return Profiles(p, end.shear_radial[found] / (self.friction * self.peak_pressure))
+
+    def reference(self, radii: Field) -> Profiles | None:
+        """Tractions that neither solver made, linear between the points of their table; None where
+        there are none."""
+        if not self.friction:
+            p = np.asarray(self.frictionless.pressure(radii * self.contact_radius))
+            return Profiles(p / self.peak_pressure, np.zeros_like(p))
+        known = FRICTIONAL.get((self.modulus_ratio, self.thickness, self.friction))
+        if known is None:
+            return None
+        fine = "r_fine_over_aH" in known.row
+        r, p, q = (
+            np.array(known.row[key])
+            for key in (
+                ("r_fine_over_aH", "p_fine_over_pH", "q_fine_over_mu_pH")
+                if fine
+                else ("r_over_a", "p_over_pH", "q_over_mu_pH")
+            )
+        )
+        r = r * HERTZ.contact_radius if fine else r * known.contact_radius
+        at, unit = radii * self.contact_radius, HERTZ.peak_pressure / self.peak_pressure
+        return Profiles(unit * np.interp(at, r, p), unit * np.interp(at, r, q))
+
+    @property
+    def reference_approach(self) -> float | None:
+        """Approach of the reference [length]; None where there is none."""
+        if not self.friction:
+            return self.frictionless.approach
+        known = FRICTIONAL.get((self.modulus_ratio, self.thickness, self.friction))
+        return None if known is None else known.approach
+
+
+def _around(field: Field, grid: SurfaceGrid, r: Field) -> Field:
+    """Means of a field over the directions at distances r from the axis."""
+    angle = (np.arange(DIRECTIONS) + 0.5) * 2 * np.pi / DIRECTIONS
+    x, y = np.outer(r, np.cos(angle)), np.outer(r, np.sin(angle))
+    at = [(x - grid.x[0]) / grid.spacing[0], (y - grid.y[0]) / grid.spacing[1]]
+    return np.asarray(map_coordinates(field, at, order=3).mean(axis=1))
+
+
+def numbers(end: semi_analytical.Increment | fem_reference.Increment) -> Mapping[str, float]:
+    """Scalars of the end of a run by either solver, in SI; those that both have."""
+    found = {"approach": end.approach, "contact_radius": end.contact_radius}
+    for name in ("stick_radius", "dissipated_energy"):
+        value = getattr(end, name)
+        if value is not None:
+            found[name] = value
+    return {name: float(value) for name, value in found.items()}

@@ -1,0 +1,61 @@
+"""A solve by finite elements with Coulomb's law at points (r, θ), as part of a case."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from math import hypot
+
+from fem_reference import Path, Plan, Result, plan
+from fem_reference.expected_radius import expected_radius
+from fem_reference.fields import Increment
+from fem_reference.harmonics.angular_grid import end_grid, mid_grid
+from fem_reference.harmonics.method import harmonic_method
+from fem_reference.history import march
+from fem_reference.model import ContactModel
+from verification.cases.section_run import SectionRun
+
+ACROSS = "slip across the load"
+
+
+@dataclass(frozen=True)
+class PointsRun(SectionRun):
+    """One solve on two sets of points: those of `solve`, with points on the line of the load, and
+    those half-way between. The result is the first, but for the stick area: sectors make it err
+    with opposite sign on the two, so that it is the mean.
+
+    Coulomb's law is obeyed as a vector law even where the plan would neglect slip across the load.
+    """
+
+    def solve(self) -> Result:
+        """The solution; raises what `fem_reference.solve` raises."""
+        scene, discretisation = self.scene, self.discretisation
+        decided = _with_vector_law(plan(scene))
+        radius = discretisation.contact_radius or expected_radius(scene)
+        model = ContactModel.of(scene, discretisation, radius)
+        own, between = (
+            march(
+                scene,
+                decided,
+                harmonic_method(model, decided, grid(discretisation.harmonics)),
+                self.tolerance,
+            )
+            for grid in (end_grid, mid_grid)
+        )
+        increments = tuple(_with_mean_stick(*pair) for pair in zip(own, between, strict=True))
+        return Result(scene, discretisation, model.sections, decided, increments)
+
+
+def _with_vector_law(decided: Plan) -> Plan:
+    if decided.path is Path.HARMONICS:
+        return decided
+    effects = tuple(
+        replace(effect, on=True, why="asked for by this case") if effect.name == ACROSS else effect
+        for effect in decided.effects
+    )
+    return replace(decided, path=Path.HARMONICS, effects=effects)
+
+
+def _with_mean_stick(own: Increment, between: Increment) -> Increment:
+    if own.stick_radius is None or between.stick_radius is None:
+        return own
+    return replace(own, stick_radius=hypot(own.stick_radius, between.stick_radius) / 2**0.5)

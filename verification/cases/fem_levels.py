@@ -1,0 +1,46 @@
+"""Meshes of the finite-element cases, and how their figures follow from the ones asked for."""
+
+from verification.cases.case import Level
+
+ASKED_AT = 64  # elements per radius
+
+# Several meshes below the finest, for the order of convergence; no two are alike at the edge.
+_LEVELS = {
+    Level.QUICK: (12, 16, 22, 32),
+    Level.STANDARD: (12, 16, 22, 32, 45, 64),
+    Level.FULL: (16, 22, 32, 45, 64, 90, 128),
+}
+
+
+def levels(level: Level) -> tuple[int, ...]:
+    """Elements per radius, coarse to fine."""
+    return _LEVELS[level]
+
+
+def finest(level: Level) -> int:
+    """Of the meshes of a level."""
+    return _LEVELS[level][-1]
+
+
+def allowed(figure: float, elements: int, order: float) -> float:
+    """What a figure asked for at 64 elements per radius becomes on other meshes."""
+    return figure * (ASKED_AT / elements) ** order
+
+
+def judged_within(elements: int) -> float:
+    """Part of the contact radius where tractions are judged: 0.9, or less on coarse meshes, where
+    the ripple of the last five elements at the edge reaches further in."""
+    return min(0.9, 1 - 5 / elements)
+
+
+def because(order: float) -> str:
+    """The reason that goes with `allowed`."""
+    return (
+        f"asked of the finite elements at {ASKED_AT} per radius; on other meshes what the order "
+        f"{order:g} makes of it"
+    )
+
+
+def label(elements: int) -> str:
+    """Of a run."""
+    return f"{elements} elements per radius"

@@ -1,0 +1,40 @@
+"""A solve by finite elements, as part of a case."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from contact_scene import FiniteElementDiscretisation, Scene
+from fem_reference import Method, Result, solve
+from verification.cases.case import SOLVER_TOLERANCE
+
+
+@dataclass(frozen=True)
+class SectionRun:
+    """One solve: a scene on the mesh of a section. The label names it within its case."""
+
+    label: str
+    scene: Scene
+    discretisation: FiniteElementDiscretisation
+    method: Method = Method.COMPLEMENTARITY
+
+    @property
+    def tolerance(self) -> float:
+        """Bound of every residual."""
+        return self.discretisation.tolerance
+
+    @property
+    def spacing(self) -> float:
+        """Side of an element at the contact over the contact radius."""
+        return 1 / self.discretisation.elements_per_radius
+
+    def solve(self) -> Result:
+        """The solution; raises what `fem_reference.solve` raises."""
+        return solve(self.scene, self.discretisation, self.method)
+
+
+def per_radius(elements: int, contact_radius: float | None = None) -> FiniteElementDiscretisation:
+    """So many elements over this contact radius [length], or over the estimated one."""
+    return FiniteElementDiscretisation(
+        elements_per_radius=elements, contact_radius=contact_radius, tolerance=SOLVER_TOLERANCE
+    )

@@ -1,0 +1,98 @@
+"""`slipstick compare`: what changed since the numbers that were accepted, or since a report."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from verification.cli.errors import ExitCode
+from verification.cli.report_file import read_report
+
+if TYPE_CHECKING:
+    from verification.regression.baseline import Baseline
+    from verification.report.record import Report
+
+
+def compare(
+    report: Annotated[
+        Path,
+        typer.Argument(metavar="[REPORT]", help="Folder of a report, or its report.json."),
+    ] = Path("reports/quick"),
+    baseline: Annotated[
+        Path | None,
+        typer.Option(
+            "--baseline",
+            metavar="PLACE",
+            show_default=False,
+            help="A folder of baselines, or the report.json of another report; the baselines that "
+            "come with slipstick if absent.",
+        ),
+    ] = None,
+) -> None:
+    """Say what changed since the baseline, by how much in units of the tolerance, since which
+    commit, and how to see it again.
+
+    Nothing is computed. Exit code 0 if nothing changed or nothing is recorded yet, 5 if something
+    did and is within what its reference allows (also: new, gone, suspiciously better, another
+    count of iterations), 1 if something fails that did not. Last digits and counts are judged only
+    on the processor and with the versions of the baseline.
+    """  # fmt: skip
+    from verification.regression.comparison import compared
+
+    outcome = compared(read_report(report), _baselines(baseline))
+    _print_changes(outcome)
+    code = exit_code_of(outcome)
+    if code is not ExitCode.PASS:
+        raise typer.Exit(code)
+
+
+def exit_code_of(report: Report) -> ExitCode:
+    """What a compared report amounts to."""
+    from verification.cases.change import ChangeKind
+    from verification.report.changes import change_rows
+
+    kinds = {row.kind for row in change_rows(report)}
+    if ChangeKind.OUTSIDE in kinds:
+        return ExitCode.ACCURACY
+    return ExitCode.BASELINE_DRIFT if kinds else ExitCode.PASS
+
+
+def _baselines(place: Path | None) -> dict[str, Baseline]:
+    from verification.regression.acceptance import baselines_of
+    from verification.regression.baseline_files import read_baselines
+
+    if place is None or (place.is_dir() and not (place / "report.json").is_file()):
+        return read_baselines(place)
+    return baselines_of(read_report(place), f"the report {place}")
+
+
+def _print_changes(report: Report) -> None:
+    from verification.cases.change import ChangeKind
+    from verification.cli.terminal import print_table
+    from verification.report.changes import change_rows, changes_text, origins
+    from verification.report.numbers import failure_line
+
+    for case in report.cases:
+        for verdict in case.verdicts:
+            change = verdict.regression
+            if change is not None and change.kind is ChangeKind.OUTSIDE:
+                typer.echo(failure_line(case.name, verdict, report.level))
+    rows = change_rows(report)
+    if rows:
+        columns = ("quantity", "run", "change", "was", "is", "moved by", "since", "remark")
+        print_table(
+            columns,
+            [
+                (f"{r.case}/{r.name}", r.run, r.kind, r.was, r.now, r.moved, r.since, r.remark)
+                for r in rows
+            ],
+        )
+        names = " ".join(dict.fromkeys(row.case for row in rows))
+        typer.echo(f"reproduce: slipstick verify {names} --level {report.level}")
+    for origin, cases in origins(report):
+        typer.echo(f"baseline of {len(cases)} cases: {origin.name}, {origin.date}: {origin.reason}")
+        for difference in origin.differs:
+            typer.echo(f"  differs: {difference}")
+    typer.echo(changes_text(report))

@@ -1,0 +1,75 @@
+"""`slipstick run --solver fem`: from a scene to a directory of results, by finite elements."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import typer
+
+from verification.cli.solver_option import SolverName, method_of
+
+if TYPE_CHECKING:
+    from contact_scene import SceneFile
+    from contact_scene.standing import Keeper
+    from fem_reference import Result
+    from verification.run_output.timing import Stopwatch
+
+
+def run_on_section(
+    contents: SceneFile,
+    solver: SolverName,
+    stopwatch: Stopwatch,
+    output: Path,
+    *,
+    overwrite: bool,
+    figures: bool,
+) -> None:
+    """Solve a scene and write summary, fields, tables and figures into a directory.
+
+    Raises what `run_directory` and `fem_reference.solve` raise.
+    """
+    from verification.cli.terminal import tell
+    from verification.code_digest import solve_identity
+    from verification.run_output.checkpoint import checkpointed
+    from verification.run_output.run_directory import run_directory
+    from verification.run_output.section.result_files import write_section_result
+    from verification.run_output.timing import write_timing
+
+    identity = solve_identity(contents.scene, contents.fem_reference, solver)
+    with (
+        checkpointed(output, identity, tell) as keeper,
+        run_directory(output, overwrite=overwrite) as staging,
+    ):
+        result = solve_on_section(contents, solver, stopwatch, keeper)
+        with stopwatch.phase("write"):
+            write_section_result(result, method_of(solver), staging, with_figures=figures)
+        write_timing(stopwatch, staging)
+    _print_outcome(result, solver, stopwatch, output)
+
+
+def solve_on_section(
+    contents: SceneFile, solver: SolverName, stopwatch: Stopwatch, keeper: Keeper | None = None
+) -> Result:
+    """The solution, its progress on the terminal."""
+    with stopwatch.phase("import"):
+        import fem_reference
+        from verification.cli.progress import solve_progress
+    decided = fem_reference.plan(contents.scene)
+    with stopwatch.phase("solve"), solve_progress(decided.increments) as observe:
+        progress: Any = observe
+        return fem_reference.solve(
+            contents.scene, contents.fem_reference, method_of(solver), progress, keeper
+        )
+
+
+def _print_outcome(result: Result, solver: SolverName, stopwatch: Stopwatch, output: Path) -> None:
+    from verification.cli.outcome_text import outcome_columns
+    from verification.cli.section_text import solved_on_section
+    from verification.cli.terminal import print_pairs, print_table
+
+    seconds = stopwatch.wall_seconds["solve"]
+    print_pairs(solved_on_section(result, method_of(solver), seconds))
+    columns = outcome_columns(result)
+    print_table(columns, zip(*columns.values(), strict=True), numbers=True)
+    typer.echo(f"results in {output}")

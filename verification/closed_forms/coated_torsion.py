@@ -1,0 +1,215 @@
+"""Torsion of a circular contact of coated bodies in partial slip, semi-closed.
+
+Torsion makes shear waves alone (SH), which no pressure couples with. With the Hankel transform of
+the circumferential shear written as q~(k) = ∫₀ᵃ h(s) sin ks ds, so that h is Abel's transform
+
+    h(s) = (2/π) s ∫ₛᵃ q(r)/√(r²-s²) dr,
+
+a disc r < c that turns rigidly by φ demands (Lubkin 1951 for h without layers)
+
+    h(s) + ∫₀ᵃ K(s, t) h(t) dt = (4/π) G φ s,   K(s, t) = (2/π) ∫₀^∞ (X(k) - 1) sin ks sin kt dk
+
+for s < c, and in the slipping annulus h is that of the friction limit. X(k) = k G F(k), with F(k)
+the displacement per unit shear across the wavenumber k and G the torsional modulus for short waves.
+The shear is finite at the edge of the stick disc if h is continuous there, which gives φ. The
+torque is 4π ∫₀ᵃ h(s) s ds. Without layers K = 0.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cached_property
+from math import pi
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.optimize import brentq
+from scipy.special import j1
+
+from verification.closed_forms.quadrature import unit_gauss
+from verification.closed_forms.validity import require_positive
+
+Array = NDArray[np.float64]
+
+# exp(-2 k h) is below 1e-20 from here on.
+REACH = 24.0
+PANEL_POINTS = 16
+PANEL_PHASE = 6.0
+# Panels halve that often towards k = 0: enough for any contrast up to 1e5.
+HALVINGS = 20
+ORDER = 80
+
+
+@dataclass(frozen=True)
+class TorsionalSurface:
+    """What the surface of two coated bodies answers to torsion.
+
+    compliance         F(k) of both bodies together [length³/force], vectorised
+    torsional_modulus  reciprocal of the sum of 1/G of their outermost materials [force/length²]
+    thickness          of the thinner outermost layer [length]
+    """
+
+    compliance: Callable[[Array], Array]
+    torsional_modulus: float
+    thickness: float
+
+    def __post_init__(self) -> None:
+        require_positive(torsional_modulus=self.torsional_modulus, thickness=self.thickness)
+
+    def excess(self, k: Array) -> Array:
+        """X(k) - 1: what the layers add to the half-space of the outermost material [1]."""
+        return np.asarray(k * self.torsional_modulus * self.compliance(k) - 1)
+
+
+def one_layer(k: Array, thickness: float, shear_modulus: float, base_modulus: float) -> Array:
+    """F(k) of one layer bonded to a half-space: 1/(Gk) (1 + χ e^(-2kh))/(1 - χ e^(-2kh)) with
+    χ = (G - G_base)/(G + G_base) [length³/force]."""
+    chi = (shear_modulus - base_modulus) / (shear_modulus + base_modulus)
+    reflected = chi * np.exp(-2 * k * thickness)
+    return np.asarray((1 + reflected) / (1 - reflected) / (shear_modulus * k))
+
+
+@dataclass(frozen=True)
+class CoatedTorsion:
+    """Contact twisted monotonically from zero.
+
+    surface         the two bodies
+    contact_radius  a > 0 [length]
+    limit           µp as a function of the distance from the axis [force/length²], falling like a
+                    square root towards r = a
+    stick_radius    c, a tenth of a <= c < a [length]
+    """
+
+    surface: TorsionalSurface
+    contact_radius: float
+    limit: Callable[[Array], Array]
+    stick_radius: float
+
+    def __post_init__(self) -> None:
+        require_positive(contact_radius=self.contact_radius, stick_radius=self.stick_radius)
+        if not 0.1 <= self.stick_radius / self.contact_radius < 1:
+            raise ValueError(
+                f"stick radius {self.stick_radius!r} is not between a tenth of the contact radius "
+                f"{self.contact_radius!r} and all of it"
+            )
+
+    @classmethod
+    def under_torque(
+        cls,
+        torque: float,
+        surface: TorsionalSurface,
+        contact_radius: float,
+        limit: Callable[[Array], Array],
+    ) -> "CoatedTorsion":
+        """State under a torque [force*length]; ValueError where the stick radius has no value in
+        the range."""
+
+        def excess(part: float) -> float:
+            state = cls(surface, contact_radius, limit, part * contact_radius)
+            return state.torque / torque - 1
+
+        part = float(brentq(excess, 0.1 + 1e-9, 1 - 1e-9, xtol=1e-14, rtol=1e-14))
+        return cls(surface, contact_radius, limit, part * contact_radius)
+
+    @property
+    def sliding_torque(self) -> float:
+        """2π ∫ µp r² dr, where all slips [force*length]."""
+        a = self.contact_radius
+        v, weights = unit_gauss(ORDER)
+        r, chord = a * np.sin(pi / 2 * v), a * np.cos(pi / 2 * v)
+        return float(pi**2 * np.sum(weights * self.limit(r) * r**2 * chord))
+
+    @property
+    def twist(self) -> float:
+        """Relative rotation φ [radian]."""
+        return self._solved[0]
+
+    @property
+    def torque(self) -> float:
+        """4π ∫ h s ds [force*length]."""
+        s, weights = self._nodes
+        return float(4 * pi * np.sum(weights * self.transform * s))
+
+    @property
+    def transform(self) -> Array:
+        """h at the nodes, in the stick disc and then in the annulus [force/length]."""
+        return self._solved[1]
+
+    def displacement(self, r: Array) -> Array:
+        """Circumferential displacement at distances 0 < r <= c [length]: φr if all is right.
+
+        ∫₀^∞ sin ks J₁(kr) dk = s/(r√(r²-s²)) for s < r, and 0 beyond.
+        """
+        k, weight = self._wavenumbers
+        v, weights = unit_gauss(self._order)
+        inside = r[:, None] * np.sin(pi / 2 * v)
+        half_space = pi / 2 * np.sum(weights * np.sin(pi / 2 * v) * self._h(inside), axis=1)
+        layers = j1(np.outer(r, k)) @ (weight * self._spectrum)
+        return np.asarray((half_space + layers) / self.surface.torsional_modulus)
+
+    def _h(self, s: Array) -> Array:
+        """h in the stick disc, from its equation."""
+        k, weight = self._wavenumbers
+        G = self.surface.torsional_modulus
+        by_layers = np.sin(np.multiply.outer(s, k)) @ (weight * self._spectrum)
+        return np.asarray(4 / pi * G * self.twist * s - 2 / pi * by_layers)
+
+    @cached_property
+    def _spectrum(self) -> Array:
+        """(X - 1) q~ at the wavenumbers."""
+        k, _ = self._wavenumbers
+        s, weights = self._nodes
+        transform = np.sin(np.outer(k, s)) @ (weights * self.transform)
+        return np.asarray(self.surface.excess(k) * transform)
+
+    @cached_property
+    def _solved(self) -> tuple[float, Array]:
+        """φ and h: the equation is solved for unit φ and for the annulus alone."""
+        G, c = self.surface.torsional_modulus, self.stick_radius
+        s, weights = self._nodes
+        order = self._order
+        stick, slip = slice(order), slice(order, None)
+        annulus = self._sliding_transform(s[slip])
+        kernel = self._kernel(np.append(s[stick], c), s) * weights
+        right = np.column_stack([4 / pi * G * np.append(s[stick], c), -kernel[:, slip] @ annulus])
+        h = np.linalg.solve(np.eye(order) + kernel[stick, stick], right[stick])
+        by_twist, by_annulus = right[-1] - kernel[-1, stick] @ h
+        edge = self._sliding_transform(np.array([c]))[0]
+        twist = float((edge - by_annulus) / by_twist)
+        return twist, np.append(twist * h[:, 0] + h[:, 1], annulus)
+
+    def _kernel(self, s: Array, t: Array) -> Array:
+        """K(s, t)."""
+        k, weight = self._wavenumbers
+        weighted = weight * self.surface.excess(k)
+        return np.asarray(2 / pi * (np.sin(np.outer(s, k)) * weighted) @ np.sin(np.outer(k, t)))
+
+    def _sliding_transform(self, s: Array) -> Array:
+        """h of the friction limit; r² = s² + (a²-s²) sin² θ removes the root."""
+        v, weights = unit_gauss(ORDER)
+        chord = np.sqrt(self.contact_radius**2 - s**2)[:, None]
+        r = np.hypot(s[:, None], chord * np.sin(pi / 2 * v))
+        integrand = self.limit(r) * chord * np.cos(pi / 2 * v) / r
+        return np.asarray(s * (integrand @ weights))
+
+    @property
+    def _order(self) -> int:
+        """Nodes in each zone that resolve what varies on the scale of the thickness."""
+        return ORDER + int(4 * self.contact_radius / self.surface.thickness)
+
+    @cached_property
+    def _nodes(self) -> tuple[Array, Array]:
+        """Gauss points and weights in the stick disc and in the annulus."""
+        a, c = self.contact_radius, self.stick_radius
+        v, weights = unit_gauss(self._order)
+        return np.append(c * v, c + (a - c) * v), np.append(c * weights, (a - c) * weights)
+
+    @cached_property
+    def _wavenumbers(self) -> tuple[Array, Array]:
+        """Gauss points and weights on 0 < k < REACH/h."""
+        limit = REACH / self.surface.thickness
+        step = PANEL_PHASE / (2 * self.contact_radius + self.surface.thickness)
+        fine = step * 2.0 ** -np.arange(HALVINGS, 0, -1)
+        bounds = np.concatenate([[0.0], fine, np.arange(step, limit, step), [limit]])
+        v, weights = unit_gauss(PANEL_POINTS)
+        widths = np.diff(bounds)[:, None]
+        return (bounds[:-1, None] + widths * v).ravel(), (widths * weights).ravel()

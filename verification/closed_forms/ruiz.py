@@ -1,0 +1,72 @@
+"""Ruiz's fretting parameters of a Hertz contact under a force that cycles between ±T*, ν = 0.
+
+F1 = τ δ and F2 = σ_T τ δ (Ruiz, Boddington and Chen 1984, Exp. Mech. 24, 208-217), with τ the
+largest shear at a place in a cycle, δ half the range of slip and σ_T the largest stress of the
+surface along the force at the ends of the cycle. Assumptions as in `cattaneo_mindlin`.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from verification.closed_forms.cattaneo_mindlin import PartialSlip
+from verification.closed_forms.sheared_surface import (
+    stress_by_hertz_pressure,
+    stress_by_hertz_shear,
+)
+
+Values = NDArray[np.float64]
+
+# Places at which the largest value is looked for, dense near the edge where σ_T turns to tension.
+PLACES = 20_001
+
+
+@dataclass(frozen=True)
+class CycledContact:
+    """Steady cycles between T* and -T* at constant load, materials with ν = 0.
+
+    end            state of first loading at T* > 0
+    peak_pressure  p0 of the Hertz contact [force/length²]
+    """
+
+    end: PartialSlip
+    peak_pressure: float
+
+    def slip_amplitude(self, r: ArrayLike) -> Values:
+        """δ at r <= a [length]: by Masing's rule a reversal slips twice as far as the first
+        loading, which is the whole range."""
+        return np.abs(self.end.slip(r))
+
+    def largest_shear(self, r: ArrayLike) -> Values:
+        """τ at r: that at ±T*, µp where it slips [force/length²]."""
+        return np.abs(self.end.shear(r))
+
+    def surface_tension(self, x: ArrayLike) -> Values:
+        """σ_T at (x, 0): the larger of the two ends of the cycle [force/length²]."""
+        a, c = self.end.contact_radius, self.end.stick_radius
+        q0 = self.end.friction_coefficient * self.peak_pressure
+        sheared = stress_by_hertz_shear(x, a, q0, 0.0)
+        if c > 0:
+            sheared = sheared - stress_by_hertz_shear(x, c, q0 * c / a, 0.0)
+        return stress_by_hertz_pressure(x, a, self.peak_pressure, 0.0) + np.abs(sheared)
+
+    @property
+    def largest_f1(self) -> float:
+        """Largest τ δ on the surface [force/length]."""
+        return float(np.max(self._f1(self._radii())))
+
+    @property
+    def largest_f2(self) -> float:
+        """Largest σ_T τ δ on the surface [force²/length³]; at given r the tension is largest on the
+        line through the centre along the force."""
+        r = self._radii()
+        return float(np.max(np.maximum(self.surface_tension(r), 0.0) * self._f1(r)))
+
+    def _f1(self, r: Values) -> Values:
+        return self.largest_shear(r) * self.slip_amplitude(r)
+
+    def _radii(self) -> Values:
+        """From the stick zone to the edge."""
+        a, c = self.end.contact_radius, self.end.stick_radius
+        return np.asarray(a - (a - c) * np.linspace(1.0, 0.0, PLACES) ** 2)

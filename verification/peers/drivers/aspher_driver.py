@@ -1,0 +1,52 @@
+"""aspher: nested grids with FFT and its FFT preconditioner, its best by its own options; friction
+by its load-history driver."""
+
+from __future__ import annotations
+
+from importlib import import_module
+from importlib.metadata import version
+
+from verification.peers.drivers.exchange import Answer, Request, answer, gap_of
+
+COARSEST = 16
+
+
+def solve(request: Request) -> Answer:
+    """Pressure, and with friction shear."""
+    aspher = import_module("aspher")
+    n, side = request["cells"], request["window"]
+    load = request["force"] / side**2
+    gap = gap_of(request).ravel()
+    if not request["friction"]:
+        found = aspher.solve_nested(
+            grid_size=n, gap=gap, p_nominal=load, domain_size=side, E_star=request["modulus"],
+            coarsest=min(COARSEST, n // 2), backend="fft", precond_engine="fft",
+            tol=request["tolerance"],
+        )  # fmt: skip
+        return {
+            "version": version("aspher"),
+            "pressure": found.pressure.reshape(n, n),
+            "shear": None,
+            "approach": None,
+            "iterations": int(found.iterations),
+            "converged": found.status == "converged" or bool(getattr(found, "converged", False)),
+        }
+    solver = aspher.FrictionSolver(
+        grid_size=n, domain_size=side, E_star=request["modulus"], nu=0.0,
+        model=aspher.CoulombFriction(request["friction"]), precond=True,
+    )  # fmt: skip
+    solver.set_gap(gap)
+    solver.step(p_bar=load)
+    step = solver.step(q_bar=(request["tangential_force"] / side**2, 0.0), dt=1.0)
+    return {
+        "version": version("aspher"),
+        "pressure": solver.pressure.reshape(n, n),
+        "shear": [step.qx.reshape(n, n), step.qy.reshape(n, n)],
+        "approach": None,
+        "iterations": None,
+        "converged": bool(step.converged),
+    }
+
+
+if __name__ == "__main__":
+    answer(solve, "aspher")

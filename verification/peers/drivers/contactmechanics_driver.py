@@ -1,0 +1,39 @@
+"""ContactMechanics: constrained conjugate gradients on its free-space kernel; no friction."""
+
+from __future__ import annotations
+
+from importlib import import_module
+from importlib.metadata import version
+
+import numpy as np
+
+from verification.peers.drivers.exchange import Answer, CannotDo, Request, answer, gap_of
+
+
+def solve(request: Request) -> Answer:
+    """Pressure and approach."""
+    if request["friction"]:
+        raise CannotDo("no friction")
+    contact, surfaces = import_module("ContactMechanics"), import_module("SurfaceTopography")
+    n, side = request["cells"], request["window"]
+    substrate = contact.FreeFFTElasticHalfSpace((n, n), request["modulus"], (side, side))
+    topography = surfaces.Topography(-gap_of(request), (side, side))
+    system = contact.Systems.NonSmoothContactSystem(substrate, topography)
+    found = system.minimize_proxy(
+        external_force=request["force"],
+        forcetol=request["tolerance"],
+        pentol=request["tolerance"] * side,
+    )
+    area = (side / n) ** 2
+    return {
+        "version": version("ContactMechanics"),
+        "pressure": np.array(substrate.force)[:n, :n] / area,
+        "shear": None,
+        "approach": float(np.squeeze(found.offset)) if hasattr(found, "offset") else None,
+        "iterations": int(found.nit),
+        "converged": bool(found.success),
+    }
+
+
+if __name__ == "__main__":
+    answer(solve, "ContactMechanics", "SurfaceTopography")

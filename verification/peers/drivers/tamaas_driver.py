@@ -1,0 +1,39 @@
+"""tamaas: Polonsky and Keer's method on its non-periodic kernel. Its friction is periodic, and of
+another law: not asked."""
+
+from __future__ import annotations
+
+from importlib import import_module
+
+import numpy as np
+
+from verification.peers.drivers.exchange import Answer, CannotDo, Request, answer, gap_of
+
+
+def solve(request: Request) -> Answer:
+    """Pressure."""
+    if request["friction"]:
+        raise CannotDo("friction on a periodic surface only, with another law")
+    tamaas = import_module("tamaas")
+    tamaas.set_log_level(tamaas.LogLevel.error)
+    n, side = request["cells"], request["window"]
+    model = tamaas.ModelFactory.createModel(tamaas.model_type.basic_2d, [side, side], [n, n])
+    model.E, model.nu = request["modulus"], 0.0
+    tamaas.ModelFactory.registerNonPeriodic(model, "free")
+    surface = np.ascontiguousarray(-gap_of(request))
+    solver = tamaas.PolonskyKeerRey(model, surface, request["tolerance"])
+    solver.setIntegralOperator("free")
+    solver.max_iter = 10000
+    error = solver.solve(request["force"] / side**2)
+    return {
+        "version": tamaas.__version__,
+        "pressure": np.array(model.traction).reshape(n, n),
+        "shear": None,
+        "approach": None,
+        "iterations": None,
+        "converged": bool(error <= request["tolerance"]),
+    }
+
+
+if __name__ == "__main__":
+    answer(solve, "tamaas")

@@ -1,0 +1,104 @@
+"""The peers' environment: one virtual environment, made once, with pinned versions.
+
+A peer whose installation fails is left out, with the reason; the others do not mind.
+"""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+FOLDER = "peers"
+EIGEN = Path("/usr/include/eigen3")  # of the package libeigen3-dev: else the build downloads it
+
+
+@dataclass(frozen=True)
+class Peer:
+    """Another code.
+
+    distribution  name and version that are installed
+    module        that is imported, and whose driver is MODULE_driver, in small letters
+    friction      whether it is asked for shear
+    settings      for its build, in the environment
+    """
+
+    distribution: str
+    module: str
+    friction: bool = False
+    settings: tuple[tuple[str, str], ...] = ()
+
+    @property
+    def driver(self) -> str:
+        """Its program, as a module."""
+        return f"verification.peers.drivers.{self.module.lower()}_driver"
+
+
+PEERS = (
+    Peer(
+        "aspher==0.1.3.post1", "aspher", friction=True,
+        settings=(("CMAKE_ARGS", f"-DFETCHCONTENT_SOURCE_DIR_EIGEN3_SRC={EIGEN}"),),
+    ),
+    Peer("tamaas==2.9.0", "tamaas"),
+    Peer("ContactMechanics==1.8.3", "ContactMechanics"),
+)  # fmt: skip
+
+Run = Callable[..., "subprocess.CompletedProcess[str]"]
+
+
+@dataclass(frozen=True)
+class Installed:
+    """The environment's Python, and why peers are missing from it, by distribution."""
+
+    python: Path
+    missing: dict[str, str]
+
+    def peers(self, among: Sequence[Peer] = PEERS) -> tuple[Peer, ...]:
+        """Those that can be run."""
+        return tuple(peer for peer in among if peer.distribution not in self.missing)
+
+
+def peers_directory() -> Path:
+    """SLIPSTICK_CACHE_DIR, else `slipstick` in the user's cache directory."""
+    place = os.environ.get("SLIPSTICK_CACHE_DIR")
+    if place:
+        return Path(place) / FOLDER
+    user = os.environ.get("XDG_CACHE_HOME") or str(Path.home() / ".cache")
+    return Path(user) / "slipstick" / FOLDER
+
+
+def made_environment(
+    directory: Path, peers: Sequence[Peer] = PEERS, run: Run = subprocess.run
+) -> Installed:
+    """The environment in a directory, made or completed.
+
+    run  as `subprocess.run`
+    """
+    python = directory / "bin" / "python"
+    if not python.exists():
+        run([sys.executable, "-m", "venv", str(directory)], check=True)
+    missing = {}
+    for peer in peers:
+        reason = _installed(python, peer, run)
+        if reason:
+            missing[peer.distribution] = reason
+    return Installed(python, missing)
+
+
+def _installed(python: Path, peer: Peer, run: Run) -> str:
+    """Install one if it is not there; why that failed, or nothing."""
+    probe = [str(python), "-c", f"import {peer.module}"]
+    if run(probe, capture_output=True, text=True, check=False).returncode == 0:
+        return ""
+    settings = {name: value for name, value in peer.settings if EIGEN.exists()}
+    install = [str(python), "-m", "pip", "install", "--quiet", peer.distribution]
+    done = run(install, capture_output=True, text=True, check=False, env={**os.environ, **settings})
+    if done.returncode == 0:
+        done = run(probe, capture_output=True, text=True, check=False)
+    if done.returncode == 0:
+        return ""
+    lines = [line.strip() for line in done.stderr.splitlines() if line.strip()]
+    return lines[-1] if lines else f"exit code {done.returncode}"

@@ -1,0 +1,149 @@
+"""What is recorded of a case: plain values, one file per case, one recording per level."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from contact_scene.description import Description
+from verification.cases.outcome import FindingRecord, RunRecord, Status, Verdict
+
+if TYPE_CHECKING:
+    from verification.cases.outcome import CaseOutcome
+    from verification.report.record import Provenance
+
+BASELINE_VERSION = 1
+COUNTERS = ("increments", "iterations", "convolutions", "factorizations")
+
+# The run of such a quantity is found, not chosen: it is no part of what the quantity is.
+FOUND_IN_A_RUN = ("largest_residual",)
+
+Key = tuple[str, ...]
+
+
+class RecordedQuantity(Description):
+    """A judged quantity. `allowed` and `reference` are in the unit of the value."""
+
+    name: str
+    run: str
+    tolerance_kind: str
+    unit: str
+    value: float | None
+    reference: float
+    allowed: float
+    status: Status
+
+    @property
+    def key(self) -> Key:
+        """What it is found by within its case."""
+        return key_of(self)
+
+
+class RecordedFinding(Description):
+    """A number that is reported and not judged."""
+
+    name: str
+    run: str
+    unit: str
+    value: float | None
+
+    @property
+    def key(self) -> Key:
+        """What it is found by within its case."""
+        return key_of(self)
+
+
+class RecordedRun(Description):
+    """Deterministic counts of a solve."""
+
+    label: str
+    increments: int
+    iterations: int
+    convolutions: int
+    factorizations: int
+
+
+class RecordedBy(Description):
+    """Who made the numbers, from what, and why they were accepted."""
+
+    reason: str
+    command: str
+    date: str
+    commit: str | None
+    changed: bool
+    program_version: str
+    processor: str | None
+    python: str | None
+    libraries: dict[str, str | None]
+
+
+class Recording(Description):
+    """A case as it came out at one level."""
+
+    by: RecordedBy
+    status: Status
+    quantities: tuple[RecordedQuantity, ...]
+    findings: tuple[RecordedFinding, ...]
+    runs: tuple[RecordedRun, ...]
+
+
+class Baseline(Description):
+    """The content of a file: a case at each level at which it was recorded."""
+
+    schema_version: int = BASELINE_VERSION
+    case: str
+    levels: dict[str, Recording]
+
+
+def key_of(number: Verdict | FindingRecord | RecordedQuantity | RecordedFinding) -> Key:
+    """What a number is found by within its case."""
+    run = "" if number.name in FOUND_IN_A_RUN else number.run
+    if isinstance(number, Verdict | RecordedQuantity):
+        return ("quantity", number.name, run, number.tolerance_kind)
+    return ("finding", number.name, run)
+
+
+def recording(case: CaseOutcome, provenance: Provenance, reason: str) -> Recording:
+    """What came out of a case, as it is recorded."""
+    return Recording(
+        by=recorded_by(provenance, reason),
+        status=case.status,
+        quantities=tuple(_quantity(verdict) for verdict in case.verdicts),
+        findings=tuple(
+            RecordedFinding(name=f.name, run=f.run, unit=f.unit, value=f.value)
+            for f in case.findings
+        ),
+        runs=tuple(_run(run) for run in case.runs),
+    )
+
+
+def recorded_by(provenance: Provenance, reason: str) -> RecordedBy:
+    """The part of a report's provenance that explains its numbers."""
+    processor, python = (provenance.machine.get(fact) for fact in ("processor", "python"))
+    return RecordedBy(
+        reason=reason,
+        command=provenance.command,
+        date=provenance.date,
+        commit=provenance.commit,
+        changed=provenance.changed,
+        program_version=provenance.program_version,
+        processor=None if processor is None else str(processor),
+        python=None if python is None else str(python),
+        libraries=provenance.libraries,
+    )
+
+
+def _quantity(verdict: Verdict) -> RecordedQuantity:
+    return RecordedQuantity(
+        name=verdict.name,
+        run=verdict.run,
+        tolerance_kind=verdict.tolerance_kind,
+        unit=verdict.unit,
+        value=verdict.value,
+        reference=verdict.reference,
+        allowed=verdict.allowed * verdict.scale,
+        status=verdict.status,
+    )
+
+
+def _run(run: RunRecord) -> RecordedRun:
+    return RecordedRun(label=run.label, **{name: getattr(run, name) for name in COUNTERS})

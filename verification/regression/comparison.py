@@ -1,0 +1,120 @@
+"""Every number of a report against the recorded one."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from typing import TYPE_CHECKING
+
+from verification.cases.change import Change, Gone, Origin
+from verification.regression.baseline import (
+    Baseline,
+    Key,
+    RecordedBy,
+    RecordedFinding,
+    RecordedQuantity,
+    Recording,
+    key_of,
+    recorded_by,
+)
+from verification.regression.counters import counter_changes
+from verification.regression.number_change import finding_change, quantity_change
+
+if TYPE_CHECKING:
+    from verification.cases.outcome import CaseOutcome
+    from verification.report.record import Report
+
+
+def compared(report: Report, baselines: Mapping[str, Baseline]) -> Report:
+    """The report with its verdicts on regression; an earlier comparison in it is replaced.
+
+    A case without a baseline of the report's level has none: `CaseOutcome.baseline` is None.
+    """
+    made_by = recorded_by(report.provenance, reason="")
+    cases = tuple(
+        _compared(case, _recording(baselines.get(case.name), report.level), made_by)
+        for case in report.cases
+    )
+    return report.model_copy(update={"cases": cases})
+
+
+def _recording(baseline: Baseline | None, level: str) -> Recording | None:
+    return None if baseline is None else baseline.levels.get(level)
+
+
+def _compared(case: CaseOutcome, recorded: Recording | None, made_by: RecordedBy) -> CaseOutcome:
+    if recorded is None:
+        return _without_comparison(case)
+    origin = Origin(
+        commit=recorded.by.commit,
+        changed=recorded.by.changed,
+        date=recorded.by.date,
+        reason=recorded.by.reason,
+        differs=tuple(_differences(recorded.by, made_by)),
+    )
+    quantities = {quantity.key: quantity for quantity in recorded.quantities}
+    findings = {finding.key: finding for finding in recorded.findings}
+    runs = {run.label: run for run in recorded.runs}
+    verdicts = tuple(
+        verdict.model_copy(
+            update={"regression": quantity_change(verdict, quantities.get(key_of(verdict)), origin)}
+        )
+        for verdict in case.verdicts
+    )
+    measured = tuple(
+        finding.model_copy(
+            update={"regression": finding_change(finding, findings.get(key_of(finding)), origin)}
+        )
+        for finding in case.findings
+    )
+    counted = tuple(
+        run.model_copy(update={"changes": counter_changes(run, runs.get(run.label), origin)})
+        for run in case.runs
+    )
+    return case.model_copy(
+        update={
+            "baseline": origin,
+            "verdicts": verdicts,
+            "findings": measured,
+            "runs": counted,
+            "gone": tuple(_gone(case, recorded)),
+        }
+    )
+
+
+def _without_comparison(case: CaseOutcome) -> CaseOutcome:
+    nothing: Change | None = None
+    return case.model_copy(
+        update={
+            "baseline": None,
+            "verdicts": tuple(v.model_copy(update={"regression": nothing}) for v in case.verdicts),
+            "findings": tuple(f.model_copy(update={"regression": nothing}) for f in case.findings),
+            "runs": tuple(run.model_copy(update={"changes": ()}) for run in case.runs),
+            "gone": (),
+        }
+    )
+
+
+def _gone(case: CaseOutcome, recorded: Recording) -> Iterator[Gone]:
+    present: set[Key] = {key_of(verdict) for verdict in case.verdicts}
+    present |= {key_of(finding) for finding in case.findings}
+    numbers: tuple[RecordedQuantity | RecordedFinding, ...] = (
+        *recorded.quantities,
+        *recorded.findings,
+    )
+    for number in numbers:
+        if number.key not in present:
+            yield Gone(name=number.name, run=number.run, unit=number.unit, was=number.value)
+    labels = {run.label for run in case.runs}
+    for run in recorded.runs:
+        if run.label not in labels:
+            yield Gone(name="run", run=run.label, unit="", was=None)
+
+
+def _differences(then: RecordedBy, now: RecordedBy) -> Iterator[str]:
+    """What explains other last digits: processor, Python and libraries."""
+    facts = [("processor", then.processor, now.processor), ("Python", then.python, now.python)]
+    for name in sorted(then.libraries.keys() | now.libraries.keys()):
+        facts.append((name, then.libraries.get(name), now.libraries.get(name)))
+    for name, was, here in facts:
+        if was != here:
+            yield f"{name}: {here or 'none'}, was {was or 'none'}"

@@ -1,0 +1,147 @@
+"""Three questions that a reader comes with, answered from the records of this report."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+from verification.cases.case import ReferenceKind
+from verification.cases.chart import Chart
+from verification.cases.outcome import CaseOutcome, Verdict
+from verification.cases.table import Table
+from verification.report.both_solvers import (
+    CELLS,
+    ELEMENTS,
+    SharedReference,
+    both_solvers_chart,
+    shared_references,
+)
+from verification.report.numbers import clearance_text, plain
+from verification.report.record import Report
+from verification.report.sections import StudySection, study_of, study_section
+from verification.studies.running.record import StudyRecord
+
+Direct = tuple[CaseOutcome, Verdict]
+
+
+@dataclass(frozen=True)
+class Answer:
+    """A question, what the records say, and where more of it stands.
+
+    sentences  made from the records; empty without an answer
+    findings   what a study found to it, claim by claim
+    table      numbers to it
+    links      anchor and text
+    missing    the study that would answer it, or answer it better, with its command
+    """
+
+    question: str
+    sentences: tuple[str, ...]
+    chart: Chart | None
+    links: tuple[tuple[str, str], ...]
+    missing: StudySection | None = None
+    findings: tuple[str, ...] = ()
+    table: Table | None = None
+
+
+def answers(report: Report) -> tuple[Answer, ...]:
+    """Gross sliding, cost, and both solvers, in this order."""
+    return _gross_sliding(report), _cost(report), _disagreement(report)
+
+
+def _gross_sliding(report: Report) -> Answer:
+    return _from_study(
+        report, "Is 0.76 µW gross sliding?", "gross-sliding", ("force_against_shift",)
+    )
+
+
+def _cost(report: Report) -> Answer:
+    name = "work-precision"
+    answer = _from_study(report, "What does an error of 0.1 % cost with each method?", name, ())
+    record = study_of(report, name)
+    tables = () if record is None else record.conclusion.tables
+    return replace(answer, table=next(iter(tables), None))
+
+
+def _disagreement(report: Report) -> Answer:
+    """From the references that both solvers were judged by, and from the study of both."""
+    shared = shared_references(report)
+    study = study_section(report, "cross-check")
+    sentences = [*_nearer(shared), *_direct(report)]
+    links = [("cases", "the cases")] if sentences else []
+    findings = _statements(study.record, ("both solvers agree", "which side is nearer"))
+    if study.record is not None:
+        links.append((f"study-{study.name}", study.title))
+    chart = both_solvers_chart(shared) if shared else _chart(study.record, ())
+    missing = study if study.record is None else None
+    return Answer(
+        "Where do finite elements and the semi-analytical method disagree, and which is nearer to "
+        "the reference?",
+        tuple(sentences), chart, tuple(links), missing, tuple(findings),
+    )  # fmt: skip
+
+
+def _from_study(report: Report, question: str, name: str, charts: tuple[str, ...]) -> Answer:
+    section = study_section(report, name)
+    if section.record is None:
+        return Answer(question, (), None, (), section)
+    conclusion = section.record.conclusion
+    said = [conclusion.answer] if conclusion.answer else _statements(section.record, ("",))[:2]
+    links = ((f"study-{name}", section.title),)
+    return Answer(question, tuple(said), _chart(section.record, charts), links)
+
+
+def _chart(record: StudyRecord | None, wanted: tuple[str, ...]) -> Chart | None:
+    """The first of the charts that are wanted, or the first that there is."""
+    if record is None:
+        return None
+    by_name = {chart.name: chart for chart in record.conclusion.charts}
+    named = [by_name[name] for name in wanted if name in by_name]
+    return next(iter([*named, *by_name.values()]), None)
+
+
+def _statements(record: StudyRecord | None, beginnings: tuple[str, ...]) -> list[str]:
+    """Claims of a study that begin so, with what was measured."""
+    if record is None:
+        return []
+    return [
+        f"{s.claim}: {s.measured}."
+        for s in record.conclusion.statements
+        if s.claim.startswith(beginnings)
+    ]
+
+
+def _nearer(shared: tuple[SharedReference, ...]) -> list[str]:
+    if not shared:
+        return []
+    cells = sum(pair.nearer == CELLS for pair in shared)
+    worst = max(shared, key=lambda pair: pair.difference)
+    return [
+        f"Of {len(shared)} values that both solvers were judged by, {CELLS} are nearer to the "
+        f"reference in {cells} and {ELEMENTS} in {len(shared) - cells}, at the finenesses of this "
+        "report.",
+        f"They are furthest apart in {worst.name}: {_percent(worst.difference)} of the reference "
+        f"({plain(worst.cells.error, 2)} and {plain(worst.elements.error, 2)} from it; "
+        f"{worst.nearer} nearer).",
+    ]
+
+
+def _direct(report: Report) -> list[str]:
+    """The comparison of both results that uses most of what is allowed."""
+    found: list[Direct] = [
+        (case, verdict)
+        for case in report.cases
+        for verdict in case.verdicts
+        if verdict.reference_kind == ReferenceKind.OTHER_SOLVER and verdict.clearance is not None
+    ]
+    if not found:
+        return []
+    case, worst = max(found, key=lambda item: item[1].clearance or 0.0)
+    return [
+        f"Compared with each other in {len(found)} numbers, they come closest to what is allowed "
+        f"in the {worst.meaning}: {plain(worst.error, 2)}, allowed {plain(worst.allowed, 2)} "
+        f"({clearance_text(worst)} of it; case {case.name})."
+    ]
+
+
+def _percent(value: float) -> str:
+    return f"{plain(100 * value, 2)} %"

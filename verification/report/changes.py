@@ -1,0 +1,120 @@
+"""What is new since the baseline, as rows for every form of the report."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from verification.cases.change import Change, ChangeKind, Origin
+from verification.cases.outcome import CaseOutcome, FindingRecord, RunRecord, Verdict
+from verification.report.numbers import moved_text, value_text
+from verification.report.record import Report
+
+DIGITS = 9  # enough to see what changed
+# The worst first.
+RANK = {
+    kind: rank
+    for rank, kind in enumerate(
+        (ChangeKind.OUTSIDE, ChangeKind.GONE, ChangeKind.DRIFT, ChangeKind.BETTER, ChangeKind.NEW)
+    )
+}
+
+
+@dataclass(frozen=True)
+class ChangeRow:
+    """Something that differs from what is recorded, in words."""
+
+    case: str
+    name: str
+    run: str
+    kind: ChangeKind
+    was: str
+    now: str
+    moved: str
+    since: str
+    remark: str
+
+    @property
+    def line(self) -> str:
+        """The row as a sentence of a log."""
+        moved = "" if self.moved == "–" else f" ({self.moved})"
+        remark = f"; {self.remark}" if self.remark else ""
+        return (
+            f"{self.kind} {self.case}/{self.name} [{self.run}]: {self.now}, was {self.was} "
+            f"at {self.since}{moved}{remark}"
+        )
+
+
+def change_rows(report: Report) -> list[ChangeRow]:
+    """Every change that the baseline does not describe, the worst first."""
+    rows = [row for case in report.cases for row in case_rows(case) if row.kind.matters]
+    return sorted(rows, key=lambda row: RANK[row.kind])
+
+
+def case_rows(case: CaseOutcome) -> Iterator[ChangeRow]:
+    """Every number of a case that has a recorded one, or none any more."""
+    if case.baseline is None:
+        return
+    numbers: tuple[Verdict | FindingRecord, ...] = (*case.verdicts, *case.findings)
+    for number in numbers:
+        change = number.regression
+        if change is not None:
+            now = value_text(number.value, number.unit, DIGITS)
+            yield _row(case.name, number.name, number.run, now, number.unit, change, case.baseline)
+    for run in case.runs:
+        yield from _counter_rows(case, run, case.baseline)
+    for gone in case.gone:
+        yield ChangeRow(
+            case.name, gone.name, gone.run, ChangeKind.GONE,
+            "–" if gone.was is None else value_text(gone.was, gone.unit, DIGITS), "–", "–",
+            case.baseline.name, "",
+        )  # fmt: skip
+
+
+def change_counts(report: Report) -> dict[ChangeKind, int]:
+    """How many recorded or measured numbers changed how; unchanged counts are not listed."""
+    found = Counter(row.kind for case in report.cases for row in case_rows(case))
+    return {kind: found[kind] for kind in ChangeKind if found[kind]}
+
+
+def without_baseline(report: Report) -> list[str]:
+    """Names of the cases that nothing is recorded of at this level."""
+    return [case.name for case in report.cases if case.baseline is None]
+
+
+def origins(report: Report) -> list[tuple[Origin, list[str]]]:
+    """Where recorded numbers are from, with the names of their cases; the commonest first."""
+    found: dict[Origin, list[str]] = {}
+    for case in report.cases:
+        if case.baseline is not None:
+            found.setdefault(case.baseline, []).append(case.name)
+    return sorted(found.items(), key=lambda item: -len(item[1]))
+
+
+def changes_text(report: Report) -> str:
+    """One line: how the report compares with what is recorded."""
+    absent = without_baseline(report)
+    if len(absent) == len(report.cases):
+        return f"no baseline yet of level {report.level}"
+    counts = change_counts(report)
+    text = ", ".join(f"{number} {kind}" for kind, number in counts.items())
+    return f"{text}; no baseline yet of {', '.join(absent)}" if absent else text
+
+
+def _row(
+    case: str, name: str, run: str, now: str, unit: str, change: Change, origin: Origin
+) -> ChangeRow:
+    was = value_text(change.was, unit, DIGITS) if change.recorded else "–"
+    return ChangeRow(
+        case, name, run, change.kind, was, now, moved_text(change), origin.name, change.remark
+    )
+
+
+def _counter_rows(case: CaseOutcome, run: RunRecord, origin: Origin) -> Iterator[ChangeRow]:
+    for change in run.changes:
+        now = str(getattr(run, change.name))
+        yield ChangeRow(
+            case.name, change.name, run.label, change.kind, str(change.was), now, "–",
+            origin.name, change.remark,
+        )  # fmt: skip

@@ -1,0 +1,72 @@
+"""Sections that a study makes: its record, or the command that makes one."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from pathlib import Path
+
+from verification.report.record import Report
+from verification.studies.running.record import StudyRecord
+
+# By the name of its study. A study gets its place on the page in `templates/page.html`.
+TITLES = {
+    "cross-check": "Both solvers on the same contacts",
+    "coated-tractions": "Coated contacts: the paper's figures 3 and 4",
+    "gross-sliding": "Gross sliding of a coated contact",
+    "work-precision": "What accuracy costs",
+    "error-budget": "Where the error of the headline cases comes from",
+    "penalty": "What a penalty costs",
+    "stability": "The stability map",
+    "seeded-defects": "Seeded defects",
+}
+LEVELS = ("quick", "standard", "full")
+PLACES = (Path("reports/studies"), Path("out"))  # where records are looked for
+
+
+@dataclass(frozen=True)
+class StudySection:
+    """A place of the page.
+
+    record   what a study found; None if no record of it was at hand
+    command  makes the record
+    """
+
+    name: str
+    title: str
+    record: StudyRecord | None
+    command: str
+
+
+def study_section(report: Report, name: str) -> StudySection:
+    """The section of a study of this name; KeyError if the page has no place for it."""
+    command = f"slipstick study {name} --level {report.level}"
+    return StudySection(name, TITLES[name], study_of(report, name), command)
+
+
+def study_of(report: Report, name: str) -> StudyRecord | None:
+    """The record of a study; None without one."""
+    return next((record for record in report.studies if record.name == name), None)
+
+
+def stored_records(places: Iterable[Path] = PLACES) -> tuple[StudyRecord, ...]:
+    """Of every study that the page has a place for the record of the highest level, of two such
+    the later; by name.
+
+    raises  ValueError for a record that is broken or of another version, naming its file
+    """
+    from verification.studies.running.files import stored_studies  # it draws
+
+    best: dict[str, StudyRecord] = {}
+    for place in places:
+        for record in stored_studies(place):
+            if record.name in TITLES and _rank(record) >= _rank(best.get(record.name)):
+                best[record.name] = record
+    return tuple(best[name] for name in sorted(best))
+
+
+def _rank(record: StudyRecord | None) -> tuple[int, str]:
+    if record is None:
+        return -1, ""
+    level = LEVELS.index(record.level) if record.level in LEVELS else -1
+    return level, record.provenance.date

@@ -1,0 +1,1 @@
+"""What a penalty costs in accuracy and in work, by finite elements."""

@@ -1,0 +1,145 @@
+"""One solve with a penalty, and its errors against a reference."""
+
+from __future__ import annotations
+
+import time
+from dataclasses import dataclass, replace
+from typing import ClassVar
+
+import numpy as np
+
+from contact_scene.description import Description
+from fem_reference import Method, Result
+from verification.cases.case import SOLVER_TOLERANCE
+from verification.cases.end_state import approach, peak_pressure
+from verification.cases.fem_hertz import SCENE, meshed, pressure_error
+from verification.cases.fem_indentation import Pressed
+from verification.cases.fem_penalty_indentation import by_springs
+from verification.cases.indentation_reference import COATED, FEW, STRONG, WEAK
+from verification.cases.paper_scene import HERTZ
+from verification.cases.section_run import SectionRun, per_radius
+
+HERTZIAN = "hertz"
+FRICTIONAL = {"weak": WEAK, "strong": STRONG, "coated": COATED}
+CONTACTS = (HERTZIAN, *FRICTIONAL)
+
+
+class PenaltyRecord(Description):
+    """What came out. Errors are relative; those of tractions in units of p_H and µp_H."""
+
+    approach: float
+    pressure: float
+    peak: float | None = None
+    """Of the peak pressure, signed; without friction only."""
+
+    ripple: float | None = None
+    """L2 norm of the error of the pressure over that of the pressure, edge included; without
+    friction only."""
+
+    shear: float | None = None
+    overlap: float
+    """Largest, over the approach."""
+
+    largest_residual: float
+    increments: int
+    halvings: int
+    by_springs: int
+    systems: int
+    """Linear systems of all increments."""
+
+    seconds: float
+    """CPU time."""
+
+
+@dataclass(frozen=True)
+class PenaltyCase:
+    """A contact on a mesh with a penalty.
+
+    contact        one of CONTACTS
+    elements       per contact radius
+    factor         c
+    augmentations  Uzawa updates in each increment
+    increments     of the normal loading; without friction it takes one
+    box            size of the section in contact radii; None: chosen
+    """
+
+    record_type: ClassVar[type[Description]] = PenaltyRecord
+    contact: str
+    elements: int
+    factor: float = 10.0
+    augmentations: int = 1
+    increments: int = FEW
+    box: float | None = None
+
+    @property
+    def name(self) -> str:
+        """For files."""
+        parts = [self.contact, f"N{self.elements}", f"c{self.factor:g}", f"a{self.augmentations}"]
+        if self.contact != HERTZIAN:
+            parts.append(f"k{self.increments}")
+        if self.box is not None:
+            parts.append(f"L{self.box:g}")
+        return "-".join(parts).replace(".", "p")
+
+    @property
+    def springs_per_radius(self) -> float:
+        """k = ε a/E*, of Hertz's contact [1]."""
+        return self.factor * self.elements * HERTZ.contact_radius / meshed(self.elements)
+
+    @property
+    def _pressed(self) -> Pressed:
+        return Pressed(FRICTIONAL[self.contact], self.elements, self.increments)
+
+    @property
+    def _run(self) -> SectionRun:
+        if self.contact == HERTZIAN:
+            run = SectionRun(self.name, SCENE, per_radius(self.elements, meshed(self.elements)))
+        else:
+            run = self._pressed.run
+        penalty = {"penalty": self.factor, "augmentations": self.augmentations, "box": self.box}
+        discretisation = run.discretisation.model_copy(update=penalty)
+        return replace(run, discretisation=discretisation, method=Method.PENALTY)
+
+    def compute(self) -> PenaltyRecord:
+        """Solve and compare; raises what `fem_reference.solve` raises."""
+        started = time.process_time()
+        result = self._run.solve()
+        seconds = time.process_time() - started
+        end = result.steps[-1]
+        errors = self._of_hertz(result) if self.contact == HERTZIAN else self._of_friction(result)
+        return PenaltyRecord(
+            **errors,
+            overlap=(end.overlap or 0.0) / end.approach,
+            largest_residual=max(i.residuals.worst for i in result.increments),
+            increments=len(result.increments),
+            halvings=sum(i.halvings for i in result.increments),
+            by_springs=round(by_springs(result)),
+            systems=sum(i.iterations for i in result.increments),
+            seconds=seconds,
+        )
+
+    def _of_hertz(self, result: Result) -> dict[str, float]:
+        end = result.steps[-1]
+        r = end.radii
+        exact = HERTZ.pressure(r)
+        missed = np.trapezoid((end.pressure - exact) ** 2 * r, r)
+        norm = np.trapezoid(exact**2 * r, r)
+        return {
+            "approach": approach(result) / HERTZ.approach - 1,
+            "peak": peak_pressure(result) / HERTZ.peak_pressure - 1,
+            "pressure": pressure_error(result),
+            "ripple": float(np.sqrt(missed / norm)),
+        }
+
+    def _of_friction(self, result: Result) -> dict[str, float]:
+        pressed = self._pressed
+        return {
+            "approach": approach(result) / pressed.of.approach - 1,
+            "pressure": pressed.pressure_error(result),
+            "shear": pressed.shear_error(result),
+        }
+
+
+def converged(record: PenaltyRecord) -> bool:
+    """Whether every increment met the tolerance."""
+    return record.largest_residual <= SOLVER_TOLERANCE

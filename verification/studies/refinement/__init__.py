@@ -1,0 +1,1 @@
+"""Refinement of any scene: orders of convergence, limits and what the levels leave open."""

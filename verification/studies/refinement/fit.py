@@ -1,0 +1,177 @@
+"""Order, limit and verdict of one quantity over the levels of a study."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+from math import hypot
+
+from verification.cases.outcome import Status
+from verification.cases.verdicts import order_status
+from verification.convergence import (
+    ObservedOrder,
+    RefinedValue,
+    Triplets,
+    observed_order,
+    refined_value,
+    triplets_agree,
+    triplets_of_changes,
+)
+from verification.studies.refinement.expected import SHEAR, Expected
+from verification.studies.refinement.level_record import LevelRecord, shear_change
+
+FEWEST_LEVELS = 4  # for values
+FEWEST_JUDGED = 5  # for orders: through four levels a curve of three parameters fits by chance
+ASSUMED = 1.0  # order on which a limit rests where none is expected
+# Changes of fewer tolerances than this are the solver's, not the refinement's.
+ABOVE_TOLERANCE = 100.0
+VANISHES = 1e-6
+
+
+@dataclass(frozen=True)
+class Fit:
+    """What the levels say about one quantity; coarse to fine.
+
+    sizes        h of the levels that have an error
+    errors       relative to the scale: distance from the limit, or change to the next level
+    finest       value on the finest level; None for a field
+    limit        Richardson's value, uncertainty its standard uncertainty; None for a field
+    remaining    error that is left on the finest level, relative to the scale
+    observed     order of convergence; None where no order explains the values
+    triplets     orders by two triplets of levels, the finer first
+    levels       number of levels
+    """
+
+    name: str
+    expected: Expected | None
+    sizes: tuple[float, ...]
+    errors: tuple[float, ...]
+    finest: float | None
+    limit: float | None
+    uncertainty: float | None
+    remaining: float
+    observed: ObservedOrder | None
+    triplets: Triplets
+    levels: int
+
+    @property
+    def status(self) -> Status | None:
+        """Inconclusive where levels are few, the interval is wide or not asymptotic: triplets
+        differ, or another order is on its way to the expected one. None where no order is
+        expected."""
+        if self.expected is None:
+            return None
+        agrees = None if self.observed is None else self.observed.agrees_with(self.expected.order)
+        settled = triplets_agree(self.triplets) and self.levels >= FEWEST_JUDGED
+        settled = settled and not (agrees is False and self._approaches)
+        return order_status(agrees if settled else None)
+
+    @property
+    def _approaches(self) -> bool:
+        """Whether the finer triplet comes nearer to the expected order than the coarser."""
+        last, before = self.triplets
+        if self.expected is None or last is None or before is None:
+            return False
+        return abs(last - self.expected.order) < abs(before - self.expected.order)
+
+
+def fits(
+    records: Sequence[LevelRecord], expected: Mapping[str, Expected], tolerance: float
+) -> tuple[Fit, ...]:
+    """Fits of all quantities that change under refinement.
+
+    records    at least four levels, coarse to fine
+    tolerance  of the solver, relative: smaller changes are not looked at
+    """
+    found = []
+    for name in records[-1].values:
+        if all(name in record.values for record in records):
+            values = [record.values[name] for record in records]
+            scale = _scale(name, records[-1])
+            if scale > _round_off(name, records[-1]) and _changes(values, scale, tolerance):
+                found.append(_scalar(name, records, values, scale, expected.get(name)))
+    shear = _shear(records, expected.get(SHEAR), tolerance)
+    return tuple(found) if shear is None else (*found, shear)
+
+
+def _scale(name: str, record: LevelRecord) -> float:
+    """What errors are relative to: the value, or the length of the vector it belongs to."""
+    stem, _, axis = name.rpartition("_")
+    if axis in ("x", "y"):
+        return hypot(record.values[f"{stem}_x"], record.values[f"{stem}_y"])
+    return abs(record.values[name])
+
+
+def _round_off(name: str, record: LevelRecord) -> float:
+    """Below this a motion or a load vanishes by symmetry: a small part of the approach or of the
+    normal force, times the contact radius for rotations and moments."""
+    values = record.values
+    approach, force = values["approach"], values["normal_force"]
+    radius = values["contact_radius"]
+    natural = {
+        "tangential_shift": approach,
+        "tangential_force": force,
+        "tilt": approach / radius,
+        "twist": approach / radius,
+        "moment": force * radius,
+        "torque": force * radius,
+    }
+    stem = name.removesuffix("_x").removesuffix("_y")
+    return VANISHES * natural.get(stem, 0.0)
+
+
+def _changes(values: Sequence[float], scale: float, tolerance: float) -> bool:
+    return max(values) - min(values) > ABOVE_TOLERANCE * tolerance * scale
+
+
+def _scalar(
+    name: str,
+    records: Sequence[LevelRecord],
+    values: Sequence[float],
+    scale: float,
+    expected: Expected | None,
+) -> Fit:
+    sizes = [record.size for record in records]
+    order = ASSUMED if expected is None else expected.order
+    fit: RefinedValue = refined_value(sizes, values, order)
+    errors = tuple(abs(value - fit.limit) / scale for value in values)
+    return Fit(
+        name,
+        expected,
+        tuple(sizes),
+        errors,
+        values[-1],
+        fit.limit,
+        fit.uncertainty,
+        errors[-1],
+        fit.observed,
+        fit.triplets,
+        len(records),
+    )
+
+
+def _shear(
+    records: Sequence[LevelRecord], expected: Expected | None, tolerance: float
+) -> Fit | None:
+    """The field: its changes from level to level fall with the order of its error."""
+    pairs = list(pairwise(records))
+    changes = [change for pair in pairs if (change := shear_change(*pair)) is not None]
+    if len(changes) < len(pairs) or max(changes) <= ABOVE_TOLERANCE * tolerance or 0 in changes:
+        return None
+    sizes = [coarse.size for coarse, _ in pairs]
+    order = ASSUMED if expected is None else expected.order
+    ratio = records[-2].size / records[-1].size
+    return Fit(
+        SHEAR,
+        expected,
+        tuple(sizes),
+        tuple(changes),
+        None,
+        None,
+        None,
+        changes[-1] / (ratio**order - 1),
+        observed_order(sizes, changes),
+        triplets_of_changes(sizes, changes),
+        len(records),
+    )

@@ -1,0 +1,81 @@
+"""Worker processes of this machine.
+
+Each of the pool's threads has one worker process of its own. A worker that dies therefore takes
+exactly one case with it, which is known by name; the thread gets a new worker and goes on.
+"""
+
+from __future__ import annotations
+
+import multiprocessing
+import os
+import signal
+import threading
+from collections.abc import Callable
+from concurrent.futures import Future, ProcessPoolExecutor, ThreadPoolExecutor
+from concurrent.futures.process import BrokenProcessPool
+from contextlib import suppress
+from typing import TypeVar
+
+# A fresh interpreter: no lock or thread of the parent's libraries is copied half-way.
+START = "spawn"
+# One thread each: the same bits however many workers there are, and they share the cores.
+THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
+
+T = TypeVar("T")
+
+
+class LocalWorkers:
+    """So many processes at a time."""
+
+    elsewhere = False
+
+    def __init__(self, processes: int) -> None:
+        for name in THREADS:  # read by a worker's libraries when they are loaded
+            os.environ.setdefault(name, "1")
+        self._threads = ThreadPoolExecutor(max_workers=processes)
+        self._own = threading.local()
+        self._all: list[ProcessPoolExecutor] = []
+
+    def submit(self, compute: Callable[..., T], *arguments: object) -> Future[T]:
+        """Call the function in a worker; BrokenProcessPool if that dies meanwhile."""
+        return self._threads.submit(self._call, compute, *arguments)
+
+    def close(self) -> None:
+        """Give up what has not been begun, and let the workers go."""
+        self._threads.shutdown(cancel_futures=True)
+        for worker in self._all:
+            worker.shutdown()
+
+    def _call(self, compute: Callable[..., T], *arguments: object) -> T:
+        try:
+            return self._worker().submit(compute, *arguments).result()
+        except BrokenProcessPool:
+            del self._own.worker
+            raise
+
+    def _worker(self) -> ProcessPoolExecutor:
+        if not hasattr(self._own, "worker"):
+            context = multiprocessing.get_context(START)
+            self._own.worker = ProcessPoolExecutor(1, context, initializer=_obey_parent)
+            self._all.append(self._own.worker)
+        worker: ProcessPoolExecutor = self._own.worker
+        return worker
+
+
+def cores() -> int:
+    """Processors that this process may use."""
+    return len(os.sched_getaffinity(0))
+
+
+def _obey_parent() -> None:
+    """End with the parent, however it ends; its terminal's interrupts are for it alone."""
+    with suppress(ValueError):
+        signal.signal(signal.SIGINT, signal.SIG_IGN)
+    parent = multiprocessing.parent_process()
+    assert parent is not None
+
+    def wait_for_its_end() -> None:
+        parent.join()
+        os._exit(1)
+
+    threading.Thread(target=wait_for_its_end, daemon=True).start()

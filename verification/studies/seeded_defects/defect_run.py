@@ -1,0 +1,126 @@
+"""One case of the catalogue under one defect, judged as `slipstick verify` judges it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import TYPE_CHECKING, ClassVar
+
+from contact_scene.description import Description
+from verification.cases.case import Level
+from verification.cases.catalogue import catalogue
+from verification.cases.judged_case import CaseToJudge, JudgedCase, lost
+from verification.cases.outcome import CaseOutcome, Status, Verdict
+from verification.seeded_defects.defect import planted
+from verification.seeded_defects.registry import DEFECTS
+from verification.studies.running.case_store import CaseStore
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+HEALTHY = ""
+GATE = 1e-2
+RESIDUALS = "largest_residual"
+
+
+class Caught(Description):
+    """A verdict that failed."""
+
+    quantity: str
+    run: str
+    how: str
+    """What it was judged by."""
+
+    clearance: float | None
+    """Error over what is allowed; null where there is no number."""
+
+    reason: str = ""
+    """Why a case or a run has no result."""
+
+
+class DefectRecord(Description):
+    """What the verification says of a case under a defect."""
+
+    caught: tuple[Caught, ...]
+    verdicts: int
+    inconclusive: int
+    largest_error: float | None
+    """Of the quantities, relative to their scales: what a fixed gate would look at. Null where
+    one of them has none."""
+
+
+@dataclass(frozen=True)
+class DefectRun:
+    """A case of the quick catalogue under a defect by its name, or healthy."""
+
+    record_type: ClassVar[type[Description]] = DefectRecord
+    defect: str
+    case: str
+
+    @property
+    def name(self) -> str:
+        """For files."""
+        return f"{self.defect or 'healthy'}--{self.case.replace('_', '-')}"
+
+    def compute(self) -> DefectRecord:
+        """Plant the defect, let the case be judged, and take the defect out again."""
+        if self.defect == HEALTHY:
+            outcome = judged(self.case)
+        else:
+            with planted(DEFECTS[self.defect]):
+                outcome = judged(self.case)
+        return DefectRecord(
+            caught=tuple(_caught(outcome)),
+            verdicts=len(outcome.verdicts),
+            inconclusive=outcome.count(Status.INCONCLUSIVE),
+            largest_error=_largest_error(outcome),
+        )
+
+
+def judged(name: str) -> CaseOutcome:
+    """The outcome of a case after its way through a file, or why there is none."""
+    case = CaseToJudge(name, Level.QUICK.name)
+    try:
+        with TemporaryDirectory() as directory:
+            store = CaseStore(Path(directory))
+            store.save(case, case.compute())
+            record = store.load(case)
+    except Exception as error:  # whatever it is, it must be named: so does the pool of `verify`
+        return lost(catalogue(Level.QUICK)[name], f"{type(error).__name__}: {error}")
+    assert isinstance(record, JudgedCase)
+    return record.outcome
+
+
+def _caught(outcome: CaseOutcome) -> Iterator[Caught]:
+    for verdict in outcome.verdicts:
+        if verdict.status is Status.FAIL:
+            solved = verdict.name == "solved"
+            yield Caught(
+                quantity=verdict.name,
+                run=verdict.run,
+                how=_how(verdict),
+                clearance=verdict.clearance,
+                reason=verdict.meaning if solved else "",
+            )
+
+
+def _how(verdict: Verdict) -> str:
+    if verdict.name == "solved":
+        return "named error"
+    if verdict.name == RESIDUALS:
+        return "residual"
+    if verdict.tolerance_kind == "order":
+        return "order"
+    return f"{verdict.reference_kind}, {verdict.tolerance_kind} tolerance"
+
+
+def _largest_error(outcome: CaseOutcome) -> float | None:
+    errors = [
+        verdict.error
+        for verdict in outcome.verdicts
+        if verdict.tolerance_kind != "order" and verdict.name != RESIDUALS
+    ]
+    if not errors or any(error is None for error in errors):
+        return None
+    return max(error for error in errors if error is not None)

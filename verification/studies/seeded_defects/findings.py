@@ -1,0 +1,146 @@
+"""What the records say, put together by defect and by family."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from verification.cases.case import Level
+from verification.cases.catalogue import CASES
+from verification.seeded_defects.defect import Defect
+from verification.seeded_defects.healthy_contacts import FAMILIES, NOT_ASYMPTOTIC
+from verification.seeded_defects.registry import DEFECTS
+from verification.studies.running.study import Records, Settings
+from verification.studies.seeded_defects.defect_run import (
+    GATE,
+    HEALTHY,
+    Caught,
+    DefectRecord,
+    DefectRun,
+)
+from verification.studies.seeded_defects.healthy_run import HealthyRecord, HealthyRun, Sample
+
+DRAWS = {
+    "hertz": 60,
+    "cone": 40,
+    "partial_slip": 40,
+    "coated": 30,
+    "flat_punch": 20,
+    "fem_hertz": 20,
+    "coated_thinly": 20,
+}
+
+
+def seen_by(settings: Settings, defect: Defect) -> tuple[str, ...]:
+    """The cases under a defect: those that ought to see it, or the whole quick catalogue."""
+    if settings.level is Level.QUICK:
+        return defect.cases
+    return tuple(build.__name__ for build in CASES)
+
+
+def defect_runs(settings: Settings) -> tuple[DefectRun, ...]:
+    """All defects, and the same cases without any."""
+    runs = [
+        DefectRun(defect.name, case)
+        for defect in DEFECTS.values()
+        for case in seen_by(settings, defect)
+    ]
+    cases = dict.fromkeys(run.case for run in runs)
+    return (*runs, *(DefectRun(HEALTHY, case) for case in cases))
+
+
+def healthy_runs() -> tuple[HealthyRun, ...]:
+    """All draws of all families."""
+    return tuple(HealthyRun(family, draw) for family in FAMILIES for draw in range(DRAWS[family]))
+
+
+@dataclass(frozen=True)
+class Sighting:
+    """A verdict that fails under a defect and not without it."""
+
+    case: str
+    verdict: Caught
+
+
+@dataclass(frozen=True)
+class Seen:
+    """What the verification says of a defect.
+
+    complete  whether all its cases have a record, and the healthy ones beside them
+    """
+
+    defect: Defect
+    cases: tuple[str, ...]
+    complete: bool
+    sightings: tuple[Sighting, ...]
+
+    @property
+    def best(self) -> Sighting | None:
+        """The verdict that misses by most; a number before an error without one."""
+        return max(self.sightings, key=lambda s: s.verdict.clearance or -1.0, default=None)
+
+    @property
+    def by(self) -> tuple[str, ...]:
+        """The cases that saw it."""
+        return tuple(dict.fromkeys(sighting.case for sighting in self.sightings))
+
+
+def seen(settings: Settings, records: Records, defect: Defect) -> Seen:
+    """What the cases say of a defect. Without the healthy record a failure counts for nothing."""
+    cases = seen_by(settings, defect)
+    sightings, complete = [], True
+    for case in cases:
+        sick, well = found(records, defect.name, case), found(records, HEALTHY, case)
+        if sick is None or well is None:
+            complete = False
+            continue
+        before = {(verdict.quantity, verdict.run) for verdict in well.caught}
+        sightings += [
+            Sighting(case, verdict)
+            for verdict in sick.caught
+            if (verdict.quantity, verdict.run) not in before
+        ]
+    return Seen(defect, cases, complete, tuple(sightings))
+
+
+def found(records: Records, defect: str, case: str) -> DefectRecord | None:
+    """The record of a case under a defect."""
+    record = records.get(DefectRun(defect, case).name)
+    return record if isinstance(record, DefectRecord) else None
+
+
+def healthy(records: Records) -> Mapping[str, list[HealthyRecord]]:
+    """Records of the healthy contacts, by family."""
+    families: dict[str, list[HealthyRecord]] = {family: [] for family in FAMILIES}
+    for run in healthy_runs():
+        record = records.get(run.name)
+        if isinstance(record, HealthyRecord):
+            families[run.family].append(record)
+    return families
+
+
+def judged_contacts(records: Records) -> list[HealthyRecord]:
+    """Records of the families whose grids are fine enough for an error bar."""
+    return [
+        record
+        for family, there in healthy(records).items()
+        if family not in NOT_ASYMPTOTIC
+        for record in there
+    ]
+
+
+def derived(records: list[HealthyRecord]) -> list[Sample]:
+    """The samples that have an error bar."""
+    return [s for record in records for s in record.samples if s.uncertainty is not None]
+
+
+def covered(sample: Sample) -> bool:
+    """Whether the error bar contains the true value."""
+    if sample.error is None or sample.uncertainty is None:
+        return False
+    return sample.error <= sample.uncertainty
+
+
+def passes_gate(record: DefectRecord) -> bool:
+    """Whether a fixed gate of 1 % lets all quantities of the case pass."""
+    return record.largest_error is not None and record.largest_error <= GATE

@@ -1,0 +1,105 @@
+"""A cell of the stability map: one contact, named by its coordinates."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, fields
+from enum import StrEnum
+from typing import Any, ClassVar
+
+from contact_scene.description import Description
+from verification.studies.stability.record import CellRecord
+
+
+class Surface(StrEnum):
+    """What is pressed on the body, and how friction varies over it."""
+
+    BALL = "ball"
+    ALIKE_BALL = "alike-ball"  # as elastic and coated as the body: nothing couples
+    FLAT_PUNCH = "flat-punch"
+    CONE = "cone"
+    TWO_SPOTS = "two-spots"
+    ROUGH = "rough"
+    PATCHY = "patchy"  # a ball; friction varies from cell to cell and is zero in places
+    GREASED = "greased"  # a ball; no friction in the middle of the contact
+
+
+class LoadingPath(StrEnum):
+    """The way to the end of the history."""
+
+    PRESS = "press"  # no tangential load
+    PUSH = "push"  # press, then T in one increment
+    LOOP = "loop"  # T to and fro
+    CIRCLE = "circle"  # T turns once round
+    REVERSED = "reversed"  # T turned round while W falls
+    RELOADED = "reloaded"  # W down to a hundredth and back
+    SHEARED_RELOAD = "sheared-reload"  # the same together with T
+    FALLING = "falling"  # W falls at constant T until T is 0.98 µW
+    SLIDE = "slide"  # shift far beyond sliding and back
+    APPROACH = "approach"  # approach and shift prescribed instead of forces
+
+
+class Solver(StrEnum):
+    """Who solves it."""
+
+    SEMI_ANALYTICAL = "semi-analytical"
+
+
+@dataclass(frozen=True)
+class StabilityCell:
+    """One contact. Its coordinates are plain values, so that any solver can be given it.
+
+    friction        µ
+    push            T/µW
+    modulus_ratio   E1/E2 of coating and substrate
+    thickness       h/a of the coating
+    poisson_ratio   ν1 of the coating
+    base_ratio      ν2 of the substrate; with E1/E2 = 1 and ν1 = ν2 there is no coating
+    load            W over the force that makes the contact radius a
+    length          contact radius a under that force [m]
+    modulus         E2 [Pa]
+    cells           of the surface grid along each side, or what the solver makes of it
+    """
+
+    record_type: ClassVar[type[Description]] = CellRecord
+    friction: float = 0.1
+    push: float = 0.6
+    modulus_ratio: float = 2.0
+    thickness: float = 1.0
+    poisson_ratio: float = 0.3
+    base_ratio: float = 0.3
+    path: LoadingPath = LoadingPath.PUSH
+    surface: Surface = Surface.BALL
+    load: float = 1.0
+    length: float = 1e-3
+    modulus: float = 210e9
+    cells: int = 32
+    solver: Solver = Solver.SEMI_ANALYTICAL
+
+    @property
+    def coordinates(self) -> dict[str, Any]:
+        """Coordinates by name."""
+        return {f.name: getattr(self, f.name) for f in fields(self)}
+
+    @property
+    def name(self) -> str:
+        """For files: the coordinates that differ from those of the ordinary cell."""
+        ordinary = StabilityCell()
+        parts = [
+            f"{SHORT[key]}{value:g}" if isinstance(value, float | int) else str(value)
+            for key, value in self.coordinates.items()
+            if value != getattr(ordinary, key)
+        ]
+        return "-".join(parts).replace(".", "p").replace("+", "") or "ordinary"
+
+    def compute(self) -> CellRecord:
+        """Solve it; whatever the solver says is the record."""
+        from verification.studies.stability.judged import judged
+
+        return judged(self)
+
+
+SHORT = {
+    "friction": "mu", "push": "T", "modulus_ratio": "E", "thickness": "h", "poisson_ratio": "nu",
+    "base_ratio": "base", "path": "", "surface": "", "load": "W", "length": "a", "modulus": "Pa",
+    "cells": "N", "solver": "",
+}  # fmt: skip

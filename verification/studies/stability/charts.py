@@ -1,0 +1,91 @@
+"""The map drawn: class of the residual as colour and shape, cost as a number."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from typing import Any
+
+from verification.cases.chart import Chart, Curve, Look, Panel, curve
+from verification.report.numbers import plain
+from verification.studies.stability.cell import StabilityCell
+from verification.studies.stability.record import CellRecord, Verdict
+from verification.studies.stability.views import NAMES, View
+
+Found = Mapping[str, CellRecord]
+
+# Classes from best to worst, each with the series whose colour and shape it takes; a place shows
+# the worst of its cells.
+CLASSES = (
+    ("residual ≤ ½ tolerance", 0),
+    ("residual ≤ tolerance", 4),
+    ("increments halved", 2),
+    ("refused", 3),
+    ("not converged", 1),
+    ("silent", 5),
+)
+SHAPES = "disc, downward triangle, upward triangle, diamond, square, cross"
+FINE = 0.5  # of the tolerance
+HEIGHT_PER_ROW, HEIGHT_OF_AXES = 0.24, 0.5
+THOUSANDS = 10_000  # from here on the cost is rounded to them
+
+
+def class_of(record: CellRecord) -> int:
+    """Number of the class of a cell."""
+    match record.verdict:
+        case Verdict.SILENT:
+            return 5
+        case Verdict.NOT_CONVERGED:
+            return 4
+        case Verdict.REFUSED:
+            return 3
+        case Verdict.CONVERGED:
+            fine = record.worst is not None and record.worst <= FINE * record.tolerance
+            return 2 if record.halvings else 0 if fine else 1
+
+
+def view_chart(view: View, found: Found) -> Chart:
+    """One view of the map; places without a record stay empty."""
+    x_values, y_values = view.values(view.x), view.values(view.y)
+    places: dict[int, list[tuple[int, int]]] = {n: [] for n in range(len(CLASSES))}
+    notes = []
+    for i, x in enumerate(x_values):
+        for j, y in enumerate(y_values):
+            records = _records(view.at(x, y), found)
+            if records:
+                places[max(map(class_of, records))].append((i, j))
+                notes.append((float(i), float(j), _cost(records)))
+    return Chart(
+        name=f"stability_{view.name.replace('-', '_')}",
+        title=view.title,
+        caption="Colour and shape: the worst residual of the cells at a place, or how they ended "
+        f"({'; '.join(_legend())}). Number: the most convolutions that one of them took.",
+        rows=((Panel(
+            x_label=NAMES[view.x], y_label=NAMES[view.y],
+            curves=tuple(_tiles(n, where) for n, where in places.items() if where),
+            height=HEIGHT_OF_AXES + HEIGHT_PER_ROW * len(y_values),
+            notes=tuple(notes), x_places=_texts(x_values), y_places=_texts(y_values),
+        ),),),
+    )  # fmt: skip
+
+
+def _records(cells: Iterable[StabilityCell], found: Found) -> list[CellRecord]:
+    return [found[cell.name] for cell in cells if cell.name in found]
+
+
+def _tiles(number: int, where: list[tuple[int, int]]) -> Curve:
+    x, y = zip(*where, strict=True)
+    label, series = CLASSES[number]
+    return curve(label, map(float, x), map(float, y), Look.TILES, series)
+
+
+def _legend() -> list[str]:
+    return [f"{s}: {label}" for s, (label, _) in zip(SHAPES.split(", "), CLASSES, strict=True)]
+
+
+def _cost(records: list[CellRecord]) -> str:
+    most = max(record.convolutions for record in records)
+    return "–" if most == 0 else str(most) if most < THOUSANDS else f"{most / 1000:.0f}k"
+
+
+def _texts(values: Iterable[Any]) -> tuple[str, ...]:
+    return tuple(str(v) if isinstance(v, str) else plain(v, 6) for v in values)

@@ -1,0 +1,180 @@
+"""The scene of a cell: bodies, surface, friction, loads, and how finely it is solved."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from contact_scene import (
+    RIGID,
+    Body,
+    Cone,
+    CoulombFriction,
+    FlatPunch,
+    FrictionMap,
+    HeightMap,
+    IsotropicMaterial,
+    Layer,
+    Paraboloid,
+    Scene,
+)
+from semi_analytical.grid import SurfaceGrid
+from verification.cases.layered_scene import surface_of
+from verification.closed_forms.coated_indentation import (
+    LayeredIndentation,
+    LayeredSurface,
+    flat_punch,
+    paraboloid,
+)
+from verification.studies.stability.cell import StabilityCell, Surface
+from verification.studies.stability.loading import Loads, loading
+
+Field = NDArray[np.float64]
+
+RADIUS = 46.4  # of the ball, over the contact radius: the paper's
+SLOPE = 0.02
+MARGIN, ROUGH_MARGIN = 1.3, 1.6  # half the window over the contact radius
+SPOTS = 0.55  # distance of a spot from the middle, over the contact radius
+SPOTS_FORCE = 0.15  # over that of one ball, so that the spots do not touch
+ROUGHNESS = 0.02  # standard deviation over the approach
+GREASE = 0.5  # radius of the greased disc over the contact radius
+BARE = 0.3  # of µ: less is none on a patchy surface
+SURELY = 0.97
+SEED = 3
+TOLERANCE = 1e-8
+# Gaps are rounded relative to the largest in the window, residuals are relative to the approach.
+GAP_ROUNDING = 10 * float(np.finfo(float).eps)
+
+Indenter = Paraboloid | FlatPunch | Cone | HeightMap
+
+
+@dataclass(frozen=True)
+class Posed:
+    """A cell as a solver gets it.
+
+    grid       for a solver that has one; its window surely holds the contact
+    tolerance  of all residuals
+    """
+
+    scene: Scene
+    grid: SurfaceGrid
+    tolerance: float
+
+
+def pose(cell: StabilityCell) -> Posed:
+    """The scene of a cell; raises what an invalid scene raises."""
+    a = cell.length
+    both = (_coated(cell),) * (2 if cell.surface is Surface.ALIKE_BALL else 1)
+    answer = surface_of(*both)
+    ball = paraboloid(answer, RADIUS * a, a)
+    half_width = a * (ROUGH_MARGIN if cell.surface is Surface.ROUGH else MARGIN)
+    grid = SurfaceGrid((cell.cells, cell.cells), (2 * half_width, 2 * half_width))
+    indenter = _indenter(cell, ball.approach, grid)
+    W = cell.load * _force(cell, answer, ball)
+    approach = cell.load ** (2 / 3) * ball.approach
+    friction = _friction(cell, grid)
+    scene = Scene(
+        title=f"Stability map: {cell.name}",
+        indenter=indenter,
+        body=_body(cell),
+        friction=CoulombFriction(coefficient=friction),
+        loading=loading(cell.path, Loads(W, approach, _mean(friction, cell, grid), cell.push)),
+    )
+    gap = indenter.initial_gap(*grid.coordinates())
+    rounding = GAP_ROUNDING * float(np.max(gap, where=np.isfinite(gap), initial=0.0)) / approach
+    return Posed(scene, grid, max(TOLERANCE, rounding))
+
+
+def _materials(cell: StabilityCell) -> tuple[IsotropicMaterial, IsotropicMaterial]:
+    """Of coating and substrate."""
+    E, ratio = cell.modulus, cell.modulus_ratio
+    return (
+        IsotropicMaterial(young_modulus=ratio * E, poisson_ratio=cell.poisson_ratio),
+        IsotropicMaterial(young_modulus=E, poisson_ratio=cell.base_ratio),
+    )
+
+
+def _coated(cell: StabilityCell) -> Body:
+    film, base = _materials(cell)
+    return Body(
+        material=base, layers=(Layer(thickness=cell.thickness * cell.length, material=film),)
+    )
+
+
+def _body(cell: StabilityCell) -> Body:
+    """Without a layer where that would be of the substrate's material."""
+    film, base = _materials(cell)
+    return Body(material=base) if film == base else _coated(cell)
+
+
+def _indenter(cell: StabilityCell, approach: float, grid: SurfaceGrid) -> Indenter:
+    a, R = cell.length, RADIUS * cell.length
+    match cell.surface:
+        case Surface.ALIKE_BALL:
+            body = _body(cell)
+            return Paraboloid(radius=R, material=body.material, layers=body.layers)
+        case Surface.FLAT_PUNCH:
+            return FlatPunch(radius=a, material=RIGID)
+        case Surface.CONE:
+            return Cone(slope_angle=float(np.arctan(SLOPE)), material=RIGID)
+        case Surface.TWO_SPOTS:
+            return _height_map(
+                np.minimum(_bump(grid, R, -SPOTS * a), _bump(grid, R, SPOTS * a)), grid
+            )
+        case Surface.ROUGH:
+            noise = np.random.default_rng(SEED).standard_normal(grid.cells)
+            return _height_map(_bump(grid, R) + ROUGHNESS * approach * noise, grid)
+        case _:
+            return Paraboloid(radius=R, material=RIGID)
+
+
+def _bump(grid: SurfaceGrid, radius: float, x0: float = 0.0) -> Field:
+    x, y = grid.coordinates()
+    return np.asarray(((x - x0) ** 2 + y**2) / (2 * radius))
+
+
+def _height_map(heights: Field, grid: SurfaceGrid) -> HeightMap:
+    return HeightMap.model_validate(
+        {"shape": "height_map", "file": heights, "spacing": grid.spacing, "material": RIGID}
+    )
+
+
+def _force(cell: StabilityCell, answer: LayeredSurface, ball: LayeredIndentation) -> float:
+    """The normal force that fills the contact radius, at least roughly."""
+    match cell.surface:
+        case Surface.FLAT_PUNCH:
+            return flat_punch(answer, cell.length).load * ball.approach
+        case Surface.CONE:
+            # On the half-space that the ball would press as deep as this body.
+            return ball.load * 3 * np.pi * RADIUS * SLOPE / 8
+        case Surface.TWO_SPOTS:
+            return SPOTS_FORCE * ball.load
+        case _:
+            return ball.load
+
+
+def _mean(friction: float | FrictionMap, cell: StabilityCell, grid: SurfaceGrid) -> float:
+    """µ of the whole contact: that of uneven friction weighted by Hertz's pressure, and a little
+    less, because the pressure is not quite that."""
+    if not isinstance(friction, FrictionMap):
+        return friction
+    x, y = grid.coordinates()
+    p = np.sqrt(np.maximum(1 - (x**2 + y**2) / cell.length**2, 0.0))
+    return float(SURELY * np.sum(friction.map.values * p) / np.sum(p))
+
+
+def _friction(cell: StabilityCell, grid: SurfaceGrid) -> float | FrictionMap:
+    """µ; for patchy and greased surfaces a map of it with the same largest or mean value."""
+    if cell.surface is Surface.PATCHY:
+        values = np.random.default_rng(SEED).uniform(0, 2 * cell.friction, grid.cells)
+        return _map(np.where(values < BARE * cell.friction, 0.0, values))
+    if cell.surface is Surface.GREASED:
+        outside = np.hypot(*grid.coordinates()) > GREASE * cell.length
+        return _map(np.where(outside, cell.friction, 0.0))
+    return cell.friction
+
+
+def _map(values: Field) -> FrictionMap:
+    return FrictionMap.model_validate({"map": values})

@@ -1,0 +1,52 @@
+"""What became of one cell."""
+
+from __future__ import annotations
+
+from enum import StrEnum
+
+from contact_scene.description import Description
+
+
+class Verdict(StrEnum):
+    """How a cell ended."""
+
+    CONVERGED = "converged"
+    REFUSED = "refused"  # with a reason that the scene itself gives
+    NOT_CONVERGED = "not converged"  # the solver says so
+    SILENT = "silent"  # an answer that breaks the equations, given as if it were good
+
+
+class CellRecord(Description):
+    """Verdict, residuals and cost of one cell."""
+
+    verdict: Verdict
+    reason: str = ""
+    """Name and message of the error; empty where it converged."""
+
+    tolerance: float
+    residual: float | None = None
+    """Largest residual of any increment, as the solver states it."""
+
+    observed: float | None = None
+    """Largest residual of any increment, found from its fields alone."""
+
+    increments: int = 0
+    halvings: int = 0
+    """How often increments were cut in two."""
+
+    rounds: int = 0
+    """Most rounds of alternation of any increment."""
+
+    way: str = ""
+    """How it was solved."""
+
+    iterations: int = 0
+    convolutions: int = 0
+    seconds: float = 0.0
+    """Of processor time."""
+
+    @property
+    def worst(self) -> float | None:
+        """The larger of the two residuals."""
+        known = [r for r in (self.residual, self.observed) if r is not None]
+        return max(known, default=None)

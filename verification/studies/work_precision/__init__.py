@@ -1,0 +1,1 @@
+"""What accuracy costs: error against work, one curve for every method."""

@@ -1,0 +1,221 @@
+"""One method at one setting on one contact: what it errs, and what it costs."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from enum import StrEnum
+from typing import ClassVar
+
+import numpy as np
+
+from contact_scene import FiniteElementDiscretisation
+from contact_scene.description import Description
+from fem_reference import Method as Enforcement
+from fem_reference import Result as Section
+from fem_reference import solve as solve_section
+from semi_analytical import Result as Surface
+from semi_analytical import SurfaceGrid, solve
+from verification.cases.case import SOLVER_TOLERANCE
+from verification.cases.paper_scene import FRICTION
+from verification.metrics import shear_error
+from verification.quantities import shear_of
+from verification.studies.sliding_runs.friction_laws import (
+    FixedPressure,
+    FrictionLaw,
+    at_rest,
+    shifted,
+)
+from verification.studies.work_precision import contacts, counted_work
+from verification.studies.work_precision.cold_cache import timed
+from verification.studies.work_precision.contacts import CONTACTS, PreciseContact
+from verification.studies.work_precision.usual_route import Sampling, solve_sampled
+
+NO_INCREMENTS = 1
+
+
+class Method(StrEnum):
+    """How a contact is solved."""
+
+    SURFACE = "semi-analytical"
+    EXTRAPOLATED = "semi-analytical, extrapolated"
+    SAMPLED = "sampled response"
+    FROZEN = "sampled response, frozen directions"
+    ELEMENTS = "finite elements"
+    PENALTY = "finite elements, penalty"
+
+
+class Measured(Description):
+    """What came out."""
+
+    errors: dict[str, float]
+    """By name: relative, signed where the quantity is one number."""
+
+    operations: float
+    """Counted work, see `counted_work`."""
+
+    convolutions: int = 0
+    factorisations: int = 0
+    systems: int = 0
+    unknowns: int
+    """Tractions of the surface grid, or displacements of the section."""
+
+    increments: int
+    seconds: float
+    """CPU time, set-up included: median of the repeats."""
+
+    repeats: int
+
+
+@dataclass(frozen=True)
+class PrecisionCase:
+    """A method at a setting.
+
+    contact     one of CONTACTS
+    fineness    cells per side of the window, or elements per contact radius
+    tolerance   of the solver
+    penalty     stiffness factor c; 0 without penalty
+    sampling    refinement and extension; zeros: exact coefficients
+    increments  0: those of the contact
+    window      over the contact radius; 0: the contact's
+    box         size of the section in contact radii; 0: chosen
+    """
+
+    record_type: ClassVar[type[Description]] = Measured
+    contact: str
+    method: Method
+    fineness: int
+    tolerance: float = SOLVER_TOLERANCE
+    penalty: float = 0.0
+    sampling: tuple[int, int] = (0, 0)
+    increments: int = 0
+    window: float = 0.0
+    box: float = 0.0
+
+    @property
+    def name(self) -> str:
+        """For files."""
+        parts = [self.contact, self.method.name.lower(), f"n{self.fineness}"]
+        parts += [f"t{self.tolerance:.0e}"] if self.tolerance != SOLVER_TOLERANCE else []
+        parts += [f"c{self.penalty:g}"] if self.penalty else []
+        parts += ["r{}e{}".format(*self.sampling)] if any(self.sampling) else []
+        for letter, value in (("k", self.increments), ("w", self.window), ("l", self.box)):
+            parts += [f"{letter}{value:g}"] if value else []
+        return "-".join(parts).replace(".", "p")
+
+    @property
+    def problem(self) -> PreciseContact:
+        """What is solved."""
+        return CONTACTS[self.contact]
+
+    @property
+    def by_sections(self) -> bool:
+        """Whether finite elements solve it."""
+        return self.method in (Method.ELEMENTS, Method.PENALTY)
+
+    def compute(self) -> Measured:
+        """Solve, compare and count; raises what the solvers raise."""
+        if self.by_sections:
+            section, seconds, repeats = timed(self._section)
+            return Measured(
+                errors=dict(self.problem.section(section)),
+                operations=counted_work.of_section(section),
+                factorisations=counted_work.factorisations(section),
+                systems=counted_work.systems(section),
+                unknowns=counted_work.unknowns(section),
+                increments=len(section.increments),
+                seconds=seconds,
+                repeats=repeats,
+            )
+        if self.method is Method.FROZEN:
+            (frozen, operations, count), seconds, repeats = timed(self._frozen)
+            return self._measured(frozen, operations, count, self._steps, seconds, repeats)
+        surface, seconds, repeats = timed(self._surface)
+        return self._measured(
+            self.problem.surface(surface),
+            counted_work.of_surface(surface) + self._sampling_operations,
+            counted_work.convolutions(surface),
+            len(surface.increments),
+            seconds,
+            repeats,
+        )
+
+    def _measured(
+        self,
+        errors: Mapping[str, float],
+        operations: float,
+        count: int,
+        increments: int,
+        seconds: float,
+        repeats: int,
+    ) -> Measured:
+        components = 1 if self.problem.scene(NO_INCREMENTS).friction is None else 3
+        return Measured(
+            errors=dict(errors),
+            operations=operations,
+            convolutions=count,
+            unknowns=components * self.fineness**2,
+            increments=increments,
+            seconds=seconds,
+            repeats=repeats,
+        )
+
+    @property
+    def _steps(self) -> int:
+        return self.increments or self.problem.increments or NO_INCREMENTS
+
+    @property
+    def _grid(self) -> SurfaceGrid:
+        return self.problem.grid(self.fineness, self.window or None)
+
+    @property
+    def _sampling(self) -> Sampling:
+        return Sampling(*self.sampling)
+
+    @property
+    def _sampling_operations(self) -> float:
+        """One transform of all samples for every coefficient: one without friction, six with."""
+        if not any(self.sampling):
+            return 0.0
+        count = 1 if self.problem.scene(NO_INCREMENTS).friction is None else 6
+        return counted_work.transforms(self._sampling.count(self.fineness + 1) ** 2, count)
+
+    def _surface(self) -> Surface:
+        scene = self.problem.scene(self._steps)
+        if self.method is Method.SAMPLED:
+            return solve_sampled(scene, self._grid, self.tolerance, self._sampling)[1]
+        return solve(scene, self._grid, self.tolerance)
+
+    def _section(self) -> Section:
+        discretisation = FiniteElementDiscretisation(
+            elements_per_radius=self.fineness,
+            # The edge of the contact lies in the middle of an element on every mesh.
+            contact_radius=self.problem.radius * self.fineness / (self.fineness + 0.5),
+            tolerance=self.tolerance,
+            box=self.box or None,
+        )
+        if self.penalty:
+            discretisation = discretisation.model_copy(update={"penalty": self.penalty})
+        by = Enforcement.PENALTY if self.method is Method.PENALTY else Enforcement.COMPLEMENTARITY
+        return solve_section(self.problem.scene(self._steps), discretisation, by)
+
+    def _frozen(self) -> tuple[Mapping[str, float], float, int]:
+        """Press, then shift in equal increments with the directions of slip held; errors,
+        operations and convolutions."""
+        grid = self._grid
+        pressing = self.problem.scene(NO_INCREMENTS)
+        pressing = pressing.model_copy(update={"loading": pressing.loading[:1]})
+        model, result = solve_sampled(pressing, grid, self.tolerance, self._sampling)
+        end = result.increments[-1]
+        operator = model.tangential_operator(grid.cells)
+        bound = FRICTION * end.pressure
+        problem = FixedPressure.of(operator, bound, model.self_compliance)
+        exact, state = contacts.sheared(), at_rest(problem, shear_of(end))
+        for _ in range(self._steps):
+            by = exact.shift / self._steps
+            state = shifted(problem, FrictionLaw.FROZEN_DIRECTIONS, state, by)
+        r = np.hypot(*grid.coordinates())
+        errors = {"shear": shear_error(state.shear, exact.shear(r), bound)}
+        count = int(model.convolutions.count)
+        work = counted_work.transforms(4 * self.fineness**2, 2 * count)
+        return errors, work + self._sampling_operations, count
