@@ -24,7 +24,7 @@ class NodalCompliance:
     matrix           (c, m, c, m), symmetric. The generalised forces are the integrals of
                      psi_i t r dr of the traction amplitudes t, with psi the quadratic trace
                      functions; no 2 pi, no pi
-    factorizations   sparse factorisations that it takes, in the cache or not: what a scene costs must
+    factorizations   sparse factorisations it takes, in the cache or not: what a scene costs must
                      not depend on what was solved before
     from_cache       whether nothing had to be factorised
     """
