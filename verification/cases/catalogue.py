@@ -17,6 +17,7 @@ from verification.cases.fem_classical import fem_classical
 from verification.cases.fem_coated import fem_coated
 from verification.cases.fem_harmonics import fem_harmonics
 from verification.cases.fem_hertz import fem_hertz
+from verification.cases.fem_increments import fem_increments
 from verification.cases.fem_indentation import fem_indentation
 from verification.cases.fem_partial_slip import fem_partial_slip
 from verification.cases.fem_penalty_hertz import fem_penalty_hertz
@@ -84,6 +85,7 @@ CASES: tuple[Callable[[Level], Case], ...] = (
     fem_classical,
     fem_coated,
     fem_indentation,
+    fem_increments,
     fem_partial_slip,
     fem_torsion,
     fem_harmonics,
