@@ -4,6 +4,8 @@ Layers are structured blocks; an elastic substrate is filled with quadrilaterals
 sizes spread from its edges.
 """
 
+import signal
+import threading
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from itertools import pairwise
@@ -88,6 +90,7 @@ def _gmsh_model() -> Iterator[Any]:
     mine = not gmsh.isInitialized()
     if mine:
         gmsh.initialize(readConfigFiles=False, interruptible=False)
+        _restore_broken_pipes()
     current = gmsh.model.getCurrent()
     before = {name: gmsh.option.getNumber(name) for name in OPTIONS}
     gmsh.model.add("section")
@@ -101,6 +104,12 @@ def _gmsh_model() -> Iterator[Any]:
             gmsh.finalize()
         else:
             gmsh.model.setCurrent(current)
+
+
+def _restore_broken_pipes() -> None:
+    """gmsh makes writing to a pipe that nobody reads end the process, behind Python's back."""
+    if threading.current_thread() is threading.main_thread():  # others must not change handlers
+        signal.signal(signal.SIGPIPE, signal.getsignal(signal.SIGPIPE))
 
 
 def _set(gmsh: Any, options: Mapping[str, float]) -> None:

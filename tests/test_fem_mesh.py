@@ -1,6 +1,7 @@
 """Both meshers fill the section they are given, and nothing is lost on the way to a file."""
 
 import builtins
+import os
 import sys
 from dataclasses import replace
 
@@ -130,6 +131,17 @@ def test_holes_and_overlaps_are_noticed(mesher, change):
 def test_sizes_that_make_no_mesh_are_refused(mesher, body, arguments, error, message):
     with pytest.raises(error, match=message):
         mesher(body, **arguments)
+
+
+def test_gmsh_leaves_a_broken_pipe_an_error_not_an_end(gmsh):
+    gmsh_section_mesh(stack(), 4)
+    reader, writer = os.pipe()
+    os.close(reader)
+    try:
+        with pytest.raises(BrokenPipeError):
+            os.write(writer, b"x")
+    finally:
+        os.close(writer)
 
 
 def test_a_gmsh_mesh_with_triangles_is_refused(monkeypatch, gmsh):
