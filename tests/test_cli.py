@@ -24,6 +24,7 @@ from semi_analytical.errors import (
     UnsupportedScene,
 )
 from verification.cli import main
+from verification.one_thread import VARIABLES
 
 ROOT = Path(__file__).resolve().parents[1]
 
@@ -275,3 +276,16 @@ def test_run_reports_progress_and_outcome(
     timing = json.loads((scene.parent / "out" / "timing.json").read_text(encoding="utf-8"))
     assert timing["program"] == "slipstick"
     assert set(timing["wall_seconds"]) >= {"read", "solve", "write"}
+
+
+@pytest.mark.parametrize(("asked", "used"), [(None, "1"), ("3", "3")])
+def test_commands_use_one_thread_unless_told(
+    asked: str | None, used: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    for name in VARIABLES:
+        monkeypatch.delenv(name, raising=False)
+        if asked is not None:
+            monkeypatch.setenv(name, asked)
+    with pytest.raises(SystemExit):
+        main(["--version"])
+    assert [os.environ[name] for name in VARIABLES] == [used] * len(VARIABLES)

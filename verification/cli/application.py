@@ -7,6 +7,7 @@ import typer
 
 from verification.cli.errors import explain
 from verification.cli.lazy_commands import LazyCommands
+from verification.one_thread import one_thread
 
 application = typer.Typer(
     cls=LazyCommands,
@@ -46,6 +47,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
 
     arguments  without the program's name; None means those of this process
     """
+    one_thread()
     command = typer.main.get_command(application)
     try:
         command(args=arguments, prog_name="slipstick")

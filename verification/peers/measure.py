@@ -22,6 +22,7 @@ import numpy as np
 
 from verification.closed_forms.hertz import PointContact
 from verification.metrics import relative_l2, shear_error
+from verification.one_thread import VARIABLES, one_thread
 from verification.peers.environment import (
     PEERS,
     Installed,
@@ -38,7 +39,6 @@ FRICTION, PART = 0.1, 0.9  # µ, and the tangential force over µW
 TOLERANCE = 1e-8
 SECONDS_ALLOWED = 120
 SOURCES = Path(__file__).parents[2]  # what the drivers are found in
-THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
 # Dimensionless: contact radius, modulus and radius of the ball are one. tamaas is sensitive to it.
 UNIT = PointContact.under_load(4 / 3, 1.0, 1.0)
 WINDOW = 3.0
@@ -93,7 +93,7 @@ def peer_run(
         done = run(
             [str(python), "-m", peer.driver], input=json.dumps(request), capture_output=True,
             text=True, check=False, timeout=SECONDS_ALLOWED,
-            env={**os.environ, **dict.fromkeys(THREADS, "1"), "PYTHONPATH": str(SOURCES)},
+            env={**os.environ, **dict.fromkeys(VARIABLES, "1"), "PYTHONPATH": str(SOURCES)},
         )  # fmt: skip
         if done.returncode:
             lines = done.stderr.strip().splitlines()
@@ -130,8 +130,7 @@ def all_runs(installed: Installed) -> Iterator[dict[str, Any]]:
 
 def main(path: Path) -> None:
     """Make the environment, run all and write the record."""
-    for name in THREADS:
-        os.environ.setdefault(name, "1")
+    one_thread()
     installed = made_environment(peers_directory())
     for distribution, reason in installed.missing.items():
         print(f"left out: {distribution}: {reason}")

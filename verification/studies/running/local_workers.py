@@ -16,10 +16,10 @@ from concurrent.futures.process import BrokenProcessPool
 from contextlib import suppress
 from typing import TypeVar
 
+from verification.one_thread import one_thread
+
 # A fresh interpreter: no lock or thread of the parent's libraries is copied half-way.
 START = "spawn"
-# One thread each: the same bits however many workers there are, and they share the cores.
-THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
 
 T = TypeVar("T")
 
@@ -30,8 +30,7 @@ class LocalWorkers:
     elsewhere = False
 
     def __init__(self, processes: int) -> None:
-        for name in THREADS:  # read by a worker's libraries when they are loaded
-            os.environ.setdefault(name, "1")
+        one_thread()  # in each worker: they inherit the environment, and share the cores
         self._threads = ThreadPoolExecutor(max_workers=processes)
         self._own = threading.local()
         self._all: list[ProcessPoolExecutor] = []
