@@ -384,7 +384,7 @@ def test_cache_is_bounded_and_spares_other_files(folder, monkeypatch):
     [
         ({"SLIPSTICK_CACHE_DIR": "/a/b"}, "/a/b"),
         ({"XDG_CACHE_HOME": "/c"}, "/c/slipstick"),
-        ({"XDG_CACHE_HOME": "relative", "HOME": "/home/d"}, "/home/d/.cache/slipstick"),
+        ({"XDG_CACHE_HOME": "relative", "HOME": "/d"}, "/d/.cache/slipstick"),
     ],
 )
 def test_cache_directory_follows_the_environment(monkeypatch, variables, expected):
