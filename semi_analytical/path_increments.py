@@ -5,13 +5,13 @@ end of the increment; both cost accuracy where the state depends on the path. Th
 Σ|q - q_fine| / Σµp at the end of a step that is cut into n equal increments (a first loading:
 uniform in contact radius). Measured on 64 x 64 and 128 x 128 cells against 64 to 160 increments:
 
-    pressing for the first time, unlike half-spaces      min(½ (m²/n)^(3/2), 1.3/n), m = µ/|β|
+    pressing for the first time, unlike half-spaces      min(0.9 (m²/n)^(3/2), 1.3/n), m = µ/|β|
         rigid paraboloid, ν = 0 to 0.45, µ = 0.05 to 4
     the same with layers                                 as above with m² = 9µ, and 2/n
         one layer of 0.1 to 3 contact radii, E1/E2 = 1/4 to 4, ν = 0.3, µ = 0.05 to 1
     pressing and pushing at once, for the first time     2/n
         bodies that do not couple, T/µW = 0.1 to 0.9
-    pushing sideways under constant normal load          0.3 x min(x, Δx)/n
+    pushing sideways under constant normal load          0.4 x min(x, Δx)/n
         unlike bodies, and turning ones that do not couple; x the largest T/µW of the step,
         0.3 to 0.99, Δx its change; with layers as above
     changing the normal load by ΔW later                 0.15 ΔW/W/n, and as above for T;
@@ -31,12 +31,12 @@ STRAIGHT = 1e-9
 ROUND_OFF = 1e-9
 MOST = 100_000
 
-PRESSING_FIRST = 0.5
+PRESSING_FIRST = 0.9
 FULL_STICK = 1.3
 FULL_STICK_LAYERS = 2.0
 LAYERS = 9.0
 BOTH_AT_ONCE = 2.0
-SIDEWAYS = 0.3
+SIDEWAYS = 0.4
 PRESSING_LATER = 0.15
 PRESSING_UNLIKE = 0.6
 
