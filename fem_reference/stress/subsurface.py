@@ -1,0 +1,124 @@
+"""The fields below the surface of one body: mesh, loads, one solve per motion, recovery."""
+
+from __future__ import annotations
+
+from math import ceil
+
+import numpy as np
+from numpy.typing import NDArray
+
+from contact_scene import Body, FiniteElementDiscretisation, IsotropicMaterial
+from contact_scene.solver_errors import UnsupportedScene
+from fem_reference.elasticity import dilatation, section_basis
+from fem_reference.factored_section import FactoredSection
+from fem_reference.scales import Scales
+from fem_reference.section_mesh import SectionMesh, section_mesh
+from fem_reference.section_outline import CONTACT_ZONE
+from fem_reference.stress.recovery import recovered_amplitude, recovery_of
+from fem_reference.stress.section_field import SectionField
+from fem_reference.stress.surface_tractions import SurfaceTractions
+
+Field = NDArray[np.float64]
+
+POINTS_BETWEEN = 4
+# Amplitudes below this part of the largest are round-off.
+ROUND_OFF = 1e-12
+
+
+def subsurface(
+    body: Body,
+    tractions: SurfaceTractions,
+    discretisation: FiniteElementDiscretisation,
+    *,
+    upper: bool = False,
+) -> SectionField:
+    """Displacement and stress of one body.
+
+    Parameters
+    ----------
+    body
+        Layers on a half-space or a rigid base.
+    tractions
+        On the lower body.
+    discretisation
+        Elements per radius of the loaded circle, and the size of the section.
+    upper
+        Whether the body is the indenter: it carries the shear reversed, and z points up into it.
+
+    Raises
+    ------
+    UnsupportedScene
+        A material is so nearly incompressible that its pressure is not a matter of strain.
+    ResourceRefused
+        The memory does not suffice.
+    """
+    if not body.deforms:
+        raise ValueError("a rigid body has no stress")
+    length = discretisation.contact_radius or tractions.loaded_radius
+    materials = (*(layer.material for layer in body.layers), body.material)
+    modulus = next(m.young_modulus for m in materials if isinstance(m, IsotropicMaterial))
+    scales = Scales(length, modulus)
+    zone = max(CONTACT_ZONE, tractions.reach / length)
+    section = _section(scales.dimensionless(body), discretisation, zone)
+    _refuse_incompressible(section)
+    basis = section_basis(section)
+    recovery = recovery_of(section, basis)
+    found = tractions.amplitudes()
+    largest = max(float(np.max(np.abs(t))) for _, t in found)
+    parts = []
+    for of, amplitude in found:
+        if np.max(np.abs(amplitude)) > ROUND_OFF * largest:
+            sign = np.where(np.array(of.components) == 2, 1.0, -1.0 if upper else 1.0)
+            forces = _forces(section, tractions.radii / length, sign[:, None] * amplitude / modulus)
+            u = FactoredSection(section, of).displacement(forces[..., None])[..., 0]
+            parts.append(recovered_amplitude(section, basis, recovery, of, u, scales))
+    points = _points(body, section, basis.nodes[:, recovery.node], length)
+    return SectionField(points, recovery.material, recovery.cells, tuple(parts))
+
+
+def _points(body: Body, section: SectionMesh, nodes: Field, length: float) -> Field:
+    """(2, n) positions [length], interfaces at the very depths that the body gives them."""
+    points = nodes * length
+    bottoms = np.cumsum([layer.thickness for layer in body.layers])
+    for depth, bottom in zip(section.outline.interfaces, bottoms, strict=False):
+        points[1, nodes[1] == depth] = bottom
+    return points
+
+
+def _section(body: Body, discretisation: FiniteElementDiscretisation, zone: float) -> SectionMesh:
+    """The mesh of half as many elements per radius with every element cut into four: elements that
+    grow with depth as fast as those for displacements alone leave 2e-3 of the stress, however fine
+    they are at the surface."""
+    coarse = max(2, ceil(discretisation.elements_per_radius / 2))
+    return section_mesh(body, coarse, discretisation.box, zone).refined()
+
+
+def _refuse_incompressible(section: SectionMesh) -> None:
+    if np.any(dilatation(section).mixed):
+        raise UnsupportedScene(
+            "a material is incompressible or nearly so, and the stress follows from the strain "
+            "here; take a smaller poisson_ratio, or the semi-analytical solver for the stress"
+        )
+
+
+def _forces(section: SectionMesh, radii: Field, tractions: Field) -> Field:
+    """(c, m) generalised forces ∫ ψ t r dr of tractions (c, rings) linear between rings.
+
+    Integrated between all corners and rings, so exactly.
+    """
+    nodes = section.radii
+    corners = nodes[::2]
+    ends = np.unique(np.concatenate([corners[corners < radii[-1]], radii]))
+    x, w = np.polynomial.legendre.leggauss(POINTS_BETWEEN)
+    width = np.diff(ends)[:, None]
+    r = (ends[:-1, None] + 0.5 * width * (1 + x)).ravel()
+    weight = (0.5 * width * w).ravel() * r
+    kept = r <= corners[-1]
+    r, weight = r[kept], weight[kept]
+    element = np.clip(np.searchsorted(corners, r) - 1, 0, len(corners) - 2)
+    at = (r - corners[element]) / (corners[element + 1] - corners[element])
+    trace = np.zeros((len(nodes), len(r)))
+    point = np.arange(len(r))
+    for k, shape in enumerate(((1 - at) * (1 - 2 * at), 4 * at * (1 - at), at * (2 * at - 1))):
+        trace[2 * element + k, point] = shape
+    return np.stack([trace @ (weight * np.interp(r, radii, t)) for t in tractions])
