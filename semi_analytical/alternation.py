@@ -20,7 +20,8 @@ from semi_analytical.admissible_shear import (
     VectorField,
 )
 from semi_analytical.errors import NotConverged
-from semi_analytical.normal import Motion, NormalLoad, solve_normal
+from semi_analytical.normal import solve_normal
+from semi_analytical.normal_load import Motion, NormalLoad
 from semi_analytical.tangential import TangentialSolution, solve_tangential
 
 MOST_ROUNDS = 150

@@ -7,124 +7,22 @@ admissible: an active-set Newton step. It is taken, or part of it, when the ener
 otherwise cells let go one after the other, so that the guesses cannot cycle.
 """
 
-from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
 from semi_analytical.errors import NotConverged
+from semi_analytical.normal_load import Map, Motion, NormalLoad
 
 Field = NDArray[np.float64]
 Mask = NDArray[np.bool_]
-Vector = NDArray[np.float64]
-Map = Callable[[Field], Field]
 
 MOST_STEPS = 200
 MOST_ITERATIONS_PER_STEP = 200
 MOST_HALVINGS = 5
 # Part of the residual that solves leave while cells still let go: their answers are not kept.
 ROUGHLY = 0.5
-
-
-Motion = float | Vector
-# Takes residuals of the gap and their images under the preconditioner, and returns both without the
-# part that belongs to a rigid motion whose force is given.
-Constraint = Callable[[Field, Field], tuple[Field, Field]]
-
-
-class NormalLoad(Protocol):
-    """What leads the indenter towards the body. Its motion is the approach, or a vector of that
-    and what else it can do."""
-
-    def touches(self, gap: Field) -> bool:
-        """Whether some pressure below an undeformed gap can carry the load."""
-
-    def motion(self, p: Field, s: Field) -> Motion:
-        """The motion that closes a gap s best, as the pressure weighs it."""
-
-    def closure(self, motion: Motion) -> float | Field:
-        """By how much a motion closes the gap [length]."""
-
-    def overlap(self, motion: Motion, gap: Field, allowed: Mask) -> float:
-        """How far undeformed bodies would overlap: the measure of residual gaps [length]."""
-
-    def admissible(self, p: Field) -> Field:
-        """A pressure without tension that carries the load, near the one given."""
-
-    def constraint(self, inside: Field, precondition: Map) -> Constraint:
-        """Keeps given forces as they are while the pressure changes; `inside` is 1 in contact."""
-
-
-@dataclass(frozen=True)
-class PressureSum:
-    """Force control: the sum Σp of all cell pressures, W / cell area [force/length^2]."""
-
-    total: float
-
-    def touches(self, gap: Field) -> bool:
-        """Whether there is a body to press on."""
-        return bool(np.isfinite(np.min(gap)))
-
-    def motion(self, p: Field, s: Field) -> Motion:
-        """The approach: the multiplier of the sum."""
-        return float(np.sum(p * s) / np.sum(p))
-
-    def closure(self, motion: Motion) -> float | Field:
-        """The approach, everywhere the same."""
-        return motion
-
-    def overlap(self, motion: Motion, gap: Field, allowed: Mask) -> float:
-        """The approach."""
-        return float(np.abs(motion))
-
-    def admissible(self, p: Field) -> Field:
-        """Cut off at zero and scaled to the sum."""
-        p = np.maximum(p, 0.0)
-        return np.asarray(p * (self.total / np.sum(p)))
-
-    def constraint(self, inside: Field, precondition: Map) -> Constraint:
-        """The residual is known up to a rigid shift, the approach. It is projected out in the
-        metric of the preconditioner, so that the sum of the pressure stays as it is."""
-        response = inside * precondition(inside)
-
-        def constrained(r: Field, z: Field) -> tuple[Field, Field]:
-            shift = np.sum(z) / np.sum(response)
-            return r - shift * inside, z - shift * response
-
-        return constrained
-
-
-@dataclass(frozen=True)
-class FixedApproach:
-    """Displacement control: the approach of the two bodies [length]."""
-
-    approach: float
-
-    def touches(self, gap: Field) -> bool:
-        """Whether the approach closes the gap somewhere."""
-        return float(np.min(gap)) < self.approach
-
-    def motion(self, p: Field, s: Field) -> Motion:
-        """The approach."""
-        return self.approach
-
-    def closure(self, motion: Motion) -> float | Field:
-        """The approach, everywhere the same."""
-        return motion
-
-    def overlap(self, motion: Motion, gap: Field, allowed: Mask) -> float:
-        """The approach."""
-        return float(np.abs(motion))
-
-    def admissible(self, p: Field) -> Field:
-        """Cut off at zero."""
-        return np.maximum(p, 0.0)
-
-    def constraint(self, inside: Field, precondition: Map) -> Constraint:
-        """No force is given."""
-        return lambda r, z: (r, z)
 
 
 @dataclass(frozen=True)

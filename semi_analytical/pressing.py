@@ -10,7 +10,8 @@ from semi_analytical.box import Box, box_around
 from semi_analytical.contact_area import covered_cells
 from semi_analytical.errors import ContactAtWindowEdge, ContactNotResolved, NotConverged
 from semi_analytical.model import ContactModel, doubled
-from semi_analytical.normal import FixedApproach, Motion, NormalLoad, PressureSum, solve_normal
+from semi_analytical.normal import solve_normal
+from semi_analytical.normal_load import FixedApproach, Motion, NormalLoad, PressureSum
 from semi_analytical.residuals import complementarity, penetration
 
 Field = NDArray[np.float64]

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from semi_analytical.errors import NotConverged
 from semi_analytical.multipliers import MOST_SWEEPS, find_multiplier
-from semi_analytical.normal import Constraint, Map, Motion
+from semi_analytical.normal_load import Constraint, Map, Motion
 
 Field = NDArray[np.float64]
 Mask = NDArray[np.bool_]

@@ -10,7 +10,7 @@ from semi_analytical import alternation
 from semi_analytical.admissible_shear import FixedShift, ShearSum, magnitude, project_on_discs
 from semi_analytical.alternation import CoupledProblem, solve_coupled
 from semi_analytical.errors import NotConverged
-from semi_analytical.normal import FixedApproach, PressureSum
+from semi_analytical.normal_load import FixedApproach, PressureSum
 
 TOLERANCE = 1e-11
 SHAPE = (3, 4)

@@ -26,6 +26,7 @@ ORDER = (
     "admissible_shear",
     "energy",
     "residuals",
+    "normal_load",
     "normal",
     "tilting",
     "tangential",
@@ -132,7 +133,8 @@ FORBIDDEN = {
         "semi_analytical.operator",
     ),
 }
-FORBIDDEN["semi_analytical.tangential"] = FORBIDDEN["semi_analytical.normal"]
+for module in ("normal_load", "tangential"):
+    FORBIDDEN[f"semi_analytical.{module}"] = FORBIDDEN["semi_analytical.normal"]
 ONLY_SCRIPTS = ("tests", "examples")
 
 

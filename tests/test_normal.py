@@ -9,7 +9,8 @@ from scipy.linalg import cholesky, solve_triangular
 from scipy.optimize import brentq, nnls
 
 from semi_analytical.errors import NotConverged
-from semi_analytical.normal import FixedApproach, PressureSum, solve_normal
+from semi_analytical.normal import solve_normal
+from semi_analytical.normal_load import FixedApproach, PressureSum
 
 TOLERANCE = 1e-11
 SHAPE = (4, 5)

@@ -16,7 +16,8 @@ from semi_analytical import Increment, solve
 from semi_analytical.frf.stack import Stack, stack_of
 from semi_analytical.influence.layered import LayeredCoefficients
 from semi_analytical.model import ContactModel
-from semi_analytical.normal import PressureSum, solve_normal
+from semi_analytical.normal import solve_normal
+from semi_analytical.normal_load import PressureSum
 from semi_analytical.operator import offsets_for
 from verification.cases import paper_scene as paper
 from verification.cases.layered_scene import coated, film, pressed, rigid_ball

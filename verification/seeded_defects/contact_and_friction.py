@@ -18,7 +18,7 @@ from semi_analytical import (
     stick_slip,
 )
 from semi_analytical.model import ContactModel
-from semi_analytical.normal import PressureSum
+from semi_analytical.normal_load import PressureSum
 from semi_analytical.sheared import Sheared, untouched
 from semi_analytical.stress import field
 from verification.seeded_defects.defect import Defect, Patches
