@@ -8,7 +8,7 @@ from scipy.sparse.linalg import splu
 
 from fem_reference.assembly import Elements, assembled, with_pressure
 from fem_reference.elasticity import dilatation, element_stiffness, section_basis, volume_strain
-from fem_reference.free_memory import require_memory, required_bytes
+from fem_reference.memory import require_memory, required_bytes
 from fem_reference.motion import Motion
 from fem_reference.numbering import number_unknowns
 from fem_reference.section_mesh import SectionMesh

@@ -10,7 +10,7 @@ from hankel_responses import Coating, Patch, nodal_forces, patch_energy
 
 from contact_scene import RIGID, Body, IsotropicMaterial, Layer
 from contact_scene.solver_errors import ResourceRefused
-from fem_reference import factored_section, free_memory, stored_compliance
+from fem_reference import factored_section, memory, stored_compliance
 from fem_reference.compliance import composite, condense
 from fem_reference.factored_section import FactoredSection
 from fem_reference.gmsh_mesh import GmshMissing, gmsh_section_mesh
@@ -375,7 +375,7 @@ def test_no_more_than_one_factorisation_is_spent(monkeypatch):
 def test_fill_of_the_factors_is_foreseen(of, coating):
     factored = FactoredSection(section_mesh(coated(*COATINGS[coating])[0], 8), of)
     mixed = coating == "all incompressible" and of is not TORSION
-    fill = free_memory.FILL_WITH_PRESSURE if mixed else free_memory.FILL
+    fill = memory.FILL_WITH_PRESSURE if mixed else memory.FILL
     n = factored._numbering.size
     moving = np.unique(factored._numbering.column[:, factored.surface])
     assert factored._numbering.contact + np.count_nonzero(moving >= 0) == n
@@ -383,7 +383,7 @@ def test_fill_of_the_factors_is_foreseen(of, coating):
 
 
 def test_too_little_memory_is_refused_before_any_factorisation(monkeypatch):
-    monkeypatch.setattr(free_memory, "available_bytes", lambda: 1e6)
+    monkeypatch.setattr(memory, "available_bytes", lambda: 1e6)
     monkeypatch.delattr(factored_section, "splu")
     with pytest.raises(ResourceRefused, match=r"about 0\.0 GB.*elements_per_radius"):
         FactoredSection(section_mesh(HALF_SPACE, 4), PRESSING)

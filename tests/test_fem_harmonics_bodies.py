@@ -210,7 +210,7 @@ def test_flat_punch_keeps_its_rim():
 
 
 def test_too_many_points_are_refused_before_anything_is_condensed(monkeypatch):
-    monkeypatch.setattr("fem_reference.free_memory.available_bytes", lambda: 1e6)
+    monkeypatch.setattr("fem_reference.memory.available_bytes", lambda: 1e6)
     scene = along_x()
     model = ContactModel.of(scene, elements(8), 0.32e-3)
     with pytest.raises(ResourceRefused, match="GB"):

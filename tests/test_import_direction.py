@@ -16,7 +16,6 @@ PACKAGES = ("contact_scene", "semi_analytical", "fem_reference", "verification")
 
 ORDER = (
     "errors",
-    "free_memory",
     "grid",
     "frf",
     "influence",
@@ -58,7 +57,7 @@ ORDER = (
 
 FEM_ORDER = (
     "errors",
-    "free_memory",
+    "memory",
     "scales",
     "section_outline",
     "section_mesh",

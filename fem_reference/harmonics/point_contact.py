@@ -5,11 +5,11 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from fem_reference.free_memory import require_memory
 from fem_reference.harmonics.angular_grid import AngularGrid
 from fem_reference.harmonics.point_compliance import PointCompliance
 from fem_reference.harmonics.ring_compliance import ring_compliance
 from fem_reference.harmonics.state import PointState
+from fem_reference.memory import require_memory
 from fem_reference.model import ContactModel
 from fem_reference.residuals import Residuals
 

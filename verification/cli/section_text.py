@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from contact_scene import FiniteElementDiscretisation, Scene
 from fem_reference import Method, Path, Plan, Result
 from fem_reference.expected_radius import expected_radius
-from fem_reference.free_memory import required_bytes
+from fem_reference.memory import required_bytes
 from fem_reference.model import ContactModel
 from fem_reference.section_mesh import SectionMesh
 from verification.cli.plan_text import increments_text

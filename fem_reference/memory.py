@@ -1,10 +1,8 @@
 """What a factorisation will need, and whether this machine has it."""
 
-import os
-from pathlib import Path
-
 import numpy as np
 
+from contact_scene.free_memory import available_bytes
 from contact_scene.solver_errors import ResourceRefused
 
 # Entries of both factors per component, unknown and halving of the mesh; with unknown pressures.
@@ -29,13 +27,3 @@ def require_memory(needed: float) -> None:
             f"the finite-element matrix needs about {needed / 1e9:.1f} GB of memory, of which "
             f"{free / 1e9:.1f} GB are free: take fewer elements_per_radius"
         )
-
-
-def available_bytes() -> float:
-    """Free memory and what the system can hand back at once, as far as it tells."""
-    status = Path("/proc/meminfo")
-    lines = status.read_text(encoding="ascii").splitlines() if status.exists() else []
-    for name, _, size in (line.partition(":") for line in lines):
-        if name == "MemAvailable":
-            return 1024.0 * float(size.split()[0])
-    return float(os.sysconf("SC_PHYS_PAGES")) * os.sysconf("SC_PAGE_SIZE")
