@@ -9,10 +9,8 @@ from numpy.typing import NDArray
 from fem_reference.factored_section import FactoredSection
 from fem_reference.motion import Motion
 from fem_reference.section_mesh import SectionMesh
+from fem_reference.sources import sources_digest
 from fem_reference.stored_compliance import store, stored
-
-ALGORITHM_VERSION = 1
-"""Changes with whatever changes the bits of a compliance; matrices of other versions are unread."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -90,7 +88,7 @@ def _identity(section: SectionMesh, motion: Motion) -> str:
     edges = (outline.zone, outline.box, outline.interfaces, outline.rigid_base)
     far_field = getattr(motion.far_field, "__name__", None)
     moving = (motion.harmonic, motion.components, motion.on_axis, far_field)
-    described = (ALGORITHM_VERSION, moving, materials, edges)
+    described = (sources_digest(), moving, materials, edges)
     identity = hashlib.sha256(repr(described).encode())
     for array in (section.points, section.quads.astype(np.int64)):
         identity.update(np.ascontiguousarray(array).tobytes())

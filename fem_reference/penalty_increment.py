@@ -44,7 +44,7 @@ def advance(
             "the increment before reached the friction limit under force control, where the "
             "motion is undefined, so the history cannot go on; prescribe the shift or twist instead"
         )
-    solver = _Passes(problem.surface, problem.target(loads), ENOUGH * tolerance)
+    solver = _Passes(problem.surface, problem.target(loads), ENOUGH * tolerance, tolerance)
     limit = None
     if problem.driven and solver.target.free[1]:
         limit = _at_limit(problem, augmentations, last, loads, solver)
@@ -61,11 +61,17 @@ def advance(
 
 @dataclass(frozen=True)
 class _Passes:
-    """How one pass is solved: by Newton's method, and by springs in series where that fails."""
+    """How one pass is solved: by Newton's method, and by springs in series where that fails.
+
+    tolerance  that is aimed at
+    allowed    what will do where round-off stops the springs: the shear that pressing causes
+               cancels in the slip, of which little friction resolves little
+    """
 
     surface: ElasticSurface
     target: Target
     tolerance: float
+    allowed: float
 
     def solve(self, law: PenaltyLaw, starts: Sequence[Iterate]) -> Iterate:
         """The solution, by Newton's method from the first start that leads to one; raises
@@ -79,8 +85,8 @@ class _Passes:
                     return replace(found, iterations=spent)
         found = solve_by_springs(self.surface, law, self.target, starts[0], self.tolerance)
         spent += found.iterations
-        if not found.residual <= self.tolerance:
-            raise NotConverged("the penalty model", spent, found.residual, self.tolerance)
+        if not found.residual <= self.allowed:
+            raise NotConverged("the penalty model", spent, found.residual, self.allowed)
         return replace(found, iterations=spent)
 
     def starts(self, law: PenaltyLaw, last: PenaltyState) -> list[Iterate]:
@@ -171,7 +177,7 @@ def _at_limit(
     all, because its coefficient vanishes, the indenter stays.
     """
     alone = problem.pressing_alone()
-    pressing = _Passes(alone.surface, solver.target.part(NORMAL), solver.tolerance)
+    pressing = replace(solver, surface=alone.surface, target=solver.target.part(NORMAL))
     pressed = _advanced(alone, augmentations, last.pressing_alone(), loads, pressing)
     load = float(solver.target.value[1])
     capacity = problem.capacity(pressed.traction[0])

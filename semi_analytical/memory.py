@@ -9,19 +9,20 @@ DOUBLE = 8
 # Arrays of the size of the window held at once: coefficients, spectra of the padded grid (four
 # cells each) with their work space, solver vectors. Measured where the contact fills the window,
 # as it does when the window is fitted; a contact of half the window takes a third less.
-PRESSURE_ARRAYS = 42
-HISTORY_ARRAYS = 9
-SHEAR_ARRAYS = 100
+PRESSURE_ARRAYS = 40
+HISTORY_ARRAYS = 4
+SHEAR_ARRAYS = 82
 # Arms and unit motions, and what they are multiplied with.
-TILT_ARRAYS = 14
-TORSION_ARRAYS = 40
-# Spectra of the coupling, and the pressures that the alternation remembers: 12 arrays were
-# measured for weak coupling, which remembers a third of what strong coupling may.
-COUPLING_ARRAYS = {Coupling.NONE: 0, Coupling.ONE_WAY: 15, Coupling.FULL: 60}
+TILT_ARRAYS = 10
+TORSION_ARRAYS = 36
+# Spectra of the coupling, and the pressures that the alternation remembers; strong coupling, which
+# remembers more of them, was measured to need no more than weak.
+COUPLING_ARRAYS = {Coupling.NONE: 0, Coupling.ONE_WAY: 33, Coupling.FULL: 75}
 # Arrays that every increment leaves behind: pressure and gap; shear, slip, its distance and
 # dissipation, and masks.
 PRESSURE_RESULT = 2
 SHEAR_RESULT = 7
+FIXED = 4 << 20  # what does not grow with the window: work space of the transforms, small objects
 
 
 def estimated_bytes(grid: SurfaceGrid, plan: Plan) -> int:
@@ -33,7 +34,7 @@ def estimated_bytes(grid: SurfaceGrid, plan: Plan) -> int:
     work += COUPLING_ARRAYS[plan.coupling]
     work += HISTORY_ARRAYS if increments > 1 else 0
     kept = PRESSURE_RESULT + (SHEAR_RESULT if plan.shear else 0)
-    return cells * DOUBLE * (work + kept * increments)
+    return cells * DOUBLE * (work + kept * increments) + FIXED
 
 
 def refuse_if_too_large(grid: SurfaceGrid, plan: Plan) -> None:

@@ -1,6 +1,8 @@
 """Condensed compliances against Hankel integrals, punches with closed forms, and themselves."""
 
 import os
+import re
+import shutil
 from dataclasses import replace
 from math import inf, isinf, pi
 
@@ -10,7 +12,7 @@ from hankel_responses import Coating, Patch, nodal_forces, patch_energy
 
 from contact_scene import RIGID, Body, IsotropicMaterial, Layer
 from contact_scene.solver_errors import ResourceRefused
-from fem_reference import factored_section, memory, stored_compliance
+from fem_reference import factored_section, memory, sources, stored_compliance
 from fem_reference.compliance import composite, condense
 from fem_reference.factored_section import FactoredSection
 from fem_reference.gmsh_mesh import GmshMissing, gmsh_section_mesh
@@ -304,6 +306,48 @@ def test_a_compliance_is_computed_once(cache):
     moved = SectionMesh(points, section.quads, section.outline)
     assert not condense(moved, SHEARING).from_cache
     assert len(list(cache.iterdir())) == 7
+
+
+def test_a_compliance_of_other_sources_is_not_taken(cache, monkeypatch, tmp_path_factory):
+    section = section_mesh(HALF_SPACE, 4)
+    condense(section, PRESSING)
+    package = tmp_path_factory.mktemp("edited")
+    for module in sources.MODULES:
+        shutil.copy(sources.PACKAGE / f"{module}.py", package)
+    assert sources.sources_digest(package) == sources.sources_digest()
+    with (package / "elasticity.py").open("a") as file:
+        file.write("# another line\n")
+    sources.sources_digest.cache_clear()
+    edited = sources.sources_digest(package)
+    assert edited != sources.sources_digest()
+    monkeypatch.setattr("fem_reference.compliance.sources_digest", lambda: edited)
+    assert not condense(section, PRESSING).from_cache
+    assert len(list(cache.iterdir())) == 2
+
+
+def test_what_a_compliance_is_computed_by_is_in_its_key():
+    """What the modules of the key import of this package is in the key, or decides no bit."""
+    no_bits = {"memory", "sources", "stored_compliance"}
+    for module in sources.MODULES:
+        text = (sources.PACKAGE / f"{module}.py").read_text()
+        imported = set(re.findall(r"^from fem_reference\.(\w+) import", text, re.MULTILINE))
+        assert imported <= {*sources.MODULES, *no_bits}, module
+
+
+@pytest.mark.parametrize(
+    "other",
+    [
+        coated(2, 0.3, 1, 0.2, 1),
+        coated(2, 0.4, 1, 0.3, 1),
+        coated(2, 0.3, 1, 0.3, 0.9),
+        coated(2, 0.3, inf, 0.3, 1),
+    ],
+    ids=["substrate", "layer", "thickness", "rigid base"],
+)
+def test_bodies_in_one_cache_do_not_share_entries(cache, other):
+    for body in (coated(2, 0.3, 1, 0.3, 1)[0], other[0]):
+        assert not condense(section_mesh(body, 4, box=100.0), PRESSING).from_cache
+    assert len(list(cache.iterdir())) == 2
 
 
 def flip(content):

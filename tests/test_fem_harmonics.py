@@ -21,6 +21,7 @@ from hypothesis import strategies as st
 
 from contact_scene.solver_errors import GrossSliding, NotConverged
 from contact_scene.summary import ContactStatus
+from fem_reference.harmonics import newton
 from fem_reference.harmonics.admissible_shear import into_discs, project
 from fem_reference.harmonics.angular_grid import axisymmetric_grid, end_grid, mid_grid
 from fem_reference.harmonics.increment import advance
@@ -322,7 +323,15 @@ def test_strong_coupling_converges(mu):
     assert state.residuals.worst <= TOLERANCE
 
 
-def test_failure_is_loud():
+def test_newton_takes_over_where_taking_turns_does_not_converge():
+    of = contact(NU_ZERO, mu=8.0)
+    state = pressed(of, hertz_force(0.0), 3)
+    state = sheared(of, state, 0.9 * 8.0 * state.normal_force)
+    assert state.residuals.worst <= TOLERANCE
+
+
+def test_failure_is_loud(monkeypatch):
+    monkeypatch.setattr(newton, "MOST_STEPS", 2)
     of = contact(NU_ZERO, mu=8.0)
     state = pressed(of, hertz_force(0.0), 3)
     with pytest.raises(NotConverged) as failure:

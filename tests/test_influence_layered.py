@@ -1,5 +1,7 @@
 """Influence coefficients of layered bodies: against references, and by the laws they obey."""
 
+import re
+import shutil
 from math import hypot
 
 import numpy as np
@@ -12,7 +14,7 @@ from stack_strategies import HALF_SPACES, stacks
 
 from semi_analytical.errors import ResourceRefused
 from semi_analytical.frf.stack import Stack
-from semi_analytical.influence import cache, layered_memory
+from semi_analytical.influence import cache, layered_memory, sources
 from semi_analytical.influence.closed_form import HalfSpaceCoefficients, RectangleIntegrals
 from semi_analytical.influence.layered import LayeredCoefficients
 from semi_analytical.influence.radial_table import radial_table
@@ -301,11 +303,49 @@ def test_cache_tells_different_problems_apart(folder, computations, other):
     assert len(list(folder.iterdir())) == 2
 
 
-def test_cache_forgets_other_versions_of_the_numbers(folder, computations, monkeypatch):
+def test_cache_is_not_shared_with_other_sources(folder, computations, monkeypatch, tmp_path):
     normal_coefficients()
-    monkeypatch.setattr("semi_analytical.influence.layered.ALGORITHM_VERSION", -1)
+    package = tmp_path / "edited"
+    for part in sources.FOLDERS:
+        shutil.copytree(sources.PACKAGE / part, package / part)
+    assert sources.sources_digest(package) == sources.sources_digest()
+    with (package / "frf" / "surface.py").open("a") as file:
+        file.write("# another line\n")
+    sources.sources_digest.cache_clear()
+    edited = sources.sources_digest(package)
+    assert edited != sources.sources_digest()
+    monkeypatch.setattr("semi_analytical.influence.layered.sources_digest", lambda: edited)
     normal_coefficients()
     assert len(computations) == 2
+
+
+def test_what_a_coefficient_is_computed_by_is_in_its_key():
+    """Nothing outside FOLDERS is imported there but values, refusals and libraries."""
+    allowed = ("contact_scene", "semi_analytical.errors")
+    for part in sources.FOLDERS:
+        for source in (sources.PACKAGE / part).rglob("*.py"):
+            for name in re.findall(r"^from (\S+) import", source.read_text(), re.MULTILINE):
+                ours = name.startswith(("semi_analytical", "contact_scene"))
+                inside = name.startswith(tuple(f"semi_analytical.{f}" for f in sources.FOLDERS))
+                assert not ours or inside or name.startswith(allowed), (source.name, name)
+
+
+def test_bodies_in_one_cache_do_not_share_entries(folder, computations):
+    layer, other_layer, base, other_base = (2.0, 0.3, 0.5), (2.0, 0.4, 0.5), (1.0, 0.3), (1.0, 0.2)
+    stacks = [
+        Stack([layer], base),
+        Stack([layer], other_base),
+        Stack([other_layer], base),
+        Stack([layer, other_layer], base),
+        Stack([other_layer, layer], base),
+        Stack([layer, layer], base),
+    ]
+    for entries, stack in enumerate(stacks, start=1):
+        normal_coefficients(stack)
+        assert len(list(folder.iterdir())) == len(computations) == entries
+    for stack in stacks:
+        fresh = LayeredCoefficients(stack, (1.0, 1.0), (5, 4)).zz
+        np.testing.assert_array_equal(normal_coefficients(stack), fresh)
 
 
 def test_cache_keeps_the_components_apart(folder, computations):

@@ -2,7 +2,8 @@
 
 The turns contract by about max(β², µ|β|) (β Dundurs' second constant), so that plain turns fail for
 µ|β| ≥ 1. The pressures are therefore extrapolated: the combination of known points is taken that
-would come nearest to p' = p if the round trip p → p' were linear (Anderson 1965).
+would come nearest to p' = p if the round trip p → p' were linear (Anderson 1965). For µ|β| far
+above one that fails too, and `newton` takes over.
 """
 
 from dataclasses import dataclass
@@ -20,7 +21,7 @@ Field = NDArray[np.float64]
 Vector = NDArray[np.float64]
 Mask = NDArray[np.bool_]
 
-MOST_TURNS = 120
+MOST_TURNS = 60
 LOOSEST = 1e-4  # first tolerance of the shear
 REMEMBERED = 30
 DEPENDENT = 1e-10  # part of a difference below which the others explain it
@@ -167,6 +168,8 @@ class _Anderson:
         share, *_ = np.linalg.lstsq(turns.T, self._changes[-1], rcond=DEPENDENT)
         guess = answer - share @ (steps + turns)
         guess = np.where(answer > 0, np.maximum(guess, 0.0), 0.0)
-        if self._force is not None:
-            guess *= self._force / np.sum(self._areas * guess)
-        return np.asarray(guess)
+        if self._force is None:
+            return np.asarray(guess)
+        carried = float(np.sum(self._areas * guess))
+        # An extrapolation that leaves no pressure at all tells nothing.
+        return np.asarray(guess * (self._force / carried)) if carried > 0 else answer

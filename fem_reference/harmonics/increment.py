@@ -55,7 +55,7 @@ def advance(
     )
     p, q, aim, turns, solves = before.pressure, before.shear, 0.5 * tolerance, 0, 0
     for _ in range(MOST_ATTEMPTS):
-        solution = solve_coupled(problem, p, q, aim)
+        solution = _solved(problem, before, p, q, aim)
         turns, solves = turns + solution.turns, solves + solution.solves
         _refuse_sliding(problem, solution)
         state = _Trial.of(problem, before, solution).state(turns, solves)
@@ -63,6 +63,24 @@ def advance(
             return state
         p, q, aim = solution.pressure, solution.shear, 0.1 * aim
     raise NotConverged("the coupled increment", solves, state.residuals.worst, tolerance)
+
+
+def _solved(
+    problem: CoupledProblem, before: PointState, p: Vector, q: Field, tolerance: float
+) -> CoupledSolution:
+    """By turns, which need a shift only below the friction limit; else by Newton's method."""
+    try:
+        return solve_coupled(problem, p, q, tolerance)
+    except NotConverged as error:
+        taking_turns = error
+    from fem_reference.harmonics.newton import solve_by_newton
+
+    assert before.tangential_shift is not None
+    try:
+        motion = before.tangential_shift, before.approach
+        return solve_by_newton(problem, p, q, motion, tolerance)
+    except NotConverged:
+        raise taking_turns from None
 
 
 def _refuse_sliding(problem: CoupledProblem, solution: CoupledSolution) -> None:

@@ -4,7 +4,10 @@ Everything below a horizontal plane acts on what lies above through the complian
 which the compound recursion gives without cancellation. So the traction at the plane follows from
 the one at the surface, tau = M^-1 tau_0 with M of the material between (its determinant is the
 recursion's divisor), and the displacement is C tau. Exponentials only decay; nu = 1/2 is regular.
-Signs and frame: CONVENTIONS.md, THEORY 1.4 to 1.6.
+Signs and frame: CONVENTIONS.md. Equilibrium and Hooke's law along z, with W = u_z, read
+
+    U' = -tau_s/G - alpha W                tau_s' = -2G/(1-nu) alpha^2 U - nu/(1-nu) alpha tau_z
+    W' = -(1-2nu)/(2G(1-nu)) tau_z + nu/(1-nu) alpha U                     tau_z' = alpha tau_s
 """
 
 from __future__ import annotations
@@ -173,7 +176,7 @@ def remainder_at_depth(stack: Stack, alpha: Array, depth: float) -> DepthScalars
 
 
 def in_plane(fields: DepthScalars, material: HalfSpace, alpha: Array) -> PlaneScalars:
-    """In-plane stresses from displacement and traction, regular at nu = 1/2 (THEORY 1.6)."""
+    """In-plane stresses from displacement and traction by Hooke's law, regular at nu = 1/2."""
     G, nu = material
     stretch = 2 * G * alpha * fields.displacement[0]
     squeeze = fields.traction[1]
@@ -187,7 +190,7 @@ def in_plane(fields: DepthScalars, material: HalfSpace, alpha: Array) -> PlaneSc
 def _transmitted(below: Compliance, nu: float, x: Array) -> tuple[Array, Array]:
     """Traction at a plane per unit traction x = alpha d above it, for waves along and across.
 
-    M is the lower half of exp(-x A), A the matrix of the equations of THEORY 1.4, applied to
+    M is the lower half of exp(-x A), A the matrix of the equations above, applied to
     (C, 1): tau_0 = M tau. Its determinant is the divisor of the compound recursion.
     """
     x = np.minimum(x, OPAQUE)

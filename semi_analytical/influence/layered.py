@@ -21,13 +21,11 @@ from semi_analytical.influence.layered_cells import cell_integrals
 from semi_analytical.influence.layered_memory import refuse_beyond_memory
 from semi_analytical.influence.layered_response import COUPLING, NORMAL, TANGENTIAL, Components
 from semi_analytical.influence.radial_table import RadialTable, radial_table
+from semi_analytical.influence.sources import sources_digest
 
 Field = NDArray[np.float64]
 # From what determines an array and its shape, and the means to compute it, to the array.
 Remember = Callable[[str, tuple[int, ...], Callable[[], Field]], Field]
-
-# To be raised with every change of the numbers: what was stored under another one is not used.
-ALGORITHM_VERSION = 1
 
 
 def computed_afresh(identity: str, shape: tuple[int, ...], compute: Callable[[], Field]) -> Field:
@@ -73,7 +71,7 @@ class LayeredCoefficients:
 
         (dx, dy), (nx, ny) = self.spacing, self.shape
         given = (self.stack.layers, self.stack.base, float(dx), float(dy), int(nx), int(ny))
-        identity = repr((ALGORITHM_VERSION, components.names, *given))
+        identity = repr((sources_digest(), components.names, *given))
         return tuple(self.remember(identity, (len(components.names), nx, ny), compute))
 
     @cached_property

@@ -2,7 +2,7 @@
 
 With H_n[f] = 1/2pi int f J_n(alpha r) alpha d alpha, the scalars of `frf/depth.py` and the cosine
 and sine of the angle phi of the observer, seen from the force, isotropy leaves 15 functions: six
-under pressure, nine under shear (THEORY 1.6, turned into the axes of the scene).
+under pressure, nine under shear: its waves along and across, turned into the axes of the scene.
 """
 
 from __future__ import annotations
