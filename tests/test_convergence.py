@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from verification.convergence import ObservedOrder, RefinedValue, refined_value
+from verification.convergence import ORDER_OFF, ObservedOrder, RefinedValue, refined_value
 
 SIZES = 0.25 * 2.0 ** -np.arange(6)
 GRIDS = 0.25 * 2.0 ** (-np.arange(6) / 2)
@@ -39,8 +39,19 @@ def test_levels_may_come_in_any_order() -> None:
 @pytest.mark.parametrize("order", [1.0, 1.5])
 def test_the_next_term_does_not_hide_the_order(order: float, sizes: np.ndarray) -> None:
     fit = refined(TERM * sizes**order + TERM * sizes**2, order, sizes)
-    assert known(fit).agrees_with(order)
+    assert known(fit).agrees_with(order, allowance=0.2)
     assert fit.is_asymptotic
+
+
+def test_order_outside_its_interval_is_another_one() -> None:
+    narrow, wide, vague = (ObservedOrder(1.35, width) for width in (0.02, 0.2, 0.3))
+    assert narrow.agrees_with(1.3)
+    assert narrow.agrees_with(1.5) is False
+    assert narrow.agrees_with(1.5, allowance=0.2)
+    assert wide.agrees_with(1.5)
+    assert wide.agrees_with(1.6) is False
+    assert vague.agrees_with(1.35) is None
+    assert narrow.may_be_off_by() == ORDER_OFF
 
 
 @pytest.mark.parametrize("share", [0.1, 0.3])

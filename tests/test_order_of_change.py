@@ -5,7 +5,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from verification.cases.case import Case, OrderOfChange
+from verification.cases.case import Case, Followed, NotYetAsymptotic, OrderOfChange, Refinement
 from verification.cases.outcome import Status
 from verification.cases.verdicts import judge_order
 
@@ -13,17 +13,19 @@ SIZES = 0.25 * 2.0 ** -np.arange(6)
 LIMIT = 3.0
 
 
-def judged(errors, expected):
+def judged(errors, expected, not_yet=None):
     """The verdict on levels with these errors, the limit unknown to the judge."""
     results = {
         f"level {n}": SimpleNamespace(size=size, value=LIMIT + error)
         for n, (size, error) in enumerate(zip(SIZES, errors, strict=True))
     }
     order = OrderOfChange(
-        "order", "a planted value", tuple(results), lambda one, other: abs(one.value - other.value),
-        lambda result: result.size, expected, "planted",
+        "order", Followed.APPROACH, Refinement.INCREMENTS, "a planted value", tuple(results),
+        lambda one, other: abs(one.value - other.value), lambda result: result.size, expected,
+        "planted", not_yet,
     )  # fmt: skip
-    case = Case("planted", "planted", "", (), (), orders=(order,))
+    runs = tuple(SimpleNamespace(label=label, solver="planted") for label in results)
+    case = Case("planted", "planted", "", runs, (), orders=(order,))
     return judge_order(order, case, results)
 
 
@@ -46,3 +48,16 @@ def test_planted_noise_is_inconclusive(rng):
 
 def test_levels_that_do_not_change_fail():
     assert judged(0 * SIZES, 1.0).status is Status.FAIL
+
+
+def test_levels_that_are_not_asymptotic_yet_may_be_off_by_what_is_known():
+    errors = 0.1 * SIZES**1.35
+    assert judged(errors, 1.5).status is Status.FAIL
+    known = judged(errors, 1.5, NotYetAsymptotic(0.2, "a planted reason"))
+    assert known.status is Status.PASS
+    assert known.allowed == 0.2
+    assert "a planted reason" in known.because
+    assert judged(errors, 1.6, NotYetAsymptotic(0.2, "a planted reason")).status is Status.FAIL
+    for allowance in (0.0, 0.25):
+        with pytest.raises(ValueError, match="needs less"):
+            NotYetAsymptotic(allowance, "any order would do")

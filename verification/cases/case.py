@@ -5,10 +5,11 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from enum import IntEnum, StrEnum
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, ClassVar
 
 from contact_scene import Scene
 from semi_analytical.grid import SurfaceGrid
+from verification.convergence import ORDER_WIDTH
 
 if TYPE_CHECKING:
     from semi_analytical import Plan
@@ -36,6 +37,7 @@ class ReferenceKind(StrEnum):
     THEORY = "theory"
     EXTERNAL_CODE = "external code"
     OTHER_SOLVER = "other solver"
+    OWN_REFINEMENT = "own refinement"  # the same solver on a coarser discretisation
     IDENTITY = "identity"  # holds exactly by a theorem or by the equations themselves
 
 
@@ -51,6 +53,8 @@ class Run:
     grid: SurfaceGrid
     tolerance: float = SOLVER_TOLERANCE
     effects: Callable[[Plan], Plan] | None = None
+
+    solver: ClassVar[str] = "semi-analytical"
 
     @property
     def spacing(self) -> float:
@@ -151,21 +155,60 @@ class Comparison:
     kind: ReferenceKind = ReferenceKind.IDENTITY
 
 
+class Followed(StrEnum):
+    """What is followed under refinement."""
+
+    PRESSURE = "pressure"
+    PEAK_PRESSURE = "peak pressure"
+    APPROACH = "approach"
+    CONTACT_RADIUS = "contact radius"
+    SHEAR = "shear"
+    SHIFT = "tangential shift"
+    TWIST = "twist"
+    ENERGY = "dissipated energy"
+
+
+class Refinement(StrEnum):
+    """What becomes smaller."""
+
+    MESH = "mesh"
+    INCREMENTS = "increments"
+
+
+@dataclass(frozen=True)
+class NotYetAsymptotic:
+    """By how much an order may differ from the expected one on these levels, beyond its interval,
+    and what is known to cause it. Raises ValueError for so much that any order would do."""
+
+    allowance: float
+    because: str
+
+    def __post_init__(self) -> None:
+        if not 0 < self.allowance < ORDER_WIDTH:
+            raise ValueError(f"got {self.allowance}; an order judged to {ORDER_WIDTH} needs less")
+
+
 @dataclass(frozen=True)
 class OrderOfConvergence:
     """The rate at which an error falls with the cell side, against the rate theory expects.
 
-    error     error on one run, > 0
+    of        the quantity that it is an order of
+    levels    coarse to fine; runs with cells of one size are one level, and count by the root
+              mean square of their errors
+    error     error on one run, of either sign
     expected  order p of h^p
     because   why this order
+    not_yet   what keeps these levels from it; None where nothing is known to
     """
 
     name: str
+    of: Followed
     meaning: str
     levels: tuple[str, ...]
     error: Callable[[Any], float]
     expected: float
     because: str
+    not_yet: NotYetAsymptotic | None = None
 
 
 @dataclass(frozen=True)
@@ -174,20 +217,26 @@ class OrderOfChange:
     known or has the error of another kind of refinement: a change falls with the order of the
     error.
 
+    of        the quantity that it is an order of
+    refined   what the levels refine
     levels    coarse to fine, each by the same factor of refinement
     change    from the first of two levels to the second, > 0
     size      what is refined, h of a level
     expected  order p of h^p
     because   why this order
+    not_yet   what keeps these levels from it; None where nothing is known to
     """
 
     name: str
+    of: Followed
+    refined: Refinement
     meaning: str
     levels: tuple[str, ...]
     change: Callable[[Any, Any], float]
     size: Callable[[Any], float]
     expected: float
     because: str
+    not_yet: NotYetAsymptotic | None = None
 
 
 @dataclass(frozen=True)

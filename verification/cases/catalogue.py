@@ -8,6 +8,7 @@ from verification.cases.classical_forms import classical_forms
 from verification.cases.coated_paraboloid import coated_paraboloid
 from verification.cases.coated_unlike_ratios import coated_unlike_ratios
 from verification.cases.cone_contact import cone_contact
+from verification.cases.coupled_history import coupled_history
 from verification.cases.cross_check import cross_check
 from verification.cases.cross_check_tangential import cross_check_tangential
 from verification.cases.dissimilar_bodies import dissimilar_bodies
@@ -35,6 +36,7 @@ from verification.cases.hertz_approach_control import hertz_approach_control
 from verification.cases.hertz_elliptical import hertz_elliptical
 from verification.cases.hertz_exact_sphere import hertz_exact_sphere
 from verification.cases.hertz_point import hertz_point
+from verification.cases.hertz_unloading import hertz_unloading
 from verification.cases.indentation_refinement import indentation_refinement
 from verification.cases.layered_identities import layered_identities
 from verification.cases.layered_reference import layered_reference
@@ -42,8 +44,10 @@ from verification.cases.load_paths import load_paths
 from verification.cases.near_sliding import near_sliding
 from verification.cases.no_slip_indentation import no_slip_indentation
 from verification.cases.paper_fretting_loop import paper_fretting_loop
+from verification.cases.same_surface import same_surface
 from verification.cases.sampling_route import sampling_route
 from verification.cases.sheared_cone import sheared_cone
+from verification.cases.sheared_increments import sheared_increments
 from verification.cases.spence_example import spence_example
 from verification.cases.subsurface_stress import subsurface_stress
 from verification.cases.thin_layer import thin_layer
@@ -55,6 +59,7 @@ CASES: tuple[Callable[[Level], Case], ...] = (
     hertz_point,
     hertz_exact_sphere,
     hertz_approach_control,
+    hertz_unloading,
     dissimilar_bodies,
     hertz_elliptical,
     cone_contact,
@@ -68,6 +73,8 @@ CASES: tuple[Callable[[Level], Case], ...] = (
     sheared_cone,
     near_sliding,
     load_paths,
+    coupled_history,
+    same_surface,
     forced_effects,
     coated_paraboloid,
     coated_unlike_ratios,
@@ -77,6 +84,7 @@ CASES: tuple[Callable[[Level], Case], ...] = (
     film_stiffness,
     frictional_indentation,
     indentation_refinement,
+    sheared_increments,
     goodman_indentation,
     no_slip_indentation,
     spence_example,

@@ -21,7 +21,8 @@ class ChangeKind(StrEnum):
     """The error has fallen far without a reason on record."""
 
     OUTSIDE = "outside"
-    """Fails, and did not when it was recorded."""
+    """Fails, and did not when it was recorded; or has moved away from its reference by more than is
+    allowed at all."""
 
     NEW = "new"
     GONE = "gone"
@@ -67,6 +68,14 @@ class Gone(Description):
     run: str
     unit: str
     was: float | None
+
+
+class GoneCase(Description):
+    """A case that was recorded and is not in a report of all cases any more."""
+
+    name: str
+    since: str
+    """Commit that its recording is from, as a reader sees it."""
 
 
 class Origin(Description):

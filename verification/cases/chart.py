@@ -16,6 +16,9 @@ class Look(StrEnum):
     REFERENCE = "reference"
     BOUND = "bound"
     SLOPE = "slope"
+    LEVELS = "levels"  # points of a refinement, not joined
+    FITTED = "fitted"
+    BAND = "band"  # the outline of an area
     MARKS = "marks"
     TILES = "tiles"  # places of a map that belong to one class
 

@@ -14,6 +14,7 @@ from verification.cases.case import (
     Case,
     Comparison,
     Derived,
+    Followed,
     Level,
     OrderOfConvergence,
     Quantity,
@@ -151,15 +152,18 @@ def coated_paraboloid_on(cells: tuple[int, ...], required: tuple[int, ...]) -> C
         ),
         orders=(
             OrderOfConvergence(
-                "order_of_pressure", "pressure over the window, L2", levels, pressure_error, 1.0,
+                "order_of_pressure", Followed.PRESSURE,
+                "pressure over the window, L2", levels, pressure_error, 1.0,
                 "as for the homogeneous body: the square-root edge",
             ),
             OrderOfConvergence(
-                "order_of_approach", "approach", levels, approach_error, 2.0,
+                "order_of_approach", Followed.APPROACH,
+                "approach", levels, approach_error, 2.0,
                 "as for the homogeneous body: the errors at the edge cancel",
             ),
             OrderOfConvergence(
-                "order_of_central_pressure", "pressure around the axis", levels, centre_error, 2.0,
+                "order_of_central_pressure", Followed.PEAK_PRESSURE,
+                "pressure around the axis", levels, centre_error, 2.0,
                 "as for the homogeneous body: the cells lie h/√2 from the axis",
             ),
         ),

@@ -13,6 +13,7 @@ from verification.cases import paper_scene as paper
 from verification.cases.case import (
     Case,
     Derived,
+    Followed,
     Level,
     OrderOfConvergence,
     Quantity,
@@ -78,7 +79,8 @@ def cone_contact_on(cells: tuple[int, ...]) -> Case:
         ),
         orders=(
             OrderOfConvergence(
-                "order_of_pressure", "pressure over the window, L1", levels, pressure_error, 1.5,
+                "order_of_pressure", Followed.PRESSURE,
+                "pressure over the window, L1", levels, pressure_error, 1.5,
                 "at the edge O(√h) on a ring one cell wide; the logarithm at the apex is O(1) in "
                 "a few cells, O(h²)",
             ),

@@ -1,11 +1,19 @@
-"""Errors against cell side on logarithmic axes, with lines of the expected slopes."""
+"""Errors against cell side on logarithmic axes, with fitted lines and lines of expected slopes."""
 
 from collections.abc import Mapping, Sequence
 
+import numpy as np
+from numpy.typing import NDArray
+
 from verification.cases.chart import Chart, Curve, Look, Panel, curve
+from verification.convergence import ObservedOrder
+from verification.error_line import ErrorLine, by_size, error_line
 
 Errors = Mapping[str, Sequence[float]]
-BELOW = 0.6  # slope lines run under the data, by this factor
+BELOW = 0.4  # lines of expected slopes run under the data, by this factor
+LEAST = 4  # levels that a line is drawn through
+ALONG = 9  # points along a band, which is curved
+SHOWN = 0.005  # smallest half-width that two decimals show
 
 
 def convergence_chart(
@@ -17,18 +25,52 @@ def convergence_chart(
     slopes: Mapping[str, float],
     x_label: str = "cell side / contact radius",
 ) -> Chart:
-    """One curve for every error and, where an order is expected, a line of that slope.
+    """Every error with the line fitted to it and, where an order is expected, a line of that slope.
 
-    spacings  cell sides, dimensionless
-    errors    name to errors at these
+    spacings  cell sides, dimensionless; errors of equal ones count by their root mean square
+    errors    name to errors at these, of either sign
     slopes    name of an error to its expected order
     """
     curves: list[Curve] = []
     for series, (label, values) in enumerate(errors.items()):
-        if label in slopes:
-            order = slopes[label]
-            line = [BELOW * values[0] * (h / spacings[0]) ** order for h in spacings]
-            curves.append(curve(f"slope {order:g}", spacings, line, Look.SLOPE, series))
-        curves.append(curve(label, spacings, values, Look.POINTS, series))
+        curves += _series(label, *by_size(spacings, values), slopes.get(label), series)
     panel = Panel(x_label=x_label, y_label="relative error", curves=tuple(curves), logarithmic=True)
-    return Chart(name=name, title=title, caption=caption, rows=((panel,),))
+    legend = (
+        "Numbers are the slopes of the fitted lines with their 95 % intervals, bands those of the "
+        "lines. Dashed below: the expected slopes."
+    )
+    return Chart(name=name, title=title, caption=f"{caption} {legend}", rows=((panel,),))
+
+
+def _series(
+    label: str, sizes: list[float], errors: list[float], expected: float | None, series: int
+) -> list[Curve]:
+    """Points, fitted line with its band, and expected slope of one error."""
+    ends = np.array([max(sizes), min(sizes)])
+    if len(sizes) < LEAST or min(errors) <= 0:
+        curves = [curve(label, sizes, errors, Look.POINTS, series)]
+        start = errors[int(np.argmax(sizes))]
+    else:
+        line = error_line(sizes, errors)
+        curves = [
+            _band(line, ends, series),
+            curve("", ends, line.at(ends), Look.FITTED, series),
+            curve(f"{label}: {_text(line.observed)}", sizes, errors, Look.LEVELS, series),
+        ]
+        start = float(line.at(ends[:1])[0])
+    if expected is not None:
+        shown = BELOW * start * (ends / ends[0]) ** expected
+        curves.append(curve(f"slope {expected:g}", ends, shown, Look.SLOPE, series))
+    return curves
+
+
+def _text(observed: ObservedOrder) -> str:
+    digits = ".2f" if observed.half_width >= SHOWN else ".1g"
+    return f"{observed.order:.2f} ± {observed.half_width:{digits}}"
+
+
+def _band(line: ErrorLine, ends: NDArray[np.float64], series: int) -> Curve:
+    """The outline of the line's 95 % band."""
+    along = np.geomspace(ends[0], ends[1], ALONG)
+    low, high = line.band(along)
+    return curve("", [*along, *along[::-1]], [*low, *high[::-1]], Look.BAND, series)

@@ -10,11 +10,22 @@ _LEVELS = {
     Level.STANDARD: (12, 16, 22, 32, 45, 64),
     Level.FULL: (16, 22, 32, 45, 64, 90, 128),
 }
+# Five meshes per octave, and where in its element the edge of the contact lies on each: all values
+# depend on it, and only their root mean square falls with a power of the element.
+_MANY = tuple(round(ASKED_AT / 2 ** (number / 5)) for number in range(12, -1, -1))
+MIDDLE = 0.5
+PLACES = (0.1, 0.3, MIDDLE, 0.7, 0.9)
 
 
 def levels(level: Level) -> tuple[int, ...]:
     """Elements per radius, coarse to fine."""
     return _LEVELS[level]
+
+
+def order_levels(level: Level) -> tuple[tuple[int, float], ...]:
+    """Elements per radius and place of the edge in its element."""
+    meshes = _LEVELS[level] if level is Level.QUICK else _MANY
+    return tuple((n, place) for n in meshes for place in PLACES)
 
 
 def finest(level: Level) -> int:
@@ -41,6 +52,7 @@ def because(order: float) -> str:
     )
 
 
-def label(elements: int) -> str:
+def label(elements: int, place: float = MIDDLE) -> str:
     """Of a run."""
-    return f"{elements} elements per radius"
+    aside = "" if place == MIDDLE else f", edge at {place:g}"
+    return f"{elements} elements per radius{aside}"

@@ -8,14 +8,26 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from verification.cases import paper_scene as paper
-from verification.cases.case import Case, Level, Quantity, Required, closed_form, exact_zero
+from verification.cases.case import (
+    Case,
+    Followed,
+    Level,
+    OrderOfConvergence,
+    Quantity,
+    Required,
+    closed_form,
+    exact_zero,
+)
 from verification.cases.chart import Chart
-from verification.cases.fem_levels import finest, judged_within, label
-from verification.cases.fem_profiles import radial_chart
+from verification.cases.convergence_chart import convergence_chart
+from verification.cases.fem_hertz import meshed
+from verification.cases.fem_levels import finest, judged_within, label, order_levels
+from verification.cases.fem_profiles import radial_chart, relative_l1
 from verification.cases.loop_history import LOADED, ExactLoop, loop_energy, loop_steps
 from verification.cases.paper_scene import FRICTION, HERTZ, STEEL
 from verification.cases.profile_chart import ProfileLabels
 from verification.cases.section_run import SectionRun, per_radius
+from verification.cases.stopped_shearing import StoppedShearing
 from verification.closed_forms.tangential_history import TangentialHistory
 
 if TYPE_CHECKING:
@@ -31,6 +43,13 @@ SCENE = paper.frictional(
     STEEL,
     *loop_steps(quarter=3),
 )
+SHEARING = StoppedShearing(STEEL, (0.3, 0.45, 0.6, 0.75, 0.9))
+SHEARED = paper.frictional(
+    "Two alike bodies sheared once, by finite elements",
+    paper.paraboloid(STEEL),
+    STEEL,
+    *(paper.tangential_step(part, increments=1) for part in SHEARING.parts),
+)
 AT_EDGE = 0.1  # contact radii to each side of a stick edge, where the shear has a cusp
 # At 64 elements per radius: shift, energy, shear; and the order with which they fall.
 ASKED = {"shift": 5e-4, "energy": 1e-3, "shear": 1e-2}
@@ -42,13 +61,21 @@ WHY = (
 
 
 def fem_partial_slip(level: Level = Level.QUICK) -> Case:
-    """The case, on finer meshes at higher levels."""
-    return fem_partial_slip_on(finest(level))
+    """The case, on finer meshes at higher levels, and with orders above the quick one."""
+    return fem_partial_slip_on(finest(level), () if level is Level.QUICK else order_levels(level))
 
 
-def fem_partial_slip_on(elements: int) -> Case:
-    """The case on one mesh."""
+def fem_partial_slip_on(elements: int, studied: tuple[tuple[int, float], ...] = ()) -> Case:
+    """The loop on one mesh.
+
+    studied  meshes for the orders, and where in its element the edge of the contact lies
+    """
     run = SectionRun(label(elements), SCENE, per_radius(elements, 0.97 * HERTZ.contact_radius))
+    sheared = tuple(
+        SectionRun(f"sheared once, {label(n, place)}", SHEARED, per_radius(n, meshed(n, place)))
+        for n, place in studied
+    )
+    orders = tuple(one.label for one in sheared)
     factor = (64 / elements) ** ORDER
     return Case(
         name="fem_partial_slip",
@@ -57,9 +84,10 @@ def fem_partial_slip_on(elements: int) -> Case:
             "Two alike bodies under 1 kN, sheared to 0.9 µW, to -0.9 µW and back, as in "
             "fretting_loop. The first harmonic of the displacement carries a shear along the load "
             "that is the same all around each ring; slip across the load is neglected, as the "
-            "closed form does for any ν. Shear is a quadratic program within ±µp."
+            "closed form does for any ν. Shear is a quadratic program within ±µp. Orders are "
+            f"judged on a single shearing with stops at {SHEARING.listed} µW."
         ),
-        runs=(run,),
+        runs=(run, *sheared),
         quantities=(
             Quantity(
                 "largest_shift_error", "largest difference of the shift in any increment", "m",
@@ -86,10 +114,40 @@ def fem_partial_slip_on(elements: int) -> Case:
                 exact_zero(SOURCE), Required(ASKED["shear"] * factor, WHY), 1.0, "µp_H",
             ),
         ),
-        charts=_charts,
+        orders=_orders(orders) if orders else (),
+        charts=lambda results: _charts(results, run.label, orders),
         limits=(
             "For ν > 0 slip has a component across the load, up to 4 % of µp_H in the shear; both "
             "the closed form and this run neglect it.",
+        ),
+    )  # fmt: skip
+
+
+def shear_l1_error(result: Result) -> float:
+    """Root mean square over all stops of ∫|q - q_exact| r dr / ∫µp r dr."""
+    return SHEARING.over_stops(
+        result,
+        lambda end, exact: (
+            relative_l1(end, end.shear_along_load, exact.shear, HERTZ.contact_radius) / FRICTION
+        ),
+    )
+
+
+def _orders(levels: tuple[str, ...]) -> tuple[OrderOfConvergence, ...]:
+    return (
+        OrderOfConvergence(
+            "order_of_shear", Followed.SHEAR,
+            f"∫|q - q_exact| / ∫µp at {SHEARING.listed} µW, root mean square", levels,
+            shear_l1_error, ORDER,
+            "square-root edges of stick zone and contact: an error of O(√h) on rings one element "
+            "wide leaves O(h^3/2) in L1",
+        ),
+        *SHEARING.orders(
+            levels, 2.0,
+            "the difference of two approaches, of the contact and of the stick zone (Cattaneo); "
+            "each is wrong by h²/R times a number that depends on where in its element the edge is",
+            "what the area below the curve of approach over load differs from its trapezium: as "
+            "wrong as the approaches at its ends",
         ),
     )  # fmt: skip
 
@@ -115,8 +173,10 @@ def _along(result: Result) -> Iterator[tuple[Any, TangentialHistory]]:
     return EXACT.along(history)
 
 
-def _charts(results: Mapping[str, Result]) -> tuple[Chart, ...]:
-    (result,) = results.values()
+def _charts(
+    results: Mapping[str, Result], loop: str, studied: tuple[str, ...]
+) -> tuple[Chart, ...]:
+    result = results[loop]
     charts = []
     for step, name in ((LOADED, "loaded"), (LOADED + 1, "reversed")):
         end = result.steps[step - 1]
@@ -134,4 +194,23 @@ def _charts(results: Mapping[str, Result]) -> tuple[Chart, ...]:
                 labels, HERTZ.contact_radius, LIMIT, end, end.shear_along_load, (r, exact.shear(r))
             )
         )
+    if studied:
+        charts.append(_convergence([results[name] for name in studied]))
     return tuple(charts)
+
+
+def _convergence(runs: list[Result]) -> Chart:
+    return convergence_chart(
+        "fem_partial_slip_convergence",
+        "Convergence under a tangential force",
+        f"Errors at {SHEARING.listed} µW, root mean square, against the side of an element over "
+        "the contact radius.",
+        [1 / run.discretisation.elements_per_radius for run in runs],
+        {
+            "shear (L1)": [shear_l1_error(run) for run in runs],
+            "tangential shift": [SHEARING.shift_error(run) for run in runs],
+            "dissipated energy": [SHEARING.energy_error(run) for run in runs],
+        },
+        {"shear (L1)": ORDER, "tangential shift": 2.0, "dissipated energy": 2.0},
+        x_label="element side / contact radius",
+    )

@@ -16,6 +16,7 @@ if TYPE_CHECKING:
 
 Field = NDArray[np.float64]
 SHOWN = 1.1  # contact radii
+IN_ELEMENT = 40  # points of a sum that stands for an integral
 
 
 def at_radii(increment: Increment, traction: Field, r: Field) -> Field:
@@ -31,6 +32,34 @@ def largest_error(
     traction."""
     judged = increment.radii <= within
     return float(np.max(np.abs(traction - exact(increment.radii))[judged]))
+
+
+def between_rings(increment: Increment, radius: float) -> Field:
+    """Radii out to a tenth beyond this one, many in every element [length]."""
+    judged = increment.radii[:-1] < SHOWN * radius
+    starts, sides = increment.radii[:-1][judged], np.diff(increment.radii)[judged]
+    parts = (np.arange(IN_ELEMENT) + 0.5) / IN_ELEMENT
+    return np.asarray((starts[:, None] + sides[:, None] * parts).ravel())
+
+
+def relative_l2(
+    increment: Increment, traction: Field, exact: Callable[[Field], Field], radius: float
+) -> float:
+    """√∫(traction - exact)² r dr / √∫ exact² r dr, linear between the rings as it is meant [1]."""
+    r = between_rings(increment, radius)
+    known = exact(r)
+    error = np.interp(r, increment.radii, traction) - known
+    return float(np.sqrt(np.sum(error**2 * r) / np.sum(known**2 * r)))
+
+
+def relative_l1(
+    increment: Increment, traction: Field, exact: Callable[[Field], Field], radius: float
+) -> float:
+    """∫|traction - exact| r dr / ∫p r dr, to be divided by a friction coefficient [1]."""
+    r = between_rings(increment, radius)
+    error = np.interp(r, increment.radii, traction) - exact(r)
+    pressure = np.interp(r, increment.radii, increment.pressure)
+    return float(np.sum(np.abs(error) * r) / np.sum(pressure * r))
 
 
 def radial_chart(

@@ -9,6 +9,7 @@ import numpy as np
 
 from verification.cases.case import (
     Case,
+    Followed,
     Level,
     OrderOfConvergence,
     Quantity,
@@ -17,6 +18,7 @@ from verification.cases.case import (
     exact_zero,
 )
 from verification.cases.chart import Chart
+from verification.cases.fem_hertz import meshed
 from verification.cases.fem_levels import allowed, judged_within, label, levels
 from verification.cases.fem_profiles import radial_chart
 from verification.cases.paper_scene import FRICTION, HERTZ
@@ -56,7 +58,7 @@ def fem_torsion(level: Level = Level.QUICK) -> Case:
 def fem_torsion_on(elements: tuple[int, ...]) -> Case:
     """The case on meshes of so many elements per contact radius."""
     n = elements[-1]
-    ball = SectionRun(f"ball, {label(n)}", MONOTONIC, per_radius(n, 0.97 * HERTZ.contact_radius))
+    ball = SectionRun(f"ball, {label(n)}", MONOTONIC, per_radius(n, meshed(n)))
     punches = tuple(SectionRun(_punch(m), STUCK_PUNCH, per_radius(m)) for m in elements)
     return Case(
         name="fem_torsion",
@@ -78,7 +80,8 @@ def fem_torsion_on(elements: tuple[int, ...]) -> Case:
         ),
         orders=(
             OrderOfConvergence(
-                "order_of_twist", "twist of the stuck punch",
+                "order_of_twist", Followed.TWIST,
+                "twist of the stuck punch",
                 tuple(run.label for run in punches), twist_error, 1.0, RIM,
             ),
         ),

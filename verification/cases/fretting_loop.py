@@ -145,6 +145,13 @@ def _of_the_cycle(cells: int) -> tuple[Quantity, ...]:
             LARGEST_SLIP, "the largest slip amplitude",
         ),
         Quantity(
+            "largest_slip_distance_error", "largest difference of the way slipped in the contact",
+            "m", run, EXACT.largest_slip_distance_error, exact_zero(SOURCE),
+            Required(1e-3, "as for the slip amplitude, of which it is five times: one way in the "
+                     "first loading, two back and two again"),
+            5 * LARGEST_SLIP, "the largest way",
+        ),
+        Quantity(
             "ruiz_f1", "largest shear times slip amplitude", "Pa m", run,
             lambda result: float(np.max(loop_cycle(result).ruiz_f1)),
             closed_form(CYCLED.largest_f1, RUIZ),

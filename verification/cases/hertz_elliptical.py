@@ -13,6 +13,7 @@ from verification.cases import paper_scene as paper
 from verification.cases.case import (
     Case,
     Derived,
+    Followed,
     Level,
     OrderOfConvergence,
     Quantity,
@@ -84,7 +85,8 @@ def hertz_elliptical_on(cells: tuple[int, ...]) -> Case:
         ),
         orders=(
             OrderOfConvergence(
-                "order_of_pressure", "pressure over the window, L2", levels, pressure_error, 1.0,
+                "order_of_pressure", Followed.PRESSURE,
+                "pressure over the window, L2", levels, pressure_error, 1.0,
                 "square-root edge, as for the circle",
             ),
         ),

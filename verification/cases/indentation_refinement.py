@@ -12,9 +12,11 @@ from verification.cases import paper_scene as paper
 from verification.cases.case import (
     Case,
     Comparison,
+    Followed,
     Level,
     OrderOfChange,
     ReferenceKind,
+    Refinement,
     Run,
 )
 from verification.cases.chart import Chart
@@ -47,6 +49,7 @@ ONE = Indentation(
     "self-similar (Spence 1975), to five digits",
 )  # fmt: skip
 FEW, MANY, QUICK_CELLS = 8, 16, 64
+LOST = "an increment's slip is charged with the shear at its end, while the friction limit moves on"
 
 
 def indentation_refinement(level: Level = Level.QUICK) -> Case:
@@ -104,7 +107,8 @@ def _orders_in_cells(runs: tuple[Run, ...]) -> tuple[OrderOfChange, ...]:
     levels = tuple(run.label for run in runs)
     return (
         OrderOfChange(
-            "order_of_shear_in_cells", f"shear (L1) with {CELLS_INCREMENTS} increments", levels,
+            "order_of_shear_in_cells", Followed.SHEAR, Refinement.MESH,
+            f"shear (L1) with {CELLS_INCREMENTS} increments", levels,
             shear_change, cell_side, 1.5,
             "square-root edges of stick zone and contact: an error of O(√h) on rings one cell wide "
             "leaves O(h^3/2) in L1",
@@ -118,14 +122,14 @@ def _orders_in_increments(runs: tuple[Run, ...]) -> tuple[OrderOfChange, ...]:
     levels = tuple(run.label for run in runs)
     return (
         OrderOfChange(
-            "order_of_approach_in_increments",
+            "order_of_approach_in_increments", Followed.APPROACH, Refinement.INCREMENTS,
             f"approach on {INCREMENTS_CELLS} x {INCREMENTS_CELLS} cells", levels,
             approach_change, increment_size, 2.0,
             "slip keeps its direction while the contact grows; what increments miss of the stick "
             "zone alternates and cancels in a mean",
         ),
         OrderOfChange(
-            "order_of_shear_in_increments",
+            "order_of_shear_in_increments", Followed.SHEAR, Refinement.INCREMENTS,
             f"shear (L1) on {INCREMENTS_CELLS} x {INCREMENTS_CELLS} cells", levels,
             shear_change, increment_size, 1.5,
             "the shear of a ring is fixed where the stick edge passes; next to it the shear leaves "
@@ -145,6 +149,12 @@ def shear_change(coarse: Result, fine: Result) -> float:
 def approach_change(coarse: Result, fine: Result) -> float:
     """Change of the approach relative to the finer."""
     return abs(approach(coarse) / approach(fine) - 1)
+
+
+def energy_change(coarse: Result, fine: Result) -> float:
+    """Change of the dissipated energy relative to the finer."""
+    before, after = (result.steps[-1].dissipated_energy or 0.0 for result in (coarse, fine))
+    return abs(before / after - 1)
 
 
 def cell_side(result: Result) -> float:

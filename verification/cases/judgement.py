@@ -9,6 +9,7 @@ import semi_analytical
 from contact_scene import Scene, SurfaceDiscretisation
 from contact_scene.summary import EffectSummary
 from verification.cases.case import Case, Derived, Finding, Quantity, Run
+from verification.cases.law_verdicts import judge_laws
 from verification.cases.outcome import (
     CaseOutcome,
     FindingRecord,
@@ -82,7 +83,7 @@ def _verdicts(case: Case, results: Results) -> tuple[Verdict, ...]:
         *(judge_comparison(c, results) for c in case.comparisons if set(c.runs) <= results.keys()),
         *(judge_check(check) for check in case.checks),
         *(judge_order(study, case, results) for study in studied),
-        *([judge_residuals(case, results)] if results else []),
+        *([judge_residuals(case, results), *judge_laws(case, results)] if results else []),
     )
 
 

@@ -96,6 +96,15 @@ class ExactLoop:
         error = np.abs(loop_cycle(result).slip_amplitude - expected)
         return float(np.max(error[r < a]))
 
+    def largest_slip_distance_error(self, result: Result) -> float:
+        """Largest difference of the way slipped from the closed form in the contact [length]: slip
+        turns nowhere but where the force does, at plus and minus its amplitude."""
+        a, way = paper.HERTZ.contact_radius, result.steps[-1].slip_distance
+        assert way is not None
+        r = np.hypot(*result.grid.coordinates())
+        expected = 5 * self.cycled.slip_amplitude(np.minimum(r, a))
+        return float(np.max(np.abs(way - expected)[r < a]))
+
     def largest_stick_radius_error(self, result: Result) -> float:
         """Largest difference of the stick radius from the closed form [length]."""
         return float(np.max([

@@ -1,6 +1,9 @@
 """What came out of a case: plain values that go into `report.json` as they are."""
 
+import math
 from enum import StrEnum
+
+from pydantic import model_validator
 
 from contact_scene.description import Description
 from contact_scene.summary import EffectSummary
@@ -8,6 +11,10 @@ from verification.cases.change import Change, CounterChange, Gone, Origin
 from verification.cases.chart import Chart
 from verification.cases.section_sketch import SectionSketch
 from verification.cases.table import Table
+from verification.convergence import ORDER_WIDTH
+
+TOLERANCE_KINDS = ("required", "derived", "order")
+SAME_BUT_FOR_ROUNDING = 1e-12
 
 
 class Status(StrEnum):
@@ -16,6 +23,23 @@ class Status(StrEnum):
     PASS = "pass"
     FAIL = "fail"
     INCONCLUSIVE = "inconclusive"
+
+
+class OrderRecord(Description):
+    """What an order of convergence was read off."""
+
+    of: str
+    """The quantity that was followed."""
+
+    solver: str
+    refined: str
+    """mesh or increments."""
+
+    sizes: tuple[float, ...]
+    """Cell side, element side or part of a step of every level, coarse to fine."""
+
+    errors: tuple[float, ...]
+    """Error on each level, or change from it to the next."""
 
 
 class Verdict(Description):
@@ -47,13 +71,59 @@ class Verdict(Description):
     interval: float | None = None
     """Half-width of the 95 % interval of an observed order."""
 
+    order: OrderRecord | None = None
+    """What an observed order was read off; null for all other verdicts."""
+
     regression: Change | None = None
     """Against the recorded value; null if the case has no baseline of this level."""
+
+    @model_validator(mode="after")
+    def _states_what_it_measured(self) -> "Verdict":
+        """A record that was changed by hand, or by a defect, contradicts itself somewhere."""
+        problem = _contradiction(self)
+        if problem:
+            raise ValueError(f"{self.name} [{self.run}]: {problem}")
+        return self
 
     @property
     def clearance(self) -> float | None:
         """Error as a part of what is allowed; above 1 is a failure."""
         return None if self.error is None else self.error / self.allowed
+
+
+def _contradiction(verdict: Verdict) -> str:
+    """What the numbers of a verdict do not agree about; empty if they do."""
+    if verdict.tolerance_kind not in TOLERANCE_KINDS:
+        return f"its tolerance is {verdict.tolerance_kind!r}, not {', '.join(TOLERANCE_KINDS)}"
+    if not (verdict.scale > 0 and verdict.allowed > 0):
+        return f"it allows {verdict.allowed:g} of {verdict.scale:g}; both are positive"
+    if not _is_error(verdict):
+        return (
+            f"its error is {verdict.error}, but its value is {verdict.value}, its reference "
+            f"{verdict.reference} and its scale {verdict.scale}"
+        )
+    status = _status_of(verdict)
+    if verdict.status is not status:
+        return (
+            f"its status is {verdict.status}, but an error of {verdict.error} where "
+            f"{verdict.allowed} is allowed is {status}"
+        )
+    return ""
+
+
+def _is_error(verdict: Verdict) -> bool:
+    if verdict.value is None or verdict.error is None:
+        return verdict.value is verdict.error
+    error = abs(verdict.value - verdict.reference) / verdict.scale
+    return math.isclose(verdict.error, error, rel_tol=SAME_BUT_FOR_ROUNDING)
+
+
+def _status_of(verdict: Verdict) -> Status:
+    if verdict.error is None:
+        return Status.FAIL
+    if verdict.interval is not None and verdict.interval > ORDER_WIDTH:
+        return Status.INCONCLUSIVE
+    return Status.PASS if verdict.error <= verdict.allowed else Status.FAIL
 
 
 class FindingRecord(Description):

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import ClassVar
 
 from contact_scene import FiniteElementDiscretisation, Scene
 from fem_reference import Method, Result, solve
@@ -17,6 +18,7 @@ class SectionRun:
     scene: Scene
     discretisation: FiniteElementDiscretisation
     method: Method = Method.COMPLEMENTARITY
+    solver: ClassVar[str] = "finite elements"
 
     @property
     def tolerance(self) -> float:

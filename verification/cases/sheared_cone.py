@@ -12,6 +12,7 @@ from verification.cases import paper_scene as paper
 from verification.cases.case import (
     Case,
     Derived,
+    Followed,
     Level,
     OrderOfConvergence,
     Quantity,
@@ -83,7 +84,8 @@ def sheared_cone_on(cells: tuple[int, ...]) -> Case:
         ),
         orders=(
             OrderOfConvergence(
-                "order_of_shear", "Σ|q - q_exact| / Σµp at 0.4 µW", levels, error_at(2, 0.4), 1.5,
+                "order_of_shear", Followed.SHEAR,
+                "Σ|q - q_exact| / Σµp at 0.4 µW", levels, error_at(2, 0.4), 1.5,
                 "square-root edges of stick zone and contact",
             ),
         ),

@@ -13,6 +13,7 @@ from verification.cases import paper_scene as paper
 from verification.cases.case import (
     Case,
     Derived,
+    Followed,
     Level,
     OrderOfConvergence,
     Quantity,
@@ -140,7 +141,8 @@ def torsion_on(cells: tuple[int, ...]) -> Case:
         ),
         orders=(
             OrderOfConvergence(
-                "order_of_shear", "Σ|q - q_exact| / Σµp at 0.9 of the limit", levels,
+                "order_of_shear", Followed.SHEAR,
+                "Σ|q - q_exact| / Σµp at 0.9 of the limit", levels,
                 error_at(PARTS.index(AMPLITUDE) + 1, AMPLITUDE), 1.5,
                 "square-root edges of stick zone and contact, as in the Cattaneo-Mindlin case",
             ),

@@ -17,11 +17,13 @@ from verification.cases.case import (
     Quantity,
     Reference,
     ReferenceKind,
+    Refinement,
     Required,
     Run,
 )
-from verification.cases.outcome import Status, Verdict
-from verification.convergence import ORDER_WIDTH, numerical_uncertainty, observed_order
+from verification.cases.outcome import OrderRecord, Status, Verdict
+from verification.convergence import ORDER_OFF, ORDER_WIDTH, numerical_uncertainty, observed_order
+from verification.error_line import by_size
 from verification.quantities import largest_residual
 
 if TYPE_CHECKING:
@@ -107,17 +109,15 @@ def expanded_uncertainty(
 
 def judge_order(study: OrderOfConvergence | OrderOfChange, case: Case, results: Results) -> Verdict:
     """The observed order against the expected one, or INCONCLUSIVE where it is not well known."""
-    levels = [results[label] for label in study.levels]
-    if isinstance(study, OrderOfChange):
-        sizes = [study.size(level) for level in levels[:-1]]
-        errors = [study.change(*pair) for pair in pairwise(levels)]
-    else:
-        sizes = _spacings(case, study.levels)
-        errors = [study.error(level) for level in levels]
+    sizes, errors = _refined(study, case, results)
     known = all(math.isfinite(error) and error > 0 for error in errors)
     observed = observed_order(sizes, errors) if known else None
     difference = math.nan if observed is None else abs(observed.order - study.expected)
-    agrees = False if observed is None else observed.agrees_with(study.expected)
+    off = 0.0 if study.not_yet is None else study.not_yet.allowance
+    agrees = False if observed is None else observed.agrees_with(study.expected, off)
+    runs = "" if len(errors) in (len(study.levels), len(study.levels) - 1) else (
+        f", each the root mean square of {len(study.levels) / len(errors):.3g} runs"
+    )  # fmt: skip
     return Verdict(
         name=study.name,
         run=f"{study.levels[0]} to {study.levels[-1]}",
@@ -128,15 +128,39 @@ def judge_order(study: OrderOfConvergence | OrderOfChange, case: Case, results: 
         reference_kind=ReferenceKind.THEORY,
         source=study.because,
         error=finite(difference),
-        allowed=ORDER_WIDTH,
+        allowed=ORDER_OFF if observed is None else observed.may_be_off_by(off),
         scale=1.0,
         scale_name="1",
         tolerance_kind="order",
-        because=f"an order is judged where its 95 % interval is no wider than ± {ORDER_WIDTH}; "
-        f"{len(study.levels)} levels",
+        because=f"an order is judged where its 95 % interval is no wider than ± {ORDER_WIDTH}, and "
+        f"may be off by that interval or {ORDER_OFF}{_not_yet(study)}; "
+        f"{len(errors)} {'changes' if isinstance(study, OrderOfChange) else 'levels'}{runs}",
         status=order_status(agrees),
         interval=None if observed is None else observed.half_width,
+        order=OrderRecord(
+            of=study.of,
+            solver=case.run(study.levels[0]).solver,
+            refined=study.refined if isinstance(study, OrderOfChange) else Refinement.MESH,
+            sizes=tuple(sizes),
+            errors=tuple(errors) if known else (),
+        ),
     )
+
+
+def _not_yet(study: OrderOfConvergence | OrderOfChange) -> str:
+    known = study.not_yet
+    return "" if known is None else f", here {known.allowance:g}, as {known.because}"
+
+
+def _refined(
+    study: OrderOfConvergence | OrderOfChange, case: Case, results: Results
+) -> tuple[list[float], list[float]]:
+    """Sizes, coarse to fine, and the errors or changes there."""
+    levels = [results[label] for label in study.levels]
+    if isinstance(study, OrderOfChange):
+        sizes = [study.size(level) for level in levels[:-1]]
+        return sizes, [study.change(*pair) for pair in pairwise(levels)]
+    return by_size(_spacings(case, study.levels), [study.error(level) for level in levels])
 
 
 def order_status(agrees: bool | None) -> Status:

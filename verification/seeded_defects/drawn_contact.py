@@ -3,10 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from contact_scene import (
     Body,
@@ -17,36 +15,16 @@ from contact_scene import (
     Paraboloid,
     Scene,
 )
-from semi_analytical.grid import SurfaceGrid
 from verification.cases.case import Case, Derived, Quantity, Reference, Run
 from verification.cases.end_state import approach, contact_radius
 from verification.cases.refinement import refinement
+from verification.cases.shifted_grid import ShiftedGrid
 
 Random = np.random.Generator
 LEVELS = refinement(32, 96)
 NARROWEST, WIDEST = 2.6, 3.6  # window over contact radius
 APPROACH = 1e-4  # cap: the 5e-5 of hertz_point at 128 cells, by its order
 PART_OF_CELL = 0.2  # cap: twice that of hertz_point, whose axis is always a corner of cells
-
-
-@dataclass(frozen=True)
-class ShiftedGrid(SurfaceGrid):
-    """A grid whose origin is not where the contact is: the centre falls anywhere in its cell.
-
-    offset  of the grid's centre from the contact's axis, in cells
-    """
-
-    offset: tuple[float, float] = (0.0, 0.0)
-
-    @property
-    def x(self) -> NDArray[np.float64]:
-        """Cell centres along x [length]."""
-        return np.asarray(super().x + self.offset[0] * self.spacing[0])
-
-    @property
-    def y(self) -> NDArray[np.float64]:
-        """Cell centres along y [length]."""
-        return np.asarray(super().y + self.offset[1] * self.spacing[1])
 
 
 def on_grids(

@@ -115,7 +115,8 @@ def coated(random: Random) -> Case:
 
 
 def coated_thinly(random: Random) -> Case:
-    """A ball on a layer that the coarser grids do not resolve: their errors are of no one order."""
+    """A ball on a thin layer, which the coarser grids do not resolve: their errors are of no one
+    order."""
     return _coated("coated_thinly", random, (0.3, RESOLVED))
 
 
@@ -176,6 +177,8 @@ def fem_hertz(random: Random) -> Case:
     ))  # fmt: skip
 
 
+# Layers that are too thin for the coarser grids.
+THIN = "coated_thinly"
 FAMILIES: dict[str, Callable[[Random], Case]] = {
     "hertz": hertz,
     "cone": cone,
@@ -183,7 +186,5 @@ FAMILIES: dict[str, Callable[[Random], Case]] = {
     "coated": coated,
     "flat_punch": flat_punch,
     "fem_hertz": fem_hertz,
-    "coated_thinly": coated_thinly,
+    THIN: coated_thinly,
 }
-# Refinement that begins where the error has no order yet gives no error bar to rely on.
-NOT_ASYMPTOTIC = ("coated_thinly",)

@@ -11,6 +11,7 @@ from contact_scene.description import Description
 from verification.cases.case import Level
 from verification.cases.catalogue import catalogue
 from verification.cases.judged_case import CaseToJudge, JudgedCase, lost
+from verification.cases.law_verdicts import IMBALANCE, VIOLATION
 from verification.cases.outcome import CaseOutcome, Status, Verdict
 from verification.seeded_defects.defect import planted
 from verification.seeded_defects.registry import DEFECTS
@@ -22,6 +23,7 @@ if TYPE_CHECKING:
 HEALTHY = ""
 GATE = 1e-2
 RESIDUALS = "largest_residual"
+LAWS = {RESIDUALS: "residual", VIOLATION: "law", IMBALANCE: "law"}
 
 
 class Caught(Description):
@@ -37,6 +39,11 @@ class Caught(Description):
 
     reason: str = ""
     """Why a case or a run has no result."""
+
+    @property
+    def by_law(self) -> bool:
+        """Whether a law sees it that every result obeys, and no reference."""
+        return self.how in LAWS.values()
 
 
 class DefectRecord(Description):
@@ -108,8 +115,8 @@ def _caught(outcome: CaseOutcome) -> Iterator[Caught]:
 def _how(verdict: Verdict) -> str:
     if verdict.name == "solved":
         return "named error"
-    if verdict.name == RESIDUALS:
-        return "residual"
+    if verdict.name in LAWS:
+        return LAWS[verdict.name]
     if verdict.tolerance_kind == "order":
         return "order"
     return f"{verdict.reference_kind}, {verdict.tolerance_kind} tolerance"
@@ -119,7 +126,7 @@ def _largest_error(outcome: CaseOutcome) -> float | None:
     errors = [
         verdict.error
         for verdict in outcome.verdicts
-        if verdict.tolerance_kind != "order" and verdict.name != RESIDUALS
+        if verdict.tolerance_kind != "order" and verdict.name not in LAWS
     ]
     if not errors or any(error is None for error in errors):
         return None

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from verification.cases.case import Level
 from verification.cases.catalogue import CASES
 from verification.seeded_defects.defect import Defect
-from verification.seeded_defects.healthy_contacts import FAMILIES, NOT_ASYMPTOTIC
+from verification.seeded_defects.healthy_contacts import FAMILIES, THIN
 from verification.seeded_defects.registry import DEFECTS
 from verification.studies.running.study import Records, Settings
 from verification.studies.seeded_defects.defect_run import (
@@ -27,7 +27,7 @@ DRAWS = {
     "coated": 30,
     "flat_punch": 20,
     "fem_hertz": 20,
-    "coated_thinly": 20,
+    THIN: 30,
 }
 
 
@@ -119,14 +119,9 @@ def healthy(records: Records) -> Mapping[str, list[HealthyRecord]]:
     return families
 
 
-def judged_contacts(records: Records) -> list[HealthyRecord]:
-    """Records of the families whose grids are fine enough for an error bar."""
-    return [
-        record
-        for family, there in healthy(records).items()
-        if family not in NOT_ASYMPTOTIC
-        for record in there
-    ]
+def all_healthy(records: Records) -> list[HealthyRecord]:
+    """Records of the healthy contacts of all families."""
+    return [record for there in healthy(records).values() for record in there]
 
 
 def derived(records: list[HealthyRecord]) -> list[Sample]:
@@ -139,6 +134,11 @@ def covered(sample: Sample) -> bool:
     if sample.error is None or sample.uncertainty is None:
         return False
     return sample.error <= sample.uncertainty
+
+
+def caught_by_reference(record: DefectRecord) -> bool:
+    """Whether a reference or an order sees the defect, and not the laws in the fields alone."""
+    return any(not one.by_law for one in record.caught)
 
 
 def passes_gate(record: DefectRecord) -> bool:

@@ -1,0 +1,134 @@
+"""Whatever a solver returns is held against the laws once more, and what breaks one is seen."""
+
+from dataclasses import replace
+
+import pytest
+
+from contact_scene import Body, LoadStep
+from fem_reference import Method
+from verification.cases import paper_scene as paper
+from verification.cases.case import SOLVER_TOLERANCE, Run
+from verification.cases.judgement import solve_run
+from verification.cases.law_verdicts import OTHER_NORMS
+from verification.cases.layered_scene import SUBSTRATE, pressed, rigid_ball
+from verification.cases.paper_scene import FRICTION_LIMIT, NORMAL_FORCE, NU_ZERO, STEEL
+from verification.cases.section_run import SectionRun, per_radius
+from verification.cases.torsion import torque_step
+from verification.observed.laws import observed
+
+ALLOWED = OTHER_NORMS * SOLVER_TOLERANCE
+SEEN = 10 * ALLOWED
+GRID = paper.hertz_grid(24)
+MESH = per_radius(8, 0.97 * paper.HERTZ.contact_radius)
+
+
+def push(x, y=0.0):
+    return LoadStep(tangential_force=(x * FRICTION_LIMIT, y * FRICTION_LIMIT), increments=1)
+
+
+def scene(*loading):
+    return paper.frictional("Pushed", paper.paraboloid(NU_ZERO), NU_ZERO, *loading)
+
+
+def twisted():
+    return paper.frictional("Twisted", paper.paraboloid(STEEL), STEEL, torque_step(0.6))
+
+
+def coupled():
+    title, indenter, body = "Pressed with friction", rigid_ball(), Body(material=SUBSTRATE)
+    smooth = pressed(title, indenter, body, LoadStep(normal_force=NORMAL_FORCE, increments=3))
+    friction = scene().friction
+    return smooth.model_copy(update={"friction": friction})
+
+
+LOOP = push(0.6), push(-0.3)
+RUNS = {
+    "cells": Run("cells", scene(*LOOP, push(-0.3, 0.4)), GRID),
+    "cells, coupled": Run("cells, coupled", coupled(), GRID),
+    "cells, twisted": Run("cells, twisted", twisted(), GRID),
+    "rings": SectionRun("rings", scene(*LOOP), MESH),
+    "rings, coupled": SectionRun("rings, coupled", coupled(), MESH),
+    "rings, twisted": SectionRun("rings, twisted", twisted(), MESH),
+    "springs": SectionRun("springs", scene(*LOOP), MESH, Method.PENALTY),
+    "springs, twisted": SectionRun("springs, twisted", twisted(), MESH, Method.PENALTY),
+}
+
+
+@pytest.fixture(scope="module", params=RUNS)
+def result(request: pytest.FixtureRequest):
+    return solve_run(RUNS[request.param])
+
+
+@pytest.fixture(scope="module")
+def solved():
+    return {name: solve_run(RUNS[name]) for name in ("cells", "cells, twisted", "rings", "springs")}
+
+
+def changed(result, **factors):
+    """The result with what its last increment tells multiplied."""
+    *before, last = result.increments
+    named = {name: factor * getattr(last, name) for name, factor in factors.items()}
+    return replace(result, increments=(*before, replace(last, **named)))
+
+
+def test_laws_are_found_in_what_is_returned(result):
+    violation, imbalance = observed(result)
+    assert violation <= ALLOWED
+    assert imbalance <= ALLOWED
+
+
+@pytest.mark.parametrize(
+    "name",
+    ["pressure", "shear", "slip", "normal_force", "tangential_force", "slip_distance",
+     "dissipation", "dissipated_energy"],
+)  # fmt: skip
+def test_broken_law_on_cells_is_seen(solved, name):
+    violation, _ = observed(changed(solved["cells"], **{name: 1.001}))
+    assert violation > SEEN
+
+
+@pytest.mark.parametrize(
+    "name",
+    ["approach", "tangential_shift", "elastic_energy", "input_work", "unresolved_work",
+     "dissipated_energy"],
+)  # fmt: skip
+def test_broken_balance_on_cells_is_seen(solved, name):
+    _, imbalance = observed(changed(solved["cells"], **{name: 1.01}))
+    assert imbalance > SEEN
+
+
+@pytest.mark.parametrize("name", ["cells", "rings"])
+def test_step_that_ends_under_another_load_is_seen(solved, name):
+    result = solved[name]
+    last = result.scene.loading[-1]
+    x, y = last.tangential_force
+    other = last.model_copy(update={"tangential_force": (1.01 * x, y)})
+    asked = result.scene.model_copy(update={"loading": (*result.scene.loading[:-1], other)})
+    assert observed(replace(result, scene=asked))[0] > SEEN
+
+
+@pytest.mark.parametrize("name", ["torque", "twist"])
+def test_broken_torsion_on_cells_is_seen(solved, name):
+    assert max(observed(changed(solved["cells, twisted"], **{name: 1.01}))) > SEEN
+
+
+@pytest.mark.parametrize("method", ["rings", "springs"])
+@pytest.mark.parametrize(
+    "name", ["pressure", "shear_along_load", "normal_force", "approach", "dissipated_energy"]
+)
+def test_broken_law_of_elements_is_seen(solved, method, name):
+    assert max(observed(changed(solved[method], **{name: 1.01}))) > SEEN
+
+
+@pytest.mark.parametrize(("method", "factor"), [("rings", 1.01), ("springs", 1.5)])
+def test_shift_told_wrong_by_elements_is_seen(solved, method, factor):
+    """By what springs of a penalty can yield, no more is known of the shift."""
+    *before, last = solved[method].increments
+    x, y = last.tangential_shift
+    wrong = replace(last, tangential_shift=(factor * x, y))
+    assert max(observed(replace(solved[method], increments=(*before, wrong)))) > SEEN
+
+
+def test_number_that_is_not_finite_is_a_violation(solved):
+    assert observed(changed(solved["cells"], pressure=float("nan")))[0] == float("inf")
+    assert observed(changed(solved["rings"], pressure=float("nan")))[0] == float("inf")

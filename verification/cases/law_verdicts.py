@@ -1,0 +1,82 @@
+"""The laws of contact and friction and the first law, judged in every run of every case.
+
+A solver's residuals are its own word. Here its fields are held against the laws once more, by code
+that no solver shares.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from typing import Any
+
+from verification.cases.case import Case, ReferenceKind
+from verification.cases.outcome import Status, Verdict
+from verification.cases.verdicts import finite
+from verification.observed.laws import observed
+
+Results = Mapping[str, Any]
+
+# Fields are judged apart from the solver, with other norms.
+OTHER_NORMS = 10.0
+VIOLATION, IMBALANCE = "observed_violation", "energy_imbalance"
+
+
+def judge_laws(case: Case, results: Results) -> tuple[Verdict, ...]:
+    """The largest violation and the largest imbalance of all runs that were solved, each against
+    the tolerance of its run."""
+    found = {label: observed(results[label]) for label in _solved(case, results)}
+    violated = {label: violation for label, (violation, _) in found.items()}
+    missing = {label: energy for label, (_, energy) in found.items() if energy is not None}
+    verdicts = [
+        _verdict(
+            case, violated, VIOLATION, "largest violation of a law of contact and "
+            "friction in any increment",
+            "gap, overlap, friction, slip against shear, forces, moments and energy lost, found "
+            "again in the fields",
+            "within the tolerance, but for a factor of {factor:g} between the norms of the solver "
+            "and these",
+        ),
+    ]  # fmt: skip
+    if missing:
+        verdicts.append(
+            _verdict(
+                case, missing, IMBALANCE, "largest part of the energy that any increment "
+                "cannot account for",
+                "first law: work put in is stored, dissipated or left open by the increment",
+                "residuals within the tolerance move the energy by a few times as much; "
+                "{factor:g} times are allowed",
+            )
+        )  # fmt: skip
+    return tuple(verdicts)
+
+
+def _solved(case: Case, results: Results) -> list[str]:
+    return [run.label for run in case.runs if run.label in results]
+
+
+def _verdict(
+    case: Case, found: Mapping[str, float], name: str, what: str, source: str, because: str
+) -> Verdict:
+    """On the run that is worst for its tolerance; what is no number is worse than all."""
+    clearance = {label: value / case.run(label).tolerance for label, value in found.items()}
+    worst = max(clearance, key=lambda label: (math.isnan(clearance[label]), clearance[label]))
+    allowed = OTHER_NORMS * case.run(worst).tolerance
+    value = found[worst]
+    return Verdict(
+        name=name,
+        run=worst,
+        meaning=f"{what} of the {len(found)} run(s); it is in this one",
+        unit="",
+        value=finite(value),
+        reference=0.0,
+        reference_kind=ReferenceKind.IDENTITY,
+        source=source,
+        error=finite(value),
+        allowed=allowed,
+        scale=1.0,
+        scale_name="dimensionless",
+        tolerance_kind="required",
+        because=because.format(factor=OTHER_NORMS),
+        status=Status.PASS if value <= allowed else Status.FAIL,
+    )

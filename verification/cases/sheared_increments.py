@@ -1,0 +1,156 @@
+"""Pressing and shearing a contact that is coupled, cut into more and more increments."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import replace
+from itertools import pairwise
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from contact_scene import LoadStep
+from verification.cases import paper_scene as paper
+from verification.cases.case import (
+    Case,
+    Comparison,
+    Followed,
+    Level,
+    NotYetAsymptotic,
+    OrderOfChange,
+    ReferenceKind,
+    Refinement,
+    Run,
+)
+from verification.cases.chart import Chart
+from verification.cases.convergence_chart import convergence_chart
+from verification.cases.indentation_reference import FEW
+from verification.cases.indentation_refinement import (
+    LOST,
+    ONE,
+    approach_change,
+    energy_change,
+)
+from verification.quantities import shear_of, shift_along_x
+
+if TYPE_CHECKING:
+    from semi_analytical import Result
+
+CELLS = 48
+INCREMENTS = {
+    Level.QUICK: (4, 8),
+    Level.STANDARD: (4, 8, 16, 32, 64),
+    Level.FULL: (4, 8, 16, 32, 64, 128),
+}
+PART = 0.5  # of µW
+RISING = NotYetAsymptotic(0.15, "neighbours on 96 x 96 cells give 0.83, 0.89, 0.96")
+FAR = NotYetAsymptotic(
+    0.2, "four increments lose a third more than eight: neighbours give 1.10, 1.17, 1.13"
+)
+BACKWARD = (
+    "slip turns and the friction limit moves while an increment takes both as they are at its end: "
+    "Euler's backward rule"
+)
+
+
+def sheared_increments(level: Level = Level.QUICK) -> Case:
+    """The case; orders above the quick level."""
+    return sheared_increments_on(INCREMENTS[level])
+
+
+def sheared_increments_on(increments: tuple[int, ...]) -> Case:
+    """The case with these increments per step; orders where there are five or more."""
+    runs = tuple(_run(count) for count in increments)
+    labels = tuple(run.label for run in runs)
+    return Case(
+        name="sheared_increments",
+        title="Shearing a coupled contact in smaller increments",
+        problem=(
+            "The rigid ball of indentation_refinement pressed on the body of ν = 0, with friction "
+            f"of {ONE.friction:.2f}, and sheared by {PART:g} µW. Shear and pressure act on each "
+            "other, slip turns from outward to along the load: the path decides, and nobody knows "
+            "the exact answer. Each doubling of the increments changes it less."
+        ),
+        runs=runs,
+        quantities=(),
+        comparisons=(
+            Comparison(
+                "shift", f"change of the shift from {increments[-2]} to {increments[-1]} "
+                "increments", (labels[-2], labels[-1]), shift_change, 2e-2 * 4 / increments[-2],
+                "2 % from 4 to 8 increments, and half by each further doubling: first order",
+                "the limit of small increments", ReferenceKind.THEORY,
+            ),
+        ),
+        orders=_orders(labels) if len(labels) >= 5 else (),
+        charts=lambda results: _charts([results[label] for label in labels]),
+        limits=(
+            "Contact and stick radius move by parts of a cell from path to path: no order.",
+        ),
+    )  # fmt: skip
+
+
+def _orders(levels: tuple[str, ...]) -> tuple[OrderOfChange, ...]:
+    return tuple(
+        OrderOfChange(
+            f"order_of_{name}", of, Refinement.INCREMENTS, meaning, levels, change, increment_size,
+            1.0, because, not_yet,
+        )
+        for name, of, meaning, change, because, not_yet in (
+            ("shift", Followed.SHIFT, "tangential shift", shift_change, BACKWARD, None),
+            ("shear", Followed.SHEAR, "shear (L1)", shear_change, BACKWARD, None),
+            ("approach", Followed.APPROACH, "approach", approach_change, BACKWARD, RISING),
+            ("energy", Followed.ENERGY, "dissipated energy", energy_change, LOST, FAR),
+        )
+    )  # fmt: skip
+
+
+def shift_change(coarse: Result, fine: Result) -> float:
+    """Change of the tangential shift relative to the finer path."""
+    return abs(shift_along_x(coarse.steps[-1]) / shift_along_x(fine.steps[-1]) - 1)
+
+
+def shear_change(coarse: Result, fine: Result) -> float:
+    """Σ|q_coarse - q_fine| / Σµp."""
+    difference = np.hypot(*(shear_of(coarse.steps[-1]) - shear_of(fine.steps[-1])))
+    return float(np.sum(difference) / np.sum(ONE.friction * fine.steps[-1].pressure))
+
+
+def increment_size(result: Result) -> float:
+    """Part of a step that an increment takes."""
+    return len(result.steps) / len(result.increments)
+
+
+def _run(increments: int) -> Run:
+    one = ONE.run(CELLS, FEW)
+    force = PART * ONE.friction * paper.NORMAL_FORCE
+    loading = (
+        LoadStep(normal_force=paper.NORMAL_FORCE, increments=increments),
+        LoadStep(tangential_force=(force, 0.0), increments=increments),
+    )
+    scene = one.scene.model_copy(update={"loading": loading})
+    return replace(one, label=f"{increments} increments", scene=scene)
+
+
+def _charts(results: list[Result]) -> tuple[Chart, ...]:
+    def changes(change: Callable[[Result, Result], float]) -> list[float]:
+        return [change(one, other) for one, other in pairwise(results)]
+
+    if len(results) < 5:
+        return ()
+    errors: Mapping[str, list[float]] = {
+        "tangential shift": changes(shift_change),
+        "shear (L1)": changes(shear_change),
+        "approach": changes(approach_change),
+        "dissipated energy": changes(energy_change),
+    }
+    return (
+        convergence_chart(
+            "sheared_increments",
+            "Smaller increments under a tangential force",
+            f"Change by twice the increments on {CELLS} x {CELLS} cells.",
+            [increment_size(level) for level in results[:-1]],
+            errors,
+            {"tangential shift": 1.0},
+            "1 / increments of a step",
+        ),
+    )

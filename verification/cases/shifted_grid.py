@@ -1,0 +1,28 @@
+"""Grids that fall on the contact elsewhere than with a corner of cells on its axis."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from semi_analytical.grid import SurfaceGrid
+
+
+@dataclass(frozen=True)
+class ShiftedGrid(SurfaceGrid):
+    """A grid whose origin is not where the contact is: the centre falls anywhere in its cell.
+
+    offset  of the grid's centre from the contact's axis, in cells
+    """
+
+    offset: tuple[float, float] = (0.0, 0.0)
+
+    @property
+    def x(self) -> NDArray[np.float64]:
+        """Cell centres along x [length]."""
+        return np.asarray(super().x + self.offset[0] * self.spacing[0])
+
+    @property
+    def y(self) -> NDArray[np.float64]:
+        """Cell centres along y [length]."""
+        return np.asarray(super().y + self.offset[1] * self.spacing[1])

@@ -1,0 +1,20 @@
+"""What either solver returns, against all laws."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import semi_analytical
+from verification.observed.sections import section_laws
+from verification.observed.surface_energy import surface_imbalance
+from verification.observed.surfaces import surface_violation
+
+
+def observed(result: Any) -> tuple[float, float | None]:
+    """The largest violation of a law of contact and friction in any increment of a result, and the
+    largest part of the energy that any cannot account for; both dimensionless, and infinite if a
+    number is not finite. The second is None where bodies have no energy because they are coupled
+    one way."""
+    if isinstance(result, semi_analytical.Result):
+        return surface_violation(result), surface_imbalance(result)
+    return section_laws(result)

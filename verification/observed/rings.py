@@ -1,0 +1,170 @@
+"""Forces and motions of the surfaces of finite elements, worked out anew from their tractions.
+
+Displacements come from the compliances of the sections and are means over the hat functions of the
+rings, as gap and slip are defined there.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fem_reference import Increment, Path, Result
+from fem_reference.model import ContactModel, outermost_modulus
+from fem_reference.scales import Scales
+
+Field = NDArray[np.float64]
+
+# Gauss points of an element: exact for the product of r and a function linear on it.
+PLACES, PARTS = np.polynomial.legendre.leggauss(2)
+
+
+def model_of(result: Result, length: float) -> ContactModel:
+    """The bodies of a result.
+
+    length  that is one in its sections [length]
+    """
+    scales = Scales(length, outermost_modulus(result.scene))
+    return ContactModel(result.scene, scales, result.sections)
+
+
+def section_radii(result: Result) -> Field:
+    """Of the nodes of either section, corner and midside alternating [1]."""
+    return next(np.asarray(s.radii) for s in result.sections if s is not None)
+
+
+@dataclass(frozen=True)
+class Rings:
+    """Points on rings and angles. Fields are (rings, angles), vectors (2, rings, angles) in r, θ.
+
+    path    of the result
+    angles  of the half circle, ends included; a single one where nothing depends on them
+    """
+
+    model: ContactModel
+    path: Path
+    angles: Field
+
+    @classmethod
+    def of(cls, result: Result) -> Rings:
+        """Those that the increments of a result are told on."""
+        last = result.increments[-1]
+        corners = section_radii(result)[::2]
+        model = model_of(result, float(last.radii[-1] / corners[len(last.radii) - 1]))
+        return cls(model, result.plan.path, np.zeros(1) if last.angles is None else last.angles)
+
+    @cached_property
+    def driven(self) -> Field:
+        """How a unit of the indenter's shift along the load, or of its twist, moves the points;
+        zero where nothing drives it sideways. A twist by the mean over a ring [length]."""
+        if self.path is Path.TWISTING:
+            hats = self.model.hats
+            return np.stack([self.on_grid(None), self.on_grid(hats.arms / hats.weights)])
+        vector = np.stack([np.cos(self.angles), -np.sin(self.angles)])[:, None]
+        led = self.path is Path.SHEARING or len(self.angles) > 1
+        return np.broadcast_to(vector if led else 0.0, (2, *self._shape))
+
+    @cached_property
+    def weights(self) -> Field:
+        """Area of the points [length^2]."""
+        return np.outer(self.model.hats.weights, self._around)
+
+    @cached_property
+    def undeformed(self) -> Field:
+        """Gap before any load [length]."""
+        hats = self.model.hats
+        return self.on_grid(hats.of(self.model.gap) / hats.weights)
+
+    def on_grid(self, values: Field | None) -> Field:
+        """What is told of a ring holds at all its angles; nothing told is zero."""
+        if values is None:
+            return np.zeros(self._shape)
+        return np.broadcast_to(values if values.ndim == 2 else values[:, None], self._shape)
+
+    def shear(self, told: Increment) -> Field:
+        """q of an increment."""
+        along = told.shear_along_load
+        if along is not None:
+            return np.stack([self.on_grid(along), self.on_grid(None)])
+        return np.stack([self.on_grid(q) for q in (told.shear_radial, told.shear_circumferential)])
+
+    def integral(self, values: Field) -> float:
+        """Over the surface, of values that are linear between rings."""
+        radii, on_ring = self.model.hats.radii, values @ self._around
+        share, width = 0.5 * (1 + PLACES), np.diff(radii)[:, None]
+        r = radii[:-1, None] + width * share
+        at_points = on_ring[:-1, None] * (1 - share) + on_ring[1:, None] * share
+        return float(np.sum(0.5 * width * PARTS * r * at_points))
+
+    def displacement(self, p: Field, q: Field) -> tuple[Field, Field]:
+        """u along the surface and u_z of the lower body past the indenter [length]."""
+        if self.path is Path.SHEARING:
+            return np.stack([self._along_load(q[0]), self.on_grid(None)]), self._pressed(p)
+        if self.path is Path.TWISTING:
+            return np.stack([self.on_grid(None), self._around_axis(q[1])]), self._pressed(p)
+        tractions, u = np.stack([*q, p]), np.zeros((3, *self._shape))
+        for n in range(len(self.angles)):
+            wave, loads = self._waves(n), self._amplitudes(n, tractions)
+            if not np.any(loads):
+                continue
+            condensed = self.model.compliance(n)
+            for i, a in enumerate(condensed.motion.components):
+                for j, b in enumerate(condensed.motion.components):
+                    u[a] += np.outer(self._means(condensed.matrix[i, :, j], loads[b]), wave[a])
+        if len(self.angles) > 1:
+            self._join_on_axis(u)
+        return u[:2], u[2]
+
+    @property
+    def _shape(self) -> tuple[int, int]:
+        return len(self.model.hats.radii), len(self.angles)
+
+    @cached_property
+    def _around(self) -> Field:
+        """What part of the circle each angle stands for: the trapezium rule."""
+        if len(self.angles) == 1:
+            return np.array([2 * np.pi])
+        share = np.full(len(self.angles), 2 * self.angles[1])
+        share[[0, -1]] /= 2
+        return share
+
+    def _waves(self, n: int) -> Field:
+        """How r, θ and z components of harmonic n go around (3, angles)."""
+        inner = (self.angles > 0) & (np.arange(len(self.angles)) < len(self.angles) - 1)
+        cos, sin = np.cos(n * self.angles), np.where(inner, np.sin(n * self.angles), 0.0)
+        # There are as many angles as harmonics, so that the last sine vanishes on all of them.
+        return np.stack([cos, sin if n < len(self.angles) - 1 else 0.0 * sin, cos])
+
+    def _amplitudes(self, n: int, tractions: Field) -> Field:
+        """(3, rings) of harmonic n; the trapezium rule is exact for them."""
+        waves = self._waves(n)
+        norms = np.sum(self._around * waves**2, axis=1)
+        found = np.einsum("cra,ca,a->cr", tractions, waves, self._around)
+        return found / np.where(norms > 0, norms, 1.0)[:, None]
+
+    def _means(self, nodal: Field, amplitude: Field) -> Field:
+        hats = self.model.hats
+        displaced = nodal @ (hats.products @ amplitude)
+        return np.asarray(hats.products.T @ displaced) / hats.weights
+
+    def _pressed(self, p: Field) -> Field:
+        return self._means(self.model.compliance(0).matrix[1, :, 1], p[:, 0])[:, None]
+
+    def _along_load(self, q: Field) -> Field:
+        """Mean over a ring of what shear along the load does along it."""
+        C = self.model.compliance(1).matrix
+        both = 0.5 * (C[0, :, 0] - C[0, :, 1] - C[1, :, 0] + C[1, :, 1])
+        return self._means(both, q[:, 0])[:, None]
+
+    def _around_axis(self, q: Field) -> Field:
+        """What circumferential shear does around the axis."""
+        return self._means(self.model.torsion().matrix[0, :, 0], q[:, 0])[:, None]
+
+    def _join_on_axis(self, u: Field) -> None:
+        """Give the points of the ring in the middle the one motion they have as a whole."""
+        share, direction = self._around / (2 * np.pi), self.driven[:, 0]
+        u[:2, 0] = np.sum(share * u[:2, 0] * direction) * direction
+        u[2, 0] = np.sum(share * u[2, 0])

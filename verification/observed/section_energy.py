@@ -1,0 +1,94 @@
+"""The first law by finite elements, from the tractions and motions that they return.
+
+Displacements are worked out anew from the tractions. Between two states the work of the loads must
+be what is stored more, what is dissipated and what the increment leaves open, as on a surface grid
+(`surface_energy`). Springs of a penalty are a part of the increment's error: of the work p·dg they
+take, and of slip that differs from the motion of the surfaces, nothing is stored or dissipated.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fem_reference import Increment, Result
+from fem_reference.energy import elastic_energy, input_work
+
+Field = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class EnergeticState:
+    """An increment as its energy sees it; q, passed and slip (components, points).
+
+    weights     area of the points [length^2]
+    stored      in the bodies, and in springs that obey no other law [force length]
+    undeformed  gap before any load [length]
+    gap         what the motion of the indenter leaves between the surfaces [length]
+    passed      motion of the body's particles past the indenter's since the start [length]; None
+                where undefined
+    slip        what of it is slip, where springs yield the rest; None: all of it
+    """
+
+    told: Increment
+    weights: Field
+    stored: float
+    undeformed: Field
+    pressure: Field
+    gap: Field
+    shear: Field
+    passed: Field | None
+    slip: Field | None = None
+
+
+def energy_missing(result: Result, states: Sequence[EnergeticState]) -> Iterator[float]:
+    """What any increment cannot account for, or tells otherwise, over the largest energy so far."""
+    before, worked, lost = None, 0.0, 0.0
+    largest = 0.0
+    for state, work in zip(states, input_work(result.increments), strict=True):
+        told = state.told.dissipated_energy
+        dissipated = told or 0.0
+        if work is None or state.passed is None or (np.any(state.shear) and told is None):
+            return  # the motion is undefined, and with it all that follows
+        largest = max(largest, *(abs(e) for e in (state.stored, work, dissipated)))
+        alone = elastic_energy(result.scene, result.plan, state.told)
+        if alone is not None and state.told.overlap is None:
+            yield abs(alone - state.stored) / largest
+        if state.told.halvings == 0:  # else there are states in between
+            spent = work - worked, dissipated - lost
+            yield from (e / largest for e in _missing(before, state, *spent))
+        before, worked, lost = state, work, dissipated
+
+
+def _missing(
+    before: EnergeticState | None, after: EnergeticState, work: float, dissipated: float
+) -> Iterator[float]:
+    start = before or _at_rest(after)
+    assert start.passed is not None
+    assert after.passed is not None
+    w, p, q = after.weights, (start.pressure, after.pressure), (start.shear, after.shear)
+    passed = after.passed - start.passed
+    slipped = passed
+    if after.slip is not None:
+        slipped = after.slip if start.slip is None else after.slip - start.slip
+    own = -float(np.sum(w * q[1] * slipped))
+    closing = 0.5 * w * (p[1] * start.gap - p[0] * after.gap)
+    if after.slip is None:
+        # What gap is left in a lasting contact is missing.
+        closing = closing[(p[0] > 0) != (p[1] > 0)]
+    else:
+        closing = closing + 0.5 * w * (p[0] * start.gap - p[1] * after.gap)
+    turning = -own - 0.5 * float(np.sum(w * (q[0] + q[1]) * passed))
+    yield abs(work - (after.stored - start.stored) - own - float(np.sum(closing)) - turning)
+    yield abs(dissipated - own)
+
+
+def _at_rest(state: EnergeticState) -> EnergeticState:
+    """Before first touch, on the points of a state."""
+    nothing, still = np.zeros_like(state.pressure), np.zeros_like(state.shear)
+    return EnergeticState(
+        state.told, state.weights, 0.0, state.undeformed, nothing, state.undeformed, still, still,
+    )  # fmt: skip

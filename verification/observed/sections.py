@@ -1,0 +1,145 @@
+"""The laws of contact and friction, looked for in what finite elements return.
+
+The gap as it is told has no overlap, and the slip no memory: both are worked out anew from the
+tractions. Springs that stand for a penalty add what they yield.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fem_reference import Increment, Path, Result
+from verification.observed.prescribed import missed
+from verification.observed.rings import Rings
+from verification.observed.section_energy import EnergeticState, energy_missing
+from verification.observed.spring_states import spring_stiffness
+from verification.observed.springs import energy_won, least_slip, observed_springs
+
+Field = NDArray[np.float64]
+
+
+def section_laws(result: Result) -> tuple[float, float]:
+    """The largest violation of a law of contact and friction in any increment, and the largest
+    part of the energy that any cannot account for; infinite if a number is not finite."""
+    penalty = result.increments[-1].overlap is not None
+    if penalty and result.plan.path is not Path.HARMONICS:
+        violations, states = observed_springs(result)
+    else:
+        violations, states = _on_rings(result, penalty)
+    violations += missed(result.scene, result.steps)
+    return _largest(violations), _largest([0.0, *energy_missing(result, states)])
+
+
+def _largest(found: Sequence[float]) -> float:
+    return max(found) if np.all(np.isfinite(found)) else float("inf")
+
+
+def _on_rings(result: Result, penalty: bool) -> tuple[list[float], list[EnergeticState]]:
+    rings = Rings.of(result)
+    radii = result.increments[-1].radii
+    spring = 1 / spring_stiffness(result, radii[1] - radii[0]) if penalty else 0.0
+    surfaces = [_Surface.of(i, rings, result.plan.direction, spring) for i in result.increments]
+    violations: list[float] = []
+    befores: list[_Surface | None] = [None, *surfaces]
+    for before, now in zip(befores, surfaces, strict=False):
+        violations += _of_pressure(now)
+        if now.sheared:
+            violations += _of_shear(before, now)
+    return violations, [surface.energetic for surface in surfaces]
+
+
+@dataclass(frozen=True)
+class _Surface:
+    """An increment on points.
+
+    gap      with what the springs yield [length]
+    passed   motion of the body's particles past the indenter's since nothing moved [length];
+             None where that of the indenter is undefined
+    force    along the load [force], or the torque [force length]
+    stored   energy in bodies and springs [force length]
+    """
+
+    told: Increment
+    rings: Rings
+    pressure: Field
+    shear: Field
+    gap: Field
+    passed: Field | None
+    force: float
+    stored: float
+
+    @classmethod
+    def of(
+        cls, told: Increment, rings: Rings, direction: tuple[float, float], spring: float
+    ) -> _Surface:
+        p, q = rings.on_grid(told.pressure), rings.shear(told)
+        along, u_z = rings.displacement(p, q)
+        along, u_z = along + spring * q, u_z + spring * p
+        if rings.path is Path.TWISTING:
+            force, motion = told.torque or 0.0, told.twist
+        else:
+            force = float(np.dot(told.tangential_force or (0.0, 0.0), direction))
+            shift = told.tangential_shift
+            motion = None if shift is None else float(np.dot(shift, direction))
+        if motion is None and force == 0.0:
+            motion = 0.0
+        return cls(
+            told=told,
+            rings=rings,
+            pressure=p,
+            shear=q,
+            gap=rings.undeformed + u_z - told.approach,
+            passed=None if motion is None else along - motion * rings.driven,
+            force=force,
+            stored=0.5 * float(np.sum(rings.weights * (p * u_z + np.sum(q * along, axis=0)))),
+        )
+
+    @property
+    def sheared(self) -> bool:
+        """Whether there can be shear."""
+        return self.told.dissipated_energy is not None or bool(np.any(self.shear))
+
+    @property
+    def energetic(self) -> EnergeticState:
+        """What the first law is about."""
+        return EnergeticState(
+            self.told, self.rings.weights, self.stored, self.rings.undeformed, self.pressure,
+            self.gap, self.shear, self.passed,
+        )  # fmt: skip
+
+
+def _of_pressure(now: _Surface) -> Iterator[float]:
+    p, gap, told, weights = now.pressure, now.gap, now.told, now.rings.weights
+    yield float(np.max(-p) / np.max(p))
+    yield float(np.max(-gap) / told.approach)
+    yield float(np.sum(weights * p * np.abs(gap)) / (np.sum(weights * p) * told.approach))
+    yield abs(now.rings.integral(p) / told.normal_force - 1)
+    apart = np.where(p > 0, 0.0, gap)
+    yield float(np.max(np.abs(apart - now.rings.on_grid(told.gap))) / told.approach)
+
+
+def _of_shear(before: _Surface | None, now: _Surface) -> Iterator[float]:
+    friction = now.rings.model.friction_coefficient
+    limit = friction * now.pressure
+    yield float(np.max(np.hypot(*now.shear) - limit) / np.max(limit))
+    weights, driven = now.rings.weights.copy(), now.rings.driven
+    carried = float(np.sum(weights * driven * now.shear))
+    most = float(np.sum(weights * limit * np.hypot(*driven)))
+    yield abs(carried - now.force) / (most or float(np.sum(weights * limit)))
+    # In an increment that was halved slip may have turned on the way.
+    if now.told.halvings > 0 or now.passed is None:
+        return
+    slip = now.passed if before is None or before.passed is None else now.passed - before.passed
+    if now.told.angles is None and now.rings.path is not Path.SHEARING:
+        weights[0] = 0.0  # on the axis there is neither shear nor slip
+    work = weights * limit * np.hypot(*slip)
+    least = least_slip(friction, now.told.approach) * float(np.sum(weights * limit))
+    against = weights * np.sum(now.shear * slip, axis=0)
+    scale = max(float(np.sum(work)), least)
+    if scale > 0:  # not so where the axis alone touches
+        yield float(np.sum(work + against)) / scale
+    yield from energy_won(None if before is None else before.told, now.told)

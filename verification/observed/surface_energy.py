@@ -1,0 +1,138 @@
+"""The first law on a surface grid, from tractions, gaps, slips and motions as they are returned.
+
+u_z follows from the gap and u from the slip, both by the motion of the indenter (CONVENTIONS). That
+these displacements belong to the tractions is Betti's theorem: only then does the energy stored,
+½ Σ t·u Δ, change by what the tractions do, ½ Σ (t₀ + t₁)·(u₁ - u₀) Δ. A history that was lost, a
+motion that is told wrong and a displacement of other tractions all break it.
+
+Slip counts from the touch of two particles, and how far they had moved past each other before is
+not told. Where a contact with friction has grown, stored energy and unresolved work are therefore
+taken as they are told, and where it has shrunk the unresolved work.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from semi_analytical import Coupling, Increment, Result
+
+Field = NDArray[np.float64]
+
+
+def surface_imbalance(result: Result) -> float | None:
+    """The largest part of the energy that any increment cannot account for, or tells otherwise,
+    relative to the largest energy so far; infinite if a number is not finite. None where shear is
+    solved for without acting back on the pressure: such bodies have no energy."""
+    if result.plan.coupling is Coupling.ONE_WAY:
+        return None
+    found = [0.0, *_imbalances(result)]
+    return max(found) if np.all(np.isfinite(found)) else float("inf")
+
+
+@dataclass(frozen=True)
+class _State:
+    """An increment as its energy sees it.
+
+    u        displacements (3, nx, ny), zero where nothing presses [length]
+    forces   W, T_x, T_y, M_x, M_y, M_z; motions theirs
+    """
+
+    tractions: Field
+    u: Field
+    gap: Field
+    slip: Field
+    forces: Field
+    motions: Field
+
+    @classmethod
+    def at_rest(cls, gap: Field) -> _State:
+        nothing = np.zeros((3, *gap.shape))
+        return cls(nothing, nothing, gap, nothing[:2], np.zeros(6), np.zeros(6))
+
+    @classmethod
+    def of(cls, now: Increment, result: Result, undeformed: Field) -> _State:
+        x, y = result.grid.coordinates()
+        p, nothing = now.pressure, np.zeros((2, *now.pressure.shape))
+        q = nothing if now.shear is None else now.shear
+        s = nothing if now.slip is None else now.slip
+        tilt = np.zeros(2) if now.tilt is None else now.tilt
+        shift = np.zeros(2) if now.tangential_shift is None else now.tangential_shift
+        twist = now.twist or 0.0
+        touching = p > 0
+        gap, first = (np.where(touching, g, 0.0) for g in (now.gap, undeformed))
+        u_z = gap - first + now.approach + tilt[0] * y + tilt[1] * x
+        u = np.stack([s[0] + shift[0] - twist * y, s[1] + shift[1] + twist * x, u_z])
+        M_x, M_y, M_z = np.sum(p * y), np.sum(p * x), np.sum(q[1] * x - q[0] * y)
+        forces = np.array([np.sum(p), np.sum(q[0]), np.sum(q[1]), M_x, M_y, M_z])
+        return cls(
+            tractions=np.stack([*q, p]),
+            u=u * touching,
+            gap=now.gap,
+            slip=s,
+            forces=forces * result.grid.cell_area,
+            motions=np.array([now.approach, *shift, *tilt, twist]),
+        )
+
+
+def _imbalances(result: Result) -> Iterator[float]:
+    cell = result.grid.cell_area
+    undeformed = result.scene.indenter.initial_gap(*result.grid.coordinates())
+    before, state, grown = None, _State.at_rest(undeformed), False
+    largest = 0.0
+    for now in result.increments:
+        if now.shear is not None and now.dissipated_energy is None:
+            return  # the motion is undefined, and with it all that follows
+        after = _State.of(now, result, undeformed)
+        begins = (after.tractions[2] > 0) & (state.tractions[2] == 0)
+        grown |= before is not None and now.shear is not None and bool(np.any(begins))
+        largest = max(largest, *(abs(e) for e in (now.elastic_energy, *_told(now))))
+        elastic = 0.5 * float(np.sum(after.tractions * after.u)) * cell
+        yield 0.0 if grown else abs(elastic - now.elastic_energy) / largest
+        yield abs(now.energy_imbalance or 0.0)
+        if now.halvings == 0:  # else there are states in between
+            missing = _missing(state, after, before, now, cell, grown=grown)
+            yield from (e / largest for e in missing)
+        before, state = now, after
+
+
+def _told(now: Increment) -> tuple[float, float, float]:
+    """Work put in, dissipated and left to the increments since the start [force length]."""
+    return now.input_work or 0.0, now.dissipated_energy or 0.0, now.unresolved_work or 0.0
+
+
+def _missing(
+    state: _State,
+    after: _State,
+    before: Increment | None,
+    now: Increment,
+    cell: float,
+    *,
+    grown: bool,
+) -> Iterator[float]:
+    """What is missing of the first law, and what is told otherwise [force length]."""
+    q, slipped = after.tractions[:2], after.slip - state.slip
+    forces, motions = 0.5 * (state.forces + after.forces), after.motions - state.motions
+    last = (0.0, 0.0, 0.0) if before is None else _told(before)
+    told = tuple(end - start for end, start in zip(_told(now), last, strict=True))
+    work = float(np.sum(forces * motions))
+    dissipated = -float(np.sum(q * slipped)) * cell
+    stored = now.elastic_energy - (0.0 if before is None else before.elastic_energy)
+    shrunk = np.any(state.tractions[:2] * (after.tractions[2] == 0))
+    unresolved = told[2] if grown or shrunk else _unresolved(state, after, slipped) * cell
+    yield abs(work - stored - dissipated - unresolved)
+    yield from (abs(a - b) for a, b in zip((work, dissipated, unresolved), told, strict=True))
+
+
+def _unresolved(state: _State, after: _State, slipped: Field) -> float:
+    """What the finite increment leaves open: loads are taken as straight lines where gaps close
+    or open, and friction as constant (see `semi_analytical.energy`)."""
+    p0, p1 = state.tractions[2], after.tractions[2]
+    begins, ends = (p0 == 0) & (p1 > 0), (p0 > 0) & (p1 == 0)
+    closing = float(np.sum(p1[begins] * state.gap[begins]))
+    opening = float(np.sum(p0[ends] * after.gap[ends]))
+    turning = float(np.sum((after.tractions - state.tractions)[:2] * slipped))
+    return 0.5 * (closing - opening + turning)
