@@ -6,16 +6,16 @@ from itertools import combinations
 import numpy as np
 import pytest
 
-from semi_analytical import Increment, NotConverged
+from semi_analytical import NotConverged, Result, solve
 from verification.cases.case import Level
 from verification.cases.chart import Look
 from verification.cases.outcome import Status
+from verification.observed.surfaces import surface_violation
 from verification.studies.running.case_store import CaseStore
 from verification.studies.running.study import Settings
 from verification.studies.stability import judged, solvers, study, verdicts
-from verification.studies.stability.cell import LoadingPath, StabilityCell, Surface
+from verification.studies.stability.cell import LoadingPath, Solver, StabilityCell, Surface
 from verification.studies.stability.charts import view_chart
-from verification.studies.stability.observed import observed
 from verification.studies.stability.pose import Posed, pose
 from verification.studies.stability.record import CellRecord, Verdict
 from verification.studies.stability.solvers import Solved, by_superposition
@@ -43,7 +43,7 @@ def test_different_cells_have_different_names_and_files(tmp_path: object) -> Non
         ORDINARY, *(replace(ORDINARY, **{key: value}) for key, value in
         {"friction": 0.3, "push": 0.3, "modulus_ratio": 0.3, "thickness": 0.3, "load": 0.3,
          "poisson_ratio": 0.2, "base_ratio": 0.2, "length": 0.3, "modulus": 0.3, "cells": 24,
-         "path": LoadingPath.LOOP, "surface": Surface.ROUGH}.items()),
+         "path": LoadingPath.LOOP, "surface": Surface.ROUGH, "solver": Solver.PENALTY}.items()),
     ]  # fmt: skip
     assert len({cell.name for cell in cells}) == len(cells)
     store = CaseStore(tmp_path)
@@ -96,9 +96,9 @@ def test_scale_changes_nothing() -> None:
     assert max(spent) - min(spent) <= 0.02 * max(spent)
 
 
-def solved_cell() -> tuple[list[Increment], float]:
-    solved = by_superposition(pose(replace(ORDINARY, path=LoadingPath.LOOP)))
-    return list(solved.increments), solved.cell_area
+def solved_cell() -> Result:
+    posed = pose(replace(ORDINARY, path=LoadingPath.LOOP))
+    return solve(posed.scene, posed.grid, posed.tolerance)
 
 
 DEFECTS = {
@@ -119,10 +119,11 @@ DEFECTS = {
 
 @pytest.mark.parametrize("defect", DEFECTS)
 def test_a_wrong_field_is_seen_in_the_fields_alone(defect: str) -> None:
-    increments, cell_area = solved_cell()
-    assert observed(increments, cell_area, 0.1) <= 1e-8
-    increments[-1] = replace(increments[-1], **DEFECTS[defect](increments[-1]))
-    assert observed(increments, cell_area, 0.1) > 2e-7
+    result = solved_cell()
+    *others, last = result.increments
+    wrong = replace(last, **DEFECTS[defect](last))
+    assert surface_violation(result) <= 1e-8
+    assert surface_violation(replace(result, increments=(*others, wrong))) > 2e-7
 
 
 def test_an_answer_above_the_tolerance_is_silent_failure(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -165,9 +166,14 @@ def records() -> dict[str, CellRecord]:
     """Good records of all cells of the quick level."""
     found = {}
     for cell in study.cases(Settings(Level.QUICK)):
-        refused = cell.push > 1
+        error = (
+            "UnsupportedScene: …"
+            if not cell.posable
+            else "GrossSliding: it exceeds the friction limit"
+        )
+        refused = cell.push > 1 or not cell.posable
         found[cell.name] = GOOD.model_copy(
-            update={"verdict": Verdict.REFUSED, "reason": "too much"} if refused else {}
+            update={"verdict": Verdict.REFUSED, "reason": error} if refused else {}
         )
     return found
 
@@ -176,23 +182,52 @@ def outcomes(found: dict[str, CellRecord]) -> list[Status | None]:
     return [s.outcome for s in study.conclude(Settings(Level.QUICK), found).statements]
 
 
+EVERYTHING_GOOD = [Status.PASS] * 3 + [None]
+
+
+@pytest.mark.parametrize("solver", Solver)
 @pytest.mark.parametrize(
     ("verdict", "failing"),
     [(Verdict.SILENT, 0), (Verdict.NOT_CONVERGED, 1), (Verdict.REFUSED, 2)],
 )
-def test_one_bad_cell_fails_the_statement_that_names_it(verdict: Verdict, failing: int) -> None:
-    assert outcomes(records()) == [Status.PASS] * 3 + [None]
+def test_bad_cells_fail_the_statement_of_their_solver_that_names_them(
+    solver: Solver, verdict: Verdict, failing: int
+) -> None:
+    assert outcomes(records()) == EVERYTHING_GOOD * len(Solver)
     bad = GOOD.model_copy(update={"verdict": verdict, "reason": "because"})
-    name = study.cases(Settings(Level.QUICK))[7].name
-    statements = study.conclude(Settings(Level.QUICK), records() | {name: bad}).statements
-    judged_as = [s.outcome for s in statements]
+    cells = [c for c in study.cases(Settings(Level.QUICK)) if c.solver is solver]
+    names = [cell.name for cell in cells[:2]]
+    conclusion = study.conclude(Settings(Level.QUICK), records() | dict.fromkeys(names, bad))
+    judged_as = [s.outcome for s in conclusion.statements]
+    failing += 4 * list(Solver).index(solver)
     assert judged_as[failing] is Status.FAIL
     assert judged_as.count(Status.FAIL) == 1
-    assert name in statements[failing].measured
+    assert all(name in conclusion.statements[failing].measured for name in names)
+    if verdict is not Verdict.REFUSED:
+        listed = next(t for t in conclusion.tables if t.title.startswith("Not solved"))
+        assert [row[0] for row in listed.rows] == names
+
+
+@pytest.mark.parametrize(("share", "outcome"), [(1, Status.PASS), (2, Status.FAIL)])
+def test_one_cell_in_a_hundred_may_give_up(share: int, outcome: Status) -> None:
+    cells = [replace(ORDINARY, friction=0.001 * n) for n in range(100)]
+    given_up = GOOD.model_copy(update={"verdict": Verdict.NOT_CONVERGED})
+    found = dict.fromkeys(cells, GOOD) | dict.fromkeys(cells[:share], given_up)
+    assert verdicts.nearly_everything_converges(found).outcome is outcome
+
+
+def test_a_refusal_for_another_reason_is_not_due() -> None:
+    beyond = replace(ORDINARY, push=1.001)
+    for reason, outcome in (
+        ("GrossSliding: it exceeds the friction limit", Status.PASS),
+        ("ResourceRefused: no memory", Status.FAIL),
+    ):
+        record = GOOD.model_copy(update={"verdict": Verdict.REFUSED, "reason": reason})
+        assert verdicts.refusals_are_due({beyond: record}).outcome is outcome
 
 
 def test_missing_records_make_the_map_inconclusive_not_good() -> None:
-    assert outcomes({}) == [Status.INCONCLUSIVE] * 3 + [None]
+    assert outcomes({}) == ([Status.INCONCLUSIVE] * 3 + [None]) * len(Solver)
 
 
 def test_a_place_shows_the_worst_of_its_cells_and_the_dearest() -> None:

@@ -9,7 +9,8 @@ from verification.cases.chart import Chart, Curve, Look, Panel, curve
 from verification.report.numbers import plain
 from verification.studies.stability.cell import StabilityCell
 from verification.studies.stability.record import CellRecord, Verdict
-from verification.studies.stability.views import NAMES, View
+from verification.studies.stability.verdicts import WORK
+from verification.studies.stability.view import NAMES, View
 
 Found = Mapping[str, CellRecord]
 
@@ -58,7 +59,8 @@ def view_chart(view: View, found: Found) -> Chart:
         name=f"stability_{view.name.replace('-', '_')}",
         title=view.title,
         caption="Colour and shape: the worst residual of the cells at a place, or how they ended "
-        f"({'; '.join(_legend())}). Number: the most convolutions that one of them took.",
+        f"({'; '.join(_legend())}). Number: the most {WORK[view.by_elements]} that one of them took"
+        f"{' (steps of Newton or of the active set).' if view.by_elements else '.'}",
         rows=((Panel(
             x_label=NAMES[view.x], y_label=NAMES[view.y],
             curves=tuple(_tiles(n, where) for n, where in places.items() if where),
@@ -83,7 +85,7 @@ def _legend() -> list[str]:
 
 
 def _cost(records: list[CellRecord]) -> str:
-    most = max(record.convolutions for record in records)
+    most = max(record.work for record in records)
     return "–" if most == 0 else str(most) if most < THOUSANDS else f"{most / 1000:.0f}k"
 
 

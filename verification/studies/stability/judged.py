@@ -5,9 +5,8 @@ from __future__ import annotations
 import time
 
 import numpy as np
-from numpy.typing import NDArray
 
-from contact_scene import FrictionMap, Scene, SceneError
+from contact_scene import SceneError
 from contact_scene.solver_errors import (
     GrossSliding,
     NotConverged,
@@ -16,12 +15,9 @@ from contact_scene.solver_errors import (
     UnsupportedScene,
 )
 from verification.studies.stability.cell import StabilityCell
-from verification.studies.stability.observed import observed
 from verification.studies.stability.pose import TOLERANCE, pose
 from verification.studies.stability.record import CellRecord, Verdict
 from verification.studies.stability.solvers import SOLVERS
-
-Field = NDArray[np.float64]
 
 # What a scene may be refused for: its load, its meaning, its size.
 REFUSALS = (GrossSliding, UnsupportedScene, ResourceRefused)
@@ -43,22 +39,29 @@ def judged(cell: StabilityCell) -> CellRecord:
         return _without_answer(Verdict.REFUSED, error, tolerance, started)
     except SolverError as error:
         return _without_answer(Verdict.NOT_CONVERGED, error, tolerance, started)
-    residual = max(increment.residuals.worst for increment in solved.increments)
-    seen = observed(solved.increments, solved.cell_area, _friction(posed.scene))
+    increments, seen = solved.increments, solved.observed
+    # Here a residual that is no number wins.
+    residual = float(np.max([increment.residuals.worst for increment in increments]))
     sound = residual <= tolerance and seen <= OTHER_NORMS * tolerance
     return CellRecord(
         verdict=Verdict.CONVERGED if sound else Verdict.SILENT,
+        reason="" if np.isfinite([residual, seen]).all() else "some number is not finite",
         tolerance=tolerance,
-        residual=residual,
-        observed=seen,
-        increments=len(solved.increments),
-        halvings=solved.halvings,
+        residual=_finite(residual),
+        observed=_finite(seen),
+        increments=len(increments),
+        halvings=sum(increment.halvings for increment in increments),
         rounds=solved.rounds,
         way=solved.way,
-        iterations=solved.iterations,
+        iterations=sum(increment.iterations for increment in increments),
         convolutions=solved.convolutions,
         seconds=time.process_time() - started,
     )
+
+
+def _finite(value: float) -> float | None:
+    """As it can be stored."""
+    return value if np.isfinite(value) else None
 
 
 def _without_answer(
@@ -68,13 +71,6 @@ def _without_answer(
         verdict=verdict,
         reason=f"{type(error).__name__}: {error}",
         tolerance=tolerance,
-        residual=error.residual if isinstance(error, NotConverged) else None,
+        residual=_finite(error.residual) if isinstance(error, NotConverged) else None,
         seconds=time.process_time() - started,
     )
-
-
-def _friction(scene: Scene) -> float | Field:
-    """µ, one number or one per cell."""
-    assert scene.friction is not None
-    coefficient = scene.friction.coefficient
-    return coefficient.map.values if isinstance(coefficient, FrictionMap) else coefficient

@@ -44,6 +44,7 @@ BARE = 0.3  # of µ: less is none on a patchy surface
 SURELY = 0.97
 SEED = 3
 TOLERANCE = 1e-8
+CELLS_PER_ELEMENT = 4  # along a side of the window, per element along a contact radius
 # Gaps are rounded relative to the largest in the window, residuals are relative to the approach.
 GAP_ROUNDING = 10 * float(np.finfo(float).eps)
 
@@ -55,11 +56,13 @@ class Posed:
     """A cell as a solver gets it.
 
     grid       for a solver that has one; its window surely holds the contact
+    elements   per contact radius, for a solver that has sections
     tolerance  of all residuals
     """
 
     scene: Scene
     grid: SurfaceGrid
+    elements: int
     tolerance: float
 
 
@@ -84,7 +87,9 @@ def pose(cell: StabilityCell) -> Posed:
     )
     gap = indenter.initial_gap(*grid.coordinates())
     rounding = GAP_ROUNDING * float(np.max(gap, where=np.isfinite(gap), initial=0.0)) / approach
-    return Posed(scene, grid, max(TOLERANCE, rounding))
+    # The mesh of a section is laid out for the contact, however small: nothing is rounded there.
+    tolerance = TOLERANCE if cell.solver.by_elements else max(TOLERANCE, rounding)
+    return Posed(scene, grid, cell.cells // CELLS_PER_ELEMENT, tolerance)
 
 
 def _materials(cell: StabilityCell) -> tuple[IsotropicMaterial, IsotropicMaterial]:

@@ -41,9 +41,18 @@ class CellRecord(Description):
     """How it was solved."""
 
     iterations: int = 0
+    """Linear systems of finite elements, else steps of conjugate gradients."""
+
     convolutions: int = 0
+    """None with finite elements."""
+
     seconds: float = 0.0
     """Of processor time."""
+
+    @property
+    def work(self) -> int:
+        """What the cell took: convolutions on a surface grid, linear systems on a section."""
+        return self.convolutions or self.iterations
 
     @property
     def worst(self) -> float | None:

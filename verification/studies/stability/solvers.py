@@ -4,22 +4,46 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import partial
+from typing import Protocol
 
-from contact_scene import HeightMap
+import fem_reference
+from contact_scene import FiniteElementDiscretisation, HeightMap
+from fem_reference import Method
 from semi_analytical import (
     ContactAtWindowEdge,
     Coupling,
-    Increment,
     Plan,
     Result,
     SurfaceGrid,
     solve,
 )
+from verification.observed.sections import section_laws
+from verification.observed.surfaces import surface_violation
 from verification.studies.stability.cell import Solver
 from verification.studies.stability.pose import Posed
 
 GROWTH = 1.3
 MOST_WINDOWS = 4
+ELEMENTS_PER_HARMONIC = 2
+
+
+class WithResiduals(Protocol):
+    """The largest residual of an increment, as its solver states it."""
+
+    @property
+    def worst(self) -> float: ...
+
+
+class SolvedIncrement(Protocol):
+    """What the map asks of an increment, whoever solved it."""
+
+    @property
+    def residuals(self) -> WithResiduals: ...
+    @property
+    def iterations(self) -> int: ...
+    @property
+    def halvings(self) -> int: ...
 
 
 @dataclass(frozen=True)
@@ -27,17 +51,16 @@ class Solved:
     """What a solver made of a cell.
 
     increments    all of the history
-    cell_area     of the surface elements that carry the tractions [length²]
+    observed      the largest violation of the laws of contact and friction in their fields
     way           how it went about it, for a reader
+    rounds        the most that pressure and shear took to agree
     """
 
-    increments: Sequence[Increment]
-    cell_area: float
+    increments: Sequence[SolvedIncrement]
+    observed: float
     way: str
     rounds: int
-    iterations: int
-    convolutions: int
-    halvings: int
+    convolutions: int = 0
 
 
 def by_superposition(posed: Posed) -> Solved:
@@ -47,16 +70,36 @@ def by_superposition(posed: Posed) -> Solved:
     rounds = max(i.rounds for i in increments)
     return Solved(
         increments=increments,
-        cell_area=result.grid.cell_area,
+        observed=surface_violation(result),
         way=_way(result.plan, rounds),
         rounds=rounds,
-        iterations=sum(i.iterations for i in increments),
         convolutions=sum(i.convolutions for i in increments),
-        halvings=sum(i.halvings for i in increments),
     )
 
 
-SOLVERS: dict[Solver, Callable[[Posed], Solved]] = {Solver.SEMI_ANALYTICAL: by_superposition}
+def by_elements(posed: Posed, method: Method) -> Solved:
+    """With finite elements on a section, on a larger mesh if the contact needs it."""
+    discretisation = FiniteElementDiscretisation(
+        elements_per_radius=posed.elements,
+        harmonics=posed.elements // ELEMENTS_PER_HARMONIC,
+        tolerance=posed.tolerance,
+    )
+    result = fem_reference.solve(posed.scene, discretisation, method)
+    increments = result.increments
+    ways = sorted({i.path for i in increments if i.path is not None})
+    return Solved(
+        increments=increments,
+        observed=section_laws(result)[0],
+        way="; ".join([result.plan.path.value, *ways]),
+        rounds=max(i.sweeps for i in increments),
+    )
+
+
+SOLVERS: dict[Solver, Callable[[Posed], Solved]] = {
+    Solver.SEMI_ANALYTICAL: by_superposition,
+    Solver.COMPLEMENTARITY: partial(by_elements, method=Method.COMPLEMENTARITY),
+    Solver.PENALTY: partial(by_elements, method=Method.PENALTY),
+}
 
 
 def _solved(posed: Posed) -> Result:

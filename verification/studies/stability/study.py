@@ -4,20 +4,18 @@ from __future__ import annotations
 
 import csv
 import io
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 
 from verification.cases.case import Level
-from verification.cases.table import Table
-from verification.report.numbers import plain
 from verification.studies.running.study import Conclusion, Records, Settings, Study
-from verification.studies.stability import verdicts
 from verification.studies.stability.cell import StabilityCell
-from verification.studies.stability.charts import class_of, view_chart
+from verification.studies.stability.charts import view_chart
 from verification.studies.stability.record import CellRecord
+from verification.studies.stability.tables import tables
+from verification.studies.stability.verdicts import statements
 from verification.studies.stability.views import study_cells, views
 
 CELLS = {Level.QUICK: 32, Level.STANDARD: 32, Level.FULL: 48}
-MOST_ROWS = 150
 
 REMARKS = (
     "Unless a cell says otherwise: a rigid ball on a body with a coating as thick as the contact "
@@ -32,6 +30,13 @@ REMARKS = (
     "Where the contact is so light that gaps are rounded to more than 1e-9 of the approach, the "
     "tolerance is ten times that rounding.",
     "On greased and patchy surfaces T is a part of what friction can carry there, roughly.",
+    "Finite elements: a quarter as many elements per contact radius as the surface grid has cells "
+    "along a side, half as many harmonics. What they return as gap has no overlap, so gap and slip "
+    "are worked out anew from the returned tractions and the compliance of the section. Springs at "
+    "Gauss points, corrected once, are held to what any correction allows: no overlap beyond p/ε, "
+    "no slip that the motion lacks.",
+    "They cannot pose height maps, uneven friction and turning loads: of each one cell stands for "
+    "all, and is refused by name.",
 )
 
 
@@ -41,19 +46,14 @@ def cases(settings: Settings) -> tuple[StabilityCell, ...]:
 
 
 def conclude(settings: Settings, records: Records) -> Conclusion:
-    """The verdicts, a row per cell, and the map."""
+    """The verdicts, the tables and the map."""
     found = _found(settings, records)
     by_name = {cell.name: record for cell, record in found.items()}
     maps = views(settings.level, _cells(settings))
     return Conclusion(
-        statements=(
-            verdicts.nothing_silent(found),
-            verdicts.everything_converges(found),
-            verdicts.refusals_are_due(found),
-            verdicts.cost(found),
-        ),
-        tables=(_table(found),),
-        charts=tuple(view_chart(view, by_name) for view in maps) if found else (),
+        statements=statements(found),
+        tables=tables(found),
+        charts=tuple(view_chart(view, by_name) for view in maps if view.wide) if found else (),
         remarks=REMARKS,
     )
 
@@ -80,47 +80,9 @@ def _found(settings: Settings, records: Records) -> dict[StabilityCell, CellReco
     return {cell: r for cell, r in found.items() if isinstance(r, CellRecord)}
 
 
-def _table(found: Mapping[StabilityCell, CellRecord]) -> Table:
-    shown = _hardest(found.items())
-    left_out = len(found) - len(shown)
-    return Table(
-        title="The cells" if not left_out else f"The {len(shown)} hardest of {len(found)} cells",
-        columns=(
-            "cell", "verdict", "worst residual", "from the fields", "increments", "halved", "way",
-            "rounds", "iterations", "convolutions",
-        ),
-        rows=tuple(_row(cell, record) for cell, record in shown),
-        note="A cell is named by the coordinates that differ from the ordinary ones; `cells.csv` "
-        "has all of them. Rounds: the most that pressure and shear took to agree in an increment.",
-    )  # fmt: skip
-
-
-def _hardest(
-    items: Iterable[tuple[StabilityCell, CellRecord]],
-) -> list[tuple[StabilityCell, CellRecord]]:
-    """The worst classes first, then the dearest."""
-    ranked = sorted(items, key=lambda item: (-class_of(item[1]), -item[1].convolutions))
-    return ranked[:MOST_ROWS]
-
-
-def _row(cell: StabilityCell, record: CellRecord) -> tuple[str, ...]:
-    return (
-        cell.name,
-        f"{record.verdict}: {record.reason}" if record.reason else str(record.verdict),
-        "–" if record.residual is None else plain(record.residual, 2),
-        "–" if record.observed is None else plain(record.observed, 2),
-        str(record.increments),
-        str(record.halvings),
-        record.way or "–",
-        str(record.rounds),
-        str(record.iterations),
-        str(record.convolutions),
-    )
-
-
 STUDY = Study(
     name="stability",
-    title="The stability map: which contacts the solver masters",
+    title="The stability map: which contacts the solvers master",
     question="Friction, force, coating, Poisson's ratio, loading path, surface, scale and load are "
     "varied far beyond what is usual, one increment as large as can be. Does every contact end "
     "either converged, with its residual, or refused, with a reason?",

@@ -2,68 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass, replace
-from itertools import product
-from typing import Any
+from dataclasses import replace
 
 from verification.cases.case import Level
-from verification.studies.stability.cell import LoadingPath, StabilityCell, Surface
-
-# Names of coordinates as people read them.
-NAMES = {
-    "friction": "µ", "push": "T / µW", "modulus_ratio": "E1/E2", "thickness": "h/a",
-    "poisson_ratio": "ν of the layer", "path": "path", "surface": "surface", "load": "W / W(a)",
-    "length": "a (m)", "modulus": "E2 (Pa)", "base_ratio": "ν of the base", "cells": "cells",
-}  # fmt: skip
-
-ORDINARY = StabilityCell()
-# Nothing is as coupled as ν = 0 below a rigid ball: β = ½.
-BARE = replace(ORDINARY, modulus_ratio=1.0, poisson_ratio=0.0, base_ratio=0.0)
-HARD_PUSH = 0.95
-
-
-@dataclass(frozen=True)
-class View:
-    """A map over two coordinates.
-
-    name     for files
-    x, y     names of coordinates
-    cells    every cell of it; several at one place differ in other coordinates
-    """
-
-    name: str
-    title: str
-    x: str
-    y: str
-    cells: tuple[StabilityCell, ...]
-
-    def values(self, axis: str) -> tuple[Any, ...]:
-        """The values of a coordinate, in order."""
-        found = {getattr(cell, axis) for cell in self.cells}
-        members = list(LoadingPath) + list(Surface)
-        return tuple(sorted(found, key=lambda v: members.index(v) if v in members else v))
-
-    def at(self, x: Any, y: Any) -> tuple[StabilityCell, ...]:
-        """The cells at one place."""
-        return tuple(c for c in self.cells if getattr(c, self.x) == x and getattr(c, self.y) == y)
+from verification.studies.stability.cell import StabilityCell
+from verification.studies.stability.section_views import section_views
+from verification.studies.stability.surface_views import surface_views
+from verification.studies.stability.view import View
 
 
 def views(level: Level, cells: int) -> tuple[View, ...]:
-    """The views of a level on a surface grid of so many cells along each side."""
-    wide = level is not Level.QUICK
-    made = [
-        _friction_and_force(wide),
-        _coating(wide),
-        _layer_poisson(wide),
-        _paths(wide),
-        _surfaces(wide),
-        _scale(wide),
-        _light(wide),
-        _limits(),
-    ]
-    if level is Level.FULL:
-        made += _volume()
+    """The views of a level.
+
+    cells  of a surface grid along each side; sections have as many elements as `pose` makes of it
+    """
+    made = surface_views(level) + section_views(level)
     return tuple(replace(v, cells=tuple(replace(c, cells=cells) for c in v.cells)) for v in made)
 
 
@@ -71,113 +24,3 @@ def study_cells(level: Level, cells: int) -> tuple[StabilityCell, ...]:
     """Every cell of a level, once."""
     found = {cell.name: cell for view in views(level, cells) for cell in view.cells}
     return tuple(found.values())
-
-
-def _grid(base: StabilityCell, **axes: Sequence[Any]) -> tuple[StabilityCell, ...]:
-    """All combinations of the values."""
-    names = tuple(axes)
-    combinations = product(*axes.values())
-    return tuple(replace(base, **dict(zip(names, c, strict=True))) for c in combinations)
-
-
-def _friction_and_force(wide: bool) -> View:
-    friction = (1e-6, 0.01, 0.1, 0.3, 0.5, 1.0, 2.0, 5.0) if wide else (1e-6, 0.1, 1.0, 2.0, 5.0)
-    push = (0.0, 0.3, 0.6, 0.9, 0.99, 0.9999, 0.99999) if wide else (0.0, 0.5, 0.9, 0.99999)
-    bases = (BARE, replace(BARE, poisson_ratio=0.3, base_ratio=0.3)) if wide else (BARE,)
-    return View(
-        "friction", "Friction and force on a homogeneous body under a rigid ball, T in one step",
-        "push", "friction", tuple(c for b in bases for c in _grid(b, friction=friction, push=push)),
-    )  # fmt: skip
-
-
-def _coating(wide: bool) -> View:
-    few = (1e-3, 0.05, 0.5, 4.0, 20.0, 1e3)
-    all_of_them = (1e-6, 1e-3, 0.05, 0.5, 1.0, 2.0, 4.0, 20.0, 100.0, 1e3, 1e4, 1e5, 1e6)
-    ratios = all_of_them if wide else few
-    thickness = (0.003, 0.01, 0.03, 0.1, 0.3, 1.0, 3.0, 10.0) if wide else (0.01, 0.1, 1.0, 10.0)
-    frictions = (0.1, 1.0) if wide else (0.3,)
-    return View(
-        "coating", f"Stiffness and thickness of the coating, T = {HARD_PUSH:g} µW in one step",
-        "modulus_ratio", "thickness",
-        _grid(replace(ORDINARY, push=HARD_PUSH), modulus_ratio=ratios, thickness=thickness,
-              friction=frictions),
-    )  # fmt: skip
-
-
-def _layer_poisson(wide: bool) -> View:
-    ratios = (1e-3, 0.05, 0.5, 1.0, 2.0, 20.0, 1e3) if wide else (0.05, 1.0, 1e3)
-    nu = (-0.5, 0.0, 0.3, 0.45, 0.499, 0.5) if wide else (0.0, 0.499, 0.5)
-    thickness = (0.01, 0.1, 1.0) if wide else (0.01,)
-    return View(
-        "poisson", "Poisson's ratio of the coating, incompressible included",
-        "modulus_ratio", "poisson_ratio",
-        _grid(ORDINARY, modulus_ratio=ratios, poisson_ratio=nu, thickness=thickness),
-    )  # fmt: skip
-
-
-def _paths(wide: bool) -> View:
-    ratios = (1e-3, 0.05, 0.5, 1.0, 2.0, 4.0, 20.0, 1e3) if wide else (0.5, 1.0, 4.0)
-    frictions = (0.1, 1.0) if wide else (0.1,)
-    return View(
-        "paths", "Loading paths", "modulus_ratio", "path",
-        _grid(replace(ORDINARY, push=0.8), path=tuple(LoadingPath), modulus_ratio=ratios,
-              friction=frictions),
-    )  # fmt: skip
-
-
-def _surfaces(wide: bool) -> View:
-    push = (0.0, 0.5, 0.9, 0.99) if wide else (0.5, 0.99)
-    ratios = (0.05, 1.0, 2.0, 20.0) if wide else (2.0,)
-    frictions = (0.1, 1.0) if wide else (0.1,)
-    return View(
-        "surfaces", "Shapes, rough surfaces and uneven friction", "push", "surface",
-        _grid(ORDINARY, surface=tuple(Surface), push=push, modulus_ratio=ratios,
-              friction=frictions),
-    )  # fmt: skip
-
-
-def _scale(wide: bool) -> View:
-    length = (1e-9, 1e-6, 1e-3, 1.0) if wide else (1e-9, 1.0)
-    modulus = (1e3, 1e6, 1e9, 1e12) if wide else (1e3, 1e12)
-    return View(
-        "scale", "Nanometres to metres, kilopascals to terapascals", "length", "modulus",
-        _grid(ORDINARY, length=length, modulus=modulus),
-    )  # fmt: skip
-
-
-def _light(wide: bool) -> View:
-    load = (1e-5, 1e-4, 1e-3, 0.01, 0.1) if wide else (1e-4, 0.01)
-    push = (0.0, 0.6, 0.99) if wide else (0.6,)
-    return View(
-        "light", "Loads so light that few cells touch", "load", "push",
-        _grid(ORDINARY, load=load, push=push),
-    )  # fmt: skip
-
-
-def _limits() -> View:
-    """At µW all slides and the shift is undefined; beyond it the scene is refused."""
-    return View(
-        "limits", "At the limit of friction and beyond it", "push", "modulus_ratio",
-        _grid(ORDINARY, push=(1.0, BEYOND), modulus_ratio=(0.5, 4.0)),
-    )  # fmt: skip
-
-
-BEYOND = 1.001
-
-
-def _volume() -> list[View]:
-    """Every combination of five coordinates, shown over two of them for each of two others."""
-    return [
-        View(
-            f"volume-{thickness:g}-{nu:g}".replace(".", "p"),
-            f"h/a = {thickness:g}, ν = {nu:g} of the layer; every T/µW in one step",
-            "modulus_ratio", "friction",
-            _grid(
-                replace(ORDINARY, thickness=thickness, poisson_ratio=nu),
-                modulus_ratio=(1e-3, 0.05, 0.5, 2.0, 4.0, 20.0, 1e3),
-                friction=(1e-6, 0.1, 0.3, 1.0, 2.0, 5.0),
-                push=(0.0, 0.5, 0.9, 0.99, 0.9999),
-            ),
-        )
-        for thickness, nu in product((0.01, 0.1, 1.0, 10.0), (0.0, 0.3, 0.5))
-    ]  # fmt: skip

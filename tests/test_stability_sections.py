@@ -1,0 +1,139 @@
+"""The stability map of the finite elements: hard cells, and that no wrong field passes."""
+
+from collections.abc import Callable
+from dataclasses import replace
+from functools import cache, partial
+from typing import Any
+
+import numpy as np
+import pytest
+
+from contact_scene import FiniteElementDiscretisation
+from fem_reference import Increment, Method, Result, solve
+from verification.observed.sections import section_laws
+from verification.studies.stability.cell import LoadingPath, Solver, StabilityCell, Surface
+from verification.studies.stability.pose import TOLERANCE, pose
+from verification.studies.stability.record import Verdict
+
+BOTH = [solver for solver in Solver if solver.by_elements]
+ORDINARY = StabilityCell(solver=Solver.COMPLEMENTARITY)
+ALIKE = replace(ORDINARY, surface=Surface.ALIKE_BALL)
+HALF_SPACE = replace(ORDINARY, modulus_ratio=1.0, poisson_ratio=0.0, base_ratio=0.0)
+
+CELLS = [
+    replace(ORDINARY, push=0.99),
+    replace(ORDINARY, push=1.0),
+    *(replace(ALIKE, path=path, push=0.8) for path in (LoadingPath.FALLING, LoadingPath.SLIDE)),
+    replace(ORDINARY, path=LoadingPath.SHEARED_RELOAD, push=0.8),
+    replace(ORDINARY, surface=Surface.FLAT_PUNCH, push=0.9),
+    # Pressures that jump to and fro between the turns unless they are damped.
+    replace(HALF_SPACE, friction=5.0, push=0.9),
+    # So little friction that slip is no more than the rounding of what pressing moves.
+    replace(HALF_SPACE, friction=1e-6, push=0.0, cells=48),
+]
+
+
+@pytest.mark.parametrize("solver", BOTH)
+@pytest.mark.parametrize("cell", CELLS, ids=lambda cell: cell.name)
+def test_hard_cell_converges(cell: StabilityCell, solver: Solver) -> None:
+    record = replace(cell, solver=solver).compute()
+    assert record.verdict is Verdict.CONVERGED, record.reason
+    assert record.residual is not None
+    assert record.observed is not None
+    assert record.residual <= record.tolerance == TOLERANCE
+    assert record.halvings == 0
+    assert record.work == record.iterations > 0
+
+
+@pytest.mark.parametrize("solver", BOTH)
+@pytest.mark.parametrize(
+    ("change", "reason"),
+    [
+        ({"push": 1.001}, "exceeds the friction limit"),
+        ({"push": 1.001, "surface": Surface.ALIKE_BALL}, "exceeds the friction limit"),
+        ({"surface": Surface.ROUGH}, "UnsupportedScene"),
+        ({"surface": Surface.GREASED}, "UnsupportedScene"),
+        ({"path": LoadingPath.CIRCLE}, "UnsupportedScene"),
+    ],
+)
+def test_what_has_no_solution_is_refused_by_name(
+    change: dict[str, Any], reason: str, solver: Solver
+) -> None:
+    record = replace(ORDINARY, **change, solver=solver).compute()
+    assert record.verdict is Verdict.REFUSED
+    assert reason in record.reason
+    assert replace(ORDINARY, **change).posable == (reason != "UnsupportedScene")
+
+
+SOLVED = {
+    "radial shear": replace(ORDINARY, path=LoadingPath.RELOADED),
+    "shear along the load": replace(ALIKE, path=LoadingPath.LOOP),
+    "harmonics": replace(ORDINARY, path=LoadingPath.LOOP),
+}
+
+
+@cache
+def solved(name: str, method: Method) -> Result:
+    discretisation = FiniteElementDiscretisation(elements_per_radius=8, harmonics=4)
+    return solve(pose(SOLVED[name]).scene, discretisation, method)
+
+
+Change = Callable[[Increment], dict[str, Any]]
+
+
+def scaled(part: float, *names: str, increment: Increment) -> dict[str, Any]:
+    """Whatever of these fields there is, times a factor."""
+    values = {name: getattr(increment, name) for name in names}
+    return {n: part * np.asarray(v) for n, v in values.items() if v is not None}
+
+
+SHEAR = ("shear_radial", "shear_circumferential", "shear_along_load")
+SLIP = ("slip_radial", "slip_circumferential", "slip_along_load")
+MUCH = 1 + 1e-4
+DEFECTS: dict[str, Change] = {
+    "tension": lambda i: {
+        "pressure": np.where(i.pressure > 0, i.pressure, -1e-4 * i.peak_pressure)
+    },
+    "indenter too deep": lambda i: {"approach": i.approach * MUCH},
+    "indenter too high": lambda i: {"approach": i.approach / MUCH},
+    "another gap": lambda i: {"gap": i.gap * MUCH},
+    "another normal force": lambda i: {"normal_force": i.normal_force * MUCH},
+    "more pressure": lambda i: {"pressure": i.pressure * MUCH},
+    "pressure elsewhere": lambda i: {"pressure": np.roll(i.pressure, 1, axis=0)},
+    "more shear than friction allows": lambda i: partial(scaled, MUCH, *SHEAR)(increment=i),
+    "shear the other way": lambda i: partial(scaled, -1.0, *SHEAR)(increment=i),
+    "not a number": lambda i: {"pressure": np.where(i.pressure > 0, np.nan, 0.0)},
+    "energy won by friction": lambda i: {"dissipated_energy": -(i.dissipated_energy or 0.0)},
+}
+OF_A_LOAD: dict[str, Change] = {
+    "another tangential force": lambda i: {"tangential_force": (2 * i.tangential_force[0], 0.0)},
+    "another shift": lambda i: {"tangential_shift": (2 * i.tangential_shift[0], 0.0)},
+}
+OF_SPRINGS: dict[str, Change] = {
+    "another overlap": lambda i: {"overlap": 2 * i.overlap},
+    "slip along the shear": lambda i: partial(scaled, -1.0, *SLIP)(increment=i),
+    "slip without motion": lambda i: partial(scaled, 3.0, *SLIP)(increment=i),
+}
+
+
+def spoilt(result: Result, change: Change) -> float:
+    *others, last = result.increments
+    wrong = replace(last, **change(last))
+    return section_laws(replace(result, increments=(*others, wrong)))[0]
+
+
+@pytest.mark.parametrize("method", Method)
+@pytest.mark.parametrize("name", SOLVED)
+@pytest.mark.parametrize("defect", [*DEFECTS, *OF_A_LOAD])
+def test_a_wrong_field_is_seen_without_the_solver(name: str, method: Method, defect: str) -> None:
+    if defect in OF_A_LOAD and name == "radial shear":
+        pytest.skip("without a tangential load")
+    result = solved(name, method)
+    assert section_laws(result)[0] <= TOLERANCE
+    assert spoilt(result, (DEFECTS | OF_A_LOAD)[defect]) > 100 * TOLERANCE
+
+
+@pytest.mark.parametrize("name", ["radial shear", "shear along the load"])
+@pytest.mark.parametrize("defect", OF_SPRINGS)
+def test_what_springs_tell_of_themselves_is_held_against_their_law(name: str, defect: str) -> None:
+    assert spoilt(solved(name, Method.PENALTY), OF_SPRINGS[defect]) > 100 * TOLERANCE
