@@ -7,21 +7,27 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from fem_reference import Method, complementarity
 from semi_analytical import UnsupportedScene
 from verification.cases.case import Level
 from verification.cases.outcome import Status
 from verification.cli import main
-from verification.studies.refinement.expected import SHEAR, Expected
+from verification.studies.refinement import section_level
+from verification.studies.refinement.expected import Expected
 from verification.studies.refinement.fit import Fit, fits
+from verification.studies.refinement.increments import increments_study
 from verification.studies.refinement.level_record import (
+    SHEAR,
     LevelRecord,
     StoredField,
     at_centres,
-    shear_change,
+    change,
 )
-from verification.studies.refinement.level_run import CannotRefine, LevelRun
-from verification.studies.refinement.study import increments_study, mesh_study
-from verification.studies.running.study import Settings
+from verification.studies.refinement.mesh import mesh_study
+from verification.studies.refinement.section_level import SectionLevel
+from verification.studies.refinement.studied_scene import CannotRefine
+from verification.studies.refinement.surface_level import SurfaceLevel
+from verification.studies.running.study import Settings, Study
 
 TOLERANCE = 1e-8
 FIRST, SECOND = Expected(1.0, "planted"), Expected(2.0, "planted")
@@ -94,14 +100,12 @@ def planted(size: float, relative_error: float, bump: float = 0.0) -> LevelRecor
     }
     return LevelRecord(
         size=size,
-        cells=(16, 16),
+        level="16 x 16 cells",
         increments=(1, round(1 / size)),
         values=values,
-        shear=StoredField.of(shear),
-        limit=float(2 * shape.mean()),
+        fields={SHEAR: StoredField.of(shear, float(2 * shape.mean()))},
         largest_residual=1e-9,
-        iterations=10,
-        convolutions=100,
+        work={"convolutions": 100},
         seconds=1.0,
     )
 
@@ -152,6 +156,12 @@ def test_planted_noise_is_inconclusive(rng: np.random.Generator) -> None:
     assert found[SHEAR].status is Status.INCONCLUSIVE
 
 
+def test_wrong_order_that_hardly_comes_nearer_fails() -> None:
+    """First order with a little of the second: triplets drift by hundredths."""
+    found = of_planted(0.1 * SIZES - 0.02 * SIZES**2, Expected(3.0, "planted"))
+    assert found["approach"].status is found[SHEAR].status is Status.FAIL
+
+
 def test_what_does_not_change_or_vanishes_by_symmetry_is_left_out() -> None:
     assert set(of_planted(0.1 * SIZES, FIRST)) == {"approach", SHEAR}
     assert of_planted(1e-9 * SIZES, FIRST) == {}
@@ -164,12 +174,12 @@ def test_without_an_expected_order_nothing_is_judged() -> None:
 
 def test_fields_are_compared_as_vectors() -> None:
     one, other = planted(0.1, 0.0), planted(0.05, 0.03, bump=0.04)
-    assert shear_change(one, other) == pytest.approx(0.05 / 2, rel=1e-6)
+    assert change(one.fields[SHEAR], other.fields[SHEAR]) == pytest.approx(0.05 / 2, rel=1e-6)
 
 
 def test_stored_fields_come_back() -> None:
     field = np.random.default_rng(3).standard_normal((2, 5, 7))
-    np.testing.assert_allclose(StoredField.of(field).field(), field, rtol=1e-7)
+    np.testing.assert_allclose(StoredField.of(field, 1.0).field(), field, rtol=1e-7)
 
 
 @pytest.mark.parametrize("cells", [(8, 12), (16, 12), (21, 10)])
@@ -183,26 +193,30 @@ def test_values_at_other_centres_are_exact_for_planes(cells: tuple[int, int]) ->
     np.testing.assert_allclose(found[inside], plane(*cells)[inside], rtol=1e-12)
 
 
-def levels(study, settings: Settings) -> list[LevelRun]:
+def levels(study: Study, settings: Settings) -> list[SurfaceLevel]:
+    return list(study.cases(settings))
+
+
+def sections(study: Study, settings: Settings) -> list[SectionLevel]:
     return list(study.cases(settings))
 
 
 def test_only_steps_whose_path_matters_are_refined(scene_file: Path) -> None:
-    runs = levels(increments_study(scene_file, (), None), Settings(Level.STANDARD))
+    runs = levels(increments_study(scene_file, (), None, None), Settings(Level.STANDARD))
     assert [run.increments for run in runs] == [(1, 3, 8 * 2**k) for k in range(5)]
     assert [run.size for run in runs] == [1 / (8 * 2**k) for k in range(5)]
     assert {run.cells for run in runs} == {(24, 24)}
 
 
 def test_grids_become_finer_by_the_root_of_two_at_the_same_increments(scene_file: Path) -> None:
-    runs = levels(mesh_study(scene_file, (), 2), Settings(Level.QUICK, cells=64))
+    runs = levels(mesh_study(scene_file, (), 2, None), Settings(Level.QUICK, cells=64))
     assert [run.cells[0] for run in runs] == [22, 32, 46, 64]
     assert {run.increments for run in runs} == {(1, 3)}
     assert {run.window for run in runs} == {(9e-4, 9e-4)}
 
 
 def test_a_path_that_does_not_matter_is_not_studied(scene_file: Path) -> None:
-    study = increments_study(scene_file, (), 2)
+    study = increments_study(scene_file, (), 2, None)
     assert levels(study, Settings(Level.QUICK)) == []
     (statement,) = study.conclude(Settings(Level.QUICK), {}).statements
     assert "one increment per step is exact" in statement.measured
@@ -210,20 +224,119 @@ def test_a_path_that_does_not_matter_is_not_studied(scene_file: Path) -> None:
 
 def test_what_cannot_be_refined_is_refused(scene_file: Path) -> None:
     with pytest.raises(CannotRefine, match="the scene has 3"):
-        increments_study(scene_file, (), 4)
-    study = mesh_study(scene_file, (), None)
+        increments_study(scene_file, (), 4, None)
+    study = mesh_study(scene_file, (), None, None)
     with pytest.raises(CannotRefine, match="fewer than 16"):
         study.cases(Settings(Level.QUICK))
     np.save(scene_file.parent / "mu.npy", np.full((24, 24), 0.1))
     with pytest.raises(UnsupportedScene, match="fixes the cells"):
-        mesh_study(scene_file, ["friction.coefficient={map='mu.npy'}"], None)
+        mesh_study(scene_file, ["friction.coefficient={map='mu.npy'}"], None, None)
 
 
 def test_other_contents_of_the_file_are_other_cases(scene_file: Path) -> None:
     settings = Settings(Level.QUICK)
-    before = levels(increments_study(scene_file, (), None), settings)
+    before = levels(increments_study(scene_file, (), None, None), settings)
     scene_file.write_text(SCENE.replace("0.1", "0.2"))
-    assert before != levels(increments_study(scene_file, (), None), settings)
+    assert before != levels(increments_study(scene_file, (), None, None), settings)
+
+
+PRESSED = """
+title = "Pressed"
+[indenter]
+shape = "paraboloid"
+radius = "18 mm"
+material = "rigid"
+[body]
+material = { young_modulus = "210 GPa", poisson_ratio = 0.3 }
+[friction]
+coefficient = 0.1
+[[loading]]
+normal_force = "1 kN"
+increments = 6
+[fem_reference]
+elements_per_radius = 24
+"""
+
+
+@pytest.fixture
+def pressed(tmp_path: Path) -> Path:
+    path = tmp_path / "pressed.toml"
+    path.write_text(PRESSED)
+    return path
+
+
+def test_elements_become_smaller_by_the_root_of_two_in_the_same_section(pressed: Path) -> None:
+    study = mesh_study(pressed, (), None, Method.COMPLEMENTARITY)
+    cases = sections(study, Settings(Level.STANDARD))
+    assert [case.elements for case in cases] == [8, 12, 17, 24, 34, 48]
+    assert {case.increments for case in cases} == {(6,)}
+    edges = [case.laid_out * (1 + 0.5 / case.elements) for case in cases]
+    np.testing.assert_allclose(edges, edges[0], rtol=1e-12)
+    np.testing.assert_allclose([c.box * c.laid_out for c in cases], 100 * edges[0], rtol=1e-12)
+
+
+def test_increments_are_doubled_on_one_mesh(pressed: Path) -> None:
+    study = increments_study(pressed, (), None, Method.PENALTY)
+    cases = sections(study, Settings(Level.QUICK))
+    assert [case.increments for case in cases] == [(3,), (6,), (12,), (24,)]
+    assert len({(case.elements, case.laid_out, case.box, case.method) for case in cases}) == 1
+
+
+def test_uncoupled_push_of_a_section_needs_no_increments(scene_file: Path) -> None:
+    study = increments_study(scene_file, (), 2, Method.COMPLEMENTARITY)
+    assert sections(study, Settings(Level.QUICK)) == []
+
+
+def concluded(study: Study, settings: Settings) -> dict[str, Status | None]:
+    records = {case.name: case.compute() for case in study.cases(settings)}
+    return {s.claim: s.outcome for s in study.conclude(settings, records).statements}
+
+
+def test_increments_of_a_section_cost_the_approach_their_square(
+    pressed: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    settings = Settings(Level.STANDARD, cells=64)
+    study = increments_study(pressed, ["loading[1].increments=4"], None, Method.COMPLEMENTARITY)
+    records = [case.compute() for case in sections(study, settings)]
+    approach, *_ = fits(records, {"approach": SECOND}, TOLERANCE)
+    assert approach.observed is not None
+    assert approach.observed.order == pytest.approx(2.0, abs=0.25)
+    assert max(approach.errors) == pytest.approx(1e-6, rel=1.0)
+    # A path that is not cut as asked for shows no order, and says so.
+    monkeypatch.setattr(section_level, "cut_into", lambda scene, increments: scene)
+    assert "orders of convergence" in concluded(study, settings)
+
+
+@pytest.fixture
+def frictionless(pressed: Path) -> Path:
+    head, rest = PRESSED.split("[friction]\ncoefficient = 0.1\n")
+    pressed.write_text(head + rest.replace("increments = 6\n", ""))
+    return pressed
+
+
+def of_elements(path: Path) -> dict[str, Status | None]:
+    settings = Settings(Level.STANDARD, cells=64)
+    return concluded(mesh_study(path, (), None, Method.COMPLEMENTARITY), settings)
+
+
+def test_orders_of_pressed_sections_are_those_of_the_energy(frictionless: Path) -> None:
+    found = of_elements(frictionless)
+    for claim in ("approach", "peak pressure", "contact radius", "pressure (L1)"):
+        assert found[f"order of the {claim}"] is Status.PASS, claim
+
+
+def test_edge_that_is_off_by_a_part_of_an_element_is_seen(
+    frictionless: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    right = complementarity.edge_radius
+
+    def off(radii: np.ndarray, values: np.ndarray, last: int) -> float:
+        return right(radii, values, last) + 0.1 * float(radii[last + 1] - radii[last])
+
+    monkeypatch.setattr(complementarity, "edge_radius", off)
+    found = of_elements(frictionless)
+    assert found["order of the contact radius"] is Status.FAIL
+    assert found["order of the approach"] is Status.PASS
 
 
 @pytest.mark.slow
@@ -231,7 +344,7 @@ def test_orders_of_a_push_between_unlike_bodies_are_first(tmp_path: Path) -> Non
     path = tmp_path / "pushed.toml"
     path.write_text(PUSHED)
     settings = Settings(Level.FULL)
-    study = increments_study(path, (), None)
+    study = increments_study(path, (), None, None)
     records = {run.name: run.compute() for run in levels(study, settings)}
     outcomes = {s.claim: s.outcome for s in study.conclude(settings, records).statements}
     assert outcomes["order of the shear (L1)"] is Status.PASS
@@ -283,6 +396,14 @@ def test_study_resumes_to_the_same_bytes(
         (("study", "coated-tractions", "turning.toml"), "takes no scene file"),
         (("study", "mesh", "turning.toml"), "coarsest of 4 grids"),
         (("study", "increments", "turning.toml", "--step", "9"), "the scene has 3"),
+        (("study", "window", "turning.toml", "--solver", "fem"), "is of semi-analytical"),
+        (
+            ("study", "domain", "turning.toml", "--solver", "semi-analytical"),
+            "is of fem or fem-complementarity",
+        ),
+        (("study", "domain", "turning.toml", "--solver", "fem"), "takes one direction"),
+        (("study", "stability", "--step", "2"), "--step is of a scene"),
+        (("study", "coated-tractions", "--solver", "fem"), "--solver is of a scene"),
     ],
 )
 def test_mistakes_on_the_command_line_are_named(

@@ -12,6 +12,7 @@ import typer
 from verification.cli.errors import ExitCode
 from verification.cli.scene_options import SetOption
 from verification.cli.scheduler_option import SchedulerOption, workers_at
+from verification.cli.solver_option import SolverName, method_of
 
 if TYPE_CHECKING:
     from verification.studies.running.case_pool import Workers
@@ -39,7 +40,7 @@ def study(
         typer.Argument(
             metavar="[SCENE]",
             show_default=False,
-            help="Scene file (TOML) of the studies that refine: increments and mesh.",
+            help="Scene file (TOML) of the studies that refine something in it.",
         ),
     ] = None,
     overrides: SetOption = None,
@@ -50,6 +51,15 @@ def study(
             min=1,
             show_default=False,
             help="Loading step of SCENE at whose end quantities are read; the last if absent.",
+        ),
+    ] = None,
+    solver: Annotated[
+        SolverName | None,
+        typer.Option(
+            "--solver",
+            show_default=False,
+            help="What solves SCENE: 'fem' are finite elements with a penalty, "
+            "'fem-complementarity' without one; the study's own if absent.",
         ),
     ] = None,
     levels: Annotated[
@@ -78,7 +88,8 @@ def study(
             metavar="N",
             min=LEAST_CELLS,
             show_default=False,
-            help="Cells of the finest grid along each side, even; the level decides if absent.",
+            help="Cells of the finest grid along each side, even, or elements of the finest mesh "
+            "per contact radius; scene and level decide if absent.",
         ),
     ] = None,
     level: Annotated[
@@ -106,7 +117,7 @@ def study(
         from verification.cli.terminal import print_table
 
         rows = [(known.name, known.title) for known in STUDIES.values()]
-        rows += [(f"{known} SCENE", title) for known, (title, _) in SCENE_STUDIES.items()]
+        rows += [(f"{known} SCENE", study.title) for known, study in SCENE_STUDIES.items()]
         print_table(("study", "title"), rows)
         return
     if name not in STUDIES and name not in SCENE_STUDIES:
@@ -116,16 +127,17 @@ def study(
     if (scene is None) == (name in SCENE_STUDIES):
         problem = "needs a scene file" if scene is None else "takes no scene file"
         raise typer.BadParameter(f"study {name} {problem}")
-    if cells is not None and cells % 2:
-        raise typer.BadParameter(f"--cells {cells} is odd, and half of them are needed too")
     settings = Settings(Level[level.name], cells, levels)
     if scene is None:
-        chosen = STUDIES[name]
-        directory = output or Path("out") / f"study-{name}-{level}"
+        _refuse_without_scene(name, step=step, levels=levels, solver=solver, set=overrides)
+        _refuse_odd(cells)
+        chosen, where = STUDIES[name], f"study-{name}-{level}"
     else:
-        chosen = _scene_study(name, scene, overrides or [], step, settings)
-        directory = output or Path("out") / f"study-{name}-{scene.stem}-{level}"
-    command = _command(name, level, cells, scene, overrides or [], step, levels)
+        chosen = _scene_study(name, scene, overrides or [], step, solver, settings)
+        by = "" if solver is None else f"-{solver}"
+        where = f"study-{name}-{scene.stem}{by}-{level}"
+    directory = output or Path("out") / where
+    command = _command(name, level, cells, scene, overrides or [], step, levels, solver)
     pool = workers_at(scheduler, workers)
     record = _studied(chosen, settings, command, directory, pool)
     _print_outcome(record, directory)
@@ -160,22 +172,46 @@ def _studied(
             level=settings.level.name.lower(),
             conclusion=study.conclude(settings, records),
             lost=tuple(end.lost for end in ends if end.lost is not None),
-            provenance=provenance(command, seconds),
+            provenance=provenance(command, seconds, timed=study.timed(settings, records)),
         )
         write_study(record, study.exports(settings, records), directory)
     return record
 
 
+def _refuse_odd(cells: int | None) -> None:
+    if cells is not None and cells % 2:
+        raise typer.BadParameter(f"--cells {cells} is odd, and half of them are needed too")
+
+
+def _refuse_without_scene(name: str, **options: object) -> None:
+    """Options that say something of a scene."""
+    for option, value in options.items():
+        if value is not None:
+            raise typer.BadParameter(f"--{option} is of a scene, and study {name} takes none")
+
+
 def _scene_study(
-    name: str, scene: Path, overrides: list[str], step: int | None, settings: Settings
+    name: str,
+    scene: Path,
+    overrides: list[str],
+    step: int | None,
+    solver: SolverName | None,
+    settings: Settings,
 ) -> Study:
     """The study of a scene, once it is clear that it can be made as asked."""
     from verification.studies.catalogue import SCENE_STUDIES
-    from verification.studies.refinement.level_run import CannotRefine
+    from verification.studies.refinement.studied_scene import CannotRefine
 
-    _, study_of = SCENE_STUDIES[name]
+    known = SCENE_STUDIES[name]
+    by = {solver: method_of(solver) if solver.is_fem else None for solver in SolverName}
+    method = known.methods[0] if solver is None else by[solver]
+    if method not in known.methods:
+        able = " or ".join(one for one, method in by.items() if method in known.methods)
+        raise typer.BadParameter(f"study {name} is of {able}, and --solver is {solver}")
+    if method is None:
+        _refuse_odd(settings.cells)
     try:
-        study = study_of(scene, overrides, step)
+        study = known.of(scene, overrides, step, method)
         study.cases(settings)
     except CannotRefine as error:
         raise typer.BadParameter(str(error)) from None
@@ -190,10 +226,12 @@ def _command(
     overrides: list[str],
     step: int | None,
     levels: int | None,
+    solver: SolverName | None,
 ) -> str:
     """The command that makes the same study again."""
     words = ["slipstick", "study", name, *([] if scene is None else [str(scene)])]
     words += ["--level", level.value, *(w for change in overrides for w in ("--set", change))]
+    words += [] if solver is None else ["--solver", solver.value]
     for option, value in (("--cells", cells), ("--step", step), ("--levels", levels)):
         words += [] if value is None else [option, str(value)]
     return shlex.join(words)

@@ -17,24 +17,22 @@ from semi_analytical.frf.surface import SurfaceScalars, scalars
 from semi_analytical.influence.layered import LayeredCoefficients
 
 Field = NDArray[np.float64]
+Coefficients = tuple[Field, Field]
 
 
 @dataclass(frozen=True)
 class SamplingErrors:
     """Errors of sampled coefficients, signed and relative to the exact coefficient itself.
 
-    refinement  samples per cell side
-    extension   period over window
     own         normal displacement of the loaded cell
     neighbour   of the next cell along x
     far         of the last cell of the window along x
     far_shape   of the same, after the difference at half that distance is taken off as a constant,
                 as a free rigid approach would do
-    coupling    normal displacement by shear: largest error over largest coefficient
+    coupling    normal displacement by shear: largest error over largest coefficient; zero where
+                nothing couples
     """
 
-    refinement: int
-    extension: int
     own: float
     neighbour: float
     far: float
@@ -53,17 +51,22 @@ def sampling_errors(
     extension   period over window, >= 2 to keep the images out of the window
     """
     exact = LayeredCoefficients(stack, (spacing, spacing), (cells, cells))
-    zz, zx = sampled_coefficients(stack, spacing, cells, refinement, extension)
-    error = zz[:, 0] - exact.zz[:, 0]
-    relative = error / exact.zz[:, 0]
+    sampled = sampled_coefficients(stack, spacing, cells, refinement, extension)
+    return errors_between(sampled, (exact.zz, exact.zx))
+
+
+def errors_between(sampled: Coefficients, exact: Coefficients) -> SamplingErrors:
+    """Of the coefficients (zz, zx) at offsets (i, j) of a square window."""
+    (zz, zx), (exact_zz, exact_zx) = sampled, exact
+    error, coefficient = (zz - exact_zz)[:, 0], exact_zz[:, 0]
+    relative = error / coefficient
+    largest = np.abs(exact_zx).max()
     return SamplingErrors(
-        refinement,
-        extension,
         own=float(relative[0]),
         neighbour=float(relative[1]),
         far=float(relative[-1]),
-        far_shape=float((error[-1] - error[cells // 2]) / exact.zz[-1, 0]),
-        coupling=float(np.abs(zx - exact.zx).max() / np.abs(exact.zx).max()),
+        far_shape=float((error[-1] - error[len(error) // 2]) / coefficient[-1]),
+        coupling=float(np.abs(zx - exact_zx).max() / largest) if largest > 0 else 0.0,
     )
 
 

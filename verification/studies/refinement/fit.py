@@ -18,8 +18,8 @@ from verification.convergence import (
     triplets_agree,
     triplets_of_changes,
 )
-from verification.studies.refinement.expected import SHEAR, Expected
-from verification.studies.refinement.level_record import LevelRecord, shear_change
+from verification.studies.refinement.expected import Expected
+from verification.studies.refinement.level_record import LevelRecord, change
 
 FEWEST_LEVELS = 4  # for values
 FEWEST_JUDGED = 5  # for orders: through four levels a curve of three parameters fits by chance
@@ -27,6 +27,8 @@ ASSUMED = 1.0  # order on which a limit rests where none is expected
 # Changes of fewer tolerances than this are the solver's, not the refinement's.
 ABOVE_TOLERANCE = 100.0
 VANISHES = 1e-6
+APPROACHING = 0.1  # part of its distance from the expected order by which an order comes nearer
+NEARING = 0.2  # how far from the expected order one may be that comes nearer to it
 
 
 @dataclass(frozen=True)
@@ -56,24 +58,33 @@ class Fit:
     levels: int
 
     @property
+    def is_field(self) -> bool:
+        """Whether it is a field, which has changes and no value."""
+        return self.finest is None
+
+    @property
     def status(self) -> Status | None:
         """Inconclusive where levels are few, the interval is wide or not asymptotic: triplets
         differ, or another order is on its way to the expected one. None where no order is
         expected."""
         if self.expected is None:
             return None
-        agrees = None if self.observed is None else self.observed.agrees_with(self.expected.order)
+        off = max(self.expected.allowance, NEARING if self._approaches else 0.0)
+        observed = self.observed
+        agrees = None if observed is None else observed.agrees_with(self.expected.order, off)
         settled = triplets_agree(self.triplets) and self.levels >= FEWEST_JUDGED
         settled = settled and not (agrees is False and self._approaches)
         return order_status(agrees if settled else None)
 
     @property
     def _approaches(self) -> bool:
-        """Whether the finer triplet comes nearer to the expected order than the coarser."""
+        """Whether the finer triplet comes nearer to the expected order than the coarser, by a
+        part that cannot be chance."""
         last, before = self.triplets
         if self.expected is None or last is None or before is None:
             return False
-        return abs(last - self.expected.order) < abs(before - self.expected.order)
+        away = abs(before - self.expected.order)
+        return abs(last - self.expected.order) < (1 - APPROACHING) * away
 
 
 def fits(
@@ -91,8 +102,10 @@ def fits(
             scale = _scale(name, records[-1])
             if scale > _round_off(name, records[-1]) and _changes(values, scale, tolerance):
                 found.append(_scalar(name, records, values, scale, expected.get(name)))
-    shear = _shear(records, expected.get(SHEAR), tolerance)
-    return tuple(found) if shear is None else (*found, shear)
+    for name in records[-1].fields:
+        field = _field(name, records, expected.get(name), tolerance)
+        found += [] if field is None else [field]
+    return tuple(found)
 
 
 def _scale(name: str, record: LevelRecord) -> float:
@@ -151,19 +164,19 @@ def _scalar(
     )
 
 
-def _shear(
-    records: Sequence[LevelRecord], expected: Expected | None, tolerance: float
+def _field(
+    name: str, records: Sequence[LevelRecord], expected: Expected | None, tolerance: float
 ) -> Fit | None:
-    """The field: its changes from level to level fall with the order of its error."""
+    """Its changes from level to level fall with the order of its error."""
     pairs = list(pairwise(records))
-    changes = [change for pair in pairs if (change := shear_change(*pair)) is not None]
+    changes = field_changes(name, records)
     if len(changes) < len(pairs) or max(changes) <= ABOVE_TOLERANCE * tolerance or 0 in changes:
         return None
     sizes = [coarse.size for coarse, _ in pairs]
     order = ASSUMED if expected is None else expected.order
     ratio = records[-2].size / records[-1].size
     return Fit(
-        SHEAR,
+        name,
         expected,
         tuple(sizes),
         tuple(changes),
@@ -175,3 +188,24 @@ def _shear(
         triplets_of_changes(sizes, changes),
         len(records),
     )
+
+
+def field_changes(name: str, records: Sequence[LevelRecord]) -> tuple[float, ...]:
+    """Changes of a field to the next level; fewer where a level has none."""
+    fields = [record.fields[name] for record in records if name in record.fields]
+    changes = (change(coarse, fine) for coarse, fine in pairwise(fields))
+    return tuple(found for found in changes if found is not None)
+
+
+def distance(record: LevelRecord, reference: LevelRecord) -> dict[str, float]:
+    """By how much every quantity of the reference differs, relative to its scale there; without
+    those that vanish by symmetry or that the record lacks."""
+    found = {}
+    for name, value in reference.values.items():
+        scale = _scale(name, reference)
+        if name in record.values and scale > _round_off(name, reference):
+            found[name] = abs(record.values[name] - value) / scale
+    for name, field in reference.fields.items():
+        difference = change(record.fields[name], field) if name in record.fields else None
+        found |= {} if difference is None else {name: difference}
+    return found

@@ -11,66 +11,74 @@ from contact_scene.description import Description
 
 STORED = np.dtype("<f4")  # differences of less than 1e-6 are below every tolerance in use
 
+PRESSURE, SHEAR = "pressure", "shear"
+
 Field = NDArray[np.float64]
 
 
 class StoredField(Description):
-    """A vector field on the cells of a window, short enough for a record.
+    """A traction on patches of equal area, short enough for a record.
 
-    Any solver may sample its field so; fields of several levels must cover the same window.
+    Any solver may sample its field so: on the cells of a window, or on rings and sectors of a disc.
+    Fields of several levels must cover the same part of the surface.
     """
 
-    cells: tuple[int, int]
+    patches: tuple[int, int]
     values: str
     """Base64 of little-endian float32, index [component, i, j]."""
 
+    scale: float
+    """What changes are relative to: the mean of the pressure or of the friction limit."""
+
     @classmethod
-    def of(cls, field: Field) -> StoredField:
-        """Store a field (2, nx, ny)."""
-        _, nx, ny = field.shape
+    def of(cls, field: Field, scale: float) -> StoredField:
+        """Store a field (components, n, m)."""
+        _, n, m = field.shape
         data = np.ascontiguousarray(field, dtype=STORED).tobytes()
-        return cls(cells=(nx, ny), values=base64.b64encode(data).decode("ascii"))
+        return cls(patches=(n, m), values=base64.b64encode(data).decode("ascii"), scale=scale)
 
     def field(self) -> Field:
-        """The field (2, nx, ny)."""
+        """The field (components, n, m)."""
         data = np.frombuffer(base64.b64decode(self.values), dtype=STORED)
-        return data.reshape(2, *self.cells).astype(float)
+        return data.reshape(-1, *self.patches).astype(float)
 
 
 class LevelRecord(Description):
     """The end of the studied step on one level."""
 
     size: float
-    """h: cell side [length], or one over the number of increments."""
+    """h: side of a cell [length], or dimensionless: what the level refines."""
 
-    cells: tuple[int, int]
+    level: str
+    """The grid, the mesh or what else is refined, in words."""
+
     increments: tuple[int, ...]
     values: dict[str, float]
     """Scalars by the names of `summary.json`, components with x or y; the undefined left out."""
 
-    shear: StoredField | None
-    limit: float
-    """Mean of the friction limit µp over the window [force/length²]."""
+    fields: dict[str, StoredField]
+    """Tractions, by PRESSURE and SHEAR."""
 
     largest_residual: float
-    iterations: int
-    convolutions: int | None
+    work: dict[str, int]
+    """Counted work, by what is counted."""
+
     seconds: float
 
 
-def shear_change(coarse: LevelRecord, fine: LevelRecord) -> float | None:
-    """∫|q_coarse - q_fine| over ∫µp_fine, at the centres of the coarse cells [1].
+def change(coarse: StoredField, fine: StoredField) -> float | None:
+    """∫|f_coarse - f_fine| over ∫ of the scale, at the centres of the coarse patches [1].
 
-    None without shear or without friction.
+    None where the scale vanishes: a shear without friction.
     """
-    if coarse.shear is None or fine.shear is None or fine.limit == 0:
+    if fine.scale == 0:
         return None
-    difference = coarse.shear.field() - at_centres(coarse.cells, fine.shear.field())
-    return float(np.mean(np.hypot(*difference)) / fine.limit)
+    difference = coarse.field() - at_centres(coarse.patches, fine.field())
+    return float(np.mean(np.sqrt(np.sum(difference**2, axis=0))) / fine.scale)
 
 
 def at_centres(cells: tuple[int, int], field: Field) -> Field:
-    """A field (…, nx, ny) at the centres of other cells of the same window, bilinearly.
+    """A field (…, n, m) at the centres of other cells of the same window, bilinearly.
 
     Means over the other cells would not do: where they cut cells of the field in two, these count
     with the wrong part of their slope, an error of first order all over the surface.

@@ -10,12 +10,17 @@ from collections.abc import Mapping, Sequence
 from verification.cases.chart import Chart, Curve, Look, Panel, curve
 from verification.cases.outcome import Status
 from verification.cases.table import Table
-from verification.convergence import ORDER_WIDTH, TRIPLETS_AGREE
+from verification.convergence import ORDER_OFF, ORDER_WIDTH, TRIPLETS_AGREE
 from verification.quantities import unit_of
 from verification.report.numbers import plain, value_text
-from verification.studies.refinement.expected import SHEAR
-from verification.studies.refinement.fit import FEWEST_JUDGED, Fit
-from verification.studies.refinement.level_record import LevelRecord
+from verification.studies.refinement.fit import (
+    APPROACHING,
+    FEWEST_JUDGED,
+    NEARING,
+    Fit,
+    field_changes,
+)
+from verification.studies.refinement.level_record import PRESSURE, SHEAR, LevelRecord
 from verification.studies.running.study import Statement
 
 NOTE_AT = 0.06  # part of a slope line, from its finer end
@@ -24,15 +29,18 @@ RULE = (
     f"An order is judged from {FEWEST_JUDGED} levels on, where its 95 % interval is no wider than "
     f"± {ORDER_WIDTH:g} and the orders by two triplets of levels, about a factor of two apart "
     f"where there are enough, differ by no more than {TRIPLETS_AGREE:g}; else it is inconclusive. "
-    "So is an order that is not the expected one but comes nearer to it with refinement."
+    f"The expected order lies within the interval or {ORDER_OFF:g} of the observed one, or what is "
+    "said with it. Where the "
+    f"finer triplet comes nearer to it by {APPROACHING:.0%} and more, {NEARING:g} is near enough, "
+    "and an order that is further off is inconclusive."
 )
 LIMITS = (
     RULE,
     "The limit is Richardson's value with the expected order, by least squares over all levels; "
     "its uncertainty is the scatter of the fit together with the limits that the two finest levels "
     "and the observed order give.",
-    "The shear is a field: shown is its change to the next finer level, Σ|Δq| / Σµp. The limit of "
-    "one kind of refinement still has the error of the other kind.",
+    "Pressure and shear are fields: shown is their change to the next level, Σ|Δp| / Σp and "
+    "Σ|Δq| / Σµp. The limit of one kind of refinement still has the error of the others.",
 )
 
 
@@ -63,15 +71,15 @@ def converged(records: Sequence[LevelRecord], tolerance: float) -> Statement:
 
 def label(name: str) -> str:
     """A quantity in words."""
-    if name == SHEAR:
-        return "shear (L1)"
+    if name in (PRESSURE, SHEAR):
+        return f"{name} (L1)"
     stem, _, axis = name.rpartition("_")
     return f"{stem} along {axis}".replace("_", " ") if axis in "xy" else name.replace("_", " ")
 
 
 def unit_of_fit(fit: Fit) -> str | None:
     """The unit of a scalar; None for a field."""
-    return None if fit.name == SHEAR else unit_of(fit.name)
+    return None if fit.is_field else unit_of(fit.name)
 
 
 def order_text(fit: Fit) -> str:
@@ -97,29 +105,30 @@ def order_table(fits: Sequence[Fit]) -> Table:
             )
             for fit in fits
         ),
-        note="Left on the finest: relative to the value, for components to the vector, for the "
-        "shear to Σµp.",
+        note="Left on the finest: relative to the value, for components to the vector, for "
+        "fields to Σp or Σµp.",
     )  # fmt: skip
 
 
-def level_table(records: Sequence[LevelRecord], fits: Sequence[Fit]) -> Table:
-    """One row per level, coarse to fine."""
-    names = [fit.name for fit in fits if fit.name != SHEAR]
-    shear = next((fit for fit in fits if fit.name == SHEAR), None)
-    changes = [*(shear.errors if shear else ())]
+def level_table(records: Sequence[LevelRecord], names: Sequence[str]) -> Table:
+    """One row per level, in their order.
+
+    names  of the scalars that are shown
+    """
+    fields, counted = records[-1].fields, records[-1].work
     rows = []
     for number, record in enumerate(records):
-        change = plain(changes[number], 3) if number < len(changes) else "–"
+        changes = (field_changes(field, records[number : number + 2]) for field in fields)
         rows.append((
-            f"{record.cells[0]} x {record.cells[1]}", str(sum(record.increments)),
+            record.level, str(sum(record.increments)),
             *(value_text(record.values[name], unit_of(name)) for name in names),
-            *([change] if shear else []), plain(record.largest_residual, 2),
-            str(record.convolutions) if record.convolutions is not None else "–",
+            *(plain(change[0], 3) if change else "–" for change in changes),
+            plain(record.largest_residual, 2), *(str(record.work[kind]) for kind in counted),
         ))  # fmt: skip
-    heads = [label(name) for name in names] + (["change of shear"] if shear else [])
+    heads = [label(name) for name in names] + [f"change of {field}" for field in fields]
     return Table(
         title="Levels",
-        columns=("cells", "increments", *heads, "largest residual", "convolutions"),
+        columns=("level", "increments", *heads, "largest residual", *counted),
         rows=tuple(rows),
     )
 
@@ -137,8 +146,8 @@ def error_chart(name: str, x_label: str, fits: Sequence[Fit], unit: float) -> Ch
     return Chart(
         name=name,
         title="Errors under refinement",
-        caption="Distance from the limit, relative to it; for the shear the change to the next "
-        "finer level over Σµp. Dashed, with their orders: the slopes that are expected. A "
+        caption="Distance from the limit, relative to it; for pressure and shear the change to "
+        "the next level over Σp or Σµp. Dashed, with their orders: the slopes that are expected. A "
         "scalar's error on the finest level rests on the extrapolation and is the least certain.",
         rows=tuple(panels),
     )
@@ -182,19 +191,22 @@ def _inside(line: Curve) -> tuple[float, float]:
     return x, y
 
 
-def level_csv(records: Sequence[LevelRecord], fits: Sequence[Fit]) -> str:
-    """All scalars on all levels, in SI, and the change of the shear to the next level."""
-    shear = next((fit for fit in fits if fit.name == SHEAR), None)
-    changes = [*(shear.errors if shear else ())]
-    names = list(records[-1].values)
+def level_csv(records: Sequence[LevelRecord]) -> str:
+    """All scalars on all levels, in SI, the changes of the fields to the next level, and what was
+    counted."""
+    names, fields, counted = records[-1].values, records[-1].fields, records[-1].work
     text = io.StringIO()
     table = csv.writer(text, lineterminator="\n")
     units = [f"{name} [{unit_of(name)}]" for name in names]
-    table.writerow(["cells_x", "cells_y", "increments", "size", *units, "shear_change [1]"])
+    changes = [f"{field}_change [1]" for field in fields]
+    table.writerow(["level", "increments", "size", *units, *changes, *counted])
     for number, record in enumerate(records):
-        values = [record.values.get(name) for name in names]
-        change = changes[number] if number < len(changes) else None
-        table.writerow([*record.cells, sum(record.increments), record.size, *values, change])
+        table.writerow([
+            record.level, sum(record.increments), record.size,
+            *(record.values.get(name) for name in names),
+            *(next(iter(field_changes(f, records[number : number + 2])), None) for f in fields),
+            *(record.work[kind] for kind in counted),
+        ])  # fmt: skip
     return text.getvalue()
 
 

@@ -1,0 +1,105 @@
+"""Refinement of what carries the tractions: cells of the surface, or elements of the section."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+
+from fem_reference import Method
+from semi_analytical import SurfaceGrid
+from verification.cases.case import Level
+from verification.studies.refinement.expected import by_cells, by_elements
+from verification.studies.refinement.level_record import LevelRecord
+from verification.studies.refinement.refinement import Refinement, count_of, study_of
+from verification.studies.refinement.section_level import SectionLevel
+from verification.studies.refinement.section_start import SectionStart
+from verification.studies.refinement.studied_scene import CannotRefine, StudiedScene
+from verification.studies.refinement.surface_level import (
+    SurfaceLevel,
+    SurfaceStart,
+    refuse_fixed_cells,
+)
+from verification.studies.running.study import Settings, Study
+
+# Neighbouring grids are not multiples of each other: how a round contact cuts the cells differs
+# from grid to grid, and only that tells its scatter from the order.
+RATIO = 2**0.5
+FEWEST_CELLS = 16
+FEWEST_ELEMENTS = 6
+# The finest mesh over the scene's: sections cost little, and coarse ones are not asymptotic. There
+# is one mesh more, too: how many elements a layer's thickness takes adds a scatter of its own.
+ONE_MORE = 1
+FINER = {Level.QUICK: 1, Level.STANDARD: 2, Level.FULL: 4}
+
+
+def mesh_study(
+    path: Path, overrides: Sequence[str], step: int | None, method: Method | None
+) -> Study:
+    """Refinement of cells, or of elements where a method of the finite elements is named.
+
+    Raises SceneError, CannotRefine for a step that is not there, UnsupportedScene where a friction
+    map fixes the cells.
+    """
+    scene = StudiedScene.of(path, overrides, step)
+    refinement, refined = _of_cells(scene), "The window stays, and so do the increments; cells"
+    if method is not None:
+        refinement, refined = _of_elements(scene, method), "Section and increments stay; elements"
+    return study_of(
+        refinement,
+        f"{refined.split()[-1].capitalize()} of {scene.title}",
+        f"What do finite {refined.split()[-1]} cost at the end of step {scene.step}? {refined} "
+        "become smaller by √2 from level to level.",
+    )
+
+
+def _of_cells(scene: StudiedScene) -> Refinement:
+    start = SurfaceStart.of(scene)
+    refuse_fixed_cells(start.contents.scene)
+
+    def levels(settings: Settings) -> tuple[SurfaceLevel, ...]:
+        counts = [
+            tuple(2 * round(count / RATIO**number / 2) for count in start.cells(settings))
+            for number in reversed(range(count_of(settings)))
+        ]
+        if min(counts[0]) < FEWEST_CELLS:
+            raise _too_coarse(f"{len(counts)} grids would have {counts[0]} cells", FEWEST_CELLS)
+        grids = [SurfaceGrid((nx, ny), start.grid.window) for nx, ny in counts]
+        return tuple(
+            start.level(grid, max(grid.spacing), "{} x {} cells".format(*grid.cells))
+            for grid in grids
+        )
+
+    expected = by_cells(start.contents.scene, start.couples)
+    return Refinement(
+        "mesh", levels, expected, "cell side / contact radius", start.tolerance, _contact_radius
+    )
+
+
+def _of_elements(scene: StudiedScene, method: Method) -> Refinement:
+    start = SectionStart.of(scene, method)
+    asked = start.asked
+
+    def levels(settings: Settings) -> tuple[SectionLevel, ...]:
+        finest = settings.cells or FINER[settings.level] * asked.elements_per_radius
+        numbers = reversed(range(count_of(settings, ONE_MORE)))
+        counts = [round(finest / RATIO**number) for number in numbers]
+        if counts[0] < FEWEST_ELEMENTS:
+            raise _too_coarse(f"{len(counts)} meshes would have {counts[0]}", FEWEST_ELEMENTS)
+        return tuple(
+            start.level(1 / count, f"{count} elements per radius", elements=count)
+            for count in counts
+        )
+
+    augmentations = asked.augmentations if method is Method.PENALTY else None
+    expected = by_elements(start.contents.scene, augmentations)
+    return Refinement("mesh", levels, expected, "element side / contact radius", asked.tolerance)
+
+
+def _too_coarse(coarsest: str, fewest: int) -> CannotRefine:
+    return CannotRefine(
+        f"the coarsest of {coarsest}, fewer than {fewest}; use more --cells or fewer levels"
+    )
+
+
+def _contact_radius(finest: LevelRecord) -> float:
+    return finest.values["contact_radius"]

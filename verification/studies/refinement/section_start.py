@@ -1,0 +1,118 @@
+"""What a study by finite elements starts from: the contact of a scene, and its section."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cache
+
+from contact_scene import FiniteElementDiscretisation, FlatPunch, Scene, SceneFile
+from fem_reference import Method, Path, plan, solve
+from fem_reference.model import outermost_modulus
+from fem_reference.scales import Scales
+from fem_reference.section_outline import sufficient_box
+from verification.studies.refinement.section_level import REACH, SectionLevel
+from verification.studies.refinement.studied_scene import StudiedScene, cut_into
+
+SCOUT_ELEMENTS = 16
+# A history may outgrow the contact at its end by so much, and still fit the zone of fine elements.
+OUTGROWN = 1.02
+
+
+@dataclass(frozen=True)
+class SectionStart:
+    """A scene, a method, and what was found of its contact on a coarse mesh.
+
+    radius  of the contact at the end, or the largest of the history if that is larger [length]
+    box     size of the section [length]
+    """
+
+    scene: StudiedScene
+    method: Method
+    contents: SceneFile
+    radius: float
+    box: float
+
+    @classmethod
+    def of(cls, scene: StudiedScene, method: Method) -> SectionStart:
+        """The contact is found on a coarse mesh unless the scene's file says how large it is.
+
+        Raises what `fem_reference.solve` raises.
+        """
+        return cls(scene, method, scene.read(), *_scouted(scene))
+
+    @property
+    def asked(self) -> FiniteElementDiscretisation:
+        """What the file says of the mesh."""
+        return self.contents.fem_reference
+
+    @property
+    def couples(self) -> bool:
+        """Whether pressure and shear act on each other."""
+        path = plan(self.contents.scene).path
+        return path in (Path.PRESSING_WITH_FRICTION, Path.HARMONICS)
+
+    @property
+    def increments(self) -> tuple[int, ...]:
+        """Of each step, as asked for or chosen."""
+        return plan(self.contents.scene).increments
+
+    @property
+    def path_matters(self) -> tuple[bool, ...]:
+        """Of each step: whether it is cut into more than one increment if it names none."""
+        open_ = cut_into(self.contents.scene, [None] * len(self.contents.scene.loading))
+        return tuple(count > 1 for count in plan(open_).increments)
+
+    def level(
+        self,
+        size: float,
+        level: str,
+        *,
+        elements: int | None = None,
+        box: float | None = None,
+        increments: tuple[int, ...] | None = None,
+    ) -> SectionLevel:
+        """A level: what is not given is as the scene's file has it.
+
+        box  size of the section [length]
+        """
+        count = elements or self.asked.elements_per_radius
+        laid_out = self.radius if self._radius_is_known else self.radius * count / (count + 0.5)
+        return SectionLevel(
+            self.scene,
+            self.method.value,
+            count,
+            laid_out,
+            (box or self.box) / laid_out,
+            REACH * self.radius,
+            increments or self.increments,
+            size,
+            level,
+        )
+
+    @property
+    def _radius_is_known(self) -> bool:
+        """Else elements are laid out half an element short of the edge, so that it lies in the
+        middle of one on every mesh: where in an element it lies moves the error as much as some
+        more elements do, and would hide the order."""
+        punch = isinstance(self.contents.scene.indenter, FlatPunch)
+        return punch or self.asked.contact_radius is not None
+
+
+@cache
+def _scouted(scene: StudiedScene) -> tuple[float, float]:
+    """Radius of the contact, and size of the section [length]."""
+    contents = scene.read()
+    asked = contents.fem_reference
+    coarse = asked.model_copy(update={"elements_per_radius": SCOUT_ELEMENTS})
+    result = solve(contents.scene, coarse)
+    end = result.steps[-1].contact_radius
+    largest = max(increment.contact_radius for increment in result.increments)
+    radius = asked.contact_radius or (end if largest <= OUTGROWN * end else largest)
+    return radius, radius * (asked.box or _chosen_box(contents.scene, radius))
+
+
+def _chosen_box(scene: Scene, radius: float) -> float:
+    """What the finite elements choose for contacts of this radius, over the radius."""
+    scales = Scales(radius, outermost_modulus(scene))
+    bodies = (scales.dimensionless(body) for body in (scene.body, scene.indenter) if body.deforms)
+    return max(sufficient_box(body) for body in bodies)

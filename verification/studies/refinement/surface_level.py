@@ -1,0 +1,158 @@
+"""One level of refinement, solved by the semi-analytical method."""
+
+from __future__ import annotations
+
+import time
+from dataclasses import dataclass
+from typing import ClassVar
+
+import numpy as np
+
+from contact_scene import FrictionMap, HeightMap, Scene, SceneFile
+from contact_scene.description import Description
+from semi_analytical import Plan, Result, SurfaceGrid, UnsupportedScene, discretise, plan, solve
+from verification.path_error import friction_limit
+from verification.quantities import largest_residual, named_values
+from verification.studies.refinement.level_record import (
+    PRESSURE,
+    SHEAR,
+    Field,
+    LevelRecord,
+    StoredField,
+)
+from verification.studies.refinement.studied_scene import StudiedScene
+from verification.studies.running.study import Settings
+
+
+@dataclass(frozen=True)
+class SurfaceLevel:
+    """A grid and an increment count for every step up to the studied one.
+
+    size   h of the level
+    level  in words
+    kept   cells about the centre whose tractions are recorded, without those outside the window;
+           None: all of the window
+    """
+
+    record_type: ClassVar[type[Description]] = LevelRecord
+    scene: StudiedScene
+    cells: tuple[int, int]
+    window: tuple[float, float]
+    increments: tuple[int, ...]
+    size: float
+    level: str
+    kept: tuple[int, int] | None = None
+
+    @property
+    def name(self) -> str:
+        return f"{self.cells[0]}x{self.cells[1]}-{sum(self.increments)}"
+
+    @property
+    def grid(self) -> SurfaceGrid:
+        """Cells over the window."""
+        return SurfaceGrid(self.cells, self.window)
+
+    def compute(self) -> LevelRecord:
+        started = time.process_time()
+        result = self.solve(self.scene.read())
+        return recorded(result, self, time.process_time() - started)
+
+    def solve(self, contents: SceneFile) -> Result:
+        """The solution; raises what `semi_analytical.solve` raises."""
+        cut = plan(contents.scene).cut_into(self.increments)
+        return solve(contents.scene, self.grid, contents.semi_analytical.tolerance, plan=cut)
+
+
+def recorded(result: Result, level: SurfaceLevel, seconds: float) -> LevelRecord:
+    """What is kept of a result."""
+    end = result.steps[-1]
+    limit = friction_limit(result.scene, end.pressure)
+    kept = level.kept or level.cells
+    fields = {PRESSURE: _stored(end.pressure[None], end.pressure, kept)}
+    if end.shear is not None:
+        fields[SHEAR] = _stored(end.shear, limit, kept)
+    return LevelRecord(
+        size=level.size,
+        level=level.level,
+        increments=level.increments,
+        values=named_values(end),
+        fields=fields,
+        largest_residual=largest_residual(result),
+        work={"convolutions": sum(increment.convolutions for increment in result.increments)},
+        seconds=seconds,
+    )
+
+
+def _stored(field: Field, scale: Field, kept: tuple[int, int]) -> StoredField:
+    """The middle of a field, zero outside its window."""
+    middle = np.zeros((len(field), *kept))
+    cells = zip(field.shape[1:], kept, strict=True)
+    pairs = [(_middle(of, min(of, to)), _middle(to, min(of, to))) for of, to in cells]
+    (from_x, to_x), (from_y, to_y) = pairs
+    middle[:, to_x, to_y] = field[:, from_x, from_y]
+    return StoredField.of(middle, float(np.sum(scale)) / (kept[0] * kept[1]))
+
+
+def _middle(count: int, part: int) -> slice:
+    start = (count - part) // 2
+    return slice(start, start + part)
+
+
+@dataclass(frozen=True)
+class SurfaceStart:
+    """What a study of the semi-analytical method starts from: the grid and the plan of a scene."""
+
+    scene: StudiedScene
+    contents: SceneFile
+    grid: SurfaceGrid
+    plan: Plan
+
+    @classmethod
+    def of(cls, scene: StudiedScene) -> SurfaceStart:
+        """As `slipstick run` would choose it."""
+        contents = scene.read()
+        grid = discretise(contents.scene, contents.semi_analytical)
+        decided = plan(contents.scene, contents.semi_analytical.path_accuracy)
+        return cls(scene, contents, grid, decided)
+
+    @property
+    def tolerance(self) -> float:
+        """Of the solver."""
+        return self.contents.semi_analytical.tolerance
+
+    @property
+    def couples(self) -> bool:
+        """Whether pressure and shear act on each other."""
+        return self.plan.coupling is not type(self.plan.coupling).NONE
+
+    def cells(self, settings: Settings) -> tuple[int, int]:
+        """As asked for, or those of the scene."""
+        return self.grid.cells if settings.cells is None else (settings.cells, settings.cells)
+
+    def level(
+        self,
+        grid: SurfaceGrid,
+        size: float,
+        level: str,
+        increments: tuple[int, ...] | None = None,
+        kept: tuple[int, int] | None = None,
+    ) -> SurfaceLevel:
+        """A level, in the increments of the plan if none are given."""
+        counts = increments or self.plan.increments
+        return SurfaceLevel(self.scene, grid.cells, grid.window, counts, size, level, kept)
+
+
+def refuse_fixed_cells(scene: Scene) -> None:
+    """Raises UnsupportedScene where a friction map fixes the cells."""
+    if scene.friction is not None and isinstance(scene.friction.coefficient, FrictionMap):
+        raise UnsupportedScene("the friction map has one value per cell, which fixes the cells")
+
+
+def refuse_fixed_window(scene: Scene) -> None:
+    """Raises UnsupportedScene where a height map or a friction map fixes the window."""
+    if isinstance(scene.indenter, HeightMap):
+        raise UnsupportedScene(
+            "the height map says where the indenter ends, which fixes the window: beyond it there "
+            "is no gap that could be computed"
+        )
+    refuse_fixed_cells(scene)
