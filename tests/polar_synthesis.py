@@ -1,7 +1,7 @@
 """Fields at depth at a point by quadrature over the plane of wave vectors.
 
 Nothing of `semi_analytical/stress` is used: the waves along and across are turned into the axes of
-the scene one direction at a time (THEORY 1.6), and summed over directions by the trapezoidal rule
+the scene one direction at a time, and summed over directions by the trapezoidal rule
 and over wavenumbers by Gauss's.
 """
 

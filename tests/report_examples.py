@@ -42,8 +42,9 @@ def sketch(scene: Scene = COATED, contact_radius: float = RADIUS) -> SectionSket
 def made_by() -> Provenance:
     """Somebody."""
     return Provenance(
-        program_version="0.0", commit=None, changed=False, command="slipstick verify",
-        date="2000-01-01T00:00:00+00:00", machine={}, libraries={}, seconds={},
+        program_version="0.0", commit=None, changed=False, sources="these",
+        command="slipstick verify", date="2000-01-01T00:00:00+00:00",
+        machine={}, libraries={}, seconds={},
     )  # fmt: skip
 
 

@@ -9,8 +9,9 @@ import fem_reference
 import semi_analytical
 from contact_scene import IsotropicMaterial
 from verification.cases.case import Level
-from verification.cases.cross_check import Sides, cross_check_on
+from verification.cases.cross_check import cross_check_on
 from verification.cases.cross_check_contacts import FRICTIONS, RATIOS, THICKNESSES, CheckedContact
+from verification.cases.cross_check_sides import Sides
 from verification.cases.cross_check_stress import stress_difference
 from verification.cases.judgement import judge, solve_run
 from verification.cases.outcome import Status
@@ -76,11 +77,37 @@ def test_study_concludes_from_the_records_there_are(record: CrossCheckRecord) ->
     ) == 1 + len(record.radii)
 
 
+def test_the_answer_has_differences_and_both_distances_to_the_reference(
+    record: CrossCheckRecord,
+) -> None:
+    case = next(c for c in STUDY.cases(QUICK) if c.name.startswith("2-1-0-"))
+    found = differences(record)["approach"]
+    answer = STUDY.conclude(QUICK, {case.name: record}).answer
+    assert "On 1 contacts" in answer
+    assert f"{100 * found.value:.2g} % in approach (E1/E2 = 2, h = 1 a_H, µ = 0" in answer
+    assert found.to_reference is not None
+    for side, error in zip(("cells at most", "elements"), found.to_reference, strict=True):
+        assert f"{side} {100 * error:.2g} %" in answer
+    assert f"({found.nearer} nearer on 1" in answer or f"{found.nearer} on 1)" in answer
+    assert "everywhere within what is asked" in answer
+    assert STUDY.conclude(QUICK, {}).answer == ""
+
+
+def test_contacts_beyond_what_is_required_are_named(record: CrossCheckRecord) -> None:
+    side = record.semi_analytical
+    off = {"numbers": side.numbers | {"approach": 1.002 * side.numbers["approach"]}}
+    changed = record.model_copy(update={"semi_analytical": side.model_copy(update=off)})
+    conclusion = STUDY.conclude(QUICK, {CrossCheckRun(2.0, 1.0, 0.0, 128, 64).name: changed})
+    (statement,) = (s for s in conclusion.statements if "agree: approach" in s.claim)
+    assert "beyond it: E1/E2 = 2, h = 1 a_H, µ = 0: 0.00" in statement.measured
+    assert "beyond what is asked in 1 of 2 comparisons" in conclusion.answer
+
+
 @pytest.mark.parametrize("wrong", ["pressure", "shear", "approach"])
 def test_a_side_that_is_wrong_fails(record: CrossCheckRecord, wrong: str) -> None:
     side = record.semi_analytical
     ones = (1.0,) * len(record.radii)
-    changes: dict[str, object] = {
+    changes: dict[str, dict[str, object]] = {
         "pressure": {"pressure": tuple(1.03 * p for p in side.pressure)},
         "shear": {"shear": ones},
         "approach": {"numbers": side.numbers | {"approach": 1.002 * side.numbers["approach"]}},

@@ -70,6 +70,7 @@ FEM_ORDER = (
     "numbering",
     "assembly",
     "factored_section",
+    "sources",
     "stored_compliance",
     "compliance",
     "hats",

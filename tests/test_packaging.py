@@ -62,7 +62,9 @@ def test_constraints_pin_what_is_asked_for() -> None:
     pins = dict(line.split("==") for line in lines if line and not line.startswith("#"))
     versions = {canonicalize_name(name): version for name, version in pins.items()}
     extras = PROJECT["optional-dependencies"]
-    for text in (*PROJECT["dependencies"], *extras["mesh"], *extras["test"]):
+    for text in (
+        *PROJECT["dependencies"], *extras["mesh"], *extras["test"], *extras["cluster"]
+    ):  # fmt: skip
         requirement = Requirement(text)
         name = canonicalize_name(requirement.name)
         assert name in versions, f"{name} has no pin"

@@ -497,11 +497,11 @@ def test_reports_are_compared_with_each_other(
     assert slipstick("compare", places[0] / RECORD, "--baseline", places[0]) == 0
 
 
-def test_comparison_without_baseline_says_so_and_is_no_failure(
+def test_comparison_without_baseline_says_so_and_does_not_pass(
     places: tuple[Path, Path], tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     (tmp_path / "none").mkdir()
-    assert slipstick("compare", places[0], "--baseline", tmp_path / "none") == 0
+    assert slipstick("compare", places[0], "--baseline", tmp_path / "none") == 5
     assert "no baseline yet of level quick" in capsys.readouterr().out
 
 

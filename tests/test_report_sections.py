@@ -4,21 +4,37 @@ import re
 from pathlib import Path
 
 import pytest
-from report_examples import COATED, RADIUS, case, report_of, run_record, sketch, study, verdict
+from report_examples import (
+    COATED,
+    RADIUS,
+    case,
+    chart,
+    report_of,
+    run_record,
+    sketch,
+    study,
+    verdict,
+)
 
 from contact_scene import RIGID, FlatPunch, LoadStep, Scene
-from verification.cases.outcome import Status
+from verification.cases.case import ReferenceKind
+from verification.cases.outcome import OrderRecord, Status
 from verification.cases.section_sketch import HALF_WIDTH, section_sketch
+from verification.cases.table import Table
 from verification.report.answers import answers
 from verification.report.both_solvers import CELLS, ELEMENTS, shared_references
+from verification.report.columns import alignment
 from verification.report.compact_svg import compact
+from verification.report.features import features
 from verification.report.page import render_page
+from verification.report.prices import price_table, prices, telling_chart
 from verification.report.record import Report
 from verification.report.sections import TITLES, stored_records, study_section
 from verification.report.sketch import sketch_svg, thin_layers
 from verification.report.summary_text import render_summary
 from verification.studies.catalogue import STUDIES
 from verification.studies.running.record import StudyRecord, dump_study
+from verification.studies.running.study import Conclusion, Statement
 
 SECTIONS = (
     "verdict", "baseline", "answers", "cases", "solvers", "paper", "frf", "cost", "stability",
@@ -84,6 +100,150 @@ def test_a_study_answers_its_question_in_its_own_words() -> None:
     assert cost.sentences == both.sentences == ()
     assert cost.missing is not None
     assert both.missing is not None
+
+
+def priced(*tables: Table) -> StudyRecord:
+    """A study of what accuracy costs."""
+    titles = [table.title.partition(", ")[2] for table in tables]
+    charts = tuple(chart(f"chart_{n}", title) for n, title in enumerate(titles))
+    return study("work-precision", "It depends.").model_copy(
+        update={"conclusion": Conclusion(
+            statements=(Statement(claim="c", outcome=Status.PASS, measured="m"),),
+            answer="It depends.", tables=tables, charts=charts,
+        )}
+    )  # fmt: skip
+
+
+def settings(quantity: str, *costs: tuple[str, str]) -> Table:
+    """Cheapest settings for a quantity, at 1 % and 0.1 %, by method."""
+    rows = tuple((method, "1 s: coarse", cost) for method, cost in costs)
+    return Table(
+        title=f"Cheapest setting by the clock, {quantity}", columns=("method", "1 %", "0.1 %"),
+        rows=rows,
+    )  # fmt: skip
+
+
+def test_what_an_accuracy_costs_is_one_table_of_quantities_and_methods() -> None:
+    record = priced(
+        settings("Hertz: pressure, L2", ("cells", "–"), ("elements", "–")),
+        settings("Hertz: radius", ("cells", "9 s: 8 x 8"), ("elements", "–")),
+        settings("Hertz: approach", ("cells", "2 s: 16 x 16"), ("sampled", "3 s: 8 x 8")),
+    )
+    (answer,) = [a for a in answers(report_of((), (record,))) if "cost" in a.question]
+    assert answer.table is not None
+    assert answer.table.columns == ("quantity", "cells", "elements", "sampled")
+    assert answer.table.rows == (
+        ("Hertz: pressure, L2", "–", "–", ""),
+        ("Hertz: radius", "9 s", "–", ""),
+        ("Hertz: approach", "2 s", "", "3 s"),
+    )
+    # The chart is of the quantity that most methods get there.
+    assert answer.chart is not None
+    assert answer.chart.title == "Hertz: approach"
+    assert [price.reached for price in prices(record.conclusion)] == [0, 1, 2]
+
+
+def test_a_study_without_such_tables_has_no_table_of_prices() -> None:
+    conclusion = study("work-precision").conclusion
+    assert price_table(conclusion, "") is None
+    assert telling_chart(conclusion) == conclusion.charts[0]
+
+
+def test_numbers_stand_to_the_right_and_words_to_the_left() -> None:
+    rows = (("a", "1.2e-3", "16 x 16", "yes", "–"), ("b", "–", "–", "no", "0.0027 s"),
+            ("c", "✓ 2 %", "8", "16 x 16 cells and 30 increments", "–"))  # fmt: skip
+    table = Table(title="t", columns=("name", "error", "cells", "near", "cost"), rows=rows)
+    found = [alignment(table, column) for column in range(1, 5)]
+    assert found == ["number", "number", "words", "number"]
+
+
+def test_the_places_where_solvers_are_furthest_apart_come_first() -> None:
+    near = case("hertz_point", {"approach": (1e-6, 1e-6), "radius": (2.1e-6, 2e-6)},
+                run_record(64, None))  # fmt: skip
+    far = case("fem_hertz", {"approach": (1.001e-6, 1e-6), "radius": (1.9e-6, 2e-6)},
+               run_record(None, 32))  # fmt: skip
+    table = answers(report_of((near, far)))[2].table
+    assert table is not None
+    assert [row[0] for row in table.rows] == ["radius, hertz point", "approach, hertz point"]
+    assert table.rows[0][1:4] == ("10 %", "5 %", "5 %")
+
+
+def test_a_solver_against_itself_is_no_comparison_of_solvers() -> None:
+    one = case("cross_check", {"difference": (1.001, 1.0), "own_error": (1.009, 1.0)},
+               run_record(64, None))  # fmt: skip
+    kinds = (ReferenceKind.OTHER_SOLVER, ReferenceKind.OWN_REFINEMENT)
+    verdicts = tuple(
+        v.model_copy(update={"reference_kind": kind})
+        for v, kind in zip(one.verdicts, kinds, strict=True)
+    )
+    report = report_of((one.model_copy(update={"verdicts": verdicts}),))
+    text = " ".join(answers(report)[2].sentences)
+    assert "Compared with each other in 1 numbers" in text
+    assert "(10 % of it)" in text
+
+
+def test_promises_lead_the_page_with_figures_or_with_the_command_that_finds_them() -> None:
+    planned, forced = (
+        run_record(48, None).model_copy(update={"label": f"ball, {how}", "convolutions": count})
+        for how, count in (("as planned", 20), ("all effects on", 50))
+    )
+    same = case("forced_effects", {"ball": (1.0, 1.0)}, planned)
+    report = report_of((same.model_copy(update={"runs": (planned, forced)}),),
+                       (study("stability", level="full"),))  # fmt: skip
+    plan, cost, stable = features(report)
+    assert "2.5 to 2.5 times the convolutions" in plan.figures
+    assert cost.status is None
+    assert "slipstick study work-precision" in cost.figures
+    assert stable.status is Status.FAIL
+    header = render_page(report).split("</header>")[0]
+    for feature in (plan, cost, stable):
+        assert f'<a href="#{feature.anchor}">{feature.promise}</a>' in header
+        assert feature.figures in header
+
+
+def test_observed_orders_stand_in_one_table_with_expectation_and_reason() -> None:
+    rate = verdict("order_of_pressure", 1.02, 1.0).model_copy(update={
+        "tolerance_kind": "order", "interval": 0.13, "source": "the square-root edge",
+        "order": OrderRecord(of="pressure", solver="cells", refined="mesh", sizes=(), errors=()),
+    })  # fmt: skip
+    one = case("one", {"approach": (1e-6, 1e-6)}, run_record(64, None))
+    page = render_page(report_of((one.model_copy(update={"verdicts": (rate,)}),)))
+    table = page[page.index("Orders of convergence, with") :].split("</table>")[0]
+    (row,) = re.findall(r"<tr><th scope=\"row\">.*</tr>", table)
+    cells = [re.sub(r"<[^>]*>", "", cell) for cell in re.findall(r"<t[hd].*?</t[hd]>", row)]
+    assert cells[:5] == ["pressurewhat it is", "cells", "mesh", "1.02 ± 0.13", "1"]
+    assert cells[6:] == ["the square-root edge", "one"]
+    gaps = page[page.index("whose order is not judged here") :].split("</table>")[0]
+    assert gaps.count("<tr>") > 2  # one order alone leaves others open
+
+
+def test_a_quick_page_stays_small_and_says_what_it_leaves_out() -> None:
+    charts = tuple(chart(f"map_{n}", f"View {n}") for n in range(14))
+    cells = Table(title="Cells", columns=("cell", "residual"), rows=(("a", "1e-9"),) * 300)
+    large = study("seeded-defects")
+    conclusion = large.conclusion.model_copy(update={"charts": charts, "tables": (cells,)})
+    report = report_of((), (large.model_copy(update={"conclusion": conclusion}),))
+    quick = render_page(report)
+    assert quick.count("<svg") == 12
+    assert "2 more diagrams" in quick
+    assert "View 12; View 13" in quick
+    assert "Cells: 300 rows" in quick
+    full = render_page(report.model_copy(update={"level": "full"}))
+    assert full.count("<svg") == 14
+    assert full.count("1e-9") == 300
+    assert "more diagrams" not in full
+
+
+def test_what_is_inconclusive_leads_the_page() -> None:
+    wide = verdict("order_of_shear", 1.5, 1.5).model_copy(
+        update={"tolerance_kind": "order", "interval": 0.4, "status": Status.INCONCLUSIVE}
+    )
+    one = case("one", {"approach": (1e-6, 1e-6)}, run_record(64, None))
+    header = render_page(report_of((one.model_copy(update={"verdicts": (wide,)}),)))
+    header = header.split("</header>")[0]
+    assert "What is inconclusive" in header
+    assert "1.50 ± 0.40, expected 1.5" in header
+    assert "What is inconclusive" not in render_page(of_both(1e-6, 1e-6)).split("</header>")[0]
 
 
 @pytest.mark.parametrize("name", TITLES)

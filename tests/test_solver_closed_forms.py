@@ -38,7 +38,7 @@ def pressed(cells, **more):
     [(64, 5e-4, 8e-5), (128, 1.5e-4, 5e-5), pytest.param(256, 4e-5, 1e-5)],
 )
 def test_hertz(cells, peak, approach):
-    """Discretisation errors: O(h^2) in peak and approach (ALGORITHMS A.1 measured the same)."""
+    """Discretisation errors: O(h^2) in peak and approach."""
     exact, found = hertz(), pressed(cells)
     assert found.peak_pressure == pytest.approx(exact.peak_pressure, rel=peak)
     assert found.approach == pytest.approx(exact.approach, rel=approach)

@@ -219,7 +219,7 @@ def test_in_plane_stresses_follow_hooke(where, alpha):
 @pytest.mark.parametrize("nu", [-0.5, 0.0, 0.3, 0.5])
 @pytest.mark.parametrize("alpha", [0.3, 2.0])
 def test_equations_of_equilibrium_hold(nu, alpha):
-    """The four equations of THEORY 1.4 along z, and the two of the transverse waves."""
+    """The four equations of `frf/depth.py` along z, and the two of the transverse waves."""
     stack = Stack([(3.0, nu, 0.7), (0.2, 0.4, 0.5)], (1.0, 0.3))
     G, step, z = 3.0, 1e-3, 0.4
     descent = Descent(stack, np.array([alpha]))
@@ -245,7 +245,7 @@ def test_equations_of_equilibrium_hold(nu, alpha):
 
 @given(placed(max_layers=0, rigid=False), WAVENUMBERS)
 def test_half_space_has_boussinesq_and_cerruti_waves(where, alpha):
-    """THEORY 1.6."""
+    """The waves of Boussinesq's and Cerruti's point forces (Johnson 1985, ch. 3)."""
     stack, level = where
     G, nu = stack.base
     x = alpha * level.depth

@@ -15,11 +15,13 @@ import pytest
 from study_cases import Dying, Killed, Number, Refusing, Square
 
 from verification.cases.case import Level
+from verification.one_thread import VARIABLES
 from verification.report.provenance import provenance
 from verification.studies.catalogue import STUDIES
 from verification.studies.running.case_pool import KILLED, Answer, CaseEnd, run_cases
 from verification.studies.running.case_store import CaseStore, DamagedRecord, content_hash
 from verification.studies.running.files import stored_studies, write_study
+from verification.studies.running.local_workers import LocalWorkers
 from verification.studies.running.record import StudyRecord
 from verification.studies.running.study import Settings
 
@@ -144,6 +146,19 @@ def test_failing_and_dying_cases_are_named_and_the_others_finish(tmp_path: Path)
     again = run_cases(cases[:1] + cases[2:3], CaseStore(tmp_path), 2, seen.append)
     assert all(end.stored for end in again)
     assert [end.record for end in again] == [ends[0].record, ends[2].record]
+
+
+@pytest.mark.parametrize("name", VARIABLES)
+def test_a_worker_has_one_thread_whatever_was_asked_for(
+    name: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    for variable in VARIABLES:
+        monkeypatch.setenv(variable, "2")
+    workers = LocalWorkers(1)
+    try:
+        assert workers.submit(os.getenv, name).result() == "1"
+    finally:
+        workers.close()
 
 
 def test_cases_are_computed_elsewhere(tmp_path: Path) -> None:

@@ -66,7 +66,7 @@ def test_missing_and_foreign_records_are_refused(tmp_path: Path) -> None:
     (tmp_path / RECORD).write_text('{"other": 1}', encoding="utf-8")
     outcome = slipstick("report", str(tmp_path), cwd=tmp_path)
     assert outcome.returncode == 2
-    assert "not a report of this version" in outcome.stderr
+    assert "not a report that can be used" in outcome.stderr
 
 
 def test_unwritable_output_is_refused_before_any_work(tmp_path: Path) -> None:

@@ -6,7 +6,7 @@ import json
 import os
 import subprocess
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -23,6 +23,8 @@ from verification.cases.outcome import Status
 from verification.peers import measure
 from verification.peers.environment import PEERS, Peer, made_environment
 from verification.peers.measure import errors_of, peer_run, request_of
+from verification.report.provenance import provenance
+from verification.studies.running.record import StudyRecord, dump_study
 from verification.studies.running.study import Conclusion, Settings
 from verification.studies.work_precision.cold_cache import CACHE, cold_cache
 from verification.studies.work_precision.contacts import CONTACTS
@@ -32,6 +34,7 @@ from verification.studies.work_precision.point import (
     cheapest,
     dependable,
     pareto,
+    seconds,
 )
 from verification.studies.work_precision.points import points_of
 from verification.studies.work_precision.setting import Measured, Method, PrecisionCase
@@ -42,7 +45,9 @@ SETTINGS = Settings(Level.QUICK)
 positive = st.floats(1e-6, 1.0)
 points = st.lists(
     st.builds(
-        lambda method, fineness, error, seconds: Point(method, "", "", fineness, error, seconds),
+        lambda method, fineness, error, seconds: Point(
+            method, "", "", fineness, error, seconds, 1.0
+        ),
         st.sampled_from(["one", "other"]),
         st.integers(1, 64),
         positive,
@@ -50,10 +55,6 @@ points = st.lists(
     ),
     max_size=20,
 )
-
-
-def seconds(point: Point) -> float:
-    return point.seconds
 
 
 @given(points)
@@ -97,8 +98,8 @@ def test_a_finer_setting_of_a_curve_is_never_less_dependable(all_points: list[Po
 
 
 def test_a_change_of_sign_earns_nothing() -> None:
-    lucky = Point("m", "", "lucky", 16, 1e-6, 0.1)
-    honest = Point("m", "", "honest", 32, 1e-3, 0.2)
+    lucky = Point("m", "", "lucky", 16, 1e-6, 0.1, 1e6)
+    honest = Point("m", "", "honest", 32, 1e-3, 0.2, 2e6)
     assert cheapest((lucky, honest), 1e-4, seconds) == lucky
     assert cheapest(dependable((lucky, honest)), 1e-4, seconds) is None
 
@@ -139,6 +140,38 @@ def test_a_lost_setting_fails_the_study() -> None:
     conclusion = STUDY.conclude(SETTINGS, records)
     assert conclusion.statements[0].outcome is Status.FAIL
     assert STUDY.conclude(SETTINGS, {}).failed
+
+
+def test_the_clock_changes_the_provenance_alone() -> None:
+    """At other speeds with equal errors and counters, the rest has the same bytes."""
+
+    def record(pace: Callable[[int], float]) -> StudyRecord:
+        records = {
+            case.name: measured(case).model_copy(update={"seconds": pace(case.fineness)})
+            for case in cases(SETTINGS)
+        }
+        files.append(STUDY.exports(SETTINGS, records))
+        return StudyRecord(
+            name=STUDY.name, title=STUDY.title, question=STUDY.question, level="quick",
+            conclusion=STUDY.conclude(SETTINGS, records), lost=(),
+            provenance=provenance("slipstick study", {}, timed=STUDY.timed(SETTINGS, records)),
+        )  # fmt: skip
+
+    files: list[Mapping[str, str]] = []
+    one, other = record(lambda n: 1e-5 * n**2), record(lambda n: 1.0 / n)
+    assert one.provenance.timed is not None
+    assert one.provenance.timed != other.provenance.timed
+    assert dump_study(other.model_copy(update={"provenance": one.provenance})) == dump_study(one)
+    assert files[0]["settings.csv"] == files[1]["settings.csv"]
+    assert files[0]["seconds.csv"] != files[1]["seconds.csv"]
+
+
+def test_the_clock_judges_nothing() -> None:
+    records = {case.name: measured(case) for case in cases(SETTINGS)}
+    timed = STUDY.timed(SETTINGS, records)
+    assert timed is not None
+    assert timed.statements
+    assert {statement.outcome for statement in timed.statements} == {None}
 
 
 def test_extrapolation_leaves_what_is_not_of_order_two() -> None:

@@ -5,11 +5,14 @@ import os
 VARIABLES = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
 
 
-def one_thread() -> None:
+def one_thread(*, always: bool = False) -> None:
     """Give each process one thread; to be called before the numerical libraries are loaded.
 
-    The same bits on every machine; and the dense systems of contact are small: threads that wait
-    for a busy core by spinning make them ten times slower.
+    The same bits on every machine: two threads add in another order. And the dense systems of
+    contact are small: threads that wait for a busy core by spinning make them ten times slower.
+
+    always  whatever the environment says
     """
     for name in VARIABLES:
-        os.environ.setdefault(name, "1")
+        if always or name not in os.environ:
+            os.environ[name] = "1"

@@ -7,7 +7,7 @@ from enum import IntEnum
 
 
 class ExitCode(IntEnum):
-    """What the command's exit code says (VERIFICATION, section 7)."""
+    """What the command's exit code says."""
 
     PASS = 0
     ACCURACY = 1

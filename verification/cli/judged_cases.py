@@ -8,6 +8,7 @@ from verification.cases.case import Case
 from verification.cases.judged_case import CaseToJudge, JudgedCase, lost
 from verification.cases.outcome import CaseOutcome
 from verification.cli.verify_progress import verify_progress
+from verification.report.files import refuse_if_unwritable
 from verification.studies.running.case_pool import Workers, run_cases
 from verification.studies.running.case_store import CaseStore
 
@@ -23,8 +24,11 @@ def judged(
     directory  of the report
     workers    processes of this machine at a time, or others
     fresh      take nothing from earlier runs
+
+    Raises OutputRefused, before any work, where nothing can be written.
     """
     asked = [CaseToJudge(case.name, level) for case in cases]
+    refuse_if_unwritable(directory / CASES)
     store = CaseStore(directory / CASES)
     with verify_progress({case.name: len(case.runs) for case in cases}) as observe:
         ends = run_cases(asked, store, workers, observe, fresh=fresh)

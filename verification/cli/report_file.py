@@ -24,5 +24,5 @@ def read_report(place: Path) -> "Report":
         return load_report(record)
     except ValueError as error:
         reason = str(error).splitlines()[0]
-        typer.echo(f"error: {record} is not a report of this version: {reason}", err=True)
+        typer.echo(f"error: {record} is not a report that can be used: {reason}", err=True)
         raise typer.Exit(ExitCode.INVALID) from None

@@ -24,23 +24,21 @@ def study_progress(cases: int) -> Iterator[Observer]:
     """Give a function to call with every case that has ended."""
     console = Console(stderr=True, highlight=False, soft_wrap=True)
     started = time.monotonic()
+    ended = computed = 0
 
-    def line(end: CaseEnd, done: int) -> None:
+    def log(end: CaseEnd) -> None:
+        nonlocal ended, computed
+        ended += 1
+        computed += not end.stored
         if end.damaged:
             console.print(f"{end.damaged}; computed again", markup=False)
-        console.print(
-            f"{done}/{cases} {_how(end)} {end.case.name}, {time.monotonic() - started:.0f} s",
-            markup=False,
-        )
+        spent = time.monotonic() - started
+        text = f"{ended}/{cases} {_how(end)} {end.case.name}, {spent:.0f} s"
+        if computed and ended < cases:  # at the pace so far; stored cases took no time
+            text += f", about {spent * (cases - ended) / computed:.0f} s left"
+        console.print(text, markup=False)
 
-    ended = 0
     if not console.is_terminal:
-
-        def log(end: CaseEnd) -> None:
-            nonlocal ended
-            ended += 1
-            line(end, ended)
-
         yield log
         return
     columns = (

@@ -15,7 +15,7 @@ BASELINE_VERSION = 1
 COUNTERS = ("increments", "iterations", "convolutions", "factorizations")
 
 # The run of such a quantity is found, not chosen: it is no part of what the quantity is.
-FOUND_IN_A_RUN = ("largest_residual",)
+FOUND_IN_A_RUN = ("largest_residual", "observed_violation", "energy_imbalance")
 
 Key = tuple[str, ...]
 

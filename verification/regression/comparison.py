@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING
 
-from verification.cases.change import Change, Gone, Origin
+from verification.cases.change import Change, Gone, GoneCase, Origin, commit_text
 from verification.regression.baseline import (
     Baseline,
     Key,
@@ -27,14 +27,25 @@ if TYPE_CHECKING:
 def compared(report: Report, baselines: Mapping[str, Baseline]) -> Report:
     """The report with its verdicts on regression; an earlier comparison in it is replaced.
 
-    A case without a baseline of the report's level has none: `CaseOutcome.baseline` is None.
+    A case without a baseline of the report's level has none: `CaseOutcome.baseline` is None. What
+    is recorded of the level and not in the report is gone, unless its cases were chosen.
     """
     made_by = recorded_by(report.provenance, reason="")
     cases = tuple(
         _compared(case, _recording(baselines.get(case.name), report.level), made_by)
         for case in report.cases
     )
-    return report.model_copy(update={"cases": cases})
+    return report.model_copy(update={"cases": cases, "gone": tuple(_gone_cases(report, baselines))})
+
+
+def _gone_cases(report: Report, baselines: Mapping[str, Baseline]) -> Iterator[GoneCase]:
+    present = {case.name for case in report.cases}
+    for name, baseline in () if report.chosen else sorted(baselines.items()):
+        recorded = _recording(baseline, report.level)
+        if recorded is not None and name not in present:
+            yield GoneCase(
+                name=name, since=commit_text(recorded.by.commit, changed=recorded.by.changed)
+            )
 
 
 def _recording(baseline: Baseline | None, level: str) -> Recording | None:

@@ -63,6 +63,8 @@ def _kind(
         return ChangeKind.OUTSIDE
     if was.status is Status.FAIL and verdict.status is not Status.FAIL:
         return ChangeKind.BETTER
+    if difference > allowed and _is_farther(verdict, was):
+        return ChangeKind.OUTSIDE
     if any(_remarks(verdict, was)):
         return ChangeKind.DRIFT
     part = PART_OF_TOLERANCE * allowed
@@ -71,6 +73,16 @@ def _kind(
     if origin.differs and difference <= max(SAME_ELSEWHERE * verdict.scale, part):
         return ChangeKind.NOT_JUDGED
     return ChangeKind.BETTER if _is_better(verdict, was, allowed) else ChangeKind.DRIFT
+
+
+def _is_farther(verdict: Verdict, was: RecordedQuantity) -> bool:
+    """Whether the value has moved away from the reference; of an order whose interval is too wide
+    to judge it nobody can tell."""
+    if Status.INCONCLUSIVE in (verdict.status, was.status):
+        return False
+    if verdict.value is None or was.value is None:
+        return was.value is not None
+    return abs(verdict.value - verdict.reference) > abs(was.value - was.reference)
 
 
 def _is_better(verdict: Verdict, was: RecordedQuantity, allowed: float) -> bool:

@@ -12,10 +12,11 @@ from verification.report.both_solvers import (
     CELLS,
     ELEMENTS,
     SharedReference,
-    both_solvers_chart,
+    furthest_apart,
     shared_references,
 )
 from verification.report.numbers import clearance_text, plain
+from verification.report.prices import price_table, telling_chart
 from verification.report.record import Report
 from verification.report.sections import StudySection, study_of, study_section
 from verification.studies.running.record import StudyRecord
@@ -55,29 +56,52 @@ def _gross_sliding(report: Report) -> Answer:
 
 
 def _cost(report: Report) -> Answer:
+    """By counted work, which is the same everywhere, and by the clock if it was looked at."""
     name = "work-precision"
     answer = _from_study(report, "What does an error of 0.1 % cost with each method?", name, ())
     record = study_of(report, name)
-    tables = () if record is None else record.conclusion.tables
-    return replace(answer, table=next(iter(tables), None))
+    if record is None:
+        return answer
+    timed = record.provenance.timed
+    if timed is None:
+        shown, unit, said = record.conclusion, "", answer.sentences
+    else:
+        by_clock = f"By the clock, on the machine that its provenance names: {timed.answer}"
+        shown, unit, said = timed, ", in CPU seconds", (*answer.sentences, by_clock)
+    return replace(
+        answer, sentences=said, chart=telling_chart(shown) or answer.chart,
+        table=price_table(shown, unit),
+    )  # fmt: skip
 
 
 def _disagreement(report: Report) -> Answer:
     """From the references that both solvers were judged by, and from the study of both."""
     shared = shared_references(report)
     study = study_section(report, "cross-check")
-    sentences = [*_nearer(shared), *_direct(report)]
-    links = [("cases", "the cases")] if sentences else []
-    findings = _statements(study.record, ("both solvers agree", "which side is nearer"))
+    said, claimed = _of_study(study.record)
+    sentences = [*_nearer(shared), *_direct(report), *said]
+    links = [("solvers", "all of them")] if shared else []
     if study.record is not None:
         links.append((f"study-{study.name}", study.title))
-    chart = both_solvers_chart(shared) if shared else _chart(study.record, ())
-    missing = study if study.record is None else None
     return Answer(
         "Where do finite elements and the semi-analytical method disagree, and which is nearer to "
         "the reference?",
-        tuple(sentences), chart, tuple(links), missing, tuple(findings),
-    )  # fmt: skip
+        tuple(sentences),
+        None if shared else _chart(study.record, ()),
+        tuple(links),
+        study if study.record is None else None,
+        claimed,
+        furthest_apart(shared) if shared else None,
+    )
+
+
+def _of_study(record: StudyRecord | None) -> tuple[tuple[str, ...], tuple[str, ...]]:
+    """Its answer as a sentence; what it states, where an older record has no answer."""
+    if record is None:
+        return (), ()
+    if record.conclusion.answer:
+        return (f"{record.title}: {record.conclusion.answer}",), ()
+    return (), tuple(_statements(record, ("both solvers agree", "which side is nearer")))
 
 
 def _from_study(report: Report, question: str, name: str, charts: tuple[str, ...]) -> Answer:
@@ -120,7 +144,7 @@ def _nearer(shared: tuple[SharedReference, ...]) -> list[str]:
         f"reference in {cells} and {ELEMENTS} in {len(shared) - cells}, at the finenesses of this "
         "report.",
         f"They are furthest apart in {worst.name}: {_percent(worst.difference)} of the reference "
-        f"({plain(worst.cells.error, 2)} and {plain(worst.elements.error, 2)} from it; "
+        f"({_percent(worst.cells.error)} and {_percent(worst.elements.error)} from it; "
         f"{worst.nearer} nearer).",
     ]
 
@@ -138,8 +162,8 @@ def _direct(report: Report) -> list[str]:
     case, worst = max(found, key=lambda item: item[1].clearance or 0.0)
     return [
         f"Compared with each other in {len(found)} numbers, they come closest to what is allowed "
-        f"in the {worst.meaning}: {plain(worst.error, 2)}, allowed {plain(worst.allowed, 2)} "
-        f"({clearance_text(worst)} of it; case {case.name})."
+        f"in case {case.name}, {worst.run}: {worst.meaning}, {plain(worst.error, 2)}, where "
+        f"{plain(worst.allowed, 2)} is allowed ({clearance_text(worst)} of it)."
     ]
 
 

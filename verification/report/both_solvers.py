@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 from verification.cases.chart import Chart, Look, Panel, curve
 from verification.cases.outcome import CaseOutcome, Verdict
+from verification.cases.table import Table
 from verification.report.numbers import plain
 from verification.report.record import Report
 
@@ -14,6 +15,7 @@ CELLS, ELEMENTS = "cells (SAM)", "finite elements"
 SERIES = {CELLS: 0, ELEMENTS: 1}
 SAME = 1e-9  # relative, of two values of one reference
 LEAST = 1e-8  # an error is drawn no smaller: the axis is logarithmic
+MOST_SHOWN = 8  # where they are furthest apart
 PENALTY = "penalty"  # springs are judged in their own study
 
 
@@ -92,9 +94,32 @@ def both_solvers_chart(shared: tuple[SharedReference, ...]) -> Chart:
         title="Errors of both solvers against the same references",
         caption="One row per quantity that both have measured against one reference, each on its "
         f"finest run of this report; further to the left is nearer. Errors below {plain(LEAST)} "
-        "are drawn there. Disc: cells; square: finite elements.",
+        "are drawn there. Disc: cells; square: finite elements. A number behind “at” is the load "
+        "over its limit.",
         rows=((panel,),),
     )
+
+
+def furthest_apart(shared: tuple[SharedReference, ...]) -> Table:
+    """The references that the solvers' values differ most of, relative to the reference."""
+    worst = sorted(shared, key=lambda pair: -pair.difference)[:MOST_SHOWN]
+    return Table(
+        title=f"Where both solvers are furthest apart, {len(worst)} of {len(shared)}",
+        columns=("quantity and case", "difference", f"error, {CELLS}", f"error, {ELEMENTS}",
+                 "nearer", "fineness"),
+        rows=tuple(
+            (
+                pair.name,
+                *(f"{plain(100 * part, 2)} %"
+                  for part in (pair.difference, pair.cells.error, pair.elements.error)),
+                pair.nearer,
+                f"{pair.cells.fineness:g} cells, {pair.elements.fineness:g} elements per radius",
+            )
+            for pair in worst
+        ),
+        note="All relative to a reference that neither solver made. A number behind “at” is the "
+        "load over its limit, µW or the largest torque.",
+    )  # fmt: skip
 
 
 def _measured(case: CaseOutcome) -> Iterator[Measured]:

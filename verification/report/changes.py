@@ -12,6 +12,7 @@ from verification.report.numbers import moved_text, value_text
 from verification.report.record import Report
 
 DIGITS = 9  # enough to see what changed
+CASE, ALL = "case", "all runs"  # in place of a quantity and its run
 # The worst first.
 RANK = {
     kind: rank
@@ -48,8 +49,23 @@ class ChangeRow:
 
 def change_rows(report: Report) -> list[ChangeRow]:
     """Every change that the baseline does not describe, the worst first."""
-    rows = [row for case in report.cases for row in case_rows(case) if row.kind.matters]
+    rows = [row for row in _all_rows(report) if row.kind.matters]
     return sorted(rows, key=lambda row: RANK[row.kind])
+
+
+def _all_rows(report: Report) -> Iterator[ChangeRow]:
+    """With the cases that are new or gone; where nothing at all is recorded, that is said apart."""
+    some = report.gone or len(without_baseline(report)) < len(report.cases)
+    for case in report.cases:
+        if case.baseline is None and some:
+            verdicts = f"{len(case.verdicts)} verdicts"
+            yield ChangeRow(case.name, CASE, ALL, ChangeKind.NEW, "–", verdicts, "–", "–", "")
+        yield from case_rows(case)
+    for gone in report.gone:
+        yield ChangeRow(
+            gone.name, CASE, ALL, ChangeKind.GONE, "recorded", "not in the report", "–", gone.since,
+            "if it was given up: delete its baseline",
+        )  # fmt: skip
 
 
 def case_rows(case: CaseOutcome) -> Iterator[ChangeRow]:
@@ -74,7 +90,7 @@ def case_rows(case: CaseOutcome) -> Iterator[ChangeRow]:
 
 def change_counts(report: Report) -> dict[ChangeKind, int]:
     """How many recorded or measured numbers changed how; unchanged counts are not listed."""
-    found = Counter(row.kind for case in report.cases for row in case_rows(case))
+    found = Counter(row.kind for row in _all_rows(report))
     return {kind: found[kind] for kind in ChangeKind if found[kind]}
 
 
@@ -95,11 +111,14 @@ def origins(report: Report) -> list[tuple[Origin, list[str]]]:
 def changes_text(report: Report) -> str:
     """One line: how the report compares with what is recorded."""
     absent = without_baseline(report)
-    if len(absent) == len(report.cases):
-        return f"no baseline yet of level {report.level}"
-    counts = change_counts(report)
-    text = ", ".join(f"{number} {kind}" for kind, number in counts.items())
-    return f"{text}; no baseline yet of {', '.join(absent)}" if absent else text
+    parts = [", ".join(f"{number} {kind}" for kind, number in change_counts(report).items())]
+    if report.cases and len(absent) == len(report.cases):
+        parts.append(f"no baseline yet of level {report.level}")
+    elif absent:
+        parts.append(f"no baseline yet of {', '.join(absent)}")
+    if report.chosen:
+        parts.append("chosen cases alone, nothing is said about the others")
+    return "; ".join(part for part in parts if part)
 
 
 def _row(

@@ -22,7 +22,7 @@ def compact(svg: str, name: str) -> str:
     svg = _with_own_ids(svg, name)
     svg = re.sub(r' style="([^"]*)"', _short_style, svg)
     svg = re.sub(r' transform="rotate\(-?0 [^"]*\)"', "", svg)
-    svg = re.sub(r' (d|x|y|points|transform|viewBox)="([^"]*)"', _short_numbers, svg)
+    svg = re.sub(r' (d|x|y|width|height|points|transform|viewBox)="([^"]*)"', _short_numbers, svg)
     svg = svg.replace("xlink:href", "href")
     svg = re.sub(r' (?:xmlns(?::xlink)?|version)="[^"]*"', "", svg)
     svg = re.sub(r"\s*\n\s*", " ", svg)

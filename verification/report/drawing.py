@@ -6,10 +6,12 @@ from collections.abc import Sequence
 from typing import Any
 
 from matplotlib.figure import Figure
-from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
+from matplotlib.ticker import FuncFormatter, NullFormatter
 
 from verification.cases.chart import Chart, Curve, Look, Panel
+from verification.report.log_ticks import LogTicks
 from verification.report.numbers import plain
+from verification.report.thinned import thinned
 from verification.run_output.figures import style
 
 WIDTH = 6.6
@@ -17,8 +19,17 @@ HEIGHT_PER_UNIT = 1.5
 LEAST_HEIGHT = 3.3
 INK = "#1a1a1a"
 REFERENCE_COLOUR = "#b4b4b4"
-FEW_DECADES = 300.0
+GRID_COLOUR = "#d9d9d9"
+BAND_OPACITY = 0.22
 MARKERS = ("o", "s", "^", "D", "v", "P")
+MANY_PLACES = 12  # along y: the legend then stands at the top, where reading begins
+LINES = (
+    Look.COMPUTED,
+    Look.REFERENCE,
+    Look.BOUND,
+    Look.SLOPE,
+    Look.FITTED,
+)  # without marks at their points
 
 
 def draw(chart: Chart) -> Figure:
@@ -41,23 +52,18 @@ def draw(chart: Chart) -> Figure:
 def _draw_panel(ax: Any, panel: Panel) -> None:
     ax.patch.set_visible(False)
     if panel.logarithmic:
-        ax.set_xscale("log")
-        if not panel.y_places:
-            ax.set_yscale("log")
-            ax.yaxis.set_major_formatter(FuncFormatter(lambda value, _: plain(value)))
-            ax.yaxis.set_minor_formatter(NullFormatter())
-        ax.xaxis.set_major_locator(LogLocator(subs=_labelled_parts(panel)))
-        ax.xaxis.set_major_formatter(FuncFormatter(lambda value, _: plain(value)))
-        ax.xaxis.set_minor_formatter(NullFormatter())
-        ax.grid(True, color=REFERENCE_COLOUR, linewidth=0.4)
+        _scale_by_decades(ax, both=not panel.y_places)
     elif any(min(c.y, default=0) < 0 < max(c.y, default=0) for c in panel.curves):
         ax.axhline(0.0, color=INK, linewidth=0.5)
     for curve in panel.curves:
-        ax.plot(curve.x, curve.y, label=curve.label or None, **_look(curve))
+        if curve.look is Look.BAND:
+            ax.fill(curve.x, curve.y, **_look(curve))
+        else:
+            ax.plot(*_points(curve, panel), label=curve.label or None, **_look(curve))
     for x, y, text in panel.notes:
         ax.annotate(text, (x, y), xytext=(0, 6 if y >= 0 else -14), textcoords="offset points",
                     ha="center", color=INK)  # fmt: skip
-    ax.margins(x=0.02, y=0.12)
+    ax.margins(x=0.05 if panel.y_places else 0.02, y=0.12)
     if panel.x_places:
         ax.set_xticks(range(len(panel.x_places)), panel.x_places)
         ax.set_xlim(-0.5, len(panel.x_places) - 0.5)
@@ -70,39 +76,71 @@ def _draw_panel(ax: Any, panel: Panel) -> None:
     ax.tick_params(which="both", colors=INK)
     for spine in ax.spines.values():
         spine.set_edgecolor(INK)
-    _legend(ax, panel.curves)
+    _legend(ax, panel)
 
 
-def _labelled_parts(panel: Panel) -> tuple[float, ...]:
-    """The numbers of a decade that have a label: fewer, the more decades there are."""
-    x = [value for curve in panel.curves for value in curve.x if value > 0]
-    wide = max(x, default=1.0) > FEW_DECADES * min(x, default=1.0)
-    return (1.0,) if wide else (1.0, 2.0, 5.0)
+def _scale_by_decades(ax: Any, *, both: bool) -> None:
+    """Along x, and along y if both axes are of numbers."""
+    ax.set_xscale("log")
+    if both:
+        ax.set_yscale("log")
+    for axis in (ax.xaxis, ax.yaxis) if both else (ax.xaxis,):
+        axis.set_major_locator(LogTicks())
+        axis.set_major_formatter(FuncFormatter(lambda value, _: plain(value)))
+        axis.set_minor_formatter(NullFormatter())
+    ax.grid(True, color=GRID_COLOUR, linewidth=0.6)
+
+
+def _points(curve: Curve, panel: Panel) -> tuple[Sequence[float], Sequence[float]]:
+    """Of a curve, without those that nobody could see."""
+    if curve.look not in LINES:
+        return curve.x, curve.y
+    spans = tuple(
+        (min(values, default=0.0), max(values, default=0.0))
+        for values in (
+            [value for one in panel.curves for value in one.x],
+            [value for one in panel.curves for value in one.y],
+        )
+    )
+    logarithmic = panel.logarithmic, panel.logarithmic and not panel.y_places
+    x, y = thinned(curve.x, curve.y, (spans[0], spans[1]), logarithmic)
+    return x.tolist(), y.tolist()
 
 
 def _look(curve: Curve) -> dict[str, Any]:
-    colour = style.LINE_COLOURS[curve.series % len(style.LINE_COLOURS)]
+    """Colour and shape; after a round of colours the shapes begin one further on, so that no two of
+    36 series are drawn alike."""
+    round_, place = divmod(curve.series, len(style.LINE_COLOURS))
+    colour, shape = style.LINE_COLOURS[place], (place + round_) % len(MARKERS)
     match curve.look:
         case Look.REFERENCE:
             return {"color": REFERENCE_COLOUR, "linewidth": 4.0, "solid_capstyle": "round"}
         case Look.BOUND:
             return {"color": INK, "linewidth": 0.7, "linestyle": (0, (2, 2))}
+        case Look.FITTED:
+            return {"color": colour, "linewidth": 1.0}
+        case Look.BAND:
+            return {"color": colour, "alpha": BAND_OPACITY, "linewidth": 0}
         case Look.SLOPE:
             return {"color": colour, "linewidth": 0.9, "linestyle": (0, (4, 3))}
         case Look.MARKS:
             return {"color": INK, "linestyle": "none", "marker": "o", "markersize": 4}
         case Look.TILES:
-            marker = MARKERS[curve.series % len(MARKERS)]
+            marker = MARKERS[shape]
             return {"color": colour, "linestyle": "none", "marker": marker, "markersize": 7}
         case Look.POINTS:
-            marker = MARKERS[curve.series % len(MARKERS)]
+            marker = MARKERS[shape]
             return {"color": colour, "linewidth": 1.0, "marker": marker, "markersize": 3.6}
+        case Look.LEVELS:
+            marker = MARKERS[shape]
+            return {"color": colour, "linestyle": "none", "marker": marker, "markersize": 3.6}
         case Look.COMPUTED:
-            dashes = style.LINE_STYLES[curve.series % len(style.LINE_STYLES)]
-            return {"color": colour, "linewidth": 1.3, "linestyle": dashes}
+            return {"color": colour, "linewidth": 1.3, "linestyle": style.LINE_STYLES[shape]}
 
 
-def _legend(ax: Any, curves: Sequence[Curve]) -> None:
-    labelled = [curve for curve in curves if curve.label]
+def _legend(ax: Any, panel: Panel) -> None:
+    labelled = [curve for curve in panel.curves if curve.label]
     if len(labelled) > 1 or any(curve.look is Look.TILES for curve in labelled):
-        ax.legend(loc="center left", bbox_to_anchor=(1.01, 0.5), handlelength=2.4, labelcolor=INK)
+        top = len(panel.y_places) > MANY_PLACES
+        where, height = ("upper left", 1.0) if top else ("center left", 0.5)
+        ax.legend(loc=where, bbox_to_anchor=(1.01, height), handlelength=2.4, labelcolor=INK)

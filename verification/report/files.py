@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
-import os
 import secrets
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 
 from verification.report.junit import render_junit
 from verification.report.page import render_page
 from verification.report.record import Report, dump_report
 from verification.report.summary_text import render_summary
+from verification.run_output.atomic_file import atomic_file
+from verification.run_output.directory_lock import acquire, release
 from verification.run_output.run_directory import OutputRefused
 from verification.run_output.stop_signals import stop_signals_held
 
@@ -42,24 +45,23 @@ def write_report(report: Report, directory: Path) -> None:
         SUMMARY: render_summary(report),
         RECORD: dump_report(report),
     }
-    with stop_signals_held():
+    with _alone_in(directory), stop_signals_held():
         if not _holds(directory / RECORD, texts[RECORD]):
             (directory / RECORD).unlink(missing_ok=True)
         for name, text in texts.items():
-            _replace(directory / name, text)
+            with atomic_file(directory / name) as temporary:
+                temporary.write_text(text, encoding="utf-8", newline="\n")
+
+
+@contextmanager
+def _alone_in(directory: Path) -> Iterator[None]:
+    """Wait for whoever writes a report there: files of two would be mixed."""
+    lock = acquire(directory, wait=True)
+    try:
+        yield
+    finally:
+        release(lock)
 
 
 def _holds(path: Path, text: str) -> bool:
     return path.is_file() and path.read_text(encoding="utf-8") == text
-
-
-def _replace(path: Path, text: str) -> None:
-    temporary = path.with_name(f".{path.name}.{secrets.token_hex(4)}")
-    try:
-        with open(temporary, "w", encoding="utf-8", newline="\n") as file:
-            file.write(text)
-            file.flush()
-            os.fsync(file.fileno())
-        os.replace(temporary, path)
-    finally:
-        temporary.unlink(missing_ok=True)

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
-from verification.cases.change import Change
-from verification.cases.outcome import Verdict
+from verification.cases.change import Change, commit_text
+from verification.cases.outcome import Status, Verdict
+from verification.report.provenance_record import Provenance
 from verification.run_output.engineering_units import engineering_unit
+from verification.studies.running.record import StudyRecord
 
 NOT_FINITE = "not finite"
 ROUNDING = 1e-12
@@ -51,7 +53,8 @@ def order_text(verdict: Verdict) -> str:
     """An observed order with its interval."""
     if verdict.value is None or verdict.interval is None:
         return NOT_FINITE
-    return f"{verdict.value:.2f} ± {verdict.interval:.2f}"
+    half = verdict.interval
+    return f"{verdict.value:.2f} ± {f'{half:.2f}' if half >= 0.005 else plain(half, 1)}"
 
 
 def moved_text(change: Change) -> str:
@@ -68,10 +71,28 @@ def failure_line(case: str, verdict: Verdict, level: str) -> str:
     text = f"{measured}, expected {reference} ± {allowed}{excess}"
     if verdict.name == "solved":
         text = verdict.meaning
+    word = "FAIL" if verdict.status is Status.FAIL else "MOVED"
     return (
-        f"FAIL {case}/{verdict.name} [{verdict.run}]: {text}; {_was_text(verdict)}"
+        f"{word} {case}/{verdict.name} [{verdict.run}]: {text}; {_was_text(verdict)}"
         f"reproduce: slipstick verify {case} --level {level}"
     )
+
+
+def study_failure_line(study: StudyRecord) -> str:
+    """What a study of the same sources found wrong first, and how to see it again."""
+    failed = [s for s in study.conclusion.statements if s.outcome is Status.FAIL]
+    found = [f"{s.claim}: {s.measured}" for s in failed]
+    found += [f"{case.name} was lost: {case.reason}" for case in study.lost]
+    more = f" (and {len(found) - 1} more)" if len(found) > 1 else ""
+    return f"FAIL study {study.name}: {found[0]}{more}; reproduce: {study.provenance.command}"
+
+
+def measured_text(study: StudyRecord, now: Provenance) -> str:
+    """Where a record of other sources than the report's is from; empty for one of the same."""
+    made = study.provenance
+    if made.has_sources_of(now):
+        return ""
+    return f", measured at {commit_text(made.commit, changed=made.changed)}"
 
 
 def _was_text(verdict: Verdict) -> str:

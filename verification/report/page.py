@@ -8,8 +8,10 @@ import jinja2
 from markupsafe import Markup
 
 from verification.cases.chart import Chart
+from verification.cases.orders import not_judged
 from verification.cases.outcome import CaseOutcome, SceneRecord, Status, Verdict
 from verification.report.answers import answers
+from verification.report.both_solvers import both_solvers_chart, shared_references
 from verification.report.changes import (
     change_counts,
     change_rows,
@@ -17,13 +19,18 @@ from verification.report.changes import (
     origins,
     without_baseline,
 )
+from verification.report.columns import alignment
+from verification.report.extent import extent
+from verification.report.features import features
 from verification.report.numbers import (
     clearance_text,
+    measured_text,
     order_text,
     plain,
     uncertainty_text,
     value_text,
 )
+from verification.report.orders import observed_orders
 from verification.report.record import Report
 from verification.report.sections import study_of, study_section
 from verification.report.shared_styles import with_shared_styles
@@ -79,6 +86,14 @@ def _environment() -> jinja2.Environment:
         references=_references,
         answers=answers,
         study_section=study_section,
+        measured_text=measured_text,
+        features=features,
+        observed_orders=observed_orders,
+        not_judged=not_judged,
+        both_solvers=_both_solvers,
+        alignment=alignment,
+        extent=extent,
+        inconclusive=_inconclusive,
     )
     environment.globals.update(
         change_counts=change_counts,
@@ -125,6 +140,22 @@ def _kinds(report: Report) -> dict[str, dict[Status, int]]:
         kind: {status: sum(v.status is status for v in of) for status in Status}
         for kind, of in kinds.items()
     }
+
+
+def _both_solvers(report: Report) -> Chart | None:
+    """Errors of both solvers against the same references, where there are such."""
+    shared = shared_references(report)
+    return both_solvers_chart(shared) if shared else None
+
+
+def _inconclusive(report: Report) -> list[tuple[CaseOutcome, Verdict]]:
+    """Verdicts that are neither passed nor failed, with their cases."""
+    return [
+        (case, verdict)
+        for case in report.cases
+        for verdict in case.verdicts
+        if verdict.status is Status.INCONCLUSIVE
+    ]
 
 
 def _references(case: CaseOutcome) -> dict[str, list[str]]:

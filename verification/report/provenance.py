@@ -7,33 +7,41 @@ from collections.abc import Iterable
 from datetime import UTC, datetime
 from pathlib import Path
 
+from verification.code_digest import code_digest
 from verification.report.record import Benchmark, Provenance
 from verification.run_output.provenance import library_versions, machine, program_version
+from verification.studies.running.study import Conclusion
 
 SOURCE = Path(__file__).resolve().parents[2]
 SECONDS_FOR_GIT = 10
 
 
 def provenance(
-    command: str, seconds: dict[str, float], benchmarks: Iterable[Benchmark] = ()
+    command: str,
+    seconds: dict[str, float],
+    benchmarks: Iterable[Benchmark] = (),
+    timed: Conclusion | None = None,
 ) -> Provenance:
     """Versions, machine, commit and times of this process.
 
     command     the command that makes the same report again
     seconds     wall seconds by case
     benchmarks  measured on the way
+    timed       what a study finds by its seconds
     """
-    commit = _git("rev-parse", "HEAD")
+    commit, changes = _git("rev-parse", "HEAD"), _git("status", "--porcelain")
     return Provenance(
         program_version=program_version(),
         commit=commit,
-        changed=commit is not None and bool(_git("status", "--porcelain")),
+        changed=commit is not None and changes != "",  # where git does not say: they may differ
+        sources=code_digest().hex(),
         command=command,
         date=datetime.now(UTC).isoformat(timespec="seconds"),
         machine=machine(),
         libraries=library_versions(),
         seconds={name: round(value, 2) for name, value in seconds.items()},
         benchmarks=tuple(benchmarks),
+        timed=timed,
     )
 
 

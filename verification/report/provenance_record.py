@@ -1,6 +1,7 @@
 """Who made numbers, on what and when: the block that every record of ours carries."""
 
 from contact_scene.description import Description
+from verification.studies.running.study import Conclusion
 
 FAR_OVER = 2.0  # times the target
 
@@ -34,6 +35,9 @@ class Provenance(Description):
     changed: bool
     """Whether the source differed from that commit."""
 
+    sources: str | None = None
+    """Digest of the sources and libraries that computed; null in older records."""
+
     command: str
     date: str
     """Coordinated universal time, ISO 8601."""
@@ -45,3 +49,13 @@ class Provenance(Description):
 
     benchmarks: tuple[Benchmark, ...] = ()
     """Costs of this machine at this moment; none if only some cases were run."""
+
+    timed: Conclusion | None = None
+    """What a study finds by its seconds; null for a report, and for studies that measure none."""
+
+    def has_sources_of(self, other: "Provenance") -> bool:
+        """Whether both were made by the same sources: a commit alone says so if all was in it."""
+        if self.sources is not None and other.sources is not None:
+            return self.sources == other.sources
+        committed = self.commit is not None and not (self.changed or other.changed)
+        return committed and self.commit == other.commit

@@ -4,7 +4,11 @@ import json
 from pathlib import Path
 from typing import Any
 
+from pydantic import ValidationError, model_validator
+
 from contact_scene.description import Description
+from verification.cases.case import Level
+from verification.cases.change import GoneCase
 from verification.cases.outcome import CaseOutcome, Status, Verdict
 from verification.report.provenance_record import Benchmark, Provenance
 from verification.studies.running.record import StudyRecord
@@ -30,10 +34,33 @@ class Report(Description):
     studies: tuple[StudyRecord, ...] = ()
     """Records of studies, each made by its own command."""
 
+    chosen: bool = False
+    """Whether only cases that were asked for ran; otherwise all of the level did."""
+
+    gone: tuple[GoneCase, ...] = ()
+    """Recorded cases that a report of all cases does not have any more."""
+
+    @model_validator(mode="after")
+    def _counts_what_it_lists(self) -> "Report":
+        if self.schema_version != REPORT_VERSION:
+            raise ValueError(f"it is of version {self.schema_version}, not {REPORT_VERSION}")
+        levels = [level.name.lower() for level in Level]
+        if self.level not in levels:
+            raise ValueError(f"its level is {self.level!r}, not {', '.join(levels)}")
+        names = [case.name for case in self.cases]
+        twice = sorted({name for name in names if names.count(name) > 1})
+        if twice:
+            raise ValueError(f"it has a case twice: {', '.join(twice)}")
+        if self.counts != (counted := count(self.cases)):
+            raise ValueError(
+                f"it counts {_counts_text(self.counts)}, but lists {_counts_text(counted)}"
+            )
+        return self
+
     @property
     def status(self) -> Status:
         """Fail if anything failed; inconclusive only if nothing did."""
-        if self.counts[Status.FAIL]:
+        if self.counts[Status.FAIL] or self.failed_studies:
             return Status.FAIL
         return Status.INCONCLUSIVE if not self.counts[Status.PASS] else Status.PASS
 
@@ -47,10 +74,23 @@ class Report(Description):
             if verdict.status is Status.FAIL
         )
 
+    @property
+    def failed_studies(self) -> tuple[StudyRecord, ...]:
+        """Studies that failed and were made by the sources of this report."""
+        return tuple(
+            study
+            for study in self.studies
+            if study.status is Status.FAIL and study.provenance.has_sources_of(self.provenance)
+        )
+
 
 def count(cases: tuple[CaseOutcome, ...]) -> dict[Status, int]:
     """Verdicts of all cases by status, every status present."""
     return {status: sum(case.count(status) for case in cases) for status in Status}
+
+
+def _counts_text(counts: dict[Status, int]) -> str:
+    return ", ".join(f"{counts.get(status, 0)} {status}" for status in Status)
 
 
 def dump_report(report: Report) -> str:
@@ -60,8 +100,16 @@ def dump_report(report: Report) -> str:
 
 
 def load_report(path: Path) -> Report:
-    """The report back from its file; ValueError for anything else, OSError if unreadable."""
-    return Report.model_validate_json(path.read_text(encoding="utf-8"))
+    """The report back from its file; ValueError, in one line, for what is no report of this version
+    or contradicts itself; OSError if unreadable."""
+    text = path.read_text(encoding="utf-8")
+    try:
+        return Report.model_validate_json(text)
+    except ValidationError as error:
+        first = error.errors(include_url=False)[0]
+        place = ".".join(map(str, first["loc"]))
+        problem = first["msg"].removeprefix("Value error, ")
+        raise ValueError(f"{place}: {problem}" if place else problem) from None
 
 
 def report_schema() -> dict[str, Any]:

@@ -6,7 +6,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
 
-from verification.report.record import Report
+from verification.report.record import Provenance, Report
 from verification.studies.running.record import StudyRecord
 
 # By the name of its study. A study gets its place on the page in `templates/page.html`.
@@ -50,23 +50,26 @@ def study_of(report: Report, name: str) -> StudyRecord | None:
 
 
 def stored_records(places: Iterable[Path] = PLACES) -> tuple[StudyRecord, ...]:
-    """Of every study that the page has a place for the record of the highest level, of two such
-    the later; by name.
+    """Of every study that the page has a place for the record that tells most about these sources;
+    by name. One that they have made goes before those of others, whatever their level; then the
+    higher level, and of two such the later.
 
     raises  ValueError for a record that is broken or of another version, naming its file
     """
+    from verification.report.provenance import provenance
     from verification.studies.running.files import stored_studies  # it draws
 
+    now = provenance("", {})
     best: dict[str, StudyRecord] = {}
     for place in places:
         for record in stored_studies(place):
-            if record.name in TITLES and _rank(record) >= _rank(best.get(record.name)):
+            if record.name in TITLES and (_rank(record, now) >= _rank(best.get(record.name), now)):
                 best[record.name] = record
     return tuple(best[name] for name in sorted(best))
 
 
-def _rank(record: StudyRecord | None) -> tuple[int, str]:
+def _rank(record: StudyRecord | None, now: Provenance) -> tuple[bool, int, str]:
     if record is None:
-        return -1, ""
+        return False, -2, ""
     level = LEVELS.index(record.level) if record.level in LEVELS else -1
-    return level, record.provenance.date
+    return record.provenance.has_sources_of(now), level, record.provenance.date

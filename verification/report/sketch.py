@@ -6,6 +6,7 @@ from collections.abc import Iterable, Iterator
 from html import escape
 
 from verification.cases.section_sketch import SectionSketch, SketchedBody
+from verification.report.thinned import thinned
 from verification.run_output.engineering_units import quantity
 
 WIDTH, PICTURE, MARGIN = 660.0, 400.0, 10.0
@@ -16,6 +17,7 @@ RIM = 0.99  # of the half width
 LINE = 16.0  # between two labels
 LEAST_SHOWN = 2.5  # a thinner layer is drawn this thick, and said so
 FONT = 'font-size="12"'
+SURFACE = MARGIN + ABOVE
 MEANINGS = {
     "W": "normal force", "ω_z": "approach", "T": "tangential force", "ω_x": "tangential shift",
     "M_z": "torque or twist", "M": "moment or tilt",
@@ -81,9 +83,6 @@ def _x(value: float, scale: float) -> float:
     return MARGIN + PICTURE / 2 + value * scale
 
 
-SURFACE = MARGIN + ABOVE
-
-
 def _body(body: SketchedBody, scale: float, below: float) -> Iterator[str]:
     top = SURFACE
     bottom = SURFACE + below
@@ -109,7 +108,7 @@ def _line(x1: float, y1: float, x2: float, y2: float, kind: str) -> str:
 
 def _indenter(sketch: SectionSketch, scale: float, name: str) -> Iterator[str]:
     """The outline closed towards the top; layers are bands along it."""
-    outline = [(_x(x, scale), SURFACE - gap * scale) for x, gap in sketch.outline]
+    outline = _seen([(_x(x, scale), SURFACE - gap * scale) for x, gap in sketch.outline])
     beyond = 0.0 if _has_rim(sketch) else MARGIN  # its sides are cut off with the picture
     left, right = outline[0][0] - beyond, outline[-1][0] + beyond
     closed = [(left, 0.0), (left, outline[0][1]), *outline, (right, outline[-1][1]), (right, 0.0)]
@@ -121,6 +120,13 @@ def _indenter(sketch: SectionSketch, scale: float, name: str) -> Iterator[str]:
         raised = [(x, y - top) for x, y in outline]
         yield f'<polyline class="interface" points="{_points(raised)}"/>'
     yield "</g>"
+
+
+def _seen(outline: list[tuple[float, float]]) -> list[tuple[float, float]]:
+    """The outline without points that nobody could see."""
+    x, y = zip(*outline, strict=True)
+    spans = (MARGIN, MARGIN + PICTURE), (MARGIN, SURFACE)
+    return list(zip(*(v.tolist() for v in thinned(x, y, spans, (False, False))), strict=True))
 
 
 def _points(places: Iterable[tuple[float, float]]) -> str:

@@ -6,7 +6,12 @@ from collections.abc import Iterator
 
 from verification.cases.outcome import CaseOutcome, Status
 from verification.report.changes import change_rows, changes_text, origins
-from verification.report.numbers import clearance_text, failure_line
+from verification.report.numbers import (
+    clearance_text,
+    failure_line,
+    measured_text,
+    study_failure_line,
+)
 from verification.report.page import SYMBOLS, WORDS
 from verification.report.record import Report
 
@@ -16,15 +21,18 @@ MOST_LINES = 40  # of failures, and of changes: a pull request's comment holds 6
 def counts_text(report: Report) -> str:
     """How many verdicts ended how."""
     counts = report.counts
+    failed = len(report.failed_studies)
+    studies = f"; {failed} of the studies failed" if failed else ""
     return (
         f"{counts[Status.PASS]} passed, {counts[Status.FAIL]} failed, "
-        f"{counts[Status.INCONCLUSIVE]} inconclusive"
+        f"{counts[Status.INCONCLUSIVE]} inconclusive{studies}"
     )
 
 
 def failure_lines(report: Report) -> list[str]:
-    """One line for every failed verdict."""
-    return [failure_line(case.name, verdict, report.level) for case, verdict in report.failures]
+    """One line for every failed verdict, and for every failed study of the same sources."""
+    lines = [failure_line(case.name, verdict, report.level) for case, verdict in report.failures]
+    return lines + [study_failure_line(study) for study in report.failed_studies]
 
 
 def render_summary(report: Report) -> str:
@@ -36,7 +44,7 @@ def _lines(report: Report) -> Iterator[str]:
     yield f"# {SYMBOLS[report.status]} {WORDS[report.status]}: slipstick verify, {report.level}"
     yield ""
     yield f"{counts_text(report)}, in {len(report.cases)} cases."
-    if report.failures:
+    if report.status is Status.FAIL:
         yield ""
         lines = failure_lines(report)
         yield from (f"- `{line}`" for line in lines[:MOST_LINES])
@@ -49,7 +57,8 @@ def _lines(report: Report) -> Iterator[str]:
         yield (
             "Studies: "
             + ", ".join(
-                f"{study.name} {SYMBOLS[study.status]} {WORDS[study.status]} ({study.level})"
+                f"{study.name} {SYMBOLS[study.status]} {WORDS[study.status]} ({study.level}"
+                f"{measured_text(study, report.provenance)})"
                 for study in report.studies
             )
             + "."

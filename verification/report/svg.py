@@ -10,13 +10,14 @@ import matplotlib
 
 from verification.cases.chart import Chart
 from verification.report.compact_svg import compact
-from verification.report.drawing import INK, REFERENCE_COLOUR, draw
+from verification.report.drawing import GRID_COLOUR, INK, REFERENCE_COLOUR, draw
 from verification.run_output.figures import style
 
 # Colours of a figure become variables of the page, which has a light and a dark value of each.
 VARIABLES = {
     INK: "--ink",
     REFERENCE_COLOUR: "--reference",
+    GRID_COLOUR: "--line",
     **{colour: f"--series-{n}" for n, colour in enumerate(style.LINE_COLOURS, 1)},
 }
 NO_METADATA = {"Date": None, "Creator": None, "Format": None, "Type": None}

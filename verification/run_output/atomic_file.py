@@ -14,7 +14,7 @@ def atomic_file(path: Path) -> Iterator[Path]:
     """Give a path beside `path` to write to; it takes the name when the block ends without error.
 
     A file of that name is replaced. Raises OutputRefused if the directory cannot be made or the
-    name is a directory's.
+    name is a directory's; an OSError of the block, as that of a full disk, names `path`.
     """
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
@@ -28,5 +28,9 @@ def atomic_file(path: Path) -> Iterator[Path]:
         with open(temporary, "rb") as file:
             os.fsync(file.fileno())
         os.replace(temporary, path)
+    except OSError as error:
+        if error.filename in (None, str(temporary)):
+            error.filename, error.filename2 = str(path), None
+        raise
     finally:
         temporary.unlink(missing_ok=True)

@@ -15,6 +15,7 @@ Field = NDArray[np.float64]
 
 REQUIRED = {"pressure": 5e-3, "shear": 2e-2, "approach": 1e-3}
 COVERAGE = 2.0  # standard uncertainties
+CELLS, ELEMENTS = "cells", "elements"  # the two sides
 
 
 @dataclass(frozen=True)
@@ -56,7 +57,7 @@ class Difference:
         if self.to_reference is None:
             return "–"
         ours, theirs = self.to_reference
-        return "cells" if ours < theirs else "elements"
+        return CELLS if ours < theirs else ELEMENTS
 
 
 def differences(record: CrossCheckRecord) -> dict[str, Difference]:

@@ -28,7 +28,7 @@ from verification.studies.work_precision.setting import Measured, PrecisionCase
 
 TOTAL = "total error"
 NEGLIGIBLE = 0.01  # part of the error that the solver's tolerance may have
-FLOOR = 1e-12  # parts below it are drawn at it
+FLOOR = 1e-9  # parts below it are drawn at it: nothing that anybody asks for is so small
 APART = 0.18  # quantities of one row, of its height
 ROUND_OFF = 1e-7  # below this an error is the reference's own
 REMARKS = (

@@ -10,6 +10,7 @@ import jinja2
 from markupsafe import Markup
 
 from verification.cases.chart import Chart
+from verification.report.columns import alignment
 from verification.report.drawing import draw
 from verification.report.page import SYMBOLS, WORDS
 from verification.report.svg import inline_svg
@@ -28,7 +29,7 @@ FIGURE_TYPES = ("png", "svg")
 def write_study(record: StudyRecord, exports: Mapping[str, str], directory: Path) -> None:
     """Write everything, each file whole or not at all; the record comes last."""
     with stop_signals_held():
-        for chart in record.conclusion.charts:
+        for chart in record.charts:
             _write_figure(chart, directory / FIGURES)
         texts = {**exports, PAGE: render_study(record), RECORD: dump_study(record)}
         for name, text in texts.items():
@@ -74,5 +75,5 @@ def _environment() -> jinja2.Environment:
         lstrip_blocks=True,
     )
     environment.filters["svg"] = lambda chart: Markup(inline_svg(chart))
-    environment.globals.update(symbols=SYMBOLS, words=WORDS)
+    environment.globals.update(symbols=SYMBOLS, words=WORDS, alignment=alignment)
     return environment

@@ -30,7 +30,9 @@ class LocalWorkers:
     elsewhere = False
 
     def __init__(self, processes: int) -> None:
-        one_thread()  # in each worker: they inherit the environment, and share the cores
+        # Workers inherit the environment. They share the cores, and a record must not depend on who
+        # computes it.
+        one_thread(always=True)
         self._threads = ThreadPoolExecutor(max_workers=processes)
         self._own = threading.local()
         self._all: list[ProcessPoolExecutor] = []

@@ -4,7 +4,10 @@ from __future__ import annotations
 
 import json
 
+from pydantic import model_validator
+
 from contact_scene.description import Description
+from verification.cases.chart import Chart
 from verification.cases.outcome import Status
 from verification.report.provenance_record import Provenance
 from verification.studies.running.study import STUDY_VERSION, Conclusion, LostCase
@@ -23,6 +26,18 @@ class StudyRecord(Description):
     """Cases that have no record: the conclusion does without them."""
 
     provenance: Provenance
+
+    @model_validator(mode="after")
+    def _is_of_this_version(self) -> StudyRecord:
+        if self.schema_version != STUDY_VERSION:
+            raise ValueError(f"it is of version {self.schema_version}, not {STUDY_VERSION}")
+        return self
+
+    @property
+    def charts(self) -> tuple[Chart, ...]:
+        """All that it draws."""
+        timed = self.provenance.timed
+        return (*self.conclusion.charts, *(timed.charts if timed is not None else ()))
 
     @property
     def status(self) -> Status:

@@ -93,6 +93,8 @@ class Study:
     cases     what has to be computed
     conclude  from the records that there are, by name of the case: some may be missing
     exports   more files from the records, text by file name
+    timed     what follows from the seconds in the records, which no run repeats; it goes into the
+              provenance, so that all else is the same at every run
     """
 
     name: str
@@ -101,3 +103,4 @@ class Study:
     cases: Callable[[Settings], tuple[StudyCase, ...]]
     conclude: Callable[[Settings, Records], Conclusion]
     exports: Callable[[Settings, Records], Mapping[str, str]] = lambda settings, records: {}
+    timed: Callable[[Settings, Records], Conclusion | None] = lambda settings, records: None

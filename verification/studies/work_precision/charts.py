@@ -6,7 +6,14 @@ from collections.abc import Sequence
 
 from verification.cases.chart import Chart, Curve, Look, Panel, curve
 from verification.studies.work_precision.contacts import PreciseContact
-from verification.studies.work_precision.point import Cost, Point, dependable, pareto
+from verification.studies.work_precision.point import (
+    Cost,
+    Point,
+    dependable,
+    operations,
+    pareto,
+    seconds,
+)
 from verification.studies.work_precision.setting import Method
 
 HEIGHT = 2.4
@@ -23,20 +30,19 @@ def time_chart(contact: PreciseContact, quantity: str, points: Sequence[Point]) 
         f"{contact.title}: {meaning}",
         f"Error of the {meaning} against CPU seconds, set-up included, of the best settings of "
         "every method; the dashed line is the Pareto line of all of them.",
-        "CPU seconds", points, lambda point: point.seconds,
+        "CPU seconds", points, seconds,
     )  # fmt: skip
 
 
 def work_chart(contact: PreciseContact, quantity: str, points: Sequence[Point]) -> Chart:
     """Error against counted work."""
     meaning = contact.errors[quantity]
-    counted = [point for point in points if point.operations is not None]
     return _chart(
         f"counted_{contact.name}_{quantity}",
         f"{contact.title}: {meaning}, by counted work",
         f"Error of the {meaning} against operations that follow from counters, the same on every "
         "machine; set-up of exact coefficients is not counted.",
-        "operations / 10⁹", counted, lambda point: (point.operations or 0.0) / 1e9,
+        "operations / 10⁹", points, lambda point: operations(point) / 1e9,
     )  # fmt: skip
 
 

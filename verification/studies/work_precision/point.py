@@ -17,7 +17,7 @@ class Point:
     fineness    cells or elements along a length
     error       relative, not negative
     seconds     CPU time
-    operations  counted work; None where nothing was counted
+    operations  counted work
     """
 
     method: str
@@ -26,10 +26,20 @@ class Point:
     fineness: int
     error: float
     seconds: float
-    operations: float | None = None
+    operations: float
 
 
 Cost = Callable[[Point], float]
+
+
+def seconds(point: Point) -> float:
+    """What a setting costs by the clock."""
+    return point.seconds
+
+
+def operations(point: Point) -> float:
+    """What a setting costs in counted work."""
+    return point.operations
 
 
 def dependable(points: Iterable[Point]) -> tuple[Point, ...]:

@@ -1,4 +1,8 @@
-"""The study of what accuracy costs."""
+"""The study of what accuracy costs.
+
+Its conclusion is of errors and counted work, which every run repeats. What follows from seconds
+stands apart, in the provenance of its record.
+"""
 
 from __future__ import annotations
 
@@ -6,29 +10,35 @@ import csv
 import io
 from collections.abc import Mapping, Sequence
 
-from verification.cases.chart import Chart
 from verification.cases.outcome import Status
-from verification.cases.table import Table
 from verification.peers.recorded import (
     peer_charts,
     peer_remarks,
     peer_table,
     recorded_peers,
 )
-from verification.report.numbers import plain
 from verification.studies.running.study import Conclusion, Records, Settings, Statement, Study
-from verification.studies.work_precision.charts import SERIES, time_chart, work_chart
-from verification.studies.work_precision.contacts import CONTACTS, PreciseContact
+from verification.studies.work_precision.charts import time_chart, work_chart
+from verification.studies.work_precision.contacts import CONTACTS
 from verification.studies.work_precision.families import all_cases
-from verification.studies.work_precision.point import TARGETS, Point, cheapest, dependable
 from verification.studies.work_precision.points import Found, points_of, setting_text
+from verification.studies.work_precision.price import (
+    CLOCK,
+    WORK,
+    Everything,
+    answer_in,
+    percent,
+    quantity_title,
+    reached,
+    solved,
+    statements_in,
+    tables_in,
+)
 from verification.studies.work_precision.setting import Measured, PrecisionCase
 
-ASKED = 0.001  # what the answer is given for
 REACHED = 0.01  # what some setting must reach at every level, for every quantity
+MEASURED = ("seconds", "repeats")  # of a record: all else is the same at every run
 SHARED = (
-    "Seconds are CPU seconds of one thread, the median of up to five runs, each with an empty "
-    "cache: influence coefficients and condensed sections are made anew. Imports do not count.",
     "A setting counts as accurate to what the finer ones of its curve keep: an error that happens "
     "to change sign earns nothing. The finest of a curve has none above it.",
     "Operations are those of an idealised algorithm with the counted convolutions (on the whole "
@@ -40,12 +50,12 @@ SHARED = (
     "An error norm of a field means the edge, where pressure is a square root; a finite element "
     "there is compared ring by ring.",
 )
-
-
-def found_of(settings: Settings, records: Records) -> Found:
-    """The records that there are, by case."""
-    found = {case: records.get(case.name) for case in all_cases(settings.level)}
-    return {case: record for case, record in found.items() if isinstance(record, Measured)}
+BY_THE_CLOCK = (
+    "Seconds are CPU seconds of one thread, the median of up to five runs, each with an empty "
+    "cache: influence coefficients and condensed sections are made anew. Imports do not count.",
+    "They are of the machine and the moment that the provenance names, differ from run to run, and "
+    "judge nothing.",
+)
 
 
 def cases(settings: Settings) -> tuple[PrecisionCase, ...]:
@@ -54,23 +64,27 @@ def cases(settings: Settings) -> tuple[PrecisionCase, ...]:
 
 
 def conclude(settings: Settings, records: Records) -> Conclusion:
-    """Statements, tables and diagrams."""
-    found = found_of(settings, records)
-    everything = {
-        (contact.name, quantity): points_of(found, contact.name, quantity)
-        for contact in CONTACTS.values()
-        for quantity in contact.errors
-    }
-    everything = {key: points for key, points in everything.items() if points}
+    """Statements, tables and diagrams by counted work."""
+    found = _found_of(settings, records)
+    everything = _everything(found)
     peers = recorded_peers()
+    leading = [(c.name, next(iter(c.errors))) for c in CONTACTS.values()]
     return Conclusion(
-        statements=_statements(settings, found, everything),
-        answer=_answer(everything),
-        tables=(
-            *(_table(CONTACTS[c], q, points) for (c, q), points in everything.items()),
-            peer_table(peers),
+        statements=(
+            solved(len(found), len(all_cases(settings.level))),
+            _reached(everything),
+            *statements_in(WORK, everything),
         ),
-        charts=(*_charts(everything), *peer_charts(peers)),
+        answer=answer_in(WORK, everything),
+        tables=(*tables_in(WORK, everything), peer_table(peers)),
+        charts=(
+            *(
+                work_chart(CONTACTS[c], q, everything[c, q])
+                for c, q in leading
+                if (c, q) in everything
+            ),
+            *peer_charts(peers),
+        ),
         remarks=(
             *SHARED,
             *peer_remarks(peers),
@@ -79,112 +93,74 @@ def conclude(settings: Settings, records: Records) -> Conclusion:
     )
 
 
+def timed(settings: Settings, records: Records) -> Conclusion:
+    """The same by CPU seconds: findings, no verdicts."""
+    everything = _everything(_found_of(settings, records))
+    return Conclusion(
+        statements=statements_in(CLOCK, everything),
+        answer=answer_in(CLOCK, everything),
+        tables=tables_in(CLOCK, everything),
+        charts=tuple(time_chart(CONTACTS[c], q, points) for (c, q), points in everything.items()),
+        remarks=BY_THE_CLOCK,
+    )
+
+
 def exports(settings: Settings, records: Records) -> Mapping[str, str]:
-    """`settings.csv`: one line for every setting and quantity."""
+    """`settings.csv`: one line for every setting and quantity; `seconds.csv`: one for every
+    setting, with what was measured."""
+    found = _found_of(settings, records)
+    counters = [name for name in Measured.model_fields if name not in ("errors", *MEASURED)]
+    rows = [
+        (*_words(case), quantity, error, *(getattr(record, name) for name in counters))
+        for case, record in found.items()
+        for quantity, error in record.errors.items()
+    ]
+    clock = [
+        (*_words(case), *(getattr(record, name) for name in MEASURED))
+        for case, record in found.items()
+    ]
+    setting = ("contact", "method", "setting")
+    return {
+        "settings.csv": _csv((*setting, "quantity", "error", *counters), rows),
+        "seconds.csv": _csv((*setting, *MEASURED), clock),
+    }
+
+
+def _found_of(settings: Settings, records: Records) -> Found:
+    """The records that there are, by case."""
+    found = {case: records.get(case.name) for case in all_cases(settings.level)}
+    return {case: record for case, record in found.items() if isinstance(record, Measured)}
+
+
+def _everything(found: Found) -> Everything:
+    everything = {
+        (contact.name, quantity): points_of(found, contact.name, quantity)
+        for contact in CONTACTS.values()
+        for quantity in contact.errors
+    }
+    return {key: points for key, points in everything.items() if points}
+
+
+def _reached(everything: Everything) -> Statement:
+    missed = [quantity_title(*key) for key, p in everything.items() if not reached(p, REACHED)]
+    return Statement(
+        claim=f"every quantity is had to {percent(REACHED)}",
+        outcome=Status.FAIL if missed or not everything else Status.PASS,
+        measured=f"{len(everything) - len(missed)} of {len(everything)}"
+        + (f"; not {'; '.join(missed)}" if missed else ""),
+        because="some setting of some method of ours, and all finer ones of its curve",
+    )
+
+
+def _words(case: PrecisionCase) -> tuple[str, str, str]:
+    return case.contact, case.method.value, setting_text(case)
+
+
+def _csv(head: Sequence[str], rows: Sequence[Sequence[object]]) -> str:
     text = io.StringIO()
     table = csv.writer(text, lineterminator="\n")
-    counters = [name for name in Measured.model_fields if name != "errors"]
-    table.writerow(("contact", "method", "setting", "quantity", "error", *counters))
-    for case, record in found_of(settings, records).items():
-        counted = [getattr(record, name) for name in counters]
-        for quantity, error in record.errors.items():
-            words = (case.contact, case.method.value, setting_text(case), quantity)
-            table.writerow((*words, error, *counted))
-    return {"settings.csv": text.getvalue()}
-
-
-Everything = Mapping[tuple[str, str], tuple[Point, ...]]
-
-
-def _seconds(point: Point) -> float:
-    return point.seconds
-
-
-def _statements(settings: Settings, found: Found, everything: Everything) -> tuple[Statement, ...]:
-    asked = len(all_cases(settings.level))
-    missed = [
-        f"{CONTACTS[c].title}: {CONTACTS[c].errors[q]}"
-        for (c, q), points in everything.items()
-        if cheapest(dependable(points), REACHED, _seconds) is None
-    ]
-    return (
-        Statement(
-            claim="every setting is solved",
-            outcome=Status.PASS if len(found) == asked else Status.FAIL,
-            measured=f"{len(found)} of {asked}",
-        ),
-        Statement(
-            claim=f"every quantity is had to {_percent(REACHED)}",
-            outcome=Status.FAIL if missed or not everything else Status.PASS,
-            measured=f"{len(everything) - len(missed)} of {len(everything)}"
-            + (f"; not {'; '.join(missed)}" if missed else ""),
-            because="some setting of some method of ours, and all finer ones of its curve",
-        ),
-        *(
-            Statement(
-                claim=f"{CONTACTS[c].title}: {CONTACTS[c].errors[q]} to {_percent(ASKED)}",
-                outcome=None,
-                measured=_cheapest_text(dependable(points)),
-            )
-            for (c, q), points in everything.items()
-        ),
-    )
-
-
-def _cheapest_text(points: Sequence[Point]) -> str:
-    best = cheapest(points, ASKED, _seconds)
-    if best is None:
-        least = min(points, key=lambda p: p.error)
-        return f"not reached; the least error is {plain(least.error, 2)} ({least.method})"
-    return f"{best.method}, {best.setting}: {plain(best.seconds, 2)} s"
-
-
-def _answer(everything: Everything) -> str:
-    best = [cheapest(dependable(points), ASKED, _seconds) for points in everything.values()]
-    reached = [point for point in best if point is not None]
-    if not reached:
-        return f"No setting that was tried reaches {_percent(ASKED)}."
-    counts = {name: sum(p.method == name for p in reached) for name in SERIES}
-    parts = [f"{name} for {count}" for name, count in counts.items() if count]
-    slowest = max(point.seconds for point in reached)
-    return (
-        f"{_percent(ASKED)} is reached for {len(reached)} of {len(best)} quantities, in at most "
-        f"{plain(slowest, 2)} CPU seconds; cheapest: {', '.join(parts)}."
-    )
-
-
-def _table(contact: PreciseContact, quantity: str, points: Sequence[Point]) -> Table:
-    steady = dependable(points)
-    names = [*SERIES, *sorted({p.method for p in points} - set(SERIES))]
-    rows = [
-        (name, *(_cell([p for p in steady if p.method == name], target) for target in TARGETS))
-        for name in names
-        if any(point.method == name for point in points)
-    ]
-    return Table(
-        title=f"Cheapest setting, {contact.title}: {contact.errors[quantity]}",
-        columns=("method", *(_percent(target) for target in TARGETS)),
-        rows=tuple(rows),
-        note="CPU seconds, and the setting; – where no setting that was tried reaches it.",
-    )
-
-
-def _cell(points: Sequence[Point], target: float) -> str:
-    best = cheapest(points, target, _seconds)
-    return "–" if best is None else f"{plain(best.seconds, 2)} s: {best.setting}"
-
-
-def _charts(everything: Everything) -> tuple[Chart, ...]:
-    by_time = [time_chart(CONTACTS[c], q, points) for (c, q), points in everything.items()]
-    leading = [(c.name, next(iter(c.errors))) for c in CONTACTS.values()]
-    by_work = [
-        work_chart(CONTACTS[c], q, everything[c, q]) for c, q in leading if (c, q) in everything
-    ]
-    return (*by_time, *by_work)
-
-
-def _percent(part: float) -> str:
-    return f"{100 * part:g} %"
+    table.writerows([head, *rows])
+    return text.getvalue()
 
 
 STUDY = Study(
@@ -195,4 +171,5 @@ STUDY = Study(
     cases=cases,
     conclude=conclude,
     exports=exports,
+    timed=timed,
 )

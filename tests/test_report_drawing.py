@@ -1,0 +1,114 @@
+"""How charts are drawn: labels of logarithmic axes, points that are seen, series told apart."""
+
+import math
+import re
+from pathlib import Path
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+import verification.report
+from verification.cases.chart import Chart, Look, Panel, curve
+from verification.report.drawing import draw
+from verification.report.log_ticks import MOST, log_ticks
+from verification.report.svg import inline_svg
+from verification.report.thinned import FINENESS, thinned
+from verification.run_output.figures import style
+
+UNIT = ((0.0, 1.0), (0.0, 1.0))
+STYLES = Path(verification.report.__file__).parent / "templates" / "style.css"
+TEXT, GRAPHICS = 4.5, 3.0  # contrasts that WCAG 2.1 asks for, AA
+INKS = ("ink", "soft", "link", "pass", "fail", "inconclusive")
+LINES = ("reference", *(f"series-{n}" for n in range(1, 7)))
+
+
+@given(st.floats(-12, 9), st.floats(0.02, 15))
+def test_a_logarithmic_axis_has_labels_and_not_too_many(low: float, decades: float) -> None:
+    first, last = 10**low, 10 ** (low + decades)
+    ticks = log_ticks(first, last)
+    assert 2 <= len(ticks) <= MOST
+    assert all(first <= tick <= last for tick in ticks)
+    assert ticks == sorted(set(ticks))
+    assert len(ticks) > 2 or last < 4 * first or decades > MOST
+
+
+def test_labels_are_round() -> None:
+    assert log_ticks(0.003, 0.2) == [0.003, 0.01, 0.03, 0.1]
+    assert log_ticks(1e-6, 0.02) == [1e-6, 1e-5, 1e-4, 1e-3, 1e-2]
+    assert log_ticks(1e-12, 1.0) == pytest.approx([1e-12, 1e-10, 1e-8, 1e-6, 1e-4, 1e-2, 1])
+
+
+def test_both_axes_of_a_logarithmic_chart_are_labelled() -> None:
+    line = curve("error", [0.011, 0.03, 0.09], [0.0021, 0.004, 0.009], Look.POINTS)
+    panel = Panel(x_label="x", y_label="y", curves=(line,), logarithmic=True)
+    chart = Chart(name="one", title="t", caption="c", rows=((panel,),))
+    with style.figure_style():
+        figure = draw(chart)
+        figure.draw_without_rendering()
+    for axis in (figure.axes[0].xaxis, figure.axes[0].yaxis):
+        assert len([label for label in axis.get_ticklabels() if label.get_text()]) >= 3
+
+
+@given(st.lists(st.floats(0, 1), min_size=3, max_size=60))
+def test_points_are_dropped_only_where_nobody_sees_it(values: list[float]) -> None:
+    y = np.array(values)
+    x = np.linspace(0, 1, len(y))
+    few_x, few_y = thinned(x, y, UNIT, (False, False))
+    assert (few_x[0], few_x[-1]) == (0, 1)
+    assert set(few_x) <= set(x)
+    # The line drawn is nowhere further from the points than its distance perpendicular to it.
+    steepest = np.max(np.abs(np.diff(few_y) / np.diff(few_x)))
+    allowed = FINENESS * math.hypot(1, steepest) * (1 + 1e-9)
+    assert np.max(np.abs(np.interp(x, few_x, few_y) - y)) <= allowed
+
+
+def test_straight_lines_need_their_ends_alone_on_either_kind_of_axis() -> None:
+    x = np.geomspace(1e-3, 1, 400)
+    assert len(thinned(x, 3 * x, UNIT, (False, False))[0]) == 2
+    spans = ((1e-3, 1.0), (1e-6, 1.0))
+    assert len(thinned(x, x**2, spans, (True, True))[0]) == 2
+    assert len(thinned(x, x**2, UNIT, (False, False))[0]) > 10
+
+
+def test_a_smooth_curve_is_drawn_with_far_fewer_points_than_it_has() -> None:
+    x = np.linspace(-1, 1, 2000)
+    line = curve("", x, np.sqrt(1 - x**2))
+    panel = Panel(x_label="x", y_label="y", curves=(line,))
+    drawn = inline_svg(Chart(name="one", title="t", caption="c", rows=((panel,),)))
+    corners = max(path.count("L") for path in re.findall(r' d="([^"]*)"', drawn))
+    assert 20 < corners < 100
+
+
+def test_no_two_series_of_one_chart_are_drawn_alike() -> None:
+    names = range(36)
+    curves = tuple(curve(str(n), [0, 1], [0, n], Look.COMPUTED, n) for n in names)
+    chart = Chart(name="one", title="t", caption="c",
+                  rows=((Panel(x_label="x", y_label="y", curves=curves),),))  # fmt: skip
+    with style.figure_style():
+        (axes,) = draw(chart).axes
+    looks = {(line.get_color(), str(vars(line)["_dash_pattern"])) for line in axes.get_lines()}
+    assert len(looks) == len(names)
+
+
+def _luminance(colour: str) -> float:
+    parts = [int(colour[n : n + 2], 16) / 255 for n in (1, 3, 5)]
+    linear = [c / 12.92 if c <= 0.03928 else ((c + 0.055) / 1.055) ** 2.4 for c in parts]
+    return float(np.dot((0.2126, 0.7152, 0.0722), linear))
+
+
+def _contrast(one: str, other: str) -> float:
+    dark, light = sorted((_luminance(one), _luminance(other)))
+    return (light + 0.05) / (dark + 0.05)
+
+
+@pytest.mark.parametrize("scheme", [0, 1, 2], ids=["light", "dark", "print"])
+def test_text_and_lines_stand_out_from_the_paper_in_every_scheme(scheme: int) -> None:
+    blocks = re.findall(r":root \{(.*?)\}", STYLES.read_text(encoding="utf-8"), re.DOTALL)
+    colours = dict(re.findall(r"--([\w-]+): (#[0-9A-Fa-f]{6});", blocks[scheme]))
+    for name in INKS:
+        for behind in ("paper", "panel"):
+            assert _contrast(colours[name], colours[behind]) >= TEXT, (name, behind)
+    for name in LINES:
+        assert _contrast(colours[name], colours["paper"]) >= GRAPHICS, name

@@ -1,0 +1,373 @@
+"""What a report, a record or a baseline says is believed only as far as it agrees with itself."""
+
+import errno
+import json
+import os
+import threading
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+from xml.etree import ElementTree
+
+import pytest
+from report_examples import case, made_by, report_of, run_record, study
+
+from verification.cases.change import ChangeKind
+from verification.cases.judged_case import CaseToJudge, JudgedCase
+from verification.cases.outcome import CaseOutcome, Status, Verdict
+from verification.cli import main
+from verification.cli.errors import ExitCode, exit_code
+from verification.regression.acceptance import accept, baselines_of
+from verification.regression.comparison import compared
+from verification.report import provenance
+from verification.report.changes import change_rows
+from verification.report.files import JUNIT, PAGE, RECORD, SUMMARY, write_report
+from verification.report.junit import render_junit
+from verification.report.page import render_page
+from verification.report.provenance_record import Provenance
+from verification.report.record import Report, load_report
+from verification.report.sections import stored_records
+from verification.report.summary_text import failure_lines, render_summary
+from verification.run_output.directory_lock import acquire, release
+from verification.studies.running.case_store import CaseStore, DamagedRecord, _digest
+from verification.studies.running.record import StudyRecord, dump_study
+from verification.studies.running.study import LostCase
+
+REASON = "as computed"
+OTHER = made_by().model_copy(update={"sources": "those", "commit": "abc1234" + 33 * "0"})
+
+
+def a_case(name: str, error: float = 0.002) -> CaseOutcome:
+    """A case of two quantities, of which one has this error; 0.01 is allowed."""
+    values = {"approach": (1.0 + error, 1.0), "radius": (2.0, 2.0)}
+    return case(name, values, run_record(32, None), drawn=False)
+
+
+def three_cases() -> Report:
+    return report_of(tuple(a_case(name) for name in ("one", "three", "two")))
+
+
+def slipstick(*arguments: object) -> int:
+    with pytest.raises(SystemExit) as leaving:
+        main([str(argument) for argument in arguments])
+    return int(leaving.value.code or 0)
+
+
+@pytest.fixture
+def places(tmp_path: Path) -> tuple[Path, Path]:
+    """A report of three cases and its baselines."""
+    report, baselines = tmp_path / "report", tmp_path / "baselines"
+    report.mkdir()
+    write_report(three_cases(), report)
+    accept(three_cases(), REASON, baselines, with_changes=True)
+    return report, baselines
+
+
+def edited(record: Path, edit: Callable[[dict[str, Any]], object]) -> None:
+    content = json.loads(record.read_text(encoding="utf-8"))
+    edit(content)
+    record.write_text(json.dumps(content), encoding="utf-8")
+
+
+# ---- vanished and unknown cases ----------------------------------------------------------------
+
+
+@pytest.mark.parametrize("left", [0, 1, 2])
+def test_case_that_vanished_is_gone(
+    places: tuple[Path, Path], capsys: pytest.CaptureFixture[str], left: int
+) -> None:
+    report, baselines = places
+    write_report(report_of(three_cases().cases[:left]), report)
+    assert slipstick("compare", report, "--baseline", baselines) == 5
+    printed = capsys.readouterr().out
+    assert f"{3 - left} gone" in printed
+    assert "two/case" in printed
+
+
+def test_case_without_baseline_is_new(places: tuple[Path, Path]) -> None:
+    report, baselines = places
+    (baselines / "two.json").unlink()
+    assert slipstick("compare", report, "--baseline", baselines) == 5
+    outcome = compared(three_cases(), baselines_of(report_of(three_cases().cases[:2]), REASON))
+    assert [(row.case, row.kind) for row in change_rows(outcome)] == [("two", ChangeKind.NEW)]
+
+
+def test_chosen_cases_do_not_miss_the_others_and_say_so(
+    places: tuple[Path, Path], capsys: pytest.CaptureFixture[str]
+) -> None:
+    report, baselines = places
+    chosen = report_of(three_cases().cases[:1]).model_copy(update={"chosen": True})
+    write_report(chosen, report)
+    assert slipstick("compare", report, "--baseline", baselines) == 0
+    assert "chosen cases alone" in capsys.readouterr().out
+    assert "chosen cases alone" in render_summary(chosen)
+    assert "of chosen cases" in render_page(chosen)
+
+
+# ---- reports and records that were changed -------------------------------------------------------
+
+
+def first_verdict(report: dict[str, Any]) -> dict[str, Any]:
+    verdict: dict[str, Any] = report["cases"][0]["verdicts"][0]
+    return verdict
+
+
+FORGERIES: dict[str, tuple[Callable[[dict[str, Any]], object], str]] = {
+    "value": (lambda r: first_verdict(r).update(value=1.5), "its error is"),
+    "error": (lambda r: first_verdict(r).update(error=0.001), "its error is"),
+    "no error": (lambda r: first_verdict(r).update(error=None), "its error is"),
+    "no value": (lambda r: first_verdict(r).update(value=None, error=None), "status is pass"),
+    "both but the status": (
+        lambda r: first_verdict(r).update(value=1.5, error=0.5),
+        "its status is pass",
+    ),
+    "failed without reason": (lambda r: first_verdict(r).update(status="fail"), "status is fail"),
+    "inconclusive": (
+        lambda r: first_verdict(r).update(status="inconclusive"),
+        "its status is inconclusive",
+    ),
+    "vague order that passes": (
+        lambda r: first_verdict(r).update(tolerance_kind="order", interval=0.4),
+        "its status is pass",
+    ),
+    "nothing allowed": (lambda r: first_verdict(r).update(allowed=0.0), "both are positive"),
+    "kind": (lambda r: first_verdict(r).update(tolerance_kind="none"), "its tolerance is"),
+    "counts": (lambda r: r["counts"].update({"pass": 999}), "it counts 999 pass"),
+    "case twice": (lambda r: r["cases"].append(r["cases"][0]), "a case twice: one"),
+    "case cut out": (lambda r: r["cases"].pop(), "it counts 6 pass"),
+    "level": (lambda r: r.update(level="deep"), "its level is 'deep'"),
+    "version": (lambda r: r.update(schema_version=99), "it is of version 99"),
+}
+
+
+@pytest.mark.parametrize("forgery", FORGERIES)
+def test_report_that_contradicts_itself_is_refused(
+    places: tuple[Path, Path], capsys: pytest.CaptureFixture[str], forgery: str
+) -> None:
+    report, baselines = places
+    edit, said = FORGERIES[forgery]
+    edited(report / RECORD, edit)
+    words = ("--because", "it is right", "--with-changes", "--to", baselines)
+    for command in (
+        ("compare", report, "--baseline", baselines),
+        ("baseline", "--accept", "--from", report, *words),
+        ("report", report),
+    ):
+        assert slipstick(*command) == 2, command
+        message = capsys.readouterr().err
+        assert said in message
+        assert len(message.strip().splitlines()) == 1
+
+
+def test_record_that_contradicts_itself_is_not_taken(tmp_path: Path) -> None:
+    store, asked = CaseStore(tmp_path), CaseToJudge("one", "QUICK")
+    store.save(asked, JudgedCase(outcome=a_case("one"), seconds=1.0))
+    assert store.load(asked) is not None
+
+    def forge(document: dict[str, Any]) -> None:
+        document["record"]["outcome"]["verdicts"][0]["value"] = 1.5
+        document["sha256"] = _digest(document["record"])
+
+    edited(store.path(asked), forge)
+    with pytest.raises(DamagedRecord, match="is damaged"):
+        store.load(asked)
+
+
+@pytest.mark.parametrize(
+    ("was", "now", "kind"),
+    [
+        (-0.008, 0.0095, ChangeKind.OUTSIDE),
+        (0.0095, -0.008, ChangeKind.DRIFT),
+        (0.002, 0.0095, ChangeKind.DRIFT),
+        (0.02, 0.2, ChangeKind.OUTSIDE),
+        (0.02, 0.021, ChangeKind.DRIFT),
+    ],
+    ids=["across", "nearer", "by less", "failed already", "failed already, by less"],
+)
+def test_quantity_that_moves_away_by_more_than_is_allowed_is_outside(
+    tmp_path: Path, was: float, now: float, kind: ChangeKind
+) -> None:
+    before, after = (report_of((a_case("one", error),)) for error in (was, now))
+    change = compared(after, baselines_of(before, REASON)).cases[0].verdicts[0].regression
+    assert change is not None
+    assert change.kind is kind
+    for place, report in (("before", before), ("after", after)):
+        (tmp_path / place).mkdir()
+        write_report(report, tmp_path / place)
+    code = slipstick("compare", tmp_path / "after", "--baseline", tmp_path / "before" / RECORD)
+    assert code == (1 if kind is ChangeKind.OUTSIDE else 5)
+
+
+ORDERS = {
+    Status.PASS: {"value": 1.9, "error": 0.1, "interval": 0.1},
+    Status.FAIL: {"value": 1.0, "error": 1.0, "interval": 0.1},
+    Status.INCONCLUSIVE: {"value": 1.0, "error": 1.0, "interval": 0.9},
+}
+
+
+def an_order(status: Status) -> CaseOutcome:
+    whole = a_case("one")
+    first, *others = whole.verdicts
+    order = {"tolerance_kind": "order", "reference": 2.0, "scale": 1.0, "allowed": 0.25}
+    judged = Verdict(**{**first.model_dump(), **order, **ORDERS[status], "status": status})
+    return whole.model_copy(update={"verdicts": (judged, *others)})
+
+
+@pytest.mark.parametrize(
+    ("was", "now", "code"),
+    [
+        (Status.PASS, Status.INCONCLUSIVE, 5),
+        (Status.INCONCLUSIVE, Status.PASS, 5),
+        (Status.INCONCLUSIVE, Status.INCONCLUSIVE, 0),
+        (Status.FAIL, Status.INCONCLUSIVE, 5),
+        (Status.INCONCLUSIVE, Status.FAIL, 1),
+        (Status.PASS, Status.FAIL, 1),
+    ],
+)
+def test_inconclusive_is_neither_passed_nor_failed(
+    tmp_path: Path, was: Status, now: Status, code: int
+) -> None:
+    for place, status in (("was", was), ("now", now)):
+        (tmp_path / place).mkdir()
+        write_report(report_of((an_order(status),)), tmp_path / place)
+    assert slipstick("compare", tmp_path / "now", "--baseline", tmp_path / "was" / RECORD) == code
+    assert bool(report_of((an_order(now),)).failures) is (now is Status.FAIL)
+
+
+# ---- places that do not take what is written -----------------------------------------------------
+
+
+def test_reports_into_one_directory_are_written_one_after_the_other(tmp_path: Path) -> None:
+    lock = acquire(tmp_path, wait=True)
+    writing = threading.Thread(target=write_report, args=(three_cases(), tmp_path))
+    writing.start()
+    writing.join(0.5)
+    assert writing.is_alive()
+    assert list(tmp_path.iterdir()) == []
+    release(lock)
+    writing.join(20)
+    assert load_report(tmp_path / RECORD) == three_cases()
+
+
+def test_full_disk_leaves_no_record_and_names_the_file(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    write_report(three_cases(), tmp_path)
+
+    def full(self: Path, text: str, **options: Any) -> int:
+        if "summary" in self.name:
+            raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+        return write_text(self, text, **options)
+
+    write_text = Path.write_text
+    monkeypatch.setattr(Path, "write_text", full)
+    with pytest.raises(OSError, match="No space") as raised:
+        write_report(report_of((a_case("one", 0.02),)), tmp_path)
+    assert raised.value.filename == str(tmp_path / "summary.md")
+    assert exit_code(raised.value) is ExitCode.RESOURCES_REFUSED
+    assert sorted(path.name for path in tmp_path.iterdir()) == sorted([PAGE, JUNIT, SUMMARY])
+
+
+def test_place_of_records_is_tried_before_any_work(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (tmp_path / "cases").touch()
+    assert slipstick("verify", "fem_torsion", "--output", tmp_path) == 2
+    assert "cannot write into" in capsys.readouterr().err
+
+
+def test_source_that_git_does_not_vouch_for_counts_as_changed(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    answers: dict[str, str | None] = {"rev-parse": "1a2b3c4", "status": None}
+    monkeypatch.setattr(provenance, "_git", lambda command, *_: answers[command])
+    assert provenance.provenance("", {}).changed
+    answers["status"] = ""
+    assert not provenance.provenance("", {}).changed
+    answers["status"] = " M semi_analytical/solve.py"
+    assert provenance.provenance("", {}).changed
+
+
+# ---- studies that a report shows ---------------------------------------------------------------
+
+
+def made(record: StudyRecord, provenance: Provenance, *, failed: bool = False) -> StudyRecord:
+    (statement,) = record.conclusion.statements
+    said = statement.model_copy(update={"outcome": Status.FAIL}) if failed else statement
+    conclusion = record.conclusion.model_copy(update={"statements": (said,)})
+    return record.model_copy(update={"conclusion": conclusion, "provenance": provenance})
+
+
+def test_failed_study_of_the_same_sources_fails_the_report() -> None:
+    report = report_of(three_cases().cases, (made(study("stability"), made_by(), failed=True),))
+    assert report.counts[Status.FAIL] == 0
+    assert report.status is Status.FAIL
+    (line,) = failure_lines(report)
+    assert line.startswith("FAIL study stability: A study: A study; reproduce: slipstick")
+    assert line in render_summary(report)
+    junit = ElementTree.fromstring(render_junit(report).partition("\n")[2])
+    assert junit.get("failures") == "1"
+    assert len(junit.findall("testsuite[@name='studies']/testcase/failure")) == 1
+    assert junit.get("tests") == str(len(junit.findall("testsuite/testcase")))
+    assert "1 of the studies failed" in render_page(report)
+
+
+def test_study_that_lost_a_case_fails_the_report() -> None:
+    lost = (LostCase(name="cell-7", reason="its worker was killed"),)
+    record = study("stability").model_copy(update={"lost": lost})
+    (line,) = failure_lines(report_of(three_cases().cases, (record,)))
+    assert "cell-7 was lost: its worker was killed" in line
+
+
+def test_study_of_other_sources_is_marked_and_judges_nothing() -> None:
+    report = report_of(three_cases().cases, (made(study("stability"), OTHER, failed=True),))
+    assert report.status is Status.PASS
+    assert failure_lines(report) == []
+    for text in (render_page(report), render_summary(report)):
+        assert "measured at abc1234" in text
+
+
+@pytest.mark.parametrize(
+    ("one", "other", "same"),
+    [
+        ({"sources": "a"}, {"sources": "a", "commit": "1"}, True),
+        ({"sources": "a", "commit": "1"}, {"sources": "b", "commit": "1"}, False),
+        ({"sources": None, "commit": "1"}, {"sources": "b", "commit": "1"}, True),
+        ({"sources": None, "commit": "1", "changed": True}, {"commit": "1"}, False),
+        ({"sources": None, "commit": None}, {"sources": None, "commit": None}, False),
+    ],
+)
+def test_sources_are_the_same_by_digest_or_by_commit(
+    one: dict[str, Any], other: dict[str, Any], same: bool
+) -> None:
+    first, second = (made_by().model_copy(update=changes) for changes in (one, other))
+    assert first.has_sources_of(second) is second.has_sources_of(first) is same
+
+
+def test_record_of_these_sources_goes_before_others(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("verification.report.provenance.provenance", lambda *_: made_by())
+    for place, record in (
+        ("a", made(study("stability", level="quick"), made_by(), failed=True)),
+        ("b", made(study("stability", level="full"), OTHER)),
+    ):
+        (tmp_path / place / "stability").mkdir(parents=True)
+        (tmp_path / place / "stability" / "study.json").write_text(dump_study(record))
+    for order in ("ab", "ba"):
+        (chosen,) = stored_records(tmp_path / place for place in order)
+        assert chosen.level == "quick"
+
+
+def test_study_of_another_version_is_refused(tmp_path: Path) -> None:
+    (tmp_path / "stability").mkdir()
+    path = tmp_path / "stability" / "study.json"
+    path.write_text(dump_study(study("stability")), encoding="utf-8")
+    assert len(stored_records([tmp_path])) == 1
+    edited(path, lambda record: record.update(schema_version=99))
+    with pytest.raises(ValueError, match=r"stability/study\.json"):
+        stored_records([tmp_path])
+
+
+def test_report_returns_from_its_file(places: tuple[Path, Path]) -> None:
+    assert load_report(places[0] / RECORD) == three_cases()

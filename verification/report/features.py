@@ -1,0 +1,93 @@
+"""What the program promises, each promise in one line with the figures of this report."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from verification.cases.outcome import CaseOutcome, RunRecord, Status
+from verification.report.numbers import plain
+from verification.report.record import Report
+from verification.report.sections import study_section
+from verification.studies.running.record import StudyRecord
+
+FORCED = "forced_effects"
+PLANNED_RUN, FORCED_RUN = ", as planned", ", all effects on"  # ends of the labels of its runs
+
+
+@dataclass(frozen=True)
+class Feature:
+    """A promise.
+
+    status   None where this report has nothing on it
+    figures  what was found, or the command that finds it
+    anchor   of the part of the page that shows it
+    """
+
+    promise: str
+    status: Status | None
+    figures: str
+    anchor: str
+
+
+def features(report: Report) -> tuple[Feature, ...]:
+    """Planning, accuracy and its cost, stability."""
+    return _planned(report), _accurate(report), _stable(report)
+
+
+def _planned(report: Report) -> Feature:
+    promise = "Simulate only the effects that a scene calls for"
+    case = next((case for case in report.cases if case.name == FORCED), None)
+    ratios = () if case is None else _savings(case)
+    if case is None or not ratios:
+        command = f"slipstick verify {FORCED} --level {report.level}"
+        return Feature(promise, None, f"not in this report; {command} measures it", "cases")
+    apart = max((v.error for v in case.verdicts if v.error is not None), default=0.0)
+    return Feature(
+        promise,
+        case.status,
+        f"with every effect forced on, {len(ratios)} scenes give the same answer within "
+        f"{plain(apart, 2)} and take {plain(min(ratios), 2)} to {plain(max(ratios), 2)} times the "
+        "convolutions",
+        FORCED,
+    )
+
+
+def _savings(case: CaseOutcome) -> tuple[float, ...]:
+    """Convolutions with everything forced on, over those as planned, scene by scene."""
+    runs: dict[str, RunRecord] = {run.label: run for run in case.runs}
+    pairs = (
+        (run, runs.get(label.removesuffix(PLANNED_RUN) + FORCED_RUN))
+        for label, run in runs.items()
+        if label.endswith(PLANNED_RUN)
+    )
+    return tuple(
+        forced.convolutions / planned.convolutions
+        for planned, forced in pairs
+        if forced is not None and planned.convolutions
+    )
+
+
+def _accurate(report: Report) -> Feature:
+    return _studied(report, "Know what accuracy costs", "work-precision")
+
+
+def _stable(report: Report) -> Feature:
+    return _studied(report, "Stay stable in hard cases", "stability")
+
+
+def _studied(report: Report, promise: str, name: str) -> Feature:
+    """What a study answers; what it judged, where it has no answer."""
+    section = study_section(report, name)
+    anchor = f"study-{name}"
+    if section.record is None:
+        return Feature(promise, None, f"not in this report; {section.command} finds it", anchor)
+    return Feature(promise, section.record.status, _found(section.record), anchor)
+
+
+def _found(record: StudyRecord) -> str:
+    conclusion = record.conclusion
+    if conclusion.answer:
+        return f"{conclusion.answer} (level {record.level})"
+    judged = [s for s in conclusion.statements if s.outcome is not None]
+    told = "; ".join(f"{s.claim}: {s.measured}" for s in judged)
+    return f"{told} (level {record.level})"

@@ -1,0 +1,46 @@
+"""Observed orders of convergence of a whole report, in one table."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from verification.cases.outcome import CaseOutcome, Verdict
+from verification.report.record import Report
+
+BEGINNING = "order of convergence: "  # of what such a verdict means
+
+
+@dataclass(frozen=True)
+class ObservedOrder:
+    """An order that was judged, with its case."""
+
+    case: CaseOutcome
+    verdict: Verdict
+
+    @property
+    def quantity(self) -> str:
+        """What was followed, in a word or two where the record has one."""
+        order = self.verdict.order
+        return self.detail if order is None else order.of
+
+    @property
+    def detail(self) -> str:
+        """What was followed, exactly."""
+        return self.verdict.meaning.removeprefix(BEGINNING)
+
+    @property
+    def sort_key(self) -> tuple[str, str]:
+        """Quantities together, solvers in a fixed order."""
+        order = self.verdict.order
+        return (self.verdict.name, "") if order is None else (order.of, order.solver)
+
+
+def observed_orders(report: Report) -> list[ObservedOrder]:
+    """Every judged order, by quantity and solver."""
+    found = [
+        ObservedOrder(case, verdict)
+        for case in report.cases
+        for verdict in case.verdicts
+        if verdict.tolerance_kind == "order"
+    ]
+    return sorted(found, key=lambda one: one.sort_key)
