@@ -21,7 +21,7 @@ from hypothesis import strategies as st
 
 from contact_scene.solver_errors import GrossSliding, NotConverged
 from contact_scene.summary import ContactStatus
-from fem_reference.harmonics import newton
+from fem_reference.harmonics import alternation, newton, shearing
 from fem_reference.harmonics.admissible_shear import into_discs, project
 from fem_reference.harmonics.angular_grid import axisymmetric_grid, end_grid, mid_grid
 from fem_reference.harmonics.increment import advance
@@ -328,6 +328,123 @@ def test_newton_takes_over_where_taking_turns_does_not_converge():
     state = pressed(of, hertz_force(0.0), 3)
     state = sheared(of, state, 0.9 * 8.0 * state.normal_force)
     assert state.residuals.worst <= TOLERANCE
+
+
+# Two ways to lead the first increment, each with a tangential load of part of the friction limit.
+FIRST = {
+    "by force": lambda mu, part: (
+        NormalTarget(force=hertz_force(0.3)),
+        TangentialTarget(force=part * mu * hertz_force(0.3)),
+    ),
+    "by motion": lambda mu, part: (NormalTarget(approach=1.0), TangentialTarget(shift=part * mu)),
+}
+
+
+def few_points(mu, **more):
+    return contact(STEEL, mu=mu, per_radius=10, grid=end_grid(4), **more)
+
+
+@pytest.mark.parametrize("part", [0.0, 0.05, 0.3, 0.9])
+@pytest.mark.parametrize("mu", [0.1, 0.3, 3.0, 12.0])
+@pytest.mark.parametrize("led", FIRST)
+def test_newton_alone_solves_a_first_increment(led, mu, part, monkeypatch):
+    monkeypatch.setattr(alternation, "MOST_TURNS", 0)
+    state = advance(few_points(mu), None, *FIRST[led](mu, part), TOLERANCE)
+    assert state.turns == 0
+    assert state.residuals.worst <= TOLERANCE
+
+
+@pytest.mark.parametrize("led", FIRST)
+def test_newton_and_turns_agree_on_a_first_increment(led, monkeypatch):
+    of, loads = few_points(0.3), FIRST[led](0.3, 0.6)
+    by_turns = advance(of, None, *loads, 1e-10)
+    monkeypatch.setattr(alternation, "MOST_TURNS", 0)
+    by_newton = advance(of, None, *loads, 1e-10)
+    np.testing.assert_allclose(by_newton.pressure, by_turns.pressure, atol=1e-8)
+    np.testing.assert_allclose(by_newton.shear, by_turns.shear, atol=1e-8)
+    assert by_newton.approach == pytest.approx(by_turns.approach, rel=1e-8)
+    assert by_newton.tangential_shift == pytest.approx(by_turns.tangential_shift, rel=1e-7)
+
+
+def test_increment_counts_what_failed_turns_took(monkeypatch):
+    of, loads = few_points(0.3), FIRST["by force"](0.3, 0.6)
+    took = {}
+    for turns in (0, 5):
+        monkeypatch.setattr(alternation, "MOST_TURNS", turns)
+        state = advance(of, None, *loads, TOLERANCE)
+        assert state.turns == turns
+        took[turns] = state.solves
+    assert took[5] >= took[0] + 2 * 5
+
+
+def test_increment_counts_what_a_failed_shear_took(monkeypatch):
+    of, loads = few_points(0.3), FIRST["by force"](0.3, 0.6)
+    took = []
+    for most in (1, 3):
+        monkeypatch.setattr(shearing, "MOST_STEPS", most)
+        took.append(advance(of, None, *loads, TOLERANCE).solves)
+    assert took[1] == took[0] + 2
+
+
+def test_failure_counts_both_methods(monkeypatch):
+    of, loads = few_points(0.3), FIRST["by force"](0.3, 0.6)
+    took = {}
+    for turns, steps in ((0, 2), (5, 2), (5, 4)):
+        monkeypatch.setattr(alternation, "MOST_TURNS", turns)
+        monkeypatch.setattr(newton, "MOST_STEPS", steps)
+        with pytest.raises(NotConverged) as failure:
+            advance(of, None, *loads, TOLERANCE)
+        took[turns, steps] = failure.value.iterations
+    assert took[5, 2] >= took[0, 2] + 2 * 5
+    assert took[5, 4] == took[5, 2] + 2
+
+
+def singular(*_, **__):
+    raise np.linalg.LinAlgError("singular")
+
+
+def test_newton_takes_over_where_a_turn_is_singular(monkeypatch):
+    monkeypatch.setattr(shearing, "cho_factor", singular)
+    state = advance(few_points(0.3), None, *FIRST["by motion"](0.3, 0.6), TOLERANCE)
+    assert state.residuals.worst <= TOLERANCE
+
+
+@pytest.mark.parametrize("led", FIRST)
+def test_singular_equations_are_an_increment_that_does_not_converge(led, monkeypatch):
+    monkeypatch.setattr(shearing, "cho_factor", singular)
+    monkeypatch.setattr(np.linalg, "solve", singular)
+    with pytest.raises(NotConverged):
+        advance(few_points(0.3), None, *FIRST[led](0.3, 0.6), TOLERANCE)
+
+
+def test_approach_that_touches_no_point_does_not_converge():
+    of = few_points(0.3)
+    short = NormalTarget(approach=0.5 * np.min(of.gap))
+    with pytest.raises(NotConverged):
+        advance(of, None, short, TangentialTarget(shift=0.1), TOLERANCE)
+
+
+@pytest.mark.parametrize("led", FIRST)
+def test_newton_takes_no_step_that_it_has_not_tried(led, monkeypatch):
+    system = newton._System
+    tried, taken = [], []
+    missed, linearised = system.missed, system.linearised
+
+    def trying(self, at):
+        tried.append(at)
+        return missed(self, at)
+
+    def taking(self, at):
+        taken.append(at)
+        return linearised(self, at)
+
+    monkeypatch.setattr(system, "missed", trying)
+    monkeypatch.setattr(system, "linearised", taking)
+    monkeypatch.setattr(alternation, "MOST_TURNS", 0)
+    monkeypatch.setattr(newton, "MOST_HALVINGS", 2)
+    advance(few_points(12.0), None, *FIRST[led](12.0, 0.6), TOLERANCE)
+    starts = [at for at in taken if not any(at is trial for trial in tried)]
+    assert len(taken) > len(starts) == 1
 
 
 def test_failure_is_loud(monkeypatch):

@@ -2,19 +2,26 @@
 
 from dataclasses import replace
 
+import numpy as np
 import pytest
 
-from contact_scene import Body, LoadStep
+import semi_analytical
+from contact_scene import Body, CoulombFriction, LoadStep
+from contact_scene.solver_errors import NotConverged
 from fem_reference import Method
+from verification.cases import coupled_history
 from verification.cases import paper_scene as paper
-from verification.cases.case import SOLVER_TOLERANCE, Run
+from verification.cases.case import SOLVER_TOLERANCE, Case, Run
 from verification.cases.judgement import solve_run
-from verification.cases.law_verdicts import OTHER_NORMS
+from verification.cases.law_verdicts import OTHER_NORMS, judge_laws
 from verification.cases.layered_scene import SUBSTRATE, pressed, rigid_ball
+from verification.cases.outcome import Status
 from verification.cases.paper_scene import FRICTION_LIMIT, NORMAL_FORCE, NU_ZERO, STEEL
 from verification.cases.section_run import SectionRun, per_radius
 from verification.cases.torsion import torque_step
+from verification.cases.verdicts import judge_quantity
 from verification.observed.laws import observed
+from verification.observed.prescribed import missed
 
 ALLOWED = OTHER_NORMS * SOLVER_TOLERANCE
 SEEN = 10 * ALLOWED
@@ -41,6 +48,22 @@ def coupled():
     return smooth.model_copy(update={"friction": friction})
 
 
+def slippery(scene):
+    return scene.model_copy(update={"friction": CoulombFriction(coefficient=0.0)})
+
+
+SLIDE = LoadStep(tangential_shift=(1e-7, 0.0), increments=1)
+TURN = LoadStep(twist=1e-4, increments=1)
+SMOOTH = {
+    "coupled": slippery(coupled()),
+    "slid": slippery(scene(SLIDE)),
+    "turned": slippery(paper.frictional("Turned", paper.paraboloid(STEEL), STEEL, TURN)),
+}
+WAYS = {
+    "cells": lambda scene: Run("cells", scene, GRID),
+    "rings": lambda scene: SectionRun("rings", scene, MESH),
+    "springs": lambda scene: SectionRun("springs", scene, MESH, Method.PENALTY),
+}
 LOOP = push(0.6), push(-0.3)
 RUNS = {
     "cells": Run("cells", scene(*LOOP, push(-0.3, 0.4)), GRID),
@@ -132,3 +155,66 @@ def test_shift_told_wrong_by_elements_is_seen(solved, method, factor):
 def test_number_that_is_not_finite_is_a_violation(solved):
     assert observed(changed(solved["cells"], pressure=float("nan")))[0] == float("inf")
     assert observed(changed(solved["rings"], pressure=float("nan")))[0] == float("inf")
+
+
+@pytest.mark.parametrize("way", WAYS)
+@pytest.mark.parametrize("history", SMOOTH)
+def test_no_shear_without_friction(history, way):
+    result = solve_run(WAYS[way](SMOOTH[history]))
+    assert max(observed(result)) <= ALLOWED
+    *before, last = result.increments
+    names = "shear", "shear_radial", "shear_along_load", "shear_circumferential"
+    name = next(name for name in names if getattr(last, name, None) is not None)
+    planted = np.full_like(getattr(last, name), 1e-3 * last.peak_pressure)
+    wrong = replace(last, **{name: planted})
+    assert observed(replace(result, increments=(*before, wrong)))[0] > SEEN
+
+
+@pytest.mark.parametrize("name", ["cells", "rings", "springs"])
+def test_prescribed_force_that_is_not_told_is_missed(solved, name):
+    *before, last = solved[name].increments
+    untold = replace(solved[name], increments=(*before, replace(last, tangential_force=None)))
+    assert max(missed(untold.scene, untold.steps)) > SEEN
+
+
+@pytest.mark.parametrize("name", ["cells", "rings", "springs"])
+def test_increments_that_cannot_be_held_against_laws_are_counted(solved, name):
+    result, run = solved[name], RUNS[name]
+    case = Case("planted", "", "", (run,), ())
+    whole = [verdict.meaning for verdict in judge_laws(case, {run.label: result})]
+    assert all(meaning.endswith("it is in this one") for meaning in whole)
+    *before, last = result.increments
+    halved = replace(result, increments=(*before, replace(last, halvings=1)))
+    count = len(result.increments)
+    laws, energy = judge_laws(case, {run.label: halved})
+    assert laws.meaning.endswith(f"in 1 of {count} increments slip is not held against shear")
+    assert energy.meaning.endswith(f"in 1 of {count} increments this is not looked at")
+
+
+def test_energy_that_is_taken_as_told_is_counted():
+    run = Run("cells, coupled", coupled(), GRID)
+    _, energy = judge_laws(Case("planted", "", "", (run,), ()), {run.label: solve_run(run)})
+    assert "in 2 of 3 increments a contact with friction has grown" in energy.meaning
+
+
+def gives_up(*_given):
+    raise NotConverged("planted", iterations=1, residual=1.0, tolerance=1e-8)
+
+
+def test_history_that_cannot_be_led_by_its_motion_fails(monkeypatch):
+    case = coupled_history.coupled_history_on(16, 8, 2)
+    run = next(run for run in case.runs if run.label == case.quantities[0].run)
+    result = solve_run(run)
+    monkeypatch.setattr(semi_analytical, "solve", gives_up)
+    verdicts = [judge_quantity(q, case, {run.label: result}) for q in case.quantities[:2]]
+    assert [verdict.status for verdict in verdicts] == [Status.FAIL, Status.FAIL]
+    assert [verdict.value for verdict in verdicts] == [None, None]
+
+
+def test_history_led_by_its_motion_is_held_to_the_limit_of_every_run(monkeypatch):
+    case = coupled_history.coupled_history_on(16, 8, 2)
+    laws = case.quantities[1]
+    results = {laws.run: solve_run(case.run(laws.run))}
+    assert judge_quantity(laws, case, results).status is Status.PASS
+    monkeypatch.setattr(coupled_history, "observed", lambda result: (2 * ALLOWED, None))
+    assert judge_quantity(laws, case, results).status is Status.FAIL

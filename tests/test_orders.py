@@ -8,13 +8,22 @@ from typing import Any
 import numpy as np
 import pytest
 
-from verification.cases.case import Case, Followed, Level, OrderOfConvergence, Refinement
+from verification.cases.case import (
+    Case,
+    Derived,
+    Followed,
+    Level,
+    OrderOfConvergence,
+    Quantity,
+    Refinement,
+    identity,
+)
 from verification.cases.catalogue import catalogue
 from verification.cases.chart import Look
 from verification.cases.convergence_chart import convergence_chart
-from verification.cases.orders import REASONS, SECTION, SURFACE, not_judged
+from verification.cases.orders import LATER, REASONS, SECTION, SURFACE, not_judged
 from verification.cases.outcome import Status, Verdict
-from verification.cases.verdicts import judge_order
+from verification.cases.verdicts import judge_order, judge_quantity
 from verification.convergence import observed_order
 
 SIZES = 0.1 * 2.0 ** (-np.arange(6) / 2)
@@ -24,15 +33,15 @@ PLACES: list[Place] = list(product(Followed, (SURFACE, SECTION), Refinement))
 
 
 @cache
-def judged_at_standard() -> frozenset[Place]:
-    """What the standard level judges the order of."""
+def judged_at(level: Level) -> frozenset[Place]:
+    """What a level judges the order of."""
     return frozenset(
         (
             order.of,
             case.run(order.levels[0]).solver,
             Refinement.MESH if isinstance(order, OrderOfConvergence) else order.refined,
         )
-        for case in catalogue(Level.STANDARD).values()
+        for case in catalogue(level).values()
         for order in case.orders
     )
 
@@ -58,14 +67,15 @@ def judged(errors: np.ndarray, expected: float) -> Verdict:
 
 @pytest.mark.parametrize("place", PLACES, ids=str)
 def test_every_order_is_judged_or_has_a_reason_why_not(place: Place) -> None:
-    assert (place in judged_at_standard()) != (place in REASONS)
+    assert (place in judged_at(Level.STANDARD)) != (place in REASONS or place in LATER)
+    assert (place in judged_at(Level.FULL)) != (place in REASONS)
 
 
 @pytest.mark.parametrize(
     "place", list(product(NAMED, (SURFACE, SECTION), [Refinement.MESH])), ids=str
 )
 def test_headline_quantities_are_judged_on_finer_meshes(place: Place) -> None:
-    assert place in judged_at_standard()
+    assert place in judged_at(Level.STANDARD)
 
 
 def test_a_judged_order_needs_no_reason() -> None:
@@ -107,3 +117,23 @@ def test_drawn_line_is_the_judged_one(rng: np.random.Generator) -> None:
 def test_errors_that_vanish_are_drawn_without_a_line() -> None:
     chart = convergence_chart("c", "", "", list(SIZES), {"value": [0.0] * len(SIZES)}, {})
     assert {curve.look for curve in chart.rows[0][0].curves} == {Look.POINTS}
+
+
+@pytest.mark.parametrize(
+    ("reference", "status", "clearance"), [(0.0, Status.PASS, 0.0), (0.5, Status.FAIL, None)]
+)
+def test_values_that_refinement_does_not_change_are_judged_exactly(
+    reference: float, status: Status, clearance: float | None
+) -> None:
+    labels = "coarse", "finer", "finest"
+    runs: Any = tuple(
+        SimpleNamespace(label=label, spacing=size)
+        for label, size in zip(labels, SIZES, strict=False)
+    )
+    quantity = Quantity(
+        "constant", "", "", "finest", lambda result: result, identity(reference, "planted"),
+        Derived(labels, 1.0, 1.0, "planted"), 1.0,
+    )  # fmt: skip
+    case = Case("planted", "", "", runs, (quantity,))
+    verdict = judge_quantity(quantity, case, dict.fromkeys(labels, 0.0))
+    assert (verdict.allowed, verdict.status, verdict.clearance) == (0.0, status, clearance)

@@ -286,6 +286,19 @@ def test_a_broken_record_of_a_study_is_named(tmp_path: Path) -> None:
     (tmp_path / "broken" / "study.json").write_text("{", encoding="utf-8")
     with pytest.raises(ValueError, match=r"broken/study\.json"):
         stored_records([tmp_path])
+    told: list[str] = []
+    assert stored_records([tmp_path], told.append) == ()
+    assert len(told) == 1
+    assert "broken/study.json" in told[0]
+
+
+def test_cells_of_somebodys_choice_are_no_level_of_a_study(tmp_path: Path) -> None:
+    record = study("stability", "coarse", "full")
+    made = record.provenance.model_copy(update={"command": "slipstick study stability --cells 16"})
+    (tmp_path / "coarse").mkdir()
+    text = dump_study(record.model_copy(update={"provenance": made}))
+    (tmp_path / "coarse" / "study.json").write_text(text, encoding="utf-8")
+    assert stored_records([tmp_path]) == ()
 
 
 def test_summary_names_the_studies() -> None:

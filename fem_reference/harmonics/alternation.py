@@ -66,6 +66,15 @@ class CoupledSolution:
     solves: int
 
 
+class TurnsFailed(NotConverged):
+    """Turns that ended without a solution, and the linear solves that they took."""
+
+    def __init__(self, turns: int, solves: int, residual: float, tolerance: float) -> None:
+        super().__init__("the coupled increment", solves, residual, tolerance)
+        self.turns = turns
+        self.solves = solves
+
+
 def solve_coupled(
     problem: CoupledProblem, pressure: Vector, shear: Field, tolerance: float
 ) -> CoupledSolution:
@@ -73,33 +82,59 @@ def solve_coupled(
 
     tolerance  of the change of the pressure by a turn, Σ w |p' − p| / Σ w p'; the shear is solved
                to a tenth of it in the end
-    raises     NotConverged
+    raises     TurnsFailed
     """
     w, target = problem.compliance.areas, problem.normal
-    q, solves, change = shear, 0, np.inf
+    q, turn, solves, change = shear, 0, 0, np.inf
     inner, tightest = max(LOOSEST, 0.1 * tolerance), 0.1 * tolerance
-    pressed = _press(problem, q, np.where(pressure > 0, 0, -1).astype(np.int8))
     known = _Anderson(w, target.force)
-    p = pressed.values
-    for turn in range(1, MOST_TURNS + 1):
-        sheared = _shear(problem, p, q, inner)
-        q = sheared.shear
-        pressed = _press(problem, q, pressed.sides)
-        solves += sheared.solves + pressed.steps
-        change = float(np.sum(w * np.abs(pressed.values - p)) / np.sum(w * pressed.values))
-        if change <= tolerance and inner <= tightest:
-            approach = pressed.multiplier if target.approach is None else target.approach
-            return CoupledSolution(p, q, approach, sheared.shift, sheared.in_slip, turn, solves)
-        if change > tolerance:
-            p = known.next(p, pressed.values)
-            inner = max(tightest, 0.1 * inner)
-        else:
-            inner = tightest
-    raise NotConverged("the coupled increment", MOST_TURNS, change, tolerance)
+    try:
+        pressed = press(problem, q, sides_of(pressure))
+        p = pressed.values
+        for turn in range(1, MOST_TURNS + 1):
+            sheared = _shear(problem, p, q, inner)
+            q, solves = sheared.shear, solves + sheared.solves
+            pressed = press(problem, q, pressed.sides)
+            solves += pressed.steps
+            change = _change(w, p, pressed.values)
+            if change <= tolerance and inner <= tightest:
+                delta = approach_of(problem, pressed)
+                return CoupledSolution(p, q, delta, sheared.shift, sheared.in_slip, turn, solves)
+            if change > tolerance:
+                p = known.next(p, pressed.values)
+                inner = max(tightest, 0.1 * inner)
+            else:
+                inner = tightest
+    except NotConverged as error:
+        spent = solves + error.iterations
+        raise TurnsFailed(turn, spent, error.residual, error.tolerance) from error
+    except np.linalg.LinAlgError as error:
+        raise TurnsFailed(turn, solves, np.inf, tolerance) from error
+    raise TurnsFailed(turn, solves, change, tolerance)
 
 
-def _press(problem: CoupledProblem, q: Field, guess: Sides) -> BoxSolution:
-    """The pressure at a shear, with the approach as multiplier of the force."""
+def _change(areas: Vector, p: Vector, answer: Vector) -> float:
+    """Of the pressure by a turn, relative to what is left of it."""
+    carried = float(np.sum(areas * answer))
+    return float(np.sum(areas * np.abs(answer - p))) / carried if carried > 0 else np.inf
+
+
+def sides_of(pressure: Vector) -> Sides:
+    """Free where there is pressure: a guess for `press`."""
+    return np.where(pressure > 0, 0, -1).astype(np.int8)
+
+
+def approach_of(problem: CoupledProblem, pressed: BoxSolution) -> float:
+    """The prescribed approach, or that which the force takes."""
+    prescribed = problem.normal.approach
+    return pressed.multiplier if prescribed is None else prescribed
+
+
+def press(problem: CoupledProblem, q: Field, guess: Sides) -> BoxSolution:
+    """The pressure at a shear, with the approach as multiplier of the force.
+
+    Raises NotConverged, LinAlgError.
+    """
     compliance, target = problem.compliance, problem.normal
     w, K = compliance.areas, compliance.matrix
     points = len(w)

@@ -1,6 +1,6 @@
 """One load increment on points: from state to state."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -10,8 +10,10 @@ from fem_reference.harmonics.alternation import (
     AT_LIMIT,
     CoupledProblem,
     CoupledSolution,
+    TurnsFailed,
     solve_coupled,
 )
+from fem_reference.harmonics.newton import solve_by_newton
 from fem_reference.harmonics.point_contact import PointContact
 from fem_reference.harmonics.state import PointState
 from fem_reference.loads import NormalTarget, TangentialTarget
@@ -53,34 +55,36 @@ def advance(
     problem = CoupledProblem(
         contact.compliance, contact.gap, contact.friction_coefficient, target, normal, tangential
     )
-    p, q, aim, turns, solves = before.pressure, before.shear, 0.5 * tolerance, 0, 0
+    p, q, motion = before.pressure, before.shear, (before.tangential_shift, before.approach)
+    aim, turns, solves = 0.5 * tolerance, 0, 0
     for _ in range(MOST_ATTEMPTS):
-        solution = _solved(problem, before, p, q, aim)
+        solution = _solved(problem, p, q, motion, aim)
         turns, solves = turns + solution.turns, solves + solution.solves
         _refuse_sliding(problem, solution)
         state = _Trial.of(problem, before, solution).state(turns, solves)
         if state.residuals.worst <= tolerance:
             return state
         p, q, aim = solution.pressure, solution.shear, 0.1 * aim
+        motion = motion[0] if solution.shift is None else solution.shift, solution.approach
     raise NotConverged("the coupled increment", solves, state.residuals.worst, tolerance)
 
 
 def _solved(
-    problem: CoupledProblem, before: PointState, p: Vector, q: Field, tolerance: float
+    problem: CoupledProblem, p: Vector, q: Field, motion: tuple[float, float], tolerance: float
 ) -> CoupledSolution:
     """By turns, which need a shift only below the friction limit; else by Newton's method."""
     try:
         return solve_coupled(problem, p, q, tolerance)
-    except NotConverged as error:
-        taking_turns = error
-    from fem_reference.harmonics.newton import solve_by_newton
-
-    assert before.tangential_shift is not None
+    except TurnsFailed as error:
+        failed = error
     try:
-        motion = before.tangential_shift, before.approach
-        return solve_by_newton(problem, p, q, motion, tolerance)
-    except NotConverged:
-        raise taking_turns from None
+        solution = solve_by_newton(problem, p, q, motion, tolerance)
+    except NotConverged as error:
+        spent = failed.solves + error.iterations
+        raise NotConverged(
+            "the coupled increment", spent, failed.residual, failed.tolerance
+        ) from error
+    return replace(solution, turns=failed.turns, solves=failed.solves + solution.solves)
 
 
 def _refuse_sliding(problem: CoupledProblem, solution: CoupledSolution) -> None:

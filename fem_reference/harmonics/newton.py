@@ -16,7 +16,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from contact_scene.solver_errors import NotConverged
-from fem_reference.harmonics.alternation import AT_LIMIT, CoupledProblem, CoupledSolution
+from fem_reference.harmonics.alternation import (
+    AT_LIMIT,
+    CoupledProblem,
+    CoupledSolution,
+    approach_of,
+    press,
+    sides_of,
+)
 
 Field = NDArray[np.float64]
 Vector = NDArray[np.float64]
@@ -24,13 +31,13 @@ Matrix = NDArray[np.float64]
 
 MOST_STEPS = 200
 MOST_HALVINGS = 7
-REMEMBERED = 4  # misses; a step has to get below the largest of them
+REMEMBERED = 4  # misses; a step that gets below the largest of them is not shortened
 SUFFICIENT = 1e-3
 
 
 @dataclass(frozen=True)
 class _Iterate:
-    """Tractions (3 points,), r, θ, z outermost, shift and approach, and by how much they miss."""
+    """Tractions (3 points,), r, θ, z outermost, shift and approach."""
 
     tractions: Vector
     shift: float
@@ -44,38 +51,48 @@ def solve_by_newton(
     """Pressure and shear that meet all laws at once.
 
     motion     shift and approach to start from
-    tolerance  of Σ w |p − ⟨z⟩| / Σ w p and of Σ w |q − P(z)| / Σ w µp
+    tolerance  of Σ w |p − ⟨z_z⟩| / Σ w p + Σ w |q − P(z_t)| / Σ w µp, with what the forces lack
     raises     NotConverged
     """
-    system = _System(problem)
-    shift, approach = motion
-    load, press = problem.tangential.shift, problem.normal.approach
-    at = _Iterate(
-        np.concatenate([shear.ravel(), pressure]),
-        shift if load is None else load,
-        approach if press is None else press,
-    )
     misses: list[float] = []
-    for step in range(MOST_STEPS):
-        missed, jacobian, in_slip = system.linearised(at)
-        miss = system.size(missed, at)
-        if miss <= tolerance:
-            return system.solution(at, in_slip, step)
-        misses.append(miss)
-        try:
+    try:
+        at, solves = _start(problem, pressure, shear, motion)
+        system = _System(problem)
+        for step in range(MOST_STEPS):
+            missed, jacobian, in_slip = system.linearised(at)
+            misses.append(system.size(missed, at))
+            if misses[-1] <= tolerance:
+                return system.solution(at, in_slip, solves + step)
             change: Vector = np.asarray(np.linalg.solve(jacobian, -missed))
-        except np.linalg.LinAlgError:
-            break
-        if not np.isfinite(change).all():
-            break
-        length, bound = 1.0, (1 - SUFFICIENT) * max(misses[-REMEMBERED:])
-        for _ in range(MOST_HALVINGS):
-            trial = system.moved(at, np.asarray(length * change))
-            if system.size(system.missed(trial), trial) < bound:
+            if not np.isfinite(change).all():
                 break
-            length *= 0.5
-        at = system.moved(at, np.asarray(length * change))
-    raise NotConverged("the coupled increment", len(misses), min(misses), tolerance)
+            after = system.nearer(at, change, (1 - SUFFICIENT) * max(misses[-REMEMBERED:]))
+            if after is None:
+                break
+            at = after
+    except np.linalg.LinAlgError:
+        pass
+    raise NotConverged("the coupled increment", len(misses), min(misses, default=np.inf), tolerance)
+
+
+def _start(
+    problem: CoupledProblem, pressure: Vector, shear: Field, motion: tuple[float, float]
+) -> tuple[_Iterate, int]:
+    """An iterate with pressure, and the linear solves for it.
+
+    Where there is none yet it is that of frictionless contact: between bodies apart no force
+    depends on any motion, and no Newton step is defined.
+    """
+    (shift, approach), solves = motion, 0
+    if not np.any(pressure > 0):
+        pressed = press(problem, np.zeros_like(shear), sides_of(pressure))
+        pressure, approach, solves = pressed.values, approach_of(problem, pressed), pressed.steps
+    shifted, pressed_by = problem.tangential.shift, problem.normal.approach
+    return _Iterate(
+        np.concatenate([shear.ravel(), pressure]),
+        shift if shifted is None else shifted,
+        approach if pressed_by is None else pressed_by,
+    ), solves
 
 
 class _System:
@@ -134,10 +151,27 @@ class _System:
             jacobian[-1, 2 * n : 3 * n] = self.w / self.scale
         return missed, jacobian, in_slip & (bound > 0)
 
+    def nearer(self, at: _Iterate, change: Vector, bound: float) -> _Iterate | None:
+        """The first of ever shorter steps that misses by less than the bound; if none does, the one
+        that misses least: at a kink all may lead uphill. None where that is no number."""
+        nearest, least = None, np.inf
+        for halvings in range(MOST_HALVINGS + 1):
+            trial = self.moved(at, np.asarray(0.5**halvings * change))
+            with np.errstate(over="ignore", invalid="ignore"):
+                miss = self.size(self.missed(trial), trial)
+            if miss < least:
+                nearest, least = trial, miss
+            if miss < bound:
+                break
+        return nearest
+
     def size(self, missed: Vector, at: _Iterate) -> float:
-        """Of what is left, relative to the load and to what friction carries."""
+        """Of what is left: parts of the load and of what friction carries, added up; infinite where
+        no load is prescribed and none is carried."""
         n, friction = self.n, self.problem.friction_coefficient
         load = self.pressed or float(np.sum(self.w * np.abs(at.tractions[2 * n :])))
+        if not load > 0:
+            return np.inf
         by_shear = np.sum(self.w * np.hypot(*missed[: 2 * n].reshape(2, n)))
         by_shear += self.scale * abs(missed[-2]) if self.force is not None else 0.0
         by_pressure = np.sum(self.w * np.abs(missed[2 * n : 3 * n]))
@@ -153,14 +187,14 @@ class _System:
             approach=at.approach + float(change[-1]),
         )
 
-    def solution(self, at: _Iterate, in_slip: NDArray[np.bool_], steps: int) -> CoupledSolution:
+    def solution(self, at: _Iterate, in_slip: NDArray[np.bool_], solves: int) -> CoupledSolution:
         """What the laws make of an iterate, so that they hold exactly."""
         _, z_t, z_z, bound = self._equations(at)
         p = np.maximum(z_z, 0.0)
         length = np.hypot(*z_t)
         safe = np.where(length > 0, length, 1.0)
         q = z_t * np.where(length > bound, bound / safe, 1.0)
-        return CoupledSolution(p, q, at.approach, at.shift, in_slip, 1, steps)
+        return CoupledSolution(p, q, at.approach, at.shift, in_slip, 0, solves)
 
     @property
     def _carries(self) -> NDArray[np.bool_]:

@@ -177,8 +177,9 @@ class Refinement(StrEnum):
 
 @dataclass(frozen=True)
 class NotYetAsymptotic:
-    """By how much an order may differ from the expected one on these levels, beyond its interval,
-    and what is known to cause it. Raises ValueError for so much that any order would do."""
+    """By how much an order may differ from the expected one on these levels where its interval is
+    narrower than that, and what is known to cause it: of both the wider counts, not their sum.
+    Raises ValueError for so much that any order would do."""
 
     allowance: float
     because: str

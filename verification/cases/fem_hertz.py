@@ -72,7 +72,8 @@ def fem_hertz_on(elements: tuple[int, ...], studied: tuple[tuple[int, float], ..
     studied = studied or tuple((n, MIDDLE) for n in elements if n <= STUDIED)
     meshes = dict.fromkeys((*((n, MIDDLE) for n in elements), *studied))
     runs = tuple(
-        SectionRun(label(*mesh), SCENE, per_radius(mesh[0], meshed(*mesh))) for mesh in meshes
+        SectionRun(label(*mesh), SCENE, per_radius(mesh[0], meshed(*mesh)), beyond=MIDDLE)
+        for mesh in meshes
     )
     orders = tuple(label(n, place) for n, place in studied)
     n = elements[-1]

@@ -21,7 +21,7 @@ from verification.cases.case import (
 from verification.cases.chart import Chart
 from verification.cases.convergence_chart import convergence_chart
 from verification.cases.fem_hertz import meshed
-from verification.cases.fem_levels import finest, judged_within, label, order_levels
+from verification.cases.fem_levels import MIDDLE, finest, judged_within, label, order_levels
 from verification.cases.fem_profiles import radial_chart, relative_l1
 from verification.cases.loop_history import LOADED, ExactLoop, loop_energy, loop_steps
 from verification.cases.paper_scene import FRICTION, HERTZ, STEEL
@@ -72,7 +72,12 @@ def fem_partial_slip_on(elements: int, studied: tuple[tuple[int, float], ...] = 
     """
     run = SectionRun(label(elements), SCENE, per_radius(elements, 0.97 * HERTZ.contact_radius))
     sheared = tuple(
-        SectionRun(f"sheared once, {label(n, place)}", SHEARED, per_radius(n, meshed(n, place)))
+        SectionRun(
+            f"sheared once, {label(n, place)}",
+            SHEARED,
+            per_radius(n, meshed(n, place)),
+            beyond=MIDDLE,
+        )
         for n, place in studied
     )
     orders = tuple(one.label for one in sheared)

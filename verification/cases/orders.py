@@ -1,4 +1,8 @@
-"""Quantities whose order of convergence is not judged under a kind of refinement, and why."""
+"""Quantities whose order of convergence is not judged under a kind of refinement, and why.
+
+The tables are complete for the standard and for the full level: a test compares them with what
+these judge.
+"""
 
 from __future__ import annotations
 
@@ -14,9 +18,16 @@ SURFACE, SECTION = Run.solver, SectionRun.solver
 BY_COUPLING = "friction moves pressures by the coupling alone; the approach, their mean, is judged"
 SCATTERS = "increments move it by less than a part of a cell or element: scatter, of no order"
 NOTHING_TO_REFINE = (
-    "alike bodies pressed and sheared or twisted once need one increment, which is exact"
+    "a twist does not act back on the pressure: bodies pressed and twisted once need one increment"
 )
 ELSEWHERE = "judged by other cases, or from the standard level on"
+# Not judged at the standard level, but at the full one.
+LATER = {
+    (Followed.ENERGY, SURFACE, Refinement.INCREMENTS): (
+        "up to 64 increments per step it falls faster than by any one order; judged at the full "
+        "level, on more of them"
+    ),
+}
 REASONS = {
     (Followed.PRESSURE, SURFACE, Refinement.INCREMENTS): BY_COUPLING,
     (Followed.PRESSURE, SECTION, Refinement.INCREMENTS): BY_COUPLING,
@@ -27,7 +38,11 @@ REASONS = {
         "the error is A h + B h², A from reading the edge off the last two pressures and B from "
         "these; on the meshes of fem_hertz neither dominates, as its chart shows"
     ),
-    (Followed.SHIFT, SECTION, Refinement.INCREMENTS): NOTHING_TO_REFINE,
+    (Followed.SHIFT, SECTION, Refinement.INCREMENTS): (
+        "bodies that are alike need one increment; of those that couple coupled_history holds the "
+        "shift against the other solver on the same increments, and sheared_increments judges the "
+        "order of that one"
+    ),
     (Followed.TWIST, SURFACE, Refinement.MESH): (
         "the rim of a punch is a staircase of cells; torsion judges the order of its shear"
     ),
@@ -55,7 +70,7 @@ def not_judged(outcomes: Iterable[CaseOutcome]) -> tuple[NotJudged, ...]:
         if verdict.order is not None
     }
     return tuple(
-        NotJudged(*place, REASONS.get(place, ELSEWHERE))
+        NotJudged(*place, (REASONS | LATER).get(place, ELSEWHERE))
         for place in product(Followed, (SURFACE, SECTION), Refinement)
         if place not in judged
     )

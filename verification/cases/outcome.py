@@ -87,15 +87,20 @@ class Verdict(Description):
 
     @property
     def clearance(self) -> float | None:
-        """Error as a part of what is allowed; above 1 is a failure."""
-        return None if self.error is None else self.error / self.allowed
+        """Error as a part of what is allowed; above 1 is a failure. None without an error in
+        numbers, and for one where nothing is allowed."""
+        if self.error is None or (self.allowed == 0 and self.error > 0):
+            return None
+        return 0.0 if self.error == 0 else self.error / self.allowed
 
 
 def _contradiction(verdict: Verdict) -> str:
     """What the numbers of a verdict do not agree about; empty if they do."""
     if verdict.tolerance_kind not in TOLERANCE_KINDS:
         return f"its tolerance is {verdict.tolerance_kind!r}, not {', '.join(TOLERANCE_KINDS)}"
-    if not (verdict.scale > 0 and verdict.allowed > 0):
+    # Uncertainties that are derived vanish where refinement changes nothing.
+    allows = verdict.allowed > 0 or (verdict.allowed == 0 and verdict.tolerance_kind == "derived")
+    if not (verdict.scale > 0 and allows):
         return f"it allows {verdict.allowed:g} of {verdict.scale:g}; both are positive"
     if not _is_error(verdict):
         return (

@@ -132,9 +132,9 @@ def _verified(
         refuse_if_unwritable(directory)
         baselines = read_baselines()  # a damaged one is better known before hours of work
         try:
-            studies = stored_records(PLACES if places is None else places)
+            studies = stored_records(*((PLACES, _left_out) if places is None else (places,)))
         except ValueError as error:
-            typer.echo(f"error: {error}; --studies names another folder", err=True)
+            typer.echo(f"error: {error}", err=True)
             raise typer.Exit(ExitCode.INVALID) from None
         outcomes, seconds = judged(cases, level.name, directory, workers, fresh=fresh)
         command = " ".join(["slipstick verify", *names, f"--level {level}"])
@@ -157,6 +157,10 @@ def _print_list(cases: tuple[Case, ...]) -> None:
 
     rows = ((case.name, str(len(case.runs)), case.title) for case in cases)
     print_table(("case", "solves", "title"), rows)
+
+
+def _left_out(problem: str) -> None:
+    typer.echo(f"WARN {problem}: left out; --studies names another folder", err=True)
 
 
 def _print_outcome(report: Report, directory: Path) -> None:

@@ -15,26 +15,26 @@ if TYPE_CHECKING:
 
 def missed(scene: Scene, steps: Sequence[Any]) -> Iterator[float]:
     """How far the end of every step is from what is prescribed: forces over the normal force,
-    motions over the approach, rotations and moments by the contact radius.
+    motions over the approach, rotations and moments by the contact radius. Without friction
+    nothing sideways or around z is solved for, and none of it is asked here.
 
     steps  the last increment of every loading step, of either solver
     """
     for ramp, end in zip(scene.load_path(), steps, strict=True):
         force, motion, arm = end.normal_force, abs(end.approach), end.contact_radius
-        yield from _missed(ramp.normal, end.normal_force, end.approach, force, motion)
-        yield from _missed(
-            ramp.tangential, end.tangential_force, end.tangential_shift, force, motion
-        )
-        yield from _missed(ramp.twisting, end.torque, end.twist, force * arm, motion / arm)
+        yield _missed(ramp.normal, end.normal_force, end.approach, force, motion)
         moment, tilt = getattr(end, "moment", None), getattr(end, "tilt", None)
-        yield from _missed(ramp.tilting, moment, tilt, force * arm, motion / arm)
+        yield _missed(ramp.tilting, moment, tilt, force * arm, motion / arm)
+        if scene.friction is None:
+            continue
+        yield _missed(ramp.tangential, end.tangential_force, end.tangential_shift, force, motion)
+        yield _missed(ramp.twisting, end.torque, end.twist, force * arm, motion / arm)
 
 
 def _missed(
     control: ScalarControl | VectorControl, force: Any, motion: Any, *scales: float
-) -> Iterator[float]:
-    """Nothing where a solver does not tell: what is not there in a scene, or is not defined."""
+) -> float:
+    """What a solver does not tell is zero: it says so of what is not there in a scene."""
     by_force = control.kind is ControlKind.FORCE
     told, scale = (force, scales[0]) if by_force else (motion, scales[1])
-    if told is not None:
-        yield float(np.max(np.abs(np.subtract(told, control.end)))) / scale
+    return float(np.max(np.abs(np.subtract(0.0 if told is None else told, control.end)))) / scale

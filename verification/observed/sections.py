@@ -125,6 +125,9 @@ def _of_pressure(now: _Surface) -> Iterator[float]:
 def _of_shear(before: _Surface | None, now: _Surface) -> Iterator[float]:
     friction = now.rings.model.friction_coefficient
     limit = friction * now.pressure
+    if not np.any(limit):
+        yield float(np.max(np.hypot(*now.shear)) / np.max(now.pressure))
+        return
     yield float(np.max(np.hypot(*now.shear) - limit) / np.max(limit))
     weights, driven = now.rings.weights.copy(), now.rings.driven
     carried = float(np.sum(weights * driven * now.shear))

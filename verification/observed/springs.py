@@ -66,6 +66,9 @@ def _of_shear(
     told, p, q = now.told, now.p, now.q
     assert q is not None
     limit = surface.friction * p
+    if not np.any(limit):
+        yield float(np.max(np.abs(q)) / np.max(p))
+        return
     yield float(np.max(np.abs(q) - limit) / np.max(limit))
     carried = float(np.sum(surface.weights * surface.moves * q))
     most = float(np.sum(surface.weights * surface.moves * limit))

@@ -19,6 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from semi_analytical import Coupling, Increment, Result
+from verification.observed.unseen import has_grown
 
 Field = NDArray[np.float64]
 
@@ -81,14 +82,12 @@ class _State:
 def _imbalances(result: Result) -> Iterator[float]:
     cell = result.grid.cell_area
     undeformed = result.scene.indenter.initial_gap(*result.grid.coordinates())
-    before, state, grown = None, _State.at_rest(undeformed), False
+    before, state = None, _State.at_rest(undeformed)
     largest = 0.0
-    for now in result.increments:
+    for now, grown in zip(result.increments, has_grown(result.increments), strict=True):
         if now.shear is not None and now.dissipated_energy is None:
             return  # the motion is undefined, and with it all that follows
         after = _State.of(now, result, undeformed)
-        begins = (after.tractions[2] > 0) & (state.tractions[2] == 0)
-        grown |= before is not None and now.shear is not None and bool(np.any(begins))
         largest = max(largest, *(abs(e) for e in (now.elastic_energy, *_told(now))))
         elastic = 0.5 * float(np.sum(after.tractions * after.u)) * cell
         yield 0.0 if grown else abs(elastic - now.elastic_energy) / largest

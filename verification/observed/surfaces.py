@@ -62,9 +62,12 @@ def _violations(before: Increment | None, now: Increment, place: _Place) -> Iter
     yield float(abs(np.sum(p) * place.cell_area / now.normal_force - 1))
     yield from _moments(now, place)
     limit = place.friction * p
-    if now.shear is None or not np.any(limit):
+    if now.shear is None:
         return
     q = now.shear
+    if not np.any(limit):
+        yield float(np.max(np.hypot(*q)) / np.max(p))
+        return
     yield float(np.max(np.hypot(*q) - limit) / np.max(limit))
     assert now.tangential_force is not None
     carried = np.sum(q, axis=(1, 2)) * place.cell_area

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from verification.cases.outcome import CaseOutcome, RunRecord, Status
+from verification.cases.outcome import CaseOutcome, RunRecord, Status, Verdict
 from verification.report.numbers import plain
 from verification.report.record import Report
 from verification.report.sections import study_section
@@ -41,7 +41,9 @@ def _planned(report: Report) -> Feature:
     if case is None or not ratios:
         command = f"slipstick verify {FORCED} --level {report.level}"
         return Feature(promise, None, f"not in this report; {command} measures it", "cases")
-    apart = max((v.error for v in case.verdicts if v.error is not None), default=0.0)
+    apart = max(
+        (v.error for v in case.verdicts if v.error is not None and _of_a_pair(v)), default=0.0
+    )
     return Feature(
         promise,
         case.status,
@@ -50,6 +52,11 @@ def _planned(report: Report) -> Feature:
         "convolutions",
         FORCED,
     )
+
+
+def _of_a_pair(verdict: Verdict) -> bool:
+    """Whether it compares a scene as planned with the same one with everything forced on."""
+    return PLANNED_RUN in verdict.run and FORCED_RUN in verdict.run
 
 
 def _savings(case: CaseOutcome) -> tuple[float, ...]:

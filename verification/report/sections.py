@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -22,6 +22,7 @@ TITLES = {
 }
 LEVELS = ("quick", "standard", "full")
 PLACES = (Path("reports/studies"), Path("out"))  # where records are looked for
+OWN_CELLS = "--cells"
 
 
 @dataclass(frozen=True)
@@ -49,12 +50,16 @@ def study_of(report: Report, name: str) -> StudyRecord | None:
     return next((record for record in report.studies if record.name == name), None)
 
 
-def stored_records(places: Iterable[Path] = PLACES) -> tuple[StudyRecord, ...]:
+def stored_records(
+    places: Iterable[Path] = PLACES, left_out: Callable[[str], None] | None = None
+) -> tuple[StudyRecord, ...]:
     """Of every study that the page has a place for the record that tells most about these sources;
     by name. One that they have made goes before those of others, whatever their level; then the
-    higher level, and of two such the later.
+    higher level, and of two such the later. What was computed on cells of somebody's choice is no
+    level of a study.
 
-    raises  ValueError for a record that is broken or of another version, naming its file
+    left_out  is told of a record that is broken or of another version; without it that raises
+              ValueError, naming the file
     """
     from verification.report.provenance import provenance
     from verification.studies.running.files import stored_studies  # it draws
@@ -62,8 +67,10 @@ def stored_records(places: Iterable[Path] = PLACES) -> tuple[StudyRecord, ...]:
     now = provenance("", {})
     best: dict[str, StudyRecord] = {}
     for place in places:
-        for record in stored_studies(place):
-            if record.name in TITLES and (_rank(record, now) >= _rank(best.get(record.name), now)):
+        for record in stored_studies(place, left_out):
+            if OWN_CELLS in record.provenance.command or record.name not in TITLES:
+                continue
+            if _rank(record, now) >= _rank(best.get(record.name), now):
                 best[record.name] = record
     return tuple(best[name] for name in sorted(best))
 

@@ -91,7 +91,7 @@ def _of_elements(scene: StudiedScene, method: Method) -> Refinement:
         )
 
     augmentations = asked.augmentations if method is Method.PENALTY else None
-    expected = by_elements(start.contents.scene, augmentations)
+    expected = by_elements(start.contents.scene, start.couples, augmentations)
     return Refinement("mesh", levels, expected, "element side / contact radius", asked.tolerance)
 
 

@@ -1,0 +1,89 @@
+"""Increments that cannot be held against every law, as what they return does not tell enough."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+import semi_analytical
+
+SHEAR = "shear", "shear_radial", "shear_along_load", "shear_circumferential"
+
+
+@dataclass(frozen=True)
+class Unseen:
+    """How many increments of how many.
+
+    slip    with shear, whose slip is not held against it: they were halved, and slip may have
+            turned on the way, or the motion of the indenter is undefined
+    energy  not held against the first law: they were halved, or follow one with shear whose motion
+            is undefined
+    told    on a surface grid: in these the stored energy and what the increment leaves open are
+            taken as told, as a contact with friction has grown since it was first pressed
+    """
+
+    increments: int = 0
+    slip: int = 0
+    energy: int = 0
+    told: int = 0
+
+    def __add__(self, other: Unseen) -> Unseen:
+        return Unseen(
+            self.increments + other.increments,
+            self.slip + other.slip,
+            self.energy + other.energy,
+            self.told + other.told,
+        )
+
+    @property
+    def of_slip(self) -> str:
+        """In words; empty if all are seen."""
+        return _words((self.slip, "slip is not held against shear"), of=self.increments)
+
+    @property
+    def of_energy(self) -> str:
+        """In words; empty if all are seen."""
+        return _words(
+            (self.energy, "this is not looked at"),
+            (self.told, "a contact with friction has grown, and what is stored and left open is "
+             "taken as told"),
+            of=self.increments,
+        )  # fmt: skip
+
+
+def unseen(result: Any) -> Unseen:
+    """In a result of either solver."""
+    increments = result.increments
+    on_grid = isinstance(result, semi_analytical.Result)
+    grown = list(has_grown(increments)) if on_grid else [False] * len(increments)
+    found, undefined = Unseen(), False
+    for now, has in zip(increments, grown, strict=True):
+        lost = has_shear(now) and now.dissipated_energy is None
+        undefined |= lost
+        halved = now.halvings > 0
+        skipped = halved or undefined
+        slip = has_shear(now) and (halved or lost)
+        found += Unseen(1, slip=int(slip), energy=int(skipped), told=int(has and not skipped))
+    return found
+
+
+def has_shear(told: Any) -> bool:
+    """Whether an increment of either solver tells a shear."""
+    return any(getattr(told, name, None) is not None for name in SHEAR)
+
+
+def has_grown(increments: Iterable[semi_analytical.Increment]) -> Iterator[bool]:
+    """Whether a contact with friction has grown since it was first pressed, for each increment."""
+    before, grown = None, False
+    for now in increments:
+        if before is not None and now.shear is not None:
+            grown |= bool(np.any((now.pressure > 0) & (before.pressure == 0)))
+        yield grown
+        before = now
+
+
+def _words(*found: tuple[int, str], of: int) -> str:
+    return "".join(f"; in {count} of {of} increments {what}" for count, what in found if count)
