@@ -15,9 +15,9 @@ SHEAR_ARRAYS = 82
 # Arms and unit motions, and what they are multiplied with.
 TILT_ARRAYS = 10
 TORSION_ARRAYS = 36
-# Spectra of the coupling, and the pressures that the alternation remembers; strong coupling, which
-# remembers more of them, was measured to need no more than weak.
-COUPLING_ARRAYS = {Coupling.NONE: 0, Coupling.ONE_WAY: 33, Coupling.FULL: 75}
+# Spectra of the coupling, and the pressures that the alternation remembers: more of them, and two
+# per cent more memory, where coupling is strong.
+COUPLING_ARRAYS = {Coupling.NONE: 0, Coupling.ONE_WAY: 33, Coupling.FULL: 80}
 # Arrays that every increment leaves behind: pressure and gap; shear, slip, its distance and
 # dissipation, and masks.
 PRESSURE_RESULT = 2
