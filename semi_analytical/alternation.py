@@ -24,11 +24,20 @@ from semi_analytical.normal import solve_normal
 from semi_analytical.normal_load import Motion, NormalLoad
 from semi_analytical.tangential import TangentialSolution, solve_tangential
 
-MOST_ROUNDS = 150
-# A residual above this after so many rounds comes down sooner in two halves of the increment.
+MOST_ROUNDS = 200
+# Of all its inner solves together. The dearest of the stability map's cells that converges takes
+# 10 300, below a film a thousand times as stiff as its base; nine in ten take less than a hundred.
+MOST_ITERATIONS = 12_000
+# A residual above this after so many rounds comes down sooner from the start again, in rounds that
+# go only a part of the way: the contact may have fallen apart, and from there nothing leads back.
 LATE, HOPELESS = 50, 3e-2
+CAUTIOUS = 0.2
 # Part of its residual that each inner solve leaves: as much as a round of weak coupling does.
 ENOUGH = 0.1
+# Below a film like a plate a gap hardly feels the pressure's ripples (the condition number is 1e7),
+# and where a solve stops decides on them: extrapolation finds nothing to go by. A solve of more
+# iterations than WORKED gives that away; from then on the solves leave only this part.
+WORKED, THOROUGH = 50, 1e-3
 REMEMBERED = 30
 # Squared part of a difference below which the others explain it.
 DEPENDENT = 1e-13
@@ -95,13 +104,13 @@ def solve_coupled(
 ) -> CoupledSolution:
     """Alternate from a first pressure, shear and motion until all residuals meet the tolerance.
 
-    An inner solve reduces the residual that it finds by a fixed factor, and stops early only once
+    An inner solve reduces the residual that it finds by a given factor, and stops early only once
     that meets the tolerance. So a pressure at which the shear was solved, and which is then found
     to be in equilibrium with that shear, solves the coupled problem.
     raises  NotConverged
     """
-    p, q = pressure, shear
-    iterations = 0
+    p, q, first_motion = pressure, shear, motion
+    iterations, enough = 0, ENOUGH
     history = _Anderson(problem.normal_load)
     for rounds in range(1, MOST_ROUNDS + 1):
         bound = problem.friction_coefficient * p
@@ -119,7 +128,7 @@ def solve_coupled(
                 motion,
                 problem.self_compliance,
                 tolerance,
-                ENOUGH,
+                enough,
             )
         q, motion = sheared.shear, sheared.motion
         pressed = solve_normal(
@@ -129,7 +138,7 @@ def solve_coupled(
             problem.normal_load,
             p,
             tolerance,
-            ENOUGH,
+            enough,
         )
         iterations += sheared.iterations + pressed.iterations
         residual = max(sheared.residual, pressed.first_residual)
@@ -138,11 +147,18 @@ def solve_coupled(
             return CoupledSolution(
                 p, q, closing, motion, sheared.in_slip, at_limit, iterations, rounds
             )
-        if rounds == LATE and residual > HOPELESS:
+        if iterations > MOST_ITERATIONS:
             break
+        if rounds == LATE and residual > HOPELESS:
+            p, q, motion = pressure, shear, first_motion
+            history = _Anderson(problem.normal_load, CAUTIOUS)
+            continue
         # Where the pressure already fits, only the shear goes on.
         if pressed.first_residual > tolerance:
             p = history.next(p, pressed.pressure)
+        if enough != THOROUGH and rounds > 1 and pressed.iterations > WORKED:
+            p, enough = pressed.pressure, THOROUGH
+            history = _Anderson(problem.normal_load, history.part)
     raise NotConverged("the coupled increment", iterations, residual, tolerance)
 
 
@@ -153,9 +169,10 @@ def _full_slip(problem: CoupledProblem, bound: Field, motion: Vector) -> Tangent
 
 
 class _Anderson:
-    """The next point of a fixed-point iteration x -> x + r, as if r were linear in x."""
+    """The next point of a fixed-point iteration x -> x + part r, as if r were linear in x."""
 
-    def __init__(self, load: NormalLoad) -> None:
+    def __init__(self, load: NormalLoad, part: float = 1.0) -> None:
+        self.part = part
         self._load = load
         self._points: list[Field] = []
         self._changes: list[Field] = []
@@ -165,12 +182,14 @@ class _Anderson:
         r = answer - p
         self._points = [*self._points, p][-REMEMBERED:]
         self._changes = [*self._changes, r][-REMEMBERED:]
-        guess = answer - self._extrapolation(r) if len(self._points) > 1 else answer
-        guess = np.where(answer > 0, np.maximum(guess, 0.0), 0.0)
+        guess = plain = answer if self.part == 1 else p + self.part * r
+        if len(self._points) > 1:
+            guess = plain - self._extrapolation(r)
+        guess = np.where(plain > 0, np.maximum(guess, 0.0), 0.0)
         return self._load.admissible(guess)
 
     def _extrapolation(self, r: Field) -> Field:
-        """Σ share (Δx + Δr) over the differences of known points, with Σ share Δr nearest to r."""
+        """Σ share (Δx + part Δr) over the differences of known points, Σ share Δr nearest to r."""
         d_x = np.diff(self._points, axis=0).reshape(len(self._points) - 1, -1)
         d_r = np.diff(self._changes, axis=0).reshape(len(self._points) - 1, -1)
         size = np.sqrt(np.sum(d_r * d_r, axis=1))[:, None]
@@ -178,4 +197,4 @@ class _Anderson:
         # Not by matrix products, whose rounding depends on the number of threads.
         products = np.einsum("ik,jk->ij", unit_r, unit_r)
         share = np.linalg.lstsq(products, np.einsum("ik,k->i", unit_r, r.ravel()), DEPENDENT)[0]
-        return np.asarray(np.einsum("i,ik->k", share, unit_x + unit_r)).reshape(r.shape)
+        return np.asarray(np.einsum("i,ik->k", share, unit_x + self.part * unit_r)).reshape(r.shape)

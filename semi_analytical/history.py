@@ -30,6 +30,9 @@ Advance = Callable[
 ]
 
 MOST_HALVINGS = 4
+# An increment that has taken more without converging is not cut any further. The last attempt that
+# fails before the halves converge is over after at most 17 200 in the stability map.
+MOST_CONVOLUTIONS = 30_000
 
 
 def march(model: ContactModel, plan: Plan, tolerance: float) -> Iterator[Increment]:
@@ -58,7 +61,8 @@ def marked(
         for index, end in enumerate(fractions[behind + 1 :], start=behind + 1):
             counted, before = model.convolutions.count, state
             try:
-                state, halvings = path.reach(state, begin, end, MOST_HALVINGS)
+                until = counted + MOST_CONVOLUTIONS
+                state, halvings = path.reach(state, begin, end, MOST_HALVINGS, until)
             except SolverError as error:
                 error.where = f"step {ramp.step}, increment {index} of {count}"
                 raise
@@ -98,10 +102,10 @@ class _Path:
     tolerance: float
 
     def reach(
-        self, state: State | None, begin: float, end: float, halvings_left: int
+        self, state: State | None, begin: float, end: float, halvings_left: int, until: float
     ) -> tuple[State, int]:
         """The state at fraction `end`, in two halves where one increment does not converge, and
-        the number of halvings that took."""
+        the number of halvings that took; none after a count `until` of convolutions."""
         try:
             normal = normal_target(self.ramp, self.start, end, self.plan.tilt)
             tangential = None
@@ -110,15 +114,15 @@ class _Path:
             after = self.advance(self.model, state, normal, tangential, self.tolerance)
             return balanced(self.model, state, after), 0
         except NotConverged as error:
-            if halvings_left == 0:
+            if halvings_left == 0 or self.model.convolutions.count > until:
                 error.last_state = state
                 raise
         except SolverError as error:
             error.last_state = state
             raise
         middle = 0.5 * (begin + end)
-        state, first = self.reach(state, begin, middle, halvings_left - 1)
-        state, second = self.reach(state, middle, end, halvings_left - 1)
+        state, first = self.reach(state, begin, middle, halvings_left - 1, until)
+        state, second = self.reach(state, middle, end, halvings_left - 1, until)
         return state, 1 + first + second
 
 

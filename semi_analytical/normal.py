@@ -20,9 +20,13 @@ Mask = NDArray[np.bool_]
 
 MOST_STEPS = 200
 MOST_ITERATIONS_PER_STEP = 200
+# In one solve; the pressures of plate-like films on 48 x 48 cells were found within 8 000.
+MOST_ITERATIONS = 20_000
 MOST_HALVINGS = 5
 # Part of the residual that solves leave while cells still let go: their answers are not kept.
 ROUGHLY = 0.5
+# Part of what the slope promises by which the energy must fall.
+LEAST_FALL = 0.1
 
 
 @dataclass(frozen=True)
@@ -94,6 +98,8 @@ def solve_normal(
         aim = max(tolerance, enough * first)
         if residual <= aim:
             return NormalSolution(p, u, motion, iterations, first)
+        if iterations > MOST_ITERATIONS:
+            break
         # Deep enough to reach the tolerance if the contact set is right, shallow while it is not.
         depth = max(0.05, 0.3 * aim / residual)
         contact = allowed & ((p > 0) | (g < 0))
@@ -153,9 +159,7 @@ def _step_toward(
         if np.min(target) < 0:
             target = problem.load.admissible(target)
             target_u = problem.displace(target)
-        d, d_u = target - p, target_u - u
-        slope, curvature = np.sum(d * g), np.sum(d * d_u)
-        if slope + 0.5 * curvature <= 0.1 * slope:
+        if _falls(target - p, target_u - u, g):
             return target, target_u, 0
         step /= 2
     lower, lower_u, spent = _let_go(newton, newton_u, problem, p, u, closure)
@@ -175,20 +179,41 @@ def _let_go(
     """Towards the Newton point until the first cells let go, then without these towards the next
     one, until none is in tension (Lawson and Hanson 1974, chapter 23).
 
-    The energy falls on every part of the way, and every part rids the contact of a cell.
+    Up to half of the cells in tension let go at once, cut off at zero, as long as the energy falls
+    enough: where many must go, one after the other would take a solve each. It falls in any case
+    up to the first, so every part rids the contact of a cell.
     """
     contact = (p > 0) | (newton != 0)
-    iterations = 0
+    iterations, many = 0, newton.size
     while np.any(newton < 0):
+        if iterations > MOST_ITERATIONS:
+            return p, u, iterations
         # How far each cell in tension still is pressed; not at all if it was not before.
         part_of_way = np.where(newton < 0, p / np.where(newton < 0, p - newton, 1.0), np.inf)
-        part = np.min(part_of_way)
+        parts = np.sort(part_of_way[newton < 0])
+        many = max(1, min(2 * many, len(parts) // 2))
+        while True:
+            part = parts[many - 1]
+            target, target_u = p + part * (newton - p), u + part * (newton_u - u)
+            if part == parts[0]:
+                break
+            target = problem.load.admissible(target)
+            target_u = problem.displace(target)
+            iterations += 1
+            if _falls(target - p, target_u - u, u + problem.h - closure):
+                break
+            many //= 2
         contact = contact & (part_of_way > part)
-        p = np.where(contact, p + part * (newton - p), 0.0)
-        u = u + part * (newton_u - u)
+        p, u = np.where(contact, target, 0.0), target_u
         newton, newton_u, spent = _solve_on(contact, problem, p, u, closure, ROUGHLY)
         iterations += spent
     return newton, newton_u, iterations
+
+
+def _falls(d: Field, d_u: Field, g: Field) -> bool:
+    """Whether a change of the pressure lowers the energy as much as its slope promises."""
+    slope = np.sum(d * g)
+    return bool(slope + 0.5 * np.sum(d * d_u) <= LEAST_FALL * slope)
 
 
 def _gradient_step(problem: _Problem, p: Field, u: Field, g: Field) -> tuple[Field, Field]:

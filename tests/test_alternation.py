@@ -157,9 +157,10 @@ def test_strong_coupling_needs_the_extrapolation(plain, monkeypatch):
     assert_lawful(contact, contact.solved(*LOADS))
 
 
-def test_a_stop_above_the_tolerance_is_an_error(monkeypatch):
-    monkeypatch.setattr(alternation, "MOST_ROUNDS", 2)
-    with pytest.raises(NotConverged) as caught:
+@pytest.mark.parametrize("limit", ["MOST_ROUNDS", "MOST_ITERATIONS"])
+def test_a_stop_above_the_tolerance_is_an_error(monkeypatch, limit):
+    monkeypatch.setattr(alternation, limit, 2)
+    with pytest.raises(NotConverged, match="coupled increment") as caught:
         DenseContact(8, 0.3).solved(*LOADS)
     assert caught.value.residual > caught.value.tolerance == TOLERANCE
 

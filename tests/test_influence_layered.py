@@ -77,9 +77,9 @@ def test_table_resolves_waving_responses(stack, monkeypatch):
     reach = 2e4
     r = np.geomspace(0.1, reach, 4000)
     values = radial_table(stack, reach)(r, EVERYTHING)
-    monkeypatch.setattr("semi_analytical.influence.radial_table.NODES", 30)
-    monkeypatch.setattr("semi_analytical.influence.radial_table.FADE_CENTRE", 140.0)
-    monkeypatch.setattr("semi_analytical.influence.radial_table.FADE_WIDTH", 20.0)
+    monkeypatch.setattr("semi_analytical.influence.radial_panels.NODES", 30)
+    monkeypatch.setattr("semi_analytical.influence.hankel_points.FADE_CENTRE", 140.0)
+    monkeypatch.setattr("semi_analytical.influence.hankel_points.FADE_WIDTH", 20.0)
     finer = radial_table(stack, reach)(r, EVERYTHING)
     # Displacement by a cell of the size of its distance, over the largest of such a cell on itself.
     scale = np.maximum.accumulate(np.abs(values).max(axis=1))

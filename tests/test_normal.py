@@ -8,6 +8,7 @@ from random_compliance import as_map, compliance, rough_inverse
 from scipy.linalg import cholesky, solve_triangular
 from scipy.optimize import brentq, nnls
 
+from semi_analytical import normal
 from semi_analytical.errors import NotConverged
 from semi_analytical.normal import solve_normal
 from semi_analytical.normal_load import FixedApproach, PressureSum
@@ -104,3 +105,11 @@ def test_an_operator_that_is_not_positive_is_reported(rng):
         solved(A, rng.random(20), PressureSum(3.0))
     assert not caught.value.residual <= TOLERANCE
     assert caught.value.tolerance == TOLERANCE
+
+
+@pytest.mark.parametrize("limit", ["MOST_STEPS", "MOST_ITERATIONS"])
+def test_a_stop_above_the_tolerance_is_an_error(rng, monkeypatch, limit):
+    monkeypatch.setattr(normal, limit, 1)
+    with pytest.raises(NotConverged, match="the pressure") as caught:
+        solved(compliance(rng, 20), rng.random(20), PressureSum(3.0))
+    assert caught.value.residual > caught.value.tolerance == TOLERANCE

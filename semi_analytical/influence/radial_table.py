@@ -16,30 +16,26 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from itertools import pairwise
-from math import ceil, log2, pi, sqrt
+from math import pi
 
 import numpy as np
-from numpy.polynomial import chebyshev
 from numpy.typing import NDArray
-from scipy.special import erfc, j0, j1
+from scipy.special import j0, j1
 
 from semi_analytical.frf.stack import HalfSpace, Stack
 from semi_analytical.frf.surface import SurfaceScalars, remainder_scalars, scalars
+from semi_analytical.influence.hankel_points import faded_points, hankel_points
+from semi_analytical.influence.radial_panels import (
+    NODES,
+    coefficients_of,
+    nodes_between,
+    panel_edges,
+    places_on_panels,
+    polynomials,
+)
 
 Array = NDArray[np.float64]
 
-# Chebyshev nodes of one panel; with panels of ratio sqrt 2 the interpolation error stays below
-# 1e-13 even where a stiff film on a thin incompressible layer makes the response wave (16: 3e-11).
-NODES = 20
-GAUSS_NODES, GAUSS_WEIGHTS = np.polynomial.legendre.leggauss(16)
-# Phase of the Bessel functions across one Gauss panel: 16 points integrate 16 rad to 1e-16.
-PANEL_PHASE = 16.0
-# Below this alpha r the FRF is that of the base alone, even of one 1e12 times softer.
-SMALLEST_PHASE = 1e-18
-# The integrand is faded out around alpha r = FADE_CENTRE. What is cut off would have cancelled
-# itself: the FRF is analytic in a sector about the real axis, so it does not answer to such
-# distances at such short waves. Wide enough for poles 30 degrees off the axis, see the tests.
-FADE_CENTRE, FADE_WIDTH = 96.0, 16.0
 # exp(-2 x) x^2 is below 1e-17 from here on: the remainder of the FRF has died out.
 REMAINDER_REACH = 24.0
 
@@ -72,14 +68,8 @@ class RadialTable:
         """Interpolate some of the functions at distances r, shape (len(r), functions)."""
         coefficients = self.coefficients[:, :, functions]
         values = np.empty((len(r), coefficients.shape[2]))
-        panels = np.clip(np.searchsorted(self.edges, r) - 1, 0, len(self.coefficients) - 1)
-        for panel in range(len(self.coefficients)):
-            inside = np.flatnonzero(panels == panel)
-            if not inside.size:
-                continue
-            low, high = self.edges[panel], self.edges[panel + 1]
-            t = (2 * r[inside] - low - high) / (high - low)
-            values[inside] = chebyshev.chebvander(t, NODES - 1) @ coefficients[panel]
+        for panel, inside, place in places_on_panels(self.edges, r):
+            values[inside] = polynomials(place) @ coefficients[panel]
         return values
 
 
@@ -93,20 +83,17 @@ def radial_table(stack: Stack, reach: float) -> RadialTable:
     near = half_space_response(stack.outer)
     if not stack.layers:
         return RadialTable(np.array([0.0, reach]), _constant(near), near)
-    core = min(stack.layers[0].thickness / 2, reach)
-    panels = max(0, ceil(2 * log2(reach / core)))
-    edges = np.concatenate([[0.0], core * sqrt(2.0) ** np.arange(panels + 1)])
-    values = np.empty((panels + 1, NODES, 4))
+    edges = panel_edges(min(stack.layers[0].thickness / 2, reach), reach)
+    values = []
     for panel, (low, high) in enumerate(pairwise(edges)):
-        r = (low + high) / 2 + (high - low) / 2 * _chebyshev_nodes()
+        r = nodes_between(low, high)
         if panel == 0:
-            alpha, weight = _wavenumbers(high, REMAINDER_REACH / stack.layers[0].thickness)
-            values[panel] = near + _hankel(r, alpha, weight, remainder_scalars(stack, alpha))
+            alpha, weight = hankel_points(high, REMAINDER_REACH / stack.layers[0].thickness)
+            values.append(near + _hankel(r, alpha, weight, remainder_scalars(stack, alpha)))
         else:
-            alpha, weight = _wavenumbers(high, (FADE_CENTRE + 6 * FADE_WIDTH) / low)
-            weight *= erfc((alpha * low - FADE_CENTRE) / FADE_WIDTH) / 2
-            values[panel] = _hankel(r, alpha, weight, scalars(stack, alpha))
-    return RadialTable(edges, np.einsum("kn,pnf->pkf", _to_coefficients(), values), near)
+            alpha, weight = faded_points(low, high)
+            values.append(_hankel(r, alpha, weight, scalars(stack, alpha)))
+    return RadialTable(edges, coefficients_of(np.stack(values)), near)
 
 
 def half_space_response(material: HalfSpace) -> Array:
@@ -128,35 +115,6 @@ def _hankel(r: Array, alpha: Array, weight: Array, response: SurfaceScalars) -> 
     cross = bessel1 @ (measure * c12) / (2 * pi)
     transforms: Array = np.stack([zz, mean, twist, cross], axis=1)
     return r[:, None] * transforms
-
-
-def _wavenumbers(r: float, limit: float) -> tuple[Array, Array]:
-    """Gauss points and weights on (0, limit), fit for distances up to r.
-
-    Panels double in width, because layers of any thickness act on their own scale of alpha, until
-    the Bessel functions' phase asks for equal ones.
-    """
-    step = PANEL_PHASE / r
-    first = SMALLEST_PHASE / r
-    doublings = first * 2.0 ** np.arange(ceil(log2(step / first)) + 1)
-    equal = np.arange(doublings[-1] + step, limit + step, step)
-    bounds = np.concatenate([[0.0], doublings, equal])
-    bounds = np.append(bounds[bounds < limit], limit)
-    middle, half = (bounds[1:] + bounds[:-1]) / 2, np.diff(bounds) / 2
-    alpha = (middle[:, None] + half[:, None] * GAUSS_NODES).ravel()
-    return alpha, (half[:, None] * GAUSS_WEIGHTS).ravel()
-
-
-def _chebyshev_nodes() -> Array:
-    return np.cos((np.arange(NODES) + 0.5) * pi / NODES)
-
-
-def _to_coefficients() -> Array:
-    """Matrix from values at the Chebyshev nodes to Chebyshev coefficients."""
-    k = np.arange(NODES)
-    matrix: Array = 2 / NODES * np.cos(np.outer(k, (k + 0.5) * pi / NODES))
-    matrix[0] /= 2
-    return matrix
 
 
 def _constant(near: Array) -> Array:

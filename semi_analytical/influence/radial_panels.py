@@ -1,0 +1,55 @@
+"""Functions of the distance from a point force as Chebyshev polynomials on panels.
+
+The first panel begins at the force, and each further one is wider by the root of two: what falls
+like a power of the distance is as smooth on each as on the others.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from math import ceil, log2, pi, sqrt
+
+import numpy as np
+from numpy.polynomial import chebyshev
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+
+# Chebyshev nodes of one panel: the interpolation error stays below 1e-13 even where a stiff film on
+# a thin incompressible layer makes the response wave (16: 3e-11).
+NODES = 20
+
+
+def panel_edges(core: float, reach: float) -> Array:
+    """Bounds of the panels from zero over `core` to `reach` or beyond [length], (panels + 1,)."""
+    panels = max(0, ceil(2 * log2(reach / core)))
+    return np.concatenate([[0.0], core * sqrt(2.0) ** np.arange(panels + 1)])
+
+
+def nodes_between(low: float, high: float) -> Array:
+    """The distances on a panel at which a function is to be known, (NODES,)."""
+    on_unit = np.cos((np.arange(NODES) + 0.5) * pi / NODES)
+    return np.asarray((low + high) / 2 + (high - low) / 2 * on_unit)
+
+
+def coefficients_of(values: Array) -> Array:
+    """Chebyshev coefficients from values at the nodes, both (..., panels, NODES, functions)."""
+    k = np.arange(NODES)
+    matrix = 2 / NODES * np.cos(np.outer(k, (k + 0.5) * pi / NODES))
+    matrix[0] /= 2
+    return np.asarray(np.einsum("kn,...nf->...kf", matrix, values))
+
+
+def places_on_panels(edges: Array, r: Array) -> Iterator[tuple[int, NDArray[np.intp], Array]]:
+    """For every panel that holds some of the distances: its number, which of them, and where on
+    the panel they are, from -1 to 1."""
+    panels = np.clip(np.searchsorted(edges, r) - 1, 0, len(edges) - 2)
+    for panel in map(int, np.flatnonzero(np.bincount(panels))):
+        inside = np.flatnonzero(panels == panel)
+        low, high = edges[panel], edges[panel + 1]
+        yield panel, inside, (2 * r[inside] - low - high) / (high - low)
+
+
+def polynomials(place: Array) -> Array:
+    """The Chebyshev polynomials at places on a panel, (places, NODES)."""
+    return np.asarray(chebyshev.chebvander(place, NODES - 1))
