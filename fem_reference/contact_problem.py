@@ -14,9 +14,8 @@ from fem_reference.plan import Path
 Field = NDArray[np.float64]
 Matrix = NDArray[np.float64]
 
-# Of (r, z) for n = 0 and (r, theta, z) for n = 1.
+# Of n = 0.
 R, Z = 0, 1
-R1, THETA1 = 0, 1
 
 
 @dataclass(frozen=True)
@@ -83,16 +82,5 @@ def _sideways(model: ContactModel, hats: Hats, path: Path) -> Sideways | None:
         around = hats.compliance(model.torsion().matrix[0, :, 0])
         return Sideways(mu, around, hats.arms, None, on_axis=False)
     if path is Path.SHEARING:
-        return Sideways(mu, along_load(model, hats), hats.weights, None, on_axis=True)
+        return Sideways(mu, hats.compliance(model.along_load()), hats.weights, None, on_axis=True)
     return None
-
-
-def along_load(model: ContactModel, hats: Hats) -> Matrix:
-    """Mean over the ring of the displacement along x, per traction f(r) along x.
-
-    q_r = f cos θ and q_θ = -f sin θ, so that the mean of u_x is (u_r - u_θ)/2 in the amplitudes
-    of n = 1. What is left out, the part of u_x with cos 2θ and u_y, is Mindlin's approximation.
-    """
-    C = model.compliance(1).matrix
-    rr, rt, tr, tt = (C[i, :, j] for i in (R1, THETA1) for j in (R1, THETA1))
-    return hats.compliance(0.5 * (rr - rt - tr + tt))

@@ -96,6 +96,16 @@ class ContactModel:
         """The same for circumferential displacement and force."""
         return self._condensed(TORSION)
 
+    def along_load(self) -> Field:
+        """Mean around the axis of the displacement along x, per nodal force f(r) along x
+        [length/force].
+
+        q_r = f cos θ and q_θ = -f sin θ, so that the mean of u_x is (u_r - u_θ)/2 in the amplitudes
+        of n = 1. What is left out, the part of u_x with cos 2θ and u_y, is Mindlin's approximation.
+        """
+        C = self.compliance(1).matrix
+        return np.asarray(0.5 * (C[0, :, 0] - C[0, :, 1] - C[1, :, 0] + C[1, :, 1]))
+
     def _condensed(self, of: Motion) -> NodalCompliance:
         if of not in self._compliances:
             condensed = composite(*self.sections, of)

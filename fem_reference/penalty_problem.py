@@ -95,7 +95,7 @@ def penalty_problem(model: ContactModel, path: Path, penalty: Penalty) -> Penalt
         blocks[1, 1] = model.torsion().matrix[0, :, 0]
         motion.append(points.radii)
     elif path is Path.SHEARING:
-        blocks[1, 1] = _along_load(model.compliance(1).matrix)
+        blocks[1, 1] = model.along_load()
         motion.append(np.ones_like(points.radii))
     c, n = len(motion), len(points.radii)
     compliance = np.zeros((c, n, c, n))
@@ -138,12 +138,3 @@ def _nodes_under(model: ContactModel) -> Field:
     if not isinstance(indenter, FlatPunch):
         return model.radii
     return model.radii[model.radii <= indenter.radius * (1 + SAME)]
-
-
-def _along_load(C: Matrix) -> Matrix:
-    """Mean over a ring of the displacement along x, per traction f(r) along x.
-
-    q_r = f cos θ and q_θ = −f sin θ, and the mean of u_x is (u_r − u_θ)/2 in the amplitudes of
-    n = 1. What is left out, the part of u_x with cos 2θ and u_y, is Mindlin's approximation.
-    """
-    return np.asarray(0.5 * (C[0, :, 0] - C[0, :, 1] - C[1, :, 0] + C[1, :, 1]))

@@ -8,6 +8,7 @@ overwritten. A disk that cannot be read or written makes solves slower, not impo
 import contextlib
 import hashlib
 import io
+import math
 import os
 import tempfile
 import zipfile
@@ -19,7 +20,9 @@ from numpy.typing import NDArray
 ENDING = ".compliance.npz"
 # The directory may hold this many bytes of entries; those unused for longest are dropped first.
 MOST_BYTES = 1 << 30
-_HARMLESS = (OSError, ValueError, KeyError, EOFError, zipfile.BadZipFile)
+# What an archive holds besides the numbers of the matrix, at most [byte].
+_FRAME = 4096
+_HARMLESS = (OSError, ValueError, KeyError, EOFError, MemoryError, zipfile.BadZipFile)
 
 
 def stored(key: str, shape: tuple[int, ...]) -> NDArray[np.float64] | None:
@@ -27,14 +30,24 @@ def stored(key: str, shape: tuple[int, ...]) -> NDArray[np.float64] | None:
     entry = _entry(key)
     if entry is None:
         return None
+    most = np.dtype(np.float64).itemsize * math.prod(shape) + _FRAME
     with contextlib.suppress(*_HARMLESS):
-        content = entry.read_bytes()
+        with entry.open("rb") as file:
+            content = file.read(most + 1)
+        if len(content) > most or _unpacked_bytes(content) > most:
+            return None
         with np.load(io.BytesIO(content), allow_pickle=False) as archive:
             matrix, digest = archive["matrix"], str(archive["digest"])
         if matrix.shape == shape and matrix.dtype == np.float64 and digest == _digest(key, matrix):
             entry.touch()
             return np.ascontiguousarray(matrix)
     return None
+
+
+def _unpacked_bytes(content: bytes) -> int:
+    """What the members of an archive claim to hold, before anything is unpacked."""
+    with zipfile.ZipFile(io.BytesIO(content)) as archive:
+        return sum(member.file_size for member in archive.infolist())
 
 
 def store(key: str, matrix: NDArray[np.float64]) -> None:

@@ -1,5 +1,7 @@
 """Laws of the contact solver on points (r, θ), on compliances that know no finite elements."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from fem_point_contacts import (
@@ -21,12 +23,14 @@ from hypothesis import strategies as st
 
 from contact_scene.solver_errors import GrossSliding, NotConverged
 from contact_scene.summary import ContactStatus
-from fem_reference.harmonics import alternation, newton, shearing
+from fem_reference.harmonics import alternation, continuation, increment, newton, shearing
 from fem_reference.harmonics.admissible_shear import into_discs, project
 from fem_reference.harmonics.angular_grid import axisymmetric_grid, end_grid, mid_grid
+from fem_reference.harmonics.equations import Equations, Iterate
 from fem_reference.harmonics.increment import advance
+from fem_reference.harmonics.reported import reported
 from fem_reference.harmonics.shearing import ShearProblem, solve_shear
-from fem_reference.loads import NormalTarget, TangentialTarget
+from fem_reference.loads import NormalTarget, Place, TangentialTarget
 from verification.closed_forms.cattaneo_mindlin import PartialSlip
 
 GRIDS = (axisymmetric_grid(), end_grid(2), end_grid(7), mid_grid(2), mid_grid(7))
@@ -366,6 +370,52 @@ def test_newton_and_turns_agree_on_a_first_increment(led, monkeypatch):
     assert by_newton.tangential_shift == pytest.approx(by_turns.tangential_shift, rel=1e-7)
 
 
+def by_continuation_alone(monkeypatch):
+    def without(*_):
+        raise NotConverged("the coupled increment", 0, np.inf, TOLERANCE)
+
+    monkeypatch.setattr(alternation, "MOST_TURNS", 0)
+    monkeypatch.setattr(increment, "solve_by_newton", without)
+
+
+@pytest.mark.parametrize("part", [0.0, 0.3, 0.9])
+@pytest.mark.parametrize("mu", [0.1, 3.0, 12.0])
+@pytest.mark.parametrize("led", FIRST)
+def test_continuation_alone_solves_a_first_increment(led, mu, part, monkeypatch):
+    by_continuation_alone(monkeypatch)
+    state = advance(few_points(mu), None, *FIRST[led](mu, part), TOLERANCE)
+    assert state.turns == 0
+    assert state.residuals.worst <= TOLERANCE
+
+
+@pytest.mark.parametrize("led", FIRST)
+def test_continuation_leaves_nothing_of_its_springs(led, monkeypatch):
+    of, loads = few_points(0.3), FIRST[led](0.3, 0.6)
+    by_turns = advance(of, None, *loads, 1e-10)
+    by_continuation_alone(monkeypatch)
+    led_there = advance(of, None, *loads, 1e-10)
+    np.testing.assert_allclose(led_there.pressure, by_turns.pressure, atol=1e-8)
+    np.testing.assert_allclose(led_there.shear, by_turns.shear, atol=1e-8)
+    assert led_there.approach == pytest.approx(by_turns.approach, rel=1e-8)
+    assert led_there.tangential_shift == pytest.approx(by_turns.tangential_shift, rel=1e-7)
+
+
+def test_derivative_is_that_of_the_equations(rng):
+    """By all values, the compliance of springs among them, off the kinks."""
+    of, (normal, tangential) = few_points(0.3), FIRST["by force"](0.3, 0.6)
+    n = len(of.gap)
+    problem = alternation.CoupledProblem(
+        of.compliance, of.gap, 0.3, np.zeros((2, n)), normal, tangential
+    )
+    equations = Equations(problem)
+    tractions = np.concatenate([0.2 * rng.normal(size=2 * n), rng.normal(size=n)])
+    values = np.append(tractions, [0.1, 1.0, 0.02])
+    _, derivative, _ = equations.linearised(Iterate.of(values))
+    step = 1e-7 * rng.normal(size=len(values))
+    ahead, behind = (equations.missed(Iterate.of(values + side * step)) for side in (0.5, -0.5))
+    np.testing.assert_allclose((ahead - behind) / 1e-7, derivative @ step / 1e-7, atol=1e-6)
+
+
 def test_increment_counts_what_failed_turns_took(monkeypatch):
     of, loads = few_points(0.3), FIRST["by force"](0.3, 0.6)
     took = {}
@@ -386,7 +436,7 @@ def test_increment_counts_what_a_failed_shear_took(monkeypatch):
     assert took[1] == took[0] + 2
 
 
-def test_failure_counts_both_methods(monkeypatch):
+def test_failure_counts_all_methods(monkeypatch):
     of, loads = few_points(0.3), FIRST["by force"](0.3, 0.6)
     took = {}
     for turns, steps in ((0, 2), (5, 2), (5, 4)):
@@ -396,7 +446,40 @@ def test_failure_counts_both_methods(monkeypatch):
             advance(of, None, *loads, TOLERANCE)
         took[turns, steps] = failure.value.iterations
     assert took[5, 2] >= took[0, 2] + 2 * 5
-    assert took[5, 4] == took[5, 2] + 2
+    # Alone, and where the path of continuation begins.
+    assert took[5, 4] == took[5, 2] + 2 * 2
+
+
+def test_a_path_that_is_lost_is_an_increment_that_does_not_converge(monkeypatch):
+    by_continuation_alone(monkeypatch)
+    of, loads = few_points(3.0), FIRST["by force"](3.0, 0.6)
+    solve, systems = np.linalg.solve, []
+
+    def singular_after(most):
+        def solving(matrix, right):
+            systems.append(matrix)
+            return singular() if len(systems) > most else solve(matrix, right)
+
+        systems.clear()
+        monkeypatch.setattr(np.linalg, "solve", solving)
+
+    singular_after(np.inf)
+    assert advance(of, None, *loads, TOLERANCE).residuals.worst <= TOLERANCE
+    for most in (0, len(systems) // 2, len(systems) - 1):
+        singular_after(most)
+        with pytest.raises(NotConverged):
+            advance(of, None, *loads, TOLERANCE)
+
+
+def test_continuation_gives_up_after_a_number_of_steps(monkeypatch):
+    by_continuation_alone(monkeypatch)
+    took = []
+    for steps in (1, 3):
+        monkeypatch.setattr(continuation, "MOST_STEPS", steps)
+        with pytest.raises(NotConverged) as failure:
+            advance(few_points(3.0), None, *FIRST["by force"](3.0, 0.6), TOLERANCE)
+        took.append(failure.value.iterations)
+    assert took[1] > took[0] + 2
 
 
 def singular(*_, **__):
@@ -426,9 +509,8 @@ def test_approach_that_touches_no_point_does_not_converge():
 
 @pytest.mark.parametrize("led", FIRST)
 def test_newton_takes_no_step_that_it_has_not_tried(led, monkeypatch):
-    system = newton._System
     tried, taken = [], []
-    missed, linearised = system.missed, system.linearised
+    missed, linearised = Equations.missed, Equations.linearised
 
     def trying(self, at):
         tried.append(at)
@@ -438,8 +520,8 @@ def test_newton_takes_no_step_that_it_has_not_tried(led, monkeypatch):
         taken.append(at)
         return linearised(self, at)
 
-    monkeypatch.setattr(system, "missed", trying)
-    monkeypatch.setattr(system, "linearised", taking)
+    monkeypatch.setattr(Equations, "missed", trying)
+    monkeypatch.setattr(Equations, "linearised", taking)
     monkeypatch.setattr(alternation, "MOST_TURNS", 0)
     monkeypatch.setattr(newton, "MOST_HALVINGS", 2)
     advance(few_points(12.0), None, *FIRST[led](12.0, 0.6), TOLERANCE)
@@ -518,6 +600,18 @@ def test_stiff_springs_leave_the_law_itself():
         state = pressed(of, hertz_force(0.3), 3)
         shear.append(sheared(of, state, 0.6 * MU * state.normal_force).shear)
     np.testing.assert_allclose(shear[1], shear[0], atol=1e-6)
+
+
+def test_a_ray_without_contact_adds_no_contact_area():
+    of = few_points(0.3)
+    state = pressed(of, hertz_force(0.3), 1)
+    whole = reported(state, (1.0, 0.0), Place(1, 1, 1)).contact_radius
+    angles = of.compliance.grid.points
+    on_first_ray = np.append(True, np.arange(len(of.gap) - 1) % angles == 0)
+    state = replace(state, pressure=np.where(on_first_ray, 0.0, state.pressure))
+    part = reported(state, (1.0, 0.0), Place(1, 1, 1)).contact_radius
+    share = of.compliance.grid.weights[0] / (2 * np.pi)
+    assert part == pytest.approx(np.sqrt(1 - share) * whole, rel=1e-12)
 
 
 def test_pressing_on_points_is_pressing_on_rings():

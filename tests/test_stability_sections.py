@@ -18,6 +18,7 @@ from verification.studies.stability.record import Verdict
 BOTH = [solver for solver in Solver if solver.by_elements]
 ORDINARY = StabilityCell(solver=Solver.COMPLEMENTARITY)
 ALIKE = replace(ORDINARY, surface=Surface.ALIKE_BALL)
+SOFT_FILM = replace(ORDINARY, friction=5.0, modulus_ratio=1e-3, thickness=0.1, poisson_ratio=0.5)
 HALF_SPACE = replace(ORDINARY, modulus_ratio=1.0, poisson_ratio=0.0, base_ratio=0.0)
 
 CELLS = [
@@ -28,6 +29,8 @@ CELLS = [
     replace(ORDINARY, surface=Surface.FLAT_PUNCH, push=0.9),
     # Pressures that jump to and fro between the turns unless they are damped.
     replace(HALF_SPACE, friction=5.0, push=0.9),
+    # Several states obey all laws, and pairs of them vanish on the way to one.
+    replace(SOFT_FILM, push=0.5),
     # So little friction that slip is no more than the rounding of what pressing moves.
     replace(HALF_SPACE, friction=1e-6, push=0.0, cells=48),
 ]

@@ -13,7 +13,8 @@ from fem_reference.harmonics.alternation import (
     TurnsFailed,
     solve_coupled,
 )
-from fem_reference.harmonics.newton import solve_by_newton
+from fem_reference.harmonics.continuation import solve_by_continuation
+from fem_reference.harmonics.newton import Start, solve_by_newton
 from fem_reference.harmonics.point_contact import PointContact
 from fem_reference.harmonics.state import PointState
 from fem_reference.loads import NormalTarget, TangentialTarget
@@ -72,19 +73,21 @@ def advance(
 def _solved(
     problem: CoupledProblem, p: Vector, q: Field, motion: tuple[float, float], tolerance: float
 ) -> CoupledSolution:
-    """By turns, which need a shift only below the friction limit; else by Newton's method."""
+    """By turns, which need a shift only below the friction limit; else by Newton's method; where
+    that runs to and fro, by continuation."""
     try:
         return solve_coupled(problem, p, q, tolerance)
     except TurnsFailed as error:
         failed = error
-    try:
-        solution = solve_by_newton(problem, p, q, motion, tolerance)
-    except NotConverged as error:
-        spent = failed.solves + error.iterations
-        raise NotConverged(
-            "the coupled increment", spent, failed.residual, failed.tolerance
-        ) from error
-    return replace(solution, turns=failed.turns, solves=failed.solves + solution.solves)
+    start, spent = Start(p, q, *motion), failed.solves
+    for solve in (solve_by_newton, solve_by_continuation):
+        try:
+            solution = solve(problem, start, tolerance)
+        except NotConverged as error:
+            spent += error.iterations
+            continue
+        return replace(solution, turns=failed.turns, solves=spent + solution.solves)
+    raise NotConverged("the coupled increment", spent, failed.residual, failed.tolerance)
 
 
 def _refuse_sliding(problem: CoupledProblem, solution: CoupledSolution) -> None:

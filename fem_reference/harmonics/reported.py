@@ -69,13 +69,14 @@ def _along(direction: tuple[float, float], value: float) -> tuple[float, float]:
 
 def _contact_area(state: PointState, p: Field) -> float:
     """½∫a² dθ with the radius a of the contact's edge on every ray [length^2]; on the last ring,
-    the rim of a flat punch, the edge is the ring."""
+    the rim of a flat punch, the edge is the ring. Rays without contact add nothing."""
     radii = state.compliance.rings.radii
-    edges = []
-    for ray in p.T:
-        last = int(np.flatnonzero(ray > 0)[-1])
-        rim = last == len(radii) - 1
-        edges.append(radii[last] if rim else edge_radius(radii, ray, last))
+    edges = np.zeros(p.shape[1])
+    for angle, ray in enumerate(p.T):
+        if np.any(ray > 0):
+            last = int(np.flatnonzero(ray > 0)[-1])
+            rim = last == len(radii) - 1
+            edges[angle] = radii[last] if rim else edge_radius(radii, ray, last)
     return float(0.5 * np.sum(state.compliance.grid.weights * np.square(edges)))
 
 

@@ -36,6 +36,12 @@ def section_radii(result: Result) -> Field:
     return next(np.asarray(s.radii) for s in result.sections if s is not None)
 
 
+def along_load(model: ContactModel) -> Field:
+    """Mean around the axis of the displacement along the load, per nodal force along it."""
+    C = model.compliance(1).matrix
+    return np.asarray(0.5 * (C[0, :, 0] - C[0, :, 1] - C[1, :, 0] + C[1, :, 1]))
+
+
 @dataclass(frozen=True)
 class Rings:
     """Points on rings and angles. Fields are (rings, angles), vectors (2, rings, angles) in r, θ.
@@ -155,9 +161,7 @@ class Rings:
 
     def _along_load(self, q: Field) -> Field:
         """Mean over a ring of what shear along the load does along it."""
-        C = self.model.compliance(1).matrix
-        both = 0.5 * (C[0, :, 0] - C[0, :, 1] - C[1, :, 0] + C[1, :, 1])
-        return self._means(both, q[:, 0])[:, None]
+        return self._means(along_load(self.model), q[:, 0])[:, None]
 
     def _around_axis(self, q: Field) -> Field:
         """What circumferential shear does around the axis."""

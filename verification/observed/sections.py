@@ -114,12 +114,13 @@ class _Surface:
 
 def _of_pressure(now: _Surface) -> Iterator[float]:
     p, gap, told, weights = now.pressure, now.gap, now.told, now.rings.weights
+    depth = abs(told.approach)  # bodies left sheared can lift the indenter above first touch
     yield float(np.max(-p) / np.max(p))
-    yield float(np.max(-gap) / told.approach)
-    yield float(np.sum(weights * p * np.abs(gap)) / (np.sum(weights * p) * told.approach))
+    yield float(np.max(-gap) / depth)
+    yield float(np.sum(weights * p * np.abs(gap)) / (np.sum(weights * p) * depth))
     yield abs(now.rings.integral(p) / told.normal_force - 1)
     apart = np.where(p > 0, 0.0, gap)
-    yield float(np.max(np.abs(apart - now.rings.on_grid(told.gap))) / told.approach)
+    yield float(np.max(np.abs(apart - now.rings.on_grid(told.gap))) / depth)
 
 
 def _of_shear(before: _Surface | None, now: _Surface) -> Iterator[float]:

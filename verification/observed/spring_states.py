@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from contact_scene import IsotropicMaterial
 from fem_reference import Increment, Path, Result
 from fem_reference.gauss_points import gauss_points
-from verification.observed.rings import model_of, section_radii
+from verification.observed.rings import along_load, model_of, section_radii
 from verification.observed.section_energy import EnergeticState
 
 Field = NDArray[np.float64]
@@ -62,9 +62,7 @@ class SpringSurface:
         if path is Path.PRESSING_WITH_FRICTION:
             blocks |= {"zt": pressing[1, :, 0], "tz": pressing[0, :, 1], "tt": pressing[0, :, 0]}
         elif path is Path.SHEARING:
-            C = model.compliance(1).matrix
-            # The mean over a ring of what shear along the load does along it.
-            blocks["tt"] = 0.5 * (C[0, :, 0] - C[0, :, 1] - C[1, :, 0] + C[1, :, 1])
+            blocks["tt"] = along_load(model)
         elif path is Path.TWISTING:
             blocks["tt"] = model.torsion().matrix[0, :, 0]
         count = points.trace.shape[1]

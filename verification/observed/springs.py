@@ -23,7 +23,7 @@ SLIP_ROUNDING = 1e-8
 
 def least_slip(friction: float, approach: float) -> float:
     """What slip is judged relative to where there is less of it [length]."""
-    return max(LEAST_SLIP * friction, SLIP_ROUNDING) * approach
+    return max(LEAST_SLIP * friction, SLIP_ROUNDING) * abs(approach)
 
 
 def observed_springs(result: Result) -> tuple[list[float], list[EnergeticState]]:
@@ -52,12 +52,12 @@ def _of_pressure(now: SpringState, surface: SpringSurface) -> Iterator[float]:
     carried = float(np.sum(surface.weights * p))
     yield float(np.max(-p) / np.max(p))
     yield abs(carried / told.normal_force - 1)
-    yield float(np.max(v - p / surface.stiffness) / told.approach)
+    yield float(np.max(v - p / surface.stiffness) / abs(told.approach))
     apart = np.where(p > 0, 0.0, -v)
-    yield float(np.max(np.abs(apart - told.gap)) / told.approach)
+    yield float(np.max(np.abs(apart - told.gap)) / abs(told.approach))
     largest = float(np.max(np.abs(v), where=p > 0, initial=0.0))
     assert told.overlap is not None
-    yield abs(largest - told.overlap) / told.approach
+    yield abs(largest - told.overlap) / abs(told.approach)
 
 
 def _of_shear(
@@ -90,7 +90,7 @@ def _of_slip(
     if before is not None and before.passed is not None:
         assert before.slip is not None
         slip, passed = slip - before.slip, passed - before.passed
-    limit, approach = surface.friction * p, now.told.approach
+    limit, approach = surface.friction * p, abs(now.told.approach)
     work = surface.weights * limit * np.abs(slip)
     least = least_slip(surface.friction, approach) * float(np.sum(surface.weights * limit))
     against = surface.weights * now.q * slip

@@ -123,7 +123,7 @@ def _slip_violations(before: Increment | None, now: Increment, limit: Field) -> 
     if before is not None and before.slip is not None and before.dissipated_energy is not None:
         slip, lost = slip - before.slip, lost - before.dissipated_energy
     work = limit * np.hypot(*slip)
-    least = LEAST_SLIP * np.sum(limit) * now.approach * np.max(limit) / np.max(now.pressure)
+    least = LEAST_SLIP * np.sum(limit) * abs(now.approach) * np.max(limit) / np.max(now.pressure)
     scale = max(float(np.sum(work)), float(least))
     yield float(np.sum(work + now.shear[0] * slip[0] + now.shear[1] * slip[1]) / scale)
     yield float(-lost / max(now.dissipated_energy, np.finfo(float).tiny))

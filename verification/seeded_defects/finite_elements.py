@@ -60,14 +60,11 @@ def _resultant_weight(patches: Patches) -> None:
 
 
 def _circumferential_shear(patches: Patches) -> None:
-    def wrap(_: Any) -> Any:
-        def along(model: Any, on: Any) -> Any:
-            C = model.compliance(1).matrix
-            return on.compliance(0.5 * (C[0, :, 0] + C[0, :, 1] + C[1, :, 0] + C[1, :, 1]))
+    def along(model: Any) -> Any:
+        C = model.compliance(1).matrix
+        return 0.5 * (C[0, :, 0] + C[0, :, 1] + C[1, :, 0] + C[1, :, 1])
 
-        return along
-
-    patches.function(contact_problem, "along_load", wrap)
+    patches.attribute(ContactModel, "along_load", along)
 
 
 def _hoop_strain(patches: Patches) -> None:
