@@ -1,6 +1,7 @@
 """The cross-check of both solvers: what it measures, and that it can fail."""
 
 from dataclasses import replace
+from itertools import product
 
 import numpy as np
 import pytest
@@ -46,8 +47,30 @@ def test_a_record_comes_back_from_its_text(record: CrossCheckRecord) -> None:
 
 
 def test_the_matrix_has_every_contact_once() -> None:
+    """A coating like its body is none, whatever its thickness."""
     cases = STUDY.cases(QUICK)
-    assert len({case.name for case in cases}) == len(RATIOS) * len(THICKNESSES) * len(FRICTIONS)
+    asked = product(RATIOS, THICKNESSES, FRICTIONS)
+    bodies = {(ratio, 0.0 if ratio == 1 else h, mu) for ratio, h, mu in asked}
+    runs = [c for c in cases if isinstance(c, CrossCheckRun)]
+    solved = {
+        (c.modulus_ratio, 0.0 if c.modulus_ratio == 1 else c.thickness, c.friction) for c in runs
+    }
+    assert len({case.name for case in cases}) == len(cases) == len(bodies) == 48
+    assert solved == bodies
+    assert "48 scenes, 45 of them" in STUDY.question
+
+
+def test_an_agreement_within_poorer_own_errors_is_told(record: CrossCheckRecord) -> None:
+    good, poor = (
+        record.finite_elements.model_copy(update={"own_pressure": own}) for own in (1e-6, 0.5)
+    )
+    ours = record.semi_analytical.model_copy(update={"own_pressure": 1e-6})
+    (case,) = (c for c in STUDY.cases(QUICK) if c.name.startswith("2-1-0-"))
+    for side, told in ((good, False), (poor, True)):
+        changed = record.model_copy(update={"finite_elements": side, "semi_analytical": ours})
+        conclusion = STUDY.conclude(QUICK, {case.name: changed})
+        (statement,) = (s for s in conclusion.statements if "agree: pressure" in s.claim)
+        assert ("1 of them with own errors beyond it" in statement.measured) is told
 
 
 def test_own_errors_decide_between_fail_and_inconclusive() -> None:
@@ -65,7 +88,7 @@ def test_study_concludes_from_the_records_there_are(record: CrossCheckRecord) ->
     agree = by_claim["both solvers agree: pressure, r < 0.9 a, over p₀"]
     assert agree.outcome is Status.PASS
     assert "1 of 1 contacts" in agree.measured
-    # One of 54 is no verdict on all.
+    # One of 48 is no verdict on all.
     assert by_claim["every increment converged"].outcome is Status.INCONCLUSIVE
     assert {chart.name for chart in conclusion.charts} == {
         "pressure_differences",
@@ -90,6 +113,7 @@ def test_the_answer_has_differences_and_both_distances_to_the_reference(
         assert f"{side} {100 * error:.2g} %" in answer
     assert f"({found.nearer} nearer on 1" in answer or f"{found.nearer} on 1)" in answer
     assert "everywhere within what is asked" in answer
+    assert "with 56 cells and 64 elements per contact radius" in answer
     assert STUDY.conclude(QUICK, {}).answer == ""
 
 
@@ -101,6 +125,23 @@ def test_contacts_beyond_what_is_required_are_named(record: CrossCheckRecord) ->
     (statement,) = (s for s in conclusion.statements if "agree: approach" in s.claim)
     assert "beyond it: E1/E2 = 2, h = 1 a_H, µ = 0: 0.00" in statement.measured
     assert "beyond what is asked in 1 of 2 comparisons" in conclusion.answer
+
+
+def test_what_is_left_out_of_the_shear_is_told(record: CrossCheckRecord) -> None:
+    side, count = record.semi_analytical, len(record.radii)
+    shear = [0.0] * count
+    shear[3], shear[5] = 0.7, 0.2
+    judged = tuple(n not in (3, 4) for n in range(count))
+    update = {
+        "shear_judged": judged,
+        "semi_analytical": side.model_copy(update={"shear": tuple(shear)}),
+        "finite_elements": record.finite_elements.model_copy(update={"shear": (0.0,) * count}),
+    }
+    name = CrossCheckRun(2.0, 1.0, 0.1, 128, 64).name
+    conclusion = STUDY.conclude(QUICK, {name: record.model_copy(update=update)})
+    (told,) = (s for s in conclusion.statements if "where it is not judged" in s.claim)
+    assert told.measured.startswith("at most 0.7 of µp₀ (E1/E2 = 2")
+    assert "away from the axis and from the kinks of the shear" in conclusion.answer
 
 
 @pytest.mark.parametrize("wrong", ["pressure", "shear", "approach"])
@@ -135,12 +176,36 @@ def test_profiles_of_both_solvers_are_at_the_same_radii() -> None:
         ROUGH.on_rings(fem_reference.solve(ROUGH.scene, ROUGH.mesh(16)), radii + 0.01)
 
 
-def test_the_edge_of_stick_is_not_judged() -> None:
+def test_the_edges_of_stick_are_not_judged() -> None:
     radii = ROUGH.radii(32, 64)
-    kept = ROUGH.away_from_stick_edge(radii, 0.5 * ROUGH.contact_radius, 64, 32)
-    assert not kept[np.argmin(np.abs(radii - 0.5))]
+    kept = ROUGH.away_from_stick_edges(radii, (0.25, 0.5), 64, 32)
+    for edge in (0.25, 0.5):
+        assert not kept[np.argmin(np.abs(radii - edge))]
     assert kept[0]
     assert kept[-1]
+
+
+@pytest.mark.parametrize("edges", [(0.0, 0.3), (1 / 64, 0.3), (1 / 64,)])
+def test_two_elements_are_left_out_where_stick_ends_at_the_axis(edges: tuple[float, ...]) -> None:
+    rings = np.arange(2, 58) / 64
+    np.testing.assert_array_equal(ROUGH.clear_of_axis(rings, edges, 256, 64), rings[1:])
+
+
+def test_all_is_judged_where_stick_ends_off_the_axis() -> None:
+    rings = np.arange(2, 58) / 64
+    for edges in ((), (0.3,), (1.1 / 64, 0.3)):
+        np.testing.assert_array_equal(ROUGH.clear_of_axis(rings, edges, 256, 64), rings)
+
+
+@pytest.mark.slow
+def test_where_stick_came_back_to_the_axis_two_elements_off_it_errs_alike_on_every_mesh() -> None:
+    contact = CheckedContact(10.0, 0.25, 0.3)
+    ends = {n: fem_reference.solve(contact.scene, contact.mesh(n)).steps[-1] for n in (16, 32, 64)}
+    fine = ends.pop(64)
+    for end in ends.values():
+        two, three = (end.pressure - np.interp(end.radii, fine.radii, fine.pressure))[2:4]
+        assert abs(two / contact.peak_pressure) == pytest.approx(4.5e-3, rel=0.15)
+        assert abs(three / contact.peak_pressure) < 5e-4
 
 
 def stiffer_film(run: object) -> object:

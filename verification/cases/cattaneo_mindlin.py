@@ -11,9 +11,7 @@ from verification.cases import paper_scene as paper
 from verification.cases.case import (
     Case,
     Derived,
-    Followed,
     Level,
-    OrderOfConvergence,
     Quantity,
     Required,
     Run,
@@ -22,14 +20,16 @@ from verification.cases.case import (
 )
 from verification.cases.chart import Chart
 from verification.cases.convergence_chart import convergence_chart
+from verification.cases.end_state import shift, stick_radius
 from verification.cases.hertz_point import label
+from verification.cases.order_of_convergence import Followed, OrderOfConvergence
 from verification.cases.paper_scene import FRICTION, HERTZ, NU_ZERO
 from verification.cases.profile_chart import Profile, ProfileLabels, Section, profile_chart
 from verification.cases.refinement import part_of_a_cell, refinement
 from verification.cases.shifted_grid import ShiftedGrid
 from verification.cases.stopped_shearing import StoppedShearing
 from verification.metrics import shear_error
-from verification.quantities import shear_of, shift_along_x
+from verification.quantities import shear_of
 
 if TYPE_CHECKING:
     from semi_analytical import Result
@@ -139,13 +139,6 @@ def slip_error_at(step: int, part: float) -> Callable[[Result], float]:
 
 def _at(step: int, part: float, levels: tuple[str, ...], finest_cells: int) -> tuple[Quantity, ...]:
     exact, finest = EXACT[part], levels[-1]
-
-    def stick_radius(result: Result) -> float:
-        return float(result.steps[step - 1].stick_radius or 0.0)
-
-    def shift(result: Result) -> float:
-        return shift_along_x(result.steps[step - 1])
-
     return (
         Quantity(
             f"shear_at_{part:g}", f"Σ|q - q_exact| / Σµp at {part:g} µW", "", finest,
@@ -155,15 +148,16 @@ def _at(step: int, part: float, levels: tuple[str, ...], finest_cells: int) -> t
         ),
         Quantity(
             f"stick_radius_at_{part:g}", f"√(stick area / π) at {part:g} µW, in part cells", "m",
-            finest, stick_radius, closed_form(exact.stick_radius, SOURCE, HERTZ.contact_radius),
+            finest, lambda result: stick_radius(result, step - 1),
+            closed_form(exact.stick_radius, SOURCE, HERTZ.contact_radius),
             Derived(levels, 1.0, part_of_a_cell(0.2, finest_cells, paper.WINDOW_PER_RADIUS),
                     "order 1: the border is known to a part of a cell; the cap is a fifth of a "
                     "cell"),
             HERTZ.contact_radius, "the contact radius",
         ),
         Quantity(
-            f"shift_at_{part:g}", f"tangential shift at {part:g} µW", "m", finest, shift,
-            closed_form(exact.shift, SOURCE, SLIDING_SHIFT),
+            f"shift_at_{part:g}", f"tangential shift at {part:g} µW", "m", finest,
+            lambda result: shift(result, step - 1), closed_form(exact.shift, SOURCE, SLIDING_SHIFT),
             Required(1e-4, "required of the fretting loop, which passes through here"),
             SLIDING_SHIFT, "the shift at gross sliding",
         ),

@@ -22,7 +22,8 @@ class ChangeKind(StrEnum):
 
     OUTSIDE = "outside"
     """Fails, and did not when it was recorded; or has moved away from its reference by more than is
-    allowed at all."""
+    allowed at all. An order that can no longer be judged is held to what was allowed when it was
+    recorded."""
 
     NEW = "new"
     GONE = "gone"

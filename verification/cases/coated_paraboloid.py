@@ -14,9 +14,7 @@ from verification.cases.case import (
     Case,
     Comparison,
     Derived,
-    Followed,
     Level,
-    OrderOfConvergence,
     Quantity,
     Reference,
     ReferenceKind,
@@ -29,6 +27,7 @@ from verification.cases.end_state import approach, contact_radius
 from verification.cases.flat_punch import central_pressure
 from verification.cases.hertz_point import ASKED, label
 from verification.cases.layered_scene import coated, exact_contact, film, pressed, rigid_ball
+from verification.cases.order_of_convergence import Followed, OrderOfConvergence
 from verification.cases.paper_scene import HERTZ
 from verification.cases.profile_chart import Profile, ProfileLabels, Section, profile_chart
 from verification.cases.refinement import part_of_a_cell, refinement
@@ -191,7 +190,7 @@ def _required(coating: Coating, cells: int) -> tuple[Quantity, Quantity]:
     tolerance = Required(REQUIRED[cells], ASKED)
     return (
         Quantity(
-            "approach", "approach of the bodies since first touch", "m", run, approach,
+            "required_approach", "approach of the bodies since first touch", "m", run, approach,
             coating.reference("delta_over_deltaH", HERTZ.approach), tolerance,
         ),
         Quantity(

@@ -11,7 +11,7 @@ from verification.error_line import ErrorLine, by_size, error_line
 
 Errors = Mapping[str, Sequence[float]]
 BELOW = 0.4  # lines of expected slopes run under the data, by this factor
-LEAST = 4  # levels that a line is drawn through
+LEAST, LEAST_JUDGED = 4, 3  # levels that a line is drawn through
 ALONG = 9  # points along a band, which is curved
 SHOWN = 0.005  # smallest half-width that two decimals show
 
@@ -24,16 +24,23 @@ def convergence_chart(
     errors: Errors,
     slopes: Mapping[str, float],
     x_label: str = "cell side / contact radius",
+    judged: Mapping[str, int] | None = None,
 ) -> Chart:
     """Every error with the line fitted to it and, where an order is expected, a line of that slope.
 
     spacings  cell sides, dimensionless; errors of equal ones count by their root mean square
     errors    name to errors at these, of either sign
     slopes    name of an error to its expected order
+    judged    name of an error to the number of finest levels that its order is judged on: the
+              line is fitted to these, if they are three; to all, if they are four, where absent
     """
     curves: list[Curve] = []
     for series, (label, values) in enumerate(errors.items()):
-        curves += _series(label, *by_size(spacings, values), slopes.get(label), series)
+        sizes, root_mean_squares = by_size(spacings, values)
+        count = (judged or {}).get(label)
+        if count is None:
+            count = len(sizes) if len(sizes) >= LEAST else 0
+        curves += _series(label, sizes, root_mean_squares, count, slopes.get(label), series)
     panel = Panel(x_label=x_label, y_label="relative error", curves=tuple(curves), logarithmic=True)
     legend = (
         "Numbers are the slopes of the fitted lines with their 95 % intervals, bands those of the "
@@ -43,15 +50,18 @@ def convergence_chart(
 
 
 def _series(
-    label: str, sizes: list[float], errors: list[float], expected: float | None, series: int
-) -> list[Curve]:
-    """Points, fitted line with its band, and expected slope of one error."""
+    label: str, sizes: list[float], errors: list[float], count: int, expected: float | None,
+    series: int,
+) -> list[Curve]:  # fmt: skip
+    """Points, line with its band through so many of the finest, and expected slope of one error."""
     ends = np.array([max(sizes), min(sizes)])
-    if len(sizes) < LEAST or min(errors) <= 0:
+    fitted = slice(len(sizes) - count, None)
+    if count < LEAST_JUDGED or min(errors[fitted]) <= 0:
         curves = [curve(label, sizes, errors, Look.POINTS, series)]
         start = errors[int(np.argmax(sizes))]
     else:
-        line = error_line(sizes, errors)
+        line = error_line(sizes[fitted], errors[fitted])
+        ends = np.array([max(sizes[fitted]), min(sizes[fitted])])
         curves = [
             _band(line, ends, series),
             curve("", ends, line.at(ends), Look.FITTED, series),
@@ -65,6 +75,8 @@ def _series(
 
 
 def _text(observed: ObservedOrder) -> str:
+    if not observed.is_legible:
+        return "no order can be read"
     digits = ".2f" if observed.half_width >= SHOWN else ".1g"
     return f"{observed.order:.2f} ± {observed.half_width:{digits}}"
 

@@ -72,8 +72,8 @@ def cross_check_on(sides: tuple[Sides, ...]) -> Case:
         tables=partial(tables, sides),
         limits=(
             "Both take the same increments: what finite increments cost is not seen here.",
-            "The shear is left out at the edge of stick, and all is at the axis: two cells or two "
-            "elements to each side.",
+            "The shear is left out at the edge of stick and where that turned outward after it had "
+            "come back, and all is at the axis: two cells or two elements to each side.",
         ),
     )  # fmt: skip
 

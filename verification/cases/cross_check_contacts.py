@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -18,6 +18,7 @@ from verification.cases.indentation_reference import COATED, STRONG, WEAK
 from verification.cases.layered_scene import coated, exact_contact, film, rigid_ball
 from verification.cases.paper_scene import HERTZ
 from verification.cases.radial_profile import outward
+from verification.cases.stick_edges import kept_edges
 from verification.closed_forms.coated_indentation import LayeredIndentation
 from verification.quantities import shear_of
 
@@ -35,7 +36,7 @@ FRICTIONS = (0.0, 0.1, 0.3)
 # longer the shear remembers the edge of every increment: that ripple falls with the increments, and
 # finer cells or elements only show it more sharply.
 INCREMENTS = {0.0: 1, 0.1: 20, 0.3: 80}
-EDGE = 2.0  # cells or elements to each side of the edge of stick, where the shear has a kink
+EDGE = 2.0  # cells or elements to each side of a kink of the shear
 MARGIN = 1.15  # half a window in contact radii without friction
 JUDGED_WITHIN = 0.9
 DIRECTIONS = 16
@@ -130,14 +131,37 @@ class CheckedContact:
         judged = (rings >= 2 * 2 * MARGIN / cells) & (rings <= within * (1 + EVEN))
         return np.asarray(rings[judged])
 
-    def away_from_stick_edge(
-        self, radii: Field, stick_radius: float | None, cells: int, elements: int
+    def stick_edges(
+        self, result: fem_reference.Result | semi_analytical.Result, cells: int, elements: int
+    ) -> tuple[float, ...]:
+        """Where the shear of a result has kinks, over the contact radius: the edge of stick, and
+        where that turned outward after it had come back; none without friction."""
+        radii = [one.stick_radius for one in result.increments if one.stick_radius is not None]
+        if not radii:
+            return ()
+        over = [radius / self.contact_radius for radius in radii]
+        return kept_edges(over, _width(cells, elements))
+
+    def clear_of_axis(
+        self, radii: Field, edges: Sequence[float], cells: int, elements: int
+    ) -> Field:
+        """The radii further from the axis than two cells and two elements; all of them unless stick
+        ends, or turned, within one. For cells and elements the outward shear then jumps at the
+        axis, which the pressure answers with a logarithmic peak: as many elements away its error is
+        the same on every mesh."""
+        width = _width(cells, elements)
+        if not any(edge <= width for edge in edges):
+            return radii
+        return np.asarray(radii[radii > EDGE * width * (1 + EVEN)])
+
+    def away_from_stick_edges(
+        self, radii: Field, edges: Sequence[float], cells: int, elements: int
     ) -> NDArray[np.bool_]:
-        """Which radii are further from the edge of stick than two cells and two elements."""
-        if stick_radius is None:
-            return np.ones(len(radii), dtype=bool)
-        width = EDGE * max(2 * MARGIN / cells, 1 / elements)
-        return np.asarray(np.abs(radii - stick_radius / self.contact_radius) > width)
+        """Which radii are further from all kinks than two cells and two elements."""
+        away = np.ones(len(radii), dtype=bool)
+        for edge in edges:
+            away &= np.abs(radii - edge) > EDGE * _width(cells, elements)
+        return away
 
     def on_grid(self, result: semi_analytical.Result, radii: Field) -> Profiles:
         """Means over the directions, by cubic splines between the cells."""
@@ -188,6 +212,11 @@ class CheckedContact:
             return self.frictionless.approach
         known = FRICTIONAL.get((self.modulus_ratio, self.thickness, self.friction))
         return None if known is None else known.approach
+
+
+def _width(cells: int, elements: int) -> float:
+    """Of a cell or an element, whichever is larger, over the contact radius."""
+    return max(2 * MARGIN / cells, 1 / elements)
 
 
 def _around(field: Field, grid: SurfaceGrid, r: Field) -> Field:

@@ -82,10 +82,10 @@ class Sides:
         return float(np.max(np.abs(apart)))
 
     def shear_difference(self, one: Any, other: Any) -> float:
-        """The same of the shear over µ times it, away from the edge of stick."""
+        """The same of the shear over µ times it, away from its kinks."""
         radii = self.radii(one, other)
-        stick = other.steps[-1].stick_radius
-        judged = self.contact.away_from_stick_edge(radii, stick, self.cells, self.elements)
+        edges = self.contact.stick_edges(other, self.cells, self.elements)
+        judged = self.contact.away_from_stick_edges(radii, edges, self.cells, self.elements)
         apart = np.abs(self.profiles(one, radii).shear - self.profiles(other, radii).shear)
         return float(np.max(apart, where=judged, initial=0.0))
 

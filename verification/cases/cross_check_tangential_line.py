@@ -11,10 +11,11 @@ from numpy.typing import NDArray
 from fem_reference.harmonics.surface_tractions import tractions_at
 from verification.cases.fem_levels import judged_within
 from verification.cases.paper_scene import FRICTION, HERTZ
+from verification.cases.stick_edges import kept_fronts
 
 if TYPE_CHECKING:
+    import fem_reference
     import semi_analytical
-    from fem_reference import Result
 
 Field = NDArray[np.float64]
 Mask = NDArray[np.bool_]
@@ -27,7 +28,7 @@ FRONT, AXIS = 1.5, 2.0
 class Line:
     """Both solutions at the centres of the cells on y = 0, at the end of a step."""
 
-    fem: Result
+    fem: fem_reference.Result
     sam: semi_analytical.Result
     step: int
 
@@ -50,9 +51,23 @@ class Line:
     @property
     def shear_difference(self) -> Field:
         """|Δq_x| / µp_H where it is judged."""
+        left_out = np.any(list(self.left_out.values()), axis=0)
+        return np.asarray(self.shear_apart[~left_out])
+
+    @property
+    def shear_apart(self) -> Field:
+        """|Δq_x| / µp_H on all of the line."""
         difference = np.abs(self.fem_tractions()[0] - self.sam_tractions()[0])
-        judged = self._inside & ~self._near_fronts
-        return np.asarray(difference[judged] / (FRICTION * HERTZ.peak_pressure))
+        return np.asarray(difference / (FRICTION * HERTZ.peak_pressure))
+
+    @property
+    def left_out(self) -> dict[str, Mask]:
+        """Where shear is not judged, by the reason."""
+        return {
+            "near the axis": np.abs(self.x) <= AXIS * self._width,
+            "near the edge of contact": np.abs(self.x) >= self._reach,
+            "where stick begins or ends, or did": self._near_fronts,
+        }
 
     @property
     def pressure_difference(self) -> Field:
@@ -68,26 +83,45 @@ class Line:
     @property
     def _inside(self) -> Mask:
         """Away from axis and edge."""
-        elements = self.fem.discretisation.elements_per_radius
-        reach = judged_within(elements) * self.fem.steps[self.step - 1].contact_radius
         r = np.abs(self.x)
-        return np.asarray((r > AXIS * self._width) & (r < reach))
+        return np.asarray((r > AXIS * self._width) & (r < self._reach))
+
+    @property
+    def _reach(self) -> float:
+        """How far from the axis the edge is not felt [length]."""
+        elements = self.fem.discretisation.elements_per_radius
+        return float(judged_within(elements) * self.fem.steps[self.step - 1].contact_radius)
 
     @property
     def _near_fronts(self) -> Mask:
-        """Where stick begins or ends in either solution."""
-        sam, row = self.sam.steps[self.step - 1], self.sam.grid.cells[1] // 2
-        assert sam.in_stick is not None
-        middles = 0.5 * (self.x[1:] + self.x[:-1])
-        cells = sam.in_stick[:, row]
-        fronts = list(middles[cells[1:] != cells[:-1]])
-        fem = self.fem.steps[self.step - 1]
-        assert fem.in_stick is not None
-        between = 0.5 * (fem.radii[1:] + fem.radii[:-1])
-        rays = fem.in_stick.reshape(len(fem.radii), -1)
-        for sign, stuck in ((1, rays[:, 0]), (-1, rays[:, -1])):
-            fronts.extend(sign * between[stuck[1:] != stuck[:-1]])
+        """Where stick begins or ends in either solution, or did when the load turned and no slip
+        has passed since."""
         near = np.zeros(len(self.x), dtype=bool)
-        for front in fronts:
+        for front in (*self._sam_fronts(), *self._fem_fronts()):
             near |= np.abs(self.x - front) <= FRONT * self._width
         return near
+
+    def _sam_fronts(self) -> list[float]:
+        row = self.sam.grid.cells[1] // 2
+        done = [one for one in self.sam.increments if one.step <= self.step]
+        stuck = np.stack([_stick(one)[:, row] for one in done])
+        return kept_fronts(self.x, stuck, _ends_of_steps([one.step for one in done]))
+
+    def _fem_fronts(self) -> list[float]:
+        done = [one for one in self.fem.increments if one.step <= self.step]
+        rays = [_stick(one).reshape(len(one.radii), -1) for one in done]
+        turns, radii = _ends_of_steps([one.step for one in done]), done[-1].radii
+        ahead = kept_fronts(radii, np.stack([stuck[:, 0] for stuck in rays]), turns)
+        behind = kept_fronts(radii, np.stack([stuck[:, -1] for stuck in rays]), turns)
+        return [*ahead, *(-front for front in behind)]
+
+
+def _stick(one: fem_reference.Increment | semi_analytical.Increment) -> Mask:
+    assert one.in_stick is not None
+    return one.in_stick
+
+
+def _ends_of_steps(steps: list[int]) -> list[int]:
+    """Of increments in these steps, the ones that end theirs."""
+    last = {step: k for k, step in enumerate(steps)}
+    return list(last.values())

@@ -1,4 +1,4 @@
-"""The numbers that cases read off the end of a run."""
+"""The numbers that cases read off the end of a run, or of one of its loading steps."""
 
 from __future__ import annotations
 
@@ -33,15 +33,21 @@ def contact_radius(result: Result) -> float:
     return float(result.steps[-1].contact_radius)
 
 
-def stick_radius(result: Result) -> float:
-    """√(stick area / π) [length]; NaN without friction."""
-    radius = result.steps[-1].stick_radius
+def stick_radius(result: Result, step: int = -1) -> float:
+    """√(stick area / π) [length]; NaN without friction.
+
+    step  index of the loading step
+    """
+    radius = result.steps[step].stick_radius
     return float("nan") if radius is None else float(radius)
 
 
-def shift(result: semi_analytical.Result) -> float:
-    """Tangential shift along x [length]."""
-    return shift_along_x(result.steps[-1])
+def shift(result: semi_analytical.Result, step: int = -1) -> float:
+    """Tangential shift along x [length].
+
+    step  index of the loading step
+    """
+    return shift_along_x(result.steps[step])
 
 
 def tangential_force(result: semi_analytical.Result) -> float:

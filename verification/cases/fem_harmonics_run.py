@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from math import hypot
 
@@ -41,7 +42,8 @@ class PointsRun(SectionRun):
             )
             for grid in (end_grid, mid_grid)
         )
-        increments = tuple(_with_mean_stick(*pair) for pair in zip(own, between, strict=True))
+        means = (_with_mean_stick(*pair) for pair in zip(own, between, strict=True))
+        increments = tuple(_counted(model, means))
         return Result(scene, discretisation, model.sections, decided, increments)
 
 
@@ -53,6 +55,15 @@ def _with_vector_law(decided: Plan) -> Plan:
         for effect in decided.effects
     )
     return replace(decided, path=Path.HARMONICS, effects=effects)
+
+
+def _counted(model: ContactModel, increments: Iterator[Increment]) -> Iterator[Increment]:
+    """The increments with the sparse factorisations that fell to them on both sets of points, as
+    `solve` tells them: what a mesh costs, whether its matrices are in the cache or not."""
+    counted = 0
+    for increment in increments:
+        spent, counted = model.factorizations - counted, model.factorizations
+        yield replace(increment, factorizations=spent)
 
 
 def _with_mean_stick(own: Increment, between: Increment) -> Increment:

@@ -9,16 +9,7 @@ import numpy as np
 
 from contact_scene import LoadStep
 from verification.cases import paper_scene as paper
-from verification.cases.case import (
-    Case,
-    Followed,
-    Level,
-    OrderOfConvergence,
-    Quantity,
-    Required,
-    closed_form,
-    exact_zero,
-)
+from verification.cases.case import Case, Level, Quantity, Required, closed_form, exact_zero
 from verification.cases.chart import Chart
 from verification.cases.convergence_chart import convergence_chart
 from verification.cases.end_state import approach, contact_radius, peak_pressure
@@ -32,6 +23,8 @@ from verification.cases.fem_levels import (
     order_levels,
 )
 from verification.cases.fem_profiles import largest_error, radial_chart, relative_l2
+from verification.cases.hertz_point import SOURCE, approach_error, peak_error, radius_error
+from verification.cases.order_of_convergence import Followed, OrderOfConvergence
 from verification.cases.paper_scene import HERTZ
 from verification.cases.profile_chart import ProfileLabels
 from verification.cases.section_run import SectionRun, per_radius
@@ -39,7 +32,6 @@ from verification.cases.section_run import SectionRun, per_radius
 if TYPE_CHECKING:
     from fem_reference import Result
 
-SOURCE = "Hertz 1882; Johnson 1985, ch. 4"
 # Elements per radius up to which the error is that of the contact zone.
 STUDIED = 64
 RADIUS_NOT_JUDGED = (
@@ -130,7 +122,9 @@ def fem_hertz_on(elements: tuple[int, ...], studied: tuple[tuple[int, float], ..
                 "to O(h)",
             ),
         ),
-        charts=lambda results: _charts(results, finest, orders),
+        charts=lambda results: _charts(
+            results, finest, orders, {run.label: run.spacing for run in runs}
+        ),
         limits=(
             "Away from the contact elements grow by the same ratio on every mesh, which leaves "
             "2e-6 of the peak pressure and 6e-6 of the approach on the finest.",
@@ -159,24 +153,10 @@ def pressure_error(result: Result) -> float:
     return error / HERTZ.peak_pressure
 
 
-def peak_error(result: Result) -> float:
-    """Relative error of the peak pressure."""
-    return abs(peak_pressure(result) / HERTZ.peak_pressure - 1)
-
-
-def approach_error(result: Result) -> float:
-    """Relative error of the approach."""
-    return abs(approach(result) / HERTZ.approach - 1)
-
-
-def radius_error(result: Result) -> float:
-    """Relative error of the contact radius."""
-    return abs(contact_radius(result) / HERTZ.contact_radius - 1)
-
-
 def _charts(
-    results: Mapping[str, Result], finest: str, studied: tuple[str, ...]
-) -> tuple[Chart, ...]:
+    results: Mapping[str, Result], finest: str, studied: tuple[str, ...],
+    spacings: Mapping[str, float],
+) -> tuple[Chart, ...]:  # fmt: skip
     runs = [results[name] for name in studied]
     end = results[finest].steps[-1]
     r = np.linspace(0.0, HERTZ.contact_radius, 80)
@@ -191,8 +171,9 @@ def _charts(
     convergence = convergence_chart(
         "fem_hertz_convergence",
         "Convergence of the finite elements",
-        "Relative errors against the side of an element over the contact radius.",
-        [1 / run.discretisation.elements_per_radius for run in runs],
+        "Relative errors, root mean square over the places of the edge in its element, against the "
+        "side of an element over the contact radius.",
+        [spacings[name] for name in studied],
         {
             "pressure (L2)": [l2_error(run) for run in runs],
             "peak pressure": [peak_error(run) for run in runs],

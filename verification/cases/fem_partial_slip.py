@@ -8,22 +8,14 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from verification.cases import paper_scene as paper
-from verification.cases.case import (
-    Case,
-    Followed,
-    Level,
-    OrderOfConvergence,
-    Quantity,
-    Required,
-    closed_form,
-    exact_zero,
-)
+from verification.cases.case import Case, Level, Quantity, Required, closed_form, exact_zero
 from verification.cases.chart import Chart
 from verification.cases.convergence_chart import convergence_chart
 from verification.cases.fem_hertz import meshed
 from verification.cases.fem_levels import MIDDLE, finest, judged_within, label, order_levels
 from verification.cases.fem_profiles import radial_chart, relative_l1
 from verification.cases.loop_history import LOADED, ExactLoop, loop_energy, loop_steps
+from verification.cases.order_of_convergence import Followed, OrderOfConvergence
 from verification.cases.paper_scene import FRICTION, HERTZ, STEEL
 from verification.cases.profile_chart import ProfileLabels
 from verification.cases.section_run import SectionRun, per_radius
@@ -120,7 +112,9 @@ def fem_partial_slip_on(elements: int, studied: tuple[tuple[int, float], ...] = 
             ),
         ),
         orders=_orders(orders) if orders else (),
-        charts=lambda results: _charts(results, run.label, orders),
+        charts=lambda results: _charts(
+            results, run.label, orders, {one.label: one.spacing for one in sheared}
+        ),
         limits=(
             "For ν > 0 slip has a component across the load, up to 4 % of µp_H in the shear; both "
             "the closed form and this run neglect it.",
@@ -179,8 +173,9 @@ def _along(result: Result) -> Iterator[tuple[Any, TangentialHistory]]:
 
 
 def _charts(
-    results: Mapping[str, Result], loop: str, studied: tuple[str, ...]
-) -> tuple[Chart, ...]:
+    results: Mapping[str, Result], loop: str, studied: tuple[str, ...],
+    spacings: Mapping[str, float],
+) -> tuple[Chart, ...]:  # fmt: skip
     result = results[loop]
     charts = []
     for step, name in ((LOADED, "loaded"), (LOADED + 1, "reversed")):
@@ -200,17 +195,18 @@ def _charts(
             )
         )
     if studied:
-        charts.append(_convergence([results[name] for name in studied]))
+        runs = [results[name] for name in studied]
+        charts.append(_convergence(runs, [spacings[name] for name in studied]))
     return tuple(charts)
 
 
-def _convergence(runs: list[Result]) -> Chart:
+def _convergence(runs: list[Result], spacings: list[float]) -> Chart:
     return convergence_chart(
         "fem_partial_slip_convergence",
         "Convergence under a tangential force",
         f"Errors at {SHEARING.listed} µW, root mean square, against the side of an element over "
         "the contact radius.",
-        [1 / run.discretisation.elements_per_radius for run in runs],
+        spacings,
         {
             "shear (L1)": [shear_l1_error(run) for run in runs],
             "tangential shift": [SHEARING.shift_error(run) for run in runs],

@@ -19,15 +19,9 @@ from verification.cases.case import (
 )
 from verification.cases.chart import Chart, Look, Panel, curve
 from verification.cases.end_state import approach, contact_radius, peak_pressure
-from verification.cases.fem_hertz import (
-    SCENE,
-    SOURCE,
-    approach_error,
-    meshed,
-    peak_error,
-    pressure_error,
-)
+from verification.cases.fem_hertz import SCENE, meshed, pressure_error
 from verification.cases.fem_levels import allowed, because, finest, judged_within
+from verification.cases.hertz_point import SOURCE, approach_error, peak_error
 from verification.cases.paper_scene import HERTZ
 from verification.cases.section_run import SectionRun, per_radius
 

@@ -7,20 +7,12 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from verification.cases.case import (
-    Case,
-    Followed,
-    Level,
-    OrderOfConvergence,
-    Quantity,
-    Required,
-    closed_form,
-    exact_zero,
-)
+from verification.cases.case import Case, Level, Quantity, Required, closed_form, exact_zero
 from verification.cases.chart import Chart
 from verification.cases.fem_hertz import meshed
 from verification.cases.fem_levels import allowed, judged_within, label, levels
 from verification.cases.fem_profiles import radial_chart
+from verification.cases.order_of_convergence import Followed, OrderOfConvergence
 from verification.cases.paper_scene import FRICTION, HERTZ
 from verification.cases.profile_chart import ProfileLabels
 from verification.cases.section_run import SectionRun, per_radius

@@ -7,21 +7,11 @@ from typing import TYPE_CHECKING
 
 from contact_scene import LoadStep
 from verification.cases import paper_scene as paper
-from verification.cases.case import (
-    Case,
-    Derived,
-    Followed,
-    Level,
-    NotYetAsymptotic,
-    OrderOfConvergence,
-    Quantity,
-    Required,
-    Run,
-    closed_form,
-)
+from verification.cases.case import Case, Derived, Level, Quantity, Required, Run, closed_form
 from verification.cases.chart import Chart
 from verification.cases.convergence_chart import convergence_chart
 from verification.cases.end_state import approach, contact_radius, peak_pressure
+from verification.cases.order_of_convergence import Followed, NotYetAsymptotic, OrderOfConvergence
 from verification.cases.paper_scene import HERTZ
 from verification.cases.profile_chart import Profile, ProfileLabels, Section, profile_chart
 from verification.cases.refinement import part_of_a_cell, refinement
@@ -29,6 +19,7 @@ from verification.metrics import relative_l2
 
 if TYPE_CHECKING:
     from semi_analytical import Result
+    from verification.cases.end_state import Result as EitherResult
 
 SOURCE = "Hertz 1882; Johnson 1985, ch. 4"
 ASKED = "required of this scene by the project's accuracy targets"
@@ -125,17 +116,17 @@ def pressure_error(result: Result) -> float:
     return relative_l2(result.steps[-1].pressure, HERTZ.pressure(r))
 
 
-def approach_error(result: Result) -> float:
+def approach_error(result: EitherResult) -> float:
     """Relative error of the approach."""
     return abs(approach(result) / HERTZ.approach - 1)
 
 
-def peak_error(result: Result) -> float:
+def peak_error(result: EitherResult) -> float:
     """Relative error of the peak pressure."""
     return abs(peak_pressure(result) / HERTZ.peak_pressure - 1)
 
 
-def radius_error(result: Result) -> float:
+def radius_error(result: EitherResult) -> float:
     """Relative error of the contact radius."""
     return abs(contact_radius(result) / HERTZ.contact_radius - 1)
 
@@ -149,7 +140,8 @@ def _peak_pressure(cells: int, allowed: float) -> Quantity:
 
 def _approach(cells: int) -> Quantity:
     return Quantity(
-        "approach", "approach of the bodies since first touch", "m", label(cells), approach,
+        "required_approach", "approach of the bodies since first touch", "m", label(cells),
+        approach,
         closed_form(HERTZ.approach, SOURCE), Required(5e-5, ASKED),
     )  # fmt: skip
 

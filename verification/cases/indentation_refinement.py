@@ -9,20 +9,12 @@ from typing import TYPE_CHECKING
 
 from contact_scene import Body, IsotropicMaterial
 from verification.cases import paper_scene as paper
-from verification.cases.case import (
-    Case,
-    Comparison,
-    Followed,
-    Level,
-    OrderOfChange,
-    ReferenceKind,
-    Refinement,
-    Run,
-)
+from verification.cases.case import Case, Comparison, Level, ReferenceKind, Run
 from verification.cases.chart import Chart
 from verification.cases.convergence_chart import convergence_chart
 from verification.cases.end_state import approach
 from verification.cases.indentation_reference import Indentation
+from verification.cases.order_of_convergence import Followed, OrderOfChange, Refinement
 from verification.quantities import shear_of
 from verification.studies.refinement.level_record import at_centres
 

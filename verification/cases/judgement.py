@@ -17,6 +17,7 @@ from verification.cases.outcome import (
     SceneRecord,
     Verdict,
 )
+from verification.cases.refined_errors import refined_errors
 from verification.cases.section_run import SectionRun
 from verification.cases.section_sketch import section_sketch
 from verification.cases.verdicts import (
@@ -79,12 +80,17 @@ def _verdicts(case: Case, results: Results) -> tuple[Verdict, ...]:
     measured = [q for q in case.quantities if _needs(q) <= results.keys()]
     studied = [study for study in case.orders if set(study.levels) <= results.keys()]
     return (
-        *(judge_quantity(quantity, case, results) for quantity in measured),
+        *(_with_levels(quantity, case, results) for quantity in measured),
         *(judge_comparison(c, results) for c in case.comparisons if set(c.runs) <= results.keys()),
         *(judge_check(check) for check in case.checks),
         *(judge_order(study, case, results) for study in studied),
         *([judge_residuals(case, results), *judge_laws(case, results)] if results else []),
     )
+
+
+def _with_levels(quantity: Quantity, case: Case, results: Results) -> Verdict:
+    refined = refined_errors(quantity, case, results)
+    return judge_quantity(quantity, case, results).model_copy(update={"refined": refined})
 
 
 def _needs(quantity: Quantity) -> set[str]:

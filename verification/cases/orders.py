@@ -10,7 +10,8 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from itertools import product
 
-from verification.cases.case import Followed, Refinement, Run
+from verification.cases.case import Run
+from verification.cases.order_of_convergence import Followed, Refinement
 from verification.cases.outcome import CaseOutcome
 from verification.cases.section_run import SectionRun
 

@@ -42,6 +42,16 @@ class OrderRecord(Description):
     """Error on each level, or change from it to the next."""
 
 
+class RefinedErrors(Description):
+    """Errors of one value on runs of several finenesses, coarse to fine."""
+
+    per_radius: tuple[float, ...]
+    """Cells or elements per contact radius."""
+
+    errors: tuple[float, ...]
+    """Relative to the reference, run by run."""
+
+
 class Verdict(Description):
     """One judged quantity. Errors are relative to `scale_name`; numbers that are not finite are
     null and fail."""
@@ -73,6 +83,9 @@ class Verdict(Description):
 
     order: OrderRecord | None = None
     """What an observed order was read off; null for all other verdicts."""
+
+    refined: RefinedErrors | None = None
+    """The same value on coarser and finer runs; null where its case has too few of them."""
 
     regression: Change | None = None
     """Against the recorded value; null if the case has no baseline of this level."""

@@ -69,7 +69,11 @@ class ProfileLabels:
     caption: str
     y_label: str
     x_label: str = "x / a"
-    difference_label: str = "difference"
+
+    @property
+    def difference_label(self) -> str:
+        """Of the strip below: the same quantity over the same scale."""
+        return f"Δ{self.y_label}"
 
 
 def profile_chart(

@@ -133,15 +133,15 @@ def _charts(results: Mapping[str, Result]) -> tuple[Chart, ...]:
             name="sampling_by_refinement",
             title="Sampled coefficients against refinement",
             caption="Refinement removes the error of the loaded and the next cell slowly, and "
-            "leaves that of the far ones, which periodic images make. The dotted line at the "
-            "bottom is the exact route.",
+            "leaves that of the far ones, which periodic images make. Thin black dashes at the "
+            "bottom: the exact route.",
             rows=((by_refinement,),),
         ),
         Chart(
             name="sampling_by_extension",
             title="Sampled coefficients against extension",
             caption="A longer period removes the images from the far cells, and does nothing for "
-            "the loaded one. The dotted line at the bottom is the exact route.",
+            "the loaded one. Thin black dashes at the bottom: the exact route.",
             rows=((by_extension,),),
         ),
     )

@@ -11,7 +11,7 @@ import numpy as np
 
 from contact_scene import IsotropicMaterial
 from verification.cases import paper_scene as paper
-from verification.cases.case import Followed, OrderOfConvergence
+from verification.cases.order_of_convergence import Followed, OrderOfConvergence
 from verification.closed_forms.tangential_history import TangentialHistory
 from verification.quantities import shift_along_x
 

@@ -13,9 +13,7 @@ from verification.cases import paper_scene as paper
 from verification.cases.case import (
     Case,
     Derived,
-    Followed,
     Level,
-    OrderOfConvergence,
     Quantity,
     Required,
     Run,
@@ -24,7 +22,9 @@ from verification.cases.case import (
 )
 from verification.cases.chart import Chart
 from verification.cases.convergence_chart import convergence_chart
+from verification.cases.end_state import stick_radius
 from verification.cases.hertz_point import label
+from verification.cases.order_of_convergence import Followed, OrderOfConvergence
 from verification.cases.paper_scene import FRICTION, HERTZ, STEEL
 from verification.cases.refinement import part_of_a_cell, refinement
 from verification.closed_forms.torsion import StuckTorsion, TorsionalPartialSlip
@@ -172,9 +172,6 @@ def _at(step: int, part: float, levels: tuple[str, ...], cells: int) -> tuple[Qu
     def twist(result: Result) -> float:
         return _number(result.steps[step].twist)
 
-    def stick_radius(result: Result) -> float:
-        return _number(result.steps[step].stick_radius)
-
     return (
         Quantity(
             f"twist_at_{part:g}", f"twist at {part:g} of the sliding torque", "rad", finest, twist,
@@ -183,7 +180,7 @@ def _at(step: int, part: float, levels: tuple[str, ...], cells: int) -> tuple[Qu
         ),
         Quantity(
             f"stick_radius_at_{part:g}", f"√(stick area / π) at {part:g} of the sliding torque",
-            "m", finest, stick_radius,
+            "m", finest, lambda result: stick_radius(result, step),
             closed_form(exact.stick_radius, SOURCE, HERTZ.contact_radius),
             Derived(levels, 1.0, part_of_a_cell(0.25, cells, paper.WINDOW_PER_RADIUS),
                     "order 1: the border is known to a part of a cell; the cap is a quarter"),

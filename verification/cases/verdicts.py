@@ -12,15 +12,13 @@ from verification.cases.case import (
     Check,
     Comparison,
     Derived,
-    OrderOfChange,
-    OrderOfConvergence,
     Quantity,
     Reference,
     ReferenceKind,
-    Refinement,
     Required,
     Run,
 )
+from verification.cases.order_of_convergence import OrderOfChange, OrderOfConvergence, Refinement
 from verification.cases.outcome import OrderRecord, Status, Verdict
 from verification.convergence import ORDER_OFF, ORDER_WIDTH, numerical_uncertainty, observed_order
 from verification.error_line import by_size
