@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Says what changed since the baseline, in the log and on the page of the job.
-# A drift within what the references allow (5) is a warning; what begins to fail (1), and a baseline
-# that cannot be read (2), are failures.
+# A drift within what the references allow, and a level that nothing is recorded of (5), are warnings;
+# what begins to fail (1), a report of chosen cases, and files that cannot be read (2), are failures.
 #
 # usage: compare.sh REPORT
 set -euo pipefail
@@ -12,8 +12,8 @@ if [ -s "$report/summary.md" ]; then cat "$report/summary.md" >>"${GITHUB_STEP_S
 status=0
 .venv/bin/slipstick compare "$report" || status=$?
 if [ "$status" = 5 ]; then
-    echo "::warning title=Baseline drift::Numbers differ from the accepted ones, within their tolerances;" \
-        "if they are right: slipstick baseline --accept --because '...' --from REPORT"
+    echo "::warning title=Baseline drift::Numbers differ from the accepted ones, within their tolerances, or none" \
+        "are accepted yet; if they are right: slipstick baseline --accept --because '...' --from REPORT"
     status=0
 fi
 exit "$status"

@@ -18,15 +18,16 @@ def override(document: dict[str, Any], assignment: str) -> Path:
     assignment  `dotted.key=value`; entries of an array count from 1, as in messages:
                 `loading[2].increments=5` is the second step. The value is TOML; what is not,
                 such as a bare word or `18 mm`, is a text.
-    Tables that are not there are made, entries of arrays are not. Raises `SceneError`.
+    Tables that are not there are made, entries of arrays are not. Raises `SceneError`, with the
+    document as it was.
     """
     key, equals, text = assignment.partition("=")
     path = _path(key.strip())
     if not equals or not path or not text.isprintable():
         raise _refused(assignment, f"got {shown(assignment)}", _EXPECTED)
+    _check_steps(document, path, assignment)
     holder: Any = document
     for part, following in zip(path, (*path[1:], None), strict=True):
-        _check_step(holder, part, path, assignment)
         if following is None:
             holder[part] = _value(text.strip())
         elif isinstance(holder, dict):
@@ -45,6 +46,13 @@ def _path(key: str) -> Path:
         path.append(match[1])
         path += [int(index) - 1 for index in re.findall(r"[0-9]+", match[2])]
     return tuple(path)
+
+
+def _check_steps(document: dict[str, Any], path: Path, assignment: str) -> None:
+    holder: Any = document
+    for part in path:
+        _check_step(holder, part, path, assignment)
+        holder = holder.get(part, {}) if isinstance(holder, dict) else holder[part]
 
 
 def _check_step(holder: Any, part: str | int, path: Path, assignment: str) -> None:

@@ -20,21 +20,28 @@ class Source:
     document    its contents, overrides applied
     lines       line of every key in the file
     overridden  the options that set a key
+    refused     what is wrong with options that set none
     """
 
     file: FilePath
     document: dict[str, Any]
     lines: Mapping[Path, int]
     overridden: Mapping[Path, str]
+    refused: tuple[Problem, ...]
 
     @contextmanager
     def placing(self) -> Iterator[None]:
-        """Raise a `SceneError` of the block again with the file and line of every mistake."""
+        """Raise a `SceneError` of the block again with the file and line of every mistake.
+
+        Mistakes of refused options are among them; they are raised too where the block raises none.
+        """
+        placed: list[Problem] = []
         try:
             yield
         except SceneError as error:
             placed = [self._placed(problem) for problem in error.problems]
-            raise SceneError(sorted(placed, key=lambda problem: problem.line or 0)) from None
+        if found := (*self.refused, *placed):
+            raise SceneError(sorted(found, key=lambda problem: problem.line or 0))
 
     def _placed(self, problem: Problem) -> Problem:
         """The problem with the file and line it belongs to, or with the override."""
@@ -51,10 +58,14 @@ class Source:
 
 
 def read_source(path: str | PathLike[str], overrides: Iterable[str]) -> Source:
-    """Read a file and apply overrides in order; raises `SceneError`."""
+    """Read a file and apply overrides in order; raises `SceneError` for what is no document."""
     file = FilePath(path)
     document, lines = read_toml(file)
     overridden: dict[Path, str] = {}
+    refused: list[Problem] = []
     for assignment in overrides:
-        overridden[override(document, assignment)] = origin(assignment)
-    return Source(file, document, lines, overridden)
+        try:
+            overridden[override(document, assignment)] = origin(assignment)
+        except SceneError as error:
+            refused += error.problems
+    return Source(file, document, lines, overridden, tuple(refused))

@@ -207,6 +207,9 @@ class RunSummary(Description):
     steps: tuple[StepSummary, ...]
     """One entry for every `[[loading]]` table, in order."""
 
+    remarks: tuple[str, ...] = ()
+    """What to bear in mind of these results: a theory that has come to its end."""
+
     path_errors: tuple[PathError, ...] | None = None
     """What finite increments cost, one entry for every step; null where it was not asked for."""
 

@@ -8,6 +8,7 @@ import typer
 from verification.cli.errors import explain
 from verification.cli.lazy_commands import LazyCommands
 from verification.one_thread import one_thread
+from verification.run_output.stop_signals import cleaned_up_when_stopped
 
 application = typer.Typer(
     cls=LazyCommands,
@@ -50,6 +51,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
     one_thread()
     command = typer.main.get_command(application)
     try:
-        command(args=arguments, prog_name="slipstick")
+        with cleaned_up_when_stopped():
+            command(args=arguments, prog_name="slipstick")
     except Exception as error:
         raise SystemExit(explain(error)) from None

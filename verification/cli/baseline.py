@@ -13,7 +13,7 @@ from verification.cli.report_file import read_report
 def baseline(
     names: Annotated[
         list[str] | None,
-        typer.Argument(metavar="[CASE]...", help="Cases to accept or list; none means all."),
+        typer.Argument(metavar="CASE", help="Cases to accept or list; none means all."),
     ] = None,
     accept: Annotated[
         bool, typer.Option("--accept", help="Record the numbers of a report.")
@@ -56,6 +56,7 @@ def baseline(
     versions, the processor, the commit, the date and the reason. Exit code 2 if there is no
     reason, a verdict failed, or the source differed from its commit: a baseline of numbers that no
     commit gives could not be made again. So: commit, verify, accept, commit the baseline.
+    Each level is recorded for itself; what is recorded of the others stays.
     """  # fmt: skip
     from verification.regression.baseline_files import BASELINES
 

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 def compare(
     report: Annotated[
         Path,
-        typer.Argument(metavar="[REPORT]", help="Folder of a report, or its report.json."),
+        typer.Argument(metavar="REPORT", help="Folder of a report, or its report.json."),
     ] = Path("reports/quick"),
     baseline: Annotated[
         Path | None,
@@ -30,6 +30,12 @@ def compare(
             "come with slipstick if absent.",
         ),
     ] = None,
+    chosen: Annotated[
+        bool,
+        typer.Option(
+            "--chosen", help="Compare a report of chosen cases without missing the other cases."
+        ),
+    ] = False,
 ) -> None:
     """Say what changed since the baseline, by how much in units of the tolerance, since which
     commit, and how to see it again.
@@ -37,14 +43,26 @@ def compare(
     Nothing is computed. Exit code 0 if nothing changed, 5 if something did and is within what its
     reference allows (also: new, gone, not recorded yet, suspiciously better, another count of
     iterations), 1 if something fails that did not or has moved away from its reference by more than
-    is allowed at all, 2 if the report contradicts itself. Last digits and counts are judged only on
-    the processor and with the versions of the baseline. In a report of chosen cases the others are
-    not missed.
-    """  # fmt: skip
-    from verification.regression.comparison import compared
+    is allowed at all, 2 if the report contradicts itself, or if only chosen cases ran and others
+    are recorded: such a report never stands for a whole one, unless --chosen says that it need not.
+    Last digits and counts are judged only on the processor and with the versions of the baseline.
 
-    outcome = compared(read_report(report), _baselines(baseline))
+    Baselines are recorded by level, and those of the report's level are taken.
+    """  # fmt: skip
+    from verification.regression.comparison import compared, refuse_if_not_whole
+    from verification.report.changes import without_baseline
+
+    measured, recorded = read_report(report), _baselines(baseline)
+    if not chosen:
+        refuse_if_not_whole(measured, recorded)
+    outcome = compared(measured, recorded)
     _print_changes(outcome)
+    if len(without_baseline(outcome)) == len(outcome.cases) > 0:
+        typer.echo(
+            f"error: nothing is recorded of these cases at level {outcome.level}; to record it: "
+            f"slipstick baseline --accept --because '...' --from {report}",
+            err=True,
+        )
     code = exit_code_of(outcome)
     if code is not ExitCode.PASS:
         raise typer.Exit(code)

@@ -25,7 +25,7 @@ def exit_code(error: Exception) -> ExitCode:
     """The exit code that stands for this kind of failure."""
     from contact_scene import SceneError
     from verification.regression.refusal import BaselineRefused
-    from verification.run_output.run_directory import OutputRefused
+    from verification.run_output.refusal import OutputRefused
 
     if isinstance(error, SceneError | OutputRefused | BaselineRefused):
         return ExitCode.INVALID

@@ -7,6 +7,7 @@ from pathlib import Path
 from verification.cases.case import Case
 from verification.cases.judged_case import CaseToJudge, JudgedCase, lost
 from verification.cases.outcome import CaseOutcome
+from verification.cli.kept_cases import told_when_stopped
 from verification.cli.verify_progress import verify_progress
 from verification.report.files import refuse_if_unwritable
 from verification.studies.running.case_pool import Workers, run_cases
@@ -30,7 +31,10 @@ def judged(
     asked = [CaseToJudge(case.name, level) for case in cases]
     refuse_if_unwritable(directory / CASES)
     store = CaseStore(directory / CASES)
-    with verify_progress({case.name: len(case.runs) for case in cases}) as observe:
+    with (
+        verify_progress({case.name: len(case.runs) for case in cases}) as observe,
+        told_when_stopped(asked, store, fresh=fresh),
+    ):
         ends = run_cases(asked, store, workers, observe, fresh=fresh)
     outcomes: list[CaseOutcome] = []
     seconds: dict[str, float] = {}

@@ -7,6 +7,8 @@ from typing import Any
 import typer
 from typer.core import TyperCommand, TyperGroup
 
+from verification.cli.option_mistakes import WordedCommand
+
 
 @dataclass(frozen=True)
 class LazyCommand:
@@ -19,7 +21,7 @@ class LazyCommand:
     def load(self, name: str) -> Any:
         """Import the module and build the command from its function."""
         single = typer.Typer(add_completion=False, rich_markup_mode="markdown")
-        single.command(name)(getattr(import_module(self.module), self.function))
+        single.command(name, cls=WordedCommand)(getattr(import_module(self.module), self.function))
         return typer.main.get_command(single)
 
 

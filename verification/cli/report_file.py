@@ -13,12 +13,14 @@ if TYPE_CHECKING:
 
 def read_report(place: Path) -> "Report":
     """The report; without one that this version can read, a message and exit code 2."""
-    from verification.report.files import RECORD
+    from verification.report.files import EARLIER, RECORD
     from verification.report.record import load_report
 
     record = place / RECORD if place.is_dir() else place
     if not record.is_file():
-        typer.echo(f"error: {record} does not exist; 'slipstick verify' makes it", err=True)
+        earlier = record.parent / EARLIER
+        before = f"; the report before it is in {earlier}" if (earlier / RECORD).is_file() else ""
+        typer.echo(f"error: {record} does not exist; 'slipstick verify' makes it{before}", err=True)
         raise typer.Exit(ExitCode.INVALID)
     try:
         return load_report(record)

@@ -66,6 +66,7 @@ def run(
     from verification.code_digest import solve_identity
     from verification.run_output.checkpoint import checkpointed
     from verification.run_output.run_directory import run_directory
+    from verification.run_output.stop_signals import NOTHING_KEPT, cleaned_up_when_stopped
     from verification.run_output.timing import Stopwatch
 
     stopwatch = Stopwatch()
@@ -85,6 +86,7 @@ def run(
         return
     asked = (contents.scene, contents.semi_analytical, all_effects)
     with (
+        cleaned_up_when_stopped(kept=lambda: NOTHING_KEPT),
         checkpointed(output, solve_identity(*asked), tell) as keeper,
         checkpointed(output, solve_identity(*asked, 2), tell, "doubled-checkpoint") as doubled,
         run_directory(output, overwrite=overwrite) as staging,
@@ -158,8 +160,9 @@ def _write(
 def _print_outcome(
     result: "Result", errors: "PathErrors | None", stopwatch: "Stopwatch", output: Path
 ) -> None:
+    from contact_scene.linear_theory import beyond_linear_theory
     from verification.cli.outcome_text import outcome_columns, path_error_columns, solved_with
-    from verification.cli.terminal import print_pairs, print_table
+    from verification.cli.terminal import print_pairs, print_table, tell
 
     print_pairs(solved_with(result, stopwatch.wall_seconds["solve"]))
     columns = outcome_columns(result)
@@ -168,6 +171,8 @@ def _print_outcome(
         typer.echo("  errors by finite increments, estimated by doubling them:")
         columns = path_error_columns(errors)
         print_table(columns, zip(*columns.values(), strict=True), numbers=True)
+    for remark in beyond_linear_theory(result.scene, result.steps):
+        tell(f"warning: {remark}")
     typer.echo(f"results in {output}")
 
 

@@ -34,10 +34,12 @@ def run_on_section(
     from verification.run_output.checkpoint import checkpointed
     from verification.run_output.run_directory import run_directory
     from verification.run_output.section.result_files import write_section_result
+    from verification.run_output.stop_signals import NOTHING_KEPT, cleaned_up_when_stopped
     from verification.run_output.timing import write_timing
 
     identity = solve_identity(contents.scene, contents.fem_reference, solver)
     with (
+        cleaned_up_when_stopped(kept=lambda: NOTHING_KEPT),
         checkpointed(output, identity, tell) as keeper,
         run_directory(output, overwrite=overwrite) as staging,
     ):
@@ -64,12 +66,15 @@ def solve_on_section(
 
 
 def _print_outcome(result: Result, solver: SolverName, stopwatch: Stopwatch, output: Path) -> None:
+    from contact_scene.linear_theory import beyond_linear_theory
     from verification.cli.outcome_text import outcome_columns
     from verification.cli.section_text import solved_on_section
-    from verification.cli.terminal import print_pairs, print_table
+    from verification.cli.terminal import print_pairs, print_table, tell
 
     seconds = stopwatch.wall_seconds["solve"]
     print_pairs(solved_on_section(result, method_of(solver), seconds))
     columns = outcome_columns(result)
     print_table(columns, zip(*columns.values(), strict=True), numbers=True)
+    for remark in beyond_linear_theory(result.scene, result.steps):
+        tell(f"warning: {remark}")
     typer.echo(f"results in {output}")

@@ -26,8 +26,10 @@ SolverOption: TypeAlias = Annotated[
     SolverName,
     typer.Option(
         "--solver",
-        help="'fem' takes finite elements with a penalty, 'fem-complementarity' without one; both "
-        "read the table fem_reference and ignore semi_analytical.",
+        metavar="NAME",
+        help="'semi-analytical', or finite elements, 'fem' with a penalty and "
+        "'fem-complementarity' without one; these read the table fem_reference and ignore "
+        "semi_analytical.",
     ),
 ]
 

@@ -36,6 +36,7 @@ def stress(
         int | None,
         typer.Option(
             "--step",
+            metavar="N",
             min=1,
             show_default=False,
             help="Loading step at the end of which the stress is taken; the last if absent.",
@@ -45,7 +46,7 @@ def stress(
         str | None,
         typer.Option(
             "--depths",
-            metavar="Z,Z,…",
+            metavar="Z,Z,...",
             show_default=False,
             help="Depths such as '0,0.1 mm,0.2 mm'; fitted to contact and layers if absent. Both "
             "sides of every interface are always there.",

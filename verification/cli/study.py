@@ -33,12 +33,12 @@ class LevelName(StrEnum):
 
 def study(
     name: Annotated[
-        str | None, typer.Argument(metavar="[NAME]", help="The study; --list names them.")
+        str | None, typer.Argument(metavar="NAME", help="The study; --list names them.")
     ] = None,
     scene: Annotated[
         Path | None,
         typer.Argument(
-            metavar="[SCENE]",
+            metavar="SCENE",
             show_default=False,
             help="Scene file (TOML) of the studies that refine something in it.",
         ),
@@ -57,9 +57,10 @@ def study(
         SolverName | None,
         typer.Option(
             "--solver",
+            metavar="NAME",
             show_default=False,
-            help="What solves SCENE: 'fem' are finite elements with a penalty, "
-            "'fem-complementarity' without one; the study's own if absent.",
+            help="What solves SCENE: 'semi-analytical', or finite elements, 'fem' with a penalty "
+            "and 'fem-complementarity' without one; the study's own if absent.",
         ),
     ] = None,
     levels: Annotated[
@@ -110,6 +111,7 @@ def study(
     failed or a case was lost.
     """  # fmt: skip
     from verification.cases.case import Level
+    from verification.cli.name_mistakes import unknown_names
     from verification.studies.catalogue import SCENE_STUDIES, STUDIES
     from verification.studies.running.study import Settings
 
@@ -120,10 +122,11 @@ def study(
         rows += [(f"{known} SCENE", study.title) for known, study in SCENE_STUDIES.items()]
         print_table(("study", "title"), rows)
         return
-    if name not in STUDIES and name not in SCENE_STUDIES:
-        known = ", ".join([*STUDIES, *SCENE_STUDIES])
-        problem = "name a study" if name is None else f"no study is called '{name}'"
-        raise typer.BadParameter(f"{problem}; there are {known}")
+    known = [*STUDIES, *SCENE_STUDIES]
+    if name is None:
+        raise typer.BadParameter(f"name a study; there are {', '.join(known)}")
+    if problem := unknown_names("study", [name], known, "slipstick study --list"):
+        raise typer.BadParameter(problem)
     if (scene is None) == (name in SCENE_STUDIES):
         problem = "needs a scene file" if scene is None else "takes no scene file"
         raise typer.BadParameter(f"study {name} {problem}")
@@ -148,20 +151,24 @@ def study(
 def _studied(
     study: Study, settings: Settings, command: str, directory: Path, workers: int | Workers
 ) -> StudyRecord:
+    from verification.cli.kept_cases import told_when_stopped
     from verification.cli.study_progress import study_progress
     from verification.report.files import refuse_if_unwritable
     from verification.report.provenance import provenance
-    from verification.run_output.stop_signals import cleaned_up_when_stopped
+    from verification.run_output.sole_use import in_sole_use
     from verification.studies.running.case_pool import run_cases
     from verification.studies.running.case_store import CaseStore
     from verification.studies.running.files import CASES, write_study
     from verification.studies.running.record import StudyRecord
 
-    with cleaned_up_when_stopped():
-        refuse_if_unwritable(directory)
+    refuse_if_unwritable(directory)
+    with in_sole_use(directory):
         cases = study.cases(settings)
         store = CaseStore(directory / CASES)
-        with study_progress(len(cases)) as observe:
+        with (
+            study_progress(len(cases)) as observe,
+            told_when_stopped(cases, store),
+        ):
             ends = run_cases(cases, store, workers, observe)
         records = {end.case.name: end.record for end in ends if end.record is not None}
         seconds = {name: getattr(record, "seconds", 0.0) for name, record in records.items()}

@@ -31,7 +31,7 @@ class LevelName(StrEnum):
 def verify(
     names: Annotated[
         list[str] | None,
-        typer.Argument(metavar="[CASE]...", help="Cases to run; none means all."),
+        typer.Argument(metavar="CASE", help="Cases to run; none means all."),
     ] = None,
     level: Annotated[
         LevelName, typer.Option("--level", help="How fine: quick takes about two minutes.")
@@ -81,20 +81,22 @@ def verify(
     report, to be opened in a browser), report.json, junit.xml and summary.md.
 
     Every finished case leaves a record in DIR/cases: the same command goes on where a killed one
-    stopped, and computes again what other sources or libraries made. A case whose worker dies has
-    failed; the others are finished.
+    stopped, and computes again what other sources or libraries made; a case that was running is
+    begun anew. An earlier report waits in DIR/earlier until the new one is whole, so that what a
+    killed verification leaves cannot be taken for its result. A case whose worker dies has failed;
+    the others are finished.
     """  # fmt: skip
     from verification.cases.case import Level
     from verification.cases.catalogue import catalogue, choose
     from verification.cases.outcome import Status
+    from verification.cli.name_mistakes import unknown_names
     from verification.studies.running.local_workers import cores
 
     chosen = Level[level.name]
-    try:
-        cases = choose(chosen, names or ())
-    except KeyError as unknown:
-        known = ", ".join(catalogue(chosen))
-        raise typer.BadParameter(f"no case is called {unknown}; there are {known}") from None
+    listing = f"slipstick verify --list --level {level}"
+    if problem := unknown_names("case", names or (), catalogue(chosen), listing):
+        raise typer.BadParameter(problem)
+    cases = choose(chosen, names or ())
     if list_cases:
         _print_list(cases)
         return
@@ -121,21 +123,22 @@ def _verified(
     from verification.cli.judged_cases import judged
     from verification.regression.baseline_files import read_baselines
     from verification.regression.comparison import compared
-    from verification.report.files import refuse_if_unwritable, write_report
+    from verification.report.files import refuse_if_unwritable, set_aside_report, write_report
     from verification.report.omissions import OMISSIONS
     from verification.report.provenance import provenance
     from verification.report.record import Report, count
     from verification.report.sections import PLACES, stored_records
-    from verification.run_output.stop_signals import cleaned_up_when_stopped
+    from verification.run_output.sole_use import in_sole_use
 
-    with cleaned_up_when_stopped():
-        refuse_if_unwritable(directory)
+    refuse_if_unwritable(directory)
+    with in_sole_use(directory):
         baselines = read_baselines()  # a damaged one is better known before hours of work
         try:
             studies = stored_records(*((PLACES, _left_out) if places is None else (places,)))
         except ValueError as error:
             typer.echo(f"error: {error}", err=True)
             raise typer.Exit(ExitCode.INVALID) from None
+        set_aside_report(directory)
         outcomes, seconds = judged(cases, level.name, directory, workers, fresh=fresh)
         command = " ".join(["slipstick verify", *names, f"--level {level}"])
         measured = Report(
@@ -166,9 +169,10 @@ def _left_out(problem: str) -> None:
 def _print_outcome(report: Report, directory: Path) -> None:
     from verification.cases.change import ChangeKind
     from verification.report.changes import change_rows, changes_text
+    from verification.report.counts import counts_text
     from verification.report.files import PAGE
     from verification.report.page import SYMBOLS, WORDS
-    from verification.report.summary_text import counts_text, failure_lines
+    from verification.report.summary_text import failure_lines
 
     for line in failure_lines(report):
         typer.echo(line)
@@ -181,7 +185,9 @@ def _print_outcome(report: Report, directory: Path) -> None:
     for row in rows[:MOST_WARNINGS]:
         typer.echo(f"WARN {row.line}")
     if len(rows) > MOST_WARNINGS:
-        typer.echo(f"WARN and {len(rows) - MOST_WARNINGS} more: slipstick compare {directory}")
+        some = " --chosen" if report.chosen else ""
+        more = f"slipstick compare {directory}{some}"
+        typer.echo(f"WARN and {len(rows) - MOST_WARNINGS} more: {more}")
     typer.echo(f"since the baseline: {changes_text(report)}")
     typer.echo(f"{SYMBOLS[report.status]} {WORDS[report.status]}: {counts_text(report)}")
     typer.echo(f"report: {directory / PAGE}")

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
-from verification.run_output.run_directory import OutputRefused
+from verification.run_output.refusal import OutputRefused
 
 
 @contextmanager

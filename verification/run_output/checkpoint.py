@@ -20,7 +20,8 @@ from contact_scene.standing import Standing
 from verification.run_output.atomic_file import atomic_file
 from verification.run_output.checkpoint_file import Unusable, packed, unpacked
 from verification.run_output.directory_lock import acquire, release
-from verification.run_output.run_directory import OutputRefused
+from verification.run_output.refusal import OutputRefused
+from verification.run_output.stop_signals import cleaned_up_when_stopped
 
 # A run of seconds leaves nothing, and one of hours spends a twentieth of them on checkpoints.
 SECONDS_BETWEEN = 5.0
@@ -102,6 +103,12 @@ class Checkpoint:
         if self._directory.is_dir() and self._locked():
             shutil.rmtree(self._directory, ignore_errors=True)
 
+    def how_to_go_on(self) -> str:
+        """What a process that is stopped now leaves to the next one; empty if nothing."""
+        if not (self._kept and self._parts):
+            return ""
+        return f"the same command goes on after increment {self._kept}, kept in {self._directory}"
+
     def close(self) -> None:
         """Let another process have it."""
         release(self._lock)
@@ -173,7 +180,8 @@ def checkpointed(
         directory = beside if beside.exists() else directory
     checkpoint = Checkpoint(directory, identity, say, SECONDS_BETWEEN)
     try:
-        yield checkpoint
+        with cleaned_up_when_stopped(kept=checkpoint.how_to_go_on):
+            yield checkpoint
         checkpoint.remove()
     except SolverError:
         checkpoint.remove()

@@ -15,8 +15,11 @@ from enum import Enum
 from pathlib import Path
 from typing import Any
 
+from contact_scene.free_memory import available_bytes
+
 FORMAT = b"slipstick checkpoint 1"
 PROTOCOL = 5
+LONGEST_LINE = 1000
 
 PACKAGES = ("contact_scene", "semi_analytical", "fem_reference", "verification.run_output")
 NUMPY = {
@@ -42,18 +45,21 @@ def packed(value: Any, identity: str) -> bytes:
 def unpacked(path: Path, identity: str) -> Any:
     """The value in a file; raises Unusable for a file of another solve, or one not whole."""
     try:
-        whole = path.read_bytes()
+        with path.open("rb") as file:
+            name, whose, digest = (file.readline(LONGEST_LINE).rstrip(b"\n") for _ in range(3))
+            if name != FORMAT:
+                raise Unusable(f"{path} is no checkpoint of this version")
+            if path.stat().st_size > available_bytes():
+                raise Unusable(f"{path} is larger than the memory that can be had")
+            content = file.read()
     except OSError as error:
         raise Unusable(f"{path} cannot be read: {error.strerror}") from error
-    name, *rest = whole.split(b"\n", 3)
-    if name != FORMAT:
-        raise Unusable(f"{path} is no checkpoint of this version")
-    if len(rest) != 3 or rest[1] != _digest(rest[2]):
+    if digest != _digest(content):
         raise Unusable(f"{path} is damaged")
-    if rest[0] != identity.encode():
+    if whose != identity.encode():
         raise Unusable(f"{path} is of another scene, solver, discretisation or version")
     try:
-        return _Reader(io.BytesIO(rest[2])).load()
+        return _Reader(io.BytesIO(content)).load()
     except Exception as error:  # whatever a pickle may raise that somebody has made
         raise Unusable(f"{path} is damaged: {error}") from error
 

@@ -17,11 +17,9 @@ from pathlib import Path
 
 from verification.run_output.directory_lock import acquire, release
 from verification.run_output.file_names import RUN_FILES, SUMMARY, TIMING
+from verification.run_output.refusal import OutputRefused
+from verification.run_output.sole_use import in_sole_use
 from verification.run_output.stop_signals import cleaned_up_when_stopped, stop_signals_held
-
-
-class OutputRefused(Exception):
-    """The directory cannot be written, or holds what is not ours to replace."""
 
 
 @contextmanager
@@ -35,20 +33,54 @@ def run_directory(target: Path, *, overwrite: bool = False) -> Iterator[Path]:
     target = Path(os.path.realpath(target))
     _refuse_what_is_in_the_way(target, overwrite)
     created = _create_parents(target)
-    staging, lock = _create_staging(target, created)
 
-    def clean() -> None:
-        shutil.rmtree(staging, ignore_errors=True)
+    def remove_created() -> None:
         _remove_empty(created)
 
     try:
-        with cleaned_up_when_stopped(clean):
+        with (
+            cleaned_up_when_stopped(remove_created),
+            in_sole_use(target),
+            _staging(target) as staging,
+        ):
             yield staging
             with stop_signals_held():
                 _publish(staging, target)
     finally:
+        remove_created()
+
+
+@contextmanager
+def _staging(target: Path) -> Iterator[Path]:
+    """A hidden directory to write into, gone at the end."""
+    staging, lock = _create_staging(target)
+
+    def clean() -> None:
+        shutil.rmtree(staging, ignore_errors=True)
+
+    try:
+        with cleaned_up_when_stopped(clean):
+            yield staging
+    except OSError as error:
+        _name_file(error, staging, target)
+        raise
+    finally:
         clean()
         release(lock)
+
+
+def _name_file(error: OSError, staging: Path, target: Path) -> None:
+    """Let the error of a write name the file: the system does not when a disk is full."""
+    if error.filename is None:
+        written = [
+            (path.stat().st_mtime_ns, path.stat().st_size, path) for path in staging.iterdir()
+        ]
+        name = max(written)[2].name if written else ""
+    else:
+        path = Path(os.fsdecode(error.filename))
+        name = path.name if path.parent == staging else ""
+    if name:
+        error.filename, error.filename2 = str(target / name), None
 
 
 def _refuse_what_is_in_the_way(target: Path, overwrite: bool) -> None:
@@ -87,7 +119,7 @@ def _create_parents(target: Path) -> list[Path]:
     return missing
 
 
-def _create_staging(target: Path, created: list[Path]) -> tuple[Path, int | None]:
+def _create_staging(target: Path) -> tuple[Path, int | None]:
     """Create and lock the hidden directory, and clear away those of runs that were killed.
 
     An existing target hosts it: it may be a mount point of its own, or the only place that may
@@ -102,7 +134,6 @@ def _create_staging(target: Path, created: list[Path]) -> tuple[Path, int | None
         try:
             staging.mkdir()
         except OSError as error:
-            _remove_empty(created)
             raise OutputRefused(f"cannot write into {place}: {error.strerror}") from error
         lock = acquire(staging, wait=True)
         if staging.exists():  # another run may have taken it for abandoned before it was locked

@@ -4,7 +4,7 @@ import os
 import signal
 import threading
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from types import FrameType
 from typing import Any
 
@@ -12,25 +12,41 @@ Handler = Callable[[int, FrameType | None], Any]
 
 STOPS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 STDERR = 2
+NOTHING_KEPT = "nothing is kept yet: the same command begins anew"
 SHOW_CURSOR = b"\x1b[?25h"  # a progress bar hides it
+
+_begun: list[tuple[Callable[[], None], Callable[[], str]]] = []  # blocks, outermost first
 
 
 @contextmanager
-def cleaned_up_when_stopped(clean: Callable[[], None] = lambda: None) -> Iterator[None]:
-    """End the process with 128 + number on a signal, but call `clean` before.
+def cleaned_up_when_stopped(
+    clean: Callable[[], None] = lambda: None, kept: Callable[[], str] = lambda: ""
+) -> Iterator[None]:
+    """End the process with 128 + number on a signal, but clean up before and say how to go on.
+
+    clean  called before the process ends; of blocks within each other the inner one's first
+    kept   what is kept of the work and how to go on, if the block knows; one line on stderr
 
     The handler leaves by itself: an exception raised from it would be lost wherever Python or a
     library swallows exceptions, as in the callbacks of the garbage collector.
     """
+    block = (clean, kept)
+    _begun.append(block)
+    try:
+        with _handled_by(_leave):
+            yield
+    finally:
+        _begun.remove(block)
 
-    def leave(number: int, frame: FrameType | None) -> None:
+
+def _leave(number: int, frame: FrameType | None) -> None:
+    for clean, _ in reversed(_begun):
         clean()
-        if os.isatty(STDERR):  # past sys.stderr, which a progress bar may have replaced
-            os.write(STDERR, SHOW_CURSOR + b"\n")
-        os._exit(128 + number)
-
-    with _handled_by(leave):
-        yield
+    told = next((text for _, kept in reversed(_begun) if (text := kept())), "")
+    line = f"interrupted{'; ' if told else ''}{told}\n".encode()
+    with suppress(OSError):  # past sys.stderr, which a progress bar may have replaced
+        os.write(STDERR, (SHOW_CURSOR + b"\n" if os.isatty(STDERR) else b"") + line)
+    os._exit(128 + number)
 
 
 @contextmanager

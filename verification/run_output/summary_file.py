@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from contact_scene.linear_theory import beyond_linear_theory
 from contact_scene.path_error import PathError
 from contact_scene.summary import (
     EffectSummary,
@@ -52,6 +53,7 @@ def summary_of(
             _step_summary(list(within), closed.get(step))
             for step, within in groupby(result.increments, lambda increment: increment.step)
         ),
+        remarks=beyond_linear_theory(result.scene, result.steps),
         path_errors=path_errors,
     )
 

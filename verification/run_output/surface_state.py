@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from contact_scene import Body
 from semi_analytical import Result, SurfaceGrid
 from verification.run_output.file_names import FIELDS
+from verification.run_output.stored_values import MISREAD, refuse_other_shape, text, values
 
 Field = NDArray[np.float64]
 
@@ -77,35 +78,42 @@ def state_of_result(result: Result, step: int | None) -> SurfaceState:
 
 
 def state_of_run(directory: Path, step: int | None) -> SurfaceState:
-    """The same from the fields that `slipstick run` has written there. Raises NoSuchState."""
+    """The same from the fields that `slipstick run` has written there.
+
+    Raises NoSuchState, also for a file that is no result, and ResourceRefused.
+    """
     path = directory / FIELDS
     if not path.is_file():
         raise NoSuchState(f"{directory} has no {FIELDS}; give the output of a run, or a scene file")
     try:
         with h5py.File(path) as file:
             return _read(file, step)
-    except (OSError, KeyError) as error:
+    except MISREAD as error:
         raise NoSuchState(f"{path} is not the {FIELDS} of a run: {error}") from None
 
 
 def _read(file: h5py.File, step: int | None) -> SurfaceState:
-    scene = json.loads(file["scene"].asstr()[()])
     group = file["increments"]
-    steps = group["step"][:].astype(int)
+    pressures, shears = group["pressure"], group.get("shear")
+    shape = (*group["step"].shape, *file["x"].shape, *file["y"].shape)
+    refuse_other_shape(pressures, shape)
+    if shears is not None:
+        refuse_other_shape(shears, (shape[0], 2, *shape[1:]))
+    scene = json.loads(text(file["scene"]))
+    steps = values(group["step"]).astype(int)
     chosen = _existing(step, sorted(set(steps.tolist())))
     last = int(np.flatnonzero(steps == chosen)[-1])
-    x, y = file["x"][:], file["y"][:]
+    x, y = values(file["x"]), values(file["y"])
     cells = (len(x), len(y))
     grid = SurfaceGrid(cells, (_window(x), _window(y)))
-    shear = group["shear"][last] if "shear" in group else None
     return SurfaceState(
         scene["title"],
         _body(scene["body"]),
         _body(scene["indenter"]),
         grid,
         chosen,
-        group["pressure"][last],
-        shear,
+        values(pressures, last),
+        None if shears is None else values(shears, last),
     )
 
 

@@ -10,6 +10,7 @@ import h5py
 import numpy as np
 
 from fem_reference import Method, Result
+from verification.run_output.dataset import describe, write_dataset, write_scalars
 from verification.run_output.file_names import FIELDS
 from verification.run_output.section.field_quantities import FIELD_QUANTITIES, SCALAR_QUANTITIES
 from verification.run_output.section.summary_file import solver_name
@@ -30,21 +31,20 @@ def write_section_fields(result: Result, method: Method, directory: Path) -> Non
         file.attrs["solver"] = solver_name(method)
         file.attrs["tolerance"] = result.discretisation.tolerance
         file.attrs["direction"] = result.plan.direction
-        _write(file, "scene", result.scene.model_dump_json(), "", "what was solved (JSON)")
+        write_dataset(file, "scene", result.scene.model_dump_json(), "", "what was solved (JSON)")
         fineness = result.discretisation.model_dump_json()
-        _write(file, "discretisation", fineness, "", "how finely (JSON)")
-        _write(file, "radii", result.increments[0].radii, "m", "radii of the rings")
+        write_dataset(file, "discretisation", fineness, "", "how finely (JSON)")
+        write_dataset(file, "radii", result.increments[0].radii, "m", "radii of the rings")
         angles = next((i.angles for i in result.increments if i.angles is not None), None)
         if angles is not None:
-            _write(file, "angles", angles, "rad", "from the direction of the tangential load")
+            write_dataset(
+                file, "angles", angles, "rad", "from the direction of the tangential load"
+            )
         group = file.create_group("increments", track_order=False)
         for field in FIELD_QUANTITIES:
             parts = [field.of(increment) for increment in result.increments]
             _write_fields(group, field.name, parts, (field.unit, field.meaning), angles)
-        for scalar in SCALAR_QUANTITIES:
-            values = [scalar.of(increment) for increment in result.increments]
-            if any(value is not None for value in values):
-                _write(group, scalar.name, _numbers(values), scalar.unit, scalar.meaning)
+        write_scalars(group, SCALAR_QUANTITIES, result.increments)
     (directory / FIELDS).write_bytes(contents.getbuffer())
 
 
@@ -60,16 +60,4 @@ def _write_fields(
         if part is not None:
             value[...] = part if part.shape == shape else part[:, None]
     dataset = group.create_dataset(name, data=values, track_times=False, **COMPRESSION)
-    dataset.attrs["unit"], dataset.attrs["description"] = described
-
-
-def _numbers(values: list[Any]) -> Any:
-    """An array of values of which some may be undefined: NaN stands for these."""
-    shape = np.shape(next(value for value in values if value is not None))
-    return np.array([np.full(shape, np.nan) if value is None else value for value in values])
-
-
-def _write(group: Any, name: str, values: Any, unit: str, meaning: str) -> None:
-    dataset = group.create_dataset(name, data=values, track_times=False)
-    dataset.attrs["unit"] = unit
-    dataset.attrs["description"] = meaning
+    describe(dataset, *described)

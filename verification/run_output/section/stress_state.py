@@ -13,6 +13,7 @@ from contact_scene import Body, FiniteElementDiscretisation
 from fem_reference import Result
 from fem_reference.stress import SurfaceTractions
 from verification.run_output.file_names import FIELDS
+from verification.run_output.stored_values import MISREAD, refuse_other_shape, text, values
 from verification.run_output.surface_state import NoSuchState
 
 SHEARS = ("shear_radial", "shear_circumferential", "shear_along_load")
@@ -55,25 +56,33 @@ def section_state_of_result(result: Result, step: int | None) -> SectionState:
 
 
 def section_state_of_run(directory: Path, step: int | None) -> SectionState:
-    """The same from the fields that `slipstick run` has written there. Raises NoSuchState."""
+    """The same from the fields that `slipstick run` has written there.
+
+    Raises NoSuchState, also for a file that is no result, and ResourceRefused.
+    """
     path = directory / FIELDS
     try:
         with h5py.File(path) as file:
             return _read(file, step)
-    except (OSError, KeyError) as error:
+    except MISREAD as error:
         raise NoSuchState(f"{path} is not the {FIELDS} of a run: {error}") from None
 
 
 def _read(file: h5py.File, step: int | None) -> SectionState:
-    scene = json.loads(file["scene"].asstr()[()])
-    fineness = FiniteElementDiscretisation.model_validate_json(file["discretisation"].asstr()[()])
     group = file["increments"]
-    steps = group["step"][:].astype(int)
+    shape = (*group["step"].shape, *file["radii"].shape)
+    shape = (*shape, *file["angles"].shape) if "angles" in file else shape
+    fields = {name: group[name] for name in ("pressure", *SHEARS) if name in group}
+    for field in fields.values():
+        refuse_other_shape(field, shape)
+    scene = json.loads(text(file["scene"]))
+    fineness = FiniteElementDiscretisation.model_validate_json(text(file["discretisation"]))
+    steps = values(group["step"]).astype(int)
     chosen = _existing(step, sorted(set(steps.tolist())))
     last = int(np.flatnonzero(steps == chosen)[-1])
-    shears = {name: group[name][last] for name in SHEARS if name in group}
-    angles = file["angles"][:] if "angles" in file else None
-    tractions = SurfaceTractions(file["radii"][:], group["pressure"][last], angles, **shears)
+    at_end = {name: values(field, last) for name, field in fields.items()}
+    angles = values(file["angles"]) if "angles" in file else None
+    tractions = SurfaceTractions(values(file["radii"]), at_end.pop("pressure"), angles, **at_end)
     return SectionState(
         scene["title"],
         _body(scene["body"]),

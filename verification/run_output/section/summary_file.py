@@ -7,6 +7,7 @@ from itertools import groupby
 from pathlib import Path
 from typing import Any
 
+from contact_scene.linear_theory import beyond_linear_theory
 from contact_scene.summary import (
     EffectSummary,
     Residuals,
@@ -45,6 +46,7 @@ def section_summary(result: Result, method: Method) -> RunSummary:
             _step_summary(result, list(within), closed.get(step))
             for step, within in groupby(worked, lambda pair: pair[0].step)
         ),
+        remarks=beyond_linear_theory(result.scene, result.steps),
     )
 
 

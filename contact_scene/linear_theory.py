@@ -1,0 +1,82 @@
+"""Whether strains are still small: where they are not, the solvers' theory has ended."""
+
+from collections.abc import Iterable, Iterator
+from typing import Protocol
+
+from contact_scene.body import Body
+from contact_scene.material import IsotropicMaterial
+from contact_scene.scene import Scene
+
+# The theory is wrong by the order of the strains it neglects. Hertz's ball is there at
+# a/R = 0.24, a cone at a slope of 11 degrees: Johnson 1985, eqs. 3.39 and 5.11.
+SMALL_STRAIN = 0.1
+
+
+class StepEnd(Protocol):
+    """The state at the end of a loading step, by either solver or from a summary."""
+
+    @property
+    def normal_force(self) -> float: ...
+    @property
+    def approach(self) -> float: ...
+    @property
+    def contact_area(self) -> float: ...
+    @property
+    def contact_radius(self) -> float: ...
+
+
+def beyond_linear_theory(scene: Scene, ends: Iterable[StepEnd]) -> tuple[str, ...]:
+    """A remark if strains are not small at the end of some loading step, on the worst of them."""
+    found = [
+        (strain, where, step)
+        for step, end in enumerate(ends, start=1)
+        for strain, where in _strains(scene, end)
+    ]
+    worst = max(found, default=(0.0, "", 0))
+    if worst[0] <= SMALL_STRAIN:
+        return ()
+    strain, where, step = worst
+    return (
+        f"strains of about {strain:.2g} in {where} at the end of step {step}: the theory is of "
+        "small strains, and wrong by about as much",
+    )
+
+
+def _strains(scene: Scene, end: StepEnd) -> Iterator[tuple[float, str]]:
+    """Strains by order of magnitude, and where they are; none without contact."""
+    if not (end.contact_area > 0 and end.normal_force > 0):
+        return
+    pressure = end.normal_force / end.contact_area
+    bodies = {"the body": scene.body, "the indenter": scene.indenter}
+    for name, body in bodies.items():
+        for material, where in _strained(body, end.contact_radius):
+            yield pressure / material, f"{where} of {name}" if where else name
+    if not any(isinstance(body.material, IsotropicMaterial) for body in bodies.values()):
+        layers = sum(layer.thickness for body in bodies.values() for layer in body.layers)
+        yield end.approach / layers, "the layers"
+
+
+def _strained(body: Body, contact_radius: float) -> Iterator[tuple[float, str]]:
+    """Moduli of what lies no deeper than a contact radius, where the pressure has not faded.
+
+    E/(1 - nu^2) of what can yield sideways; of a layer thinner than the contact radius, which is
+    held by what it is bonded to, the modulus of uniaxial strain.
+    """
+    depth = 0.0
+    for number, layer in enumerate(body.layers, start=1):
+        if depth < contact_radius:
+            held = layer.thickness < contact_radius
+            where = f"layer {number}"
+            if not held:
+                yield layer.material.plane_strain_modulus, where
+            elif layer.material.poisson_ratio < 0.5:  # else it only shears
+                yield _uniaxial_modulus(layer.material), where
+        depth += layer.thickness
+    if depth < contact_radius and isinstance(body.material, IsotropicMaterial):
+        yield body.material.plane_strain_modulus, "the substrate" if body.layers else ""
+
+
+def _uniaxial_modulus(material: IsotropicMaterial) -> float:
+    """E (1 - nu) / ((1 + nu) (1 - 2 nu)) [force/length^2]."""
+    nu = material.poisson_ratio
+    return material.young_modulus * (1.0 - nu) / ((1.0 + nu) * (1.0 - 2.0 * nu))

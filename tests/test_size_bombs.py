@@ -1,0 +1,329 @@
+"""What claims to be huge is refused at once, and without the memory that it claims."""
+
+import os
+import subprocess
+import sys
+import time
+import tracemalloc
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import h5py
+import numpy as np
+import pytest
+from report_examples import COATED
+from study_cases import Square
+
+from contact_scene.solver_errors import ResourceRefused
+from fem_reference import stored_compliance
+from semi_analytical.influence import cache
+from verification.run_output import stored_values
+from verification.run_output.checkpoint_file import FORMAT, Unusable, unpacked
+from verification.run_output.file_names import FIELDS
+from verification.run_output.section.stress_state import section_state_of_run
+from verification.run_output.surface_state import NoSuchState, state_of_run
+from verification.studies.running.case_store import CaseStore, DamagedRecord
+
+ROOT = Path(__file__).resolve().parents[1]
+MEGABYTE = 1_000_000
+MOST_MEMORY = 200 * MEGABYTE  # of a whole process, Python and its libraries included
+SOON = 1.0  # seconds of CPU
+CLAIM = "more than a file of"
+HUGE = 1 << 14  # cells along a side, the most there can be: 2 GB for one field
+SIDE = 200  # of a stored compliance matrix: 320 kB
+SCENE = """
+[indenter]
+shape = "height_map"
+file = "heights.npy"
+spacing = "1 um"
+material = "rigid"
+[body]
+material = { young_modulus = "210 GPa", poisson_ratio = 0.3 }
+[[loading]]
+normal_force = 1
+"""
+
+
+# ---- a whole process -----------------------------------------------------------------------------
+
+
+@dataclass(frozen=True)
+class Ended:
+    """How a process ended, and what it took."""
+
+    code: int
+    said: str
+    seconds: float
+    memory: int
+
+
+# Told by the process itself: what the system says of a child begins with the memory of its parent.
+COMMAND = """
+import atexit, re, sys, time
+def tell():
+    peak = re.search(r"VmHWM:\\s*([0-9]+) kB", open("/proc/self/status").read())[1]
+    print("took", time.process_time(), 1024 * int(peak), file=sys.stderr)
+atexit.register(tell)
+from verification.cli import main
+main()
+"""
+
+
+def slipstick(*arguments: object) -> Ended:
+    process = subprocess.run(
+        [sys.executable, "-c", COMMAND, *map(str, arguments)],
+        cwd=ROOT, capture_output=True, text=True, check=False,
+        env=os.environ | {"OPENBLAS_NUM_THREADS": "1"},
+    )  # fmt: skip
+    said, _, took = process.stderr.rpartition("took ")
+    seconds, memory = took.split()
+    words = " ".join(said.replace("│", " ").split())  # out of the frame that typer draws
+    return Ended(process.returncode, words, float(seconds), int(memory))
+
+
+def sparse(path: Path, content: bytes, size: int = 100_000 * MEGABYTE) -> None:
+    """A file that begins so and goes on with zeros which the disk does not hold."""
+    path.write_bytes(content)
+    os.truncate(path, size)
+
+
+SCENE_BOMBS: dict[str, tuple[Callable[[Path], object], str]] = {
+    "keys": (lambda path: path.write_bytes(b"a = 1\n" * (100 * MEGABYTE // 6)), "too large"),
+    "one key": (lambda path: path.write_bytes(b"a" * 100 * MEGABYTE), "too large"),
+    "zeros": (lambda path: sparse(path, b"title = 'x'\n"), "too large"),
+    "steps": (lambda path: path.write_bytes(b"[[loading]]\n" * 800_000), "too many keys"),
+    "brackets": (lambda path: path.write_bytes(b"a = " + b"[" * 9 * MEGABYTE), "too many keys"),
+    "blanks": (lambda path: path.write_bytes(b" " * 10 * MEGABYTE), "is empty"),
+}
+
+
+@pytest.fixture(scope="module")
+def refusal_of_nothing(tmp_path_factory: pytest.TempPathFactory) -> Ended:
+    """What it takes to refuse a small file: Python and its libraries."""
+    path = tmp_path_factory.mktemp("small") / "scene.toml"
+    path.touch()
+    return slipstick("check", path)
+
+
+@pytest.mark.parametrize(("write", "words"), SCENE_BOMBS.values(), ids=SCENE_BOMBS)
+def test_huge_scene_is_refused_at_once(
+    tmp_path: Path, refusal_of_nothing: Ended, write: Callable[[Path], object], words: str
+) -> None:
+    write(tmp_path / "scene.toml")
+    ended = slipstick("check", tmp_path / "scene.toml")
+    assert ended.code == 2
+    assert words in ended.said
+    assert ended.memory < MOST_MEMORY
+    assert ended.seconds - refusal_of_nothing.seconds < SOON
+
+
+@pytest.mark.parametrize("shape", ["(100000, 100000)", "(16384, 16384)"])
+def test_height_map_of_zeros_that_are_not_there_is_refused_at_once(
+    tmp_path: Path, refusal_of_nothing: Ended, shape: str
+) -> None:
+    (tmp_path / "scene.toml").write_text(SCENE, encoding="utf-8")
+    np.save(tmp_path / "heights.npy", np.zeros((8, 8)))
+    header = (tmp_path / "heights.npy").read_bytes()[:128]
+    assert b"(8, 8), }" in header
+    boast = header.replace(b"(8, 8), }".ljust(len(shape) + 3), f"{shape}, }}".encode())
+    assert len(boast) == len(header)
+    sparse(tmp_path / "heights.npy", boast)
+    ended = slipstick("check", tmp_path / "scene.toml")
+    assert ended.code == 2
+    assert "heights.npy" in ended.said
+    assert ended.memory < MOST_MEMORY
+    assert ended.seconds - refusal_of_nothing.seconds < SOON
+
+
+def test_result_of_zeros_that_are_not_there_is_refused_at_once(
+    tmp_path: Path, refusal_of_nothing: Ended
+) -> None:
+    surface_result(tmp_path / FIELDS, cells=HUGE)
+    ended = slipstick("stress", tmp_path, "-o", tmp_path / "stress")
+    assert ended.code == 2
+    assert f"is not the {FIELDS} of a run" in ended.said
+    assert CLAIM in ended.said
+    assert ended.memory < MOST_MEMORY
+
+
+# ---- within a process ----------------------------------------------------------------------------
+
+
+@contextmanager
+def frugal() -> Iterator[None]:
+    """Little memory is asked for in the block, and little time."""
+    tracemalloc.start()
+    started = time.process_time()
+    try:
+        yield
+        assert time.process_time() - started < SOON
+        assert tracemalloc.get_traced_memory()[1] < 20 * MEGABYTE
+    finally:
+        tracemalloc.stop()
+
+
+def surface_result(path: Path, cells: int = 8, **changed: tuple[int, ...]) -> None:
+    """A result of a surface grid; but for cell centres, its numbers were never written.
+
+    changed  shapes of datasets that are not as the others say
+    """
+    shapes = {
+        "increments/step": (1,),
+        "increments/pressure": (1, cells, cells), "increments/shear": (1, 2, cells, cells),
+    } | {name.replace("_of_", "/"): shape for name, shape in changed.items()}  # fmt: skip
+    with h5py.File(path, "w") as file:
+        file["scene"] = COATED.model_dump_json()
+        if "x" not in shapes:
+            file["x"] = np.linspace(-1, 1, cells)
+        file["y"] = np.linspace(-1, 1, cells)
+        for name, shape in shapes.items():
+            file.create_dataset(name, shape, float)
+
+
+def section_result(path: Path, rings: int = 8, **changed: tuple[int, ...]) -> None:
+    """The same of a section."""
+    shapes = {"radii": (rings,), "increments/step": (1,), "increments/pressure": (1, rings)}
+    shapes |= {name.replace("_of_", "/"): shape for name, shape in changed.items()}
+    with h5py.File(path, "w") as file:
+        file["scene"] = file["discretisation"] = "{}"
+        for name, shape in shapes.items():
+            file.create_dataset(name, shape, float)
+
+
+RESULT_BOMBS: dict[str, tuple[Callable[[Path], object], str]] = {
+    "grid": (lambda path: surface_result(path, cells=HUGE), CLAIM),
+    "steps": (
+        lambda path: surface_result(
+            path,
+            increments_of_step=(1 << 40,),
+            increments_of_pressure=(1 << 40, 8, 8),
+            increments_of_shear=(1 << 40, 2, 8, 8),
+        ),
+        CLAIM,
+    ),
+    "pressure": (lambda path: surface_result(path, increments_of_pressure=(1, 9, HUGE)), "shape"),
+    "shear": (lambda path: surface_result(path, increments_of_shear=(1, 2, 9, HUGE)), "shape"),
+    "dimensions": (lambda path: surface_result(path, x=(HUGE, HUGE)), "shape"),
+    "chunks": (lambda path: many_chunks(path), "chunks, at most"),
+    "text": (lambda path: claimed_text(path), CLAIM),
+    "chunk": (lambda path: one_chunk(path), CLAIM),
+    "zeros": (lambda path: sparse(path, b""), "signature not found"),
+    "zeros after a signature": (lambda path: sparse(path, b"\x89HDF\r\n\x1a\n"), "nable to"),
+}
+
+
+def claimed_text(path: Path) -> None:
+    surface_result(path)
+    with h5py.File(path, "a") as file:
+        del file["scene"]
+        file.create_dataset("scene", (), "S2000000000")
+
+
+def many_chunks(path: Path) -> None:
+    """Numbers one by one: what takes the library long to find, and much memory to remember."""
+    surface_result(path, x=(MEGABYTE,), increments_of_pressure=(1, MEGABYTE, 8),
+                   increments_of_shear=(1, 2, MEGABYTE, 8))  # fmt: skip
+    with h5py.File(path, "a") as file:
+        del file["x"]
+        file.create_dataset("x", (MEGABYTE,), float, chunks=(1,))
+
+
+def one_chunk(path: Path) -> None:
+    """All steps in one chunk: whoever reads one of them unpacks all."""
+    surface_result(path)
+    with h5py.File(path, "a") as file:
+        del file["increments/step"]
+        file.create_dataset(
+            "increments/step", (1,), float, maxshape=(None,), chunks=(1 << 28,), compression="gzip"
+        )
+
+
+@pytest.mark.parametrize(("write", "words"), RESULT_BOMBS.values(), ids=RESULT_BOMBS)
+def test_claims_of_a_surface_result_are_refused_unread(
+    tmp_path: Path, write: Callable[[Path], object], words: str
+) -> None:
+    write(tmp_path / FIELDS)
+    with frugal(), pytest.raises(NoSuchState, match=f"is not the {FIELDS} of a run: .*{words}"):
+        state_of_run(tmp_path, None)
+
+
+@pytest.mark.parametrize(
+    "changed",
+    [
+        {"rings": 1 << 40},
+        {"increments_of_pressure": (1, 1 << 40)},
+        {"increments_of_shear_radial": (1, 1 << 40)},
+        {"angles": (1 << 40,), "increments_of_pressure": (1, 8, 1 << 40)},
+        {"increments_of_step": (1 << 40,), "increments_of_pressure": (1 << 40, 8)},
+    ],
+)
+def test_claims_of_a_section_are_refused_unread(tmp_path: Path, changed: dict[str, Any]) -> None:
+    section_result(tmp_path / FIELDS, **changed)
+    with frugal(), pytest.raises(NoSuchState, match=f"is not the {FIELDS} of a run"):
+        section_state_of_run(tmp_path, None)
+
+
+def test_values_beyond_the_memory_are_refused_unread(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Packed zeros are what the file says, and still too much."""
+    with h5py.File(tmp_path / FIELDS, "w") as file:
+        file.create_dataset("x", data=np.zeros(MEGABYTE), chunks=True, compression="gzip")
+    monkeypatch.setattr(stored_values, "available_bytes", lambda: 7 * MEGABYTE)
+    with (
+        h5py.File(tmp_path / FIELDS) as file,
+        frugal(),
+        pytest.raises(ResourceRefused, match="can be had"),
+    ):
+        stored_values.values(file["x"])
+
+
+def packed_compliance(entry: Path) -> None:
+    """No larger than the entry that is looked for, and yet not it."""
+    np.savez_compressed(entry, matrix=np.zeros(20 * MEGABYTE), digest=np.array("of nothing"))
+    assert entry.stat().st_size < 8 * SIDE**2
+
+
+@pytest.mark.parametrize("write", [packed_compliance, lambda entry: sparse(entry, b"PK\3\4")])
+def test_stored_compliance_of_zeros_is_absent(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, write: Callable[[Path], object]
+) -> None:
+    monkeypatch.setenv("SLIPSTICK_CACHE_DIR", str(tmp_path))
+    write(tmp_path / f"key{stored_compliance.ENDING}")
+    with frugal():
+        assert stored_compliance.stored("key", (SIDE, SIDE)) is None
+    stored_compliance.store("key", np.eye(SIDE))
+    stored = stored_compliance.stored("key", (SIDE, SIDE))
+    assert stored is not None
+    assert np.array_equal(stored, np.eye(SIDE))
+
+
+def test_stored_coefficients_of_zeros_are_absent(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("SLIPSTICK_CACHE_DIR", str(tmp_path))
+    assert np.array_equal(cache.remembered("this", (8, 8), lambda: np.eye(8)), np.eye(8))
+    (entry,) = tmp_path.iterdir()
+    sparse(entry, entry.read_bytes())
+    with frugal():
+        assert np.array_equal(
+            cache.remembered("this", (8, 8), lambda: 2 * np.eye(8)), 2 * np.eye(8)
+        )
+
+
+@pytest.mark.parametrize("head", [b"", FORMAT + b"\nthis solve\n"])
+def test_checkpoint_of_zeros_is_refused_unread(tmp_path: Path, head: bytes) -> None:
+    sparse(tmp_path / "part", head)
+    with frugal(), pytest.raises(Unusable, match=r"no checkpoint of this version|larger than"):
+        unpacked(tmp_path / "part", "this solve")
+
+
+def test_record_of_zeros_is_refused_unread(tmp_path: Path) -> None:
+    store, case = CaseStore(tmp_path), Square(2.0)
+    store.save(case, case.compute())
+    sparse(store.path(case), store.path(case).read_bytes())
+    with frugal(), pytest.raises(DamagedRecord, match="larger than any record"):
+        store.load(case)

@@ -1,0 +1,64 @@
+"""Values in an HDF5 file, read only if the file can really hold what it claims.
+
+A dataset of any size can be claimed in a few bytes: what was never written, or zeros that are
+packed, cost nothing on the disk and everything in memory. Files of ours are refused here as soon as
+their claims are known.
+"""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+from typing import Any
+
+import h5py
+from numpy.typing import NDArray
+
+from contact_scene.free_memory import available_bytes
+from contact_scene.solver_errors import ResourceRefused
+
+# Claimed bytes per byte of the file. Deflate packs at most 1032 to 1, and of two fields at an
+# increment, one of them with two components, the larger may have nothing to store.
+LARGEST_RATIO = 4096
+MOST_CHUNKS = 10_000  # in one reading; our fields have one per increment
+# What h5py raises where something else stands in the place of a value, or what follows from it.
+MISREAD = (OSError, KeyError, ValueError, TypeError, AttributeError, IndexError, RecursionError)
+
+
+def refuse_other_shape(dataset: h5py.Dataset, expected: tuple[int, ...]) -> None:
+    """Raise ValueError unless the dataset has this shape."""
+    if dataset.shape != expected:
+        raise ValueError(f"{dataset.name} has shape {dataset.shape}, expected {expected}")
+
+
+def values(dataset: h5py.Dataset, row: int | None = None) -> NDArray[Any]:
+    """All values of a dataset, or those at an index along its first axis.
+
+    Raises ValueError for more than a file of its size can hold or in more pieces than we write,
+    ResourceRefused for more than the memory that can be had; nothing is read then.
+    """
+    shape = dataset.shape if row is None else (1, *dataset.shape[1:])
+    chunk = dataset.chunks or shape
+    chunks = math.prod(-(-n // piece) for n, piece in zip(shape, chunk, strict=True))
+    if chunks > MOST_CHUNKS:
+        raise ValueError(f"{dataset.name} has {chunks} chunks, at most {MOST_CHUNKS} are read")
+    size = dataset.dtype.itemsize * max(math.prod(shape), math.prod(chunk))
+    file = Path(dataset.file.filename)
+    held = file.stat().st_size
+    if size > LARGEST_RATIO * held:
+        raise ValueError(
+            f"{dataset.name} claims {size} bytes, more than a file of {held} bytes holds"
+        )
+    if size > (available := available_bytes()):
+        raise ResourceRefused(
+            f"{dataset.name} of {file} needs {size / 1e9:.1f} GB, and {available / 1e9:.1f} GB "
+            "can be had"
+        )
+    read: NDArray[Any] = dataset[()] if row is None else dataset[row]
+    return read
+
+
+def text(dataset: h5py.Dataset) -> str:
+    """The text of a dataset; raises what `values` raises."""
+    content: Any = values(dataset)
+    return content.decode() if isinstance(content, bytes) else str(content)
