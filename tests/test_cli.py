@@ -24,6 +24,7 @@ from semi_analytical.errors import (
     UnsupportedScene,
 )
 from verification.cli import main
+from verification.cli.lazy_commands import COMMANDS
 from verification.one_thread import VARIABLES
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -126,9 +127,43 @@ def test_help_names_every_command(capsys: pytest.CaptureFixture[str]) -> None:
         assert f" {command} " in shown
 
 
+@pytest.mark.parametrize("command", COMMANDS)
+def test_help_cuts_no_word_on_a_narrow_terminal(
+    command: str, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("COLUMNS", "80")
+    assert slipstick(command, "--help") == 0
+    lines = capsys.readouterr().out.splitlines()
+    assert max(map(len, lines)) <= 80
+    assert "…" not in "".join(lines)
+    assert not [line for line in lines if re.search(r"<[^>=]*$", line)]  # values that are taken
+
+
 def test_misspelt_command_gets_a_suggestion(capsys: pytest.CaptureFixture[str]) -> None:
     assert slipstick("chek", "scene.toml") == 2
     assert "Did you mean 'check'" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("command", "words"),
+    [
+        ("verify hertz_pont fem_herz", "'hertz_pont', did you mean hertz_point?; "
+         "no case is called 'fem_herz', did you mean fem_hertz?"),
+        ("verify xyz", "no case is called 'xyz'; 'slipstick verify --list --level quick' names"),
+        ("study gross_sliding", "did you mean gross-sliding?"),
+        ("study meshh scene.toml", "did you mean mesh?"),
+        ("study mesh scene.toml --cells 8", "got 8, expected at least 16"),
+        ("study mesh scene.toml --levels 99", "got 99, expected at most 10"),
+        ("verify --workers two", "got 'two', expected a whole number"),
+        ("verify --level quik", "'--level': 'quik' is not one of 'quick', 'standard', 'full'"),
+    ],
+)  # fmt: skip
+def test_bad_arguments_are_told_with_what_was_expected(
+    command: str, words: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert slipstick(*command.split()) == 2
+    told = " ".join(capsys.readouterr().err.replace("│", " ").split())
+    assert words in told
 
 
 def test_version_is_printed(capsys: pytest.CaptureFixture[str]) -> None:

@@ -164,13 +164,15 @@ def test_full_disk_ends_with_one_message_and_nothing_written(scene: Path) -> Non
         preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (20_000, 20_000)),
     )
     assert outcome.returncode == 4
-    assert outcome.stderr.splitlines()[-1].startswith("error: ")
+    result = scene.parent / "out" / "result.h5"
+    assert outcome.stderr.splitlines()[-1] == f"error: {result}: File too large"
     assert outcome.stderr.count("\n") == 4  # three steps and the message
     assert os.listdir(scene.parent) == [scene.name]
 
 
-def stopped_run(scene: Path, number: signal.Signals, after: float) -> int:
-    """Exit code of a long run that gets a signal some seconds after it has begun to solve."""
+def stopped_run(scene: Path, number: signal.Signals, after: float) -> tuple[int, str]:
+    """Exit code of a long run that gets a signal some seconds after it has begun to solve, and
+    what it said then."""
     process = subprocess.Popen(
         command(scene, *LONG), cwd=ROOT, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE
     )
@@ -179,7 +181,10 @@ def stopped_run(scene: Path, number: signal.Signals, after: float) -> int:
         assert process.stderr.readline().startswith(b"step 1/3")
         time.sleep(after)
         process.send_signal(number)
-        return process.wait(timeout=30)
+        said = process.communicate(timeout=30)[1].decode()
+        return process.returncode, "".join(
+            line for line in said.splitlines(True) if not line.startswith("step ")
+        )
     finally:
         process.kill()
         process.communicate()
@@ -193,13 +198,14 @@ def test_stopped_run_leaves_earlier_results_and_nothing_else(
     out = scene.parent / "out"
     before = {path.name: path.read_bytes() for path in out.iterdir()}
     for after in (0.0, 0.13):
-        assert stopped_run(scene, number, after) == code
+        said = "interrupted; nothing is kept yet: the same command begins anew\n"
+        assert stopped_run(scene, number, after) == (code, said)
         assert {path.name: path.read_bytes() for path in out.iterdir()} == before
     assert sorted(os.listdir(scene.parent)) == ["out", scene.name]
 
 
 def test_killed_run_leaves_a_hidden_directory_that_the_next_run_clears_away(scene: Path) -> None:
-    assert stopped_run(scene, signal.SIGKILL, 0.1) == -signal.SIGKILL
+    assert stopped_run(scene, signal.SIGKILL, 0.1) == (-signal.SIGKILL, "")
     assert len(partial_directories(scene)) == 1
     assert not (scene.parent / "out").exists()
     assert run(scene, "--no-figures").returncode == 0

@@ -5,7 +5,13 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from verification.cases.case import Case, Followed, NotYetAsymptotic, OrderOfChange, Refinement
+from verification.cases.case import Case
+from verification.cases.order_of_convergence import (
+    Followed,
+    NotYetAsymptotic,
+    OrderOfChange,
+    Refinement,
+)
 from verification.cases.outcome import Status
 from verification.cases.verdicts import judge_order
 

@@ -1,5 +1,6 @@
 """Orders of convergence: what is judged, of runs that share a size, and how it is drawn."""
 
+from collections.abc import Callable
 from functools import cache
 from itertools import product
 from types import SimpleNamespace
@@ -8,21 +9,18 @@ from typing import Any
 import numpy as np
 import pytest
 
-from verification.cases.case import (
-    Case,
-    Derived,
-    Followed,
-    Level,
-    OrderOfConvergence,
-    Quantity,
-    Refinement,
-    identity,
-)
+from verification.cases import sheared_increments
+from verification.cases.case import Case, Derived, Level, Quantity, identity
 from verification.cases.catalogue import catalogue
 from verification.cases.chart import Look
 from verification.cases.convergence_chart import convergence_chart
+from verification.cases.fem_hertz import fem_hertz_on
+from verification.cases.fem_partial_slip import fem_partial_slip_on
+from verification.cases.judgement import solve_run
+from verification.cases.order_of_convergence import Followed, OrderOfConvergence, Refinement
 from verification.cases.orders import LATER, REASONS, SECTION, SURFACE, not_judged
 from verification.cases.outcome import Status, Verdict
+from verification.cases.sheared_increments import sheared_increments_on
 from verification.cases.verdicts import judge_order, judge_quantity
 from verification.convergence import observed_order
 
@@ -137,3 +135,54 @@ def test_values_that_refinement_does_not_change_are_judged_exactly(
     case = Case("planted", "", "", runs, (quantity,))
     verdict = judge_quantity(quantity, case, dict.fromkeys(labels, 0.0))
     assert (verdict.allowed, verdict.status, verdict.clearance) == (0.0, status, clearance)
+
+
+def pressed() -> Case:
+    return fem_hertz_on((8,), tuple(product((6, 8, 11, 16), (0.3, 0.7))))
+
+
+def pushed() -> Case:
+    return fem_partial_slip_on(8, tuple(product((6, 8, 11, 16), (0.3, 0.7))))
+
+
+def cut() -> Case:
+    return sheared_increments_on((1, 2, 4, 8, 16))
+
+
+@pytest.mark.parametrize("case_of", [pressed, pushed, cut])
+def test_lines_of_a_chart_are_those_that_are_judged(
+    case_of: Callable[[], Case], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Levels, sizes and orders."""
+    monkeypatch.setattr(sheared_increments, "CELLS", 16)
+    monkeypatch.setattr(sheared_increments, "ENERGETIC", 2)
+    case = case_of()
+    results = {run.label: solve_run(run) for run in case.runs}
+    drawn = [
+        c
+        for chart in case.charts(results)
+        for (panel,) in chart.rows
+        if panel.logarithmic
+        for c in panel.curves
+    ]
+    assert len(case.orders) >= 3
+    for order in case.orders:
+        verdict = judge_order(order, case, results)
+        assert verdict.order is not None
+        levels = len(verdict.order.errors)
+        errors = pytest.approx(verdict.order.errors, rel=2e-3)
+        found = [c for c in drawn if c.y[-levels:] == errors]
+        (points,) = (c for c in found if c.look is Look.LEVELS)
+        (line,) = (c for c in drawn if c.look is Look.FITTED and c.series == points.series)
+        (x_coarse, x_fine), (y_coarse, y_fine) = line.x, line.y
+        slope = np.log(y_coarse / y_fine) / np.log(x_coarse / x_fine)
+        assert slope == pytest.approx(verdict.value, rel=2e-3), order.name
+        sizes = verdict.order.sizes
+        assert x_coarse / x_fine == pytest.approx(sizes[0] / sizes[-1], rel=2e-3), order.name
+
+
+def test_slope_that_nothing_tells_is_not_printed() -> None:
+    errors = [1.0, 0.2, 1.1, 0.3, 0.9, 0.25]
+    chart = convergence_chart("c", "", "", list(SIZES), {"value": errors}, {})
+    labels = [c.label for (panel,) in chart.rows for c in panel.curves]
+    assert "value: no order can be read" in labels

@@ -10,6 +10,7 @@ import pytest
 from contact_scenes import PRESS, grid, push, scene
 from coupled_scenes import bulk
 from coupled_scenes import scene as coupled_scene
+from scene_texts import RIGID_BALL
 
 import semi_analytical
 from contact_scene.path_error import PathError
@@ -110,15 +111,7 @@ def test_summary_has_the_estimate_only_if_it_was_asked_for(turning):
     assert summary_of(result, (), errors).path_errors == errors
 
 
-SCENE = """
-[indenter]
-shape = "paraboloid"
-radius = "18 mm"
-material = "rigid"
-[body]
-material = { young_modulus = "210 GPa", poisson_ratio = 0.3 }
-[friction]
-coefficient = 0.1
+SCENE = f"""{RIGID_BALL}
 [[loading]]
 normal_force = "1 kN"
 increments = 2

@@ -208,7 +208,7 @@ def test_error_that_was_small_is_not_suspicious(healthy: CaseOutcome) -> None:
     [
         ({"allowed": 0.5}, "tolerance"),
         ({"reference": 9e-6}, "reference was"),
-        ({"status": Status.INCONCLUSIVE}, "was pass"),
+        ({"status": Status.INCONCLUSIVE}, "pass -> inconclusive"),
         ({"unit": "mm"}, "unit was m"),
     ],
 )
@@ -227,6 +227,31 @@ def test_wider_tolerance_does_not_make_a_move_smaller(healthy: CaseOutcome) -> N
     change = find(compare(wide, healthy), "approach").regression
     assert change is not None
     assert change.moved == pytest.approx(0.5)
+
+
+@pytest.mark.parametrize(("part", "kind"), [(3.0, ChangeKind.OUTSIDE), (0.5, ChangeKind.DRIFT)])
+def test_order_that_is_lost_is_held_to_the_tolerance_it_had(
+    healthy: CaseOutcome, part: float, kind: ChangeKind
+) -> None:
+    """A bad solver scatters its levels, which widens the interval that it would be judged by."""
+    order = {"value": 2.03, "allowed": 0.2, "interval": 0.2, "status": Status.PASS}
+    passed = with_verdict(healthy, "order_of_approach", **order)
+    lost = {"value": 2 - part * 0.2, "allowed": 1.0, "interval": 1.0}
+    now = with_verdict(passed, "order_of_approach", status=Status.INCONCLUSIVE, **lost)
+    verdict = find(compare(now, passed), "order_of_approach")
+    assert verdict.regression is not None
+    assert verdict.regression.kind is kind
+    assert "pass -> inconclusive, held to the recorded tolerance" in verdict.regression.remark
+    line = failure_line(now.name, verdict, "quick")
+    assert line.startswith("MOVED hertz_point/order_of_approach")
+    assert "pass -> inconclusive" in line
+
+
+def test_order_that_was_inconclusive_may_move(healthy: CaseOutcome) -> None:
+    was = find(healthy, "order_of_approach")
+    wide = with_verdict(healthy, was.name, allowed=1.0, status=Status.INCONCLUSIVE)
+    now = with_verdict(wide, was.name, value=was.reference - 1.5)
+    assert kind_of(now, wide, was.name) is ChangeKind.DRIFT
 
 
 def test_number_that_is_not_finite_is_a_change(healthy: CaseOutcome) -> None:
@@ -289,8 +314,9 @@ def test_largest_residual_may_be_found_in_another_run(healthy: CaseOutcome) -> N
     assert compare(moved, healthy).gone == ()
 
 
-def test_numbers_of_a_case_have_keys_of_their_own() -> None:
-    for case in catalogue(Level.QUICK).values():
+@pytest.mark.parametrize("level", Level)
+def test_numbers_of_a_case_have_keys_of_their_own(level: Level) -> None:
+    for case in catalogue(level).values():
         keys = [(q.name, q.run, type(q.tolerance)) for q in case.quantities]
         keys += [(c.name, c.subject, type(c.tolerance)) for c in case.checks]
         keys += [(c.name, " and ".join(c.runs), object) for c in case.comparisons]
@@ -360,7 +386,9 @@ def test_damaged_baseline_is_named(
 
 
 def test_every_baseline_belongs_to_a_case() -> None:
-    assert read_baselines().keys() <= catalogue(Level.QUICK).keys()
+    for case, baseline in read_baselines().items():
+        for level in baseline.levels:
+            assert case in catalogue(Level[level.upper()]), (case, level)
     assert {path.suffix for path in BASELINES.glob("*.*")} <= {".json", ".py"}
 
 
@@ -404,7 +432,7 @@ def test_failure_line_says_since_when(healthy: CaseOutcome) -> None:
     case = compare(shifted(healthy, "approach", 3.0, of="U"), healthy)
     line = failure_line(case.name, find(case, "approach"), "quick")
     assert re.fullmatch(
-        r"FAIL hertz_point/approach \[128x128\]: [\d.]+ µm, expected [\d.]+ µm ± [\d.]+ nm "
+        r"FAIL hertz_point/approach \[128x128\]: [\d.]+ µm, expected [\d.]+ µm ± [\d.]+ µm "
         r"\([\d.]+ U\); was [\d.]+ µm at 1a2b3c4; "
         r"reproduce: slipstick verify hertz_point --level quick",
         line,
@@ -450,6 +478,38 @@ def slipstick(*arguments: object) -> int:
     with pytest.raises(SystemExit) as leaving:
         main([str(argument) for argument in arguments])
     return int(leaving.value.code or 0)
+
+
+@pytest.mark.parametrize("level", [level.name.lower() for level in Level])
+def test_report_is_compared_with_the_baseline_of_its_level(
+    healthy: CaseOutcome, tmp_path: Path, capsys: pytest.CaptureFixture[str], level: str
+) -> None:
+    """Each level has numbers of its own, side by side in one file."""
+    numbers = {"quick": 0.0, "standard": 1e-5, "full": 2e-5}
+    report, baselines = tmp_path / "report", tmp_path / "baselines"
+    report.mkdir()
+    compare = ("compare", report, "--baseline", baselines)
+    for name, part in numbers.items():
+        if name != level:
+            write_report(at_level(name, shifted(healthy, "approach", part)), report)
+            assert slipstick("baseline", "--accept", "--because", REASON, "--from", report, "--to",
+                             baselines) == 0  # fmt: skip
+    write_report(at_level(level, shifted(healthy, "approach", numbers[level])), report)
+    capsys.readouterr()
+    assert slipstick(*compare) == 5
+    assert f"at level {level}; to record it" in capsys.readouterr().err
+    assert slipstick("baseline", "--accept", "--because", REASON, "--from", report, "--to",
+                     baselines) == 0  # fmt: skip
+    assert f"1 baselines of level {level}" in capsys.readouterr().out
+    assert slipstick(*compare) == 0
+    write_report(at_level(level, shifted(healthy, "approach", numbers[level] + 1e-6)), report)
+    assert slipstick(*compare) == 5
+    assert f"reproduce: slipstick verify hertz_point --level {level}" in capsys.readouterr().out
+    assert list(read_baselines(baselines)[healthy.name].levels) == list(numbers)
+
+
+def at_level(level: str, *cases: CaseOutcome) -> Report:
+    return report_of(*cases).model_copy(update={"level": level})
 
 
 @pytest.fixture
@@ -502,7 +562,9 @@ def test_comparison_without_baseline_says_so_and_does_not_pass(
 ) -> None:
     (tmp_path / "none").mkdir()
     assert slipstick("compare", places[0], "--baseline", tmp_path / "none") == 5
-    assert "no baseline yet of level quick" in capsys.readouterr().out
+    captured = capsys.readouterr()
+    assert "no baseline yet of level quick" in captured.out
+    assert "nothing is recorded of these cases at level quick; to record it" in captured.err
 
 
 def test_damaged_baseline_ends_the_commands_before_any_work(

@@ -40,6 +40,22 @@ def test_labels_are_round() -> None:
     assert log_ticks(1e-12, 1.0) == pytest.approx([1e-12, 1e-10, 1e-8, 1e-6, 1e-4, 1e-2, 1])
 
 
+@pytest.mark.parametrize("letters", [10, 35, 70])
+def test_a_legend_leaves_the_plot_half_of_the_width(letters: int) -> None:
+    curves = tuple(curve(f"{n} {'m' * letters}", [1, 2], [n, n + 1], series=n) for n in range(8))
+    panel = Panel(x_label="x", y_label="y", curves=curves, height=2.4)
+    chart = Chart(name="one", title="t", caption="c", rows=((panel,),))
+    with style.figure_style():
+        figure = draw(chart)
+        figure.draw_without_rendering()
+        legend = [*figure.legends, figure.axes[0].get_legend()][0].get_window_extent()
+    assert figure.axes[0].get_position().width > 0.5
+    assert figure.axes[0].get_position().height * figure.get_figheight() > 1.5
+    # Beside the plot or below it, never on it.
+    assert not legend.overlaps(figure.axes[0].get_window_extent())
+    assert all(f"{n} {'m' * letters}" in inline_svg(chart) for n in range(8))
+
+
 def test_both_axes_of_a_logarithmic_chart_are_labelled() -> None:
     line = curve("error", [0.011, 0.03, 0.09], [0.0021, 0.004, 0.009], Look.POINTS)
     panel = Panel(x_label="x", y_label="y", curves=(line,), logarithmic=True)

@@ -18,13 +18,14 @@ from report_examples import (
 
 from contact_scene import RIGID, FlatPunch, LoadStep, Scene
 from verification.cases.case import ReferenceKind
-from verification.cases.outcome import OrderRecord, Status
+from verification.cases.outcome import CaseOutcome, OrderRecord, Status
 from verification.cases.section_sketch import HALF_WIDTH, section_sketch
 from verification.cases.table import Table
 from verification.report.answers import answers
-from verification.report.both_solvers import CELLS, ELEMENTS, shared_references
+from verification.report.both_solvers import both_solvers_charts, furthest_apart, shared_references
 from verification.report.columns import alignment
 from verification.report.compact_svg import compact
+from verification.report.counts import counts_text
 from verification.report.features import features
 from verification.report.page import render_page
 from verification.report.prices import price_table, prices, telling_chart
@@ -54,6 +55,7 @@ def test_sections_come_in_their_order_and_the_contents_lead_to_each() -> None:
     page = render_page(of_both(1e-6, 1e-6))
     found = re.findall(r'<(?:section|header) id="([^"]*)"', page)
     assert tuple(found) == SECTIONS
+    assert page.index("</header>") < page.index("<nav")  # on a phone the verdict comes first
     contents = page[page.index("<nav") : page.index("</nav>")]
     assert tuple(re.findall(r'<li><a href="#(\w+)">(?!<span)', contents)) == SECTIONS
 
@@ -70,19 +72,30 @@ def test_three_kinds_of_verdict_are_counted_apart() -> None:
     ]
 
 
-@pytest.mark.parametrize(
-    ("cells", "elements", "nearer", "apart"),
-    [(1.001e-6, 1.2e-6, CELLS, "20 %"), (1.3e-6, 0.999e-6, ELEMENTS, "30 %")],
-)
-def test_the_nearer_solver_is_the_one_with_the_smaller_error(
-    cells: float, elements: float, nearer: str, apart: str
-) -> None:
-    report = of_both(cells, elements)
-    (shared,) = shared_references(report)
-    assert shared.nearer == nearer
-    text = " ".join(answers(report)[2].sentences)
-    assert f"{nearer} nearer" in text
-    assert apart in text
+def test_rows_of_both_solvers_have_names_of_their_own_and_a_chart_per_kind() -> None:
+    def with_runs(name: str, cells: int | None, values: dict[str, float]) -> CaseOutcome:
+        runs, verdicts = [], []
+        for k, (what, reference) in enumerate(values.items()):
+            label = f"E1/E2 = {k}, {cells}x{cells}" if cells else f"E1/E2 = {k}"
+            runs.append(
+                run_record(cells, None if cells else 64).model_copy(update={"label": label})
+            )
+            word = what.partition(" ")[0]
+            verdicts.append(verdict(word, 1.001 * reference, reference, label))
+        one = case(name, {}, run_record(64, None), drawn=False)
+        return one.model_copy(update={"runs": tuple(runs), "verdicts": tuple(verdicts)})
+
+    values = {"approach a": 1e-6, "approach b": 2e-6, "contact_radius": 3e-6, "energy": 4e-6}
+    outcomes = (with_runs("coated", 256, values), with_runs("again", 256, values),
+                with_runs("fem_coated", None, values))  # fmt: skip
+    charts = both_solvers_charts(shared_references(report_of(outcomes)))
+    places = [chart.rows[0][0].y_places for chart in charts]
+    assert places == [
+        ("coated, E1/E2 = 1", "coated, E1/E2 = 0"),
+        ("contact, coated, E1/E2 = 2",),
+        ("energy, coated, E1/E2 = 3",),
+    ]
+    assert len({chart.name for chart in charts}) == len(charts)
 
 
 def test_values_of_different_references_are_not_compared() -> None:
@@ -162,9 +175,13 @@ def test_the_places_where_solvers_are_furthest_apart_come_first() -> None:
                 run_record(64, None))  # fmt: skip
     far = case("fem_hertz", {"approach": (1.001e-6, 1e-6), "radius": (1.9e-6, 2e-6)},
                run_record(None, 32))  # fmt: skip
-    table = answers(report_of((near, far)))[2].table
-    assert table is not None
-    assert [row[0] for row in table.rows] == ["radius, hertz point", "approach, hertz point"]
+    report = report_of((near, far))
+    table = furthest_apart(shared_references(report))
+    assert table.title in render_page(report)
+    assert [row[0] for row in table.rows] == [
+        "radius, hertz point, run",
+        "approach, hertz point, run",
+    ]
     assert table.rows[0][1:4] == ("10 %", "5 %", "5 %")
 
 
@@ -199,6 +216,37 @@ def test_promises_lead_the_page_with_figures_or_with_the_command_that_finds_them
     for feature in (plan, cost, stable):
         assert f'<a href="#{feature.anchor}">{feature.promise}</a>' in header
         assert feature.figures in header
+
+
+def test_a_promise_is_told_in_a_line_also_by_a_study_without_an_answer() -> None:
+    record = study("stability")
+    claims = tuple(
+        Statement(claim=f"claim {n}", outcome=outcome, measured="words " * 40)
+        for n, outcome in enumerate((Status.PASS, Status.PASS, Status.FAIL, None))
+    )
+    conclusion = record.conclusion.model_copy(update={"statements": claims})
+    told = record.model_copy(update={"conclusion": conclusion})
+    (*_, stable) = features(report_of((), (told,)))
+    assert stable.figures == "2 of its 3 judged claims hold (level quick)"
+
+
+@pytest.mark.parametrize("number", [0, 1, 2])
+def test_headline_names_studies_that_are_inconclusive(number: int) -> None:
+    claim = Statement(claim="c", outcome=Status.INCONCLUSIVE, measured="m")
+    names = ("stability", "penalty", "gross-sliding")[: number + 1]
+    records = [study(name) for name in names]
+    open_ = [
+        one.model_copy(update={"conclusion": one.conclusion.model_copy(
+            update={"statements": (claim,)})})
+        for one in records[:number]
+    ]  # fmt: skip
+    report = report_of((), (*open_, *records[number:]))
+    words = {0: "", 1: "; 1 study inconclusive", 2: "; 2 studies inconclusive"}[number]
+    assert counts_text(report) == f"0 passed, 0 failed, 0 inconclusive{words}"
+    heading = re.search(r"<h1>(.*?)</h1>", render_page(report), re.DOTALL)
+    assert heading is not None
+    assert counts_text(report) in heading[1]
+    assert f"{counts_text(report)}, in 0 cases." in render_summary(report)
 
 
 def test_observed_orders_stand_in_one_table_with_expectation_and_reason() -> None:

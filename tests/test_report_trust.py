@@ -21,7 +21,15 @@ from verification.regression.acceptance import accept, baselines_of
 from verification.regression.comparison import compared
 from verification.report import provenance
 from verification.report.changes import change_rows
-from verification.report.files import JUNIT, PAGE, RECORD, SUMMARY, write_report
+from verification.report.files import (
+    EARLIER,
+    JUNIT,
+    PAGE,
+    RECORD,
+    SUMMARY,
+    set_aside_report,
+    write_report,
+)
 from verification.report.junit import render_junit
 from verification.report.page import render_page
 from verification.report.provenance_record import Provenance
@@ -92,16 +100,123 @@ def test_case_without_baseline_is_new(places: tuple[Path, Path]) -> None:
     assert [(row.case, row.kind) for row in change_rows(outcome)] == [("two", ChangeKind.NEW)]
 
 
-def test_chosen_cases_do_not_miss_the_others_and_say_so(
+def test_chosen_cases_never_stand_for_all(
     places: tuple[Path, Path], capsys: pytest.CaptureFixture[str]
 ) -> None:
     report, baselines = places
-    chosen = report_of(three_cases().cases[:1]).model_copy(update={"chosen": True})
-    write_report(chosen, report)
+    compare = ("compare", report, "--baseline", baselines)
+    for number, missing in ((1, "three, two"), (2, "two")):
+        write_report(chosen_of(three_cases().cases[:number]), report)
+        assert slipstick(*compare) == 2
+        said = f"{3 - number} that are recorded at level quick were not run: {missing};"
+        assert said in capsys.readouterr().err
+    write_report(chosen_of(three_cases().cases), report)
+    assert slipstick(*compare) == 0
+
+
+def chosen_of(cases: tuple[CaseOutcome, ...]) -> Report:
+    return report_of(cases).model_copy(update={"chosen": True})
+
+
+def test_cases_of_another_level_are_not_missed(places: tuple[Path, Path]) -> None:
+    report, baselines = places
+    (one, *_) = three_cases().cases
+    full = chosen_of((one,)).model_copy(update={"level": "full"})
+    accept(full, REASON, baselines, with_changes=True)
+    write_report(full, report)
     assert slipstick("compare", report, "--baseline", baselines) == 0
+    write_report(chosen_of((one,)), report)
+    assert slipstick("compare", report, "--baseline", baselines) == 2
+
+
+def test_chosen_cases_are_compared_on_demand_and_say_so(
+    places: tuple[Path, Path], capsys: pytest.CaptureFixture[str]
+) -> None:
+    report, baselines = places
+    chosen = chosen_of(three_cases().cases[:1])
+    write_report(chosen, report)
+    assert slipstick("compare", report, "--baseline", baselines, "--chosen") == 0
     assert "chosen cases alone" in capsys.readouterr().out
     assert "chosen cases alone" in render_summary(chosen)
     assert "of chosen cases" in render_page(chosen)
+
+
+# ---- the report before -------------------------------------------------------------------------
+
+
+FILES = {PAGE, RECORD, JUNIT, SUMMARY}
+
+
+def files_in(directory: Path) -> dict[str, bytes]:
+    return {path.name: path.read_bytes() for path in directory.iterdir() if path.is_file()}
+
+
+def test_earlier_report_waits_aside_until_the_new_one_is_whole(places: tuple[Path, Path]) -> None:
+    report, _ = places
+    (report / "of_mine.txt").touch()
+    before = files_in(report)
+    for _ in range(2):  # the second call finds what a killed verification has left
+        set_aside_report(report)
+        assert files_in(report) == {"of_mine.txt": b""}
+        assert files_in(report / EARLIER) == {name: before[name] for name in FILES}
+    write_report(report_of(three_cases().cases[:1]), report)
+    assert files_in(report).keys() == FILES | {"of_mine.txt"}
+    assert not (report / EARLIER).exists()
+
+
+def test_remains_of_no_whole_report_are_removed_and_spare_the_one_aside(
+    places: tuple[Path, Path],
+) -> None:
+    report, _ = places
+    before = files_in(report)
+    set_aside_report(report)
+    (report / PAGE).write_bytes(before[PAGE])
+    set_aside_report(report)
+    assert files_in(report) == {}
+    assert files_in(report / EARLIER) == before
+
+
+@pytest.mark.parametrize("moved", range(4))
+def test_end_in_the_middle_of_setting_aside_costs_no_numbers(
+    places: tuple[Path, Path], monkeypatch: pytest.MonkeyPatch, moved: int
+) -> None:
+    report, _ = places
+    record = (report / RECORD).read_bytes()
+    calls = iter(range(moved))
+    move = os.replace
+
+    def replace(source: Path, target: Path) -> None:
+        if next(calls, None) is None:
+            raise KeyboardInterrupt
+        move(source, target)
+
+    with monkeypatch.context() as patch:
+        patch.setattr("verification.report.files.os.replace", replace)
+        with pytest.raises(KeyboardInterrupt):
+            set_aside_report(report)
+    assert len(files_in(report)) == len(FILES) - moved
+    set_aside_report(report)
+    assert files_in(report) == {}
+    assert (report / EARLIER / RECORD).read_bytes() == record
+
+
+def test_what_is_not_ours_stays_where_a_report_would_wait(places: tuple[Path, Path]) -> None:
+    report, _ = places
+    (report / EARLIER).mkdir()
+    (report / EARLIER / "of_mine.txt").touch()
+    set_aside_report(report)
+    write_report(three_cases(), report)
+    assert files_in(report / EARLIER) == {"of_mine.txt": b""}
+
+
+def test_report_that_is_not_there_is_told_with_the_one_before(
+    places: tuple[Path, Path], capsys: pytest.CaptureFixture[str]
+) -> None:
+    report, baselines = places
+    set_aside_report(report)
+    assert slipstick("compare", report, "--baseline", baselines) == 2
+    assert f"the report before it is in {report / EARLIER}" in capsys.readouterr().err
+    assert slipstick("compare", report / EARLIER, "--baseline", baselines) == 0
 
 
 # ---- reports and records that were changed -------------------------------------------------------

@@ -10,8 +10,10 @@ from typing import Any
 
 import pytest
 
+from verification.run_output.directory_lock import acquire, release
 from verification.run_output.file_names import SUMMARY, TIMING
-from verification.run_output.run_directory import OutputRefused, run_directory
+from verification.run_output.refusal import OutputRefused
+from verification.run_output.run_directory import run_directory
 from verification.run_output.timing import Stopwatch, write_timing
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -151,14 +153,15 @@ def test_abandoned_directory_is_cleared_away_and_a_live_one_is_not(tmp_path: Pat
     abandoned = tmp_path / ".out.partial-0badcafe"
     abandoned.mkdir()
     (abandoned / "result.h5").write_text("half")
-    with run_directory(tmp_path / "out") as first:
+    live = tmp_path / ".out.partial-0decade0"
+    live.mkdir()
+    lock = acquire(live, wait=False)
+    with run_directory(tmp_path / "out") as staging:
         assert not abandoned.exists()
-        with run_directory(tmp_path / "out") as second:
-            assert first.exists()
-            fill(second, "second")
-        fill(first, "first")
-    assert contents(tmp_path / "out") == {SUMMARY: "first", "profiles.csv": "first"}
-    assert os.listdir(tmp_path) == ["out"]
+        assert live.exists()
+        fill(staging)
+    release(lock)
+    assert sorted(os.listdir(tmp_path)) == [live.name, "out"]
 
 
 @pytest.fixture

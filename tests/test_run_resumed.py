@@ -37,6 +37,8 @@ cells = [32, 32]
 [fem_reference]
 elements_per_radius = 6
 """
+INCREMENTS = 4 + 8 + 8
+DOUBLED = ".out.doubled-checkpoint"
 # With a checkpoint after every increment.
 RUN = f"""
 import sys
@@ -81,27 +83,38 @@ def uninterrupted(directory: Path, *options: str) -> dict[str, bytes]:
     return results(directory)
 
 
-def parts(directory: Path) -> int:
-    return len(list((directory / ".out.checkpoint").glob("part-*")))
+def parts(directory: Path, checkpoint: str) -> int:
+    return len(list((directory / checkpoint).glob("part-*")))
 
 
-def test_killed_run_goes_on_and_leaves_the_same_bytes(tmp_path: Path) -> None:
-    expected = uninterrupted(tmp_path / "whole")
+# A run with --path-error is killed in its second solve, that of twice the increments: the first
+# one, which is done, is not lost either.
+@pytest.mark.parametrize(
+    ("options", "solves"),
+    [((), (".out.checkpoint",)), (("--path-error",), (".out.checkpoint", DOUBLED))],
+    ids=["run", "path error"],
+)
+def test_killed_run_goes_on_and_leaves_the_same_bytes(
+    options: tuple[str, ...], solves: tuple[str, ...], tmp_path: Path
+) -> None:
+    expected = uninterrupted(tmp_path / "whole", *options)
     killed = tmp_path / "killed"
     killed.mkdir()
-    process = started(killed)
+    process = started(killed, *options)
     deadline = time.monotonic() + 150
-    while parts(killed) < 6 and time.monotonic() < deadline:
+    while parts(killed, solves[-1]) < 6 and time.monotonic() < deadline:
         time.sleep(0.005)
     process.send_signal(signal.SIGKILL)
     process.communicate()
-    done = parts(killed)
-    assert done >= 6
+    done = [parts(killed, solve) for solve in solves]
+    assert done[-1] >= 6
+    assert done[:-1] == [INCREMENTS] * (len(solves) - 1)
     assert not (killed / "out").exists()
-    process = started(killed)
+    process = started(killed, *options)
     _, log = process.communicate(timeout=170)
     assert process.returncode == 0, log
-    assert f"going on after increment {done} of an interrupted run" in log
+    for number in done:
+        assert f"going on after increment {number} of an interrupted run" in log
     assert results(killed) == expected
 
 

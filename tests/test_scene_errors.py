@@ -398,6 +398,15 @@ def test_a_bad_override_is_told_as_such(tmp_path: Path, override: str, words: st
     str(problem).encode()
 
 
+def test_every_bad_override_is_told_beside_what_else_is_wrong(tmp_path: Path) -> None:
+    bad = ["loading[9].increments=5", "nonsense", "indenter.raduis=9mm", "a.b[3].c=1"]
+    found = problems(tmp_path, changed(("18 mm", "18 s")), [*bad, "friction.coefficient=0.2"])
+    told = [problem.file for problem in found]
+    assert sorted(told) == sorted(
+        [*(f"--set {text}" for text in bad), str(tmp_path / "scene.toml")]
+    )
+
+
 def test_messages_carry_no_control_characters(tmp_path: Path) -> None:
     text = changed(("18 mm", "\\u001b[31m\\u009b\\u202e"), ("title", '"\\u001b]0;x"'))
     for problem in problems(tmp_path, text):

@@ -2,11 +2,15 @@
 
 import json
 import shutil
+from dataclasses import dataclass
 from pathlib import Path
+from typing import ClassVar
 
 import numpy as np
 import pytest
+from scene_texts import RIGID_BALL
 
+from contact_scene.description import Description
 from fem_reference import Method, complementarity
 from semi_analytical import UnsupportedScene
 from verification.cases.case import Level
@@ -24,6 +28,8 @@ from verification.studies.refinement.level_record import (
     change,
 )
 from verification.studies.refinement.mesh import mesh_study
+from verification.studies.refinement.page import order_json, order_table, statement
+from verification.studies.refinement.refinement import Refinement
 from verification.studies.refinement.section_level import SectionLevel
 from verification.studies.refinement.studied_scene import CannotRefine
 from verification.studies.refinement.surface_level import SurfaceLevel
@@ -55,18 +61,7 @@ increments = 16
 cells = [24, 24]
 window = ["0.9 mm", "0.9 mm"]
 """
-
-
-PUSHED = """
-title = "Pushed"
-[indenter]
-shape = "paraboloid"
-radius = "18 mm"
-material = "rigid"
-[body]
-material = { young_modulus = "210 GPa", poisson_ratio = 0.3 }
-[friction]
-coefficient = 0.1
+PUSHED = f"""{RIGID_BALL}
 [[loading]]
 normal_force = "1 kN"
 increments = 2
@@ -110,11 +105,28 @@ def planted(size: float, relative_error: float, bump: float = 0.0) -> LevelRecor
     )
 
 
+@dataclass(frozen=True)
+class PlantedLevel:
+    """A level of a study with this error."""
+
+    record_type: ClassVar[type[Description]] = LevelRecord
+    size: float
+    error: float
+
+    @property
+    def name(self) -> str:
+        return f"{self.size}"
+
+    def compute(self) -> LevelRecord:
+        return planted(self.size, self.error)
+
+
 SIZES = 0.25 * 2.0 ** -np.arange(6)
+GRIDS = 0.25 * 2.0 ** (-np.arange(6) / 2)
 
 
-def of_planted(errors: np.ndarray, expected: Expected) -> dict[str, Fit]:
-    records = [planted(h, e) for h, e in zip(SIZES, errors, strict=True)]
+def of_planted(errors: np.ndarray, expected: Expected, sizes: np.ndarray = SIZES) -> dict[str, Fit]:
+    records = [planted(h, e) for h, e in zip(sizes, errors, strict=True)]
     found = fits(records, {"approach": expected, SHEAR: expected}, TOLERANCE)
     return {fit.name: fit for fit in found}
 
@@ -159,6 +171,13 @@ def test_planted_noise_is_inconclusive(rng: np.random.Generator) -> None:
 def test_wrong_order_that_hardly_comes_nearer_fails() -> None:
     """First order with a little of the second: triplets drift by hundredths."""
     found = of_planted(0.1 * SIZES - 0.02 * SIZES**2, Expected(3.0, "planted"))
+    assert found["approach"].status is found[SHEAR].status is Status.FAIL
+
+
+@pytest.mark.parametrize("expected", [1.5, 2.0])
+def test_wrong_order_that_rises_towards_the_expected_one_fails(expected: float) -> None:
+    """First order less of the second, on grids by the root of two: triplets rise by a tenth."""
+    found = of_planted(0.1 * GRIDS - 0.09 * GRIDS**2, Expected(expected, "planted"), GRIDS)
     assert found["approach"].status is found[SHEAR].status is Status.FAIL
 
 
@@ -240,16 +259,7 @@ def test_other_contents_of_the_file_are_other_cases(scene_file: Path) -> None:
     assert before != levels(increments_study(scene_file, (), None, None), settings)
 
 
-PRESSED = """
-title = "Pressed"
-[indenter]
-shape = "paraboloid"
-radius = "18 mm"
-material = "rigid"
-[body]
-material = { young_modulus = "210 GPa", poisson_ratio = 0.3 }
-[friction]
-coefficient = 0.1
+PRESSED = f"""{RIGID_BALL}
 [[loading]]
 normal_force = "1 kN"
 increments = 6
@@ -357,6 +367,66 @@ def test_four_levels_give_values_and_no_verdict_on_orders() -> None:
     (approach, shear) = fits(records, {"approach": FIRST, SHEAR: FIRST}, TOLERANCE)
     assert approach.status is shear.status is Status.INCONCLUSIVE
     assert approach.limit == pytest.approx(APPROACH, rel=1e-9)
+
+
+NO_POWER = np.array([1.0, 1.1, 0.9, 1.05, 1.0, 0.95])
+
+
+@pytest.mark.parametrize(
+    ("errors", "reason"),
+    [
+        (0.1 * SIZES[:4], "5 levels on, and these are 4"),
+        (0.1 * NO_POWER, "no one power"),
+        (0.1 * SIZES * (1 + 0.2 * np.sin(3 * np.arange(6))), "wider than ± 0.25"),
+        (0.1 * SIZES * (1 + 0.03 * (-1.0) ** np.arange(6)), "triplets"),
+    ],
+    ids=["few", "no power", "wide", "alternating"],
+)
+def test_inconclusive_order_says_why(errors: np.ndarray, reason: str) -> None:
+    fit = of_planted(errors, FIRST, SIZES[: len(errors)])["approach"]
+    said = statement(fit, to_try="that")
+    assert said.outcome is Status.INCONCLUSIVE
+    assert reason in said.measured
+    assert said.measured.endswith("; try that")
+
+
+def test_judged_order_gives_no_advice() -> None:
+    (fit, _) = of_planted(0.1 * SIZES, FIRST).values()
+    assert "try" not in statement(fit, to_try="that").measured
+
+
+@pytest.mark.parametrize(
+    ("count", "most", "remedy"),
+    [
+        (4, 10, "try --levels 5"),
+        (4, 4, "try --levels 5 with other --cells: use fewer --cells"),
+        (6, 10, "try more --cells"),
+    ],
+    ids=["levels", "levels that are refused", "fineness"],
+)
+def test_inconclusive_order_says_what_to_do(count: int, most: int, remedy: str) -> None:
+    def levels(settings: Settings) -> list[PlantedLevel]:
+        wanted = settings.levels or count
+        if wanted > most:
+            raise CannotRefine("use fewer --cells")
+        return [PlantedLevel(*one) for one in zip(SIZES, 0.1 * NO_POWER[:wanted], strict=False)]
+
+    settings = Settings(Level.QUICK)
+    records = {level.name: level.compute() for level in levels(settings)}
+    of = Refinement("mesh", levels, {"approach": FIRST}, "size", TOLERANCE, finer="more --cells")
+    said = {s.claim: s for s in of.conclusion(settings, records).statements}
+    assert said["order of the approach"].measured.endswith(remedy)
+
+
+@pytest.mark.parametrize("name", ["approach", SHEAR])
+def test_order_that_levels_do_not_tell_is_not_printed(name: str) -> None:
+    """Wherever one is: no number stands with an interval that holds two whole orders."""
+    fit = of_planted(0.1 * NO_POWER, FIRST)[name]
+    assert fit.observed is None
+    assert statement(fit, to_try="").measured.startswith("no order can be read; left on")
+    ((*_, observed, triplets, _),) = order_table([fit]).rows
+    assert (observed, triplets) == ("no order can be read", "–")
+    assert json.loads(order_json([fit]))[name]["order"] is None
 
 
 def leave_well(arguments: list[str]) -> None:

@@ -223,7 +223,7 @@ def test_studies_are_listed_and_mistakes_are_refused(tmp_path: Path) -> None:
     assert "gross-sliding" in listed.stdout
     unknown = slipstick("study", "gross-slidin", cwd=tmp_path)
     assert unknown.returncode == 2
-    assert "coated-tractions" in unknown.stderr
+    assert "gross-sliding?" in unknown.stderr
     assert slipstick("study", "gross-sliding", "--cells", "33", cwd=tmp_path).returncode == 2
     assert list(tmp_path.iterdir()) == []
 

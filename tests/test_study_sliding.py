@@ -7,7 +7,9 @@ import pytest
 
 from contact_scene.summary import ContactStatus
 from verification.cases.case import Level
+from verification.cases.chart import Curve, Look
 from verification.cases.outcome import Status
+from verification.report import drawing
 from verification.studies.gross_sliding import study, verdicts
 from verification.studies.gross_sliding.estimate import Estimate, Evidence, estimate
 from verification.studies.gross_sliding.full_slip import FullSlip, full_slip
@@ -28,11 +30,15 @@ PER_RADIUS = 1 / 50
 
 
 def cattaneo(
-    vanishing: float = 1.0, cell: float = PER_RADIUS, largest: float = 1.0, angle: float = 1e-6
+    vanishing: float = 1.0,
+    cell: float = PER_RADIUS,
+    largest: float = 1.0,
+    angle: float = 1e-6,
+    increments: int = 91,
 ) -> SlidingPath:
     """Stick area falls linearly in the shift to zero at a force, which then grows to `largest`."""
     points = []
-    for shift in np.linspace(0, 3, 91):
+    for shift in np.linspace(0, 3, increments):
         part = max(0.0, 1 - shift)
         force = vanishing * (1 - part**1.5)
         if shift > 1:
@@ -47,8 +53,8 @@ def cattaneo(
             )
         )  # fmt: skip
     return SlidingPath(
-        points=tuple(points), cell_over_radius=cell, increments=91, halvings=0, convolutions=1,
-        seconds=0.0,
+        points=tuple(points), cell_over_radius=cell, increments=increments, halvings=0,
+        convolutions=1, seconds=0.0,
     )  # fmt: skip
 
 
@@ -66,6 +72,20 @@ def changed(path: SlidingPath, number: int, **values: object) -> SlidingPath:
 
 def found(force: float, bar: float = 0.005) -> Estimate:
     return Estimate(FullSlip(force, 1e-6, bar), 0.0, 0.0, 0.0)
+
+
+@pytest.mark.parametrize("increments", [85, 91, 97, 110, 128, 160])
+def test_coarse_increments_do_not_cut_the_corner_at_full_slip(increments: int) -> None:
+    """Identical bodies stick until µW exactly, wherever the increments fall beside that corner."""
+    fs = full_slip(cattaneo(increments=increments))
+    assert fs is not None
+    assert abs(fs.force - 1) <= min(fs.uncertainty, 1e-4)
+
+
+def line_of(drawn: Curve) -> str:
+    """Dashes and marks, as they are drawn."""
+    look = drawing.look_of(drawn)
+    return f"{look.get('linestyle', '-')} {look.get('marker')}"
 
 
 @pytest.mark.parametrize("vanishing", [1.0, 0.97, 0.76])
@@ -186,6 +206,19 @@ def test_missing_records_make_the_study_inconclusive_not_wrong() -> None:
     outcomes = {s.outcome for s in conclusion.statements if s.outcome is not None}
     assert outcomes == {Status.INCONCLUSIVE}
     assert conclusion.charts == ()
+
+
+@pytest.mark.parametrize("level", list(Level))
+def test_no_two_curves_of_a_panel_look_alike(level: Level) -> None:
+    """A reader without colours tells every reading of the law by its dashes, none of which is that
+    of the paper's number."""
+    settings = Settings(level)
+    records = {case.name: cattaneo(0.97) for case in study.cases(settings)}
+    charts = {chart.name: chart for chart in study.conclude(settings, records).charts}
+    for name in ("friction_law_variants", "force_against_shift"):
+        for (panel,) in charts[name].rows:
+            drawn = [line_of(curve) for curve in panel.curves if curve.look is not Look.MARKS]
+            assert len(set(drawn)) == len(drawn) > 2
 
 
 def test_cases_of_a_level_have_names_of_their_own() -> None:

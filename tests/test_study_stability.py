@@ -67,6 +67,8 @@ def test_different_cells_have_different_names_and_files(tmp_path: object) -> Non
         replace(HALF_SPACE, path=LoadingPath.APPROACH, friction=1.0, push=0.8, cells=32),
         # here cells let go one after the other below a film that lifts them,
         replace(ORDINARY, modulus_ratio=1e6, thickness=0.1, path=LoadingPath.PRESS, cells=32),
+        # here it lifted them differently whenever the pressure was not solved for thoroughly,
+        replace(ORDINARY, modulus_ratio=1e6, thickness=0.03, friction=1.0, push=0.95, cells=24),
         # and here the shear's preconditioner was not positive.
         replace(ORDINARY, modulus_ratio=1e3, thickness=0.003, poisson_ratio=0.5, cells=48),
     ],
@@ -185,6 +187,13 @@ def outcomes(found: dict[str, CellRecord]) -> list[Status | None]:
 EVERYTHING_GOOD = [Status.PASS] * 3 + [None]
 
 
+def test_refusals_are_shown_in_the_words_of_the_solver_alone() -> None:
+    tables = study.conclude(Settings(Level.QUICK), records()).tables
+    shown = {cell for table in tables for row in table.rows for cell in row}
+    assert "refused: it exceeds the friction limit" in shown
+    assert not any("GrossSliding" in cell for cell in shown)
+
+
 @pytest.mark.parametrize("solver", Solver)
 @pytest.mark.parametrize(
     ("verdict", "failing"),
@@ -206,6 +215,24 @@ def test_bad_cells_fail_the_statement_of_their_solver_that_names_them(
     if verdict is not Verdict.REFUSED:
         listed = next(t for t in conclusion.tables if t.title.startswith("Not solved"))
         assert [row[0] for row in listed.rows] == names
+
+
+@pytest.mark.parametrize("verdict", Verdict)
+def test_answer_is_one_sentence_that_counts_every_cell(verdict: Verdict) -> None:
+    bad = GOOD.model_copy(update={"verdict": verdict, "reason": "because"})
+    found = records()
+    first = next(name for name, r in found.items() if r.verdict is Verdict.CONVERGED)
+    good = sum(r.verdict is Verdict.CONVERGED for r in found.values()) - 1
+    answer = study.conclude(Settings(Level.QUICK), found | {first: bad}).answer
+    refused, given_up, silent = (
+        verdict is kind for kind in (Verdict.REFUSED, Verdict.NOT_CONVERGED, Verdict.SILENT)
+    )
+    due = len(found) - good - 1
+    assert f"{good + (verdict is Verdict.CONVERGED)} converged" in answer
+    assert f"{due + refused} were refused, {due} of these" in answer
+    assert f"{given_up:d} gave up and {silent:d} are wrong in silence." in answer
+    assert answer.startswith(f"Of {len(found)} cells (semi-analytical: ")
+    assert answer.count(". ") == 0
 
 
 @pytest.mark.parametrize(("share", "outcome"), [(1, Status.PASS), (2, Status.FAIL)])

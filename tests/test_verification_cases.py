@@ -28,12 +28,20 @@ def test_names_are_unique_and_fit_for_commands(level: Level) -> None:
     assert all(name.isidentifier() and name.islower() for name in cases)
 
 
+@pytest.mark.parametrize("level", Level)
+def test_no_two_verdicts_of_a_case_have_one_name(level: Level) -> None:
+    for case in catalogue(level).values():
+        named = [(quantity.name, quantity.run) for quantity in case.quantities]
+        named += [(check.name, check.subject) for check in case.checks]
+        named += [(comparison.name, " | ".join(comparison.runs)) for comparison in case.comparisons]
+        named += [(order.name, "") for order in case.orders]
+        assert len(set(named)) == len(named), case.name
+
+
 @pytest.mark.parametrize("case", QUICK.values(), ids=QUICK)
 def test_labels_and_verdicts_of_a_case_are_unambiguous(case: Case) -> None:
     labels = [run.label for run in case.runs]
     assert len(set(labels)) == len(labels)
-    kinds = [(q.name, q.run, type(q.tolerance)) for q in case.quantities]
-    assert len(set(kinds)) == len(kinds)
     for quantity in case.quantities:
         assert quantity.run in labels
         assert len(quantity.tolerance.because) > 10

@@ -10,13 +10,15 @@ from xml.etree import ElementTree
 
 import jsonschema
 import pytest
+from report_examples import case, report_of, run_record, verdict
 
 from verification.cases.cattaneo_mindlin import cattaneo_mindlin_on
+from verification.cases.change import Change, ChangeKind
 from verification.cases.hertz_point import hertz_on
 from verification.cases.judgement import judge
 from verification.cases.outcome import CaseOutcome, Status
 from verification.report.files import JUNIT, PAGE, RECORD, SUMMARY, write_report
-from verification.report.numbers import failure_line, plain, value_text
+from verification.report.numbers import failure_line, failure_text, plain, value_text
 from verification.report.omissions import OMISSIONS
 from verification.report.page import render_page
 from verification.report.provenance import provenance
@@ -109,6 +111,13 @@ def test_figures_have_names_and_take_the_colours_of_the_page(page: str, report: 
     assert "#0072b2" not in page[page.index("<body ") :].lower()
 
 
+def test_strips_say_what_they_are_a_difference_of(report: Report) -> None:
+    charts = [chart for case in report.cases for chart in case.charts if len(chart.rows) == 2]
+    strips = [(chart.rows[0][0].y_label, chart.rows[1][0].y_label) for chart in charts]
+    assert ("p / p₀", "Δp / p₀") in strips
+    assert all(below == f"Δ{above}" for above, below in strips)
+
+
 def test_verdicts_are_told_by_word_and_sign(page: str) -> None:
     text = re.sub(r"<[^>]*>", "", page[page.index("<body ") :])
     assert "✓ pass" in text
@@ -163,12 +172,43 @@ def test_failure_says_what_where_how_much_and_how_to_see_it_again() -> None:
     report = made_by(outcome)
     line = failure_line(outcome.name, outcome.verdicts[0], report.level)
     assert re.fullmatch(
-        r"FAIL hertz_point/approach \[32x32\]: 8\.36\d+ µm, expected 9\.00000 µm ± [\d.]+ nm "
+        r"FAIL hertz_point/approach \[32x32\]: 8\.36\d+ µm, expected 9\.00000 µm ± 0\.\d+ µm "
         r"\([\d.e+]+ U\); reproduce: slipstick verify hertz_point --level quick",
         line,
     )
     assert report.status is Status.FAIL
-    assert "hertz_point/approach" in render_page(report)
+    told = line.removeprefix("FAIL hertz_point/approach [32x32]: ").split("; reproduce")[0]
+    failed = render_page(report).split('<ul class="failures">')[1].split("</ul>")[0]
+    assert "hertz_point/approach</a> [32x32]: " + told in failed
+
+
+@pytest.mark.parametrize(
+    ("value", "reference", "allowed", "unit", "text"),
+    [
+        (3.16838e9, 3.1e9, 4.8e5, "Pa", "3.16838 GPa, expected 3.10000 GPa ± 0.00048 GPa"),
+        (8.4e-6, 9e-6, 3e-8, "m", "8.40000 µm, expected 9.00000 µm ± 0.03 µm"),
+        (2e-6, 0.0, 3e-9, "m", "2.00000 µm, expected 0 ± 0.003 µm"),
+        (1.5, 2.0, 0.1, "", "1.5, expected 2 ± 0.1"),
+    ],
+)
+def test_what_is_allowed_stands_in_the_unit_of_the_value(
+    value: float, reference: float, allowed: float, unit: str, text: str
+) -> None:
+    error = abs(value - reference)
+    failed = verdict("one", 9.0, 1.0).model_copy(update={
+        "value": value, "reference": reference, "unit": unit, "allowed": allowed, "scale": 1.0,
+        "error": error, "status": Status.FAIL,
+    })  # fmt: skip
+    assert failure_text(failed) == f"{text} ({error / allowed:.2g} U)"
+
+
+def test_page_says_what_failed_and_what_it_was_before() -> None:
+    change = Change(kind=ChangeKind.OUTSIDE, was=1.001, since="abc1234", moved=9.0)
+    one = case("one", {"approach": (1.2, 1.0)}, run_record(64, None))
+    update = {"regression": change}
+    failed = one.model_copy(update={"verdicts": (one.verdicts[0].model_copy(update=update),)})
+    page = render_page(report_of((failed,)))
+    assert "1.20000 m, expected 1.00000 m ± 0.01 m (20 U); was 1.00100 m at abc1234" in page
 
 
 @pytest.mark.parametrize(

@@ -4,6 +4,7 @@ import json
 import os
 import random
 import re
+import shutil
 import signal
 import subprocess
 import sys
@@ -17,7 +18,7 @@ from verification.cases.case import Level
 from verification.cases.catalogue import choose
 from verification.cases.judged_case import lost
 from verification.cases.outcome import Status
-from verification.report.files import PAGE, RECORD
+from verification.report.files import EARLIER, FILES, PAGE, RECORD
 
 ROOT = Path(__file__).resolve().parents[1]
 # Of every kind: on a surface grid, on a section, and without a solve.
@@ -77,13 +78,16 @@ def uninterrupted(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 def test_killed_verification_goes_on_where_it_stopped(uninterrupted: Path, tmp_path: Path) -> None:
+    for name in FILES:  # an earlier report, which must not pass for that of the killed one
+        shutil.copy(uninterrupted / name, tmp_path)
     process = started(tmp_path, "--workers", "1")
     wait_for_records(tmp_path, 1)
     process.send_signal(signal.SIGKILL)
     ended(process)
     kept = records(tmp_path)
     assert 0 < len(kept) < len(CASES)
-    assert not (tmp_path / RECORD).exists()
+    assert not any((tmp_path / name).exists() for name in FILES)
+    assert report(tmp_path / EARLIER) == report(uninterrupted)
 
     process = started(tmp_path)
     _, log = ended(process)
@@ -91,6 +95,7 @@ def test_killed_verification_goes_on_where_it_stopped(uninterrupted: Path, tmp_p
     assert log.count("already there") == len(kept)
     assert records(tmp_path) | kept == records(tmp_path)
     assert report(tmp_path) == report(uninterrupted)
+    assert not (tmp_path / EARLIER).exists()
 
 
 @pytest.mark.slow

@@ -23,6 +23,8 @@ from verification.cases.outcome import Status
 from verification.peers import measure
 from verification.peers.environment import PEERS, Peer, made_environment
 from verification.peers.measure import errors_of, peer_run, request_of
+from verification.peers.recorded import OTHERS, peer_answer, peer_points, recorded_peers
+from verification.report.prices import price_table
 from verification.report.provenance import provenance
 from verification.studies.running.record import StudyRecord, dump_study
 from verification.studies.running.study import Conclusion, Settings
@@ -31,6 +33,7 @@ from verification.studies.work_precision.contacts import CONTACTS
 from verification.studies.work_precision.point import (
     TARGETS,
     Point,
+    beyond,
     cheapest,
     dependable,
     pareto,
@@ -95,6 +98,39 @@ def test_a_finer_setting_of_a_curve_is_never_less_dependable(all_points: list[Po
     for p in steady:
         finer = [q for q in all_points if q.method == p.method and q.fineness > p.fineness]
         assert all(q.error <= p.error for q in finer)
+
+
+def curve_of(order: float, floor: float = 0.0) -> list[Point]:
+    """An error that falls by an order to a floor, at costs that go with the square."""
+    sizes = (16, 32, 64, 128)
+    return [Point("m", "", "", n, floor + n**-order, 1e-3 * n**2, 1.0) for n in sizes]
+
+
+@given(st.floats(0.6, 3.0), st.floats(1.1, 10.0))
+def test_a_power_law_is_continued_along_itself(order: float, finer: float) -> None:
+    found = beyond(curve_of(order), (128 * finer) ** -order, seconds)
+    assert found is not None
+    assert found.order == pytest.approx(order)
+    assert found.fineness == pytest.approx(128 * finer)
+    assert found.cost == pytest.approx(1e-3 * (128 * finer) ** 2)
+
+
+def test_an_error_that_stalls_is_not_continued() -> None:
+    assert beyond(curve_of(1.0, floor=0.02), 0.02, seconds) is None
+    assert beyond(curve_of(1.0)[:2], 1e-3, seconds) is None
+    assert beyond(curve_of(1.0), 1e-6, seconds) is None  # too far to tell
+
+
+def test_what_is_not_reached_is_priced_and_marked() -> None:
+    """No setting reaches 0.1 % in one field: its cell has a mark and the cost of the power law."""
+    poor = concluded(
+        lambda r: r.model_copy(update={"errors": dict.fromkeys(r.errors, 0.5 / r.unknowns**0.5)})
+    )
+    cells = [row[3] for table in poor.tables for row in table.rows if row[0] == "finite elements"]
+    assert cells
+    assert all(cell.startswith("≈ ") and "extrapolated to 500 cells" in cell for cell in cells)
+    good = {row[3] for t in poor.tables for row in t.rows if row[0] == "semi-analytical"}
+    assert not any(cell.startswith("≈") for cell in good if "512 x 512" in cell)
 
 
 def test_a_change_of_sign_earns_nothing() -> None:
@@ -172,6 +208,43 @@ def test_the_clock_judges_nothing() -> None:
     assert timed is not None
     assert timed.statements
     assert {statement.outcome for statement in timed.statements} == {None}
+
+
+def test_other_codes_are_in_the_tables_by_the_clock_and_told_where_they_are_cheaper() -> None:
+    records = {case.name: measured(case) for case in cases(SETTINGS)}
+    timed = STUDY.timed(SETTINGS, records)
+    assert timed is not None
+    peers = recorded_peers()
+    shown = price_table(timed, "")
+    assert shown is not None
+    others = dict(zip((r[0] for r in shown.rows), (dict(zip(shown.columns, r, strict=True))
+                      for r in shown.rows), strict=True))  # fmt: skip
+    for (contact, quantity), runs in peer_points(peers).items():
+        title = f"{CONTACTS[contact].title}: {CONTACTS[contact].errors[quantity]}"
+        best = cheapest([p for p in dependable(runs) if p.method == OTHERS], 1e-3, seconds)
+        assert best is not None
+        assert others[title][OTHERS].endswith(f"({best.curve})")
+    told = peer_answer(peers)
+    for name in ("aspher", "tamaas", "ContactMechanics", "slipstick"):
+        assert name in told
+    assert told in timed.answer
+    faster = {**peers, "runs": [
+        {**run, "seconds": run.get("seconds", 0) * (1e-6 if run["code"] == "tamaas" else 1)}
+        for run in peers["runs"]
+    ]}  # fmt: skip
+    assert "to 0.1 %: tamaas" in peer_answer(faster)
+    assert told != peer_answer(faster)
+
+
+def test_the_usual_route_is_tried_on_every_tangential_history() -> None:
+    """Its pressing is sampled, its shift prescribed: judged under the forces that come with it."""
+    for contact in (c for c in CONTACTS.values() if c.turns):
+        (case, *_) = [
+            c for c in cases(SETTINGS) if (c.contact, c.method) == (contact.name, Method.FROZEN)
+        ]
+        errors = case.compute().errors
+        assert set(errors) == set(contact.errors)
+        assert all(0 < abs(error) < 0.05 for error in errors.values())
 
 
 def test_extrapolation_leaves_what_is_not_of_order_two() -> None:

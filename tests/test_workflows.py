@@ -1,19 +1,77 @@
-"""What the nightly run computes is what the report has a place for."""
+"""What the workflows ask for exists, ends in time, and has its place in the report."""
 
 import re
+import shlex
+from collections.abc import Iterator
 from pathlib import Path
 
-from verification.report.sections import TITLES
-from verification.studies.catalogue import STUDIES
+import pytest
 
-WORKFLOWS = Path(__file__).resolve().parents[1] / ".github" / "workflows"
+from verification.cli.lazy_commands import COMMANDS
+from verification.report.sections import TITLES
+from verification.studies.catalogue import SCENE_STUDIES, STUDIES
+
+ROOT = Path(__file__).resolve().parents[1]
+WORKFLOWS = ROOT / ".github" / "workflows"
+NIGHTLY = (WORKFLOWS / "nightly.yml").read_text(encoding="utf-8")
+LONGEST_JOB = 360  # minutes, after which the service ends it without a word
+
+
+def studies_of_the_night() -> list[str]:
+    matrix = re.search(r"^ +name:\n((?: +- .+\n)+)", NIGHTLY, re.MULTILINE)
+    assert matrix is not None
+    return [line.strip().removeprefix("- ") for line in matrix[1].splitlines()]
+
+
+def commands() -> Iterator[str]:
+    """Every call of slipstick, with the studies of the night one by one."""
+    for path in (*WORKFLOWS.glob("*.yml"), ROOT / ".github" / "compare.sh"):
+        text = path.read_text(encoding="utf-8").replace("./run", "").replace(".venv/bin/", "")
+        for call in re.findall(r"(?:^|&&|run:) *slipstick (.+?)(?: \|\| .*)?$", text, re.MULTILINE):
+            yield from (
+                call.replace("${{ matrix.name }}", study)
+                for study in (studies_of_the_night() if "matrix" in call else [""])
+            )
+
+
+@pytest.mark.parametrize("command", sorted(commands()))
+def test_commands_of_the_workflows_are_known(command: str) -> None:
+    name, *words = shlex.split(command)
+    values = COMMANDS[name].load(name).make_context(name, without_shell(words)).params
+    if name == "study":
+        study, scene = values["name"], values["scene"]
+        assert study in (STUDIES if scene is None else SCENE_STUDIES)
+        assert scene is None or (ROOT / scene).is_file()
+
+
+def without_shell(words: list[str]) -> list[str]:
+    """With a number in the place of a number that the shell finds."""
+    return ["2" if word == "$(nproc)" else word for word in words]
+
+
+def test_all_ways_to_the_program_are_looked_at() -> None:
+    assert {command.split()[0] for command in commands()} == {"verify", "study", "compare"}
+
+
+def test_every_job_ends_by_itself() -> None:
+    for path in WORKFLOWS.glob("*.yml"):
+        text = path.read_text(encoding="utf-8")
+        minutes = [int(number) for number in re.findall(r"timeout-minutes: (\d+)", text)]
+        assert len(minutes) == text.count("runs-on:")
+        assert max(minutes) < LONGEST_JOB
+
+
+def test_no_workflow_writes_where_a_report_is_committed() -> None:
+    """What was there before would be taken for what did not end."""
+    for command in commands():
+        if "--output" in (words := shlex.split(command)):
+            assert words[words.index("--output") + 1].startswith("out/")
+    assert "/out/" in (ROOT / ".gitignore").read_text(encoding="utf-8").split()
 
 
 def test_every_study_of_the_report_is_computed_at_night() -> None:
-    text = (WORKFLOWS / "nightly.yml").read_text(encoding="utf-8")
-    matrix = re.search(r"^ +name:\n((?: +- \S+\n)+)", text, re.MULTILINE)
-    assert matrix is not None
-    assert matrix[1].split()[1::2] == sorted(TITLES.keys() & STUDIES.keys())
+    alone = [study for study in studies_of_the_night() if " " not in study]
+    assert alone == sorted(TITLES.keys() & STUDIES.keys())
 
 
 def test_studies_that_the_report_shows_are_in_the_catalogue() -> None:

@@ -21,6 +21,8 @@ ORDER_WIDTH = 0.25
 ORDER_OFF = 0.1
 # Orders of the two finest triplets differ by no more than this where the values are asymptotic.
 TRIPLETS_AGREE = 0.2
+# Half-width of an interval that holds two neighbouring whole orders: within it none can be read.
+ILLEGIBLE = 0.5
 ORDERS = (0.05, 6.0)
 COARSE_STEPS = 60
 ROUNDING = 1e-20
@@ -35,6 +37,11 @@ class ObservedOrder:
 
     order: float
     half_width: float
+
+    @property
+    def is_legible(self) -> bool:
+        """Whether the interval is narrow enough for a number to say anything."""
+        return self.half_width < ILLEGIBLE
 
     def may_be_off_by(self, allowance: float = 0.0) -> float:
         """How far the expected order may be: within the interval, or what is allowed without it.
@@ -147,13 +154,14 @@ def numerical_uncertainty(sizes: Sequence[float], values: Sequence[float], order
     sizes    h, at least three levels
     values   f(h) there
     order    the expected p; fixed, because a fitted p lets three values explain anything
-    returns  √((C h^p)² + s² + d²) at the finest h, with s the scatter there and d the most that f0
-             moves by when it is taken from the finer or the coarser half of the levels alone: same
-             unit as values
+    returns  √((C h^p)² + max(s, d)²) at the finest h, with s the scatter there and d the most that
+             f0 moves by when it is taken from the finer or the coarser half of the levels alone:
+             same unit as values
 
-    Where all levels are of one order d is part of the scatter. Where the coarser ones are not yet,
-    C is a compromise and may nearly vanish; then d tells that the two ranges contradict each other
-    (Eça and Hoekstra 2014 take differences between fits for the same purpose).
+    Both s and d come of what one power does not explain, so the larger counts and not their sum.
+    Where the coarser levels are not of the order yet, C is a compromise and may nearly vanish; then
+    d tells that the two ranges contradict each other (Eça and Hoekstra 2014 take differences
+    between fits for the same purpose).
     """
     if len(sizes) < 3:
         raise ValueError(f"{len(sizes)} levels cannot show a scatter; use at least 3")
@@ -165,7 +173,8 @@ def numerical_uncertainty(sizes: Sequence[float], values: Sequence[float], order
     half = max(3, (len(h) + 1) // 2)
     ranges = slice(half), slice(len(h) - half, None)
     moved = max(abs(_line(h[part], f[part], order, order).limit - fit.limit) for part in ranges)
-    return float(np.hypot(np.hypot(fit.coefficient, moved), np.sqrt(fit.squares / (len(h) - 2))))
+    scatter = float(np.sqrt(fit.squares / (len(h) - 2)))
+    return float(np.hypot(fit.coefficient, max(moved, scatter)))
 
 
 @dataclass(frozen=True)

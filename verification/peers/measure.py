@@ -2,7 +2,7 @@
 
     python -m verification.peers.measure NAME.json
 
-makes the environment if need be (see `environment`); one thread, about a minute.
+makes the environment if need be (see `environment`); one thread, about a minute of CPU.
 """
 
 from __future__ import annotations
@@ -34,7 +34,7 @@ from verification.peers.environment import (
 from verification.report.provenance import provenance
 from verification.studies.work_precision.setting import Method, PrecisionCase
 
-CELLS = (32, 64, 128, 256)
+CELLS = (32, 64, 128, 256, 512)
 FRICTION, PART = 0.1, 0.9  # µ, and the tangential force over µW
 TOLERANCE = 1e-8
 SECONDS_ALLOWED = 120

@@ -70,7 +70,9 @@ def baselines_of(report: Report, reason: str) -> dict[str, Baseline]:
 def _chosen(report: Report, names: Collection[str]) -> list[CaseOutcome]:
     missing = sorted(set(names) - {case.name for case in report.cases})
     if missing:
-        raise BaselineRefused(f"the report has no case {', '.join(missing)}")
+        raise BaselineRefused(
+            f"the report has no case {', '.join(missing)}; --from names the report"
+        )
     return [case for case in report.cases if not names or case.name in names]
 
 

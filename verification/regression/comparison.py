@@ -18,6 +18,7 @@ from verification.regression.baseline import (
 )
 from verification.regression.counters import counter_changes
 from verification.regression.number_change import finding_change, quantity_change
+from verification.regression.refusal import BaselineRefused
 
 if TYPE_CHECKING:
     from verification.cases.outcome import CaseOutcome
@@ -38,14 +39,29 @@ def compared(report: Report, baselines: Mapping[str, Baseline]) -> Report:
     return report.model_copy(update={"cases": cases, "gone": tuple(_gone_cases(report, baselines))})
 
 
+def refuse_if_not_whole(report: Report, baselines: Mapping[str, Baseline]) -> None:
+    """Raise BaselineRefused, with the names, if chosen cases alone ran and others are recorded."""
+    missing = [name for name, _ in _missing(report, baselines)] if report.chosen else []
+    if missing:
+        raise BaselineRefused(
+            f"the report is of chosen cases; {len(missing)} that are recorded at level "
+            f"{report.level} were not run: {', '.join(missing)}; --chosen compares those that were"
+        )
+
+
 def _gone_cases(report: Report, baselines: Mapping[str, Baseline]) -> Iterator[GoneCase]:
+    for name, recorded in () if report.chosen else _missing(report, baselines):
+        since = commit_text(recorded.by.commit, changed=recorded.by.changed)
+        yield GoneCase(name=name, since=since)
+
+
+def _missing(report: Report, baselines: Mapping[str, Baseline]) -> Iterator[tuple[str, Recording]]:
+    """What is recorded at the report's level of cases that it does not have, by name."""
     present = {case.name for case in report.cases}
-    for name, baseline in () if report.chosen else sorted(baselines.items()):
+    for name, baseline in sorted(baselines.items()):
         recorded = _recording(baseline, report.level)
         if recorded is not None and name not in present:
-            yield GoneCase(
-                name=name, since=commit_text(recorded.by.commit, changed=recorded.by.changed)
-            )
+            yield name, recorded
 
 
 def _recording(baseline: Baseline | None, level: str) -> Recording | None:

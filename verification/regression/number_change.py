@@ -76,10 +76,13 @@ def _kind(
 
 
 def _is_farther(verdict: Verdict, was: RecordedQuantity) -> bool:
-    """Whether the value has moved away from the reference; of an order whose interval is too wide
-    to judge it nobody can tell."""
-    if Status.INCONCLUSIVE in (verdict.status, was.status):
+    """Whether the value has moved away from the reference; of an order that was recorded with too
+    wide an interval nobody can tell. One that has become so is held to what was allowed when it
+    passed: its own interval is of the levels that lost it."""
+    if was.status is Status.INCONCLUSIVE:
         return False
+    if verdict.status is Status.INCONCLUSIVE and verdict.value is not None:
+        return abs(verdict.value - verdict.reference) > was.allowed
     if verdict.value is None or was.value is None:
         return was.value is not None
     return abs(verdict.value - verdict.reference) > abs(was.value - was.reference)
@@ -96,7 +99,9 @@ def _is_better(verdict: Verdict, was: RecordedQuantity, allowed: float) -> bool:
 def _remarks(verdict: Verdict, was: RecordedQuantity) -> Iterator[str]:
     """What else than the value is not as recorded."""
     if verdict.status is not was.status:
-        yield f"was {was.status}"
+        lost = was.status is Status.PASS and verdict.status is Status.INCONCLUSIVE
+        held = ", held to the recorded tolerance" if lost else ""
+        yield f"{was.status} -> {verdict.status}{held}"
     allowed = verdict.allowed * verdict.scale
     if not math.isclose(allowed, was.allowed, rel_tol=TOLERANCE_KEPT):
         yield f"tolerance {allowed:.2e}, was {was.allowed:.2e}"

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 
+from verification.cases.apart_everywhere import TITLE as EVERYWHERE
 from verification.cases.case import ReferenceKind
 from verification.cases.chart import Chart
 from verification.cases.outcome import CaseOutcome, Verdict
@@ -12,9 +13,9 @@ from verification.report.both_solvers import (
     CELLS,
     ELEMENTS,
     SharedReference,
-    furthest_apart,
     shared_references,
 )
+from verification.report.equal_fineness import nearer_sentences, nearer_table, votes
 from verification.report.numbers import clearance_text, plain
 from verification.report.prices import price_table, telling_chart
 from verification.report.record import Report
@@ -77,6 +78,7 @@ def _cost(report: Report) -> Answer:
 def _disagreement(report: Report) -> Answer:
     """From the references that both solvers were judged by, and from the study of both."""
     shared = shared_references(report)
+    cast = votes(shared)
     study = study_section(report, "cross-check")
     said, claimed = _of_study(study.record)
     sentences = [*_nearer(shared), *_direct(report), *said]
@@ -91,7 +93,7 @@ def _disagreement(report: Report) -> Answer:
         tuple(links),
         study if study.record is None else None,
         claimed,
-        furthest_apart(shared) if shared else None,
+        nearer_table(cast) if cast else None,
     )
 
 
@@ -137,16 +139,17 @@ def _statements(record: StudyRecord | None, beginnings: tuple[str, ...]) -> list
 def _nearer(shared: tuple[SharedReference, ...]) -> list[str]:
     if not shared:
         return []
-    cells = sum(pair.nearer == CELLS for pair in shared)
-    worst = max(shared, key=lambda pair: pair.difference)
-    return [
-        f"Of {len(shared)} values that both solvers were judged by, {CELLS} are nearer to the "
-        f"reference in {cells} and {ELEMENTS} in {len(shared) - cells}, at the finenesses of this "
-        "report.",
-        f"They are furthest apart in {worst.name}: {_percent(worst.difference)} of the reference "
-        f"({_percent(worst.cells.error)} and {_percent(worst.elements.error)} from it; "
-        f"{worst.nearer} nearer).",
-    ]
+    sentences = nearer_sentences(votes(shared), shared)
+    told = [pair for pair in shared if pair.tells]
+    if told:
+        worst = max(told, key=lambda pair: pair.difference)
+        sentences.append(
+            f"On their finest runs, which are not equally fine, they are furthest apart in "
+            f"{worst.name}: {_percent(worst.difference)} of the reference "
+            f"({CELLS} {_percent(worst.cells.error)} and {ELEMENTS} "
+            f"{_percent(worst.elements.error)} from it)."
+        )
+    return sentences
 
 
 def _direct(report: Report) -> list[str]:
@@ -163,7 +166,18 @@ def _direct(report: Report) -> list[str]:
     return [
         f"Compared with each other in {len(found)} numbers, they come closest to what is allowed "
         f"in case {case.name}, {worst.run}: {worst.meaning}, {plain(worst.error, 2)}, where "
-        f"{plain(worst.allowed, 2)} is allowed ({clearance_text(worst)} of it)."
+        f"{plain(worst.allowed, 2)} is allowed ({clearance_text(worst)} of it).",
+        *_left_out(report),
+    ]
+
+
+def _left_out(report: Report) -> list[str]:
+    """What no comparison sees: how far they are apart where they are not compared."""
+    return [
+        f"{table.note} (Case {case.name}.)"
+        for case in report.cases
+        for table in case.tables
+        if table.title == EVERYWHERE
     ]
 
 

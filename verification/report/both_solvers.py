@@ -1,7 +1,8 @@
-"""What both solvers measured against the same reference, and which was nearer."""
+"""What both solvers measured against the same reference."""
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 
@@ -15,7 +16,12 @@ CELLS, ELEMENTS = "cells (SAM)", "finite elements"
 SERIES = {CELLS: 0, ELEMENTS: 1}
 SAME = 1e-9  # relative, of two values of one reference
 LEAST = 1e-8  # an error is drawn no smaller: the axis is logarithmic
+COVERAGE = 2.0  # standard uncertainties of a reference
 MOST_SHOWN = 8  # where they are furthest apart
+REQUIRED = "required_"  # begins the name of a value that is judged twice on one run
+GROUPS = ("approach", "pressure", "radius")  # by a word of the quantity's name
+OTHERS = "forces, shifts, twists and energies"
+FINENESS = re.compile(r",? ?\d+(x\d+| cells| increments)")  # in the label of a run
 PENALTY = "penalty"  # springs are judged in their own study
 
 
@@ -44,8 +50,29 @@ class SharedReference:
 
     @property
     def name(self) -> str:
-        """The quantity, and the case of the cells."""
-        return f"{self.cells.verdict.name.replace('_', ' ')}, {self.cells.case.replace('_', ' ')}"
+        """The quantity, the case of the cells, and which of its problems."""
+        return ", ".join((self._quantity, *self._place))
+
+    @property
+    def row(self) -> str:
+        """The same in a chart of its kind."""
+        rest = " ".join(self._quantity.replace(self.group, "").split())
+        return ", ".join((*([rest] if rest else []), *self._place))
+
+    @property
+    def _quantity(self) -> str:
+        return _word(self.cells.verdict).replace("_", " ")
+
+    @property
+    def _place(self) -> list[str]:
+        problem = FINENESS.sub("", self.cells.verdict.run).strip(", ")
+        return [self.cells.case.replace("_", " "), *([problem] if problem else [])]
+
+    @property
+    def group(self) -> str:
+        """What kind of quantity it is."""
+        found = (kind for kind in GROUPS if kind in self.cells.verdict.name)
+        return next(found, OTHERS)
 
     @property
     def difference(self) -> float:
@@ -54,9 +81,20 @@ class SharedReference:
         return abs((one.value or 0.0) - (other.value or 0.0)) / abs(one.reference)
 
     @property
-    def nearer(self) -> str:
-        """The solver with the smaller error."""
-        return CELLS if self.cells.error <= self.elements.error else ELEMENTS
+    def reference(self) -> tuple[str, str]:
+        """Tells references apart: some are of several cases."""
+        return f"{self.cells.verdict.reference:.9g}", self._quantity
+
+    @property
+    def uncertainty(self) -> float:
+        """Standard uncertainty of the reference, relative to it."""
+        verdict = self.cells.verdict
+        return (verdict.reference_uncertainty or 0.0) / abs(verdict.reference)
+
+    @property
+    def tells(self) -> bool:
+        """Whether the reference is known well enough to say which value is nearer to it."""
+        return abs(self.cells.error - self.elements.error) > COVERAGE * self.uncertainty
 
 
 def shared_references(report: Report) -> tuple[SharedReference, ...]:
@@ -76,9 +114,20 @@ def shared_references(report: Report) -> tuple[SharedReference, ...]:
     return tuple(found.values())
 
 
-def both_solvers_chart(shared: tuple[SharedReference, ...]) -> Chart:
-    """Errors of both solvers, one row per shared reference."""
-    rows = list(reversed(shared))
+def both_solvers_charts(shared: tuple[SharedReference, ...]) -> tuple[Chart, ...]:
+    """Errors of both solvers, a chart per kind of quantity, a row per shared reference."""
+    once: dict[tuple[str, str], SharedReference] = {}
+    for pair in shared:
+        once.setdefault(pair.reference, pair)
+    return tuple(
+        _chart(group, of)
+        for group in (*GROUPS, OTHERS)
+        if (of := [pair for pair in once.values() if pair.group == group])
+    )
+
+
+def _chart(group: str, shared: list[SharedReference]) -> Chart:
+    rows = shared[::-1]
     curves = []
     for solver, series in SERIES.items():
         measured = [pair.cells if solver == CELLS else pair.elements for pair in rows]
@@ -86,39 +135,41 @@ def both_solvers_chart(shared: tuple[SharedReference, ...]) -> Chart:
         curves.append(curve(solver, drawn, range(len(rows)), Look.TILES, series))
     panel = Panel(
         x_label="relative error against the same reference", y_label="", curves=tuple(curves),
-        logarithmic=True, y_places=tuple(pair.name for pair in rows),
+        logarithmic=True, y_places=tuple(pair.row for pair in rows),
         height=0.7 + 0.2 * len(rows),
     )  # fmt: skip
     return Chart(
-        name="both_solvers",
-        title="Errors of both solvers against the same references",
-        caption="One row per quantity that both have measured against one reference, each on its "
-        f"finest run of this report; further to the left is nearer. Errors below {plain(LEAST)} "
-        "are drawn there. Disc: cells; square: finite elements. A number behind “at” is the load "
-        "over its limit.",
+        name=f"both_solvers_{group.partition(' ')[0].strip(',')}",
+        title=f"Errors of both solvers against the same references: {group}",
+        caption="One row per reference that both have measured against, each on its finest run of "
+        f"this report; further to the left is nearer. Errors below {plain(LEAST)} are drawn there. "
+        "Disc: cells; square: finite elements. A number behind “at” is the load over its limit.",
         rows=((panel,),),
     )
 
 
 def furthest_apart(shared: tuple[SharedReference, ...]) -> Table:
-    """The references that the solvers' values differ most of, relative to the reference."""
+    """Where the solvers' values differ most, relative to the reference."""
     worst = sorted(shared, key=lambda pair: -pair.difference)[:MOST_SHOWN]
     return Table(
         title=f"Where both solvers are furthest apart, {len(worst)} of {len(shared)}",
         columns=("quantity and case", "difference", f"error, {CELLS}", f"error, {ELEMENTS}",
-                 "nearer", "fineness"),
+                 "reference known to", "fineness"),
         rows=tuple(
             (
                 pair.name,
                 *(f"{plain(100 * part, 2)} %"
                   for part in (pair.difference, pair.cells.error, pair.elements.error)),
-                pair.nearer,
-                f"{pair.cells.fineness:g} cells, {pair.elements.fineness:g} elements per radius",
+                f"{plain(100 * COVERAGE * pair.uncertainty, 2)} %",
+                f"{pair.cells.fineness:g} cells a side, {pair.elements.fineness:g} elements per "
+                "radius",
             )
             for pair in worst
         ),
-        note="All relative to a reference that neither solver made. A number behind “at” is the "
-        "load over its limit, µW or the largest torque.",
+        note="On the finest run of each, which are not equally fine: this says where they are "
+        "apart, not which is nearer. All relative to a reference that neither solver made; where "
+        "the errors differ by less than that is known to, it cannot tell. A number behind “at” is "
+        "the load over its limit, µW or the largest torque.",
     )  # fmt: skip
 
 
@@ -139,12 +190,17 @@ def _measured(case: CaseOutcome) -> Iterator[Measured]:
 
 def _alike(one: Verdict, other: Verdict) -> bool:
     same = abs(one.reference - other.reference) <= SAME * abs(one.reference)
-    words = one.name.split("_of_")[0] == other.name.split("_of_")[0]
+    words = _word(one) == _word(other)
     return same and words and one.unit == other.unit and one.unit != ""
 
 
+def _word(verdict: Verdict) -> str:
+    """The quantity, whatever decides its tolerance and whatever body it is of."""
+    return verdict.name.removeprefix(REQUIRED).split("_of_")[0]
+
+
 def _key(one: Measured) -> str:
-    return f"{one.case} {one.verdict.name} {one.verdict.reference:.9g}"
+    return f"{one.case} {_word(one.verdict)} {one.verdict.reference:.9g}"
 
 
 def _fineness(pair: SharedReference) -> tuple[float, float]:

@@ -21,7 +21,12 @@ INK = "#1a1a1a"
 REFERENCE_COLOUR = "#b4b4b4"
 GRID_COLOUR = "#d9d9d9"
 BAND_OPACITY = 0.22
+BOUND_DASHES = (0, (5, 3))  # thinner than those of any series
+LONGEST_BESIDE = 30  # letters of a legend's text beside the plot
+LONGEST_OF_TWO = 45  # and of two side by side below it
+LEGEND_LINE = 0.19  # inches
 MARKERS = ("o", "s", "^", "D", "v", "P")
+FEW_TICKS = 6  # beside long names
 MANY_PLACES = 12  # along y: the legend then stands at the top, where reading begins
 LINES = (
     Look.COMPUTED,
@@ -57,9 +62,9 @@ def _draw_panel(ax: Any, panel: Panel) -> None:
         ax.axhline(0.0, color=INK, linewidth=0.5)
     for curve in panel.curves:
         if curve.look is Look.BAND:
-            ax.fill(curve.x, curve.y, **_look(curve))
+            ax.fill(curve.x, curve.y, **look_of(curve))
         else:
-            ax.plot(*_points(curve, panel), label=curve.label or None, **_look(curve))
+            ax.plot(*_points(curve, panel), label=curve.label or None, **look_of(curve))
     for x, y, text in panel.notes:
         ax.annotate(text, (x, y), xytext=(0, 6 if y >= 0 else -14), textcoords="offset points",
                     ha="center", color=INK)  # fmt: skip
@@ -85,7 +90,7 @@ def _scale_by_decades(ax: Any, *, both: bool) -> None:
     if both:
         ax.set_yscale("log")
     for axis in (ax.xaxis, ax.yaxis) if both else (ax.xaxis,):
-        axis.set_major_locator(LogTicks())
+        axis.set_major_locator(LogTicks() if both else LogTicks(FEW_TICKS))
         axis.set_major_formatter(FuncFormatter(lambda value, _: plain(value)))
         axis.set_minor_formatter(NullFormatter())
     ax.grid(True, color=GRID_COLOUR, linewidth=0.6)
@@ -107,7 +112,7 @@ def _points(curve: Curve, panel: Panel) -> tuple[Sequence[float], Sequence[float
     return x.tolist(), y.tolist()
 
 
-def _look(curve: Curve) -> dict[str, Any]:
+def look_of(curve: Curve) -> dict[str, Any]:
     """Colour and shape; after a round of colours the shapes begin one further on, so that no two of
     36 series are drawn alike."""
     round_, place = divmod(curve.series, len(style.LINE_COLOURS))
@@ -116,7 +121,7 @@ def _look(curve: Curve) -> dict[str, Any]:
         case Look.REFERENCE:
             return {"color": REFERENCE_COLOUR, "linewidth": 4.0, "solid_capstyle": "round"}
         case Look.BOUND:
-            return {"color": INK, "linewidth": 0.7, "linestyle": (0, (2, 2))}
+            return {"color": INK, "linewidth": 0.7, "linestyle": BOUND_DASHES}
         case Look.FITTED:
             return {"color": colour, "linewidth": 1.0}
         case Look.BAND:
@@ -140,7 +145,27 @@ def _look(curve: Curve) -> dict[str, Any]:
 
 def _legend(ax: Any, panel: Panel) -> None:
     labelled = [curve for curve in panel.curves if curve.label]
-    if len(labelled) > 1 or any(curve.look is Look.TILES for curve in labelled):
+    if len(labelled) == 2 and panel.y_places:  # the names take the width that it would need
+        ax.legend(loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=2, labelcolor=INK)
+    elif _is_long(labelled) and len(ax.figure.axes) == 1 and not panel.y_places:
+        _legend_below(ax, max(len(curve.label) for curve in labelled))
+    elif len(labelled) > 1 or any(curve.look is Look.TILES for curve in labelled):
         top = len(panel.y_places) > MANY_PLACES
         where, height = ("upper left", 1.0) if top else ("center left", 0.5)
         ax.legend(loc=where, bbox_to_anchor=(1.01, height), handlelength=2.4, labelcolor=INK)
+
+
+def _is_long(labelled: Sequence[Curve]) -> bool:
+    """Whether the texts would leave the plot no room beside them."""
+    return len(labelled) > 1 and any(len(curve.label) > LONGEST_BESIDE for curve in labelled)
+
+
+def _legend_below(ax: Any, longest: int) -> None:
+    """In two columns if a text of so many letters leaves room for them."""
+    columns = 1 if longest > LONGEST_OF_TWO else 2
+    handles, labels = ax.get_legend_handles_labels()
+    lines = -(-len(labels) // columns)
+    ax.figure.set_figheight(ax.figure.get_figheight() + LEGEND_LINE * lines)
+    ax.figure.legend(
+        handles, labels, loc="outside lower left", ncols=columns, handlelength=2.4, labelcolor=INK
+    )

@@ -95,6 +95,6 @@ def _found(record: StudyRecord) -> str:
     conclusion = record.conclusion
     if conclusion.answer:
         return f"{conclusion.answer} (level {record.level})"
-    judged = [s for s in conclusion.statements if s.outcome is not None]
-    told = "; ".join(f"{s.claim}: {s.measured}" for s in judged)
-    return f"{told} (level {record.level})"
+    judged = [s.outcome for s in conclusion.statements if s.outcome is not None]
+    good = judged.count(Status.PASS)
+    return f"{good} of its {len(judged)} judged claims hold (level {record.level})"

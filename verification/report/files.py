@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import os
 import secrets
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
 
 from verification.report.junit import render_junit
@@ -13,13 +14,15 @@ from verification.report.record import Report, dump_report
 from verification.report.summary_text import render_summary
 from verification.run_output.atomic_file import atomic_file
 from verification.run_output.directory_lock import acquire, release
-from verification.run_output.run_directory import OutputRefused
+from verification.run_output.refusal import OutputRefused
 from verification.run_output.stop_signals import stop_signals_held
 
 PAGE = "index.html"
 RECORD = "report.json"
 JUNIT = "junit.xml"
 SUMMARY = "summary.md"
+FILES = (RECORD, PAGE, JUNIT, SUMMARY)
+EARLIER = "earlier"  # of the report's directory: the report before, until the new one is whole
 
 
 def refuse_if_unwritable(directory: Path) -> None:
@@ -33,8 +36,26 @@ def refuse_if_unwritable(directory: Path) -> None:
         raise OutputRefused(f"cannot write into {directory}: {error.strerror}") from error
 
 
+def set_aside_report(directory: Path) -> None:
+    """Move an earlier report into `earlier`, before the hours of work that make the new one.
+
+    Whatever ends that work, no file is left that could be taken for its result, and the earlier
+    numbers are not lost. The record goes first: what else is then found is no whole report, and the
+    next call removes it.
+    """
+    with _alone_in(directory), stop_signals_held():
+        if not (directory / RECORD).is_file():
+            _remove_report(directory)
+            return
+        _remove_report(directory / EARLIER)
+        (directory / EARLIER).mkdir(exist_ok=True)
+        for name in FILES:
+            with suppress(FileNotFoundError):
+                os.replace(directory / name, directory / EARLIER / name)
+
+
 def write_report(report: Report, directory: Path) -> None:
-    """Render everything, then replace the files of an earlier report.
+    """Render everything, then replace the files of an earlier report, also of one set aside.
 
     A record of other numbers goes first and the new one comes last: a directory with a
     `report.json` holds files that belong together.
@@ -51,6 +72,15 @@ def write_report(report: Report, directory: Path) -> None:
         for name, text in texts.items():
             with atomic_file(directory / name) as temporary:
                 temporary.write_text(text, encoding="utf-8", newline="\n")
+        with suppress(OSError):  # there is none, or it holds what is not ours
+            _remove_report(directory / EARLIER)
+            (directory / EARLIER).rmdir()
+
+
+def _remove_report(directory: Path) -> None:
+    """The record goes first: a directory that has one holds files that belong together."""
+    for name in FILES:
+        (directory / name).unlink(missing_ok=True)
 
 
 @contextmanager

@@ -64,18 +64,34 @@ def moved_text(change: Change) -> str:
 
 def failure_line(case: str, verdict: Verdict, level: str) -> str:
     """What failed, where, by how much, since when, and how to see it again."""
-    measured = value_text(verdict.value, verdict.unit)
-    reference = value_text(verdict.reference, verdict.unit)
-    allowed = value_text(verdict.allowed * verdict.scale, verdict.unit, 2)
-    excess = "" if verdict.clearance is None else f" ({verdict.clearance:.2g} U)"
-    text = f"{measured}, expected {reference} ± {allowed}{excess}"
-    if verdict.name == "solved":
-        text = verdict.meaning
     word = "FAIL" if verdict.status is Status.FAIL else "MOVED"
     return (
-        f"{word} {case}/{verdict.name} [{verdict.run}]: {text}; {_was_text(verdict)}"
+        f"{word} {case}/{verdict.name} [{verdict.run}]: {failure_text(verdict)}; "
         f"reproduce: slipstick verify {case} --level {level}"
     )
+
+
+def failure_text(verdict: Verdict) -> str:
+    """The value, what was expected and allowed, and the recorded value where there is one."""
+    if verdict.name == "solved":
+        return verdict.meaning + _was_text(verdict)
+    measured, reference = (
+        value_text(value, verdict.unit) for value in (verdict.value, verdict.reference)
+    )
+    excess = "" if verdict.clearance is None else f" ({verdict.clearance:.2g} U)"
+    return (
+        f"{measured}, expected {reference} ± {_allowed_text(verdict)}{excess}{_was_text(verdict)}"
+    )
+
+
+def _allowed_text(verdict: Verdict) -> str:
+    """What is allowed, in the unit that the value or its reference is shown in."""
+    allowed, unit = verdict.allowed * verdict.scale, verdict.unit
+    if unit in ("", "°"):
+        return plain(allowed, 2) + unit
+    largest = max(abs(verdict.reference), 0.0 if verdict.reference else abs(verdict.value or 0.0))
+    scale = engineering_unit(largest or allowed, unit)
+    return f"{plain(allowed / scale.size, 2)} {scale.name}"
 
 
 def study_failure_line(study: StudyRecord) -> str:
@@ -100,4 +116,5 @@ def _was_text(verdict: Verdict) -> str:
     change = verdict.regression
     if change is None or not change.recorded:
         return ""
-    return f"was {value_text(change.was, verdict.unit)} at {change.since}; "
+    why = f" ({change.remark})" if verdict.status is Status.INCONCLUSIVE and change.remark else ""
+    return f"; was {value_text(change.was, verdict.unit)} at {change.since}{why}"

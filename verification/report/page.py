@@ -10,8 +10,13 @@ from markupsafe import Markup
 from verification.cases.chart import Chart
 from verification.cases.orders import not_judged
 from verification.cases.outcome import CaseOutcome, SceneRecord, Status, Verdict
+from verification.cases.table import Table
 from verification.report.answers import answers
-from verification.report.both_solvers import both_solvers_chart, shared_references
+from verification.report.both_solvers import (
+    both_solvers_charts,
+    furthest_apart,
+    shared_references,
+)
 from verification.report.changes import (
     change_counts,
     change_rows,
@@ -20,10 +25,12 @@ from verification.report.changes import (
     without_baseline,
 )
 from verification.report.columns import alignment
+from verification.report.counts import counts_text
 from verification.report.extent import extent
 from verification.report.features import features
 from verification.report.numbers import (
     clearance_text,
+    failure_text,
     measured_text,
     order_text,
     plain,
@@ -69,7 +76,7 @@ def _environment() -> jinja2.Environment:
     )
     environment.filters.update(
         value=value_text, plain=plain, clearance=clearance_text, order=order_text,
-        uncertainty=uncertainty_text, svg=_figure,
+        uncertainty=uncertainty_text, failure=failure_text, svg=_figure,
     )  # fmt: skip
     environment.globals.update(
         symbols=SYMBOLS,
@@ -94,6 +101,7 @@ def _environment() -> jinja2.Environment:
         alignment=alignment,
         extent=extent,
         inconclusive=_inconclusive,
+        counts_text=counts_text,
     )
     environment.globals.update(
         change_counts=change_counts,
@@ -142,10 +150,10 @@ def _kinds(report: Report) -> dict[str, dict[Status, int]]:
     }
 
 
-def _both_solvers(report: Report) -> Chart | None:
+def _both_solvers(report: Report) -> tuple[tuple[Chart, ...], Table] | None:
     """Errors of both solvers against the same references, where there are such."""
     shared = shared_references(report)
-    return both_solvers_chart(shared) if shared else None
+    return (both_solvers_charts(shared), furthest_apart(shared)) if shared else None
 
 
 def _inconclusive(report: Report) -> list[tuple[CaseOutcome, Verdict]]:

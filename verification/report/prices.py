@@ -11,6 +11,8 @@ from verification.studies.running.study import Conclusion
 TARGET = "0.1 %"
 METHOD = "method"  # the first column of a table of cheapest settings
 NOT_REACHED = "–"
+EXTRAPOLATED = "≈"  # before a cost that no setting was tried for
+PAPERS_ROUTE = "sampled response, frozen directions"
 
 
 @dataclass(frozen=True)
@@ -23,7 +25,7 @@ class Price:
     @property
     def reached(self) -> int:
         """By how many methods."""
-        return sum(cost != NOT_REACHED for cost in self.costs.values())
+        return sum(not cost.startswith((NOT_REACHED, EXTRAPOLATED)) for cost in self.costs.values())
 
 
 def prices(conclusion: Conclusion) -> tuple[Price, ...]:
@@ -54,16 +56,21 @@ def price_table(conclusion: Conclusion, unit: str) -> Table | None:
             (price.quantity, *(price.costs.get(method, "") for method in methods))
             for price in found
         ),
-        note=f"{NOT_REACHED} where no setting that was tried reaches it; empty where the method "
-        "was not tried. The settings themselves, and those for 10 %, 1 % and 0.01 %, stand in the "
-        "study's own tables.",
+        note=f"{EXTRAPOLATED} where no setting that was tried reaches it, and the cost follows "
+        f"from the order of those that were; {NOT_REACHED} where it does not; empty where the "
+        "method was not tried. The settings themselves, and those for 10 %, 1 % and 0.01 %, stand "
+        "in the study's own tables.",
     )
 
 
 def telling_chart(conclusion: Conclusion) -> Chart | None:
-    """The diagram of the quantity that most methods get to the target, else the first one."""
+    """The diagram of the quantity that most methods get to the target, of those that the paper's
+    own route was tried on if there are any; else the first one."""
     charts = conclusion.charts
-    for price in sorted(prices(conclusion), key=lambda price: -price.reached):
+    ranked = sorted(
+        prices(conclusion), key=lambda price: (PAPERS_ROUTE not in price.costs, -price.reached)
+    )
+    for price in ranked:
         for chart in charts:
             if price.reached and chart.title.startswith(price.quantity):
                 return chart

@@ -6,6 +6,7 @@ from collections.abc import Iterator
 
 from verification.cases.outcome import CaseOutcome, Status
 from verification.report.changes import change_rows, changes_text, origins
+from verification.report.counts import counts_text
 from verification.report.numbers import (
     clearance_text,
     failure_line,
@@ -16,17 +17,6 @@ from verification.report.page import SYMBOLS, WORDS
 from verification.report.record import Report
 
 MOST_LINES = 40  # of failures, and of changes: a pull request's comment holds 65 kB
-
-
-def counts_text(report: Report) -> str:
-    """How many verdicts ended how."""
-    counts = report.counts
-    failed = len(report.failed_studies)
-    studies = f"; {failed} of the studies failed" if failed else ""
-    return (
-        f"{counts[Status.PASS]} passed, {counts[Status.FAIL]} failed, "
-        f"{counts[Status.INCONCLUSIVE]} inconclusive{studies}"
-    )
 
 
 def failure_lines(report: Report) -> list[str]:

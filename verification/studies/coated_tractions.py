@@ -5,16 +5,16 @@ from __future__ import annotations
 import csv
 import io
 import json
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 
 import numpy as np
 
 from verification.cases.case import SOLVER_TOLERANCE, Level
-from verification.cases.chart import Chart, Curve, Look, Panel, curve
 from verification.cases.outcome import Status
 from verification.cases.paper_scene import HERTZ
 from verification.cases.table import Table
 from verification.report.numbers import plain
+from verification.studies.coated_traction_figures import figures
 from verification.studies.running.study import (
     Conclusion,
     Records,
@@ -24,17 +24,13 @@ from verification.studies.running.study import (
     StudyCase,
 )
 from verification.studies.sliding_runs.contacts import CoatedContact
-from verification.studies.sliding_runs.traction_run import Profile, TractionRecord, TractionRun
+from verification.studies.sliding_runs.traction_run import TractionRecord, TractionRun
 
 RATIOS = (0.5, 1.0, 2.0, 4.0)
 CELLS = {Level.QUICK: 64, Level.STANDARD: 128, Level.FULL: 256}
 NORMAL_INCREMENTS = 15
 TANGENTIAL_INCREMENTS = (6, 7, 7)  # to 0.3, 0.6 and 0.9 µW
 SELF_EQUILIBRIUM = 1e-8
-COLUMNS = 2
-SHOWN = 1.3  # Hertz radii to each side
-
-CurvesOf = Callable[[TractionRecord, bool], tuple[Curve, ...]]
 
 REMARKS = (
     "Assumed, because the paper does not say: substrate E2 = 210 GPa (from its contact radius and "
@@ -56,7 +52,7 @@ def conclude(settings: Settings, records: Records) -> Conclusion:
     return Conclusion(
         statements=(_shear_without_force(found), _sticks_beyond(found), _converged(found)),
         tables=(_table(found),),
-        charts=_charts(found) if found else (),
+        charts=figures(found) if found else (),
         remarks=REMARKS,
     )
 
@@ -179,80 +175,6 @@ def _profiles(found: Mapping[float, TractionRecord]) -> str:
             rows = zip(record.x, profile.pressure, profile.shear, strict=True)
             table.writerows((ratio, profile.force, *row) for row in rows)
     return text.getvalue()
-
-
-def _charts(found: Mapping[float, TractionRecord]) -> tuple[Chart, ...]:
-    pressure = Chart(
-        name="figure_3_pressure",
-        title="Figure 3 of the paper: pressure profiles in the plane y = 0",
-        caption="Pressure over the Hertz pressure for E1 = E2 at four tangential forces. The "
-        "force lowers the cusp at the centre and moves a few per cent of the pressure to the "
-        "trailing side.",
-        rows=_panels(found, "p / Hertz pressure", _pressures),
-    )
-    shear = Chart(
-        name="figure_4_shear",
-        title="Figure 4 of the paper: shear profiles in the plane y = 0",
-        caption="Shear qₓ over µ times the Hertz pressure at four tangential forces; the thin "
-        "dashed lines are the friction limit ± µp at the largest force. At T = 0 the shear pulls "
-        "outwards on both sides and carries no resultant.",
-        rows=_panels(found, "qₓ / (µ × Hertz pressure)", _shears),
-    )
-    return pressure, shear
-
-
-def _panels(
-    found: Mapping[float, TractionRecord], label: str, curves_of: CurvesOf
-) -> tuple[tuple[Panel, ...], ...]:
-    rows = []
-    items = list(found.items())
-    for start in range(0, len(items), COLUMNS):
-        row = []
-        for column, (ratio, record) in enumerate(items[start : start + COLUMNS]):
-            last_row = start + COLUMNS >= len(items)
-            legend = start == 0 and column == min(COLUMNS, len(items)) - 1
-            row.append(
-                Panel(
-                    x_label="x / Hertz radius" if last_row else "",
-                    y_label=label if column == 0 else "",
-                    curves=curves_of(record, legend),
-                    title=f"E1/E2 = {ratio:g}",
-                    height=1.7,
-                )
-            )
-        rows.append(tuple(row))
-    return tuple(rows)
-
-
-def _pressures(record: TractionRecord, legend: bool) -> tuple[Curve, ...]:
-    x, shown = _shown(record)
-    return tuple(
-        curve(_label(p) if legend else "", x, np.array(p.pressure)[shown], series=n)
-        for n, p in enumerate(record.profiles)
-    )
-
-
-def _shears(record: TractionRecord, legend: bool) -> tuple[Curve, ...]:
-    x, shown = _shown(record)
-    limit = np.array(record.profiles[-1].pressure)[shown]
-    return (
-        curve("± µp" if legend else "", x, limit, Look.BOUND),
-        curve("", x, -limit, Look.BOUND),
-        *(
-            curve(_label(p) if legend else "", x, np.array(p.shear)[shown], series=n)
-            for n, p in enumerate(record.profiles)
-        ),
-    )
-
-
-def _shown(record: TractionRecord) -> tuple[np.ndarray, np.ndarray]:
-    x = np.array(record.x)
-    shown = np.abs(x) <= SHOWN
-    return x[shown], shown
-
-
-def _label(profile: Profile) -> str:
-    return f"T = {profile.force:g} µW" if profile.force else "T = 0"
 
 
 STUDY = Study(

@@ -6,7 +6,7 @@ import numpy as np
 
 from verification.cases.chart import Chart, Curve, Panel, curve
 from verification.cases.cross_check_contacts import FRICTIONS, RATIOS, THICKNESSES
-from verification.studies.cross_check.contacts import Found, Key
+from verification.studies.cross_check.contacts import Found, Key, is_its_own
 from verification.studies.cross_check.difference import REQUIRED
 
 PER_MILLE = 1e3
@@ -22,7 +22,11 @@ def difference_chart(found: Found, name: str) -> Chart:
         caption=f"Difference of the {name} over the radius for six ratios of moduli (rows) and "
         f"three thicknesses (columns), in thousandths of {scale}; required is "
         f"{PER_MILLE * REQUIRED[name]:g}. Each panel has its own scale."
-        + (" The shear is left out at the edge of stick." if name == "shear" else ""),
+        + (
+            " The shear is left out at its kinks, where the edge of stick is or turned back."
+            if name == "shear"
+            else ""
+        ),
         rows=tuple(
             tuple(_panel(found, name, ratio, thickness) for thickness in THICKNESSES)
             for ratio in RATIOS
@@ -45,6 +49,7 @@ def _panel(found: Found, name: str, ratio: float, thickness: float) -> Panel:
         ),
         title=f"h = {thickness:g} a_H" if top else "",
         height=0.9,
+        notes=() if is_its_own(ratio, thickness) else ((0.5, 0.5, "the same body"),),
     )
 
 

@@ -13,7 +13,12 @@ import fem_reference
 import semi_analytical
 from contact_scene.description import Description
 from verification.cases.case import SOLVER_TOLERANCE
-from verification.cases.cross_check_contacts import CheckedContact, Profiles, numbers
+from verification.cases.cross_check_contacts import (
+    JUDGED_WITHIN,
+    CheckedContact,
+    Profiles,
+    numbers,
+)
 from verification.cases.fem_levels import judged_within
 from verification.quantities import largest_residual
 
@@ -38,7 +43,7 @@ class Side(Description):
     edge does not reach."""
 
     own_shear: float
-    """The same, away from the edge of stick."""
+    """The same, away from the kinks of the shear."""
 
     own_approach: float
     """Relative."""
@@ -52,8 +57,11 @@ class CrossCheckRecord(Description):
     radii: tuple[float, ...]
     """Over the contact radius without friction."""
 
+    stick_edges: tuple[float, ...]
+    """Where the shear has kinks, over the same radius: the edge of stick comes last."""
+
     shear_judged: tuple[bool, ...]
-    """Whether a radius is away from the edge of stick."""
+    """Whether a radius is away from those."""
 
     semi_analytical: Side
     finite_elements: Side
@@ -94,26 +102,33 @@ class CrossCheckRun:
         meshes = [contact.mesh(n) for n in (self.elements // 2, self.elements)]
         on_cells = [semi_analytical.solve(scene, grid, SOLVER_TOLERANCE) for grid in grids]
         on_elements = [fem_reference.solve(scene, mesh) for mesh in meshes]
-        stick = on_elements[1].steps[-1].stick_radius
+        edges = contact.stick_edges(on_elements[1], self.cells, self.elements)
         half = self.elements // 2
-        radii, coarse = (contact.radii(n, self.cells) for n in (self.elements, half))
-        smooth = contact.radii(half, self.cells, judged_within(half))
-        judged = contact.away_from_stick_edge(radii, stick, self.cells, self.elements)
+        radii, coarse, smooth = (
+            contact.clear_of_axis(contact.radii(n, self.cells, within), edges, self.cells, n)
+            for n, within in (
+                (self.elements, JUDGED_WITHIN),
+                (half, JUDGED_WITHIN),
+                (half, judged_within(half)),
+            )
+        )
+        judged = contact.away_from_stick_edges(radii, edges, self.cells, self.elements)
         known = contact.reference(radii)
         return CrossCheckRecord(
             radii=tuple(radii.tolist()),
+            stick_edges=edges,
             shear_judged=tuple(judged.tolist()),
             semi_analytical=_side(
                 on_cells,
                 contact.on_grid(on_cells[1], radii),
                 [contact.on_grid(result, coarse) for result in on_cells],
-                contact.away_from_stick_edge(coarse, stick, self.cells, self.elements),
+                contact.away_from_stick_edges(coarse, edges, self.cells, self.elements),
             ),
             finite_elements=_side(
                 on_elements,
                 contact.on_rings(on_elements[1], radii),
                 [contact.on_rings(result, smooth) for result in on_elements],
-                contact.away_from_stick_edge(smooth, stick, self.cells, self.elements),
+                contact.away_from_stick_edges(smooth, edges, self.cells, self.elements),
             ),
             reference_pressure=None if known is None else tuple(known.pressure.tolist()),
             reference_shear=None if known is None else tuple(known.shear.tolist()),

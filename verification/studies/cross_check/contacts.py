@@ -15,9 +15,27 @@ Found = Mapping[Key, CrossCheckRecord]
 Apart = Mapping[Key, Mapping[str, Difference]]
 
 
+ALIKE = 1.0  # E1/E2 of a coating that is none, whatever its thickness
+STANDS_FOR_ALL = 1.0  # its h / a_H
+
+
 def expected_contacts() -> tuple[Key, ...]:
     """Every contact once."""
-    return tuple(product(RATIOS, THICKNESSES, FRICTIONS))
+    return tuple(
+        (ratio, thickness, friction)
+        for ratio, thickness, friction in product(RATIOS, THICKNESSES, FRICTIONS)
+        if is_its_own(ratio, thickness)
+    )
+
+
+def is_its_own(ratio: float, thickness: float) -> bool:
+    """Whether no other thickness makes the same body."""
+    return ratio != ALIKE or thickness == STANDS_FOR_ALL
+
+
+def coated_count() -> int:
+    """Contacts whose coating differs from what is below."""
+    return sum(ratio != ALIKE for ratio, _, _ in expected_contacts())
 
 
 def contact_text(key: Key) -> str:

@@ -7,9 +7,15 @@ import io
 from collections.abc import Mapping
 
 from verification.cases.case import Level
+from verification.cases.cross_check_contacts import MARGIN
 from verification.studies.cross_check.charts import difference_chart
 from verification.studies.cross_check.contact_run import CrossCheckRecord, CrossCheckRun
-from verification.studies.cross_check.contacts import Found, Key, expected_contacts
+from verification.studies.cross_check.contacts import (
+    Found,
+    Key,
+    coated_count,
+    expected_contacts,
+)
 from verification.studies.cross_check.difference import differences
 from verification.studies.cross_check.tables import (
     difference_table,
@@ -28,7 +34,11 @@ REMARKS = (
     "uncertainty covers it. That of the elements is taken where the ripple of the coarser mesh's "
     "last five elements does not reach.",
     "Nothing is judged nearer to the axis than two cells or two elements, and no shear nearer to "
-    "the edge of stick: there it has a kink.",
+    "a kink: the edge of stick, and where that edge turned outward after it had come back by more "
+    "than a cell or an element. What sticks keeps the kink that it had there, and both sides round "
+    "it. Where that is within an element of the axis, the outward shear jumps there as far as "
+    "elements can tell and the pressure has a logarithmic peak, with the same error two elements "
+    "away on every mesh: nothing is judged at these two elements either.",
     "Both solvers take the same increments: what finite increments cost is not seen here.",
     "The cells' tractions are means over 16 directions by cubic splines; those of the elements are "
     "values at their rings.",
@@ -48,7 +58,7 @@ def conclude(settings: Settings, records: Records) -> Conclusion:
     apart = {key: differences(record) for key, record in found.items()}
     return Conclusion(
         statements=statements(found, apart),
-        answer=answer(apart),
+        answer=answer(apart, _fineness(settings)),
         tables=(reference_table(apart), difference_table(apart), number_table(found))
         if found
         else (),
@@ -74,6 +84,12 @@ def exports(settings: Settings, records: Records) -> Mapping[str, str]:
     return {"differences.csv": text.getvalue()}
 
 
+def _fineness(settings: Settings) -> str:
+    """Of both solvers, on one scale."""
+    cells = (settings.cells or CELLS[settings.level]) / (2 * MARGIN)
+    return f"{cells:.0f} cells and {ELEMENTS[settings.level]} elements per contact radius"
+
+
 def _run(key: Key, settings: Settings) -> CrossCheckRun:
     cells = settings.cells or CELLS[settings.level]
     return CrossCheckRun(*key, cells, ELEMENTS[settings.level])
@@ -87,7 +103,8 @@ def _found(settings: Settings, records: Records) -> Found:
 STUDY = Study(
     name="cross-check",
     title="Both solvers on the same coated contacts",
-    question="A rigid ball is pressed on coated half-spaces with and without friction: 54 scenes, "
+    question="A rigid ball is pressed on coated half-spaces with and without friction: "
+    f"{len(expected_contacts())} scenes, {coated_count()} of them with a coating unlike its body, "
     "solved by cells with Fourier transforms and by axisymmetric finite elements, which share "
     "nothing but the scene. How far are they apart, and does each side's own error explain it?",
     cases=cases,

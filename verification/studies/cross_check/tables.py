@@ -52,7 +52,7 @@ def reference_table(apart: Apart) -> Table:
         title="Errors of both sides against references that neither made",
         columns=tuple(columns),
         rows=tuple(rows),
-        note="p over p₀, q over µp₀ (the edge of stick left out), δ relative; the largest at any "
+        note="p over p₀, q over µp₀ (its kinks left out), δ relative; the largest at any "
         "radius that is judged.",
     )
 

@@ -23,7 +23,7 @@ from verification.studies.running.study import Statement
 
 MEANINGS = {
     "pressure": "pressure, r < 0.9 a, over p₀",
-    "shear": "shear, r < 0.9 a and away from the edge of stick, over µp₀",
+    "shear": "shear, r < 0.9 a and away from its kinks, over µp₀",
     "approach": "approach, relative",
 }
 UNITS = {"pressure": " of p₀", "shear": " of µp₀", "approach": ""}
@@ -34,13 +34,18 @@ def statements(found: Found, apart: Apart) -> tuple[Statement, ...]:
     return (
         *(_agreement(name, apart) for name in REQUIRED),
         _explained(apart),
+        _kept(found),
+        _left_out(found),
         _nearer(apart),
         _converged(found),
     )
 
 
-def answer(apart: Apart) -> str:
-    """Where the solvers are furthest apart, and which was nearer to references of neither."""
+def answer(apart: Apart, fineness: str) -> str:
+    """Where the solvers are furthest apart, and which was nearer to references of neither.
+
+    fineness  of both solvers, in words
+    """
     worst = {name: _worst_contact(name, apart) for name in REQUIRED}
     parts = [
         f"{_percent(one.value)}{UNITS[name]} in {name} ({contact_text(key)}; their own errors "
@@ -57,13 +62,16 @@ def answer(apart: Apart) -> str:
         if beyond == 0
         else f"beyond what is asked in {beyond} of {sum(map(len, apart.values()))} comparisons"
     )
-    apart_text = f"On {len(apart)} contacts they are at most {_listed(parts)} apart, {asked}."
+    apart_text = (
+        f"On {len(apart)} contacts, compared up to 0.9 a, away from the axis and from the kinks of "
+        f"the shear, they are at most {_listed(parts)} apart, {asked}."
+    )
     known = [text for name in REQUIRED if (text := _to_reference(name, apart))]
     if not known:
         return apart_text
     return (
         f"{apart_text} Against references that neither made (with friction these have no "
-        f"increments): {'; '.join(known)}."
+        f"increments), with {fineness}: {'; '.join(known)}."
     )
 
 
@@ -103,12 +111,19 @@ def _agreement(name: str, apart: Apart) -> Statement:
     return Statement(
         claim=f"both solvers agree: {MEANINGS[name]}",
         outcome=_worst(statuses),
-        measured=f"{counts[Status.PASS]} of {len(every)} contacts within {REQUIRED[name]:g}, "
-        f"{counts[Status.INCONCLUSIVE]} beyond it but within their own errors; largest difference "
+        measured=f"{counts[Status.PASS]} of {len(every)} contacts within {REQUIRED[name]:g}"
+        f"{_uncertain(every)}, {counts[Status.INCONCLUSIVE]} beyond it but within their own "
+        "errors; largest difference "
         + ("–" if worst is None else f"{plain(worst.value, 2)} ± {plain(worst.joint, 2)}")
         + _beyond(name, apart),
         because=f"required {REQUIRED[name]:g}",
     )
+
+
+def _uncertain(every: list[Difference]) -> str:
+    """How many are within it though the errors that both sides own up to are not."""
+    count = sum(one.status is Status.PASS and one.joint > one.required for one in every)
+    return f" ({count} of them with own errors beyond it)" if count else ""
 
 
 def _beyond(name: str, apart: Apart) -> str:
@@ -130,6 +145,50 @@ def _explained(apart: Apart) -> Statement:
         measured=f"{explained} of {len(every)} differences within {COVERAGE:g} joint uncertainties",
         because="a finding: where they do not, an error does not fall with refinement, or the "
         "coarse and the fine answer agree by chance",
+    )
+
+
+def _kept(found: Found) -> Statement:
+    turned = {key: record.stick_edges[:-1] for key, record in found.items()}
+    named = [
+        f"{contact_text(key)}: at {_listed([f'{edge:.3f}' for edge in edges])} a"
+        for key, edges in turned.items()
+        if edges
+    ]
+    return Statement(
+        claim="where the shear keeps a kink inside the edge of stick",
+        outcome=None,
+        measured="; ".join(named) or "nowhere",
+        because="a finding: pressing on, stick came back to there before it spread outward again. "
+        "How far it comes back follows from the coating, not from cells, elements or increments",
+    )
+
+
+def _left_out(found: Found) -> Statement:
+    """The largest difference of shear that no verdict sees."""
+    apart = {
+        key: max(
+            (
+                abs(one - other)
+                for one, other, judged in zip(
+                    record.semi_analytical.shear, record.finite_elements.shear,
+                    record.shear_judged, strict=True,
+                )
+                if not judged
+            ),
+            default=0.0,
+        )
+        for key, record in found.items()
+    }  # fmt: skip
+    worst = max(apart, key=lambda key: apart[key], default=None)
+    return Statement(
+        claim="how far apart both are in the shear at its kinks, where it is not judged",
+        outcome=None,
+        measured="nowhere left out"
+        if worst is None or apart[worst] == 0
+        else f"at most {plain(apart[worst], 2)} of µp₀ ({contact_text(worst)})",
+        because="a finding: cells and elements round a kink, each in its way; nearer to the axis "
+        "than two cells or elements and beyond 0.9 a nothing is compared at all",
     )
 
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from itertools import cycle, product
 
 import numpy as np
 
@@ -14,10 +13,7 @@ from verification.studies.sliding_runs.path import SlidingPath
 
 MICROMETRE = 1e-6
 FINE = 60
-SERIES = 6
-VARIANT_LOOKS = (Look.COMPUTED, Look.POINTS)
 SHOWN_SHIFT = 1.6
-MARKED_EVERY = 3
 
 Paths = Mapping[str, SlidingPath]
 
@@ -53,11 +49,7 @@ def stick_fraction_chart(paths: Paths, scales: Mapping[str, float]) -> Chart:
 
 def force_chart(paths: Paths, estimates: Mapping[str, Estimate]) -> Chart:
     """Force against shift, with the states in which the stick area vanishes."""
-    curves = [
-        curve(name, [p.shift / MICROMETRE for p in path.points], [p.force for p in path.points],
-              series=n)
-        for n, (name, path) in enumerate(paths.items())
-    ]  # fmt: skip
+    curves = [_force(name, path, n) for n, (name, path) in enumerate(paths.items())]
     marks = curve(
         "stick area vanishes",
         [e.full_slip.shift / MICROMETRE for e in estimates.values()],
@@ -71,7 +63,7 @@ def force_chart(paths: Paths, estimates: Mapping[str, Estimate]) -> Chart:
         title="Tangential force against shift",
         caption="Force over the friction limit while the shift grows to at least three times "
         "Mindlin's sliding displacement. Dots: the stick area vanishes; the force still grows, "
-        "towards µW. Dashed: the number the paper gives for E1/E2 = 2.",
+        "towards µW. Thin black dashes: the number the paper gives for E1/E2 = 2.",
         rows=((Panel(
             x_label="shift (µm)", y_label="T / µW",
             curves=(paper, *curves, marks), height=2.4,
@@ -79,26 +71,36 @@ def force_chart(paths: Paths, estimates: Mapping[str, Estimate]) -> Chart:
     )  # fmt: skip
 
 
-def variants_chart(paths: Paths) -> Chart:
-    """Force against shift under other readings of the friction law."""
-    end = max(path.points[-1].shift for path in paths.values()) / MICROMETRE
-    looks = zip(paths.items(), cycle(product(VARIANT_LOOKS, range(SERIES))), strict=False)
-    curves = []
-    for (name, path), (look, series) in looks:
-        shown = path.points[:: MARKED_EVERY if look is Look.POINTS else 1]
-        x, y = [p.shift / MICROMETRE for p in shown], [p.force for p in shown]
-        curves.append(curve(name, x, y, look, series))
+def variants_chart(product: SlidingPath, groups: Mapping[str, Paths]) -> Chart:
+    """Force against shift under other readings of the friction law, the product's with each group.
+
+    groups  at most five paths each, so that no two curves of a panel look alike
+    """
+    paths = [product, *(path for group in groups.values() for path in group.values())]
+    end = max(path.points[-1].shift for path in paths) / MICROMETRE
     paper = curve("0.76 (paper)", [0, end], [PAPER, PAPER], Look.BOUND)
+    rows = []
+    for number, (title, group) in enumerate(groups.items(), 1):
+        drawn = [_force(name, path, n) for n, (name, path) in enumerate(group.items(), 1)]
+        x_label = "shift (µm)" if number == len(groups) else ""
+        curves = (paper, _force("product", product, 0), *drawn)
+        rows.append((Panel(
+            title=title, x_label=x_label, y_label="T / µW", curves=curves, height=1.7,
+        ),))  # fmt: skip
     return Chart(
         name="friction_law_variants",
         title="Other readings of the friction law and other paths, E1/E2 = 2",
-        caption="Force over the friction limit against shift. Dashed: the paper's 0.76. Readings "
-        "that freeze a direction lose part of the friction for good; slip that opposes its total "
-        "instead of its increment turns only slowly into the direction of motion.",
-        rows=((Panel(
-            x_label="shift (µm)", y_label="T / µW", curves=(paper, *curves), height=2.4,
-        ),),),
-    )  # fmt: skip
+        caption="Force over the friction limit against shift, one group of readings in each panel; "
+        "the blue solid line is the product's in all of them. Thin black dashes: the paper's 0.76. "
+        "Readings that freeze a direction lose part of the friction for good; slip that opposes "
+        "its total instead of its increment turns only slowly into the direction of motion.",
+        rows=tuple(rows),
+    )
+
+
+def _force(label: str, path: SlidingPath, series: int) -> Curve:
+    x, y = [p.shift / MICROMETRE for p in path.points], [p.force for p in path.points]
+    return curve(label, x, y, series=series)
 
 
 def _stick(path: SlidingPath, series: int, label: str, scale: float | None = None) -> Curve:

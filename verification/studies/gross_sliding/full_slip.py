@@ -2,11 +2,17 @@
 
 The stick area falls to zero linearly in the shift: exactly so for Cattaneo and Mindlin's contact,
 where c²/a² = 1 - shift / (shift at sliding), and to leading order wherever a smooth field passes
-its last extremum. So a line through area against shift gives the shift, and the force is read off
-the smooth curve of force against shift, between the last increment that has stick area and the
-first that has none. The bar is what half a cell more or less of stick radius would change, the
-scatter about the line, and how far a straight line between the increments is from the curve. A
-stick zone that is small from the outset and leaves the contact as a whole has no such line: then
+its last extremum. So a line through area against shift gives the shift.
+
+The force has a kink there: what a stick zone still carries goes with its radius, so that to the
+power 3/2 of the shift that is left it falls short of a smooth curve (exactly so in that contact: T
+= µW (1 - (1 - shift / shift at sliding)^(3/2))). A curve through the increments cuts that corner.
+So this part is fitted and taken out, and the force is read off the smooth rest, between the last
+increment that has stick area and the first that has none. The bar is what half a cell more or less
+of stick radius would change, the scatter about the line, how far the fit is from the curve, and how
+far a straight line between the increments of the rest is from it.
+
+A stick zone that is small from the outset and leaves the contact as a whole has no such line: then
 the middle between those two increments is given, and half their distance as bar.
 """
 
@@ -74,22 +80,39 @@ def _middle(last: SlidingPoint, first: SlidingPoint) -> FullSlip:
 
 def _extrapolated(path: SlidingPath, points: Sequence[SlidingPoint], end: int) -> FullSlip:
     """The line through these points, kept between increment `end` - 1 and `end`."""
-    shifts, forces = [p.shift for p in path.points], [p.force for p in path.points]
-    curve = PchipInterpolator(shifts, forces)
-
-    def force(shift: float) -> float:
-        return float(curve(np.clip(shift, shifts[0], shifts[-1])))
-
     shift = np.array([p.shift for p in points])
     radius = np.sqrt([p.stick_fraction for p in points])
     fitted, scatter = _intercept(radius**2, shift)
-    inside = float(np.clip(fitted, shifts[end - 1], shifts[end]))
+    inside = float(np.clip(fitted, path.points[end - 1].shift, path.points[end].shift))
     half_cell = path.cell_over_radius / 2
     by_cell = [_intercept((radius + e) ** 2, shift)[0] for e in (-half_cell, half_cell)]
     by_fit = [fitted - scatter, fitted + scatter]
-    bars = [max(abs(force(s) - force(inside)) for s in ends) for ends in (by_cell, by_fit)]
-    straight = float(np.interp(inside, shifts, forces))
-    return FullSlip(force(inside), inside, hypot(*bars, straight - force(inside)))
+    force, *others = _forces_at(path, points, inside)
+    bars = [
+        max(abs(_forces_at(path, points, s)[0] - force) for s in ends) for ends in (by_cell, by_fit)
+    ]
+    return FullSlip(force, inside, hypot(*bars, *(other - force for other in others)))
+
+
+def _forces_at(
+    path: SlidingPath, points: Sequence[SlidingPoint], vanishing: float
+) -> tuple[float, float, float]:
+    """Force where the stick area vanishes at a shift: by the curve through the smooth rest of all
+    increments, by straight lines through it, and by the fit to these points alone."""
+    shifts = np.array([p.shift for p in path.points])
+    forces = np.array([p.force for p in path.points])
+    near = np.array([p.shift for p in points])
+    basis = np.stack([np.ones_like(near), near - vanishing, _left(near, vanishing)], axis=1)
+    fit, *_ = np.linalg.lstsq(basis, np.array([p.force for p in points]), rcond=None)
+    rest = forces - fit[2] * _left(shifts, vanishing)
+    at = np.clip(vanishing, shifts[0], shifts[-1])
+    curve = PchipInterpolator(shifts, rest)
+    return float(curve(at)), float(np.interp(at, shifts, rest)), float(fit[0])
+
+
+def _left(shift: NDArray[np.float64], vanishing: float) -> NDArray[np.float64]:
+    """What is left to the end of the stick area, over the shift there, to the power 3/2."""
+    return np.asarray(np.maximum(1 - shift / vanishing, 0.0) ** 1.5)
 
 
 def _resolved(points: Sequence[SlidingPoint]) -> list[SlidingPoint]:

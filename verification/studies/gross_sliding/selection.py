@@ -135,6 +135,15 @@ def variant_kind(run: VariantRun) -> str:
     return f"{law}, {run.steps.tangential} steps" if frozen else law
 
 
+def variant_group(run: VariantRun) -> str:
+    """What it is drawn together with."""
+    if not isinstance(run, LawRun):
+        return "other paths and less coupling"
+    if run.law is FrictionLaw.FROZEN_DIRECTIONS:
+        return "directions frozen, in so many steps"
+    return "other bounds of the shear"
+
+
 def path_of(records: Records, run: StudyCase) -> SlidingPath | None:
     """The record of a run; None if it is missing."""
     record = records.get(run.name)

@@ -28,6 +28,7 @@ from verification.studies.gross_sliding.selection import (
     cases_of,
     null_runs,
     path_of,
+    variant_group,
     variant_kind,
     variant_name,
 )
@@ -146,9 +147,11 @@ def _charts(found: _Found, paper: str) -> tuple[Chart, ...]:
         stick_fraction_chart(found.base | found.null, scales),
         force_chart(found.base, found.estimates),
     ]
-    variants = {variant_name(run): path for run, path in found.variant_runs(paper).items()}
-    if variants and paper in found.base:
-        charts.append(variants_chart({"product": found.base[paper]} | variants))
+    groups: dict[str, dict[str, SlidingPath]] = {}
+    for run, path in found.variant_runs(paper).items():
+        groups.setdefault(variant_group(run), {})[variant_name(run)] = path
+    if groups and paper in found.base:
+        charts.append(variants_chart(found.base[paper], groups))
     return tuple(charts)
 
 
@@ -200,7 +203,9 @@ def _variant_table(found: _Found) -> Table:
         title="Other paths and other readings of the friction law",
         columns=("variant", "T_fs / µW", "T_max / µW", "near 0.76"),
         rows=tuple(rows),
-        note="T_max up to three times Mindlin's sliding displacement. On the total slip the stick "
+        note=f"T_max up to three times Mindlin's sliding displacement. Near is T_fs within "
+        f"{verdicts.NEAR:g} and its bar of {verdicts.PAPER:g}, or T_max within {verdicts.NEAR:g} "
+        "of it. On the total slip the stick "
         "zone is a spot of a few cells that wanders to the trailing edge and leaves there: where "
         "that happens depends on the cells, so a number near 0.76 on one grid proves nothing.",
     )

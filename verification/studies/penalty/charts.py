@@ -19,6 +19,7 @@ from verification.studies.penalty.verdicts import Found
 
 Value = Callable[[PenaltyRecord], float | None]
 Along = Callable[[PenaltyCase], float]
+Drawn = tuple[str, Sequence[PenaltyCase], Value]  # label, cases, their value
 BELOW = 0.6  # slope lines run under the data, by this factor
 HEIGHT = 2.4
 NAMES = {
@@ -41,13 +42,13 @@ def _stiffness(level: Level, found: Found) -> Chart:
     bare, once = (
         [c for c in of_springs(level) if c.augmentations == updates] for updates in (0, 1)
     )
-    curves = [
-        *_slope(bare, found, _factor, lambda r: r.approach, -1),
-        *_curve("approach, springs alone", bare, found, _factor, lambda r: r.approach, 0),
-        *_curve("peak pressure, springs alone", bare, found, _factor, lambda r: r.peak, 1),
-        *_curve("approach, one augmentation", once, found, _factor, lambda r: r.approach, 2),
-        *_curve("peak pressure, one augmentation", once, found, _factor, lambda r: r.peak, 3),
-    ]
+    drawn: tuple[Drawn, ...] = (
+        ("approach, springs alone", bare, lambda r: r.approach),
+        ("peak pressure, springs alone", bare, lambda r: r.peak),
+        ("approach, one augmentation", once, lambda r: r.approach),
+        ("peak pressure, one augmentation", once, lambda r: r.peak),
+    )
+    curves = _slope(bare, found, _factor, lambda r: r.approach, -1) + _curves(drawn, found, _factor)
     return _chart(
         "penalty_stiffness",
         "Error against the stiffness of the springs",
@@ -58,42 +59,42 @@ def _stiffness(level: Level, found: Found) -> Chart:
 
 
 def _ripple(level: Level, found: Found) -> Chart:
-    curves: list[Curve] = []
-    for series, updates in enumerate(UPDATES):
-        cases = [c for c in of_springs(level) if c.augmentations == updates]
-        words = "springs alone" if updates == 0 else f"augmentations: {updates}"
-        curves += _curve(words, cases, found, _factor, lambda r: r.ripple, series)
+    by_updates = (
+        (
+            "springs alone" if updates == 0 else f"augmentations: {updates}",
+            [c for c in of_springs(level) if c.augmentations == updates],
+            lambda r: r.ripple,
+        )
+        for updates in UPDATES
+    )
     return _chart(
         "penalty_ripple",
         "Ripple of the pressure at the edge",
         "L2 norm of the pressure's error over that of the pressure, against c. It is nearly all in "
         "the last element: stiff springs and many augmentations make it larger.",
-        "c", "L2 error of the pressure", curves,
+        "c", "L2 error of the pressure", _curves(by_updates, found, _factor),
     )  # fmt: skip
 
 
 def _work(level: Level, found: Found) -> Chart:
-    curves: list[Curve] = []
-    for series, contact in enumerate(FRICTIONAL):
-        cases = of_friction(level, contact, 1)
-        curves += _curve(NAMES[contact], cases, found, _factor, _systems, series)
+    by_contact = ((NAMES[c], of_friction(level, c, 1), _systems) for c in FRICTIONAL)
     return _chart(
         "penalty_work",
         "Work against the stiffness of the springs",
         "Linear systems per increment, two passes each, against c. Where Newton's method gives up "
         "and springs in series take over, their systems are added to its own.",
-        "c", "linear systems per increment", curves,
+        "c", "linear systems per increment", _curves(by_contact, found, _factor),
     )  # fmt: skip
 
 
 def _increments(level: Level, found: Found) -> Chart:
     cases = of_increments(level)
-    curves = [
-        *_slope(cases, found, _number, lambda r: r.shear, -1),
-        *_curve("shear", cases, found, _number, lambda r: r.shear, 0),
-        *_curve("pressure", cases, found, _number, lambda r: r.pressure, 1),
-        *_curve("approach", cases, found, _number, lambda r: r.approach, 2),
-    ]
+    drawn: tuple[Drawn, ...] = (
+        ("shear", cases, lambda r: r.shear),
+        ("pressure", cases, lambda r: r.pressure),
+        ("approach", cases, lambda r: r.approach),
+    )
+    curves = _slope(cases, found, _number, lambda r: r.shear, -1) + _curves(drawn, found, _number)
     return _chart(
         "penalty_increments",
         "Error against the number of increments",
@@ -104,16 +105,14 @@ def _increments(level: Level, found: Found) -> Chart:
 
 
 def _boxes(level: Level, found: Found) -> Chart:
-    curves: list[Curve] = []
-    for series, contact in enumerate(BOXED):
-        cases = of_boxes(level, contact)
-        curves += _curve(NAMES[contact], cases, found, _box, lambda r: r.approach, series)
+    by_contact = ((NAMES[c], of_boxes(level, c), lambda r: r.approach) for c in BOXED)
     return _chart(
         "penalty_box",
         "Error of the approach against the size of the section",
         "The displacement of the substrate under the load is prescribed on the border. A coating "
         "adds a source that this leaves out, which falls with the square of the size.",
-        "size of the section / contact radius", "relative error of the approach", curves,
+        "size of the section / contact radius", "relative error of the approach",
+        _curves(by_contact, found, _box),
     )  # fmt: skip
 
 
@@ -134,19 +133,15 @@ def _box(case: PenaltyCase) -> float:
     return case.box
 
 
-def _curve(
-    label: str,
-    cases: Sequence[PenaltyCase],
-    found: Found,
-    along: Along,
-    value: Value,
-    series: int,
-) -> list[Curve]:
-    points = _points(cases, found, along, value)
-    if not points:
-        return []
-    x, y = zip(*points, strict=True)
-    return [curve(label, x, y, Look.POINTS, series)]
+def _curves(drawn: Iterable[Drawn], found: Found, along: Along) -> list[Curve]:
+    """In the order of their mention, without those that have no points."""
+    curves = []
+    for series, (label, cases, value) in enumerate(drawn):
+        points = _points(cases, found, along, value)
+        if points:
+            x, y = zip(*points, strict=True)
+            curves.append(curve(label, x, y, Look.POINTS, series))
+    return curves
 
 
 def _slope(

@@ -10,6 +10,8 @@ from math import hypot
 from verification.cases.outcome import Status
 from verification.cases.verdicts import order_status
 from verification.convergence import (
+    ORDER_WIDTH,
+    TRIPLETS_AGREE,
     ObservedOrder,
     RefinedValue,
     Triplets,
@@ -40,7 +42,7 @@ class Fit:
     finest       value on the finest level; None for a field
     limit        Richardson's value, uncertainty its standard uncertainty; None for a field
     remaining    error that is left on the finest level, relative to the scale
-    observed     order of convergence; None where no order explains the values
+    observed     order of convergence; None where none can be read off the values
     triplets     orders by two triplets of levels, the finer first
     levels       number of levels
     """
@@ -64,17 +66,28 @@ class Fit:
 
     @property
     def status(self) -> Status | None:
-        """Inconclusive where levels are few, the interval is wide or not asymptotic: triplets
-        differ, or another order is on its way to the expected one. None where no order is
-        expected."""
+        """Inconclusive where levels are few, the interval is wide or triplets differ: there
+        another order may be on its way to the expected one. Where they agree it is judged as it
+        stands. None where no order is expected."""
         if self.expected is None:
             return None
         off = max(self.expected.allowance, NEARING if self._approaches else 0.0)
-        observed = self.observed
-        agrees = None if observed is None else observed.agrees_with(self.expected.order, off)
-        settled = triplets_agree(self.triplets) and self.levels >= FEWEST_JUDGED
-        settled = settled and not (agrees is False and self._approaches)
-        return order_status(agrees if settled else None)
+        if self.observed is None or self.unsettled is not None:
+            return Status.INCONCLUSIVE
+        return order_status(self.observed.agrees_with(self.expected.order, off))
+
+    @property
+    def unsettled(self) -> str | None:
+        """Why these levels do not allow a verdict on the order; None where they do."""
+        if self.levels < FEWEST_JUDGED:
+            return f"orders are judged from {FEWEST_JUDGED} levels on, and these are {self.levels}"
+        if self.observed is None:
+            return "no one power of the size goes through these levels"
+        if self.observed.half_width > ORDER_WIDTH:
+            return f"the interval is wider than ± {ORDER_WIDTH:g}"
+        if not triplets_agree(self.triplets):
+            return f"two triplets of levels differ by more than {TRIPLETS_AGREE:g}"
+        return None
 
     @property
     def _approaches(self) -> bool:
@@ -106,6 +119,11 @@ def fits(
         field = _field(name, records, expected.get(name), tolerance)
         found += [] if field is None else [field]
     return tuple(found)
+
+
+def _legible(observed: ObservedOrder | None) -> ObservedOrder | None:
+    """The order, unless none can be read."""
+    return observed if observed is not None and observed.is_legible else None
 
 
 def _scale(name: str, record: LevelRecord) -> float:
@@ -158,7 +176,7 @@ def _scalar(
         fit.limit,
         fit.uncertainty,
         errors[-1],
-        fit.observed,
+        _legible(fit.observed),
         fit.triplets,
         len(records),
     )
@@ -184,7 +202,7 @@ def _field(
         None,
         None,
         changes[-1] / (ratio**order - 1),
-        observed_order(sizes, changes),
+        _legible(observed_order(sizes, changes)),
         triplets_of_changes(sizes, changes),
         len(records),
     )

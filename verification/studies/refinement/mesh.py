@@ -24,6 +24,7 @@ from verification.studies.running.study import Settings, Study
 # Neighbouring grids are not multiples of each other: how a round contact cuts the cells differs
 # from grid to grid, and only that tells its scatter from the order.
 RATIO = 2**0.5
+ASKED_BY = "more --cells"  # more levels are coarser ones
 FEWEST_CELLS = 16
 FEWEST_ELEMENTS = 6
 # The finest mesh over the scene's: sections cost little, and coarse ones are not asymptotic. There
@@ -71,8 +72,9 @@ def _of_cells(scene: StudiedScene) -> Refinement:
 
     expected = by_cells(start.contents.scene, start.couples)
     return Refinement(
-        "mesh", levels, expected, "cell side / contact radius", start.tolerance, _contact_radius
-    )
+        "mesh", levels, expected, "cell side / contact radius", start.tolerance, _contact_radius,
+        ASKED_BY,
+    )  # fmt: skip
 
 
 def _of_elements(scene: StudiedScene, method: Method) -> Refinement:
@@ -92,7 +94,9 @@ def _of_elements(scene: StudiedScene, method: Method) -> Refinement:
 
     augmentations = asked.augmentations if method is Method.PENALTY else None
     expected = by_elements(start.contents.scene, start.couples, augmentations)
-    return Refinement("mesh", levels, expected, "element side / contact radius", asked.tolerance)
+    return Refinement(
+        "mesh", levels, expected, "element side / contact radius", asked.tolerance, finer=ASKED_BY
+    )
 
 
 def _too_coarse(coarsest: str, fewest: int) -> CannotRefine:

@@ -10,7 +10,7 @@ from collections.abc import Mapping, Sequence
 from verification.cases.chart import Chart, Curve, Look, Panel, curve
 from verification.cases.outcome import Status
 from verification.cases.table import Table
-from verification.convergence import ORDER_OFF, ORDER_WIDTH, TRIPLETS_AGREE
+from verification.convergence import ILLEGIBLE, ORDER_OFF, ORDER_WIDTH, TRIPLETS_AGREE
 from verification.quantities import unit_of
 from verification.report.numbers import plain, value_text
 from verification.studies.refinement.fit import (
@@ -31,8 +31,8 @@ RULE = (
     f"where there are enough, differ by no more than {TRIPLETS_AGREE:g}; else it is inconclusive. "
     f"The expected order lies within the interval or {ORDER_OFF:g} of the observed one, or what is "
     "said with it. Where the "
-    f"finer triplet comes nearer to it by {APPROACHING:.0%} and more, {NEARING:g} is near enough, "
-    "and an order that is further off is inconclusive."
+    f"finer triplet comes nearer to it by {APPROACHING:.0%} and more, {NEARING:g} is near enough. "
+    f"None is read off levels whose interval is ± {ILLEGIBLE:g} or wider."
 )
 LIMITS = (
     RULE,
@@ -44,18 +44,28 @@ LIMITS = (
 )
 
 
-def statement(fit: Fit) -> Statement:
-    """The verdict on one quantity."""
+def statement(fit: Fit, to_try: str) -> Statement:
+    """The verdict on one quantity.
+
+    to_try  what may help where it is inconclusive
+    """
     because = "no order is expected here: reported, not judged"
     if fit.expected is not None:
         because = f"expected {fit.expected.order:g}: {fit.expected.because}"
     return Statement(
         claim=f"order of the {label(fit.name)}",
         outcome=fit.status,
-        measured=f"{order_text(fit)}; by triplets {_triplets(fit)}; left on the finest level "
-        f"{plain(fit.remaining, 2)}",
+        measured=f"{order_text(fit)}{_by_triplets(fit)}; left on the finest level "
+        f"{plain(fit.remaining, 2)}{_not_judged(fit, to_try)}",
         because=because,
     )
+
+
+def _not_judged(fit: Fit, to_try: str) -> str:
+    """Why a verdict is inconclusive, and what to do about it."""
+    if fit.status is not Status.INCONCLUSIVE:
+        return ""
+    return f"; not judged: {fit.unsettled}; try {to_try}"
 
 
 def converged(records: Sequence[LevelRecord], tolerance: float) -> Statement:
@@ -85,7 +95,7 @@ def unit_of_fit(fit: Fit) -> str | None:
 def order_text(fit: Fit) -> str:
     """An observed order with its interval."""
     if fit.observed is None:
-        return "no order explains the values"
+        return "no order can be read"
     return f"{fit.observed.order:.2f} ± {fit.observed.half_width:.2f}"
 
 
@@ -225,6 +235,7 @@ def _values(fit: Fit) -> Mapping[str, object]:
         "order": None if fit.observed is None else fit.observed.order,
         "half_width": None if fit.observed is None else fit.observed.half_width,
         "triplets": fit.triplets,
+        "unsettled": fit.unsettled,
         "expected": None if fit.expected is None else fit.expected.order,
         "because": None if fit.expected is None else fit.expected.because,
         "status": fit.status,
@@ -233,7 +244,13 @@ def _values(fit: Fit) -> Mapping[str, object]:
     }
 
 
+def _by_triplets(fit: Fit) -> str:
+    return "" if fit.observed is None else f"; by triplets {_triplets(fit)}"
+
+
 def _triplets(fit: Fit) -> str:
+    if fit.observed is None:
+        return "–"
     return ", ".join("–" if order is None else f"{order:.2f}" for order in fit.triplets)
 
 

@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 from verification.cases.case import Level
 from verification.cases.outcome import Status
 from verification.studies.refinement import page
 from verification.studies.refinement.expected import Expected
-from verification.studies.refinement.fit import FEWEST_LEVELS, Fit, fits
+from verification.studies.refinement.fit import FEWEST_JUDGED, FEWEST_LEVELS, Fit, fits
 from verification.studies.refinement.level_record import LevelRecord
+from verification.studies.refinement.studied_scene import CannotRefine
 from verification.studies.running.study import (
     Conclusion,
     Records,
@@ -34,6 +35,7 @@ class Refinement:
     expected   orders by quantity
     axis       what sizes are, for people; unit: what they are divided by
     tolerance  of the solver
+    finer      how finer levels are asked for
     """
 
     name: str
@@ -42,6 +44,7 @@ class Refinement:
     axis: str
     tolerance: float
     unit: Callable[[LevelRecord], float] = field(default=lambda finest: 1.0)
+    finer: str = "more --levels"
 
     def found(self, settings: Settings, records: Records) -> tuple[LevelRecord, ...]:
         """The records of the levels, of those that have one."""
@@ -60,7 +63,8 @@ class Refinement:
         if not levels:
             return Conclusion(statements=(_nothing_to_fit(0),))
         of = self.fitted(levels)
-        judged = tuple(page.statement(fit) for fit in of) or (_nothing_to_fit(len(levels)),)
+        judged = tuple(page.statement(fit, self._to_try(fit, settings)) for fit in of)
+        judged = judged or (_nothing_to_fit(len(levels)),)
         shown = [fit.name for fit in of if not fit.is_field]
         orders = (page.order_table(of),) if of else ()
         return Conclusion(
@@ -73,6 +77,17 @@ class Refinement:
             ),
             remarks=page.LIMITS,
         )
+
+    def _to_try(self, fit: Fit, settings: Settings) -> str:
+        """What may make an order conclusive: more levels where they are few, else finer ones."""
+        if fit.levels >= FEWEST_JUDGED:
+            return self.finer
+        wanted = f"--levels {FEWEST_JUDGED}"
+        try:
+            self.levels(replace(settings, levels=FEWEST_JUDGED))
+        except CannotRefine as refusal:
+            return f"{wanted} with other --cells: {refusal}"
+        return wanted
 
     def exports(self, settings: Settings, records: Records) -> Mapping[str, str]:
         """Values of all levels, and orders."""

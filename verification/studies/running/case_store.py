@@ -19,6 +19,7 @@ from verification.run_output.atomic_file import atomic_file
 from verification.studies.running.study import StudyCase
 
 DIGITS = 16
+LARGEST_RECORD = 100_000_000  # bytes; those of full verifications have a few hundred thousand
 
 
 class DamagedRecord(Exception):
@@ -39,6 +40,8 @@ class CaseStore:
         """The record; None if there is none. Raises DamagedRecord, which names the file."""
         path = self.path(case)
         try:
+            if path.stat().st_size > LARGEST_RECORD:
+                raise DamagedRecord(f"{path} is damaged: larger than any record")
             content = path.read_bytes()
         except FileNotFoundError:
             return None

@@ -14,6 +14,7 @@ from collections.abc import Callable
 from concurrent.futures import Future, ProcessPoolExecutor, ThreadPoolExecutor
 from concurrent.futures.process import BrokenProcessPool
 from contextlib import suppress
+from multiprocessing import resource_tracker
 from typing import TypeVar
 
 from verification.one_thread import one_thread
@@ -33,6 +34,7 @@ class LocalWorkers:
         # Workers inherit the environment. They share the cores, and a record must not depend on who
         # computes it.
         one_thread(always=True)
+        _remove_semaphores_silently()
         self._threads = ThreadPoolExecutor(max_workers=processes)
         self._own = threading.local()
         self._all: list[ProcessPoolExecutor] = []
@@ -61,6 +63,23 @@ class LocalWorkers:
             self._all.append(self._own.worker)
         worker: ProcessPoolExecutor = self._own.worker
         return worker
+
+
+def _remove_semaphores_silently() -> None:
+    """Start the process that removes our semaphores if we are stopped; it warns of each as leaked.
+
+    What a person is told at the end of a stopped command shall stand alone.
+    """
+    before = os.environ.get("PYTHONWARNINGS")
+    ignored = "ignore:resource_tracker:UserWarning"
+    os.environ["PYTHONWARNINGS"] = ignored if before is None else f"{before},{ignored}"
+    try:
+        resource_tracker.ensure_running()
+    finally:
+        if before is None:
+            del os.environ["PYTHONWARNINGS"]
+        else:
+            os.environ["PYTHONWARNINGS"] = before
 
 
 def cores() -> int:

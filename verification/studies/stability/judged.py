@@ -14,6 +14,7 @@ from contact_scene.solver_errors import (
     SolverError,
     UnsupportedScene,
 )
+from verification.cases.law_verdicts import OTHER_NORMS
 from verification.studies.stability.cell import StabilityCell
 from verification.studies.stability.pose import TOLERANCE, pose
 from verification.studies.stability.record import CellRecord, Verdict
@@ -21,8 +22,6 @@ from verification.studies.stability.solvers import SOLVERS
 
 # What a scene may be refused for: its load, its meaning, its size.
 REFUSALS = (GrossSliding, UnsupportedScene, ResourceRefused)
-# Fields are judged apart from the solver, with other norms.
-OTHER_NORMS = 10.0
 
 
 def judged(cell: StabilityCell) -> CellRecord:

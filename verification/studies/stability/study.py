@@ -12,7 +12,7 @@ from verification.studies.stability.cell import StabilityCell
 from verification.studies.stability.charts import view_chart
 from verification.studies.stability.record import CellRecord
 from verification.studies.stability.tables import tables
-from verification.studies.stability.verdicts import statements
+from verification.studies.stability.verdicts import answer, statements
 from verification.studies.stability.views import study_cells, views
 
 CELLS = {Level.QUICK: 32, Level.STANDARD: 32, Level.FULL: 48}
@@ -52,6 +52,7 @@ def conclude(settings: Settings, records: Records) -> Conclusion:
     maps = views(settings.level, _cells(settings))
     return Conclusion(
         statements=statements(found),
+        answer=answer(found),
         tables=tables(found),
         charts=tuple(view_chart(view, by_name) for view in maps if view.wide) if found else (),
         remarks=REMARKS,

@@ -73,15 +73,24 @@ def _of_cells(group: list[Item]) -> Table:
         columns=("cell", "verdict", "worst residual", "from the fields", "increments", "halved",
                  "way", "rounds", WORK[by_elements]),
         rows=tuple(_row(cell, record) for cell, record in shown),
-        note="A cell is named by the coordinates that differ from the ordinary ones; `cells.csv` "
-        "has all of them. Rounds: the most that pressure and shear took to agree in an increment.",
+        note="A cell is named by the coordinates that differ from the ordinary ones; all of them "
+        "are in `cells.csv`, which `slipstick study stability` writes. Rounds: the most that "
+        "pressure and shear took to agree in an increment.",
     )  # fmt: skip
+
+
+def _outcome(record: CellRecord) -> str:
+    """The verdict and its reason, without the name of the exception that begins a refusal."""
+    reason = record.reason
+    if record.verdict is Verdict.REFUSED:
+        reason = reason.partition(": ")[2] or reason
+    return f"{record.verdict}: {reason}" if reason else str(record.verdict)
 
 
 def _row(cell: StabilityCell, record: CellRecord) -> tuple[str, ...]:
     return (
         cell.name,
-        f"{record.verdict}: {record.reason}" if record.reason else str(record.verdict),
+        _outcome(record),
         _number(record.residual),
         _number(record.observed),
         str(record.increments),

@@ -37,6 +37,28 @@ def statements(found: Found) -> tuple[Statement, ...]:
     return tuple(told)
 
 
+def answer(found: Found) -> str:
+    """To the question of the map, in one sentence; empty without cells."""
+    if not found:
+        return ""
+    ends = Counter(record.verdict for record in found.values())
+    solved = [r for r in found.values() if r.verdict is Verdict.CONVERGED]
+    worst = max((r.worst or 0.0 for r in solved), default=0.0)
+    refused = {cell: r.reason for cell, r in found.items() if r.verdict is Verdict.REFUSED}
+    due = sum(bool(_reason(cell)) and _reason(cell) in said for cell, said in refused.items())
+    of_solver = Counter(NAMES[cell.solver] for cell in found)
+    return (
+        f"Of {len(found)} cells ({_counted(of_solver)}) {len(solved)} converged, with "
+        f"residuals of {plain(worst, 2)} at most, and {len(refused)} were refused, {due} of these "
+        "for a force above µW or because a section cannot pose them; "
+        f"{ends[Verdict.NOT_CONVERGED]} gave up and {ends[Verdict.SILENT]} are wrong in silence."
+    )
+
+
+def _counted(of_solver: Counter[str]) -> str:
+    return "; ".join(f"{name}: {count}" for name, count in of_solver.items())
+
+
 def nothing_silent(found: Found) -> Statement:
     """No answer that breaks the equations is given as if it were good."""
     silent = _named(found, Verdict.SILENT)

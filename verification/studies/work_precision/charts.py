@@ -29,7 +29,7 @@ def time_chart(contact: PreciseContact, quantity: str, points: Sequence[Point]) 
         f"precision_{contact.name}_{quantity}",
         f"{contact.title}: {meaning}",
         f"Error of the {meaning} against CPU seconds, set-up included, of the best settings of "
-        "every method; the dashed line is the Pareto line of all of them.",
+        "every method; thin black dashes are the Pareto line of all of them.",
         "CPU seconds", points, seconds,
     )  # fmt: skip
 

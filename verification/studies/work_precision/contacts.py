@@ -8,7 +8,7 @@ reference reaches to it.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache
 from typing import Any
 
@@ -32,11 +32,13 @@ from verification.cases.radial_profile import along_radii, outward
 from verification.closed_forms.cattaneo_mindlin import PartialSlip
 from verification.metrics import shear_error
 from verification.quantities import shear_of, shift_along_x
+from verification.studies.work_precision.frozen_route import FrozenHistory
 
 Field = NDArray[np.float64]
 Errors = Mapping[str, float]
 
 SHEARED = 0.9  # of µW
+LARGEST = fretting_loop.LARGEST_SHIFT
 QUARTER = 3  # increments from T = 0 to the largest
 JUDGED = (0.1, 0.9)  # part of the radius where the tractions of the last contact are judged
 
@@ -54,6 +56,8 @@ class PreciseContact:
     surface    errors of the semi-analytical method
     section    errors of the finite elements
     source     of the reference
+    turns      shifts at which a tangential motion turns, and its end [length]; empty without one
+    frozen     errors of the usual route along them
     """
 
     name: str
@@ -66,6 +70,8 @@ class PreciseContact:
     source: str
     window: float = paper.WINDOW_PER_RADIUS
     increments: int | None = None
+    turns: tuple[float, ...] = ()
+    frozen: Callable[[FrozenHistory], Errors] = lambda history: {}
 
     def grid(self, cells: int, window: float | None = None) -> SurfaceGrid:
         """A square grid around the contact."""
@@ -129,6 +135,14 @@ def _cattaneo_section(result: Section) -> Errors:
     return {"shear": float(missed / np.trapezoid(limit * r, r)), "shift": _shift(end)}
 
 
+def _cattaneo_frozen(history: FrozenHistory) -> Errors:
+    (end,) = history.turned
+    exact = replace(sheared(), tangential_force=end.force)
+    r = np.hypot(*history.grid.coordinates())
+    return {"shear": shear_error(end.shear, exact.shear(r), history.bound),
+            "shift": (end.shift - exact.shift) / cattaneo.SLIDING_SHIFT}  # fmt: skip
+
+
 def _shift(end: Any) -> float:
     return (shift_along_x(end) - sheared().shift) / cattaneo.SLIDING_SHIFT
 
@@ -138,6 +152,20 @@ def _loop(result: Any) -> Errors:
     return {
         "energy": loop_energy(result) / exact.energy_per_cycle - 1,
         "shift": exact.largest_shift_error(result) / fretting_loop.LARGEST_SHIFT,
+    }
+
+
+def _loop_frozen(history: FrozenHistory) -> Errors:
+    """All under the forces that came with the shift."""
+    state, worst, exact = fretting_loop.EXACT.virgin, 0.0, []
+    for found in history.states:
+        state = state.loaded_to(found.force)
+        worst = max(worst, abs(found.shift - state.shift))
+        exact += [state.dissipated_energy] if found.turning else []
+    start, _, end = (found.dissipated_energy for found in history.turned)
+    return {
+        "energy": (end - start) / (exact[-1] - exact[0]) - 1,
+        "shift": worst / fretting_loop.LARGEST_SHIFT,
     }
 
 
@@ -202,6 +230,7 @@ CATTANEO = PreciseContact(
     HERTZ.contact_radius,
     lambda k: _frictional("Cattaneo-Mindlin, ν = 0", paper.tangential_step(SHEARED, k)),
     _cattaneo_surface, _cattaneo_section, "Cattaneo 1938; Mindlin 1949",
+    turns=(sheared().shift,), frozen=_cattaneo_frozen,
 )  # fmt: skip
 COATING = PreciseContact(
     "coated", "Coated, E1/E2 = 2, without friction",
@@ -224,5 +253,6 @@ LOOP = PreciseContact(
     HERTZ.contact_radius,
     lambda k: _frictional("Fretting loop, ν = 0", *loop_steps(k)),
     _loop, _loop, fretting_loop.SOURCE, window=fretting_loop.WINDOW_PER_RADIUS, increments=QUARTER,
+    turns=(LARGEST, -LARGEST, LARGEST), frozen=_loop_frozen,
 )  # fmt: skip
 CONTACTS = {c.name: c for c in (HERTZIAN, CATTANEO, COATING, INDENTATION, LOOP)}

@@ -7,14 +7,18 @@ from dataclasses import dataclass
 
 from verification.cases.outcome import Status
 from verification.cases.table import Table
+from verification.peers.recorded import OTHERS
 from verification.report.numbers import plain
+from verification.report.prices import EXTRAPOLATED, NOT_REACHED
 from verification.studies.running.study import Statement
 from verification.studies.work_precision.charts import SERIES
 from verification.studies.work_precision.contacts import CONTACTS
 from verification.studies.work_precision.point import (
     TARGETS,
+    Beyond,
     Cost,
     Point,
+    beyond,
     cheapest,
     dependable,
     operations,
@@ -23,6 +27,10 @@ from verification.studies.work_precision.point import (
 
 ASKED = 0.001  # what the answer is given for
 MILLION = 1e6
+NOTE = (
+    "– where no setting that was tried reaches it, and none can be extrapolated; {mark} where none "
+    "reaches it and the cost follows from the order in which the last errors of a curve fell."
+)
 
 # The points of a quantity, by contact and name.
 Everything = Mapping[tuple[str, str], tuple[Point, ...]]
@@ -44,7 +52,14 @@ class Price:
 
     def text(self, point: Point) -> str:
         """What a setting costs."""
-        return f"{plain(self.cost(point) / self.scale, 2)} {self.unit}"
+        return self._with_unit(self.cost(point))
+
+    def guess(self, setting: Beyond) -> str:
+        """What a setting would cost that was not tried."""
+        return f"{EXTRAPOLATED} {self._with_unit(setting.cost)}"
+
+    def _with_unit(self, cost: float) -> str:
+        return f"{plain(cost / self.scale, 2)} {self.unit}"
 
 
 WORK = Price(
@@ -53,14 +68,15 @@ WORK = Price(
     "Mop",
     "counted work",
     "Millions of counted operations, the same at every run, set-up of exact coefficients left out, "
-    "and the setting; – where no setting that was tried reaches it.",
+    "and the setting; " + NOTE.format(mark=EXTRAPOLATED),
 )
 CLOCK = Price(
     seconds,
     1.0,
     "s",
     "CPU time",
-    "CPU seconds, and the setting; – where no setting that was tried reaches it.",
+    "CPU seconds, and the setting; " + NOTE.format(mark=EXTRAPOLATED) + " The codes of the last "
+    "rows were run in turn with our own, at another time than the rest: compare them with that.",
 )
 
 
@@ -87,8 +103,22 @@ def answer_in(price: Price, everything: Everything) -> str:
     dearest = max(reached, key=price.cost)
     return (
         f"{percent(ASKED)} is reached for {len(reached)} of {len(best)} quantities, in at most "
-        f"{price.text(dearest)}; cheapest by {price.words}: {', '.join(parts)}."
+        f"{price.text(dearest)}; cheapest of ours by {price.words}: {'; '.join(parts)}. "
+        f"By method, of the quantities that it was tried on: {_by_method(everything)}."
     )
+
+
+def _by_method(everything: Everything) -> str:
+    """How often every method reaches the accuracy that is asked for."""
+    tried = {
+        name: [[p for p in points if p.method == name] for points in everything.values()]
+        for name in SERIES
+    }
+    counts = [
+        (name, sum(reached(p, ASKED) for p in found if p), sum(bool(p) for p in found))
+        for name, found in tried.items()
+    ]
+    return "; ".join(f"{name}: {good} of {asked}" for name, good, asked in counts if asked)
 
 
 def tables_in(price: Price, everything: Everything) -> tuple[Table, ...]:
@@ -125,7 +155,9 @@ def _cheapest_text(price: Price, points: Sequence[Point]) -> str:
     best = cheapest(points, ASKED, price.cost)
     if best is None:
         least = min(points, key=lambda p: p.error)
-        return f"not reached; the least error is {plain(least.error, 2)} ({least.method})"
+        text = f"not reached; the least error is {plain(least.error, 2)} ({least.method})"
+        further = beyond(points, ASKED, price.cost)
+        return text if further is None else f"{text}; {_further_text(price, further)}"
     return f"{best.method}, {best.setting}: {price.text(best)}"
 
 
@@ -147,4 +179,15 @@ def _table(price: Price, key: tuple[str, str], points: Sequence[Point]) -> Table
 
 def _cell(price: Price, points: Sequence[Point], target: float) -> str:
     best = cheapest(points, target, price.cost)
-    return "–" if best is None else f"{price.text(best)}: {best.setting}"
+    if best is not None:
+        who = f" ({best.curve})" if best.method == OTHERS else ""
+        return f"{price.text(best)}{who}: {best.setting}"
+    further = beyond(points, target, price.cost)
+    return NOT_REACHED if further is None else _further_text(price, further)
+
+
+def _further_text(price: Price, further: Beyond) -> str:
+    return (
+        f"{price.guess(further)}: extrapolated to {further.fineness:.0f} cells or elements "
+        f"by order {plain(further.order, 2)}"
+    )

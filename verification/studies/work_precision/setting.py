@@ -7,8 +7,6 @@ from dataclasses import dataclass
 from enum import StrEnum
 from typing import ClassVar
 
-import numpy as np
-
 from contact_scene import FiniteElementDiscretisation
 from contact_scene.description import Description
 from fem_reference import Method as Enforcement
@@ -17,18 +15,10 @@ from fem_reference import solve as solve_section
 from semi_analytical import Result as Surface
 from semi_analytical import SurfaceGrid, solve
 from verification.cases.case import SOLVER_TOLERANCE
-from verification.cases.paper_scene import FRICTION
-from verification.metrics import shear_error
-from verification.quantities import shear_of
-from verification.studies.sliding_runs.friction_laws import (
-    FixedPressure,
-    FrictionLaw,
-    at_rest,
-    shifted,
-)
-from verification.studies.work_precision import contacts, counted_work
+from verification.studies.work_precision import counted_work
 from verification.studies.work_precision.cold_cache import timed
 from verification.studies.work_precision.contacts import CONTACTS, PreciseContact
+from verification.studies.work_precision.frozen_route import FrozenHistory, frozen_history
 from verification.studies.work_precision.usual_route import Sampling, solve_sampled
 
 NO_INCREMENTS = 1
@@ -128,8 +118,16 @@ class PrecisionCase:
                 repeats=repeats,
             )
         if self.method is Method.FROZEN:
-            (frozen, operations, count), seconds, repeats = timed(self._frozen)
-            return self._measured(frozen, operations, count, self._steps, seconds, repeats)
+            history, seconds, repeats = timed(self._frozen)
+            work = counted_work.transforms(4 * self.fineness**2, 2 * history.convolutions)
+            return self._measured(
+                self.problem.frozen(history),
+                work + self._sampling_operations,
+                history.convolutions,
+                len(history.states),
+                seconds,
+                repeats,
+            )
         surface, seconds, repeats = timed(self._surface)
         return self._measured(
             self.problem.surface(surface),
@@ -199,23 +197,14 @@ class PrecisionCase:
         by = Enforcement.PENALTY if self.method is Method.PENALTY else Enforcement.COMPLEMENTARITY
         return solve_section(self.problem.scene(self._steps), discretisation, by)
 
-    def _frozen(self) -> tuple[Mapping[str, float], float, int]:
-        """Press, then shift in equal increments with the directions of slip held; errors,
-        operations and convolutions."""
-        grid = self._grid
+    def _frozen(self) -> FrozenHistory:
+        """Press at once, then shift with the directions of slip held."""
         pressing = self.problem.scene(NO_INCREMENTS)
-        pressing = pressing.model_copy(update={"loading": pressing.loading[:1]})
-        model, result = solve_sampled(pressing, grid, self.tolerance, self._sampling)
-        end = result.increments[-1]
-        operator = model.tangential_operator(grid.cells)
-        bound = FRICTION * end.pressure
-        problem = FixedPressure.of(operator, bound, model.self_compliance)
-        exact, state = contacts.sheared(), at_rest(problem, shear_of(end))
-        for _ in range(self._steps):
-            by = exact.shift / self._steps
-            state = shifted(problem, FrictionLaw.FROZEN_DIRECTIONS, state, by)
-        r = np.hypot(*grid.coordinates())
-        errors = {"shear": shear_error(state.shear, exact.shear(r), bound)}
-        count = int(model.convolutions.count)
-        work = counted_work.transforms(4 * self.fineness**2, 2 * count)
-        return errors, work + self._sampling_operations, count
+        return frozen_history(
+            pressing.model_copy(update={"loading": pressing.loading[:1]}),
+            self._grid,
+            self.tolerance,
+            self._sampling,
+            self.problem.turns,
+            self._steps,
+        )

@@ -1,0 +1,152 @@
+"""Which solver is nearer to a reference: asked at equal fineness, and only of what both refined."""
+
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+from report_examples import case, report_of, run_record
+
+from semi_analytical.grid import SurfaceGrid
+from verification.cases.case import Case, Quantity, Required, Run, closed_form
+from verification.cases.hertz_point import hertz_point
+from verification.cases.outcome import CaseOutcome, RefinedErrors
+from verification.cases.refined_errors import LEAST, refined_errors
+from verification.report.answers import answers
+from verification.report.both_solvers import CELLS, ELEMENTS, shared_references
+from verification.report.equal_fineness import BEYOND, PER_RADIUS, TIE, typical_error, votes
+from verification.report.record import Report
+
+COARSE, FINE = np.geomspace(8, PER_RADIUS, 9), np.geomspace(16, 8 * PER_RADIUS, 11)
+RATHER_SURE = 1e-7
+
+
+def levels(per_radius: np.ndarray, factor: float, scatter: float = 1.0) -> RefinedErrors:
+    """Errors factor h² with a scatter up and down."""
+    ups = scatter ** ((-1.0) ** np.arange(len(per_radius)))
+    errors = factor * per_radius**-2.0 * ups
+    return RefinedErrors(per_radius=tuple(per_radius), errors=tuple(errors))
+
+
+def judged(
+    name: str, refined: RefinedErrors | None, *, cells: bool, known_to: float
+) -> CaseOutcome:
+    error = 0.0 if refined is None else refined.errors[-1]
+    outcome = case(
+        name, {"approach": ((1 + error) * 1e-6, 1e-6)},
+        run_record(512 if cells else None, None if cells else 64), drawn=False,
+    )  # fmt: skip
+    (verdict,) = outcome.verdicts
+    update = {"refined": refined, "reference_uncertainty": known_to * 1e-6}
+    return outcome.model_copy(update={"verdicts": (verdict.model_copy(update=update),)})
+
+
+def of_both(
+    cells: RefinedErrors | None, elements: RefinedErrors | None, known_to: float = RATHER_SURE
+) -> Report:
+    return report_of((
+        judged("hertz_point", cells, cells=True, known_to=known_to),
+        judged("fem_hertz", elements, cells=False, known_to=known_to),
+    ))  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    ("cells", "elements"), [(FINE, COARSE), (COARSE, FINE), (FINE, FINE), (COARSE, COARSE)]
+)
+@pytest.mark.parametrize(("factor", "nearer"), [(0.2, CELLS), (5.0, ELEMENTS)])
+def test_finer_runs_buy_no_vote(
+    cells: np.ndarray, elements: np.ndarray, factor: float, nearer: str
+) -> None:
+    report = of_both(levels(cells, factor), levels(elements, 1.0))
+    (vote,) = votes(shared_references(report))
+    assert vote.nearer == nearer
+    assert vote.cells.value == pytest.approx(factor / PER_RADIUS**2)
+    answer = answers(report)[2]
+    said = answer.sentences[0]
+    assert said.startswith(f"{nearer[0].upper()}{nearer[1:]}, throughout: at {PER_RADIUS} cells or")
+    assert f"{nearer} are nearer" in said
+    assert answer.table is not None
+    assert [row[-1] for row in answer.table.rows] == [nearer]
+
+
+@pytest.mark.parametrize(("scatter", "nearer"), [(1.0, ELEMENTS), (3.0, TIE)])
+def test_scatter_of_single_grids_makes_a_tie(scatter: float, nearer: str) -> None:
+    (vote,) = votes(shared_references(of_both(levels(FINE, 2.0, scatter), levels(FINE, 1.0))))
+    assert vote.nearer == nearer
+
+
+def test_scatter_between_runs_of_one_fineness_makes_a_tie_too() -> None:
+    smooth = levels(FINE, 2.0)
+    halves = {up: tuple(error * up for error in smooth.errors) for up in (0.4, 2.5)}
+    rough = RefinedErrors(per_radius=2 * smooth.per_radius, errors=halves[0.4] + halves[2.5])
+    for cells, nearer in ((smooth, ELEMENTS), (rough, TIE)):
+        (vote,) = votes(shared_references(of_both(cells, levels(FINE, 1.0))))
+        assert vote.nearer == nearer
+
+
+@pytest.mark.parametrize(("known_to", "nearer"), [(RATHER_SURE, ELEMENTS), (0.005, TIE)])
+def test_reference_that_is_too_uncertain_makes_a_tie(known_to: float, nearer: str) -> None:
+    report = of_both(levels(FINE, 9.0), levels(FINE, 1.0), known_to)
+    (vote,) = votes(shared_references(report))
+    assert vote.nearer == nearer
+    named = any("furthest apart in approach" in said for said in answers(report)[2].sentences)
+    coarse = of_both(levels(COARSE, 9.0), levels(COARSE, 1.0), known_to)
+    named |= any("furthest apart in approach" in said for said in answers(coarse)[2].sentences)
+    assert named is (nearer != TIE)
+
+
+@pytest.mark.parametrize(
+    "elements",
+    [None, levels(np.geomspace(1, 0.9 * PER_RADIUS / BEYOND, 5), 1.0),
+     levels(np.geomspace(1.1 * PER_RADIUS, 4 * PER_RADIUS, 5), 1.0)],
+    ids=["one run", "too coarse", "too fine"],
+)  # fmt: skip
+def test_value_that_one_solver_did_not_refine_to_there_does_not_count(
+    elements: RefinedErrors | None,
+) -> None:
+    report = of_both(levels(FINE, 0.1), elements)
+    assert votes(shared_references(report)) == ()
+    answer = answers(report)[2]
+    assert "not decided by this report: none of the 1 values" in answer.sentences[0]
+    assert answer.table is None
+
+
+def test_one_reference_has_one_vote() -> None:
+    one = of_both(levels(FINE, 0.1), levels(FINE, 1.0))
+    again = judged("again", levels(FINE, 0.1), cells=True, known_to=RATHER_SURE)
+    report = report_of((*one.cases, again))
+    assert len(shared_references(report)) == 2
+    assert len(votes(shared_references(report))) == 1
+    assert "1 more that both were judged by" in answers(report)[2].sentences[1]
+
+
+def test_power_law_is_met_and_its_interval_holds_it() -> None:
+    error = typical_error(levels(COARSE, 3.0, 1.3))
+    assert error is not None
+    assert error.low < 3.0 / PER_RADIUS**2 < error.high
+    assert error.high / error.low > 1.3**2
+
+
+def test_levels_of_a_value_are_the_runs_that_differ_in_fineness_alone() -> None:
+    (base,) = hertz_point().runs[:1]
+    other_scene = base.scene.model_copy(update={"title": "another"})
+    sides = [64, 32, 16, 8, 8]
+    grids = [SurfaceGrid((n, n), (2.0, 2.0)) for n in sides]
+    runs = [Run(f"run {k}", base.scene, grid) for k, grid in enumerate(grids)]
+    strangers = (Run("other scene", other_scene, grids[0]),
+                 Run("other tolerance", base.scene, grids[0], tolerance=1e-3))  # fmt: skip
+    errors = dict(zip((run.label for run in runs), (1e-4, 4e-4, 1.6e-3, 6e-3, 8e-3), strict=True))
+    results = {
+        label: SimpleNamespace(value=1 + error, increments=[SimpleNamespace(contact_radius=0.5)])
+        for label, error in errors.items()
+    } | {run.label: SimpleNamespace(value=7.0) for run in strangers}
+    quantity = Quantity(
+        "value", "", "m", "run 0", lambda result: result.value, closed_form(1.0, "planted"),
+        Required(1.0, "planted"),
+    )  # fmt: skip
+    planted = Case("planted", "", "", (*runs, *strangers), (quantity,))
+    found = refined_errors(quantity, planted, results)
+    assert found is not None
+    assert found.per_radius == pytest.approx((2, 2, 4, 8, 16))
+    assert found.errors == pytest.approx((6e-3, 8e-3, 1.6e-3, 4e-4, 1e-4))
+    assert len(set(found.per_radius)) == LEAST
+    assert refined_errors(quantity, planted, {k: results[k] for k in ("run 0", "run 4")}) is None

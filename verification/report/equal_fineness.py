@@ -1,0 +1,161 @@
+"""Which solver is nearer to a reference at as many cells as elements per contact radius."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+import numpy as np
+
+from verification.cases.outcome import RefinedErrors
+from verification.cases.table import Table
+from verification.error_line import by_size, error_line
+from verification.report.both_solvers import CELLS, ELEMENTS, SharedReference
+from verification.report.numbers import plain
+
+PER_RADIUS = 64  # the fineness that solvers are compared at
+BEYOND = 2.0  # an error is extrapolated no further than by this factor of refinement
+COVERAGE = 2.0  # standard deviations of single runs, and standard uncertainties of references
+CHANCE = 0.1  # of the line: errors that happen to be smaller count as this
+TIE = "tie"
+
+
+@dataclass(frozen=True)
+class TypicalError:
+    """What a solver's measured order gives as its error at PER_RADIUS.
+
+    value  on the line through the errors of all levels, relative
+    low    errors of single grids or meshes fall between this
+    high   and this, as single runs scatter about that line
+    """
+
+    value: float
+    low: float
+    high: float
+
+
+@dataclass(frozen=True)
+class Vote:
+    """A reference that both solvers approached by refinement."""
+
+    shared: SharedReference
+    cells: TypicalError
+    elements: TypicalError
+
+    @property
+    def nearer(self) -> str:
+        """The solver with the smaller error; a tie where the scatter of single runs or the
+        uncertainty of the reference is larger than what lies between."""
+        one, other = self.cells, self.elements
+        overlap = one.low <= other.high and other.low <= one.high
+        known_to = COVERAGE * self.shared.uncertainty
+        if overlap or abs(one.value - other.value) <= known_to:
+            return TIE
+        return CELLS if one.value < other.value else ELEMENTS
+
+
+def votes(shared: Iterable[SharedReference]) -> tuple[Vote, ...]:
+    """Of every reference that both have refined on, each once."""
+    found: dict[tuple[str, str], Vote] = {}
+    for pair in shared:
+        cells, elements = (
+            typical_error(one.verdict.refined) for one in (pair.cells, pair.elements)
+        )
+        if cells is not None and elements is not None:
+            found.setdefault(pair.reference, Vote(pair, cells, elements))
+    return tuple(found.values())
+
+
+def typical_error(refined: RefinedErrors | None) -> TypicalError | None:
+    """The error at PER_RADIUS; None without levels, or where these are too coarse or too fine."""
+    if refined is None:
+        return None
+    least, most = min(refined.per_radius), max(refined.per_radius)
+    if not least <= PER_RADIUS <= BEYOND * most:
+        return None
+    sizes = 1 / np.asarray(refined.per_radius)
+    levels, means = by_size(sizes.tolist(), refined.errors)
+    if min(means) <= 0:
+        return None
+    line = error_line(levels, means)
+    off = np.log(np.maximum(np.asarray(refined.errors) / line.at(sizes), CHANCE))
+    scatter = COVERAGE * float(np.sqrt(np.sum(off**2) / (len(sizes) - 2)))
+    size = np.array([1 / PER_RADIUS])
+    (value,), (end,) = line.at(size), line.band(size)[1]
+    by = float(np.exp(np.hypot(scatter, np.log(end / value))))
+    return TypicalError(float(value), float(value) / by, float(value) * by)
+
+
+def nearer_sentences(cast: tuple[Vote, ...], shared: tuple[SharedReference, ...]) -> list[str]:
+    """Who is nearer in what, and how many values do not count."""
+    at = f"{PER_RADIUS} cells or elements per contact radius"
+    if not cast:
+        return [
+            f"Which is nearer is not decided by this report: none of the {len(shared)} values that "
+            f"both were judged by was refined by both to {at}."
+        ]
+    left = len(shared) - len(cast)
+    sentences = [f"{_throughout(cast)}: at {at}, of {_values(len(cast))}, {_counted(cast)}."]
+    if left:
+        sentences.append(
+            f"{left} more that both were judged by {'does' if left == 1 else 'do'} not count: one "
+            "of the two has too few levels there or none near that fineness, or the reference is "
+            "one of these again."
+        )
+    return sentences
+
+
+def _throughout(cast: tuple[Vote, ...]) -> str:
+    sides = {vote.nearer for vote in cast}
+    if sides == {TIE}:
+        return "Neither is nearer"
+    if len(sides) == 1:
+        return "Finite elements, throughout" if sides == {ELEMENTS} else "Cells (SAM), throughout"
+    return "Neither is nearer throughout"
+
+
+def _counted(cast: tuple[Vote, ...]) -> str:
+    """Sides with the number and the names of their values."""
+    count = Counter(vote.nearer for vote in cast)
+    words = {
+        ELEMENTS: f"{ELEMENTS} are nearer to the reference in",
+        CELLS: f"{CELLS} are nearer in",
+        TIE: "tied are",
+    }
+    return "; ".join(
+        f"{text} {count[side]}: "
+        + ", ".join(f"{_of(vote)}" for vote in cast if vote.nearer == side)
+        for side, text in words.items()
+        if count[side]
+    )
+
+
+def _of(vote: Vote) -> str:
+    return " of ".join(vote.shared.name.split(", ")[:2])
+
+
+def _values(count: int) -> str:
+    return f"{count} {'value' if count == 1 else 'values'}"
+
+
+def nearer_table(cast: tuple[Vote, ...]) -> Table:
+    """Errors of both at one fineness."""
+    return Table(
+        title=f"Errors at {PER_RADIUS} cells or elements per contact radius",
+        columns=("quantity and case", f"error, {CELLS}", f"error, {ELEMENTS}", "nearer"),
+        rows=tuple(
+            (vote.shared.name, _text(vote.cells), _text(vote.elements), vote.nearer)
+            for vote in cast
+        ),
+        note="Relative to a reference that neither solver made; read off the line through the "
+        "errors of all levels on logarithmic axes, and extrapolated along it by a factor of "
+        f"{BEYOND:g} at most. In brackets: where 95 % of single grids or meshes fall. A tie: those "
+        "overlap, or the reference is too uncertain to tell. As many cells as elements per radius "
+        "are not the same work: cells cover the whole surface, elements a section of a body that "
+        "is round.",
+    )
+
+
+def _text(error: TypicalError) -> str:
+    return f"{plain(error.value, 2)} ({plain(error.low, 2)} to {plain(error.high, 2)})"
