@@ -1,5 +1,6 @@
 """Which solver is nearer to a reference: asked at equal fineness, and only of what both refined."""
 
+from collections.abc import Callable
 from types import SimpleNamespace
 
 import numpy as np
@@ -7,13 +8,29 @@ import pytest
 from report_examples import case, report_of, run_record
 
 from semi_analytical.grid import SurfaceGrid
-from verification.cases.case import Case, Quantity, Required, Run, closed_form
+from verification.cases.case import Case, Level, Quantity, Required, Run, closed_form
+from verification.cases.cattaneo_mindlin import cattaneo_mindlin
+from verification.cases.coated_paraboloid import coated_paraboloid
+from verification.cases.fem_coated import fem_coated
+from verification.cases.fem_partial_slip import fem_partial_slip
+from verification.cases.fem_torsion import fem_torsion
 from verification.cases.hertz_point import hertz_point
 from verification.cases.outcome import CaseOutcome, RefinedErrors
-from verification.cases.refined_errors import LEAST, refined_errors
+from verification.cases.paper_scene import NU_ZERO
+from verification.cases.refined_errors import LEAST, followed_on, refined_errors
+from verification.cases.torsion import torsion
 from verification.report.answers import answers
 from verification.report.both_solvers import CELLS, ELEMENTS, shared_references
-from verification.report.equal_fineness import BEYOND, PER_RADIUS, TIE, typical_error, votes
+from verification.report.equal_fineness import (
+    BEYOND,
+    PER_RADIUS,
+    TELLING,
+    TIE,
+    nearer_table,
+    silences,
+    typical_error,
+    votes,
+)
 from verification.report.record import Report
 
 COARSE, FINE = np.geomspace(8, PER_RADIUS, 9), np.geomspace(16, 8 * PER_RADIUS, 11)
@@ -150,3 +167,85 @@ def test_levels_of_a_value_are_the_runs_that_differ_in_fineness_alone() -> None:
     assert found.errors == pytest.approx((6e-3, 8e-3, 1.6e-3, 4e-4, 1e-4))
     assert len(set(found.per_radius)) == LEAST
     assert refined_errors(quantity, planted, {k: results[k] for k in ("run 0", "run 4")}) is None
+
+
+@pytest.mark.parametrize(("scatter", "votes_cast"), [(1.3, 1), (TELLING, 0)])
+def test_errors_that_scatter_beyond_telling_have_no_vote(scatter: float, votes_cast: int) -> None:
+    shared = shared_references(of_both(levels(FINE, 2.0, scatter), levels(FINE, 1.0)))
+    cast = votes(shared)
+    assert len(cast) == votes_cast
+    reasons = {f"errors of single runs scatter more than {TELLING:g} times": {"hertz point": 1}}
+    assert silences(shared) == ({} if cast else reasons)
+
+
+def test_every_value_votes_or_is_accounted_for() -> None:
+    (cells, elements) = of_both(levels(FINE, 0.1), levels(FINE, 1.0)).cases
+    again = judged("again", levels(FINE, 0.1), cells=True, known_to=RATHER_SURE)
+    once = judged("once", None, cells=True, known_to=RATHER_SURE)
+    rough = judged("rough", levels(COARSE / 4, 1.0), cells=True, known_to=RATHER_SURE)
+    shared = shared_references(report_of((cells, elements, again, once, rough)))
+    cast, silent = votes(shared), silences(shared)
+    assert silent == {
+        "the reference votes already": {"again": 1},
+        "one of the two on fewer than four levels": {"once": 1},
+        "no level near this fineness": {"rough": 1},
+    }
+    assert len(cast) + sum(sum(count.values()) for count in silent.values()) == len(shared)
+    note = nearer_table(cast, shared).note
+    assert all(f"{reason}: {case} (1)" in note for reason, (case,) in silent.items())
+
+
+@pytest.mark.parametrize(("of_cells", "of_elements"), [(0.005, 1e-12), (1e-12, 0.005)])
+def test_reference_that_is_approximate_for_either_solver_does_not_decide(
+    of_cells: float, of_elements: float
+) -> None:
+    one = judged("hertz_point", levels(FINE, 9.0), cells=True, known_to=of_cells)
+    other = judged("fem_hertz", levels(FINE, 1.0), cells=False, known_to=of_elements)
+    (vote,) = votes(shared_references(report_of((one, other))))
+    assert vote.nearer == TIE
+
+
+def test_of_runs_as_fine_as_each_other_the_one_with_coarser_ones_votes() -> None:
+    cells = judged("hertz_point", levels(FINE, 1.0), cells=True, known_to=RATHER_SURE)
+    alone = judged("single", None, cells=False, known_to=RATHER_SURE)
+    followed = judged("fem_hertz", levels(FINE, 9.0), cells=False, known_to=RATHER_SURE)
+    (vote,) = votes(shared_references(report_of((cells, alone, followed))))
+    assert vote.shared.elements.case == "fem_hertz"
+
+
+TANGENTIAL = {
+    f"{what}_at_{part:g}" for what in ("shift", "stick_radius") for part in (0.3, 0.6, 0.9)
+}
+TWISTED = {f"{what}_at_{part:g}" for what in ("twist", "stick_radius") for part in (0.5, 0.9, 0.99)}
+
+
+@pytest.mark.parametrize("level", [Level.QUICK, Level.FULL])
+@pytest.mark.parametrize(
+    ("cases", "followed"),
+    [((cattaneo_mindlin, fem_partial_slip), {*TANGENTIAL, "energy_at_0.9"}),
+     ((torsion, fem_torsion), {*TWISTED, "stuck_twist"}),
+     ((coated_paraboloid, fem_coated), {"approach", "central_pressure", "contact_radius"})],
+    ids=["tangential", "torsion", "coated"],
+)  # fmt: skip
+def test_tangential_torsional_and_coated_values_are_followed_by_both(
+    cases: tuple[Callable[[Level], Case], ...], followed: set[str], level: Level
+) -> None:
+    """On levels enough, to references that are the same number."""
+    known: list[set[tuple[str, str]]] = []
+    for case_of in cases:
+        made = case_of(level)
+        known.append({
+            (q.name, f"{q.reference.value:.9g}")
+            for q in made.quantities
+            if len({run.spacing for run in followed_on(q, made)}) >= LEAST
+        })  # fmt: skip
+    assert {name for name, _ in known[0] & known[1]} >= followed
+
+
+def test_shearing_that_is_compared_needs_no_slip_across_the_load() -> None:
+    made = fem_partial_slip(Level.QUICK)
+    runs = {q.run for q in made.quantities if q.name in TANGENTIAL | {"energy_at_0.9"}}
+    assert runs
+    for name in runs:
+        scene = made.run(name).scene
+        assert scene.body.material == scene.indenter.material == NU_ZERO

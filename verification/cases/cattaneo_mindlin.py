@@ -36,6 +36,7 @@ if TYPE_CHECKING:
 
 SOURCE = "Cattaneo 1938; Mindlin 1949"
 PARTS = (0.3, 0.6, 0.9, 0.99)  # of µW, one loading step each
+LOOPED = 0.9  # of µW, the amplitude of the fretting loop
 EXACT = {part: paper.partial_slip(NU_ZERO, part * paper.FRICTION_LIMIT) for part in PARTS}
 SLIDING_SHIFT = EXACT[PARTS[0]].sliding_shift
 SHEARING = StoppedShearing(NU_ZERO, PARTS)
@@ -73,10 +74,13 @@ def cattaneo_mindlin_on(cells: tuple[int, ...], shifted: tuple[int, ...] = ()) -
             "everywhere, so only there is it the exact answer to Coulomb's vector law."
         ),
         runs=(*runs, *others),
-        quantities=tuple(
-            quantity
-            for number, part in enumerate(PARTS, 2)
-            for quantity in _at(number, part, levels, cells[-1])
+        quantities=(
+            *(
+                quantity
+                for number, part in enumerate(PARTS, 2)
+                for quantity in _at(number, part, levels, cells[-1])
+            ),
+            _energy(levels[-1]),
         ),
         orders=(
             OrderOfConvergence(
@@ -168,6 +172,17 @@ def _at(step: int, part: float, levels: tuple[str, ...], finest_cells: int) -> t
                     "required of the shift, of which slip is a part"),
             SLIDING_SHIFT, "the shift at gross sliding",
         ),
+    )  # fmt: skip
+
+
+def _energy(run: str) -> Quantity:
+    step = PARTS.index(LOOPED) + 1
+    return Quantity(
+        f"energy_at_{LOOPED:g}", f"energy dissipated up to {LOOPED:g} µW", "J", run,
+        lambda result: float(result.steps[step].dissipated_energy or 0.0),
+        closed_form(SHEARING.stops[step - 1].dissipated_energy, "Mindlin and Deresiewicz 1953"),
+        Required(5e-4, "required of the energy per cycle of the fretting loop, which is four times "
+                 "as much"),
     )  # fmt: skip
 
 

@@ -11,7 +11,7 @@ import numpy as np
 from verification.cases.case import Case, Level, Quantity, Reference, ReferenceKind, Required
 from verification.cases.chart import Chart
 from verification.cases.end_state import approach, contact_radius
-from verification.cases.fem_levels import allowed, because, finest, judged_within
+from verification.cases.fem_levels import allowed, because, judged_within, label, levels
 from verification.cases.fem_profiles import at_radii, radial_chart
 from verification.cases.layered_scene import coated, film, pressed, rigid_ball
 from verification.cases.paper_scene import HERTZ
@@ -23,6 +23,8 @@ if TYPE_CHECKING:
     from fem_reference import Result
 
 SOURCE = "references/coated_frictionless_paraboloid.json: Fredholm equation, two settings agree"
+# At the full level every second mesh: all of them for every coating would say no more.
+FOLLOWED = {level: levels(level)[:: 2 if level is Level.FULL else 1] for level in Level}
 
 
 def central_pressure(result: Result) -> float:
@@ -32,10 +34,12 @@ def central_pressure(result: Result) -> float:
 
 @dataclass(frozen=True)
 class Row:
-    """One row of the reference, and the run that it judges."""
+    """One row of the reference, and the run that it judges; on coarser meshes errors are followed
+    and not judged."""
 
     values: Mapping[str, Any]
     elements: int
+    coarser: tuple[int, ...] = ()
 
     @property
     def name(self) -> str:
@@ -48,13 +52,16 @@ class Row:
         return float(self.values["a_over_aH"]) * HERTZ.contact_radius
 
     @property
-    def run(self) -> SectionRun:
-        """The mesh is fitted to the contact by the solver itself."""
+    def runs(self) -> tuple[SectionRun, ...]:
+        """The judged one first. The mesh is fitted to the contact by the solver itself."""
         body = coated(film(self.values["E1_over_E2"], self.values["h_over_aH"]))
         scene = pressed(
             f"Rigid ball on a coating, {self.name}, by finite elements", rigid_ball(), body
         )
-        return SectionRun(self.name, scene, per_radius(self.elements))
+        return (
+            SectionRun(self.name, scene, per_radius(self.elements)),
+            *(SectionRun(f"{self.name}, {label(n)}", scene, per_radius(n)) for n in self.coarser),
+        )
 
     def reference(self, key: str, unit: float) -> Reference:
         """A number of the row, which is relative to the homogeneous substrate's."""
@@ -120,7 +127,8 @@ def fem_coated(level: Level = Level.QUICK) -> Case:
     rows = load_reference("coated_frictionless_paraboloid")["rows"]
     if level is Level.QUICK:
         rows = [row for row in rows if row["h_over_aH"] == 1 and row["E1_over_E2"] in (0.5, 2)]
-    return fem_coated_on([Row(row, finest(level)) for row in rows])
+    *coarser, finest = FOLLOWED[level]
+    return fem_coated_on([Row(row, finest, tuple(coarser)) for row in rows])
 
 
 def fem_coated_on(rows: list[Row]) -> Case:
@@ -133,7 +141,7 @@ def fem_coated_on(rows: list[Row]) -> Case:
             "by finite elements. The interface is a line of the mesh; beyond the section the "
             "substrate alone answers, which costs the approach up to 1e-4 below stiff coatings."
         ),
-        runs=tuple(row.run for row in rows),
+        runs=tuple(run for row in rows for run in row.runs),
         quantities=tuple(quantity for row in rows for quantity in row.quantities()),
         charts=lambda results: tuple(
             row.chart(number, results[row.name]) for number, row in enumerate(rows, 1)

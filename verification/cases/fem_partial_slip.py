@@ -9,18 +9,21 @@ import numpy as np
 
 from verification.cases import paper_scene as paper
 from verification.cases.case import Case, Level, Quantity, Required, closed_form, exact_zero
+from verification.cases.cattaneo_mindlin import SOURCE as CATTANEO
 from verification.cases.chart import Chart
 from verification.cases.convergence_chart import convergence_chart
+from verification.cases.end_state import stick_radius
 from verification.cases.fem_hertz import meshed
 from verification.cases.fem_levels import MIDDLE, finest, judged_within, label, order_levels
 from verification.cases.fem_profiles import radial_chart, relative_l1
 from verification.cases.loop_history import LOADED, ExactLoop, loop_energy, loop_steps
 from verification.cases.order_of_convergence import Followed, OrderOfConvergence
-from verification.cases.paper_scene import FRICTION, HERTZ, STEEL
+from verification.cases.paper_scene import FRICTION, HERTZ, NU_ZERO, STEEL
 from verification.cases.profile_chart import ProfileLabels
 from verification.cases.section_run import SectionRun, per_radius
 from verification.cases.stopped_shearing import StoppedShearing
 from verification.closed_forms.tangential_history import TangentialHistory
+from verification.quantities import shift_along_x
 
 if TYPE_CHECKING:
     from fem_reference import Result
@@ -35,11 +38,12 @@ SCENE = paper.frictional(
     STEEL,
     *loop_steps(quarter=3),
 )
-SHEARING = StoppedShearing(STEEL, (0.3, 0.45, 0.6, 0.75, 0.9))
+SHEARING = StoppedShearing(NU_ZERO, (0.3, 0.45, 0.6, 0.75, 0.9))
+ALSO_BY_CELLS = (0.3, 0.6, 0.9)  # of µW, as in cattaneo_mindlin
 SHEARED = paper.frictional(
-    "Two alike bodies sheared once, by finite elements",
-    paper.paraboloid(STEEL),
-    STEEL,
+    "Two alike bodies with ν = 0 sheared once, by finite elements",
+    paper.paraboloid(NU_ZERO),
+    NU_ZERO,
     *(paper.tangential_step(part, increments=1) for part in SHEARING.parts),
 )
 AT_EDGE = 0.1  # contact radii to each side of a stick edge, where the shear has a cusp
@@ -54,25 +58,31 @@ WHY = (
 
 def fem_partial_slip(level: Level = Level.QUICK) -> Case:
     """The case, on finer meshes at higher levels, and with orders above the quick one."""
-    return fem_partial_slip_on(finest(level), () if level is Level.QUICK else order_levels(level))
+    return fem_partial_slip_on(
+        finest(level), order_levels(level), orders_judged=level is not Level.QUICK
+    )
 
 
-def fem_partial_slip_on(elements: int, studied: tuple[tuple[int, float], ...] = ()) -> Case:
+def fem_partial_slip_on(
+    elements: int, studied: tuple[tuple[int, float], ...] = (), *, orders_judged: bool = True
+) -> Case:
     """The loop on one mesh.
 
-    studied  meshes for the orders, and where in its element the edge of the contact lies
+    studied        meshes for the single shearing, and where in its element the edge of the
+                   contact lies
+    orders_judged  whether these reach far enough to tell orders from the scatter of single errors
     """
     run = SectionRun(label(elements), SCENE, per_radius(elements, 0.97 * HERTZ.contact_radius))
     sheared = tuple(
         SectionRun(
-            f"sheared once, {label(n, place)}",
+            _sheared(n, place),
             SHEARED,
             per_radius(n, meshed(n, place)),
             beyond=MIDDLE,
         )
         for n, place in studied
     )
-    orders = tuple(one.label for one in sheared)
+    orders = tuple(one.label for one in sheared) if orders_judged else ()
     factor = (64 / elements) ** ORDER
     return Case(
         name="fem_partial_slip",
@@ -82,7 +92,8 @@ def fem_partial_slip_on(elements: int, studied: tuple[tuple[int, float], ...] = 
             "fretting_loop. The first harmonic of the displacement carries a shear along the load "
             "that is the same all around each ring; slip across the load is neglected, as the "
             "closed form does for any ν. Shear is a quadratic program within ±µp. Orders are "
-            f"judged on a single shearing with stops at {SHEARING.listed} µW."
+            f"judged on a single shearing with stops at {SHEARING.listed} µW, for ν = 0: nothing "
+            "slips across the load there, and the closed form is exact."
         ),
         runs=(run, *sheared),
         quantities=(
@@ -110,6 +121,7 @@ def fem_partial_slip_on(elements: int, studied: tuple[tuple[int, float], ...] = 
                 "either side of every stick edge apart, over µp_H", "", run.label, shear_error,
                 exact_zero(SOURCE), Required(ASKED["shear"] * factor, WHY), 1.0, "µp_H",
             ),
+            *_of_shearing(studied),
         ),
         orders=_orders(orders) if orders else (),
         charts=lambda results: _charts(
@@ -119,6 +131,53 @@ def fem_partial_slip_on(elements: int, studied: tuple[tuple[int, float], ...] = 
             "For ν > 0 slip has a component across the load, up to 4 % of µp_H in the shear; both "
             "the closed form and this run neglect it.",
         ),
+    )  # fmt: skip
+
+
+def _of_shearing(meshes: tuple[tuple[int, float], ...]) -> tuple[Quantity, ...]:
+    """Of the finest mesh, with the edge of the contact nearest to the middle of an element."""
+    if not meshes:
+        return ()
+    elements, place = max(meshes, key=lambda mesh: (mesh[0], -abs(mesh[1] - MIDDLE)))
+    run, factor = _sheared(elements, place), (64 / elements) ** ORDER
+    stops = dict(enumerate(zip(SHEARING.parts, SHEARING.stops, strict=True), 1))
+    stops = {step: stop for step, stop in stops.items() if stop[0] in ALSO_BY_CELLS}
+    (last, (largest, end)) = max(stops.items())
+    return (
+        *(_shift(step, *stop, run, factor) for step, stop in stops.items()),
+        *(_stick_radius(step, *stop, run, elements) for step, stop in stops.items()),
+        Quantity(
+            f"energy_at_{largest:g}", f"energy dissipated up to {largest:g} µW", "J", run,
+            lambda result: float(result.steps[last].dissipated_energy),
+            closed_form(end.dissipated_energy, SOURCE),
+            Required(ASKED["energy"] * factor, WHY),
+        ),
+    )  # fmt: skip
+
+
+def _sheared(elements: int, place: float) -> str:
+    return f"sheared once, {label(elements, place)}"
+
+
+def _shift(step: int, part: float, exact: TangentialHistory, run: str, factor: float) -> Quantity:
+    return Quantity(
+        f"shift_at_{part:g}", f"tangential shift at {part:g} µW", "m", run,
+        lambda result: shift_along_x(result.steps[step]),
+        closed_form(exact.shift, CATTANEO, SHEARING.sliding_shift),
+        Required(ASKED["shift"] * factor, WHY), SHEARING.sliding_shift,
+        "the shift at gross sliding",
+    )  # fmt: skip
+
+
+def _stick_radius(
+    step: int, part: float, exact: TangentialHistory, run: str, elements: int
+) -> Quantity:
+    return Quantity(
+        f"stick_radius_at_{part:g}", f"stick radius at {part:g} µW", "m", run,
+        lambda result: stick_radius(result, step),
+        closed_form(exact.stick_radius, CATTANEO, HERTZ.contact_radius),
+        Required(0.1 / elements, "a tenth of an element, read off the last values"),
+        HERTZ.contact_radius, "the contact radius",
     )  # fmt: skip
 
 

@@ -10,7 +10,14 @@ import numpy as np
 from verification.cases.case import Case, Level, Quantity, Required, closed_form, exact_zero
 from verification.cases.chart import Chart
 from verification.cases.fem_hertz import meshed
-from verification.cases.fem_levels import allowed, judged_within, label, levels
+from verification.cases.fem_levels import (
+    MIDDLE,
+    allowed,
+    judged_within,
+    label,
+    levels,
+    order_levels,
+)
 from verification.cases.fem_profiles import radial_chart
 from verification.cases.order_of_convergence import Followed, OrderOfConvergence
 from verification.cases.paper_scene import FRICTION, HERTZ
@@ -44,13 +51,17 @@ RIM = "what hats cannot follow of the infinite shear at the rim has an energy of
 
 def fem_torsion(level: Level = Level.QUICK) -> Case:
     """The case, on finer meshes at higher levels."""
-    return fem_torsion_on(levels(level))
+    return fem_torsion_on(levels(level), order_levels(level))
 
 
-def fem_torsion_on(elements: tuple[int, ...]) -> Case:
-    """The case on meshes of so many elements per contact radius."""
+def fem_torsion_on(elements: tuple[int, ...], studied: tuple[tuple[int, float], ...] = ()) -> Case:
+    """The case on meshes of so many elements per contact radius.
+
+    studied  more meshes for the ball, and where in its element the edge of the contact lies
+    """
     n = elements[-1]
-    ball = SectionRun(f"ball, {label(n)}", MONOTONIC, per_radius(n, meshed(n)))
+    balls = tuple(_ball(*mesh) for mesh in dict.fromkeys(((n, MIDDLE), *studied)))
+    ball = balls[0]
     punches = tuple(SectionRun(_punch(m), STUCK_PUNCH, per_radius(m)) for m in elements)
     return Case(
         name="fem_torsion",
@@ -60,7 +71,7 @@ def fem_torsion_on(elements: tuple[int, ...]) -> Case:
             "slips, and a flat punch that sticks all over, as in torsion. One unknown "
             "displacement, around the axis; pressure does not enter but by the friction limit."
         ),
-        runs=(ball, *punches),
+        runs=(*balls, *punches),
         quantities=(
             *(q for step, part in enumerate(PARTS, 1) for q in _at(step, part, ball.label, n)),
             Quantity(
@@ -79,6 +90,11 @@ def fem_torsion_on(elements: tuple[int, ...]) -> Case:
         ),
         charts=_charts,
     )  # fmt: skip
+
+
+def _ball(elements: int, place: float) -> SectionRun:
+    mesh = per_radius(elements, meshed(elements, place))
+    return SectionRun(f"ball, {label(elements, place)}", MONOTONIC, mesh, beyond=MIDDLE)
 
 
 def _punch(elements: int) -> str:

@@ -13,7 +13,7 @@ from verification.cases.hertz_point import label
 from verification.cases.indentation_reference import Indentation
 from verification.cases.paper_scene import HERTZ
 from verification.cases.profile_chart import SHOWN
-from verification.cases.radial_profile import outward
+from verification.cases.radial_profile import along_radii, outward
 from verification.cases.table import Table
 from verification.quantities import shear_of
 
@@ -46,38 +46,40 @@ def indentation_table(results: Iterable[tuple[Indentation, Result]]) -> Table:
 
 
 def indentation_chart(one: Indentation, result: Result) -> Chart:
-    """Pressure and outward shear over the reference."""
+    """Pressure and outward shear over the reference, each with a strip of the difference."""
     grid, end, a = result.grid, result.steps[-1], one.contact_radius
     half = slice(grid.cells[0] // 2, None)
     row = grid.cells[1] // 2
     r = np.hypot(grid.x[half], grid.y[row]) / a
     shown = r < SHOWN
-    radii = one.row["r_over_a"]
     unit = HERTZ.peak_pressure
     fields = {
-        "p / p_H": (end.pressure / unit, one.row["p_over_pH"]),
-        "q / µp_H": (
-            outward(shear_of(end), grid) / (one.friction * unit),
-            one.row["q_over_mu_pH"],
-        ),
+        "p / p_H": (end.pressure / unit, "p_over_pH"),
+        "q / µp_H": (outward(shear_of(end), grid) / (one.friction * unit), "q_over_mu_pH"),
     }
-    panels = tuple(
-        Panel(
-            x_label="r / a",
-            y_label=name,
-            curves=(
-                curve("reference", radii, exact, Look.REFERENCE),
-                curve("computed", r[shown], field[half, row][shown]),
+    panels = []
+    for name, (field, key) in fields.items():
+        radii, exact = one.judged_profile(key)
+        found = along_radii(field, grid, radii * a).mean(axis=1)
+        panels += [
+            Panel(
+                x_label="",
+                y_label=name,
+                curves=(
+                    curve("reference", one.row["r_over_a"], one.row[key], Look.REFERENCE),
+                    curve("computed", r[shown], field[half, row][shown]),
+                ),
+                height=1.6,
             ),
-            height=1.6,
-        )
-        for name, (field, exact) in fields.items()
-    )
+            Panel(x_label="", y_label=f"Δ{name}", curves=(curve("", radii, found - exact),)),
+        ]
+    panels[-1] = panels[-1].model_copy(update={"x_label": "r / a"})
     return Chart(
         name=f"frictional_indentation_{one.file_name}",
         title=f"Pressure and outward shear, {one.name}",
         caption=f"Computed on {label(grid.cells[0])} cells in {one.increments} increments along "
-        "the cells next to y = 0, over the reference at its tabulated radii. The shear rises in "
-        "the stick disc and follows µp outside it.",
+        "the cells next to y = 0, over the reference. The shear rises in the stick disc and "
+        "follows µp outside it. Below either: computed, as the mean around the circle, less the "
+        "reference, at the radii that are judged.",
         rows=tuple((panel,) for panel in panels),
     )

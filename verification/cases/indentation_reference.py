@@ -99,21 +99,22 @@ class Indentation:
         """A number of the row."""
         return Reference(value, ReferenceKind.SEMI_CLOSED, self.source, REFERENCE_ERROR * value)
 
-    def _profile(self, key: str) -> tuple[Field, Field]:
+    def judged_profile(self, key: str) -> tuple[Field, Field]:
+        """Radii over that of the contact, away from axis and edge, and a column at these."""
         radii, values = np.array(self.row["r_over_a"]), np.array(self.row[key])
         judged = (radii > JUDGED[0] - 1e-9) & (radii < JUDGED[1] + 1e-9)
         return radii[judged], values[judged]
 
     def pressure_error(self, result: Result) -> float:
         """Largest error of the pressure at the radii of the reference, over p_H."""
-        radii, exact = self._profile("p_over_pH")
+        radii, exact = self.judged_profile("p_over_pH")
         found = along_radii(result.steps[-1].pressure, result.grid, radii * self.contact_radius)
         return float(np.max(np.abs(found / HERTZ.peak_pressure - exact[:, None])))
 
     def _shear_errors(self, result: Result) -> tuple[Field, NDArray[np.bool_]]:
         """Errors over µp_H at the radii of the reference, and which of these are at the edge of
         the stick zone."""
-        radii, exact = self._profile("q_over_mu_pH")
+        radii, exact = self.judged_profile("q_over_mu_pH")
         q = outward(shear_of(result.steps[-1]), result.grid)
         found = along_radii(q, result.grid, radii * self.contact_radius)
         error = np.abs(found / (self.friction * HERTZ.peak_pressure) - exact[:, None])

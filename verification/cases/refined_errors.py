@@ -24,7 +24,7 @@ def refined_errors(
     if reference == 0 or quantity.unit == "":
         return None
     judged = case.run(quantity.run)
-    runs = [r for r in case.runs if r.label in results and _differ_in_fineness(r, judged)]
+    runs = [run for run in followed_on(quantity, case) if run.label in results]
     if len({run.spacing for run in runs}) < LEAST:
         return None
     sides = [run.spacing / _radius(judged, results[judged.label]) for run in runs]
@@ -35,6 +35,12 @@ def refined_errors(
     return RefinedErrors(
         per_radius=tuple(1 / side for side, _ in levels), errors=tuple(error for _, error in levels)
     )
+
+
+def followed_on(quantity: Quantity, case: Case) -> tuple[Run | SectionRun, ...]:
+    """The run that the quantity is judged on, and those that differ from it in fineness alone."""
+    judged = case.run(quantity.run)
+    return tuple(run for run in case.runs if _differ_in_fineness(run, judged))
 
 
 def _differ_in_fineness(one: Run | SectionRun, other: Run | SectionRun) -> bool:

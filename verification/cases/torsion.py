@@ -33,6 +33,7 @@ from verification.quantities import energy_between, shear_of
 
 if TYPE_CHECKING:
     from semi_analytical import Increment, Result
+    from semi_analytical.grid import SurfaceGrid
 
 SOURCE = "Lubkin 1951"
 MASING = "Lubkin 1951, with Masing's rule for the reversal"
@@ -98,7 +99,6 @@ def torsion_on(cells: tuple[int, ...]) -> Case:
     """The case on square grids of these many cells per side."""
     finest = cells[-1]
     grid = paper.hertz_grid(finest)
-    punch_grid = paper.square_grid(finest, PUNCH_WINDOW_PER_RADIUS / 2 * PUNCH_RADIUS)
     levels = tuple(label(n) for n in cells)
     return Case(
         name="torsion",
@@ -113,7 +113,7 @@ def torsion_on(cells: tuple[int, ...]) -> Case:
             *(Run(label(n), MONOTONIC, paper.hertz_grid(n)) for n in cells),
             Run("to and fro", LOOP, grid),
             Run("given twist", LED, grid),
-            Run("stuck punch", STUCK_PUNCH, punch_grid),
+            *(Run(_punch(n, finest), STUCK_PUNCH, _punch_grid(n)) for n in cells[::-2]),
         ),
         quantities=(
             *(q for number, part in enumerate(PARTS, 1) for q in _at(number, part, levels, finest)),
@@ -149,6 +149,14 @@ def torsion_on(cells: tuple[int, ...]) -> Case:
         ),
         charts=_charts,
     )  # fmt: skip
+
+
+def _punch(cells: int, finest: int) -> str:
+    return "stuck punch" if cells == finest else f"stuck punch, {label(cells)}"
+
+
+def _punch_grid(cells: int) -> SurfaceGrid:
+    return paper.square_grid(cells, PUNCH_WINDOW_PER_RADIUS / 2 * PUNCH_RADIUS)
 
 
 def error_at(step: int, part: float) -> Callable[[Result], float]:

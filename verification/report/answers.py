@@ -93,7 +93,7 @@ def _disagreement(report: Report) -> Answer:
         tuple(links),
         study if study.record is None else None,
         claimed,
-        nearer_table(cast) if cast else None,
+        nearer_table(cast, shared) if cast else None,
     )
 
 

@@ -87,9 +87,10 @@ class SharedReference:
 
     @property
     def uncertainty(self) -> float:
-        """Standard uncertainty of the reference, relative to it."""
-        verdict = self.cells.verdict
-        return (verdict.reference_uncertainty or 0.0) / abs(verdict.reference)
+        """Standard uncertainty of the reference, relative to it; the larger one where it is exact
+        for the problem of one solver and approximate for that of the other."""
+        verdicts = self.cells.verdict, self.elements.verdict
+        return max((one.reference_uncertainty or 0.0) / abs(one.reference) for one in verdicts)
 
     @property
     def tells(self) -> bool:
@@ -203,5 +204,8 @@ def _key(one: Measured) -> str:
     return f"{one.case} {_word(one.verdict)} {one.verdict.reference:.9g}"
 
 
-def _fineness(pair: SharedReference) -> tuple[float, float]:
-    return pair.cells.fineness, pair.elements.fineness
+def _fineness(pair: SharedReference) -> tuple[float, float, int]:
+    """Of both, and by how many of them the value was followed on coarser runs."""
+    both = pair.cells, pair.elements
+    followed = sum(one.verdict.refined is not None for one in both)
+    return pair.cells.fineness, pair.elements.fineness, followed

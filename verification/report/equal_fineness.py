@@ -17,6 +17,7 @@ from verification.report.numbers import plain
 PER_RADIUS = 64  # the fineness that solvers are compared at
 BEYOND = 2.0  # an error is extrapolated no further than by this factor of refinement
 COVERAGE = 2.0  # standard deviations of single runs, and standard uncertainties of references
+TELLING = 30.0  # errors that scatter by more than this factor either way say nothing
 CHANCE = 0.1  # of the line: errors that happen to be smaller count as this
 TIE = "tie"
 
@@ -68,7 +69,8 @@ def votes(shared: Iterable[SharedReference]) -> tuple[Vote, ...]:
 
 
 def typical_error(refined: RefinedErrors | None) -> TypicalError | None:
-    """The error at PER_RADIUS; None without levels, or where these are too coarse or too fine."""
+    """The error at PER_RADIUS; None without levels, or where these are too coarse or too fine, or
+    scatter too much."""
     if refined is None:
         return None
     least, most = min(refined.per_radius), max(refined.per_radius)
@@ -84,6 +86,8 @@ def typical_error(refined: RefinedErrors | None) -> TypicalError | None:
     size = np.array([1 / PER_RADIUS])
     (value,), (end,) = line.at(size), line.band(size)[1]
     by = float(np.exp(np.hypot(scatter, np.log(end / value))))
+    if by > TELLING:
+        return None
     return TypicalError(float(value), float(value) / by, float(value) * by)
 
 
@@ -93,15 +97,15 @@ def nearer_sentences(cast: tuple[Vote, ...], shared: tuple[SharedReference, ...]
     if not cast:
         return [
             f"Which is nearer is not decided by this report: none of the {len(shared)} values that "
-            f"both were judged by was refined by both to {at}."
+            f"both were judged by was refined by both to {at}, with errors that scatter by less "
+            f"than {TELLING:g} times."
         ]
     left = len(shared) - len(cast)
     sentences = [f"{_throughout(cast)}: at {at}, of {_values(len(cast))}, {_counted(cast)}."]
     if left:
         sentences.append(
-            f"{left} more that both were judged by {'does' if left == 1 else 'do'} not count: one "
-            "of the two has too few levels there or none near that fineness, or the reference is "
-            "one of these again."
+            f"{left} more that both were judged by {'does' if left == 1 else 'do'} not count; "
+            "below the table stands why."
         )
     return sentences
 
@@ -116,16 +120,16 @@ def _throughout(cast: tuple[Vote, ...]) -> str:
 
 
 def _counted(cast: tuple[Vote, ...]) -> str:
-    """Sides with the number and the names of their values."""
+    """Sides with the number of their values, and the names of those that are no tie."""
     count = Counter(vote.nearer for vote in cast)
     words = {
         ELEMENTS: f"{ELEMENTS} are nearer to the reference in",
         CELLS: f"{CELLS} are nearer in",
         TIE: "tied are",
     }
+    names = {side: Counter(_of(vote) for vote in cast if vote.nearer == side) for side in words}
     return "; ".join(
-        f"{text} {count[side]}: "
-        + ", ".join(f"{_of(vote)}" for vote in cast if vote.nearer == side)
+        f"{text} {count[side]}" + ("" if side == TIE else f": {_listed(names[side])}")
         for side, text in words.items()
         if count[side]
     )
@@ -135,12 +139,41 @@ def _of(vote: Vote) -> str:
     return " of ".join(vote.shared.name.split(", ")[:2])
 
 
+def _listed(names: Counter[str]) -> str:
+    return ", ".join(name if n == 1 else f"{name} ({n} times)" for name, n in names.items())
+
+
+def silences(shared: Iterable[SharedReference]) -> dict[str, Counter[str]]:
+    """Why values have no vote, and in which cases how many."""
+    seen: set[tuple[str, str]] = set()
+    found: dict[str, Counter[str]] = {}
+    for pair in shared:
+        refined = tuple(one.verdict.refined for one in (pair.cells, pair.elements))
+        reasons = [_silence(one) for one in refined if typical_error(one) is None]
+        if not reasons and pair.reference in seen:
+            reasons = ["the reference votes already"]
+        if reasons:
+            found.setdefault(reasons[0], Counter()).update([pair.cells.case.replace("_", " ")])
+        else:
+            seen.add(pair.reference)
+    return found
+
+
+def _silence(refined: RefinedErrors | None) -> str:
+    if refined is None:
+        return "one of the two on fewer than four levels"
+    if not min(refined.per_radius) <= PER_RADIUS <= BEYOND * max(refined.per_radius):
+        return "no level near this fineness"
+    return f"errors of single runs scatter more than {TELLING:g} times"
+
+
 def _values(count: int) -> str:
     return f"{count} {'value' if count == 1 else 'values'}"
 
 
-def nearer_table(cast: tuple[Vote, ...]) -> Table:
-    """Errors of both at one fineness."""
+def nearer_table(cast: tuple[Vote, ...], shared: tuple[SharedReference, ...]) -> Table:
+    """Errors of both at one fineness, and which of the shared references could not vote."""
+    why = "; ".join(f"{reason}: {_cases(cases)}" for reason, cases in silences(shared).items())
     return Table(
         title=f"Errors at {PER_RADIUS} cells or elements per contact radius",
         columns=("quantity and case", f"error, {CELLS}", f"error, {ELEMENTS}", "nearer"),
@@ -153,8 +186,13 @@ def nearer_table(cast: tuple[Vote, ...]) -> Table:
         f"{BEYOND:g} at most. In brackets: where 95 % of single grids or meshes fall. A tie: those "
         "overlap, or the reference is too uncertain to tell. As many cells as elements per radius "
         "are not the same work: cells cover the whole surface, elements a section of a body that "
-        "is round.",
+        "is round. Norms of pressure and shear have no vote: cells are compared at their centres, "
+        "elements all along the radius." + (f" Nor have, by case, {why}." if why else ""),
     )
+
+
+def _cases(count: Counter[str]) -> str:
+    return ", ".join(f"{case} ({number})" for case, number in count.items())
 
 
 def _text(error: TypicalError) -> str:
