@@ -3,6 +3,8 @@
 import math
 import re
 from pathlib import Path
+from types import SimpleNamespace
+from typing import Any
 
 import numpy as np
 import pytest
@@ -11,11 +13,14 @@ from hypothesis import strategies as st
 
 import verification.report
 from verification.cases.chart import Chart, Look, Panel, curve
+from verification.cases.cross_check_contacts import FRICTIONS, RATIOS, THICKNESSES
 from verification.report.drawing import draw
 from verification.report.log_ticks import MOST, log_ticks
 from verification.report.svg import inline_svg
 from verification.report.thinned import FINENESS, thinned
 from verification.run_output.figures import style
+from verification.studies.cross_check.charts import difference_chart
+from verification.studies.cross_check.contacts import is_its_own
 
 UNIT = ((0.0, 1.0), (0.0, 1.0))
 STYLES = Path(verification.report.__file__).parent / "templates" / "style.css"
@@ -106,6 +111,40 @@ def test_no_two_series_of_one_chart_are_drawn_alike() -> None:
         (axes,) = draw(chart).axes
     looks = {(line.get_color(), str(vars(line)["_dash_pattern"])) for line in axes.get_lines()}
     assert len(looks) == len(names)
+
+
+def test_an_empty_panel_says_why_and_measures_nothing() -> None:
+    record = SimpleNamespace(
+        semi_analytical=SimpleNamespace(pressure=[1.0, 0.9]),
+        finite_elements=SimpleNamespace(pressure=[0.99, 0.92]),
+        radii=[0.05, 0.9], shear_judged=[True, True],
+    )  # fmt: skip
+    found: Any = {
+        (ratio, thickness, mu): record
+        for ratio in RATIOS for thickness in THICKNESSES for mu in FRICTIONS
+        if is_its_own(ratio, thickness)
+    }  # fmt: skip
+    with style.figure_style():
+        figure = draw(difference_chart(found, "pressure"))
+        figure.draw_without_rendering()
+    empty = [axes for axes in figure.axes if axes.texts]
+    assert len(empty) == len(RATIOS) * len(THICKNESSES) - len(found) // len(FRICTIONS) > 0
+    for axes in empty:
+        assert list(axes.get_yticks()) == []
+        (note,) = axes.texts
+        centre = axes.transAxes.inverted().transform(note.get_window_extent().get_points()).mean(0)
+        assert np.all((centre > 0) & (centre < 1))
+        assert axes.viewLim.contains(*note.xy)  # a note elsewhere is not drawn
+
+
+def test_marks_of_equal_errors_lie_in_each_other_and_are_all_seen() -> None:
+    curves = tuple(curve(str(n), [0.1, 0.2], [0.1, 0.2], Look.LEVELS, n) for n in range(4))
+    panel = Panel(x_label="x", y_label="y", curves=curves, logarithmic=True)
+    with style.figure_style():
+        (axes,) = draw(Chart(name="one", title="t", caption="c", rows=((panel,),))).axes
+    marks = axes.get_lines()
+    assert len({mark.get_markersize() for mark in marks}) == len(curves)
+    assert {mark.get_fillstyle() for mark in marks} == {"none"}
 
 
 def _luminance(colour: str) -> float:

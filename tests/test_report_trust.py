@@ -31,6 +31,7 @@ from verification.report.files import (
     write_report,
 )
 from verification.report.junit import render_junit
+from verification.report.numbers import order_text
 from verification.report.page import render_page
 from verification.report.provenance_record import Provenance
 from verification.report.record import Report, load_report
@@ -326,6 +327,22 @@ def an_order(status: Status) -> CaseOutcome:
     order = {"tolerance_kind": "order", "reference": 2.0, "scale": 1.0, "allowed": 0.25}
     judged = Verdict(**{**first.model_dump(), **order, **ORDERS[status], "status": status})
     return whole.model_copy(update={"verdicts": (judged, *others)})
+
+
+@pytest.mark.parametrize(
+    ("half_width", "text"),
+    [
+        (0.004, "1.90 ± 0.004"),
+        (0.49, "1.90 ± 0.49"),
+        (0.51, "no order can be read"),
+        (63.5, "no order can be read"),
+    ],
+)
+def test_an_order_that_its_interval_says_nothing_of_is_no_number(
+    half_width: float, text: str
+) -> None:
+    verdict = an_order(Status.PASS).verdicts[0].model_copy(update={"interval": half_width})
+    assert order_text(verdict) == text
 
 
 @pytest.mark.parametrize(

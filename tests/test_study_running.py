@@ -15,12 +15,13 @@ import pytest
 from study_cases import Dying, Killed, Number, Refusing, Square
 
 from verification.cases.case import Level
+from verification.cli.study import _studied
 from verification.one_thread import VARIABLES
 from verification.report.provenance import provenance
 from verification.studies.catalogue import STUDIES
 from verification.studies.running.case_pool import KILLED, Answer, CaseEnd, run_cases
 from verification.studies.running.case_store import CaseStore, DamagedRecord, content_hash
-from verification.studies.running.files import stored_studies, write_study
+from verification.studies.running.files import set_aside_study, stored_studies, write_study
 from verification.studies.running.local_workers import LocalWorkers
 from verification.studies.running.record import StudyRecord
 from verification.studies.running.study import Settings
@@ -252,6 +253,39 @@ def test_stored_study_is_found_again_and_its_page_shows_the_answer(
     assert "Yes, 1 &lt; 2." in page
     for statement in record.conclusion.statements:
         assert statement.claim in html.unescape(page)
+
+
+def test_earlier_study_waits_aside_until_the_new_one_is_whole(tmp_path: Path) -> None:
+    record = stored(tmp_path)
+    directory = tmp_path / "stability"
+    (directory / "of_mine.txt").touch()
+    for _ in range(2):  # the second call finds what a killed study has left
+        set_aside_study(directory)
+        assert stored_studies(tmp_path) == ()
+        assert not (directory / "index.html").exists()
+        assert stored_studies(directory) == (record,)  # in `earlier`
+    write_study(record, {}, directory)
+    assert stored_studies(tmp_path) == (record,)
+    assert {path.name for path in directory.iterdir()} >= {"of_mine.txt", "index.html"}
+    assert not (directory / "earlier").exists()
+
+
+def test_a_study_that_is_stopped_leaves_no_record_of_an_earlier_one(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    stored(tmp_path, "coated-tractions")
+    directory = tmp_path / "coated-tractions"
+
+    def stopped(*_: object) -> None:
+        assert stored_studies(tmp_path) == ()
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr("verification.studies.running.case_pool.run_cases", stopped)
+    chosen = STUDIES["coated-tractions"]
+    with pytest.raises(KeyboardInterrupt):
+        _studied(chosen, Settings(Level.QUICK, 16), "slipstick study", directory, 1)
+    assert stored_studies(tmp_path) == ()
+    assert len(stored_studies(directory)) == 1
 
 
 def test_stored_study_that_cannot_be_read_is_named(tmp_path: Path) -> None:

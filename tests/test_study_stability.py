@@ -8,14 +8,15 @@ import pytest
 
 from semi_analytical import NotConverged, Result, solve
 from verification.cases.case import Level
-from verification.cases.chart import Look
+from verification.cases.chart import Look, curve
 from verification.cases.outcome import Status
 from verification.observed.surfaces import surface_violation
+from verification.report.drawing import look_of
 from verification.studies.running.case_store import CaseStore
 from verification.studies.running.study import Settings
 from verification.studies.stability import judged, solvers, study, verdicts
 from verification.studies.stability.cell import LoadingPath, Solver, StabilityCell, Surface
-from verification.studies.stability.charts import view_chart
+from verification.studies.stability.charts import CLASSES, class_of, view_chart
 from verification.studies.stability.pose import Posed, pose
 from verification.studies.stability.record import CellRecord, Verdict
 from verification.studies.stability.solvers import Solved, by_superposition
@@ -271,6 +272,41 @@ def test_a_place_shows_the_worst_of_its_cells_and_the_dearest() -> None:
     assert (0.0, 0.0, "12k") in panel.notes
     assert {c.look for c in panel.curves} == {Look.TILES}
     assert len({c.series for c in panel.curves}) == len(panel.curves)
+
+
+@pytest.mark.parametrize(
+    ("stated", "seen", "name"),
+    [
+        (9e-11, 9e-10, "residual ≤ allowed / 100"),
+        (9e-10, 0.0, "residual ≤ allowed / 10"),
+        (9e-10, 2e-8, "residual ≤ allowed"),  # of the fields ten times as much is allowed
+        (9e-9, 0.0, "residual ≤ allowed"),
+    ],
+)
+def test_a_place_shows_the_decade_of_the_residual_over_what_is_allowed(
+    stated: float, seen: float, name: str
+) -> None:
+    record = GOOD.model_copy(update={"residual": stated, "observed": seen})
+    assert CLASSES[class_of(record)][0] == name
+
+
+def test_every_way_to_end_is_worse_than_any_residual_and_looks_of_its_own() -> None:
+    ends = (Verdict.CONVERGED, Verdict.REFUSED, Verdict.NOT_CONVERGED, Verdict.SILENT)
+    bad = [GOOD.model_copy(update={"verdict": verdict, "residual": 1e-8}) for verdict in ends]
+    assert [class_of(record) for record in bad] == [2, 3, 4, 5]
+    looks = [look_of(curve("", [0], [0], Look.TILES, series)) for _, series in CLASSES]
+    assert len({look["color"] for look in looks}) == len(CLASSES)
+    assert len({look["marker"] for look in looks}) == len(CLASSES)
+
+
+def test_halved_increments_are_marked_at_the_cost() -> None:
+    view = views(Level.QUICK, 32)[0]
+    first, *others = view.cells
+    found = {first.name: GOOD.model_copy(update={"halvings": 1})}
+    found |= {cell.name: GOOD for cell in others}
+    notes = [text for *_, text in view_chart(view, found).rows[0][0].notes]
+    assert notes.count("400*") == 1
+    assert set(notes) == {"400", "400*"}
 
 
 def test_every_cell_is_a_line_of_the_table() -> None:

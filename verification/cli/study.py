@@ -107,8 +107,8 @@ def study(
     """Compute the cases of a study on a pool of processes and write its page.
 
     Every finished case leaves a record in DIR/cases: the same command goes on where a killed one
-    stopped. DIR receives index.html, study.json, figures and tables. Exit code 1 if a statement
-    failed or a case was lost.
+    stopped. DIR receives index.html, study.json, figures and tables; earlier ones of the first two
+    wait in DIR/earlier meanwhile. Exit code 1 if a statement failed or a case was lost.
     """  # fmt: skip
     from verification.cases.case import Level
     from verification.cli.name_mistakes import unknown_names
@@ -158,12 +158,13 @@ def _studied(
     from verification.run_output.sole_use import in_sole_use
     from verification.studies.running.case_pool import run_cases
     from verification.studies.running.case_store import CaseStore
-    from verification.studies.running.files import CASES, write_study
+    from verification.studies.running.files import CASES, set_aside_study, write_study
     from verification.studies.running.record import StudyRecord
 
     refuse_if_unwritable(directory)
     with in_sole_use(directory):
         cases = study.cases(settings)
+        set_aside_study(directory)
         store = CaseStore(directory / CASES)
         with (
             study_progress(len(cases)) as observe,

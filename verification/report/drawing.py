@@ -21,6 +21,7 @@ INK = "#1a1a1a"
 REFERENCE_COLOUR = "#b4b4b4"
 GRID_COLOUR = "#d9d9d9"
 BAND_OPACITY = 0.22
+LEAST_MARK, MARK_GROWTH, MARK_SIZES = 3.6, 1.1, 4  # empty marks of equal errors lie in each other
 BOUND_DASHES = (0, (5, 3))  # thinner than those of any series
 LONGEST_BESIDE = 30  # letters of a legend's text beside the plot
 LONGEST_OF_TWO = 45  # and of two side by side below it
@@ -65,6 +66,8 @@ def _draw_panel(ax: Any, panel: Panel) -> None:
             ax.fill(curve.x, curve.y, **look_of(curve))
         else:
             ax.plot(*_points(curve, panel), label=curve.label or None, **look_of(curve))
+    if not panel.curves:  # numbers would measure nothing
+        ax.set_yticks([])
     for x, y, text in panel.notes:
         ax.annotate(text, (x, y), xytext=(0, 6 if y >= 0 else -14), textcoords="offset points",
                     ha="center", color=INK)  # fmt: skip
@@ -137,8 +140,14 @@ def look_of(curve: Curve) -> dict[str, Any]:
             marker = MARKERS[shape]
             return {"color": colour, "linewidth": 1.0, "marker": marker, "markersize": 3.6}
         case Look.LEVELS:
-            marker = MARKERS[shape]
-            return {"color": colour, "linestyle": "none", "marker": marker, "markersize": 3.6}
+            size = LEAST_MARK + MARK_GROWTH * (place % MARK_SIZES)
+            return {
+                "color": colour,
+                "linestyle": "none",
+                "marker": MARKERS[shape],
+                "markersize": size,
+                "fillstyle": "none",
+            }
         case Look.COMPUTED:
             return {"color": colour, "linewidth": 1.3, "linestyle": style.LINE_STYLES[shape]}
 

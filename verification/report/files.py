@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import secrets
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager, suppress
 from pathlib import Path
 
@@ -43,15 +43,32 @@ def set_aside_report(directory: Path) -> None:
     numbers are not lost. The record goes first: what else is then found is no whole report, and the
     next call removes it.
     """
-    with _alone_in(directory), stop_signals_held():
-        if not (directory / RECORD).is_file():
-            _remove_report(directory)
+    with _alone_in(directory):
+        set_aside(directory, FILES)
+
+
+def set_aside(directory: Path, names: Sequence[str]) -> None:
+    """Move files that belong together into `earlier`, first the one that says they are whole.
+
+    Without that one the others are removed, and what waits in `earlier` stays.
+    """
+    record, *_ = names
+    with stop_signals_held():
+        if not (directory / record).is_file():
+            _remove(directory, names)
             return
-        _remove_report(directory / EARLIER)
+        _remove(directory / EARLIER, names)
         (directory / EARLIER).mkdir(exist_ok=True)
-        for name in FILES:
+        for name in names:
             with suppress(FileNotFoundError):
                 os.replace(directory / name, directory / EARLIER / name)
+
+
+def remove_set_aside(directory: Path, names: Sequence[str]) -> None:
+    """What `set_aside` has moved, once there is better."""
+    with suppress(OSError):  # there is none, or it holds what is not ours
+        _remove(directory / EARLIER, names)
+        (directory / EARLIER).rmdir()
 
 
 def write_report(report: Report, directory: Path) -> None:
@@ -72,14 +89,12 @@ def write_report(report: Report, directory: Path) -> None:
         for name, text in texts.items():
             with atomic_file(directory / name) as temporary:
                 temporary.write_text(text, encoding="utf-8", newline="\n")
-        with suppress(OSError):  # there is none, or it holds what is not ours
-            _remove_report(directory / EARLIER)
-            (directory / EARLIER).rmdir()
+        remove_set_aside(directory, FILES)
 
 
-def _remove_report(directory: Path) -> None:
+def _remove(directory: Path, names: Sequence[str]) -> None:
     """The record goes first: a directory that has one holds files that belong together."""
-    for name in FILES:
+    for name in names:
         (directory / name).unlink(missing_ok=True)
 
 

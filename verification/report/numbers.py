@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from verification.cases.change import Change, commit_text
 from verification.cases.outcome import Status, Verdict
+from verification.convergence import ObservedOrder
 from verification.report.provenance_record import Provenance
 from verification.run_output.engineering_units import engineering_unit
 from verification.studies.running.record import StudyRecord
@@ -50,10 +51,12 @@ def uncertainty_text(verdict: Verdict) -> str:
 
 
 def order_text(verdict: Verdict) -> str:
-    """An observed order with its interval."""
+    """An observed order with its interval; words where that is too wide for a number."""
     if verdict.value is None or verdict.interval is None:
         return NOT_FINITE
     half = verdict.interval
+    if not ObservedOrder(verdict.value, half).is_legible:
+        return "no order can be read"
     return f"{verdict.value:.2f} ± {f'{half:.2f}' if half >= 0.005 else plain(half, 1)}"
 
 

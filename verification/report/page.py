@@ -38,6 +38,7 @@ from verification.report.numbers import (
     value_text,
 )
 from verification.report.orders import observed_orders
+from verification.report.profiles_together import profiles_together
 from verification.report.record import Report
 from verification.report.sections import study_of, study_section
 from verification.report.shared_styles import with_shared_styles
@@ -151,9 +152,10 @@ def _kinds(report: Report) -> dict[str, dict[Status, int]]:
 
 
 def _both_solvers(report: Report) -> tuple[tuple[Chart, ...], Table] | None:
-    """Errors of both solvers against the same references, where there are such."""
+    """Profiles and errors of both solvers against the same references, where there are such."""
     shared = shared_references(report)
-    return (both_solvers_charts(shared), furthest_apart(shared)) if shared else None
+    charts = (*profiles_together(report), *both_solvers_charts(shared))
+    return (charts, furthest_apart(shared)) if shared else None
 
 
 def _inconclusive(report: Report) -> list[tuple[CaseOutcome, Verdict]]:

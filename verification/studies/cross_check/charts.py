@@ -49,7 +49,7 @@ def _panel(found: Found, name: str, ratio: float, thickness: float) -> Panel:
         ),
         title=f"h = {thickness:g} a_H" if top else "",
         height=0.9,
-        notes=() if is_its_own(ratio, thickness) else ((0.5, 0.5, "the same body"),),
+        notes=() if is_its_own(ratio, thickness) else ((0.5, 0.0, "the same body"),),
     )
 
 

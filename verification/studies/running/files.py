@@ -12,6 +12,7 @@ from markupsafe import Markup
 from verification.cases.chart import Chart
 from verification.report.columns import alignment
 from verification.report.drawing import draw
+from verification.report.files import remove_set_aside, set_aside
 from verification.report.page import SYMBOLS, WORDS
 from verification.report.svg import inline_svg
 from verification.run_output.atomic_file import atomic_file
@@ -21,13 +22,21 @@ from verification.studies.running.record import StudyRecord, dump_study
 
 PAGE = "index.html"
 RECORD = "study.json"
+SET_ASIDE = (RECORD, PAGE)
 FIGURES = "figures"
 CASES = "cases"
 FIGURE_TYPES = ("png", "svg")
 
 
+def set_aside_study(directory: Path) -> None:
+    """Move the page and the record of an earlier study into `earlier`, before the hours of work
+    that make the new ones; its figures and tables stay until they are replaced."""
+    set_aside(directory, SET_ASIDE)
+
+
 def write_study(record: StudyRecord, exports: Mapping[str, str], directory: Path) -> None:
-    """Write everything, each file whole or not at all; the record comes last."""
+    """Write everything, each file whole or not at all; the record comes last. What was set aside
+    goes."""
     with stop_signals_held():
         for chart in record.charts:
             _write_figure(chart, directory / FIGURES)
@@ -35,6 +44,7 @@ def write_study(record: StudyRecord, exports: Mapping[str, str], directory: Path
         for name, text in texts.items():
             with atomic_file(directory / name) as temporary:
                 temporary.write_text(text, encoding="utf-8", newline="\n")
+        remove_set_aside(directory, SET_ASIDE)
 
 
 def render_study(record: StudyRecord) -> str:

@@ -1,4 +1,4 @@
-"""The map drawn: class of the residual as colour and shape, cost as a number."""
+"""The map drawn: decade of the residual as colour and shape, cost as a number."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ from collections.abc import Iterable, Mapping
 from typing import Any
 
 from verification.cases.chart import Chart, Curve, Look, Panel, curve
+from verification.cases.law_verdicts import OTHER_NORMS
 from verification.report.numbers import plain
 from verification.studies.stability.cell import StabilityCell
 from verification.studies.stability.record import CellRecord, Verdict
@@ -15,33 +16,34 @@ from verification.studies.stability.view import NAMES, View
 Found = Mapping[str, CellRecord]
 
 # Classes from best to worst, each with the series whose colour and shape it takes; a place shows
-# the worst of its cells.
+# the worst of its cells. First the decades of the residual over what is allowed.
 CLASSES = (
-    ("residual ≤ ½ tolerance", 0),
-    ("residual ≤ tolerance", 4),
-    ("increments halved", 2),
+    ("residual ≤ allowed / 100", 4),
+    ("residual ≤ allowed / 10", 2),
+    ("residual ≤ allowed", 0),
     ("refused", 3),
     ("not converged", 1),
     ("silent", 5),
 )
-SHAPES = "disc, downward triangle, upward triangle, diamond, square, cross"
-FINE = 0.5  # of the tolerance
+SHAPES = "downward triangle, upward triangle, disc, diamond, square, cross"
+DECADES = (0.01, 0.1)  # upper ends of the first two, over what is allowed
+ENDS = {Verdict.REFUSED: 3, Verdict.NOT_CONVERGED: 4, Verdict.SILENT: 5}
+HALVED = "*"
 HEIGHT_PER_ROW, HEIGHT_OF_AXES = 0.24, 0.5
 THOUSANDS = 10_000  # from here on the cost is rounded to them
 
 
 def class_of(record: CellRecord) -> int:
     """Number of the class of a cell."""
-    match record.verdict:
-        case Verdict.SILENT:
-            return 5
-        case Verdict.NOT_CONVERGED:
-            return 4
-        case Verdict.REFUSED:
-            return 3
-        case Verdict.CONVERGED:
-            fine = record.worst is not None and record.worst <= FINE * record.tolerance
-            return 2 if record.halvings else 0 if fine else 1
+    if record.verdict in ENDS:
+        return ENDS[record.verdict]
+    return sum(_part_of_allowed(record) > decade for decade in DECADES)
+
+
+def _part_of_allowed(record: CellRecord) -> float:
+    """The worse of both residuals over what is allowed of each, as `judged` holds them [1]."""
+    stated, seen = record.residual or 0.0, record.observed or 0.0
+    return max(stated, seen / OTHER_NORMS) / record.tolerance
 
 
 def view_chart(view: View, found: Found) -> Chart:
@@ -58,9 +60,12 @@ def view_chart(view: View, found: Found) -> Chart:
     return Chart(
         name=f"stability_{view.name.replace('-', '_')}",
         title=view.title,
-        caption="Colour and shape: the worst residual of the cells at a place, or how they ended "
-        f"({'; '.join(_legend())}). Number: the most {WORK[view.by_elements]} that one of them took"
-        f"{' (steps of Newton or of the active set).' if view.by_elements else '.'}",
+        caption="Colour and shape: the worst residual of the cells at a place beside what "
+        f"is allowed, or how they ended ({'; '.join(_legend())}). Allowed is the tolerance, and of "
+        f"what the fields alone show {OTHER_NORMS:g} times that. Number: the most "
+        f"{WORK[view.by_elements]} that one of them took"
+        f"{' (steps of Newton or of the active set)' if view.by_elements else ''}, with "
+        f"{HALVED} where increments were halved.",
         rows=((Panel(
             x_label=NAMES[view.x], y_label=NAMES[view.y],
             curves=tuple(_tiles(n, where) for n, where in places.items() if where),
@@ -86,7 +91,9 @@ def _legend() -> list[str]:
 
 def _cost(records: list[CellRecord]) -> str:
     most = max(record.work for record in records)
-    return "–" if most == 0 else str(most) if most < THOUSANDS else f"{most / 1000:.0f}k"
+    mark = HALVED if any(record.halvings for record in records) else ""
+    number = "–" if most == 0 else str(most) if most < THOUSANDS else f"{most / 1000:.0f}k"
+    return number + mark
 
 
 def _texts(values: Iterable[Any]) -> tuple[str, ...]:

@@ -61,10 +61,10 @@ def _of_bad(bad: list[Item]) -> Table:
 
 
 def _of_cells(group: list[Item]) -> Table:
-    """The worst classes first, then the dearest."""
+    """The worst classes first, of one those that halved increments, then the dearest."""
     by_elements = group[0][0].solver.by_elements
     solver = "finite elements" if by_elements else "the semi-analytical solver"
-    ranked = sorted(group, key=lambda item: (-class_of(item[1]), -item[1].work))
+    ranked = sorted(group, key=_hardness)
     shown = [item for n, item in enumerate(ranked) if n < MOST_ROWS]
     all_of_them = f"The cells of {solver}"
     some = f"The {len(shown)} hardest of {len(group)} cells of {solver}"
@@ -77,6 +77,11 @@ def _of_cells(group: list[Item]) -> Table:
         "are in `cells.csv`, which `slipstick study stability` writes. Rounds: the most that "
         "pressure and shear took to agree in an increment.",
     )  # fmt: skip
+
+
+def _hardness(item: Item) -> tuple[int, int, int]:
+    record = item[1]
+    return -class_of(record), -record.halvings, -record.work
 
 
 def _outcome(record: CellRecord) -> str:
