@@ -14,7 +14,7 @@ class Extent:
 
 
 ALL = Extent(charts=10_000, rows=1_000_000)
-BY_LEVEL = {"quick": Extent(charts=8, rows=100)}  # its page is to have less than 2 MB
+BY_LEVEL = {"quick": Extent(charts=4, rows=40)}  # its page is to have less than 2 MB
 
 
 def extent(level: str) -> Extent:
