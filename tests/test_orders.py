@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from verification.cases import sheared_increments
-from verification.cases.case import Case, Derived, Level, Quantity, identity
+from verification.cases.case import Case, Derived, Level, Quantity, Required, identity
 from verification.cases.catalogue import catalogue
 from verification.cases.chart import Look
 from verification.cases.convergence_chart import convergence_chart
@@ -135,6 +135,18 @@ def test_values_that_refinement_does_not_change_are_judged_exactly(
     case = Case("planted", "", "", runs, (quantity,))
     verdict = judge_quantity(quantity, case, dict.fromkeys(labels, 0.0))
     assert (verdict.allowed, verdict.status, verdict.clearance) == (0.0, status, clearance)
+
+
+def test_error_beyond_all_bounds_has_a_clearance_in_numbers() -> None:
+    runs: Any = (SimpleNamespace(label="run", spacing=1.0),)
+    quantity = Quantity(
+        "law", "", "", "run", lambda result: result, identity(0.0, "planted"),
+        Required(1e-7, "planted"), 1.0,
+    )  # fmt: skip
+    verdict = judge_quantity(quantity, Case("planted", "", "", runs, (quantity,)), {"run": 1e303})
+    assert verdict.status is Status.FAIL
+    assert verdict.clearance is not None
+    assert 1.0 < verdict.clearance < np.inf
 
 
 def pressed() -> Case:

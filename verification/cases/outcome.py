@@ -1,6 +1,7 @@
 """What came out of a case: plain values that go into `report.json` as they are."""
 
 import math
+import sys
 from enum import StrEnum
 
 from pydantic import model_validator
@@ -100,11 +101,13 @@ class Verdict(Description):
 
     @property
     def clearance(self) -> float | None:
-        """Error as a part of what is allowed; above 1 is a failure. None without an error in
-        numbers, and for one where nothing is allowed."""
+        """Error as a part of what is allowed, finite; above 1 is a failure. None without an error
+        in numbers, and for one where nothing is allowed."""
         if self.error is None or (self.allowed == 0 and self.error > 0):
             return None
-        return 0.0 if self.error == 0 else self.error / self.allowed
+        if self.error == 0:
+            return 0.0
+        return min(self.error / self.allowed, sys.float_info.max)
 
 
 def _contradiction(verdict: Verdict) -> str:
