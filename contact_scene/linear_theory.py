@@ -3,7 +3,7 @@
 from collections.abc import Iterable, Iterator
 from typing import Protocol
 
-from contact_scene.body import Body
+from contact_scene.body import Body, Layer
 from contact_scene.material import IsotropicMaterial
 from contact_scene.scene import Scene
 
@@ -59,21 +59,30 @@ def _strains(scene: Scene, end: StepEnd) -> Iterator[tuple[float, str]]:
 def _strained(body: Body, contact_radius: float) -> Iterator[tuple[float, str]]:
     """Moduli of what lies no deeper than a contact radius, where the pressure has not faded.
 
-    E/(1 - nu^2) of what can yield sideways; of a layer thinner than the contact radius, which is
-    held by what it is bonded to, the modulus of uniaxial strain.
+    E/(1 - nu^2) of what can yield sideways; what a thin layer is bonded to holds it.
     """
     depth = 0.0
     for number, layer in enumerate(body.layers, start=1):
         if depth < contact_radius:
-            held = layer.thickness < contact_radius
-            where = f"layer {number}"
-            if not held:
-                yield layer.material.plane_strain_modulus, where
-            elif layer.material.poisson_ratio < 0.5:  # else it only shears
-                yield _uniaxial_modulus(layer.material), where
+            yield _layer_modulus(layer, contact_radius), f"layer {number}"
         depth += layer.thickness
     if depth < contact_radius and isinstance(body.material, IsotropicMaterial):
         yield body.material.plane_strain_modulus, "the substrate" if body.layers else ""
+
+
+def _layer_modulus(layer: Layer, contact_radius: float) -> float:
+    """Pressure over strain [force/length^2].
+
+    A layer thinner than the contact radius is held: it is compressed with the modulus of uniaxial
+    strain, or sheared as it is squeezed out sideways, with G a/h, whichever is easier.
+    """
+    free = layer.material.plane_strain_modulus
+    if layer.thickness >= contact_radius:
+        return free
+    sheared = layer.material.shear_modulus * contact_radius / layer.thickness
+    if layer.material.poisson_ratio == 0.5:
+        return max(free, sheared)
+    return max(free, min(_uniaxial_modulus(layer.material), sheared))
 
 
 def _uniaxial_modulus(material: IsotropicMaterial) -> float:

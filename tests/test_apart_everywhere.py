@@ -38,6 +38,11 @@ def test_nothing_left_out_is_said() -> None:
     assert (line.judged, line.largest[2]) == (0.1, NOWHERE)
 
 
+def test_where_nothing_is_compared_no_difference_is_told() -> None:
+    line = Apart("1 N", X, np.full(len(X), 0.1), {"near the axis": X < 2.0})
+    assert apart_everywhere([line], "q_x", "µp_H", "a_H").rows[0][1:3] == (NOWHERE, "0.1")
+
+
 def test_answer_tells_what_the_comparison_does_not_see() -> None:
     table = apart_everywhere([apart("0.3 µW", {10: 0.53})], "q_x", "µp_H", "a_H")
     one = case("cross_check", {"difference": (1.001, 1.0)}, run_record(64, None))

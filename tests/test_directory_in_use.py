@@ -11,6 +11,7 @@ from pathlib import Path
 import pytest
 
 from verification.cli import main
+from verification.run_output import sole_use
 from verification.run_output.refusal import OutputRefused
 from verification.run_output.run_directory import run_directory
 from verification.run_output.sole_use import in_sole_use
@@ -85,6 +86,26 @@ def test_lock_of_a_dead_process_stops_nobody(target: Path) -> None:
     target.mkdir(exist_ok=True)
     assert entered(target)
     assert [path.name for path in target.parent.rglob("*")] == ["out"]
+
+
+def test_lock_taken_at_the_other_place_meanwhile_is_noticed(
+    target: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The directory appears, and another process begins, while the first one does."""
+    places = [target.parent / ".out.in-use", target / ".out.in-use"]
+
+    def lock(path: Path, of: Path) -> int | None:
+        monkeypatch.undo()
+        descriptor = sole_use._lock(path, of)
+        target.mkdir(exist_ok=True)
+        (other,) = set(places) - {path}
+        taken.append(sole_use._lock(other, of))
+        return descriptor
+
+    taken: list[int | None] = []
+    monkeypatch.setattr(sole_use, "_lock", lock)
+    assert not entered(target)
+    assert len(taken) == 1
 
 
 def test_of_many_at_a_time_one_is_let_in(tmp_path: Path) -> None:

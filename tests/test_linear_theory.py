@@ -21,6 +21,7 @@ from contact_scene import (
     SurfaceDiscretisation,
 )
 from contact_scene.linear_theory import SMALL_STRAIN, beyond_linear_theory
+from contact_scene.material import Material
 from semi_analytical import Result
 from verification.cases import paper_scene as paper
 from verification.run_output.summary_file import summary_of
@@ -57,12 +58,21 @@ def test_ball_is_told_by_its_contact_radius(radii: float, large: bool) -> None:
     assert summary_of(result, ()).remarks == remarks(result)
 
 
-@pytest.mark.parametrize("film", [RUBBER, FOAM])
-@pytest.mark.parametrize(("part", "large"), [(0.05, False), (0.5, True)])
-def test_film_on_a_rigid_base_is_told_by_how_far_it_is_pressed(
-    film: IsotropicMaterial, part: float, large: bool
+@pytest.mark.parametrize("base", [RIGID, STEEL])
+@pytest.mark.parametrize(
+    ("film", "part", "large"),
+    [
+        (FOAM, 0.05, False),
+        (FOAM, 0.5, True),
+        (RUBBER, 1e-4, False),
+        (RUBBER, 0.05, True),  # squeezed out sideways, sheared by 3 a/h times as much
+        (RUBBER, 0.5, True),
+    ],
+)
+def test_film_is_told_by_how_far_it_is_pressed(
+    base: Material, film: IsotropicMaterial, part: float, large: bool
 ) -> None:
-    body = Body(material=RIGID, layers=(Layer(thickness=1e-4, material=film),))
+    body = Body(material=base, layers=(Layer(thickness=1e-4, material=film),))
     found = remarks(solved(Sphere(radius=1.0, material=RIGID), body, part * 1e-4))
     assert bool(found) is large
     assert all("layer" in told for told in found)

@@ -3,6 +3,7 @@
 import errno
 import json
 import os
+import subprocess
 import threading
 from collections.abc import Callable
 from pathlib import Path
@@ -418,6 +419,28 @@ def test_source_that_git_does_not_vouch_for_counts_as_changed(
     answers["status"] = ""
     assert not provenance.provenance("", {}).changed
     answers["status"] = " M semi_analytical/solve.py"
+    assert provenance.provenance("", {}).changed
+
+
+def test_kept_report_that_is_set_aside_is_no_change_of_the_source(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def git(*arguments: str) -> None:
+        author = ("-c", "user.name=a", "-c", "user.email=a@example.org")
+        subprocess.run(["git", *author, "-C", tmp_path, *arguments], check=True)
+
+    kept = tmp_path / "reports" / "full" / RECORD
+    kept.parent.mkdir(parents=True)
+    for file in (kept, tmp_path / "solve.py"):
+        file.write_text("1")
+    git("init", "--quiet")
+    git("add", "--all")
+    git("commit", "--quiet", "--message", "First")
+    monkeypatch.setattr(provenance, "SOURCE", tmp_path)
+    set_aside_report(kept.parent)
+    assert not kept.exists()
+    assert not provenance.provenance("", {}).changed
+    (tmp_path / "solve.py").write_text("2")
     assert provenance.provenance("", {}).changed
 
 

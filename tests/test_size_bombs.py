@@ -241,6 +241,14 @@ def one_chunk(path: Path) -> None:
         )
 
 
+@pytest.mark.parametrize("row", [None, 0])
+def test_field_without_values_is_refused(tmp_path: Path, row: int | None) -> None:
+    with h5py.File(tmp_path / FIELDS, "w") as file:
+        empty = file.create_dataset("pressure", (0, 8, 8), float)
+        with pytest.raises(stored_values.MISREAD):
+            stored_values.values(empty, row)
+
+
 @pytest.mark.parametrize(("write", "words"), RESULT_BOMBS.values(), ids=RESULT_BOMBS)
 def test_claims_of_a_surface_result_are_refused_unread(
     tmp_path: Path, write: Callable[[Path], object], words: str

@@ -34,9 +34,11 @@ class Apart:
     left_out: dict[str, Mask]
 
     @property
-    def judged(self) -> float:
-        """The largest difference where they are compared."""
+    def judged(self) -> float | None:
+        """The largest difference where they are compared; None if they are nowhere."""
         somewhere = np.any(list(self.left_out.values()), axis=0)
+        if np.all(somewhere):
+            return None
         return float(np.max(self.difference, where=~somewhere, initial=0.0))
 
     @property
@@ -73,7 +75,8 @@ def apart_everywhere(lines: Sequence[Apart], what: str, over: str, x_name: str) 
 def _row(line: Apart) -> tuple[str, ...]:
     value, at, why = line.largest
     place = NOWHERE if why == NOWHERE else plain(at, 2)
-    return line.load, plain(line.judged, 2), plain(value, 2), place, why
+    compared = NOWHERE if line.judged is None else plain(line.judged, 2)
+    return line.load, compared, plain(value, 2), place, why
 
 
 def _listed(parts: list[str]) -> str:

@@ -57,11 +57,17 @@ def set_aside(directory: Path, names: Sequence[str]) -> None:
         if not (directory / record).is_file():
             _remove(directory, names)
             return
-        _remove(directory / EARLIER, names)
-        (directory / EARLIER).mkdir(exist_ok=True)
-        for name in names:
-            with suppress(FileNotFoundError):
-                os.replace(directory / name, directory / EARLIER / name)
+        try:
+            (directory / EARLIER).mkdir(exist_ok=True)
+            _remove(directory / EARLIER, names)
+            for name in names:
+                with suppress(FileNotFoundError):
+                    os.replace(directory / name, directory / EARLIER / name)
+        except OSError as error:
+            raise OutputRefused(
+                f"cannot set what is in {directory} aside into {directory / EARLIER}: "
+                f"{error.strerror}"
+            ) from error
 
 
 def remove_set_aside(directory: Path, names: Sequence[str]) -> None:

@@ -29,7 +29,8 @@ def provenance(
     benchmarks  measured on the way
     timed       what a study finds by its seconds
     """
-    commit, changes = _git("rev-parse", "HEAD"), _git("status", "--porcelain")
+    # Of what computes: a kept report or record that this very command replaces is no change.
+    commit, changes = _git("rev-parse", "HEAD"), _git("status", "--porcelain", ".", ":!reports")
     return Provenance(
         program_version=program_version(),
         commit=commit,

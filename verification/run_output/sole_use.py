@@ -28,12 +28,14 @@ def in_sole_use(target: Path) -> Iterator[None]:
     Where nothing can be locked, nobody is kept out.
     """
     target = Path(os.path.realpath(target))
-    home = target if target.is_dir() else target.parent
+    places = [target.parent, target]
+    home, other = reversed(places) if target.is_dir() else places
+    name = f".{target.name}.in-use"
     with ExitStack() as held:
-        for place in (target.parent, target):
-            path = place / f".{target.name}.in-use"
-            if place == home or os.path.lexists(path):
-                held.enter_context(_locked(path, target))
+        held.enter_context(_locked(home / name, target))
+        # Only now: of two that begin at once, each at its own place, one at least sees the other.
+        if os.path.lexists(other / name):
+            held.enter_context(_locked(other / name, target))
         yield
 
 
@@ -43,7 +45,8 @@ def _locked(path: Path, target: Path) -> Iterator[None]:
 
     def remove() -> None:
         if descriptor is not None:  # before it is unlocked: later it may be somebody else's
-            path.unlink(missing_ok=True)
+            with suppress(OSError):  # without a lock the file keeps nobody out
+                path.unlink()
 
     try:
         with cleaned_up_when_stopped(remove):

@@ -40,9 +40,12 @@ def cleaned_up_when_stopped(
 
 
 def _leave(number: int, frame: FrameType | None) -> None:
-    for clean, _ in reversed(_begun):
-        clean()
-    told = next((text for _, kept in reversed(_begun) if (text := kept())), "")
+    told = ""
+    for clean, kept in reversed(_begun):
+        with suppress(Exception):  # the process ends in any case
+            clean()
+        with suppress(Exception):
+            told = told or kept()
     line = f"interrupted{'; ' if told else ''}{told}\n".encode()
     with suppress(OSError):  # past sys.stderr, which a progress bar may have replaced
         os.write(STDERR, (SHOW_CURSOR + b"\n" if os.isatty(STDERR) else b"") + line)

@@ -39,6 +39,8 @@ def values(dataset: h5py.Dataset, row: int | None = None) -> NDArray[Any]:
     """
     shape = dataset.shape if row is None else (1, *dataset.shape[1:])
     chunk = dataset.chunks or shape
+    if 0 in (*dataset.shape, *chunk):
+        raise ValueError(f"{dataset.name} of shape {dataset.shape} is empty")
     chunks = math.prod(-(-n // piece) for n, piece in zip(shape, chunk, strict=True))
     if chunks > MOST_CHUNKS:
         raise ValueError(f"{dataset.name} has {chunks} chunks, at most {MOST_CHUNKS} are read")
