@@ -95,14 +95,14 @@ def statements_in(price: Price, everything: Everything) -> tuple[Statement, ...]
 def answer_in(price: Price, everything: Everything) -> str:
     """For how many quantities that accuracy is reached, by which methods, at which cost."""
     best = [cheapest(dependable(points), ASKED, price.cost) for points in everything.values()]
-    reached = [point for point in best if point is not None]
-    if not reached:
+    settings = [point for point in best if point is not None]
+    if not settings:
         return f"No setting that was tried reaches {percent(ASKED)}."
-    counts = {name: sum(p.method == name for p in reached) for name in SERIES}
+    counts = {name: sum(p.method == name for p in settings) for name in SERIES}
     parts = [f"{name} for {count}" for name, count in counts.items() if count]
-    dearest = max(reached, key=price.cost)
+    dearest = max(settings, key=price.cost)
     return (
-        f"{percent(ASKED)} is reached for {len(reached)} of {len(best)} quantities, in at most "
+        f"{percent(ASKED)} is reached for {len(settings)} of {len(best)} quantities, in at most "
         f"{price.text(dearest)}; cheapest of ours by {price.words}: {'; '.join(parts)}. "
         f"By method, of the quantities that it was tried on: {_by_method(everything)}."
     )
