@@ -18,7 +18,7 @@ from contact_scene import (
     LoadStep,
     Scene,
 )
-from fem_reference.complementarity import complementarity_method
+from fem_reference.contact.complementarity.method import complementarity_method
 from fem_reference.errors import ContactAtZoneEdge
 from fem_reference.history import march
 from fem_reference.model import ContactModel

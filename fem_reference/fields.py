@@ -8,9 +8,9 @@ from numpy.typing import NDArray
 
 from contact_scene import FiniteElementDiscretisation, Scene
 from contact_scene.summary import ContactStatus
+from fem_reference.mesh.section_mesh import SectionMesh
 from fem_reference.plan import Plan
 from fem_reference.residuals import Residuals
-from fem_reference.section_mesh import SectionMesh
 
 Field = NDArray[np.float64]
 Mask = NDArray[np.bool_]

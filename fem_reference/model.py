@@ -14,11 +14,11 @@ from contact_scene import (
     Scene,
 )
 from contact_scene.friction import FrictionMap
-from fem_reference.compliance import NodalCompliance, composite
-from fem_reference.hats import Hats, hats_on
-from fem_reference.motion import TORSION, Motion, motion
+from fem_reference.elasticity.compliance import NodalCompliance, composite
+from fem_reference.elasticity.hats import Hats, hats_on
+from fem_reference.elasticity.motion import TORSION, Motion, motion
+from fem_reference.mesh.section_mesh import SectionMesh, section_mesh
 from fem_reference.scales import Scales
-from fem_reference.section_mesh import SectionMesh, section_mesh
 
 Field = NDArray[np.float64]
 
@@ -127,7 +127,7 @@ def _section(body: Body, discretisation: FiniteElementDiscretisation) -> Section
     make = section_mesh
     if discretisation.mesher == "gmsh":
         # Only here: gmsh needs libraries that not every machine has.
-        from fem_reference.gmsh_mesh import gmsh_section_mesh as make
+        from fem_reference.mesh.gmsh_mesh import gmsh_section_mesh as make
     return make(body, discretisation.elements_per_radius, discretisation.box)
 
 

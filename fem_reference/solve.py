@@ -93,17 +93,17 @@ def _solver(
 ) -> Solver[Any]:
     """The method on a model; imported only where it is used."""
     if method is Method.PENALTY:
-        from fem_reference.penalty_law import Penalty
-        from fem_reference.penalty_method import penalty_method
+        from fem_reference.contact.penalty.law import Penalty
+        from fem_reference.contact.penalty.method import penalty_method
 
         penalty = Penalty(discretisation.penalty, discretisation.augmentations)
         return penalty_method(model, decided, penalty, discretisation.harmonics)
     if decided.path is Path.HARMONICS:
-        from fem_reference.harmonics.angular_grid import end_grid
-        from fem_reference.harmonics.method import harmonic_method
+        from fem_reference.contact.harmonics.angular_grid import end_grid
+        from fem_reference.contact.harmonics.method import harmonic_method
 
         return harmonic_method(model, decided, end_grid(discretisation.harmonics))
-    from fem_reference.complementarity import complementarity_method
+    from fem_reference.contact.complementarity.method import complementarity_method
 
     return complementarity_method(model, decided)
 

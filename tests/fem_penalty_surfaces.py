@@ -6,11 +6,11 @@ import numpy as np
 from fem_scenes import elements
 
 from contact_scene import RIGID, Body, IsotropicMaterial, Layer, LoadStep, Paraboloid, Scene
-from fem_reference.gauss_points import gauss_points
+from fem_reference.contact.penalty.gauss_points import gauss_points
+from fem_reference.contact.penalty.newton import Iterate
+from fem_reference.contact.penalty.spring_contact import PenaltyLaw
+from fem_reference.contact.penalty.surface import ElasticSurface, Target
 from fem_reference.model import ContactModel
-from fem_reference.penalty_contact import PenaltyLaw
-from fem_reference.penalty_newton import Iterate
-from fem_reference.penalty_surface import ElasticSurface, Target
 
 NU = 0.3
 # A ball of radius 1 on a half-space of modulus 1 under this force: Hertz radius 1, approach 1.

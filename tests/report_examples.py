@@ -11,15 +11,15 @@ from contact_scene import (
     Scene,
 )
 from contact_scene.summary import EffectSummary
-from verification.cases.chart import Chart, Look, Panel, curve
-from verification.cases.outcome import CaseOutcome, RunRecord, SceneRecord, Status, Verdict
-from verification.cases.section_sketch import SectionSketch, section_sketch
-from verification.cases.table import Table
+from verification.exhibits.chart import Chart, Look, Panel, curve
+from verification.exhibits.table import Table
+from verification.judging.outcome import CaseOutcome, RunRecord, SceneRecord, Status, Verdict
+from verification.judging.section_sketch import SectionSketch, section_sketch
 from verification.report.omissions import OMISSIONS
-from verification.report.provenance_record import Provenance
-from verification.report.record import Report, count
-from verification.studies.running.record import StudyRecord
-from verification.studies.running.study import Conclusion, LostCase, Statement
+from verification.running.provenance_record import Provenance
+from verification.running.record import StudyRecord
+from verification.running.report_record import Report, count
+from verification.running.study import Conclusion, LostCase, Statement
 
 STEEL = IsotropicMaterial(young_modulus=210e9, poisson_ratio=0.3)
 COATED = Scene(

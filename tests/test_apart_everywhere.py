@@ -5,7 +5,7 @@ import pytest
 from report_examples import case, report_of, run_record
 
 from verification.cases.apart_everywhere import NOWHERE, TITLE, Apart, apart_everywhere
-from verification.cases.case import ReferenceKind
+from verification.problems.reference import ReferenceKind
 from verification.report.answers import answers
 
 X = np.linspace(-1.0, 1.0, 21)

@@ -14,6 +14,8 @@ import pytest
 
 import fem_reference
 import semi_analytical
+from contact_results.directory.checkpoint import Checkpoint, checkpointed
+from contact_results.directory.checkpoint_file import FORMAT, Unusable, packed, unpacked
 from contact_scene import (
     Body,
     CoulombFriction,
@@ -29,8 +31,6 @@ from contact_scene.solver_errors import GrossSliding
 from contact_scene.standing import Keeper, Standing
 from semi_analytical.discretise import GROWTH
 from semi_analytical.grid import SurfaceGrid
-from verification.run_output.checkpoint import Checkpoint, checkpointed
-from verification.run_output.checkpoint_file import FORMAT, Unusable, packed, unpacked
 
 STEEL = IsotropicMaterial(young_modulus=210e9, poisson_ratio=0.3)
 SOFT = IsotropicMaterial(young_modulus=70e9, poisson_ratio=0.33)
@@ -144,7 +144,7 @@ def checkpoint(directory: Path, said: list[str], identity: str = "this solve") -
 
 @pytest.fixture(autouse=True)
 def _every_increment(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("verification.run_output.checkpoint.SHARE", np.inf)
+    monkeypatch.setattr("contact_results.directory.checkpoint.SHARE", np.inf)
 
 
 @pytest.mark.parametrize("name", SOLVES)
@@ -298,8 +298,9 @@ def test_file_of_a_stranger_runs_nothing(protocol: int, tmp_path: Path) -> None:
 
 @pytest.mark.parametrize(
     "name",
-    ["fem_reference.stored_compliance\nos.system", "fem_reference.stored_compliance\nstore",
-     "semi_analytical.solve\nsolve", "numpy\nload", "verification.cli\nmain"],
+    ["fem_reference.elasticity.stored_compliance\nos.system",
+     "fem_reference.elasticity.stored_compliance\nstore",
+     "semi_analytical.solve\nsolve", "numpy\nload", "slipstick.cli\nmain"],
 )  # fmt: skip
 def test_functions_are_not_looked_up(name: str, tmp_path: Path) -> None:
     content = f"c{name}\n.".encode()
@@ -344,7 +345,7 @@ def test_full_disk_costs_the_checkpoint_alone(tmp_path: Path) -> None:
 def test_checkpoint_stays_only_where_it_is_of_use(
     error: Exception | None, stays: bool, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("verification.run_output.checkpoint.SECONDS_BETWEEN", 0.0)
+    monkeypatch.setattr("contact_results.directory.checkpoint.SECONDS_BETWEEN", 0.0)
     outcome = nullcontext() if error is None else pytest.raises(type(error))
     with outcome, checkpointed(tmp_path / "out", "this solve", print) as keeper:
         SOLVES["similar"](keeper)
@@ -365,7 +366,7 @@ def test_checkpoint_of_a_run_that_was_killed_once_it_was_done_is_cleared_away(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """The directory is there, and what was kept beside it before it appeared."""
-    monkeypatch.setattr("verification.run_output.checkpoint.SECONDS_BETWEEN", 0.0)
+    monkeypatch.setattr("contact_results.directory.checkpoint.SECONDS_BETWEEN", 0.0)
     with pytest.raises(Killed):
         killed_once_done(tmp_path / "out")
     assert (tmp_path / ".out.checkpoint").is_dir()

@@ -14,6 +14,7 @@ import pytest
 from synthetic_result import synthetic_result
 
 import semi_analytical
+from contact_results.one_thread import VARIABLES
 from contact_scene import scene_schema
 from contact_scene.summary import summary_schema
 from semi_analytical.errors import (
@@ -23,9 +24,8 @@ from semi_analytical.errors import (
     ResourceRefused,
     UnsupportedScene,
 )
-from verification.cli import main
-from verification.cli.lazy_commands import COMMANDS
-from verification.one_thread import VARIABLES
+from slipstick.cli import main
+from slipstick.cli.lazy_commands import COMMANDS
 
 ROOT = Path(__file__).resolve().parents[1]
 
@@ -90,7 +90,7 @@ def imported_by(*arguments: object) -> set[str]:
     """Top-level modules that a fresh process has imported after the command."""
     script = (
         "import sys\n"
-        "from verification.cli import main\n"
+        "from slipstick.cli import main\n"
         "try: main(sys.argv[1:])\n"
         "except SystemExit as leaving: assert not leaving.code, leaving.code\n"
         "print('\\n' + ' '.join({name.partition('.')[0] for name in sys.modules}))"
@@ -173,7 +173,7 @@ def test_version_is_printed(capsys: pytest.CaptureFixture[str]) -> None:
 
 def test_package_runs_as_the_command() -> None:
     outcome = subprocess.run(
-        [sys.executable, "-m", "verification", "--version"],
+        [sys.executable, "-m", "slipstick", "--version"],
         cwd=ROOT,
         capture_output=True,
         text=True,

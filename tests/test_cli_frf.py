@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from contact_scene import RIGID, SceneError, read_body
-from verification.cli import main
+from slipstick.cli import main
 from verification.references import load_reference
 
 ROWS = load_reference("frf")["rows"]

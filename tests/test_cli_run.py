@@ -13,8 +13,8 @@ from pathlib import Path
 import jsonschema
 import pytest
 
+from contact_results.directory.file_names import SUMMARY
 from contact_scene.summary import summary_schema
-from verification.run_output.file_names import SUMMARY
 
 ROOT = Path(__file__).resolve().parents[1]
 
@@ -56,7 +56,7 @@ def scene(tmp_path: Path) -> Path:
 
 def command(scene: Path, *options: str) -> list[str]:
     output = str(scene.parent / "out")
-    return [sys.executable, "-m", "verification", "run", str(scene), "--output", output, *options]
+    return [sys.executable, "-m", "slipstick", "run", str(scene), "--output", output, *options]
 
 
 def run(scene: Path, *options: str) -> subprocess.CompletedProcess[str]:

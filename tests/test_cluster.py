@@ -11,10 +11,10 @@ from typing import Any
 import pytest
 from study_cases import Killed, Number, Refusing, Square
 
-from verification.studies.running import cluster
-from verification.studies.running.case_pool import OTHER_CODE, run_cases
-from verification.studies.running.case_store import CaseStore
-from verification.studies.running.cluster import ClusterUnavailable, ClusterWorkers
+from verification.running import cluster
+from verification.running.case_pool import OTHER_CODE, run_cases
+from verification.running.case_store import CaseStore
+from verification.running.cluster import ClusterUnavailable, ClusterWorkers
 
 ROOT = Path(__file__).resolve().parents[1]
 
@@ -48,9 +48,7 @@ def test_silent_address_is_named(monkeypatch: pytest.MonkeyPatch) -> None:
 
 @pytest.mark.parametrize("command", [["verify"], ["study", "coated-tractions"]])
 def test_command_refuses_before_any_work(command: list[str], tmp_path: Path) -> None:
-    code = (
-        f"import sys; sys.path.insert(0, {str(ROOT)!r}); from verification.cli import main; main()"
-    )
+    code = f"import sys; sys.path.insert(0, {str(ROOT)!r}); from slipstick.cli import main; main()"
     outcome = subprocess.run(
         [sys.executable, "-c", code, *command, "--scheduler", "localhost:8786"],
         cwd=tmp_path, capture_output=True, text=True, check=False, timeout=120,
@@ -88,7 +86,7 @@ def test_cluster_gives_the_records_and_names_what_is_lost(address: str, tmp_path
 def test_workers_of_other_sources_are_refused(
     address: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("verification.studies.running.case_pool.code_digest", lambda: b"other")
+    monkeypatch.setattr("verification.running.case_pool.code_digest", lambda: b"other")
     (end,) = run_cases([Square(1.0)], CaseStore(tmp_path), ClusterWorkers(address), print)
     assert end.record is None
     assert end.lost is not None
@@ -100,9 +98,9 @@ def test_workers_of_other_sources_are_refused(
 def test_verification_on_a_cluster_gives_the_report_of_this_machine(
     address: str, tmp_path: Path
 ) -> None:
-    from verification.cases.case import Level
+    from slipstick.cli.judged_cases import judged
     from verification.cases.catalogue import choose
-    from verification.cli.judged_cases import judged
+    from verification.judging.case import Level
 
     cases = choose(Level.QUICK, ("dissimilar_bodies", "fem_torsion"))
     here, _ = judged(cases, "QUICK", tmp_path / "here", 1, fresh=False)

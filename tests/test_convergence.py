@@ -3,7 +3,12 @@
 import numpy as np
 import pytest
 
-from verification.convergence import ORDER_OFF, ObservedOrder, RefinedValue, refined_value
+from verification.convergence.observed_order import (
+    ORDER_OFF,
+    ObservedOrder,
+    RefinedValue,
+    refined_value,
+)
 
 SIZES = 0.25 * 2.0 ** -np.arange(6)
 GRIDS = 0.25 * 2.0 ** (-np.arange(6) / 2)

@@ -6,9 +6,9 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
-from fem_reference.coulomb_return import coulomb_return
-from fem_reference.penalty_contact import PenaltyLaw
-from fem_reference.penalty_law import Penalty, penalty_pressure, penalty_stiffness
+from fem_reference.contact.penalty.coulomb_return import coulomb_return
+from fem_reference.contact.penalty.law import Penalty, penalty_pressure, penalty_stiffness
+from fem_reference.contact.penalty.spring_contact import PenaltyLaw
 
 # Sums of squares of these neither overflow nor vanish.
 SIZES = st.floats(-1e6, 1e6).filter(lambda x: x == 0 or abs(x) > 1e-6)

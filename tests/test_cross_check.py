@@ -9,18 +9,18 @@ import pytest
 import fem_reference
 import semi_analytical
 from contact_scene import IsotropicMaterial
-from verification.cases.case import Level
 from verification.cases.cross_check import cross_check_on
 from verification.cases.cross_check_contacts import FRICTIONS, RATIOS, THICKNESSES, CheckedContact
 from verification.cases.cross_check_sides import Sides
 from verification.cases.cross_check_stress import stress_difference
-from verification.cases.judgement import judge, solve_run
-from verification.cases.outcome import Status
-from verification.cases.section_run import SectionRun
+from verification.judging.case import Level
+from verification.judging.judgement import judge, solve_run
+from verification.judging.outcome import Status
+from verification.judging.run import SectionRun
+from verification.running.study import Settings
 from verification.studies.cross_check.contact_run import CrossCheckRecord, CrossCheckRun
 from verification.studies.cross_check.difference import Difference, differences
 from verification.studies.cross_check.study import STUDY
-from verification.studies.running.study import Settings
 
 SMOOTH = CheckedContact(2.0, 1.0, 0.0)
 ROUGH = CheckedContact(0.5, 1.0, 0.1)

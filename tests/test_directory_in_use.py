@@ -10,11 +10,11 @@ from pathlib import Path
 
 import pytest
 
-from verification.cli import main
-from verification.run_output import sole_use
-from verification.run_output.refusal import OutputRefused
-from verification.run_output.run_directory import run_directory
-from verification.run_output.sole_use import in_sole_use
+from contact_results.directory import sole_use
+from contact_results.directory.refusal import OutputRefused
+from contact_results.directory.run_directory import run_directory
+from contact_results.directory.sole_use import in_sole_use
+from slipstick.cli import main
 
 ROOT = Path(__file__).resolve().parents[1]
 SCENE = """
@@ -32,7 +32,7 @@ cells = [16, 16]
 HOLD = """
 import sys, time
 from pathlib import Path
-from verification.run_output.sole_use import in_sole_use
+from contact_results.directory.sole_use import in_sole_use
 
 with in_sole_use(Path(sys.argv[1])):
     print("held", flush=True)

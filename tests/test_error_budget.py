@@ -6,11 +6,12 @@ from dataclasses import fields
 
 import pytest
 
-from verification.cases.case import Level
+from contact_results.figures import style
 from verification.cases.catalogue import CASES
-from verification.cases.outcome import Status
+from verification.judging.case import Level
+from verification.judging.outcome import Status
 from verification.report.drawing import draw
-from verification.run_output.figures import style
+from verification.running.study import Settings
 from verification.studies.error_budget.budget import (
     BUDGETS,
     DOMAIN,
@@ -22,7 +23,6 @@ from verification.studies.error_budget.budget import (
     parts_of,
 )
 from verification.studies.error_budget.study import STUDY, cases, chart
-from verification.studies.running.study import Settings
 from verification.studies.work_precision.contacts import CONTACTS
 from verification.studies.work_precision.setting import Measured, Method, PrecisionCase
 

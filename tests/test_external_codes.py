@@ -9,9 +9,6 @@ import numpy as np
 import pytest
 
 from verification.cases.external_codes import NAMES, Beside, Sizes, external_codes_on
-from verification.cases.judgement import solve_run
-from verification.cases.outcome import Status
-from verification.cases.verdicts import judge_quantity
 from verification.external_codes import coated_scene
 from verification.external_codes.calculix_deck import (
     BORE,
@@ -24,6 +21,9 @@ from verification.external_codes.calculix_result import read_normal_force, read_
 from verification.external_codes.coated_scene import FRICTIONLESS, HERTZ_RADIUS, far_displacement
 from verification.external_codes.recorded import NAME, Recorded, recorded
 from verification.external_codes.run_calculix import FINENESSES, SCENES, deck_hash
+from verification.judging.judgement import solve_run
+from verification.judging.outcome import Status
+from verification.judging.verdicts import judge_quantity
 from verification.references import load_reference
 
 COARSE = Fineness(10, 1000.0)

@@ -8,8 +8,13 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.optimize import lsq_linear
 
-from fem_reference import box_program
-from fem_reference.box_program import BoxProgram, BoxSolution, Total, solve_box
+from fem_reference.contact.complementarity import box_program
+from fem_reference.contact.complementarity.box_program import (
+    BoxProgram,
+    BoxSolution,
+    Total,
+    solve_box,
+)
 
 ENOUGH = 1e-9
 

@@ -12,14 +12,15 @@ from hankel_responses import Coating, Patch, nodal_forces, patch_energy
 
 from contact_scene import RIGID, Body, IsotropicMaterial, Layer
 from contact_scene.solver_errors import ResourceRefused
-from fem_reference import factored_section, memory, sources, stored_compliance
-from fem_reference.compliance import composite, condense
-from fem_reference.factored_section import FactoredSection
-from fem_reference.gmsh_mesh import GmshMissing, gmsh_section_mesh
-from fem_reference.hats import hats_on
-from fem_reference.motion import PRESSING, SHEARING, TORSION, motion
-from fem_reference.section_mesh import SectionMesh, section_mesh
-from fem_reference.section_outline import sufficient_box
+from fem_reference import memory
+from fem_reference.elasticity import factored_section, sources, stored_compliance
+from fem_reference.elasticity.compliance import composite, condense
+from fem_reference.elasticity.factored_section import FactoredSection
+from fem_reference.elasticity.hats import hats_on
+from fem_reference.elasticity.motion import PRESSING, SHEARING, TORSION, motion
+from fem_reference.mesh.gmsh_mesh import GmshMissing, gmsh_section_mesh
+from fem_reference.mesh.section_mesh import SectionMesh, section_mesh
+from fem_reference.mesh.section_outline import sufficient_box
 
 NU = 0.3
 HALF_SPACE = Body(material=IsotropicMaterial(young_modulus=2 * (1 + NU), poisson_ratio=NU))
@@ -312,26 +313,28 @@ def test_a_compliance_of_other_sources_is_not_taken(cache, monkeypatch, tmp_path
     section = section_mesh(HALF_SPACE, 4)
     condense(section, PRESSING)
     package = tmp_path_factory.mktemp("edited")
-    for module in sources.MODULES:
-        shutil.copy(sources.PACKAGE / f"{module}.py", package)
+    for folder in sources.FOLDERS:
+        shutil.copytree(sources.PACKAGE / folder, package / folder)
     assert sources.sources_digest(package) == sources.sources_digest()
-    with (package / "elasticity.py").open("a") as file:
+    with (package / "elasticity" / "weak_form.py").open("a") as file:
         file.write("# another line\n")
     sources.sources_digest.cache_clear()
     edited = sources.sources_digest(package)
     assert edited != sources.sources_digest()
-    monkeypatch.setattr("fem_reference.compliance.sources_digest", lambda: edited)
+    monkeypatch.setattr("fem_reference.elasticity.compliance.sources_digest", lambda: edited)
     assert not condense(section, PRESSING).from_cache
     assert len(list(cache.iterdir())) == 2
 
 
 def test_what_a_compliance_is_computed_by_is_in_its_key():
-    """What the modules of the key import of this package is in the key, or decides no bit."""
-    no_bits = {"memory", "sources", "stored_compliance"}
-    for module in sources.MODULES:
-        text = (sources.PACKAGE / f"{module}.py").read_text()
-        imported = set(re.findall(r"^from fem_reference\.(\w+) import", text, re.MULTILINE))
-        assert imported <= {*sources.MODULES, *no_bits}, module
+    """Nothing outside FOLDERS is imported there but values, refusals and libraries."""
+    allowed = ("contact_scene", "fem_reference.errors", "fem_reference.memory")
+    for folder in sources.FOLDERS:
+        for source in (sources.PACKAGE / folder).rglob("*.py"):
+            for name in re.findall(r"^from (\S+) import", source.read_text(), re.MULTILINE):
+                ours = name.startswith(("fem_reference", "contact_scene"))
+                inside = name.startswith(tuple(f"fem_reference.{f}" for f in sources.FOLDERS))
+                assert not ours or inside or name.startswith(allowed), (source.name, name)
 
 
 @pytest.mark.parametrize(

@@ -5,9 +5,9 @@ import pytest
 from skfem import MeshQuad
 
 from contact_scene import Body, IsotropicMaterial, Layer
-from fem_reference.elasticity import dilatation, element_stiffness, section_basis
-from fem_reference.gmsh_mesh import GmshMissing, gmsh_section_mesh
-from fem_reference.section_mesh import SectionMesh, section_mesh
+from fem_reference.elasticity.weak_form import dilatation, element_stiffness, section_basis
+from fem_reference.mesh.gmsh_mesh import GmshMissing, gmsh_section_mesh
+from fem_reference.mesh.section_mesh import SectionMesh, section_mesh
 
 R = 10.0
 ALL, PLANE, ANGULAR = (0, 1, 2), (0, 2), (1,)

@@ -23,13 +23,13 @@ from hypothesis import strategies as st
 
 from contact_scene.solver_errors import GrossSliding, NotConverged
 from contact_scene.summary import ContactStatus
-from fem_reference.harmonics import alternation, continuation, increment, newton, shearing
-from fem_reference.harmonics.admissible_shear import into_discs, project
-from fem_reference.harmonics.angular_grid import axisymmetric_grid, end_grid, mid_grid
-from fem_reference.harmonics.equations import Equations, Iterate
-from fem_reference.harmonics.increment import advance
-from fem_reference.harmonics.reported import reported
-from fem_reference.harmonics.shearing import ShearProblem, solve_shear
+from fem_reference.contact.harmonics import alternation, continuation, increment, newton, shearing
+from fem_reference.contact.harmonics.admissible_shear import into_discs, project
+from fem_reference.contact.harmonics.angular_grid import axisymmetric_grid, end_grid, mid_grid
+from fem_reference.contact.harmonics.equations import Equations, Iterate
+from fem_reference.contact.harmonics.increment import advance
+from fem_reference.contact.harmonics.reported import reported
+from fem_reference.contact.harmonics.shearing import ShearProblem, solve_shear
 from fem_reference.loads import NormalTarget, Place, TangentialTarget
 from verification.closed_forms.cattaneo_mindlin import PartialSlip
 

@@ -19,12 +19,12 @@ from contact_scene import (
 )
 from contact_scene.solver_errors import ResourceRefused, UnsupportedScene
 from fem_reference import Method, solve
-from fem_reference.complementarity import complementarity_method
-from fem_reference.harmonics.angular_grid import end_grid
-from fem_reference.harmonics.method import STILL, harmonic_method
-from fem_reference.harmonics.point_contact import point_contact
-from fem_reference.harmonics.ring_compliance import ring_compliance
-from fem_reference.harmonics.surface_tractions import tractions_at
+from fem_reference.contact.complementarity.method import complementarity_method
+from fem_reference.contact.harmonics.angular_grid import end_grid
+from fem_reference.contact.harmonics.method import STILL, harmonic_method
+from fem_reference.contact.harmonics.point_contact import point_contact
+from fem_reference.contact.harmonics.ring_compliance import ring_compliance
+from fem_reference.contact.harmonics.surface_tractions import tractions_at
 from fem_reference.history import march
 from fem_reference.loads import Loads, NormalTarget
 from fem_reference.model import ContactModel

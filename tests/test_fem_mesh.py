@@ -13,10 +13,10 @@ from hypothesis import strategies as st
 
 from contact_scene import RIGID, Body, IsotropicMaterial, Layer
 from contact_scene.solver_errors import SolverError, UnsupportedScene
-from fem_reference.gmsh_mesh import GmshMissing, gmsh_section_mesh
-from fem_reference.mesh_file import read_section, write_section
-from fem_reference.section_mesh import SectionMesh, section_mesh
-from fem_reference.section_outline import GROWTH
+from fem_reference.mesh.gmsh_mesh import GmshMissing, gmsh_section_mesh
+from fem_reference.mesh.mesh_file import read_section, write_section
+from fem_reference.mesh.section_mesh import SectionMesh, section_mesh
+from fem_reference.mesh.section_outline import GROWTH
 
 SOFT = IsotropicMaterial(young_modulus=1.0, poisson_ratio=0.3)
 HARD = IsotropicMaterial(young_modulus=3.0, poisson_ratio=0.2)

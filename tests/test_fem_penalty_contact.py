@@ -24,8 +24,9 @@ from fem_scenes import elements
 from contact_scene import Body, IsotropicMaterial, Layer, Paraboloid, Scene
 from contact_scene.solver_errors import GrossSliding, NotConverged
 from contact_scene.summary import ContactStatus
-from fem_reference import ContactAtZoneEdge, Increment, Method, Result, penalty_increment, solve
-from fem_reference.penalty_springs import solve_by_springs
+from fem_reference import ContactAtZoneEdge, Increment, Method, Result, solve
+from fem_reference.contact.penalty import increment as penalty_increment
+from fem_reference.contact.penalty.springs import solve_by_springs
 from verification.closed_forms.cattaneo_mindlin import PartialSlip
 from verification.closed_forms.moduli import tangential_modulus
 from verification.closed_forms.tangential_history import TangentialHistory

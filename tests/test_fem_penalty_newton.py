@@ -7,10 +7,10 @@ import numpy as np
 import pytest
 from fem_penalty_surfaces import LOAD, elastic_surface, law_on, pressed, untouched
 
-from fem_reference.gauss_points import gauss_points
-from fem_reference.penalty_newton import Iterate, solve_by_newton
-from fem_reference.penalty_springs import TANGENTIAL, relax, solve_by_springs
-from fem_reference.penalty_step import newton_step
+from fem_reference.contact.penalty.gauss_points import gauss_points
+from fem_reference.contact.penalty.newton import Iterate, solve_by_newton
+from fem_reference.contact.penalty.springs import TANGENTIAL, relax, solve_by_springs
+from fem_reference.contact.penalty.step import newton_step
 
 TIGHT = 1e-11
 SLIDING = 3 * np.pi / 16 * LOAD  # torque over µ

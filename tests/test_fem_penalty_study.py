@@ -5,11 +5,11 @@ from math import pi
 
 import pytest
 
-from verification.cases.case import Level
-from verification.cases.outcome import Status
+from verification.judging.case import Level
+from verification.judging.outcome import Status
+from verification.running.study import Conclusion, Settings
 from verification.studies.penalty.case import HERTZIAN, PenaltyCase, PenaltyRecord
 from verification.studies.penalty.study import STUDY
-from verification.studies.running.study import Conclusion, Settings
 
 SETTINGS = Settings(Level.QUICK)
 Change = Callable[[PenaltyCase, PenaltyRecord], PenaltyRecord]

@@ -14,17 +14,17 @@ import numpy as np
 import pytest
 from contact_scenes import APPROACH, LIMIT, LOAD, MU, PRESS, A, grid, paraboloid, push, slide
 
+from contact_results.files.result_files import write_result
 from contact_scene import RIGID, Body, LoadStep
 from contact_scene.cycles import load_cycles
 from contact_scene.load_path import load_path
 from semi_analytical import SurfaceGrid, solve
 from semi_analytical.fretting import _half_diameter, fretting_cycles
-from verification.cases import paper_scene as paper
 from verification.closed_forms.cattaneo_mindlin import PartialSlip
 from verification.closed_forms.moduli import tangential_modulus
 from verification.closed_forms.ruiz import CycledContact
 from verification.closed_forms.sheared_surface import trailing_edge_tension
-from verification.run_output.result_files import write_result
+from verification.problems import paper_scene as paper
 
 ROOT = Path(__file__).resolve().parents[1]
 TOLERANCE = 1e-8

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from semi_analytical.frf.stack import Stack
-from verification.studies.classical_forms import FORMS, digit_losses
-from verification.studies.sampling_route import sampling_errors
+from verification.laws.classical_forms import FORMS, digit_losses
+from verification.laws.sampling_route import sampling_errors
 
 COATED = Stack([(2.0, 0.3, 1.0)], (1.0, 0.25))
 

@@ -1,7 +1,8 @@
-"""Imports go one way: scene <- solvers <- verification <- tests (CONTRIBUTING.md).
+"""Imports go one way: scene <- solvers <- results <- verification <- command (CONTRIBUTING.md).
 
-`ORDERS` holds the reading order of each solver: a module imports only from entries above its own.
-An entry that is a package stands for all its modules. A new module has to be placed in its list.
+`ORDERS` holds the reading order of a package: a module imports only from entries above its own. An
+entry that is a package stands for all its modules, which may have an order of their own. A new
+module has to be placed in its list.
 """
 
 import ast
@@ -12,7 +13,11 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).resolve().parents[1]
-PACKAGES = ("contact_scene", "semi_analytical", "fem_reference", "verification")
+# From the ground up: a package imports those before it, but for what FORBIDDEN says.
+PACKAGES = (
+    *("contact_scene", "semi_analytical", "fem_reference", "contact_results"),
+    *("verification", "slipstick"),
+)
 
 ORDER = (
     "errors",
@@ -55,68 +60,37 @@ ORDER = (
     "solve",
 )
 
-FEM_ORDER = (
-    "errors",
-    "memory",
-    "scales",
-    "section_outline",
-    "section_mesh",
-    "gmsh_mesh",
-    "mesh_file",
-    "far_field",
-    "motion",
-    "elasticity",
-    "elimination_order",
-    "numbering",
-    "assembly",
-    "factored_section",
-    "sources",
-    "stored_compliance",
-    "compliance",
-    "hats",
-    "path",
-    "coupling",
-    "refusals",
-    "effects",
-    "plan",
-    "loads",
-    "residuals",
-    "fields",
-    "energy",
-    "model",
-    "history",
-    "box_program",
-    "edge",
-    "contact_problem",
-    "pressing",
-    "shearing",
-    "state",
-    "slipping",
-    "together",
-    "alternation",
-    "increment",
-    "complementarity",
-    "harmonics",
-    "stress",
-    "gauss_points",
-    "coulomb_return",
-    "penalty_law",
-    "penalty_surface",
-    "penalty_edge",
-    "penalty_problem",
-    "penalty_contact",
-    "penalty_step",
-    "penalty_newton",
-    "penalty_springs",
-    "penalty_state",
-    "augmentation",
-    "penalty_residuals",
-    "penalty_increment",
-    "penalty_method",
-    "expected_radius",
-    "solve",
-)
-ORDERS = {"semi_analytical": ORDER, "fem_reference": FEM_ORDER}
+ORDERS = {
+    "semi_analytical": ORDER,
+    "fem_reference": (
+        *("errors", "memory", "scales", "mesh", "elasticity", "path", "coupling", "refusals"),
+        *("effects", "plan", "loads", "residuals", "fields", "energy", "model", "history"),
+        *("contact", "stress", "expected_radius", "solve"),
+    ),
+    "fem_reference.mesh": ("section_outline", "section_mesh", "gmsh_mesh", "mesh_file"),
+    "fem_reference.elasticity": (
+        *("far_field", "motion", "weak_form", "elimination_order", "numbering", "assembly"),
+        *("factored_section", "sources", "stored_compliance", "compliance", "hats"),
+    ),
+    "fem_reference.contact": ("complementarity", "harmonics", "penalty"),
+    "fem_reference.contact.complementarity": (
+        *("box_program", "edge", "contact_problem", "pressing", "shearing", "state", "slipping"),
+        *("together", "alternation", "increment", "method"),
+    ),
+    "fem_reference.contact.penalty": (
+        *("gauss_points", "coulomb_return", "law", "surface", "edge", "problem", "spring_contact"),
+        *("step", "newton", "springs", "state", "augmentation", "residuals", "increment", "method"),
+    ),
+    # Its floors: what judges stands on what is known, what is shown on what was judged.
+    "verification": (
+        *("closed_forms", "references", "baselines", "norms", "convergence", "exhibits"),
+        *("problems", "laws", "observed", "external_codes"),
+        "judging",
+        *("running", "regression"),
+        *("cases", "defects", "studies", "peers", "benchmarks"),
+        "report",
+    ),
+}
 
 # What the modules within each name may not import.
 FORBIDDEN = {
@@ -172,11 +146,10 @@ def imports(name: str, path: Path, known: dict[str, Path]) -> Iterator[str]:
                 yield from (arg.value for arg in node.args[:1] if isinstance(arg, ast.Constant))
 
 
-def rank(name: str) -> int | None:
-    """Place of a solver's module in its order; None for the package itself or a stranger."""
-    package, _, rest = name.partition(".")
-    order, member = ORDERS.get(package, ()), rest.partition(".")[0]
-    return order.index(member) if member in order else None
+def rank(name: str, package: str) -> int | None:
+    """Place of a module in the order of a package; None for the package itself or a stranger."""
+    member = name[len(package) + 1 :].partition(".")[0]
+    return ORDERS[package].index(member) if member in ORDERS[package] else None
 
 
 def objection(name: str, target: str) -> str | None:
@@ -190,13 +163,16 @@ def objection(name: str, target: str) -> str | None:
         allowed = {"numpy", "scipy", *sys.stdlib_module_names}
         if not within(target, "verification.closed_forms") and target.split(".")[0] not in allowed:
             return f"{name} imports {target}: closed forms rest on numpy and scipy alone"
-    solver, _, rest = name.partition(".")
-    if solver in ORDERS and rest and within(target, solver):
-        own, other = rank(name), rank(target)
-        same_package = name.split(".")[1] == target.partition(".")[2].partition(".")[0]
-        if other is None:
+    house, room = name.partition(".")[0], target.partition(".")[0]
+    if house in PACKAGES and room in PACKAGES and PACKAGES.index(room) > PACKAGES.index(house):
+        return f"{name} imports {target}: {room} stands above {house}"
+    for package in ORDERS:
+        if name == package or not (within(name, package) and within(target, package)):
+            continue
+        own, other = rank(name, package), rank(target, package)
+        if target == package:
             return f"{name} imports {target}: import from the module that defines it"
-        if own is not None and other >= own and not same_package:
+        if own is not None and other is not None and other > own:
             return f"{name} imports {target}: which stands below it in its order"
     return None
 
@@ -205,9 +181,10 @@ def violations(root: Path) -> list[str]:
     """All broken rules under root, one sentence each."""
     known = modules(root)
     found = [
-        f"{name} has no place in the order of its package"
+        f"{name} has no place in the order of {package}"
         for name in known
-        if name.partition(".")[0] in ORDERS and "." in name and rank(name) is None
+        for package in ORDERS
+        if name != package and within(name, package) and rank(name, package) is None
     ]
     for name, path in known.items():
         reasons = (objection(name, target) for target in imports(name, path, known))
@@ -230,11 +207,16 @@ PLANTED = {
     "semi_analytical/normal.py": "from contact_scene import Scene",
     "semi_analytical/tangential.py": "from . import grid",
     "semi_analytical/helpers.py": "import math",
-    "fem_reference/motion.py": "import importlib\nimportlib.import_module('semi_analytical.grid')",
-    "fem_reference/hats.py": "from fem_reference.model import ContactModel",
-    "fem_reference/mesh.py": "import numpy as np",
+    "fem_reference/elasticity/motion.py": "import importlib\n"
+    "importlib.import_module('semi_analytical.grid')",
+    "fem_reference/elasticity/hats.py": "from fem_reference.model import ContactModel",
+    "fem_reference/meshes.py": "import numpy as np",
+    "contact_results/files.py": "from verification.norms import relative_l2",
+    "verification/judging/case.py": "from verification.cases import catalogue",
+    "verification/running/study.py": "def draw():\n    from verification.report import page",
+    "verification/report/page.py": "from slipstick.cli import terminal",
     "verification/closed_forms/hertz.py": "from contact_scene import Scene",
-    "verification/closed_forms/cone.py": "from verification.metrics import relative_error",
+    "verification/closed_forms/cone.py": "from verification.norms import relative_error",
     "verification/closed_forms/flat_punch.py": "import pint",
     "verification/cases.py": "from tests.strategies import scenes",
 }
@@ -244,8 +226,8 @@ SOUND = {
     "semi_analytical/influence/from_frf.py": "from ..frf.half_space import f\nfrom . import cell",
     "semi_analytical/influence/cell.py": "from semi_analytical.grid import SurfaceGrid",
     "semi_analytical/frf/half_space.py": "import numpy as np",
-    "fem_reference/hats.py": "from fem_reference.compliance import NodalCompliance",
-    "fem_reference/compliance.py": "from .motion import motion",
+    "fem_reference/elasticity/hats.py": "from fem_reference.elasticity.compliance import Nodal",
+    "fem_reference/elasticity/compliance.py": "from .motion import motion",
     "semi_analytical/solve.py": "from . import grid\nfrom contact_scene import Scene",
     "verification/closed_forms/hertz.py": "import scipy.special\nfrom . import cone",
     "verification/closed_forms/cone.py": "from numpy import pi",

@@ -32,9 +32,9 @@ cells = [16, 16]
 PROGRAM = f"""
 import sys
 sys.path.insert(0, {str(ROOT)!r})
-import verification.run_output.checkpoint as checkpoint
+import contact_results.directory.checkpoint as checkpoint
 checkpoint.SECONDS_BETWEEN, checkpoint.SHARE = 0.0, float("inf")
-from verification.cli import main
+from slipstick.cli import main
 main()
 """
 CASES = ("classical_forms", "cattaneo_mindlin")

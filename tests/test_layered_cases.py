@@ -10,21 +10,21 @@ from semi_analytical.frf import matrix
 from semi_analytical.frf.surface import SurfaceScalars
 from semi_analytical.influence import bodies, layered
 from verification.cases import layered_reference as reference
-from verification.cases.case import Case
 from verification.cases.classical_forms import classical_forms
 from verification.cases.coated_paraboloid import coated_paraboloid_on
 from verification.cases.film_stiffness import film_stiffness
 from verification.cases.frf_laws import frf_laws
-from verification.cases.judgement import judge
 from verification.cases.layered_identities import layered_identities_on
-from verification.cases.outcome import CaseOutcome, Status
 from verification.cases.sampling_route import sampling_route
 from verification.cases.thin_layer import thin_layer_on
+from verification.judging.case import Case
+from verification.judging.judgement import judge
+from verification.judging.outcome import CaseOutcome, Status
+from verification.laws import limit_laws, symmetry_laws
+from verification.laws.law import Law, worst_violation
 from verification.report.page import render_page
-from verification.report.provenance import provenance
-from verification.report.record import Benchmark, Report, count
-from verification.studies import limit_laws, symmetry_laws
-from verification.studies.law import Law, worst_violation
+from verification.running.provenance import provenance
+from verification.running.report_record import Benchmark, Report, count
 
 Patch = pytest.MonkeyPatch
 LAWS = {

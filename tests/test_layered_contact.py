@@ -7,8 +7,8 @@ from contact_scene import RIGID, Body, IsotropicMaterial, Layer, LoadStep, Parab
 from semi_analytical import SurfaceGrid, plan, solve
 from semi_analytical.errors import ResourceRefused, UnsupportedScene
 from semi_analytical.influence import layered_memory
-from verification.cases.layered_scene import surface_of
 from verification.closed_forms.coated_indentation import paraboloid
+from verification.problems.layered_scene import surface_of
 
 RADIUS = 100.0
 GRID = SurfaceGrid((64, 64), (3.0, 3.0))

@@ -8,6 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import semi_analytical
+from contact_results.files.summary_file import summary_of
 from contact_scene import (
     RIGID,
     Body,
@@ -23,8 +24,7 @@ from contact_scene import (
 from contact_scene.linear_theory import SMALL_STRAIN, beyond_linear_theory
 from contact_scene.material import Material
 from semi_analytical import Result
-from verification.cases import paper_scene as paper
-from verification.run_output.summary_file import summary_of
+from verification.problems import paper_scene as paper
 
 STEEL = IsotropicMaterial(young_modulus=210e9, poisson_ratio=0.3)
 RUBBER = IsotropicMaterial(young_modulus=2e6, poisson_ratio=0.5)

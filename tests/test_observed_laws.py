@@ -10,18 +10,18 @@ from contact_scene import Body, CoulombFriction, LoadStep
 from contact_scene.solver_errors import NotConverged
 from fem_reference import Method
 from verification.cases import coupled_history
-from verification.cases import paper_scene as paper
-from verification.cases.case import SOLVER_TOLERANCE, Case, Run
-from verification.cases.judgement import solve_run
-from verification.cases.law_verdicts import OTHER_NORMS, judge_laws
-from verification.cases.layered_scene import SUBSTRATE, pressed, rigid_ball
-from verification.cases.outcome import Status
-from verification.cases.paper_scene import FRICTION_LIMIT, NORMAL_FORCE, NU_ZERO, STEEL
-from verification.cases.section_run import SectionRun, per_radius
 from verification.cases.torsion import torque_step
-from verification.cases.verdicts import judge_quantity
+from verification.judging.case import Case
+from verification.judging.judgement import solve_run
+from verification.judging.law_verdicts import OTHER_NORMS, judge_laws
+from verification.judging.outcome import Status
+from verification.judging.run import SOLVER_TOLERANCE, Run, SectionRun, per_radius
+from verification.judging.verdicts import judge_quantity
 from verification.observed.laws import observed
 from verification.observed.prescribed import missed
+from verification.problems import paper_scene as paper
+from verification.problems.layered_scene import SUBSTRATE, pressed, rigid_ball
+from verification.problems.paper_scene import FRICTION_LIMIT, NORMAL_FORCE, NU_ZERO, STEEL
 
 ALLOWED = OTHER_NORMS * SOLVER_TOLERANCE
 SEEN = 10 * ALLOWED

@@ -5,15 +5,15 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from verification.cases.case import Case
-from verification.cases.order_of_convergence import (
+from verification.judging.case import Case
+from verification.judging.order_of_convergence import (
     Followed,
     NotYetAsymptotic,
     OrderOfChange,
     Refinement,
 )
-from verification.cases.outcome import Status
-from verification.cases.verdicts import judge_order
+from verification.judging.outcome import Status
+from verification.judging.verdicts import judge_order
 
 SIZES = 0.25 * 2.0 ** -np.arange(6)
 LIMIT = 3.0

@@ -10,19 +10,20 @@ import numpy as np
 import pytest
 
 from verification.cases import sheared_increments
-from verification.cases.case import Case, Derived, Level, Quantity, Required, identity
 from verification.cases.catalogue import catalogue
-from verification.cases.chart import Look
-from verification.cases.convergence_chart import convergence_chart
 from verification.cases.fem_hertz import fem_hertz_on
 from verification.cases.fem_partial_slip import fem_partial_slip_on
-from verification.cases.judgement import solve_run
-from verification.cases.order_of_convergence import Followed, OrderOfConvergence, Refinement
-from verification.cases.orders import LATER, REASONS, SECTION, SURFACE, not_judged
-from verification.cases.outcome import Status, Verdict
 from verification.cases.sheared_increments import sheared_increments_on
-from verification.cases.verdicts import judge_order, judge_quantity
-from verification.convergence import observed_order
+from verification.convergence.observed_order import observed_order
+from verification.exhibits.chart import Look
+from verification.exhibits.convergence_chart import convergence_chart
+from verification.judging.case import Case, Derived, Level, Quantity, Required
+from verification.judging.judgement import solve_run
+from verification.judging.order_of_convergence import Followed, OrderOfConvergence, Refinement
+from verification.judging.outcome import Status, Verdict
+from verification.judging.verdicts import judge_order, judge_quantity
+from verification.problems.reference import identity
+from verification.report.order_table import LATER, REASONS, SECTION, SURFACE, not_judged
 
 SIZES = 0.1 * 2.0 ** (-np.arange(6) / 2)
 NAMED = (Followed.PRESSURE, Followed.PEAK_PRESSURE, Followed.APPROACH, Followed.SHIFT)

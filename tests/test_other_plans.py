@@ -10,14 +10,14 @@ from contact_scenes import scene as alike_scene
 from coupled_scenes import BALL, bulk, coated, press, scene
 from coupled_scenes import push as coupled_push
 
+from contact_results.difference import largest_difference
 from contact_scene import LoadStep
 from semi_analytical import Coupling, all_effects, one_way, plan, solve
 from semi_analytical.operator import CouplingOperator
 from semi_analytical.other_plans import COMPUTED
 from verification.cases.goodman_indentation import goodman_indentation_on
-from verification.cases.judgement import judge
-from verification.cases.outcome import Status
-from verification.result_difference import largest_difference
+from verification.judging.judgement import judge
+from verification.judging.outcome import Status
 
 TOLERANCE = 1e-8
 # Tractions answer residuals of the tolerance a few times over.

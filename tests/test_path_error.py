@@ -13,11 +13,11 @@ from coupled_scenes import scene as coupled_scene
 from scene_texts import RIGID_BALL
 
 import semi_analytical
+from contact_results.files.summary_file import summary_of
+from contact_results.path_error import CHANGES, compared, path_errors, shear_difference
 from contact_scene.path_error import PathError
 from contact_scene.summary import load_summary
 from semi_analytical import Result, plan, solve
-from verification.path_error import CHANGES, compared, path_errors, shear_difference
-from verification.run_output.summary_file import summary_of
 
 TOLERANCE = 1e-9
 TURNING = scene(PRESS, push(0.5), push(0, 0.5, increments=8))
@@ -127,9 +127,7 @@ ROOT = Path(__file__).resolve().parents[1]
 
 def test_command_writes_and_prints_the_estimate(tmp_path):
     (tmp_path / "scene.toml").write_text(SCENE)
-    code = (
-        f"import sys; sys.path.insert(0, {str(ROOT)!r}); from verification.cli import main; main()"
-    )
+    code = f"import sys; sys.path.insert(0, {str(ROOT)!r}); from slipstick.cli import main; main()"
     arguments = ["run", "scene.toml", "--output", "out", "--no-figures", "--path-error"]
     outcome = subprocess.run(
         [sys.executable, "-c", code, *arguments],

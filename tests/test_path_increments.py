@@ -7,9 +7,9 @@ from coupled_scenes import bulk, coated
 from coupled_scenes import press as pressed
 from coupled_scenes import scene as coupled_scene
 
+from contact_results.path_error import shear_difference
 from contact_scene import FlatPunch
 from semi_analytical import Result, plan, solve
-from verification.path_error import shear_difference
 
 TOLERANCE = 1e-7
 DEFAULT = 1e-2

@@ -8,14 +8,15 @@ from xml.etree import ElementTree
 
 import pytest
 
-from verification.cases.case import Level
+from slipstick.cli import main
 from verification.cases.catalogue import catalogue
-from verification.cases.change import ChangeKind
 from verification.cases.hertz_point import hertz_on
-from verification.cases.judgement import judge
-from verification.cases.outcome import CaseOutcome, FindingRecord, Status, Verdict
-from verification.cases.refinement import refinement
-from verification.cli import main
+from verification.judging.case import Level
+from verification.judging.change import ChangeKind
+from verification.judging.judgement import judge
+from verification.judging.outcome import CaseOutcome, FindingRecord, Status, Verdict
+from verification.judging.refinement import refinement
+from verification.judging.verdict_text import failure_line
 from verification.regression import baseline_files
 from verification.regression.acceptance import accept, baselines_of
 from verification.regression.baseline import COUNTERS, key_of
@@ -25,10 +26,9 @@ from verification.regression.refusal import BaselineRefused
 from verification.report.changes import change_counts, change_rows
 from verification.report.files import RECORD, write_report
 from verification.report.junit import render_junit
-from verification.report.numbers import failure_line
 from verification.report.page import render_page
-from verification.report.record import Provenance, Report, count
 from verification.report.summary_text import MOST_LINES, render_summary
+from verification.running.report_record import Provenance, Report, count
 
 COMMIT = "1a2b3c4d5e6f708192a3b4c5d6e7f8091a2b3c4d"
 REASON = "first numbers | of <b>this</b> test"

@@ -12,13 +12,13 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import verification.report
-from verification.cases.chart import Chart, Look, Panel, curve
+from contact_results.figures import style
 from verification.cases.cross_check_contacts import FRICTIONS, RATIOS, THICKNESSES
+from verification.exhibits.chart import Chart, Look, Panel, curve
 from verification.report.drawing import draw
 from verification.report.log_ticks import MOST, log_ticks
 from verification.report.svg import inline_svg
 from verification.report.thinned import FINENESS, thinned
-from verification.run_output.figures import style
 from verification.studies.cross_check.charts import difference_chart
 from verification.studies.cross_check.contacts import is_its_own
 

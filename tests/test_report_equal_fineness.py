@@ -8,17 +8,19 @@ import pytest
 from report_examples import case, report_of, run_record
 
 from semi_analytical.grid import SurfaceGrid
-from verification.cases.case import Case, Level, Quantity, Required, Run, closed_form
 from verification.cases.cattaneo_mindlin import cattaneo_mindlin
 from verification.cases.coated_paraboloid import coated_paraboloid
 from verification.cases.fem_coated import fem_coated
 from verification.cases.fem_partial_slip import fem_partial_slip
 from verification.cases.fem_torsion import fem_torsion
 from verification.cases.hertz_point import hertz_point
-from verification.cases.outcome import CaseOutcome, RefinedErrors
-from verification.cases.paper_scene import NU_ZERO
-from verification.cases.refined_errors import LEAST, followed_on, refined_errors
 from verification.cases.torsion import torsion
+from verification.judging.case import Case, Level, Quantity, Required
+from verification.judging.outcome import CaseOutcome, RefinedErrors
+from verification.judging.refined_errors import LEAST, followed_on, refined_errors
+from verification.judging.run import Run
+from verification.problems.paper_scene import NU_ZERO
+from verification.problems.reference import closed_form
 from verification.report.answers import answers
 from verification.report.both_solvers import CELLS, ELEMENTS, shared_references
 from verification.report.equal_fineness import (
@@ -31,7 +33,7 @@ from verification.report.equal_fineness import (
     typical_error,
     votes,
 )
-from verification.report.record import Report
+from verification.running.report_record import Report
 
 COARSE, FINE = np.geomspace(8, PER_RADIUS, 9), np.geomspace(16, 8 * PER_RADIUS, 11)
 RATHER_SURE = 1e-7

@@ -11,7 +11,7 @@ import pytest
 from report_examples import case, report_of, run_record, study
 
 from verification.report.page import render_page
-from verification.report.record import Report
+from verification.running.report_record import Report
 
 NAMES = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable")
 FLAGS = (

@@ -8,9 +8,7 @@ import pytest
 from report_examples import case, report_of, run_record
 
 from semi_analytical import solve
-from verification.cases.case import Case
 from verification.cases.cattaneo_mindlin import cattaneo_mindlin_on
-from verification.cases.chart import Chart, Curve, Look
 from verification.cases.coated_paraboloid import coated_paraboloid_on
 from verification.cases.fem_coated import Row, fem_coated_on
 from verification.cases.fem_hertz import fem_hertz_on
@@ -18,10 +16,12 @@ from verification.cases.fem_partial_slip import fem_partial_slip_on
 from verification.cases.hertz_point import hertz_on
 from verification.cases.indentation_charts import indentation_chart
 from verification.cases.indentation_reference import FEW, WEAK
-from verification.cases.judgement import solve_run
+from verification.exhibits.chart import Chart, Curve, Look
+from verification.judging.case import Case
+from verification.judging.judgement import solve_run
 from verification.references import load_reference
 from verification.report.profiles_together import NEAR, SAME, profiles_together
-from verification.report.record import Report
+from verification.running.report_record import Report
 
 CELLS, ELEMENTS = 32, 8
 

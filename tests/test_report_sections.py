@@ -17,10 +17,10 @@ from report_examples import (
 )
 
 from contact_scene import RIGID, FlatPunch, LoadStep, Scene
-from verification.cases.case import ReferenceKind
-from verification.cases.outcome import CaseOutcome, OrderRecord, Status
-from verification.cases.section_sketch import HALF_WIDTH, section_sketch
-from verification.cases.table import Table
+from verification.exhibits.table import Table
+from verification.judging.outcome import CaseOutcome, OrderRecord, Status
+from verification.judging.section_sketch import HALF_WIDTH, section_sketch
+from verification.problems.reference import ReferenceKind
 from verification.report.answers import answers
 from verification.report.both_solvers import both_solvers_charts, furthest_apart, shared_references
 from verification.report.columns import alignment
@@ -30,13 +30,13 @@ from verification.report.extent import extent
 from verification.report.features import features
 from verification.report.page import render_page
 from verification.report.prices import price_table, prices, telling_chart
-from verification.report.record import Report
 from verification.report.sections import TITLES, stored_records, study_section
 from verification.report.sketch import sketch_svg, thin_layers
 from verification.report.summary_text import render_summary
+from verification.running.record import StudyRecord, dump_study
+from verification.running.report_record import Report
+from verification.running.study import Conclusion, Statement
 from verification.studies.catalogue import STUDIES
-from verification.studies.running.record import StudyRecord, dump_study
-from verification.studies.running.study import Conclusion, Statement
 
 SECTIONS = (
     "verdict", "baseline", "answers", "cases", "solvers", "paper", "frf", "cost", "stability",

@@ -13,14 +13,15 @@ from xml.etree import ElementTree
 import pytest
 from report_examples import case, made_by, report_of, run_record, study
 
-from verification.cases.change import ChangeKind
+from contact_results.directory.directory_lock import acquire, release
+from slipstick.cli import main
+from slipstick.cli.errors import ExitCode, exit_code
 from verification.cases.judged_case import CaseToJudge, JudgedCase
-from verification.cases.outcome import CaseOutcome, Status, Verdict
-from verification.cli import main
-from verification.cli.errors import ExitCode, exit_code
+from verification.judging.change import ChangeKind
+from verification.judging.outcome import CaseOutcome, Status, Verdict
+from verification.judging.verdict_text import order_text
 from verification.regression.acceptance import accept, baselines_of
 from verification.regression.comparison import compared
-from verification.report import provenance
 from verification.report.changes import change_rows
 from verification.report.files import (
     EARLIER,
@@ -32,16 +33,15 @@ from verification.report.files import (
     write_report,
 )
 from verification.report.junit import render_junit
-from verification.report.numbers import order_text
 from verification.report.page import render_page
-from verification.report.provenance_record import Provenance
-from verification.report.record import Report, load_report
 from verification.report.sections import stored_records
 from verification.report.summary_text import failure_lines, render_summary
-from verification.run_output.directory_lock import acquire, release
-from verification.studies.running.case_store import CaseStore, DamagedRecord, _digest
-from verification.studies.running.record import StudyRecord, dump_study
-from verification.studies.running.study import LostCase
+from verification.running import provenance
+from verification.running.case_store import CaseStore, DamagedRecord, _digest
+from verification.running.provenance_record import Provenance
+from verification.running.record import StudyRecord, dump_study
+from verification.running.report_record import Report, load_report
+from verification.running.study import LostCase
 
 REASON = "as computed"
 OTHER = made_by().model_copy(update={"sources": "those", "commit": "abc1234" + 33 * "0"})
@@ -503,7 +503,7 @@ def test_sources_are_the_same_by_digest_or_by_commit(
 def test_record_of_these_sources_goes_before_others(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("verification.report.provenance.provenance", lambda *_: made_by())
+    monkeypatch.setattr("verification.running.provenance.provenance", lambda *_: made_by())
     for place, record in (
         ("a", made(study("stability", level="quick"), made_by(), failed=True)),
         ("b", made(study("stability", level="full"), OTHER)),

@@ -10,11 +10,11 @@ from typing import Any
 
 import pytest
 
-from verification.run_output.directory_lock import acquire, release
-from verification.run_output.file_names import SUMMARY, TIMING
-from verification.run_output.refusal import OutputRefused
-from verification.run_output.run_directory import run_directory
-from verification.run_output.timing import Stopwatch, write_timing
+from contact_results.directory.directory_lock import acquire, release
+from contact_results.directory.file_names import SUMMARY, TIMING
+from contact_results.directory.refusal import OutputRefused
+from contact_results.directory.run_directory import run_directory
+from contact_results.directory.timing import Stopwatch, write_timing
 
 ROOT = Path(__file__).resolve().parents[1]
 
@@ -185,7 +185,7 @@ def test_signal_during_work_cleans_up(tmp_path: Path, number: signal.Signals) ->
 SWALLOWED = """
 import signal, sys, weakref
 from pathlib import Path
-from verification.run_output.run_directory import run_directory
+from contact_results.directory.run_directory import run_directory
 
 class Thing: pass
 

@@ -11,6 +11,10 @@ import numpy as np
 import pytest
 from fem_scenes import solved
 
+from contact_results.directory.file_names import RUN_FILES, SUMMARY
+from contact_results.files.field_file import FIELDS
+from contact_results.section.fretting_cycles import section_cycles
+from contact_results.section.result_files import write_section_result
 from contact_scene import (
     Body,
     CoulombFriction,
@@ -23,12 +27,8 @@ from contact_scene import (
 from contact_scene.summary import load_summary, summary_schema
 from fem_reference import Method, Result, solve
 from fem_reference.energy import elastic_energy, input_work
-from verification.cases.layered_scene import coated, exact_contact, film
-from verification.cli.application import main
-from verification.run_output.field_file import FIELDS
-from verification.run_output.file_names import RUN_FILES, SUMMARY
-from verification.run_output.section.fretting_cycles import section_cycles
-from verification.run_output.section.result_files import write_section_result
+from slipstick.cli.application import main
+from verification.problems.layered_scene import coated, exact_contact, film
 
 STEEL = IsotropicMaterial(young_modulus=210e9, poisson_ratio=0.3)
 FILM = Layer(thickness=0.2e-3, material=IsotropicMaterial(young_modulus=4e11, poisson_ratio=0.2))
@@ -215,7 +215,10 @@ def slipstick(*arguments: object) -> object:
 
 @pytest.mark.parametrize(
     ("solver", "name"),
-    [("fem", "fem_reference.penalty"), ("fem-complementarity", "fem_reference.complementarity")],
+    [
+        ("fem", "fem_reference.penalty"),
+        ("fem-complementarity", "fem_reference.complementarity"),
+    ],
 )
 def test_run_names_its_solver(place: Path, solver: str, name: str) -> None:
     summary = load_summary((place / solver / SUMMARY).read_text(encoding="utf-8"))

@@ -7,15 +7,15 @@ import pytest
 
 from contact_scene.description import Description
 from semi_analytical.influence.layered_response import Components
-from verification.cases.case import Level
 from verification.cases.catalogue import CASES
-from verification.cases.outcome import Status
-from verification.seeded_defects.defect import planted, product_modules
-from verification.seeded_defects.healthy_contacts import FAMILIES, THIN
-from verification.seeded_defects.outputs import PLANTED
-from verification.seeded_defects.registry import DEFECTS
-from verification.studies.running import case_store
-from verification.studies.running.study import Settings
+from verification.defects.defect import planted, product_modules
+from verification.defects.healthy_contacts import FAMILIES, THIN
+from verification.defects.outputs import PLANTED
+from verification.defects.registry import DEFECTS
+from verification.judging.case import Level
+from verification.judging.outcome import Status
+from verification.running import case_store
+from verification.running.study import Settings
 from verification.studies.seeded_defects.defect_run import (
     HEALTHY,
     Caught,

@@ -17,15 +17,15 @@ import pytest
 from report_examples import COATED
 from study_cases import Square
 
+from contact_results.directory.checkpoint_file import FORMAT, Unusable, unpacked
+from contact_results.directory.file_names import FIELDS
+from contact_results.files import stored_values
+from contact_results.files.surface_state import NoSuchState, state_of_run
+from contact_results.section.stress_state import section_state_of_run
 from contact_scene.solver_errors import ResourceRefused
-from fem_reference import stored_compliance
+from fem_reference.elasticity import stored_compliance
 from semi_analytical.influence import cache
-from verification.run_output import stored_values
-from verification.run_output.checkpoint_file import FORMAT, Unusable, unpacked
-from verification.run_output.file_names import FIELDS
-from verification.run_output.section.stress_state import section_state_of_run
-from verification.run_output.surface_state import NoSuchState, state_of_run
-from verification.studies.running.case_store import CaseStore, DamagedRecord
+from verification.running.case_store import CaseStore, DamagedRecord
 
 ROOT = Path(__file__).resolve().parents[1]
 MEGABYTE = 1_000_000
@@ -67,7 +67,7 @@ def tell():
     peak = re.search(r"VmHWM:\\s*([0-9]+) kB", open("/proc/self/status").read())[1]
     print("took", time.process_time(), 1024 * int(peak), file=sys.stderr)
 atexit.register(tell)
-from verification.cli import main
+from slipstick.cli import main
 main()
 """
 

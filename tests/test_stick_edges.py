@@ -12,8 +12,8 @@ from numpy.typing import NDArray
 import fem_reference
 from verification.cases.cross_check_contacts import CheckedContact
 from verification.cases.cross_check_tangential_line import Line
-from verification.cases.paper_scene import HERTZ
 from verification.cases.stick_edges import kept_edges, kept_fronts
+from verification.problems.paper_scene import HERTZ
 
 RETURNING = CheckedContact(4.0, 0.25, 0.3)
 WIDTH = 1 / 32  # of an element

@@ -38,7 +38,7 @@ FILES = {
 
 
 def slipstick(*arguments: object) -> subprocess.CompletedProcess[str]:
-    command = [sys.executable, "-m", "verification", *map(str, arguments)]
+    command = [sys.executable, "-m", "slipstick", *map(str, arguments)]
     return subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=False)
 
 

@@ -11,29 +11,30 @@ import pytest
 from scene_texts import RIGID_BALL
 
 from contact_scene.description import Description
-from fem_reference import Method, complementarity
+from fem_reference import Method
+from fem_reference.contact.complementarity import method as complementarity
 from semi_analytical import UnsupportedScene
-from verification.cases.case import Level
-from verification.cases.outcome import Status
-from verification.cli import main
-from verification.studies.refinement import section_level
-from verification.studies.refinement.expected import Expected
-from verification.studies.refinement.fit import Fit, fits
-from verification.studies.refinement.increments import increments_study
-from verification.studies.refinement.level_record import (
+from slipstick.cli import main
+from verification.convergence.level_record import (
     SHEAR,
     LevelRecord,
     StoredField,
     at_centres,
     change,
 )
+from verification.judging.case import Level
+from verification.judging.outcome import Status
+from verification.running.study import Settings, Study
+from verification.studies.refinement import section_level
+from verification.studies.refinement.expected import Expected
+from verification.studies.refinement.fit import Fit, fits
+from verification.studies.refinement.increments import increments_study
 from verification.studies.refinement.mesh import mesh_study
 from verification.studies.refinement.page import order_json, order_table, statement
 from verification.studies.refinement.refinement import Refinement
 from verification.studies.refinement.section_level import SectionLevel
 from verification.studies.refinement.studied_scene import CannotRefine
 from verification.studies.refinement.surface_level import SurfaceLevel
-from verification.studies.running.study import Settings, Study
 
 TOLERANCE = 1e-8
 FIRST, SECOND = Expected(1.0, "planted"), Expected(2.0, "planted")

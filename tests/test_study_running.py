@@ -14,26 +14,25 @@ from pathlib import Path
 import pytest
 from study_cases import Dying, Killed, Number, Refusing, Square
 
-from verification.cases.case import Level
-from verification.cli.study import _studied
-from verification.one_thread import VARIABLES
-from verification.report.provenance import provenance
+from contact_results.one_thread import VARIABLES
+from slipstick.cli.study import _studied
+from verification.judging.case import Level
+from verification.report.study_files import set_aside_study, write_study
+from verification.running.case_pool import KILLED, Answer, CaseEnd, run_cases
+from verification.running.case_store import CaseStore, DamagedRecord, content_hash
+from verification.running.local_workers import LocalWorkers
+from verification.running.provenance import provenance
+from verification.running.record import StudyRecord
+from verification.running.stored_studies import stored_studies
+from verification.running.study import Settings
 from verification.studies.catalogue import STUDIES
-from verification.studies.running.case_pool import KILLED, Answer, CaseEnd, run_cases
-from verification.studies.running.case_store import CaseStore, DamagedRecord, content_hash
-from verification.studies.running.files import set_aside_study, stored_studies, write_study
-from verification.studies.running.local_workers import LocalWorkers
-from verification.studies.running.record import StudyRecord
-from verification.studies.running.study import Settings
 
 ROOT = Path(__file__).resolve().parents[1]
 STUDY = ("study", "coated-tractions", "--cells", "16", "--output", "out")
 
 
 def command(*arguments: str) -> list[str]:
-    code = (
-        f"import sys; sys.path.insert(0, {str(ROOT)!r}); from verification.cli import main; main()"
-    )
+    code = f"import sys; sys.path.insert(0, {str(ROOT)!r}); from slipstick.cli import main; main()"
     return [sys.executable, "-c", code, *arguments]
 
 
@@ -280,7 +279,7 @@ def test_a_study_that_is_stopped_leaves_no_record_of_an_earlier_one(
         assert stored_studies(tmp_path) == ()
         raise KeyboardInterrupt
 
-    monkeypatch.setattr("verification.studies.running.case_pool.run_cases", stopped)
+    monkeypatch.setattr("verification.running.case_pool.run_cases", stopped)
     chosen = STUDIES["coated-tractions"]
     with pytest.raises(KeyboardInterrupt):
         _studied(chosen, Settings(Level.QUICK, 16), "slipstick study", directory, 1)

@@ -6,15 +6,15 @@ import numpy as np
 import pytest
 
 from contact_scene.summary import ContactStatus
-from verification.cases.case import Level
-from verification.cases.chart import Curve, Look
-from verification.cases.outcome import Status
+from verification.exhibits.chart import Curve, Look
+from verification.judging.case import Level
+from verification.judging.outcome import Status
 from verification.report import drawing
+from verification.running.study import Settings
 from verification.studies.gross_sliding import study, verdicts
 from verification.studies.gross_sliding.estimate import Estimate, Evidence, estimate
 from verification.studies.gross_sliding.full_slip import FullSlip, full_slip
 from verification.studies.gross_sliding.verdicts import Variant
-from verification.studies.running.study import Settings
 from verification.studies.sliding_runs.contacts import AlikeContact, CoatedContact
 from verification.studies.sliding_runs.friction_laws import (
     FixedPressure,

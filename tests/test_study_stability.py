@@ -7,13 +7,13 @@ import numpy as np
 import pytest
 
 from semi_analytical import NotConverged, Result, solve
-from verification.cases.case import Level
-from verification.cases.chart import Look, curve
-from verification.cases.outcome import Status
+from verification.exhibits.chart import Look, curve
+from verification.judging.case import Level
+from verification.judging.outcome import Status
 from verification.observed.surfaces import surface_violation
 from verification.report.drawing import look_of
-from verification.studies.running.case_store import CaseStore
-from verification.studies.running.study import Settings
+from verification.running.case_store import CaseStore
+from verification.running.study import Settings
 from verification.studies.stability import judged, solvers, study, verdicts
 from verification.studies.stability.cell import LoadingPath, Solver, StabilityCell, Surface
 from verification.studies.stability.charts import CLASSES, class_of, view_chart

@@ -10,12 +10,13 @@ import pytest
 
 from contact_scene.solver_errors import NotConverged
 from fem_reference import Method
-from fem_reference.factored_section import FactoredSection
+from fem_reference.elasticity.factored_section import FactoredSection
 from semi_analytical import UnsupportedScene, operator, pressing
 from semi_analytical.influence.closed_form import HalfSpaceCoefficients
-from verification.cases.case import Level
-from verification.cases.outcome import Status
+from verification.judging.case import Level
+from verification.judging.outcome import Status
 from verification.report.svg import inline_svg
+from verification.running.study import Conclusion, Settings, Study
 from verification.studies.refinement import window
 from verification.studies.refinement.domain import domain_study
 from verification.studies.refinement.expected import by_box
@@ -24,7 +25,6 @@ from verification.studies.refinement.sampling import sampling_study
 from verification.studies.refinement.studied_scene import CannotRefine, StudiedScene
 from verification.studies.refinement.surface_level import SurfaceStart
 from verification.studies.refinement.window import window_study
-from verification.studies.running.study import Conclusion, Settings, Study
 
 MATERIAL = 'material = { young_modulus = "420 GPa", poisson_ratio = 0.3 }'
 SCENE = f"""

@@ -7,16 +7,16 @@ from typing import Any
 import pytest
 
 from semi_analytical.errors import NotConverged
-from verification.cases.case import Case
 from verification.cases.fretting_loop import fretting_loop_on
 from verification.cases.hertz_point import hertz_on
-from verification.cases.judgement import judge, solve_run
 from verification.cases.load_paths import load_paths_on
 from verification.cases.near_sliding import near_sliding_on
-from verification.cases.outcome import CaseOutcome, Status
-from verification.cases.refinement import refinement
-from verification.seeded_defects.defect import planted
-from verification.seeded_defects.registry import DEFECTS
+from verification.defects.defect import planted
+from verification.defects.registry import DEFECTS
+from verification.judging.case import Case
+from verification.judging.judgement import judge, solve_run
+from verification.judging.outcome import CaseOutcome, Status
+from verification.judging.refinement import refinement
 
 CASES: dict[str, Callable[[], Case]] = {
     "hertz_point": lambda: hertz_on(refinement(32, 128)),

@@ -8,14 +8,14 @@ import pytest
 import fem_reference
 from contact_scene import read_scene_file
 from semi_analytical import plan
-from verification.cases import paper_scene as paper
-from verification.cases.case import Case, Derived, Level
 from verification.cases.catalogue import CASES, catalogue, choose
 from verification.cases.loop_history import AMPLITUDE, ExactLoop
 from verification.cases.paper_fretting_loop import paper_fretting_loop
-from verification.cases.refinement import refinement
-from verification.cases.section_run import SectionRun
 from verification.closed_forms.mindlin_deresiewicz import FrettingLoop
+from verification.judging.case import Case, Derived, Level
+from verification.judging.refinement import refinement
+from verification.judging.run import SectionRun
+from verification.problems import paper_scene as paper
 
 SCENES = Path(__file__).resolve().parents[1] / "scenes"
 QUICK = catalogue(Level.QUICK)

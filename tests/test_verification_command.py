@@ -12,9 +12,7 @@ from verification.report.files import PAGE, RECORD
 
 def slipstick(*arguments: str, cwd: Path) -> subprocess.CompletedProcess[str]:
     root = Path(__file__).resolve().parents[1]
-    code = (
-        f"import sys; sys.path.insert(0, {str(root)!r}); from verification.cli import main; main()"
-    )
+    code = f"import sys; sys.path.insert(0, {str(root)!r}); from slipstick.cli import main; main()"
     return subprocess.run(
         [sys.executable, "-c", code, *arguments],
         cwd=cwd, capture_output=True, text=True, check=False, timeout=120,

@@ -13,16 +13,23 @@ import pytest
 from report_examples import case, report_of, run_record, verdict
 
 from verification.cases.cattaneo_mindlin import cattaneo_mindlin_on
-from verification.cases.change import Change, ChangeKind
 from verification.cases.hertz_point import hertz_on
-from verification.cases.judgement import judge
-from verification.cases.outcome import CaseOutcome, Status
+from verification.exhibits.numbers import plain, value_text
+from verification.judging.change import Change, ChangeKind
+from verification.judging.judgement import judge
+from verification.judging.outcome import CaseOutcome, Status
+from verification.judging.verdict_text import failure_line, failure_text
 from verification.report.files import JUNIT, PAGE, RECORD, SUMMARY, write_report
-from verification.report.numbers import failure_line, failure_text, plain, value_text
 from verification.report.omissions import OMISSIONS
 from verification.report.page import render_page
-from verification.report.provenance import provenance
-from verification.report.record import Report, count, dump_report, load_report, report_schema
+from verification.running.provenance import provenance
+from verification.running.report_record import (
+    Report,
+    count,
+    dump_report,
+    load_report,
+    report_schema,
+)
 
 VOID = {"meta", "br", "link", "img", "hr"}
 PAYLOAD = "<script>alert(1)</script>\"'&<svg onload=x>"

@@ -14,10 +14,10 @@ from typing import Any
 
 import pytest
 
-from verification.cases.case import Level
 from verification.cases.catalogue import choose
 from verification.cases.judged_case import lost
-from verification.cases.outcome import Status
+from verification.judging.case import Level
+from verification.judging.outcome import Status
 from verification.report.files import EARLIER, FILES, PAGE, RECORD
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -26,9 +26,7 @@ CASES = ("dissimilar_bodies", "load_paths", "fem_torsion", "classical_forms")
 
 
 def started(directory: Path, *options: str) -> "subprocess.Popen[str]":
-    code = (
-        f"import sys; sys.path.insert(0, {str(ROOT)!r}); from verification.cli import main; main()"
-    )
+    code = f"import sys; sys.path.insert(0, {str(ROOT)!r}); from slipstick.cli import main; main()"
     return subprocess.Popen(
         [sys.executable, "-c", code, "verify", *CASES, "-o", str(directory), *options],
         stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,

@@ -17,17 +17,16 @@ from hypothesis import strategies as st
 
 from semi_analytical.frf.stack import Stack, stack_of
 from semi_analytical.influence.layered import LayeredCoefficients
-from verification.cases.case import Level
-from verification.cases.layered_scene import coated, film
-from verification.cases.outcome import Status
+from verification.judging.case import Level
+from verification.judging.outcome import Status
 from verification.peers import measure
 from verification.peers.environment import PEERS, Peer, made_environment
 from verification.peers.measure import errors_of, peer_run, request_of
-from verification.peers.recorded import OTHERS, peer_answer, peer_points, recorded_peers
+from verification.problems.layered_scene import coated, film
 from verification.report.prices import price_table
-from verification.report.provenance import provenance
-from verification.studies.running.record import StudyRecord, dump_study
-from verification.studies.running.study import Conclusion, Settings
+from verification.running.provenance import provenance
+from verification.running.record import StudyRecord, dump_study
+from verification.running.study import Conclusion, Settings
 from verification.studies.work_precision.cold_cache import CACHE, cold_cache
 from verification.studies.work_precision.contacts import CONTACTS
 from verification.studies.work_precision.point import (
@@ -40,6 +39,12 @@ from verification.studies.work_precision.point import (
     seconds,
 )
 from verification.studies.work_precision.points import points_of
+from verification.studies.work_precision.recorded_peers import (
+    OTHERS,
+    peer_answer,
+    peer_points,
+    recorded_peers,
+)
 from verification.studies.work_precision.setting import Measured, Method, PrecisionCase
 from verification.studies.work_precision.study import STUDY, cases
 from verification.studies.work_precision.usual_route import SampledCoefficients, Sampling

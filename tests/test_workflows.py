@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from verification.cli.lazy_commands import COMMANDS
+from slipstick.cli.lazy_commands import COMMANDS
 from verification.report.sections import TITLES
 from verification.studies.catalogue import SCENE_STUDIES, STUDIES
 

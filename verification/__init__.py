@@ -1,4 +1,4 @@
-"""How good the answers are: closed forms, cases, metrics, reports and the command `slipstick`.
+"""How good the answers are: problems with known answers, judging, cases, studies, report.
 
-The only package that knows both solvers. Nothing but tests and examples imports it.
+It judges and does not serve: nothing but tests and, lazily, the command imports it.
 """

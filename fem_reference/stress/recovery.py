@@ -15,16 +15,16 @@ import numpy as np
 from numpy.typing import NDArray
 from skfem import Basis, ElementQuad2, MeshQuad
 
-from fem_reference.elasticity import (
+from fem_reference.elasticity.motion import Motion
+from fem_reference.elasticity.weak_form import (
     SectionBasis,
     dilatation,
     shear_moduli,
     strain_operator,
     volume_strain,
 )
-from fem_reference.motion import Motion
+from fem_reference.mesh.section_mesh import SectionMesh
 from fem_reference.scales import Scales
-from fem_reference.section_mesh import SectionMesh
 from fem_reference.stress.section_field import Amplitude
 
 Field = NDArray[np.float64]

@@ -8,7 +8,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from fem_reference.motion import Motion
+from fem_reference.elasticity.motion import Motion
 
 Field = NDArray[np.float64]
 Indices = NDArray[np.int64]

@@ -9,11 +9,11 @@ from numpy.typing import NDArray
 
 from contact_scene import Body, FiniteElementDiscretisation, IsotropicMaterial
 from contact_scene.solver_errors import UnsupportedScene
-from fem_reference.elasticity import dilatation, section_basis
-from fem_reference.factored_section import FactoredSection
+from fem_reference.elasticity.factored_section import FactoredSection
+from fem_reference.elasticity.weak_form import dilatation, section_basis
+from fem_reference.mesh.section_mesh import SectionMesh, section_mesh
+from fem_reference.mesh.section_outline import CONTACT_ZONE
 from fem_reference.scales import Scales
-from fem_reference.section_mesh import SectionMesh, section_mesh
-from fem_reference.section_outline import CONTACT_ZONE
 from fem_reference.stress.recovery import recovered_amplitude, recovery_of
 from fem_reference.stress.section_field import SectionField
 from fem_reference.stress.surface_tractions import SurfaceTractions

@@ -7,9 +7,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from fem_reference.contact.harmonics.angular_grid import end_grid, mid_grid
+from fem_reference.elasticity.motion import PRESSING, SHEARING, TORSION, Motion, motion
 from fem_reference.fields import Increment
-from fem_reference.harmonics.angular_grid import end_grid, mid_grid
-from fem_reference.motion import PRESSING, SHEARING, TORSION, Motion, motion
 
 Field = NDArray[np.float64]
 

@@ -8,8 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from verification.cases.table import Table
-from verification.report.numbers import plain
+from verification.exhibits.numbers import plain
+from verification.exhibits.table import Table
 
 Field = NDArray[np.float64]
 Mask = NDArray[np.bool_]

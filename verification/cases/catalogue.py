@@ -2,7 +2,6 @@
 
 from collections.abc import Callable, Iterable
 
-from verification.cases.case import Case, Level
 from verification.cases.cattaneo_mindlin import cattaneo_mindlin
 from verification.cases.classical_forms import classical_forms
 from verification.cases.coated_paraboloid import coated_paraboloid
@@ -54,6 +53,7 @@ from verification.cases.thin_layer import thin_layer
 from verification.cases.tilted_punch import tilted_punch
 from verification.cases.torsion import torsion
 from verification.cases.torsion_coated import torsion_coated
+from verification.judging.case import Case, Level
 
 CASES: tuple[Callable[[Level], Case], ...] = (
     hertz_point,

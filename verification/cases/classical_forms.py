@@ -8,10 +8,11 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from verification.cases.case import Case, Check, Level, Required, identity
-from verification.cases.table import Table
-from verification.report.numbers import plain
-from verification.studies.classical_forms import CONTRASTS, DEPTHS, FORMS, DigitLoss, digit_losses
+from verification.exhibits.numbers import plain
+from verification.exhibits.table import Table
+from verification.judging.case import Case, Check, Level, Required
+from verification.laws.classical_forms import CONTRASTS, DEPTHS, FORMS, DigitLoss, digit_losses
+from verification.problems.reference import identity
 
 if TYPE_CHECKING:
     from semi_analytical import Result

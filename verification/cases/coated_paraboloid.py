@@ -9,29 +9,21 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from verification.cases import hertz_point
-from verification.cases import paper_scene as paper
-from verification.cases.case import (
-    Case,
-    Comparison,
-    Derived,
-    Level,
-    Quantity,
-    Reference,
-    ReferenceKind,
-    Required,
-    Run,
-)
-from verification.cases.chart import Chart
-from verification.cases.convergence_chart import convergence_chart
-from verification.cases.end_state import approach, contact_radius
 from verification.cases.flat_punch import central_pressure
 from verification.cases.hertz_point import ASKED, label
-from verification.cases.layered_scene import coated, exact_contact, film, pressed, rigid_ball
-from verification.cases.order_of_convergence import Followed, OrderOfConvergence
-from verification.cases.paper_scene import HERTZ
-from verification.cases.profile_chart import Profile, ProfileLabels, Section, profile_chart
-from verification.cases.refinement import part_of_a_cell, refinement
-from verification.metrics import relative_l2
+from verification.exhibits.chart import Chart
+from verification.exhibits.convergence_chart import convergence_chart
+from verification.exhibits.profile_chart import Profile, ProfileLabels, Section, profile_chart
+from verification.judging.case import Case, Comparison, Derived, Level, Quantity, Required
+from verification.judging.order_of_convergence import Followed, OrderOfConvergence
+from verification.judging.refinement import part_of_a_cell, refinement
+from verification.judging.run import Run
+from verification.norms import relative_l2
+from verification.observed.end_state import approach, contact_radius
+from verification.problems import paper_scene as paper
+from verification.problems.layered_scene import coated, exact_contact, film, pressed, rigid_ball
+from verification.problems.paper_scene import HERTZ
+from verification.problems.reference import Reference, ReferenceKind
 from verification.references import load_reference
 
 if TYPE_CHECKING:

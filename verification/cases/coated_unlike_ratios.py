@@ -12,21 +12,21 @@ from contact_scene import Body, IsotropicMaterial, Layer
 from semi_analytical.frf.stack import Film, HalfSpace, Stack
 from semi_analytical.frf.surface import scalars
 from verification.cases import flat_punch
-from verification.cases import paper_scene as paper
-from verification.cases.case import Case, Level, Quantity, Required, Run
-from verification.cases.end_state import approach, contact_radius
 from verification.cases.fem_coated import central_pressure
 from verification.cases.fem_levels import allowed, because, finest
 from verification.cases.hertz_point import label
-from verification.cases.layered_scene import pressed, rigid_ball, semi_closed
-from verification.cases.paper_scene import HERTZ
-from verification.cases.refinement import part_of_a_cell
-from verification.cases.section_run import SectionRun, per_radius
 from verification.closed_forms.coated_indentation import (
     LayeredIndentation,
     LayeredSurface,
     paraboloid_under,
 )
+from verification.judging.case import Case, Level, Quantity, Required
+from verification.judging.refinement import part_of_a_cell
+from verification.judging.run import Run, SectionRun, per_radius
+from verification.observed.end_state import approach, contact_radius
+from verification.problems import paper_scene as paper
+from verification.problems.layered_scene import pressed, rigid_ball, semi_closed
+from verification.problems.paper_scene import HERTZ
 
 CELLS = 128
 ASKED = "asked of coated bodies on 128 x 128 cells, as in coated_paraboloid"

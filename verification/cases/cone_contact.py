@@ -9,16 +9,18 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from contact_scene import Cone, LoadStep
-from verification.cases import paper_scene as paper
-from verification.cases.case import Case, Derived, Level, Quantity, Run, closed_form
-from verification.cases.chart import Chart
-from verification.cases.end_state import approach, contact_radius
 from verification.cases.hertz_point import label
-from verification.cases.order_of_convergence import Followed, OrderOfConvergence
-from verification.cases.profile_chart import Profile, ProfileLabels, Section, profile_chart
-from verification.cases.refinement import part_of_a_cell, refinement
 from verification.closed_forms.cone import ConeContact
-from verification.metrics import relative_l1
+from verification.exhibits.chart import Chart
+from verification.exhibits.profile_chart import Profile, ProfileLabels, Section, profile_chart
+from verification.judging.case import Case, Derived, Level, Quantity
+from verification.judging.order_of_convergence import Followed, OrderOfConvergence
+from verification.judging.refinement import part_of_a_cell, refinement
+from verification.judging.run import Run
+from verification.norms import relative_l1
+from verification.observed.end_state import approach, contact_radius
+from verification.problems import paper_scene as paper
+from verification.problems.reference import closed_form
 
 if TYPE_CHECKING:
     from semi_analytical import Result

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from fem_reference.penalty_contact import PenaltyLaw
-from verification.cases.case import Check, Required, identity
+from fem_reference.contact.penalty.spring_contact import PenaltyLaw
+from verification.judging.case import Check, Required
+from verification.problems.reference import identity
 
 POINTS = 400
 STEP = 1e-5  # of overlaps of order one

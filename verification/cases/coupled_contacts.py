@@ -5,12 +5,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from contact_scene import Body, CoulombFriction, FiniteElementDiscretisation, LoadStep, Scene
-from verification.cases import paper_scene as paper
-from verification.cases.case import SOLVER_TOLERANCE, Run
-from verification.cases.layered_scene import SUBSTRATE, coated, film, rigid_ball
-from verification.cases.paper_scene import HERTZ, NORMAL_FORCE
-from verification.cases.section_run import SectionRun
 from verification.cases.turned import turned
+from verification.judging.run import SOLVER_TOLERANCE, Run, SectionRun
+from verification.problems import paper_scene as paper
+from verification.problems.layered_scene import SUBSTRATE, coated, film, rigid_ball
+from verification.problems.paper_scene import HERTZ, NORMAL_FORCE
 
 MARGIN = 1.2  # half the window over Hertz's radius
 PRESSED, PUSHED, BACK = 1, 2, 3  # loading steps

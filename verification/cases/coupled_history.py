@@ -9,25 +9,15 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 import semi_analytical
+from contact_results.quantities import shear_of, shift_along_x
 from contact_scene import LoadStep
-from verification.cases.case import (
-    SOLVER_TOLERANCE,
-    Case,
-    Comparison,
-    Finding,
-    Level,
-    Quantity,
-    ReferenceKind,
-    Required,
-    Run,
-    identity,
-)
 from verification.cases.coupled_contacts import BACK, BARE, FILM, PRESSED, PUSHED
-from verification.cases.law_verdicts import OTHER_NORMS
-from verification.cases.section_run import SectionRun
 from verification.cases.turned import difference_after_quarter, difference_of_motion
+from verification.judging.case import Case, Comparison, Finding, Level, Quantity, Required
+from verification.judging.law_verdicts import OTHER_NORMS
+from verification.judging.run import SOLVER_TOLERANCE, Run, SectionRun
 from verification.observed.laws import observed
-from verification.quantities import shear_of, shift_along_x
+from verification.problems.reference import ReferenceKind, identity
 
 if TYPE_CHECKING:
     import fem_reference

@@ -5,11 +5,12 @@ from __future__ import annotations
 from functools import partial
 from typing import Any
 
-from verification.cases.case import Case, Comparison, Finding, Level, ReferenceKind
 from verification.cases.cross_check_contacts import CheckedContact
 from verification.cases.cross_check_sides import SOURCE, Sides
 from verification.cases.cross_check_stress import stress_difference
 from verification.cases.cross_check_views import charts, tables
+from verification.judging.case import Case, Comparison, Finding, Level
+from verification.problems.reference import ReferenceKind
 
 CONTACTS: dict[Level, tuple[CheckedContact, ...]] = {
     Level.QUICK: (

@@ -10,17 +10,17 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.ndimage import map_coordinates
 
+from contact_results.quantities import shear_of
 from contact_scene import CoulombFriction, FiniteElementDiscretisation, LoadStep, Scene
 from semi_analytical.grid import SurfaceGrid
-from verification.cases import paper_scene as paper
-from verification.cases.case import SOLVER_TOLERANCE
 from verification.cases.indentation_reference import COATED, STRONG, WEAK
-from verification.cases.layered_scene import coated, exact_contact, film, rigid_ball
-from verification.cases.paper_scene import HERTZ
 from verification.cases.radial_profile import outward
 from verification.cases.stick_edges import kept_edges
 from verification.closed_forms.coated_indentation import LayeredIndentation
-from verification.quantities import shear_of
+from verification.judging.run import SOLVER_TOLERANCE
+from verification.problems import paper_scene as paper
+from verification.problems.layered_scene import coated, exact_contact, film, rigid_ball
+from verification.problems.paper_scene import HERTZ
 
 if TYPE_CHECKING:
     import fem_reference

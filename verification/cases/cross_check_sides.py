@@ -9,10 +9,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from verification.cases.case import Comparison, ReferenceKind, Run
 from verification.cases.cross_check_contacts import CheckedContact, Profiles
 from verification.cases.fem_levels import judged_within
-from verification.cases.section_run import SectionRun
+from verification.judging.case import Comparison
+from verification.judging.run import Run, SectionRun
+from verification.problems.reference import ReferenceKind
 
 Field = NDArray[np.float64]
 

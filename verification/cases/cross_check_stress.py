@@ -14,8 +14,8 @@ from fem_reference.stress import subsurface as section_field
 from semi_analytical.frf.depth import Level
 from semi_analytical.grid import SurfaceGrid
 from semi_analytical.stress import SubsurfaceField, subsurface
-from verification.cases.chart import Chart, Look, Panel, curve
 from verification.cases.cross_check_contacts import CheckedContact
+from verification.exhibits.chart import Chart, Look, Panel, curve
 
 if TYPE_CHECKING:
     import fem_reference

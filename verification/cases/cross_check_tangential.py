@@ -9,25 +9,20 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from contact_results.quantities import shift_along_x
 from contact_scene import CoulombFriction, FiniteElementDiscretisation, LoadStep, Scene
-from verification.cases import paper_scene as paper
 from verification.cases.apart_everywhere import Apart, apart_everywhere
-from verification.cases.case import (
-    Case,
-    Comparison,
-    Finding,
-    Level,
-    ReferenceKind,
-    Run,
-)
-from verification.cases.chart import Chart, Look, Panel, curve
 from verification.cases.cross_check_tangential_line import Line
 from verification.cases.fem_harmonics_run import PointsRun
 from verification.cases.hertz_point import label as cells_label
-from verification.cases.layered_scene import coated, film, rigid_ball
-from verification.cases.paper_scene import FRICTION, FRICTION_LIMIT, HERTZ
-from verification.cases.table import Table
-from verification.quantities import shift_along_x
+from verification.exhibits.chart import Chart, Look, Panel, curve
+from verification.exhibits.table import Table
+from verification.judging.case import Case, Comparison, Finding, Level
+from verification.judging.run import Run
+from verification.problems import paper_scene as paper
+from verification.problems.layered_scene import coated, film, rigid_ball
+from verification.problems.paper_scene import FRICTION, FRICTION_LIMIT, HERTZ
+from verification.problems.reference import ReferenceKind
 
 if TYPE_CHECKING:
     import semi_analytical

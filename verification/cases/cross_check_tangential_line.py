@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from fem_reference.harmonics.surface_tractions import tractions_at
+from fem_reference.contact.harmonics.surface_tractions import tractions_at
 from verification.cases.fem_levels import judged_within
-from verification.cases.paper_scene import FRICTION, HERTZ
 from verification.cases.stick_edges import kept_fronts
+from verification.problems.paper_scene import FRICTION, HERTZ
 
 if TYPE_CHECKING:
     import fem_reference

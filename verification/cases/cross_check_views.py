@@ -7,11 +7,11 @@ from typing import Any
 
 import numpy as np
 
-from verification.cases.chart import Chart, Curve, Look, Panel, curve
 from verification.cases.cross_check_sides import Sides
 from verification.cases.cross_check_stress import stress_of_section
-from verification.cases.table import Table
-from verification.report.numbers import plain
+from verification.exhibits.chart import Chart, Curve, Look, Panel, curve
+from verification.exhibits.numbers import plain
+from verification.exhibits.table import Table
 
 
 def tables(sides: Sequence[Sides], results: Mapping[str, Any]) -> tuple[Table, ...]:

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from contact_scene import RIGID, Body, IsotropicMaterial, LoadStep, Paraboloid, Scene
-from verification.cases import paper_scene as paper
-from verification.cases.case import Case, Level, Quantity, Required, Run, closed_form
-from verification.cases.end_state import approach, peak_pressure
 from verification.cases.hertz_point import ASKED, SOURCE, label
-from verification.cases.paper_scene import HERTZ
+from verification.judging.case import Case, Level, Quantity, Required
+from verification.judging.run import Run
+from verification.observed.end_state import approach, peak_pressure
+from verification.problems import paper_scene as paper
+from verification.problems.paper_scene import HERTZ
+from verification.problems.reference import closed_form
 
 CELLS = 128
 PAIRS = {

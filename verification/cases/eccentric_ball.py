@@ -8,19 +8,12 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from contact_scene import Body, CoulombFriction, LoadStep, Paraboloid, Scene
-from verification.cases import paper_scene as paper
-from verification.cases.case import (
-    Case,
-    Comparison,
-    Level,
-    Quantity,
-    Reference,
-    ReferenceKind,
-    Required,
-    Run,
-)
-from verification.cases.layered_scene import SUBSTRATE, rigid_ball
-from verification.cases.paper_scene import HERTZ
+from verification.judging.case import Case, Comparison, Level, Quantity, Required
+from verification.judging.run import Run
+from verification.problems import paper_scene as paper
+from verification.problems.layered_scene import SUBSTRATE, rigid_ball
+from verification.problems.paper_scene import HERTZ
+from verification.problems.reference import Reference, ReferenceKind
 
 if TYPE_CHECKING:
     from semi_analytical import Result

@@ -11,18 +11,19 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from contact_results.quantities import shear_of
 from contact_scene import CoulombFriction, LoadStep, Scene
-from verification.cases import paper_scene as paper
-from verification.cases.case import Case, Level, Quantity, Reference, ReferenceKind, Required, Run
-from verification.cases.end_state import normal_force
 from verification.cases.fem_profiles import at_radii
 from verification.cases.hertz_point import label as cells_label
-from verification.cases.layered_scene import coated, film, rigid_ball
-from verification.cases.paper_scene import HERTZ
 from verification.cases.radial_profile import along_radii, outward
-from verification.cases.section_run import SectionRun, per_radius
 from verification.external_codes.recorded import Recorded, recorded
-from verification.quantities import shear_of
+from verification.judging.case import Case, Level, Quantity, Required
+from verification.judging.run import Run, SectionRun, per_radius
+from verification.observed.end_state import normal_force
+from verification.problems import paper_scene as paper
+from verification.problems.layered_scene import coated, film, rigid_ball
+from verification.problems.paper_scene import HERTZ
+from verification.problems.reference import Reference, ReferenceKind
 
 Field = NDArray[np.float64]
 Reader = Callable[[Any, str, Field], Field]

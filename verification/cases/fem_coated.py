@@ -8,15 +8,16 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from verification.cases.case import Case, Level, Quantity, Reference, ReferenceKind, Required
-from verification.cases.chart import Chart
-from verification.cases.end_state import approach, contact_radius
 from verification.cases.fem_levels import allowed, because, judged_within, label, levels
 from verification.cases.fem_profiles import at_radii, radial_chart
-from verification.cases.layered_scene import coated, film, pressed, rigid_ball
-from verification.cases.paper_scene import HERTZ
-from verification.cases.profile_chart import ProfileLabels
-from verification.cases.section_run import SectionRun, per_radius
+from verification.exhibits.chart import Chart
+from verification.exhibits.profile_chart import ProfileLabels
+from verification.judging.case import Case, Level, Quantity, Required
+from verification.judging.run import SectionRun, per_radius
+from verification.observed.end_state import approach, contact_radius
+from verification.problems.layered_scene import coated, film, pressed, rigid_ball
+from verification.problems.paper_scene import HERTZ
+from verification.problems.reference import Reference, ReferenceKind
 from verification.references import load_reference
 
 if TYPE_CHECKING:

@@ -16,23 +16,16 @@ from contact_scene import (
     LoadStep,
     Scene,
 )
-from fem_reference.harmonics.surface_tractions import tractions_at
-from verification.cases import paper_scene as paper
-from verification.cases.case import (
-    Case,
-    Finding,
-    Level,
-    Quantity,
-    Required,
-    closed_form,
-    exact_zero,
-)
+from fem_reference.contact.harmonics.surface_tractions import tractions_at
 from verification.cases.cattaneo_mindlin import EXACT, PARTS, SCENE, SLIDING_SHIFT, SOURCE
-from verification.cases.chart import Chart, Look, Panel, curve
 from verification.cases.fem_harmonics_run import PointsRun
 from verification.cases.fem_levels import allowed, because, finest, label
-from verification.cases.paper_scene import FRICTION, HERTZ, STEEL
-from verification.cases.section_run import per_radius
+from verification.exhibits.chart import Chart, Look, Panel, curve
+from verification.judging.case import Case, Finding, Level, Quantity, Required
+from verification.judging.run import per_radius
+from verification.problems import paper_scene as paper
+from verification.problems.paper_scene import FRICTION, HERTZ, STEEL
+from verification.problems.reference import closed_form, exact_zero
 
 if TYPE_CHECKING:
     from fem_reference import Increment, Result

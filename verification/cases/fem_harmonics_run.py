@@ -7,13 +7,13 @@ from dataclasses import dataclass, replace
 from math import hypot
 
 from fem_reference import Path, Plan, Result, plan
+from fem_reference.contact.harmonics.angular_grid import end_grid, mid_grid
+from fem_reference.contact.harmonics.method import harmonic_method
 from fem_reference.expected_radius import expected_radius
 from fem_reference.fields import Increment
-from fem_reference.harmonics.angular_grid import end_grid, mid_grid
-from fem_reference.harmonics.method import harmonic_method
 from fem_reference.history import march
 from fem_reference.model import ContactModel
-from verification.cases.section_run import SectionRun
+from verification.judging.run import SectionRun
 
 ACROSS = "slip across the load"
 

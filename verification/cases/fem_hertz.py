@@ -8,11 +8,6 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from contact_scene import LoadStep
-from verification.cases import paper_scene as paper
-from verification.cases.case import Case, Level, Quantity, Required, closed_form, exact_zero
-from verification.cases.chart import Chart
-from verification.cases.convergence_chart import convergence_chart
-from verification.cases.end_state import approach, contact_radius, peak_pressure
 from verification.cases.fem_levels import (
     MIDDLE,
     allowed,
@@ -24,10 +19,16 @@ from verification.cases.fem_levels import (
 )
 from verification.cases.fem_profiles import largest_error, radial_chart, relative_l2
 from verification.cases.hertz_point import SOURCE, approach_error, peak_error, radius_error
-from verification.cases.order_of_convergence import Followed, OrderOfConvergence
-from verification.cases.paper_scene import HERTZ
-from verification.cases.profile_chart import ProfileLabels
-from verification.cases.section_run import SectionRun, per_radius
+from verification.exhibits.chart import Chart
+from verification.exhibits.convergence_chart import convergence_chart
+from verification.exhibits.profile_chart import ProfileLabels
+from verification.judging.case import Case, Level, Quantity, Required
+from verification.judging.order_of_convergence import Followed, OrderOfConvergence
+from verification.judging.run import SectionRun, per_radius
+from verification.observed.end_state import approach, contact_radius, peak_pressure
+from verification.problems import paper_scene as paper
+from verification.problems.paper_scene import HERTZ
+from verification.problems.reference import closed_form, exact_zero
 
 if TYPE_CHECKING:
     from fem_reference import Result

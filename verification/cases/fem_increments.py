@@ -9,21 +9,21 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from contact_scene import LoadStep
-from verification.cases import paper_scene as paper
-from verification.cases.case import Case, Level
-from verification.cases.chart import Chart
-from verification.cases.convergence_chart import convergence_chart
-from verification.cases.end_state import approach, contact_radius
 from verification.cases.fem_profiles import at_radii
 from verification.cases.indentation_reference import FEW
 from verification.cases.indentation_refinement import LOST, ONE
-from verification.cases.order_of_convergence import (
+from verification.exhibits.chart import Chart
+from verification.exhibits.convergence_chart import convergence_chart
+from verification.judging.case import Case, Level
+from verification.judging.order_of_convergence import (
     Followed,
     NotYetAsymptotic,
     OrderOfChange,
     Refinement,
 )
-from verification.cases.section_run import SectionRun, per_radius
+from verification.judging.run import SectionRun, per_radius
+from verification.observed.end_state import approach, contact_radius
+from verification.problems import paper_scene as paper
 
 if TYPE_CHECKING:
     from fem_reference import Result

@@ -1,6 +1,6 @@
 """Meshes of the finite-element cases, and how their figures follow from the ones asked for."""
 
-from verification.cases.case import Level
+from verification.judging.case import Level
 
 ASKED_AT = 64  # elements per radius
 

@@ -7,23 +7,24 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from verification.cases import paper_scene as paper
-from verification.cases.case import Case, Level, Quantity, Required, closed_form, exact_zero
+from contact_results.quantities import shift_along_x
 from verification.cases.cattaneo_mindlin import SOURCE as CATTANEO
-from verification.cases.chart import Chart
-from verification.cases.convergence_chart import convergence_chart
-from verification.cases.end_state import stick_radius
 from verification.cases.fem_hertz import meshed
 from verification.cases.fem_levels import MIDDLE, finest, judged_within, label, order_levels
 from verification.cases.fem_profiles import radial_chart, relative_l1
 from verification.cases.loop_history import LOADED, ExactLoop, loop_energy, loop_steps
-from verification.cases.order_of_convergence import Followed, OrderOfConvergence
-from verification.cases.paper_scene import FRICTION, HERTZ, NU_ZERO, STEEL
-from verification.cases.profile_chart import ProfileLabels
-from verification.cases.section_run import SectionRun, per_radius
 from verification.cases.stopped_shearing import StoppedShearing
 from verification.closed_forms.tangential_history import TangentialHistory
-from verification.quantities import shift_along_x
+from verification.exhibits.chart import Chart
+from verification.exhibits.convergence_chart import convergence_chart
+from verification.exhibits.profile_chart import ProfileLabels
+from verification.judging.case import Case, Level, Quantity, Required
+from verification.judging.order_of_convergence import Followed, OrderOfConvergence
+from verification.judging.run import SectionRun, per_radius
+from verification.observed.end_state import stick_radius
+from verification.problems import paper_scene as paper
+from verification.problems.paper_scene import FRICTION, HERTZ, NU_ZERO, STEEL
+from verification.problems.reference import closed_form, exact_zero
 
 if TYPE_CHECKING:
     from fem_reference import Result

@@ -7,23 +7,15 @@ from math import pi
 from typing import TYPE_CHECKING
 
 from fem_reference import Method
-from verification.cases.case import (
-    Case,
-    Level,
-    Quantity,
-    Reference,
-    ReferenceKind,
-    Required,
-    closed_form,
-    exact_zero,
-)
-from verification.cases.chart import Chart, Look, Panel, curve
-from verification.cases.end_state import approach, contact_radius, peak_pressure
 from verification.cases.fem_hertz import SCENE, meshed, pressure_error
 from verification.cases.fem_levels import allowed, because, finest, judged_within
 from verification.cases.hertz_point import SOURCE, approach_error, peak_error
-from verification.cases.paper_scene import HERTZ
-from verification.cases.section_run import SectionRun, per_radius
+from verification.exhibits.chart import Chart, Look, Panel, curve
+from verification.judging.case import Case, Level, Quantity, Required
+from verification.judging.run import SectionRun, per_radius
+from verification.observed.end_state import approach, contact_radius, peak_pressure
+from verification.problems.paper_scene import HERTZ
+from verification.problems.reference import Reference, ReferenceKind, closed_form, exact_zero
 
 if TYPE_CHECKING:
     from fem_reference import Result

@@ -7,17 +7,17 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 from fem_reference import Method
-from verification.cases.case import Case, Finding, Level, Quantity, Required
-from verification.cases.chart import Chart
 from verification.cases.consistent_tangent import consistent_tangent
-from verification.cases.end_state import approach, contact_radius
 from verification.cases.fem_indentation import INNERMOST, Pressed
 from verification.cases.fem_levels import finest, judged_within
 from verification.cases.indentation_reference import COATED, FEW, STRONG, WEAK
+from verification.exhibits.chart import Chart
+from verification.judging.case import Case, Finding, Level, Quantity, Required
+from verification.observed.end_state import approach, contact_radius
 
 if TYPE_CHECKING:
     from fem_reference import Result
-    from verification.cases.section_run import SectionRun
+    from verification.judging.run import SectionRun
 
 ASKED = "asked of the finite elements with a penalty, at their default penalty"
 SPRINGS = "springs"

@@ -8,8 +8,6 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from fem_reference import Method
-from verification.cases.case import Case, Level, Quantity, Required, closed_form, exact_zero
-from verification.cases.chart import Chart
 from verification.cases.fem_levels import finest, judged_within, label
 from verification.cases.fem_partial_slip import (
     ASKED,
@@ -25,12 +23,15 @@ from verification.cases.fem_partial_slip import (
 )
 from verification.cases.fem_profiles import radial_chart
 from verification.cases.loop_history import LOADED, loop_energy
-from verification.cases.paper_scene import HERTZ
-from verification.cases.profile_chart import ProfileLabels
-from verification.cases.section_run import SectionRun, per_radius
 from verification.cases.torsion import EXACT as TWISTED
 from verification.cases.torsion import MONOTONIC, PARTS
 from verification.cases.torsion import SOURCE as TWISTING
+from verification.exhibits.chart import Chart
+from verification.exhibits.profile_chart import ProfileLabels
+from verification.judging.case import Case, Level, Quantity, Required
+from verification.judging.run import SectionRun, per_radius
+from verification.problems.paper_scene import HERTZ
+from verification.problems.reference import closed_form, exact_zero
 
 if TYPE_CHECKING:
     from fem_reference import Result

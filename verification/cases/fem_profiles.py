@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from verification.cases.chart import Chart, Look, Panel, curve
-from verification.cases.profile_chart import ProfileLabels
+from verification.exhibits.chart import Chart, Look, Panel, curve
+from verification.exhibits.profile_chart import ProfileLabels
 
 if TYPE_CHECKING:
     from fem_reference import Increment

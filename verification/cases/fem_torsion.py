@@ -7,8 +7,6 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from verification.cases.case import Case, Level, Quantity, Required, closed_form, exact_zero
-from verification.cases.chart import Chart
 from verification.cases.fem_hertz import meshed
 from verification.cases.fem_levels import (
     MIDDLE,
@@ -19,10 +17,6 @@ from verification.cases.fem_levels import (
     order_levels,
 )
 from verification.cases.fem_profiles import radial_chart
-from verification.cases.order_of_convergence import Followed, OrderOfConvergence
-from verification.cases.paper_scene import FRICTION, HERTZ
-from verification.cases.profile_chart import ProfileLabels
-from verification.cases.section_run import SectionRun, per_radius
 from verification.cases.torsion import (
     EXACT,
     MODULUS,
@@ -35,6 +29,13 @@ from verification.cases.torsion import (
     STUCK_TORQUE,
 )
 from verification.closed_forms.torsion import StuckTorsion
+from verification.exhibits.chart import Chart
+from verification.exhibits.profile_chart import ProfileLabels
+from verification.judging.case import Case, Level, Quantity, Required
+from verification.judging.order_of_convergence import Followed, OrderOfConvergence
+from verification.judging.run import SectionRun, per_radius
+from verification.problems.paper_scene import FRICTION, HERTZ
+from verification.problems.reference import closed_form, exact_zero
 
 if TYPE_CHECKING:
     from fem_reference import Result

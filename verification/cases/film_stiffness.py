@@ -9,9 +9,10 @@ from numpy.typing import NDArray
 
 from semi_analytical.frf.stack import Film, HalfSpace, Stack
 from semi_analytical.frf.surface import scalars
-from verification.cases.case import Case, Check, Level, Required, closed_form
 from verification.closed_forms.coated_indentation import LayeredSurface, flat_punch
 from verification.closed_forms.gao_chiu_lee import modulus_weight, ratio_weight
+from verification.judging.case import Case, Check, Level, Required
+from verification.problems.reference import closed_form
 
 SOURCE = "Gao, Chiu and Lee 1992, first order in the difference of film and substrate"
 DEPTHS = (0.1, 0.5, 1.0, 3.0)  # thickness over punch radius

@@ -8,14 +8,16 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from contact_scene import FlatPunch, LoadStep
-from verification.cases import paper_scene as paper
-from verification.cases.case import Case, Level, Quantity, Required, Run, closed_form
-from verification.cases.chart import Chart
-from verification.cases.convergence_chart import convergence_chart
-from verification.cases.end_state import approach
 from verification.cases.hertz_point import label
-from verification.cases.refinement import refinement
 from verification.closed_forms.flat_punch import FlatPunchContact
+from verification.exhibits.chart import Chart
+from verification.exhibits.convergence_chart import convergence_chart
+from verification.judging.case import Case, Level, Quantity, Required
+from verification.judging.refinement import refinement
+from verification.judging.run import Run
+from verification.observed.end_state import approach
+from verification.problems import paper_scene as paper
+from verification.problems.reference import closed_form
 
 if TYPE_CHECKING:
     from semi_analytical import Result

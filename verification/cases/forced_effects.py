@@ -6,21 +6,16 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from contact_results.difference import largest_difference
 from contact_scene import Body, CoulombFriction, LoadStep, Paraboloid, Scene
 from semi_analytical import SurfaceGrid, all_effects
-from verification.cases import paper_scene as paper
-from verification.cases.case import (
-    SOLVER_TOLERANCE,
-    Case,
-    Comparison,
-    Level,
-    ReferenceKind,
-    Run,
-)
-from verification.cases.layered_scene import SUBSTRATE, coated, film, pressed, rigid_ball
-from verification.cases.paper_scene import HERTZ, STEEL
-from verification.cases.table import Table
-from verification.result_difference import largest_difference
+from verification.exhibits.table import Table
+from verification.judging.case import Case, Comparison, Level
+from verification.judging.run import SOLVER_TOLERANCE, Run
+from verification.problems import paper_scene as paper
+from verification.problems.layered_scene import SUBSTRATE, coated, film, pressed, rigid_ball
+from verification.problems.paper_scene import HERTZ, STEEL
+from verification.problems.reference import ReferenceKind
 
 if TYPE_CHECKING:
     from semi_analytical import Result

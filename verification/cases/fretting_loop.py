@@ -7,18 +7,6 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from verification.cases import paper_scene as paper
-from verification.cases.case import (
-    Case,
-    Finding,
-    Level,
-    Quantity,
-    Required,
-    Run,
-    closed_form,
-    exact_zero,
-)
-from verification.cases.chart import Chart
 from verification.cases.hertz_point import ASKED, label
 from verification.cases.loop_charts import hysteresis_chart
 from verification.cases.loop_history import (
@@ -29,8 +17,13 @@ from verification.cases.loop_history import (
     loop_energy,
     loop_steps,
 )
-from verification.cases.paper_scene import HERTZ, NU_ZERO
-from verification.cases.refinement import part_of_a_cell
+from verification.exhibits.chart import Chart
+from verification.judging.case import Case, Finding, Level, Quantity, Required
+from verification.judging.refinement import part_of_a_cell
+from verification.judging.run import Run
+from verification.problems import paper_scene as paper
+from verification.problems.paper_scene import HERTZ, NU_ZERO
+from verification.problems.reference import closed_form, exact_zero
 
 if TYPE_CHECKING:
     from semi_analytical import Result

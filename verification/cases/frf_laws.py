@@ -5,10 +5,11 @@ from __future__ import annotations
 from collections.abc import Callable
 from functools import partial
 
-from verification.cases.case import Case, Check, Level, Required, identity
-from verification.studies.law import Law, worst_violation
-from verification.studies.limit_laws import LIMIT_LAWS
-from verification.studies.symmetry_laws import SYMMETRY_LAWS
+from verification.judging.case import Case, Check, Level, Required
+from verification.laws.law import Law, worst_violation
+from verification.laws.limit_laws import LIMIT_LAWS
+from verification.laws.symmetry_laws import SYMMETRY_LAWS
+from verification.problems.reference import identity
 
 LAWS = tuple(sorted(SYMMETRY_LAWS + LIMIT_LAWS, key=lambda law: int(law.number[1:])))
 

@@ -4,16 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from verification.cases.case import (
-    Case,
-    Comparison,
-    Finding,
-    Level,
-    Quantity,
-    ReferenceKind,
-    Required,
-)
-from verification.cases.end_state import approach, contact_radius
 from verification.cases.indentation_charts import indentation_chart, indentation_table
 from verification.cases.indentation_reference import (
     COATED,
@@ -24,6 +14,9 @@ from verification.cases.indentation_reference import (
     WEAK,
     Indentation,
 )
+from verification.judging.case import Case, Comparison, Finding, Level, Quantity, Required
+from verification.observed.end_state import approach, contact_radius
+from verification.problems.reference import ReferenceKind
 
 ASKED = "asked of the coupled solver on 256 x 256 cells"
 

@@ -7,28 +7,20 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from contact_results.quantities import shear_of
 from contact_scene import Body, CoulombFriction, IsotropicMaterial, LoadStep, Scene
 from semi_analytical import one_way
-from verification.cases import paper_scene as paper
-from verification.cases.case import (
-    Case,
-    Comparison,
-    Level,
-    Quantity,
-    ReferenceKind,
-    Required,
-    Run,
-    closed_form,
-    identity,
-)
-from verification.cases.chart import Chart, Look, Panel, curve
-from verification.cases.end_state import approach, contact_radius, peak_pressure, stick_radius
-from verification.cases.layered_scene import rigid_ball
-from verification.cases.paper_scene import HERTZ
 from verification.cases.radial_profile import outward
-from verification.cases.table import Table
 from verification.closed_forms.goodman import stick_ratio
-from verification.quantities import shear_of
+from verification.exhibits.chart import Chart, Look, Panel, curve
+from verification.exhibits.table import Table
+from verification.judging.case import Case, Comparison, Level, Quantity, Required
+from verification.judging.run import Run
+from verification.observed.end_state import approach, contact_radius, peak_pressure, stick_radius
+from verification.problems import paper_scene as paper
+from verification.problems.layered_scene import rigid_ball
+from verification.problems.paper_scene import HERTZ
+from verification.problems.reference import ReferenceKind, closed_form, identity
 
 if TYPE_CHECKING:
     from semi_analytical import Result

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from contact_scene import LoadStep
-from verification.cases import paper_scene as paper
-from verification.cases.case import Case, Derived, Level, Quantity, Run, closed_form
-from verification.cases.end_state import approach, normal_force
 from verification.cases.hertz_point import SOURCE, label
-from verification.cases.paper_scene import HERTZ
-from verification.cases.refinement import refinement
+from verification.judging.case import Case, Derived, Level, Quantity
+from verification.judging.refinement import refinement
+from verification.judging.run import Run
+from verification.observed.end_state import approach, normal_force
+from verification.problems import paper_scene as paper
+from verification.problems.paper_scene import HERTZ
+from verification.problems.reference import closed_form
 
 SCENE = paper.frictionless(
     "Ball on a half-space, approach prescribed",

@@ -3,23 +3,15 @@
 from __future__ import annotations
 
 from contact_scene import LoadStep, Sphere
-from verification.cases import paper_scene as paper
-from verification.cases.case import (
-    ROUNDING,
-    Case,
-    Derived,
-    Finding,
-    Level,
-    Quantity,
-    Reference,
-    ReferenceKind,
-    Run,
-)
-from verification.cases.end_state import approach, contact_radius, peak_pressure
 from verification.cases.hertz_point import label
-from verification.cases.paper_scene import HERTZ
-from verification.cases.refinement import part_of_a_cell, refinement
 from verification.closed_forms.sphere import SphereContact
+from verification.judging.case import Case, Derived, Finding, Level, Quantity
+from verification.judging.refinement import part_of_a_cell, refinement
+from verification.judging.run import Run
+from verification.observed.end_state import approach, contact_radius, peak_pressure
+from verification.problems import paper_scene as paper
+from verification.problems.paper_scene import HERTZ
+from verification.problems.reference import ROUNDING, Reference, ReferenceKind
 
 SOURCE = "Sneddon 1965, arc of a circle, by Gauss quadrature"
 EXACT = SphereContact.under_load(paper.NORMAL_FORCE, paper.RADIUS, paper.CONTACT_MODULUS)

@@ -6,20 +6,22 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
 from contact_scene import LoadStep
-from verification.cases import paper_scene as paper
-from verification.cases.case import Case, Derived, Level, Quantity, Required, Run, closed_form
-from verification.cases.chart import Chart
-from verification.cases.convergence_chart import convergence_chart
-from verification.cases.end_state import approach, contact_radius, peak_pressure
-from verification.cases.order_of_convergence import Followed, NotYetAsymptotic, OrderOfConvergence
-from verification.cases.paper_scene import HERTZ
-from verification.cases.profile_chart import Profile, ProfileLabels, Section, profile_chart
-from verification.cases.refinement import part_of_a_cell, refinement
-from verification.metrics import relative_l2
+from verification.exhibits.chart import Chart
+from verification.exhibits.convergence_chart import convergence_chart
+from verification.exhibits.profile_chart import Profile, ProfileLabels, Section, profile_chart
+from verification.judging.case import Case, Derived, Level, Quantity, Required
+from verification.judging.order_of_convergence import Followed, NotYetAsymptotic, OrderOfConvergence
+from verification.judging.refinement import part_of_a_cell, refinement
+from verification.judging.run import Run
+from verification.norms import relative_l2
+from verification.observed.end_state import approach, contact_radius, peak_pressure
+from verification.problems import paper_scene as paper
+from verification.problems.paper_scene import HERTZ
+from verification.problems.reference import closed_form
 
 if TYPE_CHECKING:
     from semi_analytical import Result
-    from verification.cases.end_state import Result as EitherResult
+    from verification.observed.end_state import Result as EitherResult
 
 SOURCE = "Hertz 1882; Johnson 1985, ch. 4"
 ASKED = "required of this scene by the project's accuracy targets"

@@ -8,27 +8,19 @@ from typing import Any
 from contact_scene import Body, FiniteElementDiscretisation, LoadStep, Scene
 from fem_reference.energy import elastic_energy
 from semi_analytical import SurfaceGrid
-from verification.cases import paper_scene as paper
-from verification.cases.case import (
-    SOLVER_TOLERANCE,
-    Case,
-    Comparison,
-    Level,
-    Quantity,
-    Required,
-    Run,
-    closed_form,
-)
-from verification.cases.end_state import approach, contact_radius, peak_pressure
 from verification.cases.fem_hertz import meshed
 from verification.cases.fem_levels import allowed as allowed_of_elements
 from verification.cases.fem_levels import because as because_of_elements
 from verification.cases.hertz_point import SOURCE
-from verification.cases.layered_scene import coated, film, rigid_ball
-from verification.cases.paper_scene import HERTZ, NORMAL_FORCE, STEEL
-from verification.cases.refinement import part_of_a_cell
-from verification.cases.section_run import SectionRun, per_radius
 from verification.closed_forms.hertz import PointContact
+from verification.judging.case import Case, Comparison, Level, Quantity, Required
+from verification.judging.refinement import part_of_a_cell
+from verification.judging.run import SOLVER_TOLERANCE, Run, SectionRun, per_radius
+from verification.observed.end_state import approach, contact_radius, peak_pressure
+from verification.problems import paper_scene as paper
+from verification.problems.layered_scene import coated, film, rigid_ball
+from verification.problems.paper_scene import HERTZ, NORMAL_FORCE, STEEL
+from verification.problems.reference import closed_form
 
 PART = (27.5 / 32.5) ** 3  # about 0.6; of 32 elements the edge is then in the middle of one
 UNLOADED = PointContact.under_load(PART * NORMAL_FORCE, HERTZ.radius, HERTZ.contact_modulus)

@@ -7,15 +7,15 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from verification.cases.chart import Chart, Look, Panel, curve
-from verification.cases.end_state import approach, contact_radius, stick_radius
+from contact_results.quantities import shear_of
 from verification.cases.hertz_point import label
 from verification.cases.indentation_reference import Indentation
-from verification.cases.paper_scene import HERTZ
-from verification.cases.profile_chart import SHOWN
 from verification.cases.radial_profile import along_radii, outward
-from verification.cases.table import Table
-from verification.quantities import shear_of
+from verification.exhibits.chart import Chart, Look, Panel, curve
+from verification.exhibits.profile_chart import SHOWN
+from verification.exhibits.table import Table
+from verification.observed.end_state import approach, contact_radius, stick_radius
+from verification.problems.paper_scene import HERTZ
 
 if TYPE_CHECKING:
     from semi_analytical import Result

@@ -10,15 +10,16 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from contact_results.quantities import shear_of
 from contact_scene import Body, CoulombFriction, IsotropicMaterial, LoadStep, Scene
-from verification.cases import paper_scene as paper
-from verification.cases.case import Reference, ReferenceKind, Run
-from verification.cases.end_state import stick_radius
 from verification.cases.hertz_point import label
-from verification.cases.layered_scene import coated, film, rigid_ball
-from verification.cases.paper_scene import HERTZ
 from verification.cases.radial_profile import along_radii, outward
-from verification.quantities import shear_of
+from verification.judging.run import Run
+from verification.observed.end_state import stick_radius
+from verification.problems import paper_scene as paper
+from verification.problems.layered_scene import coated, film, rigid_ball
+from verification.problems.paper_scene import HERTZ
+from verification.problems.reference import Reference, ReferenceKind
 from verification.references import load_reference
 
 if TYPE_CHECKING:

@@ -7,16 +7,18 @@ from dataclasses import replace
 from itertools import pairwise
 from typing import TYPE_CHECKING
 
+from contact_results.quantities import shear_of
 from contact_scene import Body, IsotropicMaterial
-from verification.cases import paper_scene as paper
-from verification.cases.case import Case, Comparison, Level, ReferenceKind, Run
-from verification.cases.chart import Chart
-from verification.cases.convergence_chart import convergence_chart
-from verification.cases.end_state import approach
 from verification.cases.indentation_reference import Indentation
-from verification.cases.order_of_convergence import Followed, OrderOfChange, Refinement
-from verification.quantities import shear_of
-from verification.studies.refinement.level_record import at_centres
+from verification.convergence.level_record import at_centres
+from verification.exhibits.chart import Chart
+from verification.exhibits.convergence_chart import convergence_chart
+from verification.judging.case import Case, Comparison, Level
+from verification.judging.order_of_convergence import Followed, OrderOfChange, Refinement
+from verification.judging.run import Run
+from verification.observed.end_state import approach
+from verification.problems import paper_scene as paper
+from verification.problems.reference import ReferenceKind
 
 if TYPE_CHECKING:
     from semi_analytical import Plan, Result

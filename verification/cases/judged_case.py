@@ -11,10 +11,10 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, ClassVar
 
 from contact_scene.description import Description
-from verification.cases.outcome import CaseOutcome, Status, Verdict
+from verification.judging.outcome import CaseOutcome, Status, Verdict
 
 if TYPE_CHECKING:
-    from verification.cases.case import Case
+    from verification.judging.case import Case
 
 CACHE = "SLIPSTICK_CACHE_DIR"
 NOWHERE = os.devnull  # a file, so nothing is found in it and nothing can be put there
@@ -44,9 +44,9 @@ class CaseToJudge:
     def compute(self) -> JudgedCase:
         """Solve and judge it. What is kept on disk is left alone: what is judged must be what the
         code computes now, not what it computed before somebody changed it."""
-        from verification.cases.case import Level
         from verification.cases.catalogue import catalogue
-        from verification.cases.judgement import judge
+        from verification.judging.case import Level
+        from verification.judging.judgement import judge
 
         started = time.perf_counter()
         with _no_cache_on_disk():

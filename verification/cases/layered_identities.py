@@ -7,12 +7,13 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from contact_scene import RIGID, Body, IsotropicMaterial, Layer, Paraboloid
-from verification.cases import paper_scene as paper
-from verification.cases.case import Case, Comparison, Level, Quantity, Required, Run, closed_form
-from verification.cases.end_state import approach, peak_pressure
 from verification.cases.flat_punch import central_pressure
 from verification.cases.hertz_point import ASKED, SOURCE
-from verification.cases.layered_scene import (
+from verification.judging.case import Case, Comparison, Level, Quantity, Required
+from verification.judging.run import Run
+from verification.observed.end_state import approach, peak_pressure
+from verification.problems import paper_scene as paper
+from verification.problems.layered_scene import (
     SUBSTRATE,
     coated,
     exact_contact,
@@ -21,7 +22,8 @@ from verification.cases.layered_scene import (
     rigid_ball,
     semi_closed,
 )
-from verification.cases.paper_scene import HERTZ
+from verification.problems.paper_scene import HERTZ
+from verification.problems.reference import closed_form
 
 if TYPE_CHECKING:
     from semi_analytical import Result

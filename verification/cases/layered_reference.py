@@ -12,10 +12,11 @@ from semi_analytical.frf.matrix import frf_matrix
 from semi_analytical.frf.stack import Stack
 from semi_analytical.frf.surface import scalars
 from semi_analytical.influence.layered import LayeredCoefficients
-from verification.cases.case import Case, Check, Level, Reference, ReferenceKind, Required
-from verification.cases.table import Table
+from verification.exhibits.numbers import plain
+from verification.exhibits.table import Table
+from verification.judging.case import Case, Check, Level, Required
+from verification.problems.reference import Reference, ReferenceKind
 from verification.references import load_reference
-from verification.report.numbers import plain
 
 if TYPE_CHECKING:
     from semi_analytical import Result

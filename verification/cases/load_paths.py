@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from contact_scene import LoadStep, Scene
-from verification.cases import paper_scene as paper
-from verification.cases.case import SOLVER_TOLERANCE, Case, Comparison, Level, Run
-from verification.cases.paper_scene import STEEL
 from verification.cases.turned import difference_after_quarter, difference_of_motion, turned
+from verification.judging.case import Case, Comparison, Level
+from verification.judging.run import SOLVER_TOLERANCE, Run
+from verification.problems import paper_scene as paper
+from verification.problems.paper_scene import STEEL
 
 CELLS = 64
 TURNING = "turning"

@@ -9,14 +9,14 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from contact_results.quantities import energy_between, force_along_x, shear_of, shift_along_x
 from contact_scene import IsotropicMaterial
 from contact_scene.loading import LoadStep
-from verification.cases import paper_scene as paper
-from verification.cases.paper_scene import FRICTION
 from verification.closed_forms.ruiz import CycledContact
 from verification.closed_forms.tangential_history import TangentialHistory
-from verification.metrics import shear_error
-from verification.quantities import energy_between, force_along_x, shear_of, shift_along_x
+from verification.norms import shear_error
+from verification.problems import paper_scene as paper
+from verification.problems.paper_scene import FRICTION
 
 if TYPE_CHECKING:
     from semi_analytical import Increment, Result

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from contact_scene import IsotropicMaterial, LoadStep, Scene
-from verification.cases import paper_scene as paper
-from verification.cases.case import Case, Level, Quantity, Required, Run, closed_form, identity
 from verification.cases.cattaneo_mindlin import SLIDING_SHIFT, SOURCE
-from verification.cases.end_state import shift, tangential_force
-from verification.cases.paper_scene import NU_ZERO, STEEL
+from verification.judging.case import Case, Level, Quantity, Required
+from verification.judging.run import Run
+from verification.observed.end_state import shift, tangential_force
+from verification.problems import paper_scene as paper
+from verification.problems.paper_scene import NU_ZERO, STEEL
+from verification.problems.reference import closed_form, identity
 
 CELLS = 64
 PARTS = (0.99, 0.999, 0.9999)

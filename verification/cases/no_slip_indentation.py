@@ -15,11 +15,13 @@ from contact_scene import (
     LoadStep,
     Scene,
 )
-from verification.cases import paper_scene as paper
-from verification.cases.case import Case, Comparison, Level, ReferenceKind, Run
-from verification.cases.end_state import approach
-from verification.cases.layered_scene import rigid_ball
-from verification.cases.paper_scene import HERTZ
+from verification.judging.case import Case, Comparison, Level
+from verification.judging.run import Run
+from verification.observed.end_state import approach
+from verification.problems import paper_scene as paper
+from verification.problems.layered_scene import rigid_ball
+from verification.problems.paper_scene import HERTZ
+from verification.problems.reference import ReferenceKind
 
 if TYPE_CHECKING:
     from semi_analytical import Result

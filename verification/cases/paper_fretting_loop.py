@@ -7,19 +7,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from contact_results.quantities import shift_along_x, slip_traction_angle, transverse_shear
 from contact_scene import Sphere
-from verification.cases import paper_scene as paper
-from verification.cases.case import (
-    Case,
-    Finding,
-    Level,
-    Quantity,
-    Reference,
-    ReferenceKind,
-    Required,
-    Run,
-)
-from verification.cases.chart import Chart
 from verification.cases.hertz_point import label
 from verification.cases.loop_charts import (
     hysteresis_chart,
@@ -27,8 +16,12 @@ from verification.cases.loop_charts import (
     tractions_chart,
 )
 from verification.cases.loop_history import LOADED, ExactLoop, loop_energy, loop_steps
-from verification.cases.paper_scene import FRICTION, STEEL
-from verification.quantities import shift_along_x, slip_traction_angle, transverse_shear
+from verification.exhibits.chart import Chart
+from verification.judging.case import Case, Finding, Level, Quantity, Required
+from verification.judging.run import Run
+from verification.problems import paper_scene as paper
+from verification.problems.paper_scene import FRICTION, STEEL
+from verification.problems.reference import Reference, ReferenceKind
 
 if TYPE_CHECKING:
     from semi_analytical import Result

@@ -7,22 +7,16 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from contact_results.difference import largest_difference
+from contact_results.quantities import shear_of
 from contact_scene import RIGID, Body, CoulombFriction, HeightMap, LoadStep, Scene
 from semi_analytical import SurfaceGrid
-from verification.cases.case import (
-    ROUNDING,
-    SOLVER_TOLERANCE,
-    Case,
-    Comparison,
-    Level,
-    ReferenceKind,
-    Run,
-)
-from verification.cases.layered_scene import coated, film, rigid_ball
-from verification.cases.paper_scene import HERTZ, NORMAL_FORCE
 from verification.cases.turned import difference_after_quarter, turned
-from verification.quantities import shear_of
-from verification.result_difference import largest_difference
+from verification.judging.case import Case, Comparison, Level
+from verification.judging.run import SOLVER_TOLERANCE, Run
+from verification.problems.layered_scene import coated, film, rigid_ball
+from verification.problems.paper_scene import HERTZ, NORMAL_FORCE
+from verification.problems.reference import ROUNDING, ReferenceKind
 
 if TYPE_CHECKING:
     from semi_analytical import Result

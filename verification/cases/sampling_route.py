@@ -7,12 +7,13 @@ from functools import cache
 from typing import TYPE_CHECKING
 
 from semi_analytical.frf.stack import Stack
-from verification.cases.case import Case, Check, Level, Required, identity
-from verification.cases.chart import Chart, Look, Panel, curve
 from verification.cases.layered_reference import COEFFICIENT_SOURCE
-from verification.cases.table import Table
-from verification.report.numbers import plain
-from verification.studies.sampling_route import SamplingErrors, sampling_errors
+from verification.exhibits.chart import Chart, Look, Panel, curve
+from verification.exhibits.numbers import plain
+from verification.exhibits.table import Table
+from verification.judging.case import Case, Check, Level, Required
+from verification.laws.sampling_route import SamplingErrors, sampling_errors
+from verification.problems.reference import identity
 
 if TYPE_CHECKING:
     from semi_analytical import Result

@@ -7,31 +7,24 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from contact_results.quantities import shear_of
 from contact_scene import Cone
-from verification.cases import paper_scene as paper
-from verification.cases.case import (
-    Case,
-    Derived,
-    Level,
-    Quantity,
-    Required,
-    Run,
-    closed_form,
-    exact_zero,
-)
-from verification.cases.chart import Chart
 from verification.cases.cone_contact import EXACT as FULL
 from verification.cases.cone_contact import MEAN_PRESSURE, SLOPE
-from verification.cases.end_state import shift, stick_radius
 from verification.cases.hertz_point import label
-from verification.cases.order_of_convergence import Followed, OrderOfConvergence
-from verification.cases.paper_scene import FRICTION, NU_ZERO
-from verification.cases.profile_chart import Profile, ProfileLabels, Section, profile_chart
-from verification.cases.refinement import part_of_a_cell, refinement
 from verification.closed_forms.ciavarella_jaeger import Superposition, superpose
 from verification.closed_forms.cone import ConeContact
-from verification.metrics import shear_error
-from verification.quantities import shear_of
+from verification.exhibits.chart import Chart
+from verification.exhibits.profile_chart import Profile, ProfileLabels, Section, profile_chart
+from verification.judging.case import Case, Derived, Level, Quantity, Required
+from verification.judging.order_of_convergence import Followed, OrderOfConvergence
+from verification.judging.refinement import part_of_a_cell, refinement
+from verification.judging.run import Run
+from verification.norms import shear_error
+from verification.observed.end_state import shift, stick_radius
+from verification.problems import paper_scene as paper
+from verification.problems.paper_scene import FRICTION, NU_ZERO
+from verification.problems.reference import closed_form, exact_zero
 
 if TYPE_CHECKING:
     from semi_analytical import Result

@@ -9,11 +9,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from contact_results.quantities import shear_of, shift_along_x
 from contact_scene import LoadStep
-from verification.cases import paper_scene as paper
-from verification.cases.case import Case, Comparison, Level, ReferenceKind, Run
-from verification.cases.chart import Chart
-from verification.cases.convergence_chart import convergence_chart
 from verification.cases.indentation_reference import FEW
 from verification.cases.indentation_refinement import (
     LOST,
@@ -21,9 +18,14 @@ from verification.cases.indentation_refinement import (
     approach_change,
     energy_change,
 )
-from verification.cases.order_of_convergence import Followed, OrderOfChange, Refinement
-from verification.convergence import ORDER_OFF
-from verification.quantities import shear_of, shift_along_x
+from verification.convergence.observed_order import ORDER_OFF
+from verification.exhibits.chart import Chart
+from verification.exhibits.convergence_chart import convergence_chart
+from verification.judging.case import Case, Comparison, Level
+from verification.judging.order_of_convergence import Followed, OrderOfChange, Refinement
+from verification.judging.run import Run
+from verification.problems import paper_scene as paper
+from verification.problems.reference import ReferenceKind
 
 if TYPE_CHECKING:
     from semi_analytical import Result

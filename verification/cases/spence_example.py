@@ -17,16 +17,10 @@ from contact_scene import (
     Scene,
 )
 from semi_analytical.grid import SurfaceGrid
-from verification.cases.case import (
-    Case,
-    Level,
-    Quantity,
-    Reference,
-    ReferenceKind,
-    Required,
-    Run,
-)
-from verification.cases.end_state import approach, peak_pressure
+from verification.judging.case import Case, Level, Quantity, Required
+from verification.judging.run import Run
+from verification.observed.end_state import approach, peak_pressure
+from verification.problems.reference import Reference, ReferenceKind
 
 if TYPE_CHECKING:
     from semi_analytical import Result

@@ -9,11 +9,11 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 
+from contact_results.quantities import shift_along_x
 from contact_scene import IsotropicMaterial
-from verification.cases import paper_scene as paper
-from verification.cases.order_of_convergence import Followed, OrderOfConvergence
 from verification.closed_forms.tangential_history import TangentialHistory
-from verification.quantities import shift_along_x
+from verification.judging.order_of_convergence import Followed, OrderOfConvergence
+from verification.problems import paper_scene as paper
 
 if TYPE_CHECKING:
     import fem_reference

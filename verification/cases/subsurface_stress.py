@@ -11,11 +11,12 @@ from numpy.typing import NDArray
 
 from contact_scene import Body, IsotropicMaterial, Layer
 from semi_analytical.stress import SubsurfaceField, interfaces, subsurface, subsurface_section
-from verification.cases.case import Case, Check, Level, Reference, ReferenceKind, Required
-from verification.cases.paper_scene import HERTZ, STEEL, hertz_grid
-from verification.cases.table import Table
 from verification.closed_forms.huber_stress import axis_stress, huber_stress, sliding_axis_shear
-from verification.report.numbers import plain
+from verification.exhibits.numbers import plain
+from verification.exhibits.table import Table
+from verification.judging.case import Case, Check, Level, Required
+from verification.problems.paper_scene import HERTZ, STEEL, hertz_grid
+from verification.problems.reference import Reference, ReferenceKind
 
 if TYPE_CHECKING:
     from semi_analytical import Result

@@ -8,24 +8,16 @@ from math import pi
 from typing import TYPE_CHECKING
 
 from contact_scene import RIGID, Body, IsotropicMaterial, Layer, LoadStep
-from verification.cases import paper_scene as paper
-from verification.cases.case import (
-    Case,
-    Check,
-    Finding,
-    Level,
-    Quantity,
-    Reference,
-    ReferenceKind,
-    Required,
-    Run,
-)
-from verification.cases.end_state import contact_radius, normal_force
 from verification.cases.flat_punch import central_pressure
 from verification.cases.hertz_point import label
-from verification.cases.layered_scene import pressed, rigid_ball, semi_closed, surface_of
-from verification.cases.refinement import part_of_a_cell
 from verification.closed_forms.coated_indentation import LayeredIndentation, paraboloid
+from verification.judging.case import Case, Check, Finding, Level, Quantity, Required
+from verification.judging.refinement import part_of_a_cell
+from verification.judging.run import Run
+from verification.observed.end_state import contact_radius, normal_force
+from verification.problems import paper_scene as paper
+from verification.problems.layered_scene import pressed, rigid_ball, semi_closed, surface_of
+from verification.problems.reference import Reference, ReferenceKind
 
 if TYPE_CHECKING:
     from semi_analytical import Result

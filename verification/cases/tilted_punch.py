@@ -8,21 +8,14 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from contact_scene import FlatPunch, LoadStep, Scene
-from verification.cases import paper_scene as paper
-from verification.cases.case import (
-    Case,
-    Comparison,
-    Level,
-    Quantity,
-    Required,
-    Run,
-    closed_form,
-    exact_zero,
-)
-from verification.cases.end_state import approach
 from verification.cases.hertz_point import label
-from verification.cases.refinement import refinement
 from verification.closed_forms.tilted_punch import TiltedPunch
+from verification.judging.case import Case, Comparison, Level, Quantity, Required
+from verification.judging.refinement import refinement
+from verification.judging.run import Run
+from verification.observed.end_state import approach
+from verification.problems import paper_scene as paper
+from verification.problems.reference import closed_form, exact_zero
 
 if TYPE_CHECKING:
     from semi_analytical import Result

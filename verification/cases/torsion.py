@@ -8,28 +8,21 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy.integrate import quad
 
+from contact_results.quantities import energy_between, shear_of
 from contact_scene import Body, CoulombFriction, FlatPunch, LoadStep, Scene
-from verification.cases import paper_scene as paper
-from verification.cases.case import (
-    Case,
-    Derived,
-    Level,
-    Quantity,
-    Required,
-    Run,
-    closed_form,
-    exact_zero,
-)
-from verification.cases.chart import Chart
-from verification.cases.convergence_chart import convergence_chart
-from verification.cases.end_state import stick_radius
 from verification.cases.hertz_point import label
-from verification.cases.order_of_convergence import Followed, OrderOfConvergence
-from verification.cases.paper_scene import FRICTION, HERTZ, STEEL
-from verification.cases.refinement import part_of_a_cell, refinement
 from verification.closed_forms.torsion import StuckTorsion, TorsionalPartialSlip
-from verification.metrics import shear_error
-from verification.quantities import energy_between, shear_of
+from verification.exhibits.chart import Chart
+from verification.exhibits.convergence_chart import convergence_chart
+from verification.judging.case import Case, Derived, Level, Quantity, Required
+from verification.judging.order_of_convergence import Followed, OrderOfConvergence
+from verification.judging.refinement import part_of_a_cell, refinement
+from verification.judging.run import Run
+from verification.norms import shear_error
+from verification.observed.end_state import stick_radius
+from verification.problems import paper_scene as paper
+from verification.problems.paper_scene import FRICTION, HERTZ, STEEL
+from verification.problems.reference import closed_form, exact_zero
 
 if TYPE_CHECKING:
     from semi_analytical import Increment, Result

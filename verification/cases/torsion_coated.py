@@ -17,21 +17,15 @@ from contact_scene import (
     Paraboloid,
     Scene,
 )
-from verification.cases import paper_scene as paper
-from verification.cases.case import (
-    Case,
-    Derived,
-    Level,
-    Quantity,
-    Reference,
-    ReferenceKind,
-    Run,
-)
 from verification.cases.hertz_point import label
-from verification.cases.layered_scene import exact_contact
-from verification.cases.paper_scene import FRICTION, HERTZ
-from verification.cases.refinement import part_of_a_cell, refinement
 from verification.closed_forms.coated_torsion import CoatedTorsion, TorsionalSurface, one_layer
+from verification.judging.case import Case, Derived, Level, Quantity
+from verification.judging.refinement import part_of_a_cell, refinement
+from verification.judging.run import Run
+from verification.problems import paper_scene as paper
+from verification.problems.layered_scene import exact_contact
+from verification.problems.paper_scene import FRICTION, HERTZ
+from verification.problems.reference import Reference, ReferenceKind
 
 if TYPE_CHECKING:
     from semi_analytical import Result

@@ -20,9 +20,9 @@ from typing import Any
 
 import numpy as np
 
+from contact_results.one_thread import VARIABLES, one_thread
 from verification.closed_forms.hertz import PointContact
-from verification.metrics import relative_l2, shear_error
-from verification.one_thread import VARIABLES, one_thread
+from verification.norms import relative_l2, shear_error
 from verification.peers.environment import (
     PEERS,
     Installed,
@@ -31,7 +31,7 @@ from verification.peers.environment import (
     made_environment,
     peers_directory,
 )
-from verification.report.provenance import provenance
+from verification.running.provenance import provenance
 from verification.studies.work_precision.setting import Method, PrecisionCase
 
 CELLS = (32, 64, 128, 256, 512)

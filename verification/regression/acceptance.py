@@ -6,14 +6,14 @@ from collections.abc import Collection
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from verification.cases.outcome import Status
+from verification.judging.outcome import Status
 from verification.regression.baseline import Baseline, recording
 from verification.regression.baseline_files import write_baselines
 from verification.regression.refusal import BaselineRefused
 
 if TYPE_CHECKING:
-    from verification.cases.outcome import CaseOutcome
-    from verification.report.record import Report
+    from verification.judging.outcome import CaseOutcome
+    from verification.running.report_record import Report
 
 
 def accept(

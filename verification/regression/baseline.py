@@ -5,11 +5,11 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from contact_scene.description import Description
-from verification.cases.outcome import FindingRecord, RunRecord, Status, Verdict
+from verification.judging.outcome import FindingRecord, RunRecord, Status, Verdict
 
 if TYPE_CHECKING:
-    from verification.cases.outcome import CaseOutcome
-    from verification.report.record import Provenance
+    from verification.judging.outcome import CaseOutcome
+    from verification.running.report_record import Provenance
 
 BASELINE_VERSION = 1
 COUNTERS = ("increments", "iterations", "convolutions", "factorizations")

@@ -6,10 +6,10 @@ import json
 from collections.abc import Iterable, Mapping
 from pathlib import Path
 
-from verification.cases.case import Level
+from contact_results.directory.atomic_file import atomic_file
+from verification.judging.case import Level
 from verification.regression.baseline import BASELINE_VERSION, Baseline, Recording
 from verification.regression.refusal import BaselineRefused
-from verification.run_output.atomic_file import atomic_file
 
 BASELINES = Path(__file__).resolve().parents[1] / "baselines"
 ENDING = ".json"

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING
 
-from verification.cases.change import Change, Gone, GoneCase, Origin, commit_text
+from verification.judging.change import Change, Gone, GoneCase, Origin, commit_text
 from verification.regression.baseline import (
     Baseline,
     Key,
@@ -21,8 +21,8 @@ from verification.regression.number_change import finding_change, quantity_chang
 from verification.regression.refusal import BaselineRefused
 
 if TYPE_CHECKING:
-    from verification.cases.outcome import CaseOutcome
-    from verification.report.record import Report
+    from verification.judging.outcome import CaseOutcome
+    from verification.running.report_record import Report
 
 
 def compared(report: Report, baselines: Mapping[str, Baseline]) -> Report:

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from verification.cases.change import ChangeKind, CounterChange, Origin
+from verification.judging.change import ChangeKind, CounterChange, Origin
 from verification.regression.baseline import COUNTERS
 
 if TYPE_CHECKING:
-    from verification.cases.outcome import RunRecord
+    from verification.judging.outcome import RunRecord
     from verification.regression.baseline import RecordedRun
 
 RATIO_ELSEWHERE = 1.25  # of two counts of the same solve on different processors

@@ -6,12 +6,12 @@ import math
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
-from verification.cases.case import ROUNDING
-from verification.cases.change import Change, ChangeKind, Origin
-from verification.cases.outcome import Status
+from verification.judging.change import Change, ChangeKind, Origin
+from verification.judging.outcome import Status
+from verification.problems.reference import ROUNDING
 
 if TYPE_CHECKING:
-    from verification.cases.outcome import FindingRecord, Verdict
+    from verification.judging.outcome import FindingRecord, Verdict
     from verification.regression.baseline import RecordedFinding, RecordedQuantity
 
 SAME_DIGITS = 1e-8  # relative; equal bits are the rule on one processor with the same versions

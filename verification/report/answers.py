@@ -5,10 +5,12 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 from verification.cases.apart_everywhere import TITLE as EVERYWHERE
-from verification.cases.case import ReferenceKind
-from verification.cases.chart import Chart
-from verification.cases.outcome import CaseOutcome, Verdict
-from verification.cases.table import Table
+from verification.exhibits.chart import Chart
+from verification.exhibits.numbers import plain
+from verification.exhibits.table import Table
+from verification.judging.outcome import CaseOutcome, Verdict
+from verification.judging.verdict_text import clearance_text
+from verification.problems.reference import ReferenceKind
 from verification.report.both_solvers import (
     CELLS,
     ELEMENTS,
@@ -16,11 +18,10 @@ from verification.report.both_solvers import (
     shared_references,
 )
 from verification.report.equal_fineness import nearer_sentences, nearer_table, votes
-from verification.report.numbers import clearance_text, plain
 from verification.report.prices import price_table, telling_chart
-from verification.report.record import Report
 from verification.report.sections import StudySection, study_of, study_section
-from verification.studies.running.record import StudyRecord
+from verification.running.record import StudyRecord
+from verification.running.report_record import Report
 
 Direct = tuple[CaseOutcome, Verdict]
 

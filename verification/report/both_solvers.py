@@ -6,11 +6,11 @@ import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from verification.cases.chart import Chart, Look, Panel, curve
-from verification.cases.outcome import CaseOutcome, Verdict
-from verification.cases.table import Table
-from verification.report.numbers import plain
-from verification.report.record import Report
+from verification.exhibits.chart import Chart, Look, Panel, curve
+from verification.exhibits.numbers import plain
+from verification.exhibits.table import Table
+from verification.judging.outcome import CaseOutcome, Verdict
+from verification.running.report_record import Report
 
 CELLS, ELEMENTS = "cells (SAM)", "finite elements"
 SERIES = {CELLS: 0, ELEMENTS: 1}

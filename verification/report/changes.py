@@ -6,10 +6,11 @@ from collections import Counter
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from verification.cases.change import Change, ChangeKind, Origin
-from verification.cases.outcome import CaseOutcome, FindingRecord, RunRecord, Verdict
-from verification.report.numbers import moved_text, value_text
-from verification.report.record import Report
+from verification.exhibits.numbers import value_text
+from verification.judging.change import Change, ChangeKind, Origin
+from verification.judging.outcome import CaseOutcome, FindingRecord, RunRecord, Verdict
+from verification.judging.verdict_text import moved_text
+from verification.running.report_record import Report
 
 DIGITS = 9  # enough to see what changed
 CASE, ALL = "case", "all runs"  # in place of a quantity and its run

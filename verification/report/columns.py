@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from verification.cases.table import Table
+from verification.exhibits.table import Table
 
 WORDS_FROM = 30  # characters of a cell that make its column one of words
 DIGITS = frozenset("0123456789")

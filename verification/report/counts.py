@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from verification.cases.outcome import Status
-from verification.report.record import Report
+from verification.judging.outcome import Status
+from verification.running.report_record import Report
 
 
 def counts_text(report: Report) -> str:

@@ -8,11 +8,11 @@ from typing import Any
 from matplotlib.figure import Figure
 from matplotlib.ticker import FuncFormatter, NullFormatter
 
-from verification.cases.chart import Chart, Curve, Look, Panel
+from contact_results.figures import style
+from verification.exhibits.chart import Chart, Curve, Look, Panel
+from verification.exhibits.numbers import plain
 from verification.report.log_ticks import LogTicks
-from verification.report.numbers import plain
 from verification.report.thinned import thinned
-from verification.run_output.figures import style
 
 WIDTH = 6.6
 HEIGHT_PER_UNIT = 1.5

@@ -8,11 +8,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from verification.cases.outcome import RefinedErrors
-from verification.cases.table import Table
-from verification.error_line import by_size, error_line
+from verification.convergence.error_line import by_size, error_line
+from verification.exhibits.numbers import plain
+from verification.exhibits.table import Table
+from verification.judging.outcome import RefinedErrors
 from verification.report.both_solvers import CELLS, ELEMENTS, SharedReference
-from verification.report.numbers import plain
 
 PER_RADIUS = 64  # the fineness that solvers are compared at
 BEYOND = 2.0  # an error is extrapolated no further than by this factor of refinement

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from verification.cases.outcome import CaseOutcome, RunRecord, Status, Verdict
-from verification.report.numbers import plain
-from verification.report.record import Report
+from verification.exhibits.numbers import plain
+from verification.judging.outcome import CaseOutcome, RunRecord, Status, Verdict
 from verification.report.sections import study_section
-from verification.studies.running.record import StudyRecord
+from verification.running.record import StudyRecord
+from verification.running.report_record import Report
 
 FORCED = "forced_effects"
 PLANNED_RUN, FORCED_RUN = ", as planned", ", all effects on"  # ends of the labels of its runs

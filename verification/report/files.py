@@ -8,14 +8,14 @@ from collections.abc import Iterator, Sequence
 from contextlib import contextmanager, suppress
 from pathlib import Path
 
+from contact_results.directory.atomic_file import atomic_file
+from contact_results.directory.directory_lock import acquire, release
+from contact_results.directory.refusal import OutputRefused
+from contact_results.directory.stop_signals import stop_signals_held
 from verification.report.junit import render_junit
 from verification.report.page import render_page
-from verification.report.record import Report, dump_report
 from verification.report.summary_text import render_summary
-from verification.run_output.atomic_file import atomic_file
-from verification.run_output.directory_lock import acquire, release
-from verification.run_output.refusal import OutputRefused
-from verification.run_output.stop_signals import stop_signals_held
+from verification.running.report_record import Report, dump_report
 
 PAGE = "index.html"
 RECORD = "report.json"

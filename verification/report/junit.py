@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from xml.etree import ElementTree
 
-from verification.cases.outcome import CaseOutcome, Status, Verdict
+from verification.judging.outcome import CaseOutcome, Status, Verdict
+from verification.judging.verdict_text import failure_line
 from verification.report.changes import case_rows
-from verification.report.numbers import failure_line, study_failure_line
-from verification.report.record import Report
-from verification.studies.running.record import StudyRecord
+from verification.running.record import StudyRecord
+from verification.running.report_record import Report
+from verification.running.study_text import study_failure_line
 
 
 def render_junit(report: Report) -> str:

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from verification.cases.outcome import CaseOutcome, Verdict
-from verification.report.record import Report
+from verification.judging.outcome import CaseOutcome, Verdict
+from verification.running.report_record import Report
 
 BEGINNING = "order of convergence: "  # of what such a verdict means
 

@@ -7,10 +7,17 @@ from functools import cache
 import jinja2
 from markupsafe import Markup
 
-from verification.cases.chart import Chart
-from verification.cases.orders import not_judged
-from verification.cases.outcome import CaseOutcome, SceneRecord, Status, Verdict
-from verification.cases.table import Table
+from verification.exhibits.chart import Chart
+from verification.exhibits.numbers import plain, value_text
+from verification.exhibits.table import Table
+from verification.judging.outcome import CaseOutcome, SceneRecord, Status, Verdict
+from verification.judging.status_words import SYMBOLS, WORDS
+from verification.judging.verdict_text import (
+    clearance_text,
+    failure_text,
+    order_text,
+    uncertainty_text,
+)
 from verification.report.answers import answers
 from verification.report.both_solvers import (
     both_solvers_charts,
@@ -28,25 +35,15 @@ from verification.report.columns import alignment
 from verification.report.counts import counts_text
 from verification.report.extent import extent
 from verification.report.features import features
-from verification.report.numbers import (
-    clearance_text,
-    failure_text,
-    measured_text,
-    order_text,
-    plain,
-    uncertainty_text,
-    value_text,
-)
+from verification.report.order_table import not_judged
 from verification.report.orders import observed_orders
 from verification.report.profiles_together import profiles_together
-from verification.report.record import Report
 from verification.report.sections import study_of, study_section
 from verification.report.shared_styles import with_shared_styles
 from verification.report.sketch import sketch_svg, thin_layers
 from verification.report.svg import inline_svg
-
-SYMBOLS = {Status.PASS: "✓", Status.FAIL: "✗", Status.INCONCLUSIVE: "?"}
-WORDS = {Status.PASS: "pass", Status.FAIL: "FAIL", Status.INCONCLUSIVE: "inconclusive"}
+from verification.running.report_record import Report
+from verification.running.study_text import measured_text
 
 # Cases whose sheets stand in another section than the others.
 PAPER, FREQUENCY_RESPONSE = "paper", "frf"

@@ -4,14 +4,13 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from verification.cases.chart import Chart
-from verification.cases.table import Table
-from verification.studies.running.study import Conclusion
+from verification.exhibits.chart import Chart
+from verification.exhibits.numbers import EXTRAPOLATED, NOT_REACHED
+from verification.exhibits.table import Table
+from verification.running.study import Conclusion
 
 TARGET = "0.1 %"
 METHOD = "method"  # the first column of a table of cheapest settings
-NOT_REACHED = "–"
-EXTRAPOLATED = "≈"  # before a cost that no setting was tried for
 PAPERS_ROUTE = "sampled response, frozen directions"
 
 

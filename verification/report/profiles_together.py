@@ -7,9 +7,9 @@ from dataclasses import dataclass
 from itertools import pairwise
 from math import inf
 
-from verification.cases.chart import Chart, Curve, Look, Panel, curve
+from verification.exhibits.chart import Chart, Curve, Look, Panel, curve
 from verification.report.both_solvers import CELLS, ELEMENTS, SERIES
-from verification.report.record import Report
+from verification.running.report_record import Report
 
 
 @dataclass(frozen=True)

@@ -6,8 +6,8 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from pathlib import Path
 
-from verification.report.record import Provenance, Report
-from verification.studies.running.record import StudyRecord
+from verification.running.record import StudyRecord
+from verification.running.report_record import Provenance, Report
 
 # By the name of its study. A study gets its place on the page in `templates/page.html`.
 TITLES = {
@@ -61,8 +61,8 @@ def stored_records(
     left_out  is told of a record that is broken or of another version; without it that raises
               ValueError, naming the file
     """
-    from verification.report.provenance import provenance
-    from verification.studies.running.files import stored_studies  # it draws
+    from verification.running.provenance import provenance
+    from verification.running.stored_studies import stored_studies
 
     now = provenance("", {})
     best: dict[str, StudyRecord] = {}

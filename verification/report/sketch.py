@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from html import escape
 
-from verification.cases.section_sketch import SectionSketch, SketchedBody
+from contact_scene.engineering_units import quantity
+from verification.judging.section_sketch import SectionSketch, SketchedBody
 from verification.report.thinned import thinned
-from verification.run_output.engineering_units import quantity
 
 WIDTH, PICTURE, MARGIN = 660.0, 400.0, 10.0
 ABOVE = 92.0  # of the surface, for indenter and arrows

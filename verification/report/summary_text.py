@@ -4,17 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from verification.cases.outcome import CaseOutcome, Status
+from verification.judging.outcome import CaseOutcome, Status
+from verification.judging.status_words import SYMBOLS, WORDS
+from verification.judging.verdict_text import clearance_text, failure_line
 from verification.report.changes import change_rows, changes_text, origins
 from verification.report.counts import counts_text
-from verification.report.numbers import (
-    clearance_text,
-    failure_line,
-    measured_text,
-    study_failure_line,
-)
-from verification.report.page import SYMBOLS, WORDS
-from verification.report.record import Report
+from verification.running.report_record import Report
+from verification.running.study_text import measured_text, study_failure_line
 
 MOST_LINES = 40  # of failures, and of changes: a pull request's comment holds 65 kB
 

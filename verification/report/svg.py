@@ -8,10 +8,10 @@ from html import escape
 
 import matplotlib
 
-from verification.cases.chart import Chart
+from contact_results.figures import style
+from verification.exhibits.chart import Chart
 from verification.report.compact_svg import compact
 from verification.report.drawing import GRID_COLOUR, INK, REFERENCE_COLOUR, draw
-from verification.run_output.figures import style
 
 # Colours of a figure become variables of the page, which has a light and a dark value of each.
 VARIABLES = {

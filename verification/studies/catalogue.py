@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from fem_reference import Method
+from verification.running.study import Study
 from verification.studies.coated_tractions import STUDY as COATED_TRACTIONS
 from verification.studies.cross_check.study import STUDY as CROSS_CHECK
 from verification.studies.error_budget.study import STUDY as ERROR_BUDGET
@@ -15,7 +16,6 @@ from verification.studies.refinement.increments import increments_study
 from verification.studies.refinement.mesh import mesh_study
 from verification.studies.refinement.sampling import sampling_study
 from verification.studies.refinement.window import window_study
-from verification.studies.running.study import Study
 from verification.studies.seeded_defects.study import STUDY as SEEDED_DEFECTS
 from verification.studies.stability.study import STUDY as STABILITY
 from verification.studies.work_precision.study import STUDY as WORK_PRECISION

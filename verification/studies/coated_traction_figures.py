@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping
 
 import numpy as np
 
-from verification.cases.chart import Chart, Curve, Look, Panel, curve
+from verification.exhibits.chart import Chart, Curve, Look, Panel, curve
 from verification.studies.sliding_runs.traction_run import Profile, TractionRecord
 
 COLUMNS = 2

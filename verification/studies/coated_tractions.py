@@ -9,13 +9,13 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from verification.cases.case import SOLVER_TOLERANCE, Level
-from verification.cases.outcome import Status
-from verification.cases.paper_scene import HERTZ
-from verification.cases.table import Table
-from verification.report.numbers import plain
-from verification.studies.coated_traction_figures import figures
-from verification.studies.running.study import (
+from verification.exhibits.numbers import plain
+from verification.exhibits.table import Table
+from verification.judging.case import Level
+from verification.judging.outcome import Status
+from verification.judging.run import SOLVER_TOLERANCE
+from verification.problems.paper_scene import HERTZ
+from verification.running.study import (
     Conclusion,
     Records,
     Settings,
@@ -23,6 +23,7 @@ from verification.studies.running.study import (
     Study,
     StudyCase,
 )
+from verification.studies.coated_traction_figures import figures
 from verification.studies.sliding_runs.contacts import CoatedContact
 from verification.studies.sliding_runs.traction_run import TractionRecord, TractionRun
 

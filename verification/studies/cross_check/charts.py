@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from verification.cases.chart import Chart, Curve, Panel, curve
 from verification.cases.cross_check_contacts import FRICTIONS, RATIOS, THICKNESSES
+from verification.exhibits.chart import Chart, Curve, Panel, curve
 from verification.studies.cross_check.contacts import Found, Key, is_its_own
 from verification.studies.cross_check.difference import REQUIRED
 

@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 
 import fem_reference
 import semi_analytical
+from contact_results.quantities import largest_residual
 from contact_scene.description import Description
-from verification.cases.case import SOLVER_TOLERANCE
 from verification.cases.cross_check_contacts import (
     JUDGED_WITHIN,
     CheckedContact,
@@ -20,7 +20,7 @@ from verification.cases.cross_check_contacts import (
     numbers,
 )
 from verification.cases.fem_levels import judged_within
-from verification.quantities import largest_residual
+from verification.judging.run import SOLVER_TOLERANCE
 
 Field = NDArray[np.float64]
 

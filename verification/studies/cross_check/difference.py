@@ -8,7 +8,7 @@ from math import hypot
 import numpy as np
 from numpy.typing import NDArray
 
-from verification.cases.outcome import Status
+from verification.judging.outcome import Status
 from verification.studies.cross_check.contact_run import CrossCheckRecord, Side
 
 Field = NDArray[np.float64]

@@ -6,8 +6,9 @@ import csv
 import io
 from collections.abc import Mapping
 
-from verification.cases.case import Level
 from verification.cases.cross_check_contacts import MARGIN
+from verification.judging.case import Level
+from verification.running.study import Conclusion, Records, Settings, Study, StudyCase
 from verification.studies.cross_check.charts import difference_chart
 from verification.studies.cross_check.contact_run import CrossCheckRecord, CrossCheckRun
 from verification.studies.cross_check.contacts import (
@@ -23,7 +24,6 @@ from verification.studies.cross_check.tables import (
     reference_table,
 )
 from verification.studies.cross_check.verdicts import answer, statements
-from verification.studies.running.study import Conclusion, Records, Settings, Study, StudyCase
 
 CELLS = {Level.QUICK: 128, Level.STANDARD: 256, Level.FULL: 256}
 ELEMENTS = {Level.QUICK: 64, Level.STANDARD: 64, Level.FULL: 128}

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from verification.cases.paper_scene import NORMAL_FORCE
-from verification.cases.table import Table
-from verification.report.numbers import plain
-from verification.report.page import SYMBOLS
+from verification.exhibits.numbers import plain
+from verification.exhibits.table import Table
+from verification.judging.status_words import SYMBOLS
+from verification.problems.paper_scene import NORMAL_FORCE
 from verification.studies.cross_check.contacts import Apart, Found
 from verification.studies.cross_check.difference import Difference
 

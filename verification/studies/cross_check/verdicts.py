@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from verification.cases.case import SOLVER_TOLERANCE
-from verification.cases.outcome import Status
-from verification.report.numbers import plain
+from verification.exhibits.numbers import plain
+from verification.judging.outcome import Status
+from verification.judging.run import SOLVER_TOLERANCE
+from verification.running.study import Statement
 from verification.studies.cross_check.contacts import (
     Apart,
     Found,
@@ -19,7 +20,6 @@ from verification.studies.cross_check.difference import (
     REQUIRED,
     Difference,
 )
-from verification.studies.running.study import Statement
 
 MEANINGS = {
     "pressure": "pressure, r < 0.9 a, over p₀",

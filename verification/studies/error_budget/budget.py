@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
-from verification.cases.case import SOLVER_TOLERANCE, Level
+from verification.judging.case import Level
+from verification.judging.run import SOLVER_TOLERANCE
 from verification.studies.work_precision.contacts import CONTACTS
 from verification.studies.work_precision.setting import Measured, Method, PrecisionCase
 

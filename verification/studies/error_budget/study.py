@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from verification.cases.chart import Chart, Look, Panel, curve
-from verification.cases.outcome import Status
-from verification.cases.table import Table
-from verification.report.numbers import plain
+from verification.exhibits.chart import Chart, Look, Panel, curve
+from verification.exhibits.numbers import plain
+from verification.exhibits.table import Table
+from verification.judging.outcome import Status
+from verification.running.study import Conclusion, Records, Settings, Statement, Study
 from verification.studies.error_budget.budget import (
     BOX,
     BUDGETS,
@@ -21,7 +22,6 @@ from verification.studies.error_budget.budget import (
     Parts,
     parts_of,
 )
-from verification.studies.running.study import Conclusion, Records, Settings, Statement, Study
 from verification.studies.work_precision.contacts import CONTACTS
 from verification.studies.work_precision.points import setting_text
 from verification.studies.work_precision.setting import Measured, PrecisionCase

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from verification.cases.chart import Chart, Curve, Look, Panel, curve
+from verification.exhibits.chart import Chart, Curve, Look, Panel, curve
 from verification.studies.gross_sliding.estimate import Estimate
 from verification.studies.gross_sliding.verdicts import PAPER
 from verification.studies.sliding_runs.path import SlidingPath

@@ -5,9 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 from semi_analytical import Coupling
-from verification.cases.case import Level
+from verification.judging.case import Level
+from verification.running.study import Records, Settings, StudyCase
 from verification.studies.gross_sliding.estimate import Evidence
-from verification.studies.running.study import Records, Settings, StudyCase
 from verification.studies.sliding_runs.contacts import AlikeContact, CoatedContact
 from verification.studies.sliding_runs.friction_laws import FrictionLaw
 from verification.studies.sliding_runs.law_run import LawRun

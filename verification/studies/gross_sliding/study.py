@@ -5,9 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 from functools import cached_property
 
-from verification.cases.chart import Chart
-from verification.cases.table import Table
-from verification.report.numbers import plain
+from verification.exhibits.chart import Chart
+from verification.exhibits.numbers import plain
+from verification.exhibits.table import Table
+from verification.running.study import Conclusion, Records, Settings, Study, StudyCase
 from verification.studies.gross_sliding import verdicts
 from verification.studies.gross_sliding.charts import (
     MICROMETRE,
@@ -33,7 +34,6 @@ from verification.studies.gross_sliding.selection import (
     variant_name,
 )
 from verification.studies.gross_sliding.verdicts import Variant, largest_force
-from verification.studies.running.study import Conclusion, Records, Settings, Study, StudyCase
 from verification.studies.sliding_runs.path import SlidingPath
 
 REMARKS = (

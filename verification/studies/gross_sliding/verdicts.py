@@ -6,12 +6,12 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 
 from contact_scene.summary import ContactStatus
-from verification.cases.case import SOLVER_TOLERANCE
-from verification.cases.outcome import Status
-from verification.report.numbers import plain
+from verification.exhibits.numbers import plain
+from verification.judging.outcome import Status
+from verification.judging.run import SOLVER_TOLERANCE
+from verification.running.study import Statement
 from verification.studies.gross_sliding.estimate import Estimate
 from verification.studies.gross_sliding.full_slip import FullSlip
-from verification.studies.running.study import Statement
 from verification.studies.sliding_runs.path import SlidingPath
 
 PAPER = 0.76

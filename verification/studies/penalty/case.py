@@ -10,14 +10,13 @@ import numpy as np
 
 from contact_scene.description import Description
 from fem_reference import Method, Result
-from verification.cases.case import SOLVER_TOLERANCE
-from verification.cases.end_state import approach, peak_pressure
 from verification.cases.fem_hertz import SCENE, meshed, pressure_error
 from verification.cases.fem_indentation import Pressed
 from verification.cases.fem_penalty_indentation import by_springs
 from verification.cases.indentation_reference import COATED, FEW, STRONG, WEAK
-from verification.cases.paper_scene import HERTZ
-from verification.cases.section_run import SectionRun, per_radius
+from verification.judging.run import SOLVER_TOLERANCE, SectionRun, per_radius
+from verification.observed.end_state import approach, peak_pressure
+from verification.problems.paper_scene import HERTZ
 
 HERTZIAN = "hertz"
 FRICTIONAL = {"weak": WEAK, "strong": STRONG, "coated": COATED}

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
 
-from verification.cases.case import Level
-from verification.cases.chart import Chart, Curve, Look, Panel, curve
+from verification.exhibits.chart import Chart, Curve, Look, Panel, curve
+from verification.judging.case import Level
 from verification.studies.penalty.case import FRICTIONAL, PenaltyCase, PenaltyRecord
 from verification.studies.penalty.families import (
     BOXED,

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from verification.cases.case import Level
 from verification.cases.indentation_reference import FEW
+from verification.judging.case import Level
 from verification.studies.penalty.case import FRICTIONAL, HERTZIAN, PenaltyCase
 
 ELEMENTS = {Level.QUICK: 32, Level.STANDARD: 64, Level.FULL: 128}

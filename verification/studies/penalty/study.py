@@ -6,8 +6,9 @@ import csv
 import io
 from collections.abc import Mapping
 
-from verification.cases.table import Table
-from verification.report.numbers import plain
+from verification.exhibits.numbers import plain
+from verification.exhibits.table import Table
+from verification.running.study import Conclusion, Records, Settings, Study
 from verification.studies.penalty.case import FRICTIONAL, PenaltyCase, PenaltyRecord
 from verification.studies.penalty.charts import NAMES, charts
 from verification.studies.penalty.families import (
@@ -18,7 +19,6 @@ from verification.studies.penalty.families import (
     of_meshes,
 )
 from verification.studies.penalty.verdicts import Found, statements
-from verification.studies.running.study import Conclusion, Records, Settings, Study
 
 REMARKS = (
     "ε = c E*/h with E* the contact modulus of the outermost materials and h the length of a "

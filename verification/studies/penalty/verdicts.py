@@ -5,9 +5,11 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from math import pi
 
-from verification.cases.case import SOLVER_TOLERANCE, Level
-from verification.cases.outcome import Status
-from verification.report.numbers import plain
+from verification.exhibits.numbers import plain
+from verification.judging.case import Level
+from verification.judging.outcome import Status
+from verification.judging.run import SOLVER_TOLERANCE
+from verification.running.study import Statement
 from verification.studies.penalty.case import FRICTIONAL, PenaltyCase, PenaltyRecord
 from verification.studies.penalty.families import (
     DEFAULT,
@@ -16,7 +18,6 @@ from verification.studies.penalty.families import (
     of_increments,
     of_springs,
 )
-from verification.studies.running.study import Statement
 
 Found = Mapping[PenaltyCase, PenaltyRecord]
 Value = Callable[[PenaltyRecord], float | None]

@@ -6,16 +6,16 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from fem_reference import Method
-from verification.cases.outcome import Status
-from verification.report.numbers import plain
+from verification.convergence.level_record import LevelRecord
+from verification.exhibits.numbers import plain
+from verification.judging.outcome import Status
+from verification.running.study import Conclusion, Records, Settings, Statement, Study
 from verification.studies.refinement import page
 from verification.studies.refinement.expected import by_box
-from verification.studies.refinement.level_record import LevelRecord
 from verification.studies.refinement.refinement import Refinement, count_of, study_of
 from verification.studies.refinement.section_level import SectionLevel
 from verification.studies.refinement.section_start import SectionStart
 from verification.studies.refinement.studied_scene import CannotRefine, StudiedScene
-from verification.studies.running.study import Conclusion, Records, Settings, Statement, Study
 
 # The scene's own section over the smallest. Beyond its own nothing is to be seen: what is left
 # there is as small as what the elements change, which become a little larger or smaller with it.

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from contact_scene import RIGID, ControlKind, Ellipsoid, Paraboloid, Scene, Sphere
-from verification.studies.refinement.level_record import PRESSURE, SHEAR
+from verification.convergence.level_record import PRESSURE, SHEAR
 
 SMOOTH = Sphere | Paraboloid | Ellipsoid
 PAIRS = ("tangential_shift", "tangential_force")

@@ -7,9 +7,8 @@ from dataclasses import dataclass
 from itertools import pairwise
 from math import hypot
 
-from verification.cases.outcome import Status
-from verification.cases.verdicts import order_status
-from verification.convergence import (
+from verification.convergence.level_record import LevelRecord, change
+from verification.convergence.observed_order import (
     ORDER_WIDTH,
     TRIPLETS_AGREE,
     ObservedOrder,
@@ -20,8 +19,9 @@ from verification.convergence import (
     triplets_agree,
     triplets_of_changes,
 )
+from verification.judging.outcome import Status
+from verification.judging.verdicts import order_status
 from verification.studies.refinement.expected import Expected
-from verification.studies.refinement.level_record import LevelRecord, change
 
 FEWEST_LEVELS = 4  # for values
 FEWEST_JUDGED = 5  # for orders: through four levels a curve of three parameters fits by chance

@@ -7,12 +7,12 @@ from pathlib import Path
 
 from fem_reference import Method
 from semi_analytical import SurfaceGrid
+from verification.running.study import Settings, Study, StudyCase
 from verification.studies.refinement.expected import Expected, by_increments
 from verification.studies.refinement.refinement import Refinement, count_of, study_of
 from verification.studies.refinement.section_start import SectionStart
 from verification.studies.refinement.studied_scene import StudiedScene
 from verification.studies.refinement.surface_level import SurfaceStart
-from verification.studies.running.study import Settings, Study, StudyCase
 
 # The coarsest path has so many times fewer increments than the scene would take.
 COARSER = 2

@@ -7,9 +7,10 @@ from pathlib import Path
 
 from fem_reference import Method
 from semi_analytical import SurfaceGrid
-from verification.cases.case import Level
+from verification.convergence.level_record import LevelRecord
+from verification.judging.case import Level
+from verification.running.study import Settings, Study
 from verification.studies.refinement.expected import by_cells, by_elements
-from verification.studies.refinement.level_record import LevelRecord
 from verification.studies.refinement.refinement import Refinement, count_of, study_of
 from verification.studies.refinement.section_level import SectionLevel
 from verification.studies.refinement.section_start import SectionStart
@@ -19,7 +20,6 @@ from verification.studies.refinement.surface_level import (
     SurfaceStart,
     refuse_fixed_cells,
 )
-from verification.studies.running.study import Settings, Study
 
 # Neighbouring grids are not multiples of each other: how a round contact cuts the cells differs
 # from grid to grid, and only that tells its scatter from the order.

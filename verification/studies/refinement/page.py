@@ -7,12 +7,19 @@ import io
 import json
 from collections.abc import Mapping, Sequence
 
-from verification.cases.chart import Chart, Curve, Look, Panel, curve
-from verification.cases.outcome import Status
-from verification.cases.table import Table
-from verification.convergence import ILLEGIBLE, ORDER_OFF, ORDER_WIDTH, TRIPLETS_AGREE
-from verification.quantities import unit_of
-from verification.report.numbers import plain, value_text
+from contact_results.quantities import unit_of
+from verification.convergence.level_record import PRESSURE, SHEAR, LevelRecord
+from verification.convergence.observed_order import (
+    ILLEGIBLE,
+    ORDER_OFF,
+    ORDER_WIDTH,
+    TRIPLETS_AGREE,
+)
+from verification.exhibits.chart import Chart, Curve, Look, Panel, curve
+from verification.exhibits.numbers import plain, value_text
+from verification.exhibits.table import Table
+from verification.judging.outcome import Status
+from verification.running.study import Statement
 from verification.studies.refinement.fit import (
     APPROACHING,
     FEWEST_JUDGED,
@@ -20,8 +27,6 @@ from verification.studies.refinement.fit import (
     Fit,
     field_changes,
 )
-from verification.studies.refinement.level_record import PRESSURE, SHEAR, LevelRecord
-from verification.studies.running.study import Statement
 
 NOTE_AT = 0.06  # part of a slope line, from its finer end
 BELOW = 0.5  # slope lines run under the data, by this factor

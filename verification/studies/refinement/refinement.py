@@ -5,14 +5,10 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
-from verification.cases.case import Level
-from verification.cases.outcome import Status
-from verification.studies.refinement import page
-from verification.studies.refinement.expected import Expected
-from verification.studies.refinement.fit import FEWEST_JUDGED, FEWEST_LEVELS, Fit, fits
-from verification.studies.refinement.level_record import LevelRecord
-from verification.studies.refinement.studied_scene import CannotRefine
-from verification.studies.running.study import (
+from verification.convergence.level_record import LevelRecord
+from verification.judging.case import Level
+from verification.judging.outcome import Status
+from verification.running.study import (
     Conclusion,
     Records,
     Settings,
@@ -20,6 +16,10 @@ from verification.studies.running.study import (
     Study,
     StudyCase,
 )
+from verification.studies.refinement import page
+from verification.studies.refinement.expected import Expected
+from verification.studies.refinement.fit import FEWEST_JUDGED, FEWEST_LEVELS, Fit, fits
+from verification.studies.refinement.studied_scene import CannotRefine
 
 LEVELS = {Level.QUICK: 4, Level.STANDARD: 5, Level.FULL: 6}
 

@@ -10,9 +10,9 @@ from contact_scene.description import Description
 from semi_analytical import Result, plan
 from semi_analytical.history import march
 from semi_analytical.model import ContactModel
-from verification.studies.refinement.level_record import LevelRecord
+from verification.convergence.level_record import LevelRecord
+from verification.laws.sampling_route import errors_between
 from verification.studies.refinement.surface_level import SurfaceLevel, recorded
-from verification.studies.sampling_route import errors_between
 from verification.studies.work_precision.usual_route import SampledModel, Sampling
 
 

@@ -8,12 +8,20 @@ from pathlib import Path
 
 from fem_reference import Method
 from semi_analytical import SurfaceGrid
-from verification.cases.outcome import Status
-from verification.report.numbers import plain
+from verification.convergence.level_record import LevelRecord
+from verification.exhibits.numbers import plain
+from verification.judging.outcome import Status
+from verification.running.study import (
+    Conclusion,
+    Records,
+    Settings,
+    Statement,
+    Study,
+    StudyCase,
+)
 from verification.studies.refinement import page
 from verification.studies.refinement.expected import Expected, by_period
 from verification.studies.refinement.fit import Fit, distance
-from verification.studies.refinement.level_record import LevelRecord
 from verification.studies.refinement.refinement import Refinement, count_of, joined
 from verification.studies.refinement.sampled_level import SampledLevel, SampledRecord
 from verification.studies.refinement.sampling_page import Swept, error_chart, error_table
@@ -22,14 +30,6 @@ from verification.studies.refinement.surface_level import (
     SurfaceLevel,
     SurfaceStart,
     refuse_fixed_cells,
-)
-from verification.studies.running.study import (
-    Conclusion,
-    Records,
-    Settings,
-    Statement,
-    Study,
-    StudyCase,
 )
 from verification.studies.work_precision.usual_route import Sampling
 

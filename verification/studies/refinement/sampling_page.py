@@ -6,9 +6,9 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
-from verification.cases.chart import Chart, Look, Panel, curve
-from verification.cases.table import Table
-from verification.report.numbers import plain
+from verification.exhibits.chart import Chart, Look, Panel, curve
+from verification.exhibits.numbers import plain
+from verification.exhibits.table import Table
 from verification.studies.refinement import page
 
 COEFFICIENTS = {

@@ -8,12 +8,12 @@ from typing import Any, ClassVar, cast
 
 import numpy as np
 
+from contact_results.quantities import largest_residual, named_values
 from contact_scene import Scene
 from contact_scene.description import Description
 from fem_reference import Increment, Method, Result, solve
-from fem_reference.harmonics.surface_tractions import tractions_at
-from verification.quantities import largest_residual, named_values
-from verification.studies.refinement.level_record import (
+from fem_reference.contact.harmonics.surface_tractions import tractions_at
+from verification.convergence.level_record import (
     PRESSURE,
     SHEAR,
     Field,

@@ -7,9 +7,9 @@ from functools import cache
 
 from contact_scene import FiniteElementDiscretisation, FlatPunch, Scene, SceneFile
 from fem_reference import Method, Path, plan, solve
+from fem_reference.mesh.section_outline import sufficient_box
 from fem_reference.model import outermost_modulus
 from fem_reference.scales import Scales
-from fem_reference.section_outline import sufficient_box
 from verification.studies.refinement.section_level import REACH, SectionLevel
 from verification.studies.refinement.studied_scene import StudiedScene, cut_into
 

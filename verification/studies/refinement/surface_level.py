@@ -8,20 +8,20 @@ from typing import ClassVar
 
 import numpy as np
 
+from contact_results.path_error import friction_limit
+from contact_results.quantities import largest_residual, named_values
 from contact_scene import FrictionMap, HeightMap, Scene, SceneFile
 from contact_scene.description import Description
 from semi_analytical import Plan, Result, SurfaceGrid, UnsupportedScene, discretise, plan, solve
-from verification.path_error import friction_limit
-from verification.quantities import largest_residual, named_values
-from verification.studies.refinement.level_record import (
+from verification.convergence.level_record import (
     PRESSURE,
     SHEAR,
     Field,
     LevelRecord,
     StoredField,
 )
+from verification.running.study import Settings
 from verification.studies.refinement.studied_scene import StudiedScene
-from verification.studies.running.study import Settings
 
 
 @dataclass(frozen=True)

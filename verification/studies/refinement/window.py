@@ -11,13 +11,14 @@ from contact_scene.description import Description
 from contact_scene.solver_errors import SolverError
 from fem_reference import Method
 from semi_analytical import ContactAtWindowEdge, SurfaceGrid
-from verification.cases.chart import Chart, Look, Panel, curve
-from verification.cases.outcome import Status
-from verification.cases.table import Table
-from verification.report.numbers import plain
+from verification.convergence.level_record import LevelRecord
+from verification.exhibits.chart import Chart, Look, Panel, curve
+from verification.exhibits.numbers import plain
+from verification.exhibits.table import Table
+from verification.judging.outcome import Status
+from verification.running.study import Conclusion, Records, Settings, Statement, Study
 from verification.studies.refinement import page
 from verification.studies.refinement.fit import ABOVE_TOLERANCE, distance
-from verification.studies.refinement.level_record import LevelRecord
 from verification.studies.refinement.refinement import count_of
 from verification.studies.refinement.studied_scene import StudiedScene
 from verification.studies.refinement.surface_level import (
@@ -25,7 +26,6 @@ from verification.studies.refinement.surface_level import (
     SurfaceStart,
     refuse_fixed_window,
 )
-from verification.studies.running.study import Conclusion, Records, Settings, Statement, Study
 
 GROWTH = 0.25  # by so much of the scene's own the window grows from level to level
 SMALLER = (0.25, 0.4, 0.55, 0.7, 0.85)  # of the scene's own: which of them hold the contact is seen

@@ -8,14 +8,14 @@ from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, ClassVar
 
 from contact_scene.description import Description
-from verification.cases.case import Level
 from verification.cases.catalogue import catalogue
 from verification.cases.judged_case import CaseToJudge, JudgedCase, lost
-from verification.cases.law_verdicts import IMBALANCE, VIOLATION
-from verification.cases.outcome import CaseOutcome, Status, Verdict
-from verification.seeded_defects.defect import planted
-from verification.seeded_defects.registry import DEFECTS
-from verification.studies.running.case_store import CaseStore
+from verification.defects.defect import planted
+from verification.defects.registry import DEFECTS
+from verification.judging.case import Level
+from verification.judging.law_verdicts import IMBALANCE, VIOLATION
+from verification.judging.outcome import CaseOutcome, Status, Verdict
+from verification.running.case_store import CaseStore
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from verification.cases.case import Level
 from verification.cases.catalogue import CASES
-from verification.seeded_defects.defect import Defect
-from verification.seeded_defects.healthy_contacts import FAMILIES, THIN
-from verification.seeded_defects.registry import DEFECTS
-from verification.studies.running.study import Records, Settings
+from verification.defects.defect import Defect
+from verification.defects.healthy_contacts import FAMILIES, THIN
+from verification.defects.registry import DEFECTS
+from verification.judging.case import Level
+from verification.running.study import Records, Settings
 from verification.studies.seeded_defects.defect_run import (
     GATE,
     HEALTHY,

@@ -8,11 +8,11 @@ from typing import Any, ClassVar
 import numpy as np
 
 from contact_scene.description import Description
-from verification.cases.case import Derived
-from verification.cases.judgement import AnyRun, judge, solve_run
-from verification.cases.outcome import Status
-from verification.cases.verdicts import expanded_uncertainty
-from verification.seeded_defects.healthy_contacts import FAMILIES
+from verification.defects.healthy_contacts import FAMILIES
+from verification.judging.case import Derived
+from verification.judging.judgement import AnyRun, judge, solve_run
+from verification.judging.outcome import Status
+from verification.judging.verdicts import expanded_uncertainty
 
 SEED = 20
 

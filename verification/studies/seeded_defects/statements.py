@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from verification.cases.outcome import Status
-from verification.seeded_defects.healthy_contacts import THIN
-from verification.seeded_defects.outputs import PLANTED
-from verification.studies.running.study import Records, Settings, Statement
+from verification.defects.healthy_contacts import THIN
+from verification.defects.outputs import PLANTED
+from verification.judging.outcome import Status
+from verification.running.study import Records, Settings, Statement
 from verification.studies.seeded_defects.defect_run import GATE, HEALTHY
 from verification.studies.seeded_defects.findings import (
     Seen,

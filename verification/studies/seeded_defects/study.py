@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from verification.seeded_defects.registry import DEFECTS
-from verification.studies.running.study import (
+from verification.defects.registry import DEFECTS
+from verification.running.study import (
     Conclusion,
     Records,
     Settings,

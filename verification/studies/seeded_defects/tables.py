@@ -6,12 +6,12 @@ import csv
 import io
 from collections.abc import Iterable, Mapping, Sequence
 
-from verification.cases.chart import Chart, Look, Panel, curve
-from verification.cases.table import Table
-from verification.report.numbers import plain
-from verification.seeded_defects.outputs import PLANTED
-from verification.seeded_defects.registry import DEFECTS
-from verification.studies.running.study import Records, Settings
+from verification.defects.outputs import PLANTED
+from verification.defects.registry import DEFECTS
+from verification.exhibits.chart import Chart, Look, Panel, curve
+from verification.exhibits.numbers import plain
+from verification.exhibits.table import Table
+from verification.running.study import Records, Settings
 from verification.studies.seeded_defects.defect_run import GATE
 from verification.studies.seeded_defects.findings import (
     Seen,

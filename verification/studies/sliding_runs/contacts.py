@@ -13,8 +13,8 @@ from contact_scene import (
     Scene,
 )
 from semi_analytical.grid import SurfaceGrid
-from verification.cases.layered_scene import SUBSTRATE, coated, exact_contact, film, rigid_ball
-from verification.cases.paper_scene import (
+from verification.problems.layered_scene import SUBSTRATE, coated, exact_contact, film, rigid_ball
+from verification.problems.paper_scene import (
     CONTACT_MODULUS,
     FRICTION,
     HERTZ,

@@ -8,14 +8,14 @@ from typing import ClassVar
 
 import numpy as np
 
+from contact_results.quantities import shear_of
 from contact_scene import LoadStep
 from contact_scene.description import Description
 from contact_scene.summary import ContactStatus
 from semi_analytical import solve
 from semi_analytical.model import ContactModel
-from verification.cases.case import SOLVER_TOLERANCE
-from verification.cases.paper_scene import FRICTION, FRICTION_LIMIT, NORMAL_FORCE
-from verification.quantities import shear_of
+from verification.judging.run import SOLVER_TOLERANCE
+from verification.problems.paper_scene import FRICTION, FRICTION_LIMIT, NORMAL_FORCE
 from verification.studies.sliding_runs.contacts import Contact
 from verification.studies.sliding_runs.friction_laws import (
     FixedPressure,

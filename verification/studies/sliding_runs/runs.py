@@ -12,8 +12,8 @@ import numpy as np
 from contact_scene import LoadStep
 from contact_scene.description import Description
 from semi_analytical import Coupling, Result, plan, solve
-from verification.cases.case import SOLVER_TOLERANCE
-from verification.cases.paper_scene import FRICTION_LIMIT, NORMAL_FORCE
+from verification.judging.run import SOLVER_TOLERANCE
+from verification.problems.paper_scene import FRICTION_LIMIT, NORMAL_FORCE
 from verification.studies.sliding_runs.contacts import Contact
 from verification.studies.sliding_runs.path import SlidingPath, joined, path_of, point_of
 

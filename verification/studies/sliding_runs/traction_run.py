@@ -6,13 +6,13 @@ import time
 from dataclasses import dataclass
 from typing import ClassVar
 
+from contact_results.centre_line import along_centre_line
+from contact_results.quantities import force_along_x, shear_of, shift_along_x
 from contact_scene import LoadStep
 from contact_scene.description import Description
 from semi_analytical import Increment, solve
-from verification.cases.case import SOLVER_TOLERANCE
-from verification.cases.paper_scene import FRICTION, FRICTION_LIMIT, HERTZ, NORMAL_FORCE
-from verification.quantities import force_along_x, shear_of, shift_along_x
-from verification.run_output.centre_line import along_centre_line
+from verification.judging.run import SOLVER_TOLERANCE
+from verification.problems.paper_scene import FRICTION, FRICTION_LIMIT, HERTZ, NORMAL_FORCE
 from verification.studies.sliding_runs.contacts import CoatedContact
 
 # Forces whose tractions are drawn, T / µW; the paper gives no numbers for its curves.

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from typing import Any
 
-from verification.cases.chart import Chart, Curve, Look, Panel, curve
-from verification.cases.law_verdicts import OTHER_NORMS
-from verification.report.numbers import plain
+from verification.exhibits.chart import Chart, Curve, Look, Panel, curve
+from verification.exhibits.numbers import plain
+from verification.judging.law_verdicts import OTHER_NORMS
 from verification.studies.stability.cell import StabilityCell
 from verification.studies.stability.record import CellRecord, Verdict
 from verification.studies.stability.verdicts import WORK

@@ -21,13 +21,13 @@ from contact_scene import (
     Scene,
 )
 from semi_analytical.grid import SurfaceGrid
-from verification.cases.layered_scene import surface_of
 from verification.closed_forms.coated_indentation import (
     LayeredIndentation,
     LayeredSurface,
     flat_punch,
     paraboloid,
 )
+from verification.problems.layered_scene import surface_of
 from verification.studies.stability.cell import StabilityCell, Surface
 from verification.studies.stability.loading import Loads, loading
 

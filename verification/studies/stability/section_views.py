@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from verification.cases.case import Level
+from verification.judging.case import Level
 from verification.studies.stability.cell import LoadingPath, Solver, StabilityCell, Surface
 from verification.studies.stability.view import BARE, BEYOND, HARD_PUSH, ORDINARY, View, grid
 

@@ -6,8 +6,8 @@ import csv
 import io
 from collections.abc import Mapping
 
-from verification.cases.case import Level
-from verification.studies.running.study import Conclusion, Records, Settings, Study
+from verification.judging.case import Level
+from verification.running.study import Conclusion, Records, Settings, Study
 from verification.studies.stability.cell import StabilityCell
 from verification.studies.stability.charts import view_chart
 from verification.studies.stability.record import CellRecord

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Mapping
 
-from verification.cases.table import Table
-from verification.report.numbers import plain
+from verification.exhibits.numbers import plain
+from verification.exhibits.table import Table
 from verification.studies.stability.cell import Solver, StabilityCell
 from verification.studies.stability.charts import class_of
 from verification.studies.stability.record import CellRecord, Verdict

@@ -7,9 +7,9 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from verification.cases.outcome import Status
-from verification.report.numbers import plain
-from verification.studies.running.study import Statement
+from verification.exhibits.numbers import plain
+from verification.judging.outcome import Status
+from verification.running.study import Statement
 from verification.studies.stability.cell import Solver, StabilityCell
 from verification.studies.stability.record import CellRecord, Verdict
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from verification.cases.case import Level
+from verification.judging.case import Level
 from verification.studies.stability.cell import StabilityCell
 from verification.studies.stability.section_views import section_views
 from verification.studies.stability.surface_views import surface_views

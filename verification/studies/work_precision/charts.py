@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from verification.cases.chart import Chart, Curve, Look, Panel, curve
+from verification.exhibits.chart import Chart, Curve, Look, Panel, curve
 from verification.studies.work_precision.contacts import PreciseContact
 from verification.studies.work_precision.point import (
     Cost,

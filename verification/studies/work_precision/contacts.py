@@ -15,6 +15,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from contact_results.quantities import shear_of, shift_along_x
 from contact_scene import LoadStep, Scene
 from fem_reference import Result as Section
 from semi_analytical import Result as Surface
@@ -22,16 +23,15 @@ from semi_analytical import SurfaceGrid
 from verification.cases import cattaneo_mindlin as cattaneo
 from verification.cases import coated_paraboloid as coated
 from verification.cases import fretting_loop, hertz_point
-from verification.cases import paper_scene as paper
-from verification.cases.end_state import approach, peak_pressure
 from verification.cases.fem_profiles import at_radii
 from verification.cases.indentation_reference import COATED
 from verification.cases.loop_history import loop_energy, loop_steps
-from verification.cases.paper_scene import FRICTION, FRICTION_LIMIT, HERTZ, NU_ZERO
 from verification.cases.radial_profile import along_radii, outward
 from verification.closed_forms.cattaneo_mindlin import PartialSlip
-from verification.metrics import shear_error
-from verification.quantities import shear_of, shift_along_x
+from verification.norms import shear_error
+from verification.observed.end_state import approach, peak_pressure
+from verification.problems import paper_scene as paper
+from verification.problems.paper_scene import FRICTION, FRICTION_LIMIT, HERTZ, NU_ZERO
 from verification.studies.work_precision.frozen_route import FrozenHistory
 
 Field = NDArray[np.float64]

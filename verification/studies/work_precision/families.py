@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from verification.cases.case import Level
+from verification.judging.case import Level
 from verification.studies.work_precision.contacts import (
     CATTANEO,
     COATING,

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 
-from verification.cases.case import SOLVER_TOLERANCE
+from verification.judging.run import SOLVER_TOLERANCE
 from verification.studies.work_precision.point import Point
 from verification.studies.work_precision.setting import Measured, Method, PrecisionCase
 

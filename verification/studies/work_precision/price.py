@@ -5,12 +5,10 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
-from verification.cases.outcome import Status
-from verification.cases.table import Table
-from verification.peers.recorded import OTHERS
-from verification.report.numbers import plain
-from verification.report.prices import EXTRAPOLATED, NOT_REACHED
-from verification.studies.running.study import Statement
+from verification.exhibits.numbers import EXTRAPOLATED, NOT_REACHED, plain
+from verification.exhibits.table import Table
+from verification.judging.outcome import Status
+from verification.running.study import Statement
 from verification.studies.work_precision.charts import SERIES
 from verification.studies.work_precision.contacts import CONTACTS
 from verification.studies.work_precision.point import (
@@ -24,6 +22,7 @@ from verification.studies.work_precision.point import (
     operations,
     seconds,
 )
+from verification.studies.work_precision.recorded_peers import OTHERS
 
 ASKED = 0.001  # what the answer is given for
 MILLION = 1e6

@@ -14,7 +14,7 @@ from fem_reference import Result as Section
 from fem_reference import solve as solve_section
 from semi_analytical import Result as Surface
 from semi_analytical import SurfaceGrid, solve
-from verification.cases.case import SOLVER_TOLERANCE
+from verification.judging.run import SOLVER_TOLERANCE
 from verification.studies.work_precision import counted_work
 from verification.studies.work_precision.cold_cache import timed
 from verification.studies.work_precision.contacts import CONTACTS, PreciseContact

@@ -10,16 +10,8 @@ import csv
 import io
 from collections.abc import Mapping, Sequence
 
-from verification.cases.outcome import Status
-from verification.peers.recorded import (
-    peer_answer,
-    peer_charts,
-    peer_points,
-    peer_remarks,
-    peer_table,
-    recorded_peers,
-)
-from verification.studies.running.study import Conclusion, Records, Settings, Statement, Study
+from verification.judging.outcome import Status
+from verification.running.study import Conclusion, Records, Settings, Statement, Study
 from verification.studies.work_precision.charts import time_chart, work_chart
 from verification.studies.work_precision.contacts import CONTACTS
 from verification.studies.work_precision.families import all_cases
@@ -35,6 +27,14 @@ from verification.studies.work_precision.price import (
     solved,
     statements_in,
     tables_in,
+)
+from verification.studies.work_precision.recorded_peers import (
+    peer_answer,
+    peer_charts,
+    peer_points,
+    peer_remarks,
+    peer_table,
+    recorded_peers,
 )
 from verification.studies.work_precision.setting import Measured, PrecisionCase
 

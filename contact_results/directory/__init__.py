@@ -1,0 +1,1 @@
+"""The directory of a run: one writer, atomic files, checkpoints, signals."""

@@ -1,0 +1,190 @@
+"""Where an unfinished run stands, kept beside its results: a killed run goes on from there.
+
+The parts of a checkpoint are written one after the other, each whole or not at all, and hold the
+increments since the part before. They are removed when the run has ended.
+"""
+
+from __future__ import annotations
+
+import os
+import shutil
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any
+
+from contact_results.directory.atomic_file import atomic_file
+from contact_results.directory.checkpoint_file import Unusable, packed, unpacked
+from contact_results.directory.directory_lock import acquire, release
+from contact_results.directory.refusal import OutputRefused
+from contact_results.directory.stop_signals import cleaned_up_when_stopped
+from contact_scene.solver_errors import SolverError
+from contact_scene.standing import Standing
+
+# A run of seconds leaves nothing, and one of hours spends a twentieth of them on checkpoints.
+SECONDS_BETWEEN = 5.0
+SHARE = 0.05
+
+
+@dataclass(frozen=True)
+class _Part:
+    """Increments since the part before, and where the solve stands after them."""
+
+    before: int
+    standing: Standing
+
+
+class Checkpoint:
+    """Keeps one solve in a directory; see contact_scene.standing.Keeper.
+
+    seconds_between  two parts at least
+    """
+
+    def __init__(
+        self,
+        directory: Path,
+        identity: str,
+        say: Callable[[str], None],
+        seconds_between: float,
+    ) -> None:
+        self._directory = directory
+        self._identity = identity
+        self._say = say
+        self._pause = seconds_between
+        self._seconds_between = seconds_between
+        self._written = 0.0
+        self._lock: int | None = None
+        self._open = True
+        self._read = False
+        self._standing: Standing | None = None
+        self._parts = 0
+        self._kept = 0
+        self._extent: Any = None
+
+    def last(self) -> Standing | None:
+        """What an earlier process has kept of the same solve; read once."""
+        if not self._read:
+            self._read, self._written = True, time.monotonic()
+            if self._directory.is_dir() and self._locked():
+                self._standing = self._standing_of_parts()
+                self._settle()
+        return self._standing
+
+    def keep(self, standing: Standing) -> None:
+        """Write a part if the last one is long enough ago; a disk that is full costs only that."""
+        self.last()
+        began = time.monotonic()
+        if not self._open or began - self._written < self._pause:
+            return
+        try:
+            self._directory.mkdir(mode=0o700, exist_ok=True)
+            if not self._locked():
+                return
+            if standing.extent != self._extent:  # the grid or mesh was outgrown: all over again
+                self._drop_from(0)
+                self._kept = 0
+            new = standing.increments[self._kept :]
+            part = _Part(self._kept, replace(standing, increments=new))
+            with atomic_file(self._path(self._parts)) as temporary:
+                temporary.write_bytes(packed(part, self._identity))
+        except (OSError, OutputRefused) as error:
+            self._say(f"no checkpoint could be written into {self._directory}: {error}")
+            self._open = False
+            return
+        self._parts += 1
+        self._kept, self._extent = len(standing.increments), standing.extent
+        self._written = time.monotonic()
+        self._pause = max(self._seconds_between, (self._written - began) / SHARE)
+
+    def remove(self) -> None:
+        """The run has ended, and nothing has to be kept."""
+        if self._directory.is_dir() and self._locked():
+            shutil.rmtree(self._directory, ignore_errors=True)
+
+    def how_to_go_on(self) -> str:
+        """What a process that is stopped now leaves to the next one; empty if nothing."""
+        if not (self._kept and self._parts):
+            return ""
+        return f"the same command goes on after increment {self._kept}, kept in {self._directory}"
+
+    def close(self) -> None:
+        """Let another process have it."""
+        release(self._lock)
+        self._lock, self._open = None, False
+
+    def _locked(self) -> bool:
+        """Whether no other process runs into the same directory of results."""
+        if self._lock is None and self._open:
+            self._lock = acquire(self._directory, wait=False)
+            self._open = self._lock is not None
+        return self._lock is not None
+
+    def _standing_of_parts(self) -> Standing | None:
+        standing: Standing | None = None
+        while (path := self._path(self._parts)).exists():
+            try:
+                part = unpacked(path, self._identity)
+                if not isinstance(part, _Part):
+                    raise Unusable(f"{path} holds something else")
+                if part.before != (len(standing.increments) if standing else 0):
+                    raise Unusable(f"{path} does not follow the part before it")
+            except Unusable as error:
+                self._say(f"{error}; computed again")
+                break
+            past = standing.increments if standing else ()
+            standing = replace(part.standing, increments=past + part.standing.increments)
+            self._parts += 1
+        return standing
+
+    def _settle(self) -> None:
+        """Clear away what cannot be used, and say what can."""
+        self._drop_from(self._parts)
+        if self._standing is None:
+            return
+        self._kept, self._extent = len(self._standing.increments), self._standing.extent
+        self._say(
+            f"going on after increment {self._kept} of an interrupted run ({self._directory})"
+        )
+
+    def _drop_from(self, first: int) -> None:
+        kept = {self._path(number).name for number in range(first)}
+        for name in os.listdir(self._directory) if self._directory.is_dir() else ():
+            if name not in kept:
+                (self._directory / name).unlink(missing_ok=True)
+        self._parts = first
+
+    def _path(self, number: int) -> Path:
+        return self._directory / f"part-{number:06d}"
+
+
+@contextmanager
+def checkpointed(
+    target: Path, identity: str, say: Callable[[str], None], name: str = "checkpoint"
+) -> Iterator[Checkpoint]:
+    """A checkpoint beside the results of a run; gone when the block is done.
+
+    target    directory of the results
+    identity  digest of all that decides the solve
+    say       told what a person should know
+    name      tells the solves of one run apart
+
+    It stays where the process is killed, or where the results cannot be written. A solver that
+    gives up would give up again, so then it goes as well.
+    """
+    target = Path(os.path.realpath(target))
+    directory = (target if target.is_dir() else target.parent) / f".{target.name}.{name}"
+    if not directory.exists():  # the target may have appeared just before the process was killed
+        beside = target.parent / directory.name
+        directory = beside if beside.exists() else directory
+    checkpoint = Checkpoint(directory, identity, say, SECONDS_BETWEEN)
+    try:
+        with cleaned_up_when_stopped(kept=checkpoint.how_to_go_on):
+            yield checkpoint
+        checkpoint.remove()
+    except SolverError:
+        checkpoint.remove()
+        raise
+    finally:
+        checkpoint.close()

@@ -1,0 +1,89 @@
+"""A file that holds values of the solvers, and says whose and whether they are whole.
+
+A line that names the format, a line with the identity of the solve, a line with the SHA-256 of what
+follows: a pickle. Only classes of the solvers, and what numpy makes arrays of, are looked up in it,
+so that a file that somebody else has put there can run nothing.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import importlib
+import io
+import pickle
+from enum import Enum
+from pathlib import Path
+from typing import Any
+
+from contact_scene.free_memory import available_bytes
+
+FORMAT = b"slipstick checkpoint 1"
+PROTOCOL = 5
+LONGEST_LINE = 1000
+
+PACKAGES = ("contact_scene", "semi_analytical", "fem_reference", "contact_results")
+NUMPY = {
+    ("numpy", "dtype"),
+    ("numpy", "ndarray"),
+    ("numpy._core.multiarray", "_reconstruct"),
+    ("numpy._core.multiarray", "scalar"),
+    ("numpy._core.numeric", "_frombuffer"),
+}
+FAR_FIELDS = (
+    "fem_reference.elasticity.far_field"  # its functions are values: pure, and part of a motion
+)
+
+
+class Unusable(Exception):
+    """The file is not what is looked for; the message names it and says why."""
+
+
+def packed(value: Any, identity: str) -> bytes:
+    """The content of a file."""
+    content = pickle.dumps(value, PROTOCOL)
+    return b"\n".join([FORMAT, identity.encode(), _digest(content), content])
+
+
+def unpacked(path: Path, identity: str) -> Any:
+    """The value in a file; raises Unusable for a file of another solve, or one not whole."""
+    try:
+        with path.open("rb") as file:
+            name, whose, digest = (file.readline(LONGEST_LINE).rstrip(b"\n") for _ in range(3))
+            if name != FORMAT:
+                raise Unusable(f"{path} is no checkpoint of this version")
+            if path.stat().st_size > available_bytes():
+                raise Unusable(f"{path} is larger than the memory that can be had")
+            content = file.read()
+    except OSError as error:
+        raise Unusable(f"{path} cannot be read: {error.strerror}") from error
+    if digest != _digest(content):
+        raise Unusable(f"{path} is damaged")
+    if whose != identity.encode():
+        raise Unusable(f"{path} is of another scene, solver, discretisation or version")
+    try:
+        return _Reader(io.BytesIO(content)).load()
+    except Exception as error:  # whatever a pickle may raise that somebody has made
+        raise Unusable(f"{path} is damaged: {error}") from error
+
+
+class _Reader(pickle.Unpickler):
+    """Looks up nothing but values of the solvers."""
+
+    def find_class(self, module: str, name: str) -> Any:
+        if (module, name) in NUMPY:
+            return getattr(importlib.import_module(module), name)
+        if any(module == package or module.startswith(f"{package}.") for package in PACKAGES):
+            found = getattr(importlib.import_module(module), name, None)
+            if getattr(found, "__module__", None) == module and _is_value(found):
+                return found
+        raise pickle.UnpicklingError(f"{module}.{name} does not belong into a checkpoint")
+
+
+def _is_value(found: Any) -> bool:
+    if isinstance(found, type):
+        return hasattr(found, "__dataclass_fields__") or issubclass(found, Enum)
+    return bool(found.__module__ == FAR_FIELDS)
+
+
+def _digest(content: bytes) -> bytes:
+    return hashlib.sha256(content).hexdigest().encode()

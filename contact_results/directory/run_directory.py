@@ -1,0 +1,203 @@
+"""A run's directory appears whole or not at all, whatever happens while it is being made.
+
+Everything is first written into a hidden directory on the same file system. A directory that does
+not exist yet then appears by one rename. In one that exists, the old `summary.json` goes first,
+the files are replaced one by one, and the new `summary.json` comes last: a directory that has a
+summary is complete. Only the names of `file_names.RUN_FILES` are ever replaced or removed.
+"""
+
+import errno
+import json
+import os
+import secrets
+import shutil
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+from contact_results.directory.directory_lock import acquire, release
+from contact_results.directory.file_names import RUN_FILES, SUMMARY, TIMING
+from contact_results.directory.refusal import OutputRefused
+from contact_results.directory.sole_use import in_sole_use
+from contact_results.directory.stop_signals import cleaned_up_when_stopped, stop_signals_held
+
+
+@contextmanager
+def run_directory(target: Path, *, overwrite: bool = False) -> Iterator[Path]:
+    """Give an empty directory to write into; make it `target` when the block ends without error.
+
+    target     where the results shall be; missing parents are created
+    overwrite  also replace files of our names that no earlier run of ours has written
+    raises     OutputRefused before the block is entered, so that no work is lost
+    """
+    target = Path(os.path.realpath(target))
+    _refuse_what_is_in_the_way(target, overwrite)
+    created = _create_parents(target)
+
+    def remove_created() -> None:
+        _remove_empty(created)
+
+    try:
+        with (
+            cleaned_up_when_stopped(remove_created),
+            in_sole_use(target),
+            _staging(target) as staging,
+        ):
+            yield staging
+            with stop_signals_held():
+                _publish(staging, target)
+    finally:
+        remove_created()
+
+
+@contextmanager
+def _staging(target: Path) -> Iterator[Path]:
+    """A hidden directory to write into, gone at the end."""
+    staging, lock = _create_staging(target)
+
+    def clean() -> None:
+        shutil.rmtree(staging, ignore_errors=True)
+
+    try:
+        with cleaned_up_when_stopped(clean):
+            yield staging
+    except OSError as error:
+        _name_file(error, staging, target)
+        raise
+    finally:
+        clean()
+        release(lock)
+
+
+def _name_file(error: OSError, staging: Path, target: Path) -> None:
+    """Let the error of a write name the file: the system does not when a disk is full."""
+    if error.filename is None:
+        written = [
+            (path.stat().st_mtime_ns, path.stat().st_size, path) for path in staging.iterdir()
+        ]
+        name = max(written)[2].name if written else ""
+    else:
+        path = Path(os.fsdecode(error.filename))
+        name = path.name if path.parent == staging else ""
+    if name:
+        error.filename, error.filename2 = str(target / name), None
+
+
+def _refuse_what_is_in_the_way(target: Path, overwrite: bool) -> None:
+    for place in (target, *target.parents):
+        if place.exists() and not place.is_dir():
+            raise OutputRefused(f"{place} is a file; --output needs a directory")
+    if not target.is_dir():
+        return
+    ours = _is_earlier_run(target)
+    for name in RUN_FILES:
+        path = target / name
+        if path.is_dir():
+            raise OutputRefused(f"{path} is a directory where a result file should go; move it")
+        if os.path.lexists(path) and not (ours or overwrite):
+            raise OutputRefused(
+                f"{path} exists, but {target} is not the result of an earlier run; "
+                "choose another directory, or replace it with --overwrite"
+            )
+
+
+def _is_earlier_run(directory: Path) -> bool:
+    try:
+        record = json.loads((directory / TIMING).read_text(encoding="utf-8"))
+    except (OSError, ValueError):
+        return False
+    return isinstance(record, dict) and record.get("program") == "slipstick"
+
+
+def _create_parents(target: Path) -> list[Path]:
+    """Create what is missing above `target`; return it, innermost first."""
+    missing = [parent for parent in target.parents if not parent.exists()]
+    try:
+        target.parent.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise OutputRefused(f"cannot create {target.parent}: {error.strerror}") from error
+    return missing
+
+
+def _create_staging(target: Path) -> tuple[Path, int | None]:
+    """Create and lock the hidden directory, and clear away those of runs that were killed.
+
+    An existing target hosts it: it may be a mount point of its own, or the only place that may
+    be written. The lock tells a killed run's leftovers from a run that is still going on.
+    """
+    prefix = f".{target.name}.partial-"
+    for place in (target.parent, target):
+        _remove_abandoned(place, prefix)
+    place = target if target.is_dir() else target.parent
+    while True:
+        staging = place / (prefix + secrets.token_hex(4))
+        try:
+            staging.mkdir()
+        except OSError as error:
+            raise OutputRefused(f"cannot write into {place}: {error.strerror}") from error
+        lock = acquire(staging, wait=True)
+        if staging.exists():  # another run may have taken it for abandoned before it was locked
+            return staging, lock
+        release(lock)
+
+
+def _remove_abandoned(place: Path, prefix: str) -> None:
+    if not place.is_dir():
+        return
+    for name in os.listdir(place):
+        if not name.startswith(prefix):
+            continue
+        lock = acquire(place / name, wait=False)
+        if lock is not None:
+            shutil.rmtree(place / name, ignore_errors=True)
+            release(lock)
+
+
+def _publish(staging: Path, target: Path) -> None:
+    for path in staging.iterdir():
+        _flush(path)
+    _flush(staging)
+    if staging.parent != target:
+        try:
+            os.rename(staging, target)
+            _flush(target.parent)
+            return
+        except OSError as error:
+            if error.errno not in (errno.ENOTEMPTY, errno.EEXIST):
+                raise  # else another run into the same directory was faster
+    _replace_files(staging, target)
+
+
+def _replace_files(staging: Path, target: Path) -> None:
+    """Replace the files of an earlier run, with the new summary as the sign of completeness."""
+    new = {path.name for path in staging.iterdir()}
+    earlier_run = _is_earlier_run(target)
+    lock = acquire(target, wait=True)
+    try:
+        if SUMMARY in new:
+            (target / SUMMARY).unlink(missing_ok=True)
+        if earlier_run:
+            for name in set(RUN_FILES) - new:
+                (target / name).unlink(missing_ok=True)
+        for name in sorted(new, key=lambda name: (name == SUMMARY, name != TIMING, name)):
+            os.replace(staging / name, target / name)
+        _flush(target)
+    finally:
+        release(lock)
+
+
+def _flush(path: Path) -> None:
+    descriptor = os.open(path, os.O_RDONLY)
+    try:
+        os.fsync(descriptor)
+    finally:
+        os.close(descriptor)
+
+
+def _remove_empty(directories: list[Path]) -> None:
+    """Remove these directories, innermost first, as far as nothing is in them."""
+    for directory in directories:
+        try:
+            directory.rmdir()
+        except OSError:
+            return

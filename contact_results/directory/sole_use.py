@@ -1,0 +1,98 @@
+"""One process at a time makes the results of a directory; another one is told which it is.
+
+A hidden file is locked and names the process. The system drops the lock when the process ends,
+however it ends: the file that a killed one leaves is taken over by the next.
+"""
+
+import fcntl
+import os
+import socket
+from collections.abc import Iterator
+from contextlib import ExitStack, contextmanager, suppress
+from pathlib import Path
+
+from contact_results.directory.refusal import OutputRefused
+from contact_results.directory.stop_signals import cleaned_up_when_stopped
+
+LONGEST_NAME = 300
+
+
+@contextmanager
+def in_sole_use(target: Path) -> Iterator[None]:
+    """Keep others out of a directory of results.
+
+    target  may not be there yet; its parent is
+
+    The lock is in `target`, which may be a mount point of its own or the only place that may be
+    written, or beside it while it is not there. Raises OutputRefused if another process holds it.
+    Where nothing can be locked, nobody is kept out.
+    """
+    target = Path(os.path.realpath(target))
+    places = [target.parent, target]
+    home, other = reversed(places) if target.is_dir() else places
+    name = f".{target.name}.in-use"
+    with ExitStack() as held:
+        held.enter_context(_locked(home / name, target))
+        # Only now: of two that begin at once, each at its own place, one at least sees the other.
+        if os.path.lexists(other / name):
+            held.enter_context(_locked(other / name, target))
+        yield
+
+
+@contextmanager
+def _locked(path: Path, target: Path) -> Iterator[None]:
+    descriptor = _lock(path, target)
+
+    def remove() -> None:
+        if descriptor is not None:  # before it is unlocked: later it may be somebody else's
+            with suppress(OSError):  # without a lock the file keeps nobody out
+                path.unlink()
+
+    try:
+        with cleaned_up_when_stopped(remove):
+            yield
+    finally:
+        remove()
+        if descriptor is not None:
+            os.close(descriptor)
+
+
+def _lock(path: Path, target: Path) -> int | None:
+    """The descriptor that holds the lock; None where there can be none."""
+    while True:
+        try:
+            descriptor = os.open(path, os.O_RDWR | os.O_CREAT | os.O_NOFOLLOW, 0o666)
+        except OSError:  # of a directory that cannot be written others speak
+            return None
+        try:
+            fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except BlockingIOError:
+            holder = os.pread(descriptor, LONGEST_NAME, 0).decode(errors="replace").strip()
+            os.close(descriptor)
+            raise OutputRefused(
+                f"{target} is in use by {holder or 'another process'}; wait for its end, or choose "
+                "another directory with --output"
+            ) from None
+        except OSError:  # the file system knows no locks
+            os.close(descriptor)
+            path.unlink(missing_ok=True)
+            return None
+        if _is_at(descriptor, path):
+            with suppress(OSError):
+                os.ftruncate(descriptor, 0)
+                os.pwrite(descriptor, _this_process().encode(), 0)
+            return descriptor
+        os.close(descriptor)  # its holder has just removed it
+
+
+def _this_process() -> str:
+    return f"process {os.getpid()} on {socket.gethostname()}"
+
+
+def _is_at(descriptor: int, path: Path) -> bool:
+    """Whether the file is still the one of that name."""
+    try:
+        there = os.stat(path)
+    except FileNotFoundError:
+        return False
+    return os.path.samestat(os.fstat(descriptor), there)

@@ -1,0 +1,50 @@
+"""`timing.json`: seconds, machine and versions; everything that differs between equal runs."""
+
+import json
+import resource
+import sys
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from contact_results.directory.file_names import TIMING
+from contact_results.directory.machine import library_versions, machine, program_version
+
+
+@dataclass
+class Stopwatch:
+    """Wall and CPU seconds of the phases of a run."""
+
+    wall_seconds: dict[str, float] = field(default_factory=dict)
+    cpu_seconds: dict[str, float] = field(default_factory=dict)
+
+    @contextmanager
+    def phase(self, name: str) -> Iterator[None]:
+        """Measure the block under this name."""
+        wall, cpu = time.perf_counter(), time.process_time()
+        try:
+            yield
+        finally:
+            self.wall_seconds[name] = time.perf_counter() - wall
+            self.cpu_seconds[name] = time.process_time() - cpu
+
+
+def write_timing(stopwatch: Stopwatch, directory: Path) -> None:
+    """Write what the stopwatch measured, and where."""
+    record = {
+        "program": "slipstick",
+        "version": program_version(),
+        "wall_seconds": stopwatch.wall_seconds,
+        "cpu_seconds": stopwatch.cpu_seconds,
+        "peak_memory_bytes": _peak_memory(),
+        "machine": machine(),
+        "libraries": library_versions(),
+    }
+    (directory / TIMING).write_text(json.dumps(record, indent=2) + "\n", encoding="utf-8")
+
+
+def _peak_memory() -> int:
+    peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+    return peak if sys.platform == "darwin" else 1024 * peak  # macOS counts bytes, Linux kibibytes

@@ -1,0 +1,87 @@
+"""Tangential force against shift: the fretting loop."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from matplotlib.figure import Figure
+from numpy.typing import NDArray
+
+from contact_results.figures import style
+from contact_results.figures.shown_steps import AT_MOST
+from contact_scene.engineering_units import engineering_unit, quantity
+
+if TYPE_CHECKING:
+    import fem_reference
+    import semi_analytical
+
+    Increment = semi_analytical.Increment | fem_reference.Increment
+    Result = semi_analytical.Result | fem_reference.Result
+
+Values = NDArray[np.float64]
+
+SAME_PLACE = 0.02  # of the axis: points whose numbers would cover each other
+
+
+def moved(increments: Sequence[Increment]) -> list[Increment]:
+    """The increments that end with a tangential force and a defined shift."""
+    return [i for i in increments if i.tangential_shift is not None and np.any(i.tangential_force)]
+
+
+def hysteresis_plot(result: Result) -> Figure:
+    """Force and shift of every increment along the direction of the largest force."""
+    path = [i for i in result.increments if i.tangential_shift is not None]
+    force = np.array([i.tangential_force for i in path])
+    direction = _direction(force)
+    T = force @ direction
+    omega = np.array([i.tangential_shift for i in path]) @ direction
+    force_unit = engineering_unit(float(np.max(np.abs(T))), "N")
+    shift_unit = engineering_unit(float(np.max(np.abs(omega))), "m")
+    x, y = omega / shift_unit.size, T / force_unit.size
+
+    figure = style.new_figure(5.2, 4.0)
+    ax = figure.subplots()
+    ax.axhline(0.0, color=style.GREY, linewidth=0.5)
+    ax.axvline(0.0, color=style.GREY, linewidth=0.5)
+    ax.plot(x, y, color=style.LINE_COLOURS[0], marker=".", markersize=3.5, linewidth=1.2)
+    ends = [n for n, i in enumerate(path) if i.index == i.increments_in_step]
+    label = "end of a loading step"
+    ax.plot(x[ends], y[ends], "o", color=style.LINE_COLOURS[1], markersize=5, label=label)
+    if len(ends) <= AT_MOST:
+        _number(ax, x[ends], y[ends], [path[n].step for n in ends])
+    ax.margins(0.08)
+    ax.set_xlabel(f"tangential shift {_along(direction)} ({shift_unit.name})")
+    ax.set_ylabel(f"tangential force {_along(direction)} ({force_unit.name})")
+    energy = path[-1].dissipated_energy
+    if energy is not None:
+        ax.plot([], [], " ", label=f"dissipated in all: {quantity(energy, 'J')}")
+    ax.legend(loc="upper left")
+    return figure
+
+
+def _number(ax: Any, x: Values, y: Values, steps: Sequence[int]) -> None:
+    """Write the steps' numbers next to their points; points at the same place share a text."""
+    distance = np.hypot(np.subtract.outer(x, x) / np.ptp(x), np.subtract.outer(y, y) / np.ptp(y))
+    together = distance < SAME_PLACE
+    for n, neighbours in enumerate(together):
+        if np.argmax(neighbours) == n:  # the first of its place writes for all
+            text = ", ".join(
+                str(step) for step, here in zip(steps, neighbours, strict=True) if here
+            )
+            offset = (0, 6 if y[n] >= 0 else -13)
+            ax.annotate(text, (x[n], y[n]), offset, textcoords="offset points", ha="center")
+
+
+def _direction(force: Values) -> Values:
+    """Unit vector along the largest force, turned so that its largest component is positive."""
+    largest = force[np.argmax(np.hypot(force[:, 0], force[:, 1]))]
+    largest = largest * np.sign(largest[np.argmax(np.abs(largest))])
+    return np.asarray(largest / np.hypot(*largest))
+
+
+def _along(direction: Values) -> str:
+    degrees = np.degrees(np.arctan2(direction[1], direction[0]))
+    names = {0: "along x", 90: "along y"}
+    return names.get(round(degrees, 3), f"at {degrees:.1f}° to x")

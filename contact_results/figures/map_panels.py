@@ -1,0 +1,93 @@
+"""Panels with the surface seen from above, all with the same scales and cut to the contact."""
+
+import math
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from matplotlib.figure import FigureBase
+from numpy.typing import NDArray
+
+from contact_scene.engineering_units import EngineeringUnit, engineering_unit
+from semi_analytical import Result
+from semi_analytical.grid import SurfaceGrid
+
+PANEL = 2.4  # longer side in inches
+NARROWEST = 1.0
+COLUMNS = {1: 1, 2: 2, 4: 2}  # by number of panels; three of any other number
+MARGIN = 1.15  # of the contact's extent, so that its edge is seen against the outside
+
+
+@dataclass(frozen=True)
+class MapFrame:
+    """What all panels of a figure share: the cells, the part that is shown, the unit of length."""
+
+    grid: SurfaceGrid
+    shown: tuple[float, float]
+    unit: EngineeringUnit
+
+    @classmethod
+    def around_contact(cls, result: Result) -> "MapFrame":
+        """The frame that shows every cell that any step has in contact."""
+        touched = np.any([step.in_contact for step in result.steps], axis=0)
+        grid = result.grid
+        shown = (
+            _half_extent(grid.x, touched.any(axis=1), grid.spacing[0]),
+            _half_extent(grid.y, touched.any(axis=0), grid.spacing[1]),
+        )
+        return cls(grid, shown, engineering_unit(max(shown), "m"))
+
+    @property
+    def extent(self) -> tuple[float, float, float, float]:
+        """Outer edges of the cells, in the unit of the axes."""
+        Lx, Ly = (length / self.unit.size for length in self.grid.window)
+        return -Lx / 2, Lx / 2, -Ly / 2, Ly / 2
+
+    def figure_size(self, panels: int, blocks: int = 1) -> tuple[float, float]:
+        """Sides in inches that give every panel its place, and a colour bar at the right.
+
+        blocks  how many times the panels are repeated, one below the other
+        """
+        columns = COLUMNS.get(panels, 3)
+        rows = math.ceil(panels / columns) * blocks
+        width, height = (max(PANEL * side / max(self.shown), NARROWEST) for side in self.shown)
+        return columns * (width + 0.2) + 1.3, rows * (height + 0.55) + 0.2
+
+
+def _half_extent(centres: NDArray[np.float64], touched: NDArray[np.bool_], cell: float) -> float:
+    reach = np.max(np.abs(centres[touched]), initial=0.0) + cell / 2
+    return float(min(MARGIN * reach, np.max(centres) + cell / 2))
+
+
+def map_axes(figure: FigureBase, frame: MapFrame, count: int) -> list[Any]:
+    """`count` panels in rows, axes labelled at the left and at the bottom only."""
+    columns = COLUMNS.get(count, 3)
+    rows = math.ceil(count / columns)
+    grid = figure.subplots(rows, columns, sharex=True, sharey=True, squeeze=False)
+    panels = list(grid.flat)
+    for spare in panels[count:]:
+        spare.remove()
+    for position, ax in enumerate(panels[:count]):
+        ax.set_aspect("equal")
+        ax.set_xlim(-frame.shown[0] / frame.unit.size, frame.shown[0] / frame.unit.size)
+        ax.set_ylim(-frame.shown[1] / frame.unit.size, frame.shown[1] / frame.unit.size)
+        if position % columns == 0:
+            ax.set_ylabel(f"y ({frame.unit.name})")
+        if position + columns >= count:
+            ax.set_xlabel(f"x ({frame.unit.name})")
+            ax.tick_params(labelbottom=True)
+    return panels[:count]
+
+
+def draw_cells(ax: Any, frame: MapFrame, values: NDArray[Any], **colours: Any) -> Any:
+    """One coloured square per cell: the field as it was computed, not smoothed."""
+    return ax.imshow(
+        values.T, extent=frame.extent, origin="lower", interpolation="nearest", **colours
+    )
+
+
+def outline(ax: Any, frame: MapFrame, inside: NDArray[np.bool_], colour: str) -> None:
+    """The border of a set of cells, if it has one."""
+    if inside.any() and not inside.all():
+        x, y = frame.grid.x / frame.unit.size, frame.grid.y / frame.unit.size
+        ax.contour(x, y, inside.T.astype(float), levels=[0.5], colors=[colour], linewidths=0.8)

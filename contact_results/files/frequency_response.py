@@ -1,0 +1,95 @@
+"""Surface FRF of a body over a range of wavenumbers, and its table `frf.csv`."""
+
+import csv
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from contact_results.directory.atomic_file import atomic_file
+from semi_analytical.frf.stack import Stack
+from semi_analytical.frf.surface import SurfaceScalars, scalars
+
+Array = NDArray[np.float64]
+
+TABLE = "frf.csv"
+FIGURES = ("frf.png", "frf.svg")
+
+POINTS_PER_DECADE = 8
+# Without layers there is no length that a wave could be long or short against: from 10 µm to 10 cm.
+HALF_SPACE_RANGE = (1e1, 1e5)
+# From waves that feel the base alone to waves that feel the outermost layer alone.
+LONGEST, SHORTEST = 1e-2, 10.0
+
+NAMES = ("F_ss", "F_tt", "F_zz", "C")
+MEANINGS = {
+    "F_ss": "along the wave by shear along it",
+    "F_tt": "across the wave by shear across it",
+    "F_zz": "normal by pressure",
+    "C": "normal by shear along the wave",
+}
+
+
+@dataclass(frozen=True)
+class FrequencyResponse:
+    """The four scalars of a body that is not rigid, at increasing wavenumbers alpha [1/length]."""
+
+    stack: Stack
+    alpha: Array
+
+    @cached_property
+    def columns(self) -> dict[str, Array]:
+        """F_ss, F_tt, F_zz and C by name [length^3/force]."""
+        with np.errstate(over="ignore", invalid="ignore"):  # refused by whoever asks for more
+            response: SurfaceScalars = scalars(self.stack, self.alpha)
+        return dict(
+            zip(NAMES, (response.c11, response.csh, response.c22, response.c12), strict=True)
+        )
+
+    @cached_property
+    def dimensionless(self) -> dict[str, Array]:
+        """The same times alpha and the shear modulus of the outermost material."""
+        scale = self.alpha * self.stack.outer.shear_modulus
+        return {name: scale * values for name, values in self.columns.items()}
+
+    @cached_property
+    def reach(self) -> Array:
+        """alpha times the thickness of the outermost layer; zero without layers."""
+        return self.alpha * (self.stack.layers[0].thickness if self.stack.layers else 0.0)
+
+
+def natural_range(stack: Stack) -> tuple[float, float]:
+    """Wavenumbers between which the response passes from the base's to the outer material's."""
+    if not stack.layers:
+        return HALF_SPACE_RANGE
+    thicknesses = [film.thickness for film in stack.layers]
+    return LONGEST / sum(thicknesses), SHORTEST / min(thicknesses)
+
+
+def frequency_response(
+    stack: Stack, between: tuple[float, float], points: int | None = None
+) -> FrequencyResponse:
+    """The response at logarithmically spaced wavenumbers.
+
+    between  lowest and highest wavenumber [1/length]
+    points   how many; None for eight per decade
+    """
+    low, high = between
+    count = points or int(np.ceil(POINTS_PER_DECADE * np.log10(high / low))) + 1
+    return FrequencyResponse(stack, np.geomspace(low, high, count))
+
+
+def write_table(response: FrequencyResponse, directory: Path) -> None:
+    """Write `frf.csv`, with as many digits as it takes to read the same number again."""
+    columns: dict[str, Array] = {"alpha [1/m]": response.alpha, "alpha h [1]": response.reach}
+    columns |= {f"{name} [m^3/N]": values for name, values in response.columns.items()}
+    columns |= {f"alpha G {name} [1]": values for name, values in response.dimensionless.items()}
+    with (
+        atomic_file(directory / TABLE) as path,
+        open(path, "w", newline="", encoding="utf-8") as file,
+    ):
+        table = csv.writer(file, lineterminator="\n")
+        table.writerow(columns)
+        table.writerows(zip(*(values.tolist() for values in columns.values()), strict=True))

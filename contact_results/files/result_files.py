@@ -1,0 +1,36 @@
+"""All files of a result, in one call."""
+
+from pathlib import Path
+
+from contact_results.files.cycle_table import write_cycles
+from contact_results.files.field_file import write_fields
+from contact_results.files.increment_table import write_increments
+from contact_results.files.profile_table import write_profiles
+from contact_results.files.summary_file import write_summary
+from contact_scene.path_error import PathError
+from semi_analytical import Result
+from semi_analytical.fretting import fretting_cycles
+
+
+def write_result(
+    result: Result,
+    directory: Path,
+    *,
+    with_figures: bool = True,
+    surface_stress: bool = False,
+    path_errors: tuple[PathError, ...] | None = None,
+) -> None:
+    """Write summary, fields, tables and figures into a directory that has none of them.
+
+    surface_stress  also compute the stress at the surface that Ruiz's second parameter takes
+    """
+    cycles = fretting_cycles(result, surface_stress=surface_stress)
+    write_summary(result, cycles, directory, path_errors)
+    write_profiles(result, directory)
+    write_increments(result, directory)
+    write_cycles(cycles, result.grid, directory)
+    write_fields(result, cycles, directory)
+    if with_figures:
+        from contact_results.figures.figure_files import write_figures
+
+        write_figures(result, cycles, directory)

@@ -1,0 +1,1 @@
+"""Contact of two bodies that are known by their compliances."""

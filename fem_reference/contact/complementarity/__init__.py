@@ -1,0 +1,1 @@
+"""Contact and friction as complementarity problems, without a penalty."""

@@ -1,0 +1,86 @@
+"""The discrete contact of one path: compliances between tractions at rings and gaps over hats."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fem_reference.elasticity.hats import Hats
+from fem_reference.model import ContactModel
+from fem_reference.plan import Path
+
+Field = NDArray[np.float64]
+Matrix = NDArray[np.float64]
+
+# Of n = 0.
+R, Z = 0, 1
+
+
+@dataclass(frozen=True)
+class Sideways:
+    """The one component of shear that a path has: radial, circumferential, or along the load.
+
+    coefficient  µ
+    compliance   displacement over the hats per shear (n, n)
+    motion       of the indenter's surface over the hats, per unit of its shift or twist; its
+                 product with the shear is the force or torque over 2π. None where symmetry
+                 keeps the indenter in place
+    by_pressure  displacement over the hats per pressure (n, n); None where pressure moves the
+                 surfaces by the same amount. Its transpose is the gap per shear (Betti)
+    on_axis      whether there can be any on the axis
+    """
+
+    coefficient: float
+    compliance: Matrix
+    motion: Field | None
+    by_pressure: Matrix | None
+    on_axis: bool
+
+
+@dataclass(frozen=True)
+class ContactProblem:
+    """All that the complementarity method needs.
+
+    radii     (n,) of the rings [length]
+    weights   ∫ φ r dr (n,); the normal force is 2π Σ weights pressure
+    gap       undeformed gap over the hats (n,), ∫ h φ r dr
+    normal    gap over the hats per pressure (n, n)
+    sideways  None where the path has no shear
+    open_end  whether the mesh ends at the last ring but the contact may go on
+    """
+
+    radii: Field
+    weights: Field
+    gap: Field
+    normal: Matrix
+    sideways: Sideways | None
+    open_end: bool
+
+
+def contact_problem(model: ContactModel, path: Path) -> ContactProblem:
+    """The problem of a path other than Path.HARMONICS; condenses only the harmonics it needs."""
+    hats, pressing = model.hats, model.compliance(0).matrix
+    return ContactProblem(
+        radii=hats.radii,
+        weights=hats.weights,
+        gap=hats.of(model.gap),
+        normal=hats.compliance(pressing[Z, :, Z]),
+        sideways=_sideways(model, hats, path),
+        open_end=not model.ends_at_rim,
+    )
+
+
+def _sideways(model: ContactModel, hats: Hats, path: Path) -> Sideways | None:
+    mu = model.friction_coefficient
+    if path is Path.PRESSING_WITH_FRICTION:
+        pressing = model.compliance(0).matrix
+        radial = hats.compliance(pressing[R, :, R])
+        return Sideways(mu, radial, None, hats.compliance(pressing[R, :, Z]), on_axis=False)
+    if path is Path.TWISTING:
+        around = hats.compliance(model.torsion().matrix[0, :, 0])
+        return Sideways(mu, around, hats.arms, None, on_axis=False)
+    if path is Path.SHEARING:
+        return Sideways(mu, hats.compliance(model.along_load()), hats.weights, None, on_axis=True)
+    return None

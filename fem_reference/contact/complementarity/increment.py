@@ -1,0 +1,144 @@
+"""One increment of the complementarity method: pressure, then shear, or both in turn."""
+
+from dataclasses import replace
+from math import pi
+
+import numpy as np
+from numpy.typing import NDArray
+
+from contact_scene.solver_errors import GrossSliding, NotConverged
+from fem_reference.contact.complementarity.alternation import Coupled, alternate
+from fem_reference.contact.complementarity.contact_problem import ContactProblem, Sideways
+from fem_reference.contact.complementarity.pressing import Pressed, press
+from fem_reference.contact.complementarity.shearing import shear
+from fem_reference.contact.complementarity.slipping import (
+    SlipResiduals,
+    at_limit,
+    capacity,
+    reaches_limit,
+    slid,
+    slip_residuals,
+    target_of,
+)
+from fem_reference.contact.complementarity.state import Slid, State, untouched
+from fem_reference.errors import ContactAtZoneEdge
+from fem_reference.loads import Loads, NormalTarget
+from fem_reference.residuals import Residuals, complementarity, penetration
+
+Field = NDArray[np.float64]
+
+# The alternation stops at this part of the tolerance, so that the residuals meet it.
+ENOUGH = 0.01
+
+
+def advance(problem: ContactProblem, before: State | None, loads: Loads, tolerance: float) -> State:
+    """The state at the end of an increment.
+
+    raises  NotConverged, GrossSliding, ContactAtZoneEdge
+    """
+    sideways = problem.sideways
+    if sideways is not None and sideways.by_pressure is not None:
+        state = _coupled(problem, sideways, before, loads, tolerance)
+    else:
+        state = _uncoupled(problem, before, loads)
+    if problem.open_end and state.pressure[-1] > 0:
+        raise ContactAtZoneEdge(
+            f"the contact reaches {problem.radii[-1]:.6g} m, where the zone of fine elements "
+            f"ends; give a larger contact_radius"
+        )
+    if not state.residuals.worst <= tolerance:
+        raise NotConverged("the increment", state.steps, state.residuals.worst, tolerance)
+    return state
+
+
+def _uncoupled(problem: ContactProblem, before: State | None, loads: Loads) -> State:
+    """Pressure, then shear at that pressure."""
+    if before is not None and before.loads.normal == loads.normal:
+        pressed = Pressed(before.pressure, before.approach, before.contact, 0)
+    else:
+        guess = np.zeros(len(problem.gap), np.int8) if before is None else before.contact
+        pressed = press(problem.normal, problem.gap, problem.weights, loads.normal, guess)
+    gap = problem.normal @ pressed.pressure + problem.gap - pressed.approach * problem.weights
+    state = _pressed(problem, pressed, gap, loads)
+    if problem.sideways is None:
+        return state
+    last = before.slid if before is not None and before.slid is not None else untouched(len(gap))
+    after, residuals, steps = _sheared(problem.sideways, pressed.pressure, last, loads)
+    return replace(
+        state,
+        slid=after,
+        residuals=replace(state.residuals, **vars(residuals)),
+        steps=state.steps + steps,
+    )
+
+
+def _sheared(
+    sideways: Sideways, p: Field, last: Slid, loads: Loads
+) -> tuple[Slid, SlipResiduals, int]:
+    """The shear part under its load, its residuals, and linear systems solved."""
+    if last.motion is None:
+        raise GrossSliding(
+            "the increment before reached the friction limit under force control, where the "
+            "motion is undefined, so the history cannot go on; prescribe the shift or twist instead"
+        )
+    target = target_of(loads)
+    if reaches_limit(target, capacity(sideways, p)):
+        after = at_limit(sideways, p, target, last)
+        return after, slip_residuals(sideways, p, after, None, loads), 0
+    solved = shear(sideways, sideways.coefficient * p, target, last.offset, last.sides)
+    after, step = slid(sideways, p, solved.shear, solved.motion, solved.sides, last)
+    return after, slip_residuals(sideways, p, after, step, loads), solved.steps
+
+
+def _coupled(
+    problem: ContactProblem,
+    sideways: Sideways,
+    before: State | None,
+    loads: Loads,
+    tolerance: float,
+) -> State:
+    """Pressure and radial shear in equilibrium with each other."""
+    assert sideways.by_pressure is not None
+    rings = len(problem.gap)
+    last = before.slid if before is not None and before.slid is not None else untouched(rings)
+    contact = np.zeros(rings, np.int8) if before is None else before.contact
+    start = Coupled(np.zeros(rings), 0.0, last.shear, contact, last.sides, 0, 0)
+    solved = alternate(problem, loads.normal, last.offset, start, ENOUGH * tolerance)
+    p, q = solved.pressure, solved.shear
+    opened = problem.gap + sideways.by_pressure.T @ q
+    gap = problem.normal @ p + opened - solved.approach * problem.weights
+    pressed = Pressed(p, solved.approach, solved.contact, solved.steps)
+    after, step = slid(sideways, p, q, 0.0, solved.slipping, last)
+    state = _pressed(problem, pressed, gap, loads)
+    residuals = slip_residuals(sideways, p, after, step, loads)
+    return replace(
+        state,
+        slid=after,
+        residuals=replace(state.residuals, **vars(residuals)),
+        sweeps=solved.sweeps,
+    )
+
+
+def _pressed(problem: ContactProblem, pressed: Pressed, gap: Field, loads: Loads) -> State:
+    p, weights = pressed.pressure, problem.weights
+    carried = 2 * pi * float(np.sum(weights * p))
+    return State(
+        loads=loads,
+        pressure=p,
+        approach=pressed.approach,
+        normal_force=carried if loads.normal.force is None else loads.normal.force,
+        gap=gap,
+        contact=pressed.sides,
+        slid=None,
+        residuals=Residuals(
+            complementarity(p, gap, weights, pressed.approach),
+            penetration(gap, weights, pressed.approach),
+            _missing(loads.normal, carried),
+        ),
+        steps=pressed.steps,
+        sweeps=1,
+    )
+
+
+def _missing(target: NormalTarget, carried: float) -> float | None:
+    return None if target.force is None else abs(carried - target.force) / target.force

@@ -1,0 +1,98 @@
+"""The method without a penalty: contact and Coulomb's law hold exactly over the hats."""
+
+from dataclasses import dataclass, replace
+from math import pi, sqrt
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fem_reference.contact.complementarity.contact_problem import ContactProblem, contact_problem
+from fem_reference.contact.complementarity.edge import edge_radius, stick_area
+from fem_reference.contact.complementarity.increment import advance
+from fem_reference.contact.complementarity.slipping import limited
+from fem_reference.contact.complementarity.state import Slid, State
+from fem_reference.fields import Increment
+from fem_reference.loads import Loads, Place
+from fem_reference.model import ContactModel
+from fem_reference.plan import Path, Plan
+
+Field = NDArray[np.float64]
+
+
+def complementarity_method(model: ContactModel, plan: Plan) -> "Complementarity":
+    """The method on a model, for a path other than Path.HARMONICS."""
+    return Complementarity(plan, contact_problem(model, plan.path))
+
+
+@dataclass(frozen=True)
+class Complementarity:
+    """Solves increments of one problem, and reports them."""
+
+    plan: Plan
+    problem: ContactProblem
+
+    def advance(self, before: State | None, loads: Loads, tolerance: float) -> State:
+        """The state at the end of an increment; raises what `increment.advance` raises."""
+        return advance(self.problem, before, loads, tolerance)
+
+    def increment(self, state: State, place: Place) -> Increment:
+        """The state as it is reported."""
+        problem, p = self.problem, state.pressure
+        pressed = Increment(
+            step=place.step,
+            index=place.index,
+            increments_in_step=place.increments_in_step,
+            radii=problem.radii,
+            pressure=p,
+            gap=np.where(p > 0, 0.0, np.maximum(state.gap, 0.0) / problem.weights),
+            normal_force=state.normal_force,
+            approach=state.approach,
+            contact_radius=_contact_radius(problem, p),
+            peak_pressure=float(np.max(p)),
+            residuals=state.residuals,
+            iterations=state.steps,
+            sweeps=state.sweeps,
+        )
+        return pressed if state.slid is None else self._with_shear(pressed, state, state.slid)
+
+    def _with_shear(self, pressed: Increment, state: State, slid: Slid) -> Increment:
+        sideways, path = self.problem.sideways, self.plan.path
+        assert sideways is not None
+        bound = sideways.coefficient * limited(sideways, state.pressure)
+        in_stick = (state.pressure > 0) & (slid.sides == 0) & (sideways.coefficient > 0)
+        stuck = stick_area(pressed.radii, bound, slid.shear, slid.sides, pressed.contact_radius)
+        slip = slid.slip / self.problem.weights
+        sheared = replace(
+            pressed,
+            status=slid.status,
+            in_stick=in_stick,
+            stick_radius=sqrt(stuck / pi),
+            dissipated_energy=slid.dissipated,
+        )
+        if path is Path.TWISTING:
+            return replace(
+                sheared,
+                shear_circumferential=slid.shear,
+                slip_circumferential=slip,
+                torque=state.torque,
+                twist=state.twist,
+            )
+        if path is Path.PRESSING_WITH_FRICTION:
+            sheared = replace(sheared, shear_radial=slid.shear, slip_radial=slip)
+        else:
+            sheared = replace(sheared, shear_along_load=slid.shear, slip_along_load=slip)
+        force, shift = state.tangential_force, state.tangential_shift
+        x, y = self.plan.direction
+        return replace(
+            sheared,
+            tangential_force=(force * x, force * y),
+            tangential_shift=None if shift is None else (shift * x, shift * y),
+        )
+
+
+def _contact_radius(problem: ContactProblem, p: Field) -> float:
+    """Where the pressure ends: at the rim of a flat punch if its last ring carries any."""
+    last = int(np.flatnonzero(p > 0)[-1])
+    if last == len(p) - 1:
+        return float(problem.radii[-1])
+    return edge_radius(problem.radii, p, last)

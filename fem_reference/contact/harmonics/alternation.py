@@ -1,0 +1,216 @@
+"""Pressure and shear that depend on each other: the one at the other's last value, in turns.
+
+The turns contract by about max(β², µ|β|) (β Dundurs' second constant), so that plain turns fail for
+µ|β| ≥ 1. The pressures are therefore extrapolated: the combination of known points is taken that
+would come nearest to p' = p if the round trip p → p' were linear (Anderson 1965). For µ|β| far
+above one that fails too, and `newton` takes over.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from contact_scene.solver_errors import NotConverged
+from fem_reference.contact.complementarity.box_program import (
+    BoxProgram,
+    BoxSolution,
+    Sides,
+    Total,
+    solve_box,
+)
+from fem_reference.contact.harmonics.point_compliance import PointCompliance
+from fem_reference.contact.harmonics.shearing import Sheared, ShearProblem, solve_shear
+from fem_reference.loads import NormalTarget, TangentialTarget
+
+Field = NDArray[np.float64]
+Vector = NDArray[np.float64]
+Mask = NDArray[np.bool_]
+
+MOST_TURNS = 60
+LOOSEST = 1e-4  # first tolerance of the shear
+REMEMBERED = 30
+DEPENDENT = 1e-10  # part of a difference below which the others explain it
+AT_LIMIT = 1e-6  # part of µW below which a force cannot be told from the friction limit
+
+
+@dataclass(frozen=True)
+class CoupledProblem:
+    """An increment on points.
+
+    gap                   undeformed gap (points,) [length]
+    friction_coefficient  µ
+    target                u_t of the state before less its shift (2, points) [length]
+    """
+
+    compliance: PointCompliance
+    gap: Vector
+    friction_coefficient: float
+    target: Field
+    normal: NormalTarget
+    tangential: TangentialTarget
+
+    def bound(self, pressure: Vector) -> Vector:
+        """The longest shear that each point can carry (points,) [force/length^2]."""
+        carrying = np.where(self.compliance.carries_shear, pressure, 0.0)
+        return self.friction_coefficient * carrying
+
+
+@dataclass(frozen=True)
+class CoupledSolution:
+    """Pressure (points,) and shear (2, points) with the rigid motion.
+
+    shift  None where the force is all that friction can carry: everything slips along it
+    """
+
+    pressure: Vector
+    shear: Field
+    approach: float
+    shift: float | None
+    in_slip: Mask
+    turns: int
+    solves: int
+
+
+class TurnsFailed(NotConverged):
+    """Turns that ended without a solution, and the linear solves that they took."""
+
+    def __init__(self, turns: int, solves: int, residual: float, tolerance: float) -> None:
+        super().__init__("the coupled increment", solves, residual, tolerance)
+        self.turns = turns
+        self.solves = solves
+
+
+def solve_coupled(
+    problem: CoupledProblem, pressure: Vector, shear: Field, tolerance: float
+) -> CoupledSolution:
+    """Turns from a first pressure and shear until both problems meet the tolerance at once.
+
+    tolerance  of the change of the pressure by a turn, Σ w |p' − p| / Σ w p'; the shear is solved
+               to a tenth of it in the end
+    raises     TurnsFailed
+    """
+    w, target = problem.compliance.areas, problem.normal
+    q, turn, solves, change = shear, 0, 0, np.inf
+    inner, tightest = max(LOOSEST, 0.1 * tolerance), 0.1 * tolerance
+    known = _Anderson(w, target.force)
+    try:
+        pressed = press(problem, q, sides_of(pressure))
+        p = pressed.values
+        for turn in range(1, MOST_TURNS + 1):
+            sheared = _shear(problem, p, q, inner)
+            q, solves = sheared.shear, solves + sheared.solves
+            pressed = press(problem, q, pressed.sides)
+            solves += pressed.steps
+            change = _change(w, p, pressed.values)
+            if change <= tolerance and inner <= tightest:
+                delta = approach_of(problem, pressed)
+                return CoupledSolution(p, q, delta, sheared.shift, sheared.in_slip, turn, solves)
+            if change > tolerance:
+                p = known.next(p, pressed.values)
+                inner = max(tightest, 0.1 * inner)
+            else:
+                inner = tightest
+    except NotConverged as error:
+        spent = solves + error.iterations
+        raise TurnsFailed(turn, spent, error.residual, error.tolerance) from error
+    except np.linalg.LinAlgError as error:
+        raise TurnsFailed(turn, solves, np.inf, tolerance) from error
+    raise TurnsFailed(turn, solves, change, tolerance)
+
+
+def _change(areas: Vector, p: Vector, answer: Vector) -> float:
+    """Of the pressure by a turn, relative to what is left of it."""
+    carried = float(np.sum(areas * answer))
+    return float(np.sum(areas * np.abs(answer - p))) / carried if carried > 0 else np.inf
+
+
+def sides_of(pressure: Vector) -> Sides:
+    """Free where there is pressure: a guess for `press`."""
+    return np.where(pressure > 0, 0, -1).astype(np.int8)
+
+
+def approach_of(problem: CoupledProblem, pressed: BoxSolution) -> float:
+    """The prescribed approach, or that which the force takes."""
+    prescribed = problem.normal.approach
+    return pressed.multiplier if prescribed is None else prescribed
+
+
+def press(problem: CoupledProblem, q: Field, guess: Sides) -> BoxSolution:
+    """The pressure at a shear, with the approach as multiplier of the force.
+
+    Raises NotConverged, LinAlgError.
+    """
+    compliance, target = problem.compliance, problem.normal
+    w, K = compliance.areas, compliance.matrix
+    points = len(w)
+    right = -w * problem.gap - K[2 * points :, : 2 * points] @ q.ravel()
+    total = None
+    if target.force is not None:
+        total = Total(w, target.force)
+    else:
+        assert target.approach is not None
+        right = right + target.approach * w
+    nothing, endless = np.zeros_like(w), np.full_like(w, np.inf)
+    K_zz = K[2 * points :, 2 * points :]
+    return solve_box(BoxProgram(K_zz, right, nothing, endless, total), guess)
+
+
+def _shear(problem: CoupledProblem, p: Vector, start: Field, tolerance: float) -> Sheared:
+    """The shear at a pressure, on the points that carry it."""
+    compliance, load = problem.compliance, problem.tangential
+    w, K = compliance.areas, compliance.matrix
+    points = len(w)
+    bound = problem.bound(p)
+    capacity = float(np.sum(w * bound))
+    if load.force is not None and abs(load.force) >= capacity * (1 - AT_LIMIT):
+        q = np.copysign(1.0, load.force) * bound * compliance.e_x
+        return Sheared(q, None, bound > 0, 0.0, 0)
+    inside = np.flatnonzero(bound > 0)
+    if len(inside) == 0:
+        return Sheared(np.zeros_like(start), load.shift, bound > 0, 0.0, 0)
+    both = np.concatenate([inside, points + inside])
+    by_pressure = (K[: 2 * points, 2 * points :] @ p).reshape(2, -1)
+    part = ShearProblem(
+        compliance=K[np.ix_(both, both)],
+        target=(w * problem.target - by_pressure)[:, inside],
+        areas=w[inside],
+        along=compliance.along_x[:, inside],
+        bound=bound[inside],
+        load=load,
+    )
+    solved = solve_shear(part, start[:, inside], tolerance)
+    q, in_slip = np.zeros_like(start), np.zeros(points, dtype=bool)
+    q[:, inside], in_slip[inside] = solved.shear, solved.in_slip
+    return Sheared(q, solved.shift, in_slip, solved.residual, solved.solves)
+
+
+class _Anderson:
+    """The next point of the iteration p → p', from all that is known of it."""
+
+    def __init__(self, areas: Vector, force: float | None) -> None:
+        self._areas = areas
+        self._force = force
+        self._points: list[Vector] = []
+        self._changes: list[Vector] = []
+
+    def next(self, p: Vector, answer: Vector) -> Vector:
+        """An admissible pressure near which the change would vanish, after one with this answer."""
+        self._points = [*self._points, p][-REMEMBERED:]
+        self._changes = [*self._changes, answer - p][-REMEMBERED:]
+        if len(self._points) < 2:
+            return answer
+        steps, turns = np.diff(self._points, axis=0), np.diff(self._changes, axis=0)
+        size = np.sqrt(np.sum(turns**2, axis=1))
+        telling = size > 0
+        if not np.any(telling):
+            return answer
+        steps, turns = (d[telling] / size[telling, None] for d in (steps, turns))
+        share, *_ = np.linalg.lstsq(turns.T, self._changes[-1], rcond=DEPENDENT)
+        guess = answer - share @ (steps + turns)
+        guess = np.where(answer > 0, np.maximum(guess, 0.0), 0.0)
+        if self._force is None:
+            return np.asarray(guess)
+        carried = float(np.sum(self._areas * guess))
+        # An extrapolation that leaves no pressure at all tells nothing.
+        return np.asarray(guess * (self._force / carried)) if carried > 0 else answer

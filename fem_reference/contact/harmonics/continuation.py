@@ -1,0 +1,177 @@
+"""Pressure and shear by continuation: from contact through springs to contact without.
+
+Strong friction on strongly coupled bodies has several states that obey all laws; pairs of them
+appear and vanish as loads change, and Newton's method runs to and fro between the kinks where one
+has vanished. With soft enough springs between the surfaces there is one state. It is followed while
+the springs are taken away, by the length of its path and not by the springs: where two states meet,
+the path turns back to softer springs and on to stiffer ones later (Keller 1977, in Applications of
+Bifurcation Theory, p. 359; Allgower and Georg 1990, Numerical Continuation Methods, ch. 2 and 12).
+
+The direction along the path is that in which the determinant of the derivative, with the direction
+as its last row, keeps its sign. This holds across kinks too, where directions change at once.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from contact_scene.solver_errors import NotConverged
+from fem_reference.contact.harmonics.alternation import CoupledProblem, CoupledSolution
+from fem_reference.contact.harmonics.equations import Equations, Iterate
+from fem_reference.contact.harmonics.newton import Root, Start, root
+
+Vector = NDArray[np.float64]
+Matrix = NDArray[np.float64]
+
+MOST_STEPS = 1000
+SOFT = 10.0  # of the springs at first, over the compliance of the bodies at a point
+ON_PATH = 1e-7  # how much may be missed on the way
+FIRST_LENGTH, SHORTEST, LONGEST = 0.05, 1e-7, 1.0
+BEYOND_KINK = 1e-6  # how far a piece of the path is looked for on the other side of a kink
+MOST_CORRECTIONS = 8
+GROWTH = 1.5
+LITTLE_FRICTION = 0.1  # shear is measured by no less of the pressure
+
+
+def solve_by_continuation(
+    problem: CoupledProblem, start: Start, tolerance: float
+) -> CoupledSolution:
+    """The state that the path leads to.
+
+    tolerance  as of `solve_by_newton`
+    raises     NotConverged: the path does not begin, or is not at its end after MOST_STEPS; the
+               residual is then what is left of the springs, over the compliance of the bodies
+    """
+    points = len(problem.compliance.areas)
+    itself = np.diagonal(problem.compliance.matrix)[2 * points :] / problem.compliance.areas
+    softness = float(np.median(itself))
+    path = _Path(problem, root(problem, start, tolerance, SOFT * softness), softness)
+    for _ in range(MOST_STEPS):
+        found = path.step(tolerance)
+        if found is not None:
+            return path.equations.solution(found.at, found.in_slip, found.solves)
+    raise path.lost(tolerance)
+
+
+@dataclass(frozen=True)
+class _Reached:
+    """Scaled values that miss hardly anything, with the derivative by them, and the number of
+    corrections that took."""
+
+    root: Root
+    values: Vector
+    derivative: Matrix
+    corrections: int
+
+
+class _Path:
+    """A place on the path, the direction in which it goes on, and the length of the next step.
+
+    Lengths are those of values over their scales: mean pressure, what friction makes of it, the
+    approach, and the compliance of the bodies for that of the springs.
+    """
+
+    def __init__(self, problem: CoupledProblem, begun: Root, softness: float) -> None:
+        self.equations = Equations(problem)
+        self._solves = begun.solves
+        self._scales = _scales(self.equations, begun.at, softness)
+        self._values = begun.at.values / self._scales
+        self._length = FIRST_LENGTH
+        self._softer = np.append(np.zeros(len(self._values) - 1), 1.0)
+        derivative = self._derivative(self._values)
+        self._direction, self._sign = self._tangent(derivative, -self._softer)
+
+    def lost(self, tolerance: float) -> NotConverged:
+        """What is raised where the path is given up."""
+        left = float(self._values[-1])
+        return NotConverged("the path of continuation", self._solves, left, tolerance)
+
+    def step(self, tolerance: float) -> Root | None:
+        """Go on along the path; the root without springs once there is one."""
+        ahead = self._values + self._length * self._direction
+        if ahead[-1] > 0:
+            reached = self._corrected(ahead, self._direction, ON_PATH)
+            if reached is None:
+                self._shorten()
+            else:
+                self._go_to(reached)
+            return None
+        share = self._values[-1] / (self._values[-1] - ahead[-1])
+        end = self._values + share * (ahead - self._values)
+        end[-1] = 0.0
+        reached = self._corrected(end, self._softer, tolerance)
+        if reached is None:
+            self._shorten()
+            return None
+        return reached.root
+
+    def _go_to(self, reached: _Reached) -> None:
+        direction, sign = self._tangent(reached.derivative, self._direction)
+        self._values = reached.values
+        self._direction = sign * self._sign * direction
+        if reached.corrections <= MOST_CORRECTIONS // 2:
+            self._length = min(GROWTH * self._length, LONGEST)
+
+    def _shorten(self) -> None:
+        """Half the length; at a kink, turn into the direction on its other side."""
+        self._length /= 2
+        if self._length > SHORTEST:
+            return
+        beyond = self._values + BEYOND_KINK * self._direction
+        direction, sign = self._tangent(self._derivative(beyond), self._direction)
+        self._direction = sign * self._sign * direction
+        self._length = 100 * BEYOND_KINK
+
+    def _corrected(self, ahead: Vector, across: Vector, tolerance: float) -> _Reached | None:
+        """The path where it crosses a plane near values ahead; None where Newton's method does not
+        get there.
+
+        across  normal of the plane, unit vector
+        """
+        values = ahead
+        for corrections in range(MOST_CORRECTIONS + 1):
+            at = Iterate.of(values * self._scales)
+            missed, jacobian, in_slip = self.equations.linearised(at)
+            size = self.equations.size(missed, at)
+            derivative = jacobian * self._scales
+            if size <= tolerance:
+                return _Reached(Root(at, in_slip, self._solves), values, derivative, corrections)
+            change = self._solved(derivative, across, np.append(-missed, 0.0))
+            values = values + change
+            if values[-1] < 0 or not np.linalg.norm(values - ahead) <= self._length:
+                return None
+        return None
+
+    def _derivative(self, values: Vector) -> Matrix:
+        _, jacobian, _ = self.equations.linearised(Iterate.of(values * self._scales))
+        return np.asarray(jacobian * self._scales)
+
+    def _tangent(self, derivative: Matrix, along: Vector) -> tuple[Vector, float]:
+        """The unit vector on which the derivative vanishes, on the side of another, and the sign of
+        the determinant with it as last row."""
+        right = np.append(np.zeros(len(derivative)), 1.0)
+        tangent = self._solved(derivative, along, right)
+        sign, _ = np.linalg.slogdet(np.vstack([derivative, along]))
+        return tangent / np.linalg.norm(tangent), float(sign)
+
+    def _solved(self, derivative: Matrix, last: Vector, right: Vector) -> Vector:
+        self._solves += 1
+        try:
+            return np.asarray(np.linalg.solve(np.vstack([derivative, last]), right))
+        except np.linalg.LinAlgError as error:
+            raise self.lost(0.0) from error
+
+
+def _scales(equations: Equations, at: Iterate, softness: float) -> Vector:
+    """What the values of an iterate are measured in; tractions count by the area they act on."""
+    w, n = equations.w, equations.n
+    p = at.tractions[2 * n :]
+    area = float(np.sum(w, where=p > 0))
+    mean = float(np.sum(w * np.abs(p))) / area
+    share = np.sqrt(area / w)
+    rubbed = max(equations.problem.friction_coefficient, LITTLE_FRICTION) * mean * share
+    approach = abs(at.approach)
+    return np.concatenate(
+        [rubbed, rubbed, mean * share, [max(abs(at.shift), approach), approach, softness]]
+    )

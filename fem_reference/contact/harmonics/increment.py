@@ -1,0 +1,200 @@
+"""One load increment on points: from state to state."""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from contact_scene.solver_errors import GrossSliding, NotConverged
+from fem_reference.contact.harmonics.alternation import (
+    AT_LIMIT,
+    CoupledProblem,
+    CoupledSolution,
+    TurnsFailed,
+    solve_coupled,
+)
+from fem_reference.contact.harmonics.continuation import solve_by_continuation
+from fem_reference.contact.harmonics.newton import Start, solve_by_newton
+from fem_reference.contact.harmonics.point_contact import PointContact
+from fem_reference.contact.harmonics.state import PointState
+from fem_reference.loads import NormalTarget, TangentialTarget
+from fem_reference.residuals import (
+    LEAST_SLIP,
+    Residuals,
+    complementarity,
+    friction_cone,
+    penetration,
+)
+
+Field = NDArray[np.float64]
+Vector = NDArray[np.float64]
+
+MOST_ATTEMPTS = 4
+# Of the approach: tangential displacements below are round-off of bodies that do not couple.
+ROUND_OFF = 1e-6
+
+
+def advance(
+    contact: PointContact,
+    before: PointState | None,
+    normal: NormalTarget,
+    tangential: TangentialTarget,
+    tolerance: float,
+) -> PointState:
+    """The state at the end of an increment; all its residuals are at most the tolerance.
+
+    Judged by displacements computed afresh from the final tractions, harmonic by harmonic.
+    raises  NotConverged, GrossSliding
+    """
+    before = before or contact.untouched()
+    if before.tangential_shift is None:
+        raise GrossSliding(
+            "the increment before reached the friction limit under force control, where the "
+            "shift is undefined, so the history cannot go on; prescribe tangential_shift instead"
+        )
+    target = before.displacement - before.tangential_shift * contact.compliance.e_x
+    problem = CoupledProblem(
+        contact.compliance, contact.gap, contact.friction_coefficient, target, normal, tangential
+    )
+    p, q, motion = before.pressure, before.shear, (before.tangential_shift, before.approach)
+    aim, turns, solves = 0.5 * tolerance, 0, 0
+    for _ in range(MOST_ATTEMPTS):
+        solution = _solved(problem, p, q, motion, aim)
+        turns, solves = turns + solution.turns, solves + solution.solves
+        _refuse_sliding(problem, solution)
+        state = _Trial.of(problem, before, solution).state(turns, solves)
+        if state.residuals.worst <= tolerance:
+            return state
+        p, q, aim = solution.pressure, solution.shear, 0.1 * aim
+        motion = motion[0] if solution.shift is None else solution.shift, solution.approach
+    raise NotConverged("the coupled increment", solves, state.residuals.worst, tolerance)
+
+
+def _solved(
+    problem: CoupledProblem, p: Vector, q: Field, motion: tuple[float, float], tolerance: float
+) -> CoupledSolution:
+    """By turns, which need a shift only below the friction limit; else by Newton's method; where
+    that runs to and fro, by continuation."""
+    try:
+        return solve_coupled(problem, p, q, tolerance)
+    except TurnsFailed as error:
+        failed = error
+    start, spent = Start(p, q, *motion), failed.solves
+    for solve in (solve_by_newton, solve_by_continuation):
+        try:
+            solution = solve(problem, start, tolerance)
+        except NotConverged as error:
+            spent += error.iterations
+            continue
+        return replace(solution, turns=failed.turns, solves=spent + solution.solves)
+    raise NotConverged("the coupled increment", spent, failed.residual, failed.tolerance)
+
+
+def _refuse_sliding(problem: CoupledProblem, solution: CoupledSolution) -> None:
+    force = problem.tangential.force
+    carried = np.sum(problem.compliance.areas * problem.bound(solution.pressure))
+    if force is not None and abs(force) > carried * (1 + AT_LIMIT):
+        raise GrossSliding(
+            f"tangential force {abs(force):.6g} N exceeds the friction limit {carried:.6g} N: "
+            f"gross sliding; prescribe tangential_shift instead"
+        )
+
+
+@dataclass(frozen=True)
+class _Trial:
+    """A solution with what follows from it.
+
+    displacement, gap  u_t and g at the points [length]
+    passed             how far the indenter's particles moved past the body's in the increment,
+                       (2, points): that way they pull these along
+    """
+
+    problem: CoupledProblem
+    before: PointState
+    solution: CoupledSolution
+    displacement: Field
+    gap: Vector
+    passed: Field
+
+    @classmethod
+    def of(cls, problem: CoupledProblem, before: PointState, solution: CoupledSolution) -> "_Trial":
+        compliance, shift = problem.compliance, solution.shift
+        u_t, u_z = compliance.displacement(solution.pressure, solution.shear)
+        passed = np.zeros_like(u_t)
+        if shift is not None:
+            passed = shift * compliance.e_x + problem.target - u_t
+        gap = problem.gap + u_z - solution.approach
+        return cls(problem, before, solution, u_t, gap, passed)
+
+    def state(self, turns: int, solves: int) -> PointState:
+        """The state that the solution makes."""
+        problem, before, solution = self.problem, self.before, self.solution
+        p, q, w = solution.pressure, solution.shear, problem.compliance.areas
+        in_stick = (problem.friction_coefficient * p > 0) & ~solution.in_slip
+        slipped = np.where((p > 0) & ~in_stick, self.passed, 0.0)
+        energy = None
+        if solution.shift is not None and before.dissipated_energy is not None:
+            energy = before.dissipated_energy + float(np.sum(w * q * slipped))
+        return PointState(
+            compliance=problem.compliance,
+            pressure=p,
+            shear=q,
+            displacement=self.displacement,
+            gap=self.gap,
+            slip=before.slip - slipped,
+            in_stick=in_stick,
+            limit=float(np.sum(w * problem.bound(p))),
+            normal_force=float(np.sum(w * p)),
+            approach=solution.approach,
+            tangential_force=float(np.sum(problem.compliance.along_x * q)),
+            tangential_shift=solution.shift,
+            dissipated_energy=energy,
+            residuals=self._residuals(),
+            turns=turns,
+            solves=solves,
+        )
+
+    def _residuals(self) -> Residuals:
+        problem, solution, g = self.problem, self.solution, self.gap
+        p, q, w = solution.pressure, solution.shear, problem.compliance.areas
+        bound, approach = problem.bound(p), solution.approach
+        normal, force = problem.normal.force, problem.tangential.force
+        limit = np.sum(w * bound)
+        # What shear alone does: where all sticks from the start, all together moves nothing.
+        by_shear, _ = problem.compliance.displacement(np.zeros_like(p), q)
+        moved = max(_longest(by_shear), _longest(self.before.displacement), ROUND_OFF * approach)
+        slid = solution.shift is not None
+        return Residuals(
+            complementarity=complementarity(p, w * g, w, approach),
+            penetration=penetration(w * g, w, approach),
+            normal_equilibrium=(
+                None if normal is None else float(abs(np.sum(w * p) - normal) / normal)
+            ),
+            friction_cone=friction_cone(_length(q), bound),
+            slip_direction=slip_direction(q, bound, self.passed, w, moved) if slid else None,
+            tangential_equilibrium=(
+                None
+                if force is None or limit == 0
+                else float(abs(np.sum(problem.compliance.along_x * q) - force) / limit)
+            ),
+        )
+
+
+def slip_direction(q: Field, bound: Vector, passed: Field, areas: Vector, moved: float) -> float:
+    """∫(b|s| − q·s) / ∫b|s| with s the motion of the indenter past the body: zero if the shear has
+    its full length along s wherever there is slip.
+
+    moved  largest displacement: the scale where slip nearly vanishes and has no direction
+    """
+    work = areas * bound * _length(passed)
+    missing = np.sum(work - areas * np.sum(q * passed, axis=0))
+    scale = max(np.sum(work), LEAST_SLIP * moved * np.sum(areas * bound))
+    return float(missing / scale) if scale > 0 else 0.0
+
+
+def _length(vectors: Field) -> Vector:
+    return np.asarray(np.sqrt(vectors[0] ** 2 + vectors[1] ** 2))
+
+
+def _longest(vectors: Field) -> float:
+    return float(np.max(_length(vectors)))

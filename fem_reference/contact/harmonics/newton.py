@@ -1,0 +1,118 @@
+"""Pressure and shear together by Newton's method, for where taking turns does not converge.
+
+Below thin incompressible films, and wherever µ|β| is far above one, each turn of pressure and shear
+carries the other further away. Newton's method knows both, by the derivative of the equations on
+the side of each kink where the iterate is. It may run to and fro between kinks: see `continuation`.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from contact_scene.solver_errors import NotConverged
+from fem_reference.contact.harmonics.alternation import (
+    CoupledProblem,
+    CoupledSolution,
+    approach_of,
+    press,
+    sides_of,
+)
+from fem_reference.contact.harmonics.equations import Equations, Iterate
+
+Field = NDArray[np.float64]
+Vector = NDArray[np.float64]
+Mask = NDArray[np.bool_]
+
+MOST_STEPS = 200
+MOST_HALVINGS = 7
+REMEMBERED = 4  # misses; a step that gets below the largest of them is not shortened
+SUFFICIENT = 1e-3
+
+
+@dataclass(frozen=True)
+class Start:
+    """Where an increment starts: pressure (points,), shear (2, points), shift and approach."""
+
+    pressure: Vector
+    shear: Field
+    shift: float
+    approach: float
+
+
+@dataclass(frozen=True)
+class Root:
+    """An iterate that misses nothing, the points that slip, and linear systems solved."""
+
+    at: Iterate
+    in_slip: Mask
+    solves: int
+
+
+def solve_by_newton(problem: CoupledProblem, start: Start, tolerance: float) -> CoupledSolution:
+    """Pressure and shear that meet all laws at once.
+
+    tolerance  of Σ w |p − ⟨z_z⟩| / Σ w p + Σ w |q − P(z_t)| / Σ w µp, with what the forces lack
+    raises     NotConverged
+    """
+    found = root(problem, start, tolerance)
+    return Equations(problem).solution(found.at, found.in_slip, found.solves)
+
+
+def root(problem: CoupledProblem, start: Start, tolerance: float, springs: float = 0.0) -> Root:
+    """Where the equations miss nothing, with springs between the surfaces; raises NotConverged."""
+    misses: list[float] = []
+    try:
+        at, solves = _first(problem, start, springs)
+        equations = Equations(problem)
+        for step in range(MOST_STEPS):
+            with np.errstate(over="ignore", invalid="ignore"):
+                missed, jacobian, in_slip = equations.linearised(at)
+            misses.append(equations.size(missed, at))
+            if misses[-1] <= tolerance:
+                return Root(at, in_slip, solves + step)
+            change = np.linalg.solve(jacobian[:, :-1], -missed)
+            if not np.isfinite(change).all():
+                break
+            bound = (1 - SUFFICIENT) * max(misses[-REMEMBERED:])
+            after = _nearer(equations, at, np.append(change, 0.0), bound)
+            if after is None:
+                break
+            at = after
+    except np.linalg.LinAlgError:
+        pass
+    raise NotConverged("the coupled increment", len(misses), min(misses, default=np.inf), tolerance)
+
+
+def _first(problem: CoupledProblem, start: Start, springs: float) -> tuple[Iterate, int]:
+    """An iterate with pressure, and the linear solves for it.
+
+    Where there is none yet it is that of frictionless contact: between bodies apart no force
+    depends on any motion, and no Newton step is defined.
+    """
+    pressure, approach, solves = start.pressure, start.approach, 0
+    if not np.any(pressure > 0):
+        pressed = press(problem, np.zeros_like(start.shear), sides_of(pressure))
+        pressure, approach, solves = pressed.values, approach_of(problem, pressed), pressed.steps
+    shifted, pressed_by = problem.tangential.shift, problem.normal.approach
+    return Iterate(
+        np.concatenate([start.shear.ravel(), pressure]),
+        start.shift if shifted is None else shifted,
+        approach if pressed_by is None else pressed_by,
+        springs,
+    ), solves
+
+
+def _nearer(equations: Equations, at: Iterate, change: Vector, bound: float) -> Iterate | None:
+    """The first of ever shorter steps that misses by less than the bound; if none does, the one
+    that misses least: at a kink all may lead uphill. None where that is no number."""
+    nearest, least = None, np.inf
+    for halvings in range(MOST_HALVINGS + 1):
+        trial = Iterate.of(at.values + 0.5**halvings * change)
+        with np.errstate(over="ignore", invalid="ignore"):
+            miss = equations.size(equations.missed(trial), trial)
+        if miss < least:
+            nearest, least = trial, miss
+        if miss < bound:
+            break
+    return nearest

@@ -1,0 +1,88 @@
+"""A state on points as an increment of the result."""
+
+from math import pi, sqrt
+
+import numpy as np
+from numpy.typing import NDArray
+
+from contact_scene.summary import ContactStatus
+from fem_reference.contact.complementarity.edge import edge_radius
+from fem_reference.contact.harmonics.state import PointState
+from fem_reference.fields import Increment
+from fem_reference.loads import Place
+
+Field = NDArray[np.float64]
+
+
+def reported(state: PointState, direction: tuple[float, float], place: Place) -> Increment:
+    """Fields on (rings, angles), or on (rings,) as long as nothing depends on θ.
+
+    direction  of the tangential load, from which angles count
+    """
+    compliance, shift = state.compliance, state.tangential_shift
+    axisymmetric = compliance.grid.highest == 0
+    touching = state.pressure > 0
+    p = compliance.scalar_on_grid(state.pressure)
+    gap = compliance.scalar_on_grid(np.where(touching, 0.0, np.maximum(state.gap, 0.0)))
+    q_r, q_theta = compliance.vector_on_grid(state.shear)
+    s_r, s_theta = compliance.vector_on_grid(np.where(touching, state.slip, 0.0))
+    in_stick = compliance.scalar_on_grid(state.in_stick)
+
+    def shown(values: Field) -> Field:
+        return values[:, 0] if axisymmetric else values
+
+    contact_area = _contact_area(state, p)
+    return Increment(
+        step=place.step,
+        index=place.index,
+        increments_in_step=place.increments_in_step,
+        radii=compliance.rings.radii,
+        angles=None if axisymmetric else compliance.grid.angles,
+        pressure=shown(p),
+        gap=shown(gap),
+        normal_force=state.normal_force,
+        approach=state.approach,
+        contact_radius=sqrt(contact_area / pi),
+        peak_pressure=float(np.max(p)),
+        residuals=state.residuals,
+        iterations=state.solves,
+        sweeps=state.turns,
+        status=state.status,
+        shear_radial=shown(q_r),
+        shear_circumferential=None if axisymmetric else q_theta,
+        slip_radial=shown(s_r),
+        slip_circumferential=None if axisymmetric else s_theta,
+        in_stick=in_stick[:, 0] if axisymmetric else in_stick,
+        stick_radius=sqrt(_stick_area(state, contact_area) / pi),
+        tangential_force=_along(direction, state.tangential_force),
+        tangential_shift=None if shift is None else _along(direction, shift),
+        dissipated_energy=state.dissipated_energy,
+        overlap=float(compliance.springs[0] * np.max(p)) if any(compliance.springs) else None,
+        path="springs" if any(compliance.springs) else None,
+    )
+
+
+def _along(direction: tuple[float, float], value: float) -> tuple[float, float]:
+    x, y = direction
+    return value * x, value * y
+
+
+def _contact_area(state: PointState, p: Field) -> float:
+    """½∫a² dθ with the radius a of the contact's edge on every ray [length^2]; on the last ring,
+    the rim of a flat punch, the edge is the ring. Rays without contact add nothing."""
+    radii = state.compliance.rings.radii
+    edges = np.zeros(p.shape[1])
+    for angle, ray in enumerate(p.T):
+        if np.any(ray > 0):
+            last = int(np.flatnonzero(ray > 0)[-1])
+            rim = last == len(radii) - 1
+            edges[angle] = radii[last] if rim else edge_radius(radii, ray, last)
+    return float(0.5 * np.sum(state.compliance.grid.weights * np.square(edges)))
+
+
+def _stick_area(state: PointState, contact_area: float) -> float:
+    """Area that the sticking points stand for: known to parts of an element in radius and of a
+    sector in angle [length^2]."""
+    if state.status is ContactStatus.FULL_STICK:
+        return contact_area
+    return min(float(np.sum(state.compliance.areas[state.in_stick])), contact_area)

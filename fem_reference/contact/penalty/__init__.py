@@ -1,0 +1,1 @@
+"""Contact and friction by an augmented penalty at Gauss points."""

@@ -1,0 +1,200 @@
+"""One increment of the penalty method: passes by Newton or springs, then what is remembered."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from math import pi
+
+import numpy as np
+from numpy.typing import NDArray
+
+from contact_scene.solver_errors import GrossSliding, NotConverged
+from fem_reference.contact.complementarity.shearing import SidewaysTarget
+from fem_reference.contact.complementarity.slipping import reaches_limit
+from fem_reference.contact.penalty.augmentation import augmented
+from fem_reference.contact.penalty.newton import Iterate, defect, solve_by_newton
+from fem_reference.contact.penalty.problem import PenaltyProblem
+from fem_reference.contact.penalty.residuals import penalty_residuals
+from fem_reference.contact.penalty.spring_contact import PenaltyLaw
+from fem_reference.contact.penalty.springs import NORMAL, solve_by_springs
+from fem_reference.contact.penalty.state import PenaltyState, Solution, untouched
+from fem_reference.contact.penalty.surface import ElasticSurface, Target
+from fem_reference.errors import ContactAtZoneEdge
+from fem_reference.loads import Loads
+
+Field = NDArray[np.float64]
+
+# Part of the tolerance that passes are solved to, so that the residuals meet it.
+ENOUGH = 0.1
+
+
+def advance(
+    problem: PenaltyProblem,
+    augmentations: int,
+    before: PenaltyState | None,
+    loads: Loads,
+    tolerance: float,
+) -> PenaltyState:
+    """The state at the end of an increment.
+
+    raises  NotConverged, GrossSliding, ContactAtZoneEdge
+    """
+    last = before or untouched(problem.surface.gap)
+    if np.isnan(last.motion).any():
+        raise GrossSliding(
+            "the increment before reached the friction limit under force control, where the "
+            "motion is undefined, so the history cannot go on; prescribe the shift or twist instead"
+        )
+    solver = _Passes(problem.surface, problem.target(loads), ENOUGH * tolerance, tolerance)
+    limit = None
+    if problem.driven and solver.target.free[1]:
+        limit = _at_limit(problem, augmentations, last, loads, solver)
+    state = limit or _advanced(problem, augmentations, last, loads, solver)
+    if problem.open_end and state.traction[0, -1] > 0:
+        raise ContactAtZoneEdge(
+            f"the contact reaches {problem.points.radii[-1]:.6g} m, where the zone of fine "
+            f"elements ends; give a larger contact_radius"
+        )
+    if not state.residuals.worst <= tolerance:
+        raise NotConverged("the increment", state.iterations, state.residuals.worst, tolerance)
+    return state
+
+
+@dataclass(frozen=True)
+class _Passes:
+    """How one pass is solved: by Newton's method, and by springs in series where that fails.
+
+    tolerance  that is aimed at
+    allowed    what will do where round-off stops the springs: the shear that pressing causes
+               cancels in the slip, of which little friction resolves little
+    """
+
+    surface: ElasticSurface
+    target: Target
+    tolerance: float
+    allowed: float
+
+    def solve(self, law: PenaltyLaw, starts: Sequence[Iterate]) -> Iterate:
+        """The solution, by Newton's method from the first start that leads to one; raises
+        NotConverged."""
+        spent = 0
+        for start in starts:
+            if np.any(start.traction[0] > 0):
+                found = solve_by_newton(self.surface, law, self.target, start, self.tolerance)
+                spent += found.iterations
+                if found.residual <= self.tolerance:
+                    return replace(found, iterations=spent)
+        found = solve_by_springs(self.surface, law, self.target, starts[0], self.tolerance)
+        spent += found.iterations
+        if not found.residual <= self.allowed:
+            raise NotConverged("the penalty model", spent, found.residual, self.allowed)
+        return replace(found, iterations=spent)
+
+    def starts(self, law: PenaltyLaw, last: PenaltyState) -> list[Iterate]:
+        """Where the increment before ended, and as far beyond as its own change: there, what
+        slipped goes on slipping. The one nearer to a solution comes first."""
+        ended = last.first_pass
+        if ended is None:
+            nothing = np.zeros_like(self.surface.gap)
+            return [self._driven(nothing, np.zeros(len(self.target.free)))]
+        starts = [self._driven(ended.traction, ended.coordinates)]
+        if last.change is not None:
+            traction, coordinates = last.change
+            starts.append(self._driven(ended.traction + traction, ended.coordinates + coordinates))
+        return sorted(starts, key=lambda start: defect(self.surface, law, start, self.target)[0])
+
+    def _driven(self, traction: Field, coordinates: Field) -> Iterate:
+        """With prescribed coordinates where they are to be."""
+        target = self.target
+        return Iterate(traction, np.where(target.free, coordinates, target.value))
+
+
+def _advanced(
+    problem: PenaltyProblem,
+    augmentations: int,
+    last: PenaltyState,
+    loads: Loads,
+    solver: _Passes,
+) -> PenaltyState:
+    """The state below the friction limit."""
+    law = _law(problem, last)
+    passes, law = augmented(solver.solve, law, solver.starts(law, last), augmentations)
+    reached = passes[-1]
+    surface = problem.surface
+    overlap = surface.overlap(reached.traction, reached.coordinates)
+    response = law.response(overlap)
+    # What the law gives is reported: it obeys friction exactly, and the load to the tolerance.
+    traction = response.traction
+    slip, dissipated = last.slip, last.dissipated
+    if slip is not None:
+        grown = (law.trial_shear(overlap[1:]) - traction[1:])[0] / law.stiffness
+        grown = np.where(response.in_contact, grown, 0.0)
+        assert dissipated is not None
+        slip = slip - grown
+        dissipated += 2 * pi * float(np.sum(surface.weights * traction[1] * grown))
+    first = passes[0]
+    return PenaltyState(
+        loads=loads,
+        traction=traction,
+        overlap=overlap,
+        motion=reached.coordinates,
+        resultant=2 * pi * surface.resultant(traction),
+        in_slip=response.in_slip,
+        slip=slip,
+        dissipated=dissipated,
+        first_pass=first,
+        change=_change(last.first_pass, first),
+        residuals=penalty_residuals(problem, solver.target, reached, response),
+        solution=Solution.SPRINGS if any(one.sweeps for one in passes) else Solution.NEWTON,
+        iterations=sum(one.iterations for one in passes),
+        sweeps=sum(one.sweeps for one in passes),
+    )
+
+
+def _law(problem: PenaltyProblem, last: PenaltyState) -> PenaltyLaw:
+    """The law of a first pass: it remembers the shear and where it was reached."""
+    multiplier = last.traction.copy()
+    multiplier[NORMAL] = 0.0
+    return PenaltyLaw(problem.stiffness, problem.friction, multiplier, last.overlap[1:])
+
+
+def _change(before: Iterate | None, after: Iterate) -> tuple[Field, Field] | None:
+    if before is None:
+        return None
+    return after.traction - before.traction, after.coordinates - before.coordinates
+
+
+def _at_limit(
+    problem: PenaltyProblem,
+    augmentations: int,
+    last: PenaltyState,
+    loads: Loads,
+    solver: _Passes,
+) -> PenaltyState | None:
+    """The state at the friction limit, where the shear is known and the motion is not; None below
+    it. Raises GrossSliding beyond.
+
+    Only for bodies whose pressure does not depend on the shear. Where friction carries nothing at
+    all, because its coefficient vanishes, the indenter stays.
+    """
+    alone = problem.pressing_alone()
+    pressing = replace(solver, surface=alone.surface, target=solver.target.part(NORMAL))
+    pressed = _advanced(alone, augmentations, last.pressing_alone(), loads, pressing)
+    load = float(solver.target.value[1])
+    capacity = problem.capacity(pressed.traction[0])
+    if not reaches_limit(SidewaysTarget(resultant=load), capacity):
+        return None
+    surface, sign = problem.surface, np.sign(load)
+    traction = np.vstack([pressed.traction, sign * problem.friction * pressed.traction])
+    motion = np.append(pressed.motion, np.nan if sign else last.motion[1])
+    return replace(
+        pressed,
+        traction=traction,
+        overlap=surface.overlap(traction, np.where(np.isnan(motion), 0.0, motion)),
+        motion=motion,
+        resultant=2 * pi * surface.resultant(traction),
+        in_slip=pressed.in_contact,
+        slip=last.slip,
+        dissipated=None if sign else last.dissipated,
+        first_pass=Iterate(traction, motion),
+        change=None,
+    )

@@ -1,0 +1,140 @@
+"""The method with a penalty: Gauss-point springs, Coulomb's law by return mapping.
+
+Fields of an increment are values at the Gauss points of the contact edges, `radii` theirs.
+"""
+
+from dataclasses import dataclass, replace
+from math import pi, sqrt
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from contact_scene.summary import ContactStatus
+from fem_reference.contact.complementarity.slipping import AT_LIMIT
+from fem_reference.contact.penalty.edge import edge_radius, stick_area
+from fem_reference.contact.penalty.increment import advance
+from fem_reference.contact.penalty.law import Penalty, penalty_stiffness
+from fem_reference.contact.penalty.problem import PenaltyProblem, contact_modulus, penalty_problem
+from fem_reference.contact.penalty.state import PenaltyState
+from fem_reference.fields import Increment
+from fem_reference.history import Method as Solver
+from fem_reference.loads import Loads, Place
+from fem_reference.model import ContactModel
+from fem_reference.plan import Path, Plan
+
+Field = NDArray[np.float64]
+
+
+def penalty_method(
+    model: ContactModel, plan: Plan, penalty: Penalty, harmonics: int
+) -> Solver[Any]:
+    """The method on a model.
+
+    On many harmonics it is springs in series with the exact law, between rings instead of Gauss
+    points; they take no augmentation.
+
+    harmonics  the highest one, for Path.HARMONICS
+    """
+    if plan.path is not Path.HARMONICS:
+        return PenaltyMethod(plan, penalty, penalty_problem(model, plan.path, penalty))
+    from fem_reference.contact.harmonics.angular_grid import end_grid
+    from fem_reference.contact.harmonics.method import harmonic_method
+
+    radii = model.hats.radii
+    spring = 1 / penalty_stiffness(penalty, contact_modulus(model.scene), radii[1] - radii[0])
+    return harmonic_method(model, plan, end_grid(harmonics), (spring, spring))
+
+
+@dataclass(frozen=True)
+class PenaltyMethod:
+    """Solves increments of one problem, and reports them."""
+
+    plan: Plan
+    penalty: Penalty
+    problem: PenaltyProblem
+
+    def advance(self, before: PenaltyState | None, loads: Loads, tolerance: float) -> PenaltyState:
+        """The state at the end of an increment; raises what `penalty_increment.advance` raises."""
+        return advance(self.problem, self.penalty.augmentations, before, loads, tolerance)
+
+    def increment(self, state: PenaltyState, place: Place) -> Increment:
+        """The state as it is reported."""
+        p, overlap = state.traction[0], state.overlap[0]
+        pressed = Increment(
+            step=place.step,
+            index=place.index,
+            increments_in_step=place.increments_in_step,
+            radii=self.problem.points.radii,
+            pressure=p,
+            gap=np.where(p > 0, 0.0, np.maximum(-overlap, 0.0)),
+            overlap=float(np.max(np.abs(overlap), where=p > 0, initial=0.0)),
+            normal_force=state.normal_force,
+            approach=state.approach,
+            contact_radius=self._contact_radius(state),
+            peak_pressure=float(np.max(p)),
+            residuals=state.residuals,
+            iterations=state.iterations,
+            sweeps=state.sweeps,
+            path=state.solution.value,
+        )
+        return pressed if state.slip is None else self._with_shear(pressed, state, state.slip)
+
+    def _with_shear(self, pressed: Increment, state: PenaltyState, slip: Field) -> Increment:
+        path, q = self.plan.path, state.traction[1]
+        in_stick = state.in_contact & ~state.in_slip
+        sheared = replace(
+            pressed,
+            status=self._status(state),
+            in_stick=in_stick,
+            stick_radius=self._stick_radius(state, pressed.contact_radius),
+            dissipated_energy=state.dissipated,
+        )
+        if path is Path.TWISTING:
+            return replace(
+                sheared,
+                shear_circumferential=q,
+                slip_circumferential=slip,
+                torque=state.torque,
+                twist=state.twist,
+            )
+        if path is Path.PRESSING_WITH_FRICTION:
+            sheared = replace(sheared, shear_radial=q, slip_radial=slip)
+        else:
+            sheared = replace(sheared, shear_along_load=q, slip_along_load=slip)
+        force, shift = state.tangential_force, state.tangential_shift
+        x, y = self.plan.direction
+        return replace(
+            sheared,
+            tangential_force=(force * x, force * y),
+            tangential_shift=None if shift is None else (shift * x, shift * y),
+        )
+
+    def _contact_radius(self, state: PenaltyState) -> float:
+        """Where the pressure ends: at the rim of a flat punch if its last point carries any."""
+        problem, p = self.problem, state.springs_alone[0]
+        touching = np.flatnonzero(p > 0)
+        if len(touching) == 0:
+            return 0.0
+        if touching[-1] == len(p) - 1:
+            return problem.reach
+        return edge_radius(problem.points.radii, p, int(touching[-1]), problem.element)
+
+    def _stick_radius(self, state: PenaltyState, contact_radius: float) -> float:
+        in_stick = state.in_contact & ~state.in_slip
+        if np.array_equal(in_stick, state.in_contact):
+            return contact_radius
+        problem, (p, q) = self.problem, state.springs_alone
+        room = problem.friction * p - np.abs(q)
+        area = stick_area(problem.points.radii, room, in_stick, contact_radius, problem.element)
+        return sqrt(area / pi)
+
+    def _status(self, state: PenaltyState) -> ContactStatus:
+        problem, in_slip = self.problem, state.in_slip
+        if not np.array_equal(in_slip, state.in_contact):
+            return ContactStatus.PARTIAL_SLIP if np.any(in_slip) else ContactStatus.FULL_STICK
+        if not problem.driven:
+            return ContactStatus.NO_STICK_AREA_LEFT
+        carried = abs(float(problem.surface.resultant(state.traction)[1]))
+        limit = problem.capacity(state.traction[0]) * (1 - AT_LIMIT)
+        return ContactStatus.GROSS_SLIDING if carried >= limit else ContactStatus.NO_STICK_AREA_LEFT

@@ -1,0 +1,140 @@
+"""The penalty model of one scene: which components it has, and what drives them."""
+
+from dataclasses import dataclass, replace
+from math import pi
+from typing import Self
+
+import numpy as np
+from numpy.typing import NDArray
+
+from contact_scene import Body, FlatPunch, IsotropicMaterial, Scene
+from fem_reference.contact.penalty.gauss_points import GaussPoints, gauss_points
+from fem_reference.contact.penalty.law import Penalty, penalty_stiffness
+from fem_reference.contact.penalty.surface import ElasticSurface, Target
+from fem_reference.loads import Loads
+from fem_reference.model import ContactModel
+from fem_reference.plan import Path
+
+Field = NDArray[np.float64]
+Matrix = NDArray[np.float64]
+Blocks = tuple[Matrix, Matrix]
+
+# A corner this much beyond the rim of a flat punch, relatively, is at it.
+SAME = 1e-9
+
+
+@dataclass(frozen=True)
+class PenaltyProblem:
+    """All that the penalty method needs.
+
+    points      radii in [length]
+    surface     pressure, and the one component of shear that the path has
+    stiffness   ε [force/length^3]
+    friction    µ
+    element     length of a contact edge [length]
+    reach       outer end of the last edge [length]
+    path        which tractions there are
+    open_end    whether the mesh ends at the last point but the contact may go on
+    """
+
+    points: GaussPoints
+    surface: ElasticSurface
+    stiffness: float
+    friction: float
+    element: float
+    reach: float
+    path: Path
+    open_end: bool
+
+    @property
+    def driven(self) -> bool:
+        """Whether the indenter moves in the direction of the shear."""
+        return self.path in (Path.TWISTING, Path.SHEARING)
+
+    def target(self, loads: Loads) -> Target:
+        """What is prescribed of each component."""
+        normal = loads.normal
+        pairs: list[tuple[float | None, float | None]] = [(normal.force, normal.approach)]
+        if loads.tangential is not None:
+            pairs.append((loads.tangential.force, loads.tangential.shift))
+        elif loads.twisting is not None:
+            pairs.append((loads.twisting.torque, loads.twisting.twist))
+        elif len(self.surface.motion) > 1:
+            pairs.append((None, 0.0))
+        values = [motion if force is None else force / (2 * pi) for force, motion in pairs]
+        return Target(
+            np.array([force is not None for force, _ in pairs]), np.array(values, dtype=float)
+        )
+
+    def pressing_alone(self) -> Self:
+        """The pressure without any shear."""
+        surface = self.surface.part(slice(0, 1), np.zeros_like(self.surface.gap))
+        return replace(self, surface=surface, friction=0.0, path=Path.PRESSING)
+
+    def capacity(self, pressure: Field) -> float:
+        """The largest shear load over 2π that friction carries under a pressure (n,)."""
+        limit = self.friction * pressure
+        return float(np.sum(self.surface.weights * self.surface.motion[1] * limit))
+
+
+def penalty_problem(model: ContactModel, path: Path, penalty: Penalty) -> PenaltyProblem:
+    """The problem of a path other than Path.HARMONICS; condenses only the harmonics it needs."""
+    nodes = _nodes_under(model)
+    points = gauss_points(nodes)
+    pressing = model.compliance(0).matrix
+    blocks = {(0, 0): pressing[1, :, 1]}
+    motion = [np.ones_like(points.radii)]
+    if path is Path.PRESSING_WITH_FRICTION:
+        blocks |= {
+            (0, 1): pressing[1, :, 0],
+            (1, 0): pressing[0, :, 1],
+            (1, 1): pressing[0, :, 0],
+        }
+        motion.append(np.zeros_like(points.radii))
+    elif path is Path.TWISTING:
+        blocks[1, 1] = model.torsion().matrix[0, :, 0]
+        motion.append(points.radii)
+    elif path is Path.SHEARING:
+        blocks[1, 1] = model.along_load()
+        motion.append(np.ones_like(points.radii))
+    c, n = len(motion), len(points.radii)
+    compliance = np.zeros((c, n, c, n))
+    for (row, column), block in blocks.items():
+        used = block[: len(nodes), : len(nodes)]
+        compliance[row, :, column] = points.trace @ used @ points.trace.T
+    gap = np.zeros((c, n))
+    gap[0] = model.gap(points.radii)
+    element = float(nodes[2] - nodes[0])
+    return PenaltyProblem(
+        points=points,
+        surface=ElasticSurface(points.weights, compliance, np.array(motion), gap),
+        stiffness=penalty_stiffness(penalty, contact_modulus(model.scene), element),
+        friction=model.friction_coefficient if c > 1 else 0.0,
+        element=element,
+        reach=float(nodes[-1]),
+        path=path,
+        open_end=not model.ends_at_rim,
+    )
+
+
+def contact_modulus(scene: Scene) -> float:
+    """E* of the outermost materials: it is them that an overlap as short as an edge presses
+    [force/length^2]."""
+    compliances = [
+        1 / material.plane_strain_modulus
+        for material in map(_outermost, (scene.body, scene.indenter))
+        if isinstance(material, IsotropicMaterial)
+    ]
+    return 1 / sum(compliances)
+
+
+def _outermost(body: Body) -> object:
+    return body.layers[0].material if body.layers else body.material
+
+
+def _nodes_under(model: ContactModel) -> Field:
+    """Corner and midside nodes that the indenter can touch."""
+    indenter = model.scene.indenter
+    if not isinstance(indenter, FlatPunch):
+        return model.radii
+    return model.radii[model.radii <= indenter.radius * (1 + SAME)]

@@ -1,0 +1,1 @@
+"""Compliance of an axisymmetric section: weak form, factorisation, condensation."""

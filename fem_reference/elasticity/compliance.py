@@ -1,0 +1,95 @@
+"""All that contact sees of the elasticity: displacement of surface nodes per force on them."""
+
+import hashlib
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fem_reference.elasticity.factored_section import FactoredSection
+from fem_reference.elasticity.motion import Motion
+from fem_reference.elasticity.sources import sources_digest
+from fem_reference.elasticity.stored_compliance import store, stored
+from fem_reference.mesh.section_mesh import SectionMesh
+
+
+@dataclass(frozen=True, eq=False)
+class NodalCompliance:
+    """Displacement of the surface's Q2 nodes in the contact zone per unit generalised nodal force.
+
+    motion           harmonic n and components: (r, z) for n = 0, (theta) in torsion, else all three
+    radii            (m,) of the nodes; corners at even indices, midsides between; radii[0] = 0
+    matrix           (c, m, c, m), symmetric. The generalised forces are the integrals of
+                     psi_i t r dr of the traction amplitudes t, with psi the quadratic trace
+                     functions; no 2 pi, no pi
+    factorizations   sparse factorisations it takes, in the cache or not: what a scene costs must
+                     not depend on what was solved before
+    from_cache       whether nothing had to be factorised
+    """
+
+    motion: Motion
+    radii: NDArray[np.float64]
+    matrix: NDArray[np.float64]
+    factorizations: int
+    from_cache: bool = False
+
+    @property
+    def harmonic(self) -> int:
+        """The harmonic n."""
+        return self.motion.harmonic
+
+
+def condense(section: SectionMesh, motion: Motion) -> NodalCompliance:
+    """The compliance of one body in one motion: from the cache, else by one sparse factorisation.
+
+    Raises ResourceRefused where the memory does not suffice.
+    """
+    radii, count = section.radii, len(motion.components)
+    key, shape = _identity(section, motion), (count, radii.size) * 2
+    matrix = stored(key, shape)
+    if matrix is not None:
+        return NodalCompliance(motion, radii, matrix, 1, from_cache=True)
+    matrix = FactoredSection(section, motion).compliance()
+    store(key, matrix)
+    return NodalCompliance(motion, radii, matrix, 1)
+
+
+def composite(
+    lower: SectionMesh | None, upper: SectionMesh | None, motion: Motion
+) -> NodalCompliance:
+    """Displacement of the lower surface relative to the upper, per force on the lower one.
+
+    None stands for a rigid body; bodies alike may be one and the same section. The upper body sees
+    the shear reversed with respect to its own inward normal: C1 + J C2 J with J = diag(1, 1, -1).
+    Raises ValueError for two rigid bodies, or two whose contact nodes differ.
+    """
+    bodies = [section for section in (lower, upper) if section is not None]
+    if not bodies:
+        raise ValueError("two rigid bodies have no compliance")
+    if any(not np.array_equal(body.radii, bodies[0].radii) for body in bodies):
+        raise ValueError("the contact nodes of the two bodies differ: mesh both with the same N")
+    distinct = {id(body): body for body in bodies}
+    parts = {key: condense(body, motion) for key, body in distinct.items()}
+    J = np.array([1.0, 1.0, -1.0])[list(motion.components)]
+    matrix = np.zeros_like(parts[id(bodies[0])].matrix)
+    if lower is not None:
+        matrix += parts[id(lower)].matrix
+    if upper is not None:
+        matrix += J[:, None, None, None] * parts[id(upper)].matrix * J[:, None]
+    factorizations = sum(part.factorizations for part in parts.values())
+    from_cache = all(part.from_cache for part in parts.values())
+    return NodalCompliance(motion, bodies[0].radii, matrix, factorizations, from_cache)
+
+
+def _identity(section: SectionMesh, motion: Motion) -> str:
+    """Hash of everything that decides the matrix."""
+    outline = section.outline
+    materials = [(m.young_modulus, m.poisson_ratio) for m in outline.materials]
+    edges = (outline.zone, outline.box, outline.interfaces, outline.rigid_base)
+    far_field = getattr(motion.far_field, "__name__", None)
+    moving = (motion.harmonic, motion.components, motion.on_axis, far_field)
+    described = (sources_digest(), moving, materials, edges)
+    identity = hashlib.sha256(repr(described).encode())
+    for array in (section.points, section.quads.astype(np.int64)):
+        identity.update(np.ascontiguousarray(array).tobytes())
+    return identity.hexdigest()

@@ -1,0 +1,1 @@
+"""Meshes of a section: its outline, graded by ourselves or by gmsh."""

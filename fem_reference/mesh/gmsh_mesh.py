@@ -1,0 +1,163 @@
+"""The mesh of one body by gmsh: a second mesher, against which the first is checked.
+
+Layers are structured blocks; an elastic substrate is filled with quadrilaterals in no order, whose
+sizes spread from its edges.
+"""
+
+import signal
+import threading
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
+from itertools import pairwise
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from contact_scene.body import Body
+from contact_scene.solver_errors import SolverError
+from fem_reference.mesh.section_mesh import SectionMesh
+from fem_reference.mesh.section_outline import (
+    CONTACT_ZONE,
+    SectionOutline,
+    graded,
+    section_outline,
+)
+
+DEBIAN_PACKAGES = (
+    "libglu1-mesa libgl1 libopengl0 libglx0 libx11-6 libxext6 libxrender1 libxcursor1 libxfixes3 "
+    "libxft2 libfontconfig1 libxinerama1 libgomp1 zlib1g"
+)
+
+FAR_ELEMENTS = 8
+"""Along the far sides of the box: there elements are about as large as graded ones are."""
+
+_FRONTAL_FOR_QUADS, _SIMPLE_WITH_QUADS_ONLY = 8, 2
+OPTIONS = {
+    "General.Terminal": 0,
+    "Mesh.Algorithm": _FRONTAL_FOR_QUADS,
+    "Mesh.RecombinationAlgorithm": _SIMPLE_WITH_QUADS_ONLY,
+}
+_QUADRILATERAL = 3  # gmsh's number of the element with four nodes
+
+
+class GmshMissing(SolverError):
+    """gmsh cannot be loaded on this machine."""
+
+
+def gmsh_section_mesh(
+    body: Body, elements_per_radius: int, box: float | None = None, zone: float = CONTACT_ZONE
+) -> SectionMesh:
+    """The mesh of a body whose unit of length is the contact radius; arguments of `section_mesh`.
+
+    Raises GmshMissing where the library or what it rests on is not installed, and SolverError where
+    it has not filled the section with quadrilaterals.
+    """
+    outline = section_outline(body, elements_per_radius, box, zone)
+    with _gmsh_model() as gmsh:
+        _draw(gmsh.model.geo, outline)
+        gmsh.model.geo.synchronize()
+        gmsh.model.mesh.generate(2)
+        tags, coordinates, _ = gmsh.model.mesh.getNodes()
+        kinds, cells, corners = gmsh.model.mesh.getElements(2)
+    found = {int(kind): len(cell) for kind, cell in zip(kinds, cells, strict=True)}
+    if set(found) != {_QUADRILATERAL}:
+        # A reader that wants quadrilaterals would leave the others out and the section with holes.
+        raise SolverError(f"gmsh made elements other than quadrilaterals, by type: {found}")
+    place = np.zeros(int(tags.max()) + 1, dtype=np.int64)
+    place[tags] = np.arange(tags.size)
+    points = coordinates.reshape(-1, 3)[:, :2].T.copy()
+    for axis, lines in ((0, (0.0, outline.box)), (1, (0.0, *outline.interfaces))):
+        for line in lines:  # gmsh computes points on a line, to round-off
+            points[axis, np.abs(points[axis] - line) < 1e-12 * outline.box] = line
+    contact = (points[1] == 0.0) & (points[0] < outline.zone + outline.size / 2.0)
+    points[0, contact] = np.round(points[0, contact] / outline.size) * outline.size
+    used, quads = np.unique(place[corners[0].astype(np.int64)], return_inverse=True)
+    quads = np.ascontiguousarray(quads.reshape(-1, 4).T)
+    return SectionMesh(np.ascontiguousarray(points[:, used]), quads, outline)
+
+
+@contextmanager
+def _gmsh_model() -> Iterator[Any]:
+    """gmsh with an empty model, which is gone afterwards."""
+    try:
+        import gmsh
+    except (ImportError, OSError) as error:
+        raise GmshMissing(
+            f"gmsh cannot be loaded ({error}): install slipstick[mesh] and, on Debian, the "
+            f'packages {DEBIAN_PACKAGES}; or choose the mesher "tensor"'
+        ) from error
+    mine = not gmsh.isInitialized()
+    if mine:
+        gmsh.initialize(readConfigFiles=False, interruptible=False)
+        _restore_broken_pipes()
+    current = gmsh.model.getCurrent()
+    before = {name: gmsh.option.getNumber(name) for name in OPTIONS}
+    gmsh.model.add("section")
+    try:
+        _set(gmsh, OPTIONS)
+        yield gmsh
+    finally:
+        gmsh.model.remove()
+        _set(gmsh, before)
+        if mine:
+            gmsh.finalize()
+        else:
+            gmsh.model.setCurrent(current)
+
+
+def _restore_broken_pipes() -> None:
+    """gmsh makes writing to a pipe that nobody reads end the process, behind Python's back."""
+    if threading.current_thread() is threading.main_thread():  # others must not change handlers
+        signal.signal(signal.SIGPIPE, signal.getsignal(signal.SIGPIPE))
+
+
+def _set(gmsh: Any, options: Mapping[str, float]) -> None:
+    for name, value in options.items():
+        gmsh.option.setNumber(name, value)
+
+
+def _draw(geometry: Any, outline: SectionOutline) -> None:
+    """Lines and surfaces, with the elements on every line. Loops run around with r before z."""
+    h = outline.size
+    across = (0.0, outline.zone, outline.box)
+    depths = (0.0, *outline.interfaces)
+    points = [[geometry.addPoint(r, z, 0.0) for r in across] for z in depths]
+    rows = [[geometry.addLine(*ends) for ends in pairwise(row)] for row in points]
+    columns = [[geometry.addLine(*ends) for ends in pairwise(c)] for c in zip(*points, strict=True)]
+    sides = [np.arange(round(outline.zone / h) + 1) * h, graded(*across[1:], outline.zone, h)]
+    down = [graded(top, base, 0.0, h) for top, base in outline.pieces]
+    structured = len(down) if outline.rigid_base else len(down) - 1
+
+    for row in rows[: structured + 1]:
+        for line, elements in zip(row, sides, strict=True):
+            _divide(geometry, line, elements)
+    for block in range(structured):
+        for column in columns:
+            _divide(geometry, column[block], down[block])
+        for side in range(2):
+            loop = [rows[block][side], columns[side + 1][block]]
+            loop += [-rows[block + 1][side], -columns[side][block]]
+            surface = geometry.addPlaneSurface([geometry.addCurveLoop(loop)])
+            geometry.mesh.setTransfiniteSurface(surface)
+            geometry.mesh.setRecombine(2, surface)
+    if not outline.rigid_base:
+        axis, _, edge = (column[-1] for column in columns)
+        _divide(geometry, axis, down[-1])
+        geometry.mesh.setTransfiniteCurve(edge, FAR_ELEMENTS + 1)
+        bottom = geometry.addLine(points[-1][0], points[-1][2])
+        geometry.mesh.setTransfiniteCurve(bottom, FAR_ELEMENTS + 1)
+        loop = [*rows[-2], edge, -bottom, -axis]
+        surface = geometry.addPlaneSurface([geometry.addCurveLoop(loop)])
+        geometry.mesh.setRecombine(2, surface)
+
+
+def _divide(geometry: Any, line: int, elements: NDArray[np.floating[Any]]) -> None:
+    """As many elements on a line as between the given points, in one ratio; always an even number.
+
+    Quadrilaterals alone fill a surface only if its edge has an even number of elements.
+    """
+    sizes = np.diff(elements)
+    count = sizes.size + sizes.size % 2
+    ratio = (sizes[-1] / sizes[0]) ** (1.0 / max(count - 1, 1))
+    geometry.mesh.setTransfiniteCurve(line, count + 1, "Progression", ratio)

@@ -1,0 +1,80 @@
+"""The mesh of one body: its meridional section, r across and z into the body."""
+
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+from skfem import MeshQuad
+
+from contact_scene.body import Body
+from contact_scene.solver_errors import SolverError
+from fem_reference.mesh.section_outline import CONTACT_ZONE, SectionOutline, graded, section_outline
+
+
+@dataclass(frozen=True, eq=False)
+class SectionMesh:
+    """Quadrilaterals that fill a section. Lengths are in units of the expected contact radius.
+
+    points   (2, n) corners (r, z); those on an edge, an interface or the axis exactly so
+    quads    (4, e) indices of the corners of an element, counted around it
+    outline  what the mesh fits
+    Raises SolverError where elements are missing: the areas do not sum up to the section's.
+    """
+
+    points: NDArray[np.float64]
+    quads: NDArray[np.int64]
+    outline: SectionOutline
+
+    def __post_init__(self) -> None:
+        whole = self.outline.box * self.outline.depth
+        if not abs(self.areas.sum() / whole - 1.0) < 1e-9:
+            raise SolverError(
+                f"{self.quads.shape[1]} elements cover an area of {self.areas.sum():.9g} in a "
+                f"section of {whole:.9g}: the mesh has holes or overlaps"
+            )
+
+    @cached_property
+    def areas(self) -> NDArray[np.float64]:
+        """(e,) area of every element."""
+        (r0, r1, r2, r3), (z0, z1, z2, z3) = self.points[:, self.quads]
+        return np.abs((r2 - r0) * (z3 - z1) - (r3 - r1) * (z2 - z0)) / 2.0
+
+    @cached_property
+    def layer(self) -> NDArray[np.int64]:
+        """(e,) index into `outline.materials` of every element."""
+        middle = self.points[1, self.quads].mean(axis=0)
+        return np.searchsorted(np.asarray(self.outline.interfaces), middle)
+
+    @cached_property
+    def radii(self) -> NDArray[np.float64]:
+        """(m,) radii of the nodes of the contact zone, corner and midside alternating."""
+        r, z = self.points
+        corners = np.sort(r[(z == 0.0) & (r <= self.outline.zone)])
+        radii = np.empty(2 * corners.size - 1)
+        radii[::2] = corners
+        radii[1::2] = 0.5 * (corners[:-1] + corners[1:])
+        return radii
+
+    def refined(self) -> "SectionMesh":
+        """Every element cut into four: the displacements of this mesh exist on that one too."""
+        mesh = MeshQuad(self.points, self.quads).refined()
+        finer = replace(self.outline, size=self.outline.size / 2.0)
+        return SectionMesh(np.asarray(mesh.p), np.asarray(mesh.t), finer)
+
+
+def section_mesh(
+    body: Body, elements_per_radius: int, box: float | None = None, zone: float = CONTACT_ZONE
+) -> SectionMesh:
+    """The graded mesh of rectangles of a body whose unit of length is the contact radius.
+
+    Arguments and errors are those of `section_outline`.
+    """
+    outline = section_outline(body, elements_per_radius, box, zone)
+    h = outline.size
+    uniform = np.arange(round(outline.zone / h) + 1) * h
+    r = np.concatenate([uniform, graded(uniform[-1], outline.box, uniform[-1], h)[1:]])
+    pieces = [graded(top, base, 0.0, h) for top, base in outline.pieces]
+    z = np.concatenate([[0.0], *(piece[1:] for piece in pieces)])
+    mesh = MeshQuad.init_tensor(r, z)
+    return SectionMesh(np.asarray(mesh.p), np.asarray(mesh.t), outline)

@@ -1,0 +1,57 @@
+"""The application: its commands, its version, and the one place where failures end."""
+
+from collections.abc import Sequence
+from typing import Annotated
+
+import typer
+
+from contact_results.directory.stop_signals import cleaned_up_when_stopped
+from contact_results.one_thread import one_thread
+from slipstick.cli.errors import explain
+from slipstick.cli.lazy_commands import LazyCommands
+
+application = typer.Typer(
+    cls=LazyCommands,
+    no_args_is_help=True,
+    rich_markup_mode="markdown",
+    epilog="Exit codes: 0 done; 1 accuracy verdict failed; 2 invalid scene or unwritable output; "
+    "3 not converged; 4 too little memory or disk; 5 baseline drift; 70 internal error.",
+    context_settings={"help_option_names": ["-h", "--help"]},
+)
+
+
+def _print_version(wanted: bool) -> None:
+    if wanted:
+        from contact_results.directory.machine import program_version
+
+        typer.echo(f"slipstick {program_version()}")
+        raise typer.Exit
+
+
+@application.callback()
+def slipstick(
+    version: Annotated[
+        bool,
+        typer.Option(
+            "--version", callback=_print_version, is_eager=True, help="Print the version and stop."
+        ),
+    ] = False,
+) -> None:
+    """Frictional contact of elastic, possibly coated bodies: slip, stick and their accuracy.
+
+    A scene file (TOML) says what is pressed on what; start with 'slipstick check SCENE'.
+    """
+
+
+def main(arguments: Sequence[str] | None = None) -> None:
+    """Run the command line and leave with an exit code (see `errors.ExitCode`).
+
+    arguments  without the program's name; None means those of this process
+    """
+    one_thread()
+    command = typer.main.get_command(application)
+    try:
+        with cleaned_up_when_stopped():
+            command(args=arguments, prog_name="slipstick")
+    except Exception as error:
+        raise SystemExit(explain(error)) from None

@@ -1,0 +1,76 @@
+"""From an exception to one clear message on stderr and an exit code."""
+
+import errno
+import os
+import traceback
+from enum import IntEnum
+
+
+class ExitCode(IntEnum):
+    """What the command's exit code says."""
+
+    PASS = 0
+    ACCURACY = 1
+    INVALID = 2
+    NOT_CONVERGED = 3
+    RESOURCES_REFUSED = 4
+    BASELINE_DRIFT = 5
+    INTERNAL = 70  # a defect of ours (EX_SOFTWARE), never to be mistaken for a verdict
+
+
+DISK_FULL = {errno.ENOSPC, errno.EDQUOT, errno.EFBIG}
+
+
+def exit_code(error: Exception) -> ExitCode:
+    """The exit code that stands for this kind of failure."""
+    from contact_results.directory.refusal import OutputRefused
+    from contact_scene import SceneError
+    from verification.regression.refusal import BaselineRefused
+
+    if isinstance(error, SceneError | OutputRefused | BaselineRefused):
+        return ExitCode.INVALID
+    if isinstance(error, MemoryError):
+        return ExitCode.RESOURCES_REFUSED
+    if isinstance(error, OSError):
+        return ExitCode.RESOURCES_REFUSED if error.errno in DISK_FULL else ExitCode.INVALID
+    return _solver_exit_code(error)
+
+
+def _solver_exit_code(error: Exception) -> ExitCode:
+    from contact_scene.solver_errors import NotConverged, ResourceRefused, SolverError
+
+    if isinstance(error, NotConverged):
+        return ExitCode.NOT_CONVERGED
+    if isinstance(error, ResourceRefused):
+        return ExitCode.RESOURCES_REFUSED
+    return ExitCode.INVALID if isinstance(error, SolverError) else ExitCode.INTERNAL
+
+
+def message(error: Exception) -> str:
+    """What went wrong, as text for the user."""
+    from contact_scene import SceneError
+
+    if isinstance(error, SceneError) and len(error.problems) > 1:
+        return "\n  ".join([f"{len(error.problems)} mistakes:", *str(error).splitlines()])
+    if isinstance(error, MemoryError):
+        return f"not enough memory; use fewer cells or increments ({str(error) or 'no details'})"
+    if isinstance(error, OSError) and error.strerror:
+        return f"{error.filename or 'output'}: {error.strerror}"
+    if exit_code(error) is ExitCode.INTERNAL:
+        return (
+            f"internal error, please report it: {type(error).__name__}: {error}\n"
+            "  (SLIPSTICK_DEBUG=1 shows where it happened)"
+        )
+    return str(error)
+
+
+def explain(error: Exception) -> ExitCode:
+    """Print the message (with SLIPSTICK_DEBUG=1 also the traceback) and return the exit code."""
+    from rich.console import Console
+    from rich.text import Text
+
+    if os.environ.get("SLIPSTICK_DEBUG"):
+        traceback.print_exception(error)
+    console = Console(stderr=True, soft_wrap=True, highlight=False)
+    console.print(Text.assemble(("error: ", "bold red"), message(error)))
+    return exit_code(error)

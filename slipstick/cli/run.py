@@ -1,0 +1,186 @@
+"""`slipstick run`: from a scene to a directory of results."""
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from slipstick.cli.scene_options import SceneArgument, SetOption
+from slipstick.cli.solver_option import SolverName, SolverOption
+
+if TYPE_CHECKING:
+    from contact_results.directory.timing import Stopwatch
+    from contact_scene import SceneFile
+    from contact_scene.path_error import PathError
+    from contact_scene.standing import Keeper
+    from semi_analytical import Result
+
+    PathErrors = tuple[PathError, ...]
+
+
+def run(
+    scene: SceneArgument,
+    output: Annotated[
+        Path,
+        typer.Option("--output", "-o", metavar="DIR", help="Where the results go; made if absent."),
+    ],
+    overrides: SetOption = None,
+    solver: SolverOption = SolverName.SEMI_ANALYTICAL,
+    figures: Annotated[
+        bool, typer.Option("--figures/--no-figures", help="Draw figures, or leave them out.")
+    ] = True,
+    overwrite: Annotated[
+        bool,
+        typer.Option("--overwrite", help="Replace files in DIR that are not of an earlier run."),
+    ] = False,
+    all_effects: Annotated[
+        bool,
+        typer.Option(
+            "--all-effects",
+            help="Compute every effect, called for or not, and say what the plan would save.",
+        ),
+    ] = False,
+    surface_stress: Annotated[
+        bool,
+        typer.Option(
+            "--surface-stress",
+            help="Compute the stress at the surface at the ends of load cycles, for Ruiz's F2.",
+        ),
+    ] = False,
+    path_error: Annotated[
+        bool,
+        typer.Option(
+            "--path-error",
+            help="Solve with twice the increments too, and say what finite increments cost.",
+        ),
+    ] = False,
+) -> None:
+    """Solve a scene and write summary, fields, tables and figures into DIR.
+
+    DIR appears whole or not at all. The results of an earlier run in it are replaced once the new
+    ones are there; other files in it are left alone. A run that takes longer leaves checkpoints
+    beside DIR while it lasts: the same command goes on from there if it was killed.
+    """
+    from contact_results.directory.checkpoint import checkpointed
+    from contact_results.directory.code_digest import solve_identity
+    from contact_results.directory.run_directory import run_directory
+    from contact_results.directory.stop_signals import NOTHING_KEPT, cleaned_up_when_stopped
+    from contact_results.directory.timing import Stopwatch
+    from contact_scene import read_scene_file
+    from slipstick.cli.terminal import tell
+
+    stopwatch = Stopwatch()
+    with stopwatch.phase("read"):
+        contents = read_scene_file(scene, overrides or ())
+    if solver.is_fem:
+        from slipstick.cli.section_run import run_on_section
+
+        _refuse_beside_fem(
+            {
+                "--all-effects": all_effects,
+                "--surface-stress": surface_stress,
+                "--path-error": path_error,
+            }
+        )
+        run_on_section(contents, solver, stopwatch, output, overwrite=overwrite, figures=figures)
+        return
+    asked = (contents.scene, contents.semi_analytical, all_effects)
+    with (
+        cleaned_up_when_stopped(kept=lambda: NOTHING_KEPT),
+        checkpointed(output, solve_identity(*asked), tell) as keeper,
+        checkpointed(output, solve_identity(*asked, 2), tell, "doubled-checkpoint") as doubled,
+        run_directory(output, overwrite=overwrite) as staging,
+    ):
+        result = _solve(contents, stopwatch, all_effects, keeper)
+        errors = _path_errors(result, stopwatch, doubled) if path_error else None
+        _write(result, stopwatch, staging, figures, surface_stress, errors)
+    _print_outcome(result, errors, stopwatch, output)
+    if all_effects:
+        _print_saving(result)
+
+
+def _refuse_beside_fem(options: dict[str, bool]) -> None:
+    for option, asked in options.items():
+        if asked:
+            raise typer.BadParameter(
+                f"{option} is of the semi-analytical solver; leave it or --solver out"
+            )
+
+
+def _solve(
+    contents: "SceneFile", stopwatch: "Stopwatch", all_effects: bool, keeper: "Keeper"
+) -> "Result":
+    with stopwatch.phase("import"):
+        import semi_analytical
+        from slipstick.cli.progress import solve_progress
+    decided = semi_analytical.plan(contents.scene, contents.semi_analytical.path_accuracy)
+    if all_effects:
+        decided = semi_analytical.all_effects(decided)
+    with stopwatch.phase("solve"), solve_progress(decided.increments) as observe:
+        return semi_analytical.solve_discretised(
+            contents.scene,
+            contents.semi_analytical,
+            progress=observe,
+            plan=decided,
+            keeper=keeper,
+        )
+
+
+def _path_errors(result: "Result", stopwatch: "Stopwatch", keeper: "Keeper") -> "PathErrors":
+    from contact_results.path_error import path_errors
+    from slipstick.cli.progress import solve_progress
+
+    refined = result.plan.refined().increments
+    with stopwatch.phase("path error"), solve_progress(refined) as observe:
+        return path_errors(result, observe, keeper)
+
+
+def _write(
+    result: "Result",
+    stopwatch: "Stopwatch",
+    staging: Path,
+    figures: bool,
+    surface_stress: bool,
+    errors: "PathErrors | None",
+) -> None:
+    from contact_results.directory.timing import write_timing
+    from contact_results.files.result_files import write_result
+
+    with stopwatch.phase("write"):
+        write_result(
+            result,
+            staging,
+            with_figures=figures,
+            surface_stress=surface_stress,
+            path_errors=errors,
+        )
+    write_timing(stopwatch, staging)
+
+
+def _print_outcome(
+    result: "Result", errors: "PathErrors | None", stopwatch: "Stopwatch", output: Path
+) -> None:
+    from contact_scene.linear_theory import beyond_linear_theory
+    from slipstick.cli.outcome_text import outcome_columns, path_error_columns, solved_with
+    from slipstick.cli.terminal import print_pairs, print_table, tell
+
+    print_pairs(solved_with(result, stopwatch.wall_seconds["solve"]))
+    columns = outcome_columns(result)
+    print_table(columns, zip(*columns.values(), strict=True), numbers=True)
+    if errors is not None:
+        typer.echo("  errors by finite increments, estimated by doubling them:")
+        columns = path_error_columns(errors)
+        print_table(columns, zip(*columns.values(), strict=True), numbers=True)
+    for remark in beyond_linear_theory(result.scene, result.steps):
+        tell(f"warning: {remark}")
+    typer.echo(f"results in {output}")
+
+
+def _print_saving(forced: "Result") -> None:
+    """Solve again as planned, on the same grid, and compare."""
+    from semi_analytical import plan, solve
+    from slipstick.cli.outcome_text import saving
+    from slipstick.cli.terminal import print_pairs
+
+    planned = plan(forced.scene).cut_into(forced.plan.increments)
+    print_pairs(saving(solve(forced.scene, forced.grid, forced.tolerance, plan=planned), forced))

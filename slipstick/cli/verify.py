@@ -1,0 +1,193 @@
+"""`slipstick verify`: measure the accuracy and write the report."""
+
+from __future__ import annotations
+
+from enum import StrEnum
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from slipstick.cli.errors import ExitCode
+from slipstick.cli.scheduler_option import SchedulerOption, workers_at
+
+if TYPE_CHECKING:
+    from verification.judging.case import Case
+    from verification.running.case_pool import Workers
+    from verification.running.report_record import Report
+
+
+MOST_WARNINGS = 20
+
+
+class LevelName(StrEnum):
+    """How much is computed."""
+
+    QUICK = "quick"
+    STANDARD = "standard"
+    FULL = "full"
+
+
+def verify(
+    names: Annotated[
+        list[str] | None,
+        typer.Argument(metavar="CASE", help="Cases to run; none means all."),
+    ] = None,
+    level: Annotated[
+        LevelName, typer.Option("--level", help="How fine: quick takes about two minutes.")
+    ] = LevelName.QUICK,
+    output: Annotated[
+        Path | None,
+        typer.Option(
+            "--output",
+            "-o",
+            metavar="DIR",
+            show_default=False,
+            help="Where the report goes; reports/LEVEL if absent, with -selection for some cases.",
+        ),
+    ] = None,
+    list_cases: Annotated[
+        bool, typer.Option("--list", help="List the cases of the level and stop.")
+    ] = False,
+    workers: Annotated[
+        int | None,
+        typer.Option(
+            "--workers",
+            metavar="N",
+            min=1,
+            show_default=False,
+            help="Cases at a time, each in a process of its own; one per core if absent.",
+        ),
+    ] = None,
+    fresh: Annotated[
+        bool, typer.Option("--fresh", help="Compute again what earlier runs have left in DIR.")
+    ] = False,
+    scheduler: SchedulerOption = None,
+    studies: Annotated[
+        Path | None,
+        typer.Option(
+            "--studies",
+            metavar="DIR",
+            show_default=False,
+            help="Folder whose studies the report shows; reports/studies and out if absent.",
+        ),
+    ] = None,
+) -> None:
+    """Measure the accuracy against closed forms and write the report.
+
+    Exit code 0 if nothing failed, 1 if a verdict failed, or a study that these same sources have
+    made and the report shows; what is new since the baseline is printed
+    and is no failure ('slipstick compare' has an exit code for it). DIR receives index.html (the
+    report, to be opened in a browser), report.json, junit.xml and summary.md.
+
+    Every finished case leaves a record in DIR/cases: the same command goes on where a killed one
+    stopped, and computes again what other sources or libraries made; a case that was running is
+    begun anew. An earlier report waits in DIR/earlier until the new one is whole, so that what a
+    killed verification leaves cannot be taken for its result. A case whose worker dies has failed;
+    the others are finished.
+    """  # fmt: skip
+    from slipstick.cli.name_mistakes import unknown_names
+    from verification.cases.catalogue import catalogue, choose
+    from verification.judging.case import Level
+    from verification.judging.outcome import Status
+    from verification.running.local_workers import cores
+
+    chosen = Level[level.name]
+    listing = f"slipstick verify --list --level {level}"
+    if problem := unknown_names("case", names or (), catalogue(chosen), listing):
+        raise typer.BadParameter(problem)
+    cases = choose(chosen, names or ())
+    if list_cases:
+        _print_list(cases)
+        return
+    directory = output or Path("reports") / (f"{level}-selection" if names else level)
+    places = None if studies is None else (studies,)
+    pool = workers_at(scheduler, workers or cores())
+    report = _verified(cases, level, names or [], directory, pool, places, fresh=fresh)
+    _print_outcome(report, directory)
+    if report.status is Status.FAIL:
+        raise typer.Exit(ExitCode.ACCURACY)
+
+
+def _verified(
+    cases: tuple[Case, ...],
+    level: LevelName,
+    names: list[str],
+    directory: Path,
+    workers: int | Workers,
+    places: tuple[Path, ...] | None,
+    *,
+    fresh: bool,
+) -> Report:
+    from contact_results.directory.sole_use import in_sole_use
+    from slipstick.cli.judged_cases import judged
+    from verification.benchmarks import benchmarks
+    from verification.regression.baseline_files import read_baselines
+    from verification.regression.comparison import compared
+    from verification.report.files import refuse_if_unwritable, set_aside_report, write_report
+    from verification.report.omissions import OMISSIONS
+    from verification.report.sections import PLACES, stored_records
+    from verification.running.provenance import provenance
+    from verification.running.report_record import Report, count
+
+    refuse_if_unwritable(directory)
+    with in_sole_use(directory):
+        baselines = read_baselines()  # a damaged one is better known before hours of work
+        try:
+            studies = stored_records(*((PLACES, _left_out) if places is None else (places,)))
+        except ValueError as error:
+            typer.echo(f"error: {error}", err=True)
+            raise typer.Exit(ExitCode.INVALID) from None
+        set_aside_report(directory)
+        outcomes, seconds = judged(cases, level.name, directory, workers, fresh=fresh)
+        command = " ".join(["slipstick verify", *names, f"--level {level}"])
+        measured = Report(
+            level=level,
+            counts=count(outcomes),
+            cases=outcomes,
+            omissions=OMISSIONS,
+            provenance=provenance(command, seconds, () if names else benchmarks()),
+            studies=studies,
+            chosen=bool(names),
+        )
+        report = compared(measured, baselines)
+        write_report(report, directory)
+    return report
+
+
+def _print_list(cases: tuple[Case, ...]) -> None:
+    from slipstick.cli.terminal import print_table
+
+    rows = ((case.name, str(len(case.runs)), case.title) for case in cases)
+    print_table(("case", "solves", "title"), rows)
+
+
+def _left_out(problem: str) -> None:
+    typer.echo(f"WARN {problem}: left out; --studies names another folder", err=True)
+
+
+def _print_outcome(report: Report, directory: Path) -> None:
+    from verification.judging.change import ChangeKind
+    from verification.judging.status_words import SYMBOLS, WORDS
+    from verification.report.changes import change_rows, changes_text
+    from verification.report.counts import counts_text
+    from verification.report.files import PAGE
+    from verification.report.summary_text import failure_lines
+
+    for line in failure_lines(report):
+        typer.echo(line)
+    failed = {(case.name, verdict.name, verdict.run) for case, verdict in report.failures}
+    rows = [
+        row
+        for row in change_rows(report)
+        if row.kind is not ChangeKind.OUTSIDE or (row.case, row.name, row.run) not in failed
+    ]
+    for row in rows[:MOST_WARNINGS]:
+        typer.echo(f"WARN {row.line}")
+    if len(rows) > MOST_WARNINGS:
+        some = " --chosen" if report.chosen else ""
+        more = f"slipstick compare {directory}{some}"
+        typer.echo(f"WARN and {len(rows) - MOST_WARNINGS} more: {more}")
+    typer.echo(f"since the baseline: {changes_text(report)}")
+    typer.echo(f"{SYMBOLS[report.status]} {WORDS[report.status]}: {counts_text(report)}")
+    typer.echo(f"report: {directory / PAGE}")

@@ -1,0 +1,116 @@
+"""A defect, and how it is planted: names of the product are replaced for a while."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from types import ModuleType
+from typing import Any
+
+PRODUCT = (
+    *("contact_scene", "semi_analytical", "fem_reference"),
+    *("contact_results", "verification", "slipstick"),
+)
+# What runs the studies remembers nothing that a defect could change.
+LEFT_ALONE = "verification.running"
+# Where functions remember what a defect could change.
+REMEMBERING = (
+    "semi_analytical",
+    "fem_reference",
+    "verification.cases",
+    "verification.problems",
+    "verification.judging",
+    "verification.laws",
+    "verification.closed_forms",
+)
+
+Wrap = Callable[[Any], Any]
+
+
+class Patches:
+    """Replacements, each undone by `restore`."""
+
+    def __init__(self) -> None:
+        self._undo: list[Callable[[], None]] = []
+
+    def attribute(self, owner: type, name: str, value: Any) -> None:
+        """Give a class another attribute: a method, a property or a class method."""
+        here, before = name in vars(owner), vars(owner).get(name)
+        setattr(owner, name, value)
+        self._undo.append(lambda: setattr(owner, name, before) if here else delattr(owner, name))
+
+    def method(self, owner: type, name: str, wrap: Wrap) -> None:
+        """Replace a method by what `wrap` makes of it."""
+        self.attribute(owner, name, wrap(getattr(owner, name)))
+
+    def function(self, module: ModuleType, name: str, wrap: Wrap) -> None:
+        """Replace a function wherever the product has imported it."""
+        before = getattr(module, name)
+        after = wrap(before)
+        _exchange(before, after)
+        # A module that is loaded meanwhile has imported the replacement.
+        self._undo.append(lambda: _exchange(after, before))
+
+    def restore(self) -> None:
+        """Undo everything, the last first."""
+        while self._undo:
+            self._undo.pop()()
+
+
+@dataclass(frozen=True)
+class Defect:
+    """Something broken.
+
+    name    letters, digits and hyphens
+    broken  what is broken, in a sentence
+    cases   of the catalogue that ought to see it, cheap ones
+    plant   breaks it
+    """
+
+    name: str
+    broken: str
+    cases: tuple[str, ...]
+    plant: Callable[[Patches], None]
+
+
+@contextmanager
+def planted(defect: Defect) -> Iterator[None]:
+    """The product with a defect. What functions remember of before, and of the defect afterwards,
+    is forgotten."""
+    patches = Patches()
+    try:
+        defect.plant(patches)
+        forget_remembered()
+        yield
+    finally:
+        patches.restore()
+        forget_remembered()
+
+
+def forget_remembered() -> None:
+    """Empty the caches of all functions that solve, refer or judge."""
+    for module in product_modules():
+        if not module.__name__.startswith(REMEMBERING):
+            continue
+        for value in list(vars(module).values()):
+            clear = getattr(value, "cache_clear", None)
+            if clear is not None:
+                clear()
+
+
+def product_modules() -> list[ModuleType]:
+    """All modules of the product that are loaded."""
+    return [
+        module
+        for name, module in list(sys.modules.items())
+        if name.partition(".")[0] in PRODUCT and not name.startswith(LEFT_ALONE)
+    ]
+
+
+def _exchange(before: Any, after: Any) -> None:
+    for module in product_modules():
+        for name, value in list(vars(module).items()):
+            if value is before:
+                setattr(module, name, after)

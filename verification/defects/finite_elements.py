@@ -1,0 +1,224 @@
+"""Defects of the finite elements."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+
+from fem_reference.contact.complementarity import contact_problem, increment, slipping
+from fem_reference.contact.complementarity.state import untouched
+from fem_reference.contact.penalty import law as penalty_law
+from fem_reference.contact.penalty.spring_contact import PenaltyLaw
+from fem_reference.elasticity import compliance, hats
+from fem_reference.elasticity import weak_form as elasticity
+from fem_reference.elasticity.factored_section import FactoredSection
+from fem_reference.model import ContactModel
+from verification.defects.defect import Defect, Patches
+
+# How far particles below a Hertzian contact of the paper's data move inwards, over their radius:
+# (1-2ν)(1+ν) p₀/2E.
+DRAWN_IN = 4e-3
+
+
+def _weight_of_element(patches: Patches) -> None:
+    """The radius in the weight of an energy is that of the element's middle."""
+
+    def wrap(whole: Any) -> Any:
+        def basis(section: Any) -> Any:
+            right = whole(section)
+            corners = section.points[0, section.quads]
+            middle, size = corners.mean(axis=0), np.ptp(corners, axis=0)
+            r = middle[:, None] + size[:, None] * right.linear[:, 1]
+            return replace(right, weights=right.weights / r * middle[:, None])
+
+        return basis
+
+    patches.function(elasticity, "section_basis", wrap)
+
+
+def _resultant_weight(patches: Patches) -> None:
+    """The load of a hat is counted at the outer radius of its ring."""
+
+    def wrap(whole: Any) -> Any:
+        def on(nodes: Any, reach: float = np.inf) -> Any:
+            right = whole(nodes, reach)
+            lengths = np.zeros_like(right.radii)
+            lengths[:-1] += np.diff(right.radii) / 2
+            lengths[1:] += np.diff(right.radii) / 2
+            return replace(right, weights=lengths * (right.radii + lengths / 2))
+
+        return on
+
+    patches.function(hats, "hats_on", wrap)
+
+
+def _circumferential_shear(patches: Patches) -> None:
+    def along(model: Any) -> Any:
+        C = model.compliance(1).matrix
+        return 0.5 * (C[0, :, 0] + C[0, :, 1] + C[1, :, 0] + C[1, :, 1])
+
+    patches.attribute(ContactModel, "along_load", along)
+
+
+def _hoop_strain(patches: Patches) -> None:
+    def wrap(whole: Any) -> Any:
+        def strains(harmonic: int) -> Any:
+            operator = whole(harmonic).copy()
+            operator[1, 1, 0] = 0.0
+            return operator
+
+        return strains
+
+    patches.function(elasticity, "strain_operator", wrap)
+
+
+def _no_far_field(patches: Patches) -> None:
+    patches.attribute(
+        FactoredSection,
+        "_far_displacement",
+        lambda self, blocks: np.zeros_like(self._numbering.factor),
+    )
+
+
+def _deformed_radius(patches: Patches) -> None:
+    patches.method(
+        ContactModel, "gap", lambda whole: lambda self, r: whole(self, (1 - DRAWN_IN) * r)
+    )
+
+
+def _upper_body_rigid(patches: Patches) -> None:
+    patches.function(
+        compliance,
+        "composite",
+        lambda whole: lambda lower, upper, motion: whole(lower, None if lower else upper, motion),
+    )
+
+
+def _coupling(patches: Patches, factor: float) -> None:
+    def wrap(whole: Any) -> Any:
+        def sideways(*given: Any) -> Any:
+            right = whole(*given)
+            if right is None or right.by_pressure is None:
+                return right
+            return replace(right, by_pressure=factor * right.by_pressure)
+
+        return sideways
+
+    patches.function(contact_problem, "_sideways", wrap)
+
+
+def _friction(patches: Patches) -> None:
+    whole = ContactModel.friction_coefficient.fget  # type: ignore[attr-defined]
+    patches.attribute(
+        ContactModel, "friction_coefficient", property(lambda self: np.sqrt(2) * whole(self))
+    )
+
+
+def _forgetful(patches: Patches) -> None:
+    def wrap(whole: Any) -> Any:
+        def sheared(sideways: Any, p: Any, last: Any, loads: Any) -> Any:
+            return whole(sideways, p, untouched(len(p)), loads)
+
+        return sheared
+
+    patches.function(increment, "_sheared", wrap)
+
+
+def _slip_reversed(patches: Patches) -> None:
+    def wrap(whole: Any) -> Any:
+        def slid(sideways: Any, p: Any, q: Any, motion: Any, sides: Any, last: Any) -> Any:
+            after, step = whole(sideways, p, q, motion, sides, last)
+            return replace(after, dissipated=2 * last.dissipated - after.dissipated), step
+
+        return slid
+
+    patches.function(slipping, "slid", wrap)
+
+
+def _tangent(patches: Patches) -> None:
+    def wrap(whole: Any) -> Any:
+        def response(self: PenaltyLaw, overlap: Any) -> Any:
+            right = whole(self, overlap)
+            tangent = right.tangent.copy()
+            tangent[1:, 0] = 0.0
+            return replace(right, tangent=tangent)
+
+        return response
+
+    patches.method(PenaltyLaw, "response", wrap)
+
+
+def _soft(patches: Patches) -> None:
+    patches.function(
+        penalty_law, "penalty_stiffness", lambda whole: lambda *given: 0.1 * whole(*given)
+    )
+
+
+def _not_augmented(patches: Patches) -> None:
+    patches.attribute(PenaltyLaw, "carrying", lambda self, traction: self)
+
+
+FINITE_ELEMENTS = (
+    Defect(
+        "fe-weight", "Energies are weighted by the radius of the element's middle, not of the "
+        "point.", ("fem_hertz",), _weight_of_element,
+    ),
+    Defect(
+        "fe-resultant-weight", "The share of a ring in the load is counted at its outer radius.",
+        ("fem_hertz",), _resultant_weight,
+    ),
+    Defect(
+        "fe-circumferential-sign", "The circumferential shear of a tangential load has the wrong "
+        "sign.", ("fem_partial_slip",), _circumferential_shear,
+    ),
+    Defect(
+        "fe-hoop-strain", "The circumferential displacement is left out of the hoop strain.",
+        ("fem_partial_slip",), _hoop_strain,
+    ),
+    Defect(
+        "fe-far-field", "The far field is left out: the section's outer boundary is held.",
+        ("fem_hertz",), _no_far_field,
+    ),
+    Defect(
+        "fe-deformed-radius", "The gap is taken at the deformed radius.", ("fem_hertz",),
+        _deformed_radius,
+    ),
+    Defect(
+        "fe-upper-body", "The compliance of the indenter is left out.", ("fem_hertz",),
+        _upper_body_rigid,
+    ),
+    Defect(
+        "fe-coupling-sign", "Pressure draws the surface away from the axis.", ("fem_indentation",),
+        lambda patches: _coupling(patches, -1.0),
+    ),
+    Defect(
+        "fe-coupling-0p99", "The coupling of pressure and shear is too weak by 1 %.",
+        ("fem_indentation", "fem_classical"), lambda patches: _coupling(patches, 0.99),
+    ),
+    Defect(
+        "fe-friction-root-two", "The friction coefficient is too large by √2.",
+        ("fem_partial_slip",), _friction,
+    ),
+    Defect(
+        "fe-history-dropped", "Every increment starts from surfaces that remember nothing.",
+        ("fem_partial_slip",), _forgetful,
+    ),
+    Defect(
+        "fe-dissipation-sign", "Friction gives energy instead of taking it.",
+        ("fem_partial_slip",), _slip_reversed,
+    ),
+    Defect(
+        "fe-penalty-tangent", "The tangent of slip lacks its dependence on the pressure.",
+        ("fem_penalty_indentation",), _tangent,
+    ),
+    Defect(
+        "fe-penalty-soft", "The penalty is a tenth of what it is said to be.",
+        ("fem_penalty_hertz",), _soft,
+    ),
+    Defect(
+        "fe-penalty-not-augmented", "Augmentations change nothing.", ("fem_penalty_hertz",),
+        _not_augmented,
+    ),
+)  # fmt: skip

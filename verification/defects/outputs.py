@@ -1,0 +1,147 @@
+"""Defects of what healthy solvers return: errors of three kinds, and results that are none."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import fields, replace
+from typing import Any
+
+import numpy as np
+
+import fem_reference
+import semi_analytical
+from contact_results.directory.atomic_file import atomic_file
+from verification.defects.defect import Defect, Patches
+from verification.running import case_store
+
+BIAS = 3e-3
+FLOOR = 5e-4
+FIRST_ORDER = 0.1  # of h/a
+FALSIFIED = (
+    "approach", "pressure", "peak_pressure", "tangential_shift", "shear", "shear_along_load",
+    "twist", "shear_circumferential",
+)  # fmt: skip
+Change = Callable[[Any], Any]
+
+
+def _returned(patches: Patches, change: Change) -> None:
+    """Change what both solvers return."""
+    for package in (semi_analytical, fem_reference):
+        patches.function(
+            package,
+            "solve",
+            lambda whole: lambda *given, **named: change(whole(*given, **named)),
+        )
+
+
+def _times(factor: Callable[[Any], float]) -> Change:
+    """Multiply what a solver finds, apart from the load, by a factor of the result."""
+
+    def change(result: Any) -> Any:
+        by = factor(result)
+        return replace(
+            result, increments=tuple(_multiplied(increment, by) for increment in result.increments)
+        )
+
+    return change
+
+
+def _multiplied(increment: Any, by: float) -> Any:
+    found = {name: getattr(increment, name, None) for name in FALSIFIED}
+    scaled = {
+        name: (by * np.asarray(value) if np.ndim(value) else by * value)
+        for name, value in found.items()
+        if value is not None
+    }
+    return replace(increment, **scaled)
+
+
+def _cell(result: Any) -> float:
+    """Side of a cell or an element over the contact radius."""
+    if isinstance(result, semi_analytical.Result):
+        return max(result.grid.spacing) / result.increments[-1].contact_radius
+    return 1 / float(result.discretisation.elements_per_radius)
+
+
+def _first_order(result: Any) -> float:
+    """An error that refinement lowers, but only as the cell."""
+    return 1 + FIRST_ORDER * _cell(result)
+
+
+def _floor(result: Any) -> float:
+    """An error that refinement does not lower: up or down as the grid falls."""
+    return 1 + FLOOR * (-1) ** round(1 / _cell(result))
+
+
+def _last_row_missing(result: Any) -> Any:
+    def shortened(increment: Any) -> Any:
+        return replace(
+            increment,
+            **{
+                field.name: value[..., :-1]
+                for field in fields(increment)
+                if np.ndim(value := getattr(increment, field.name)) and field.name == "pressure"
+            },
+        )
+
+    return replace(result, increments=tuple(map(shortened, result.increments)))
+
+
+def _last_step_missing(result: Any) -> Any:
+    return replace(result, increments=result.increments[:-1])
+
+
+def _truncated(patches: Patches) -> None:
+    """Half of a record reaches the disk."""
+
+    def wrap(whole: Any) -> Any:
+        def save(self: Any, case: Any, record: Any) -> None:
+            whole(self, case, record)
+            path = self.path(case)
+            text = path.read_text(encoding="utf-8")
+            with atomic_file(path) as temporary:
+                temporary.write_text(text[: len(text) // 2], encoding="utf-8")
+
+        return save
+
+    patches.method(case_store.CaseStore, "save", wrap)
+
+
+SEEN = ("dissimilar_bodies", "fem_hertz")
+PLANTED_IN = ("hertz_point", "cattaneo_mindlin", "fem_hertz")
+
+PLANTED = (
+    Defect(
+        "first-order-error", "What is found is too large by 0.1 h/a: an error of first order.",
+        PLANTED_IN, lambda patches: _returned(patches, _times(_first_order)),
+    ),
+    Defect(
+        "error-floor", "What is found is wrong by 0.05 % on any grid, up or down.",
+        PLANTED_IN, lambda patches: _returned(patches, _times(_floor)),
+    ),
+    Defect(
+        "bias", "What is found is too large by 0.3 %.",
+        PLANTED_IN, lambda patches: _returned(patches, _times(lambda r: 1 + BIAS)),
+    ),
+)  # fmt: skip
+
+NO_RESULTS = (
+    Defect(
+        "nan", "Results are not numbers.", SEEN,
+        lambda patches: _returned(patches, _times(lambda r: np.nan)),
+    ),
+    Defect(
+        "wrong-length", "The pressure lacks its last row.", ("hertz_point", "fem_hertz"),
+        lambda patches: _returned(patches, _last_row_missing),
+    ),
+    Defect(
+        "history-truncated", "The last increment of a result is missing.", ("cattaneo_mindlin",),
+        lambda patches: _returned(patches, _last_step_missing),
+    ),
+    Defect(
+        "record-truncated", "Half of the file with a finished case reaches the disk.",
+        ("dissimilar_bodies",), _truncated,
+    ),
+)  # fmt: skip
+
+OUTPUTS = (*PLANTED, *NO_RESULTS)

@@ -1,0 +1,19 @@
+"""All defects, in the order of the report."""
+
+from verification.defects.contact_and_friction import CONTACT_AND_FRICTION
+from verification.defects.defect import Defect
+from verification.defects.finite_elements import FINITE_ELEMENTS
+from verification.defects.histories import HISTORIES
+from verification.defects.outputs import OUTPUTS
+from verification.defects.surface_response import SURFACE_RESPONSE
+
+DEFECTS: dict[str, Defect] = {
+    defect.name: defect
+    for defect in (
+        *SURFACE_RESPONSE,
+        *CONTACT_AND_FRICTION,
+        *HISTORIES,
+        *FINITE_ELEMENTS,
+        *OUTPUTS,
+    )
+}

@@ -1,0 +1,238 @@
+"""Defects of what the surfaces answer to tractions, in the semi-analytical method."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from semi_analytical import operator
+from semi_analytical.frf import stack, surface
+from semi_analytical.influence import layered_response
+from semi_analytical.influence.closed_form import HalfSpaceCoefficients
+from semi_analytical.influence.coefficients import Composite
+from semi_analytical.influence.layered_response import Components
+from semi_analytical.operator import CouplingOperator, NormalOperator, TangentialOperator
+from verification.defects.defect import Defect, Patches
+
+
+def scaled(patches: Patches, owner: type, name: str, factor: float) -> None:
+    """A method whose result is multiplied by a factor."""
+    patches.method(owner, name, lambda whole: lambda self, traction: factor * whole(self, traction))
+
+
+def _coupling(patches: Patches, factor: float) -> None:
+    for name in ("normal_by_shear", "tangential_by_pressure"):
+        scaled(patches, CouplingOperator, name, factor)
+
+
+def _periodic(patches: Patches) -> None:
+    def images(self: NormalOperator, pressure: Any) -> Any:
+        self._transform.counter.count += 1
+        period = self._transform.period
+        spectrum = np.fft.rfft2(pressure, period) * self._zz[::2, ::2]
+        nx, ny = pressure.shape
+        return np.fft.irfft2(spectrum, period)[:nx, :ny]
+
+    patches.attribute(NormalOperator, "__call__", images)
+
+
+def _without_mean(patches: Patches) -> None:
+    def wrap(whole: Any) -> Any:
+        def transform(coefficients: Any, padded: Any) -> Any:
+            spectrum = whole(coefficients, padded).copy()
+            spectrum[0, 0] = 0.0
+            return spectrum
+
+        return transform
+
+    patches.function(operator, "even_transform", wrap)
+
+
+def _with_nyquist_row(patches: Patches) -> None:
+    def wrap(whole: Any) -> Any:
+        def transform(coefficients: Any, padded: Any, odd_axis: int) -> Any:
+            spectrum = whole(coefficients, padded, odd_axis).copy()
+            if odd_axis == 0:
+                spectrum[padded[0] // 2] = spectrum[padded[0] // 2 - 1]
+            else:
+                spectrum[:, -1] = spectrum[:, -2]
+            return spectrum
+
+        return transform
+
+    patches.function(operator, "mixed_transform", wrap)
+
+
+def _without_cross_term(patches: Patches) -> None:
+    patches.attribute(Composite, "xy", property(lambda self: np.zeros_like(self.xx)))
+
+
+def _one_body(patches: Patches, components: tuple[str, ...]) -> None:
+    def wrap(whole: Any) -> Any:
+        def added(self: Composite, component: str) -> Any:
+            if component in components and self.lower and self.upper:
+                return np.asarray(getattr(self.lower[0], component))
+            return whole(self, component)
+
+        return added
+
+    patches.method(Composite, "_added", wrap)
+
+
+def _coupling_added(patches: Patches) -> None:
+    patches.attribute(Composite, "_mirrored", Composite._added)
+
+
+def _kappa_for_chi(patches: Patches) -> None:
+    """Waves across the plane of propagation reflect by χ = (k-1)/(k+1), the others by
+    κ = (k-1)/(k+3-4ν), k being the stiffness below over that of the layer."""
+
+    def wrap(whole: Any) -> Any:
+        def underside(body: stack.Stack, alpha: Any) -> Any:
+            y, k = whole(body, alpha)
+            if not body.layers:
+                return y, k
+            kappa = (k - 1) / (k + 3 - 4 * body.layers[0].poisson_ratio)
+            return y, (1 + kappa) / (1 - kappa)
+
+        return underside
+
+    patches.function(surface, "_underside", wrap)
+
+
+def _plane_stress(patches: Patches) -> None:
+    def wrap(whole: Any) -> Any:
+        def underside(body: stack.Stack, alpha: Any) -> Any:
+            y, k = whole(body, alpha)
+            if body.base is None or len(body.layers) != 1:
+                return y, k
+            nu = body.base.poisson_ratio
+            return (y[0] * (3 - nu) / (1 + nu) / (3 - 4 * nu), *y[1:]), k
+
+        return underside
+
+    patches.function(surface, "_underside", wrap)
+
+
+def _substrate_ratio_in_layer(patches: Patches) -> None:
+    def wrap(whole: Any) -> Any:
+        def of(body: Any) -> stack.Stack:
+            right = whole(body)
+            if right.base is None:
+                return right
+            nu = right.base.poisson_ratio
+            films = [(film.shear_modulus, nu, film.thickness) for film in right.layers]
+            return stack.Stack(films, right.base)
+
+        return of
+
+    patches.function(stack, "stack_of", wrap)
+
+
+def _half_space_only(patches: Patches) -> None:
+    def wrap(whole: Any) -> Any:
+        def remainder(body: stack.Stack, alpha: Any) -> Any:
+            return surface.SurfaceScalars(*(0.0 * value for value in whole(body, alpha)))
+
+        return remainder
+
+    patches.function(surface, "remainder_scalars", wrap)
+
+
+def _parity(patches: Patches) -> None:
+    right = layered_response.COUPLING
+    wrong = Components(
+        right.names, right.radial, right.parity, lambda *given: right.turned(*given)[::-1]
+    )
+    patches.function(layered_response, "COUPLING", lambda _: wrong)
+
+
+def _minus_ratio(patches: Patches) -> None:
+    patches.attribute(
+        HalfSpaceCoefficients,
+        "xy",
+        property(lambda self: -self._c * self.poisson_ratio * self.integrals.xy_r3),
+    )
+
+
+COUPLED = ("frictional_indentation",)
+
+SURFACE_RESPONSE = (
+    Defect(
+        "coupling-sign", "Pressure draws the surface away from the load instead of towards it.",
+        COUPLED, lambda patches: _coupling(patches, -1.0),
+    ),
+    Defect(
+        "coupling-0p99", "The coupling of pressure and shear is too weak by 1 %.",
+        ("no_slip_indentation", "frictional_indentation"),
+        lambda patches: _coupling(patches, 0.99),
+    ),
+    Defect(
+        "coupling-of-bodies-added", "The coupling of the upper body is added, not subtracted.",
+        ("forced_effects",), _coupling_added,
+    ),
+    Defect(
+        "nyquist-row-kept", "Odd kernels keep a Nyquist row, where they have no partner.",
+        COUPLED, _with_nyquist_row,
+    ),
+    Defect(
+        "zero-wavenumber", "The kernel vanishes at wavenumber zero: mean displacements are lost.",
+        ("dissimilar_bodies",), _without_mean,
+    ),
+    Defect(
+        "padding-removed", "Convolutions are not padded: the contact sees its periodic images.",
+        ("dissimilar_bodies",), _periodic,
+    ),
+    Defect(
+        "normal-bias", "Normal displacements are too large by 0.3 %.",
+        ("dissimilar_bodies", "hertz_approach_control"),
+        lambda patches: scaled(patches, NormalOperator, "__call__", 1.003),
+    ),
+    Defect(
+        "normal-bias-stiff", "Normal displacements are too small by 0.3 %.",
+        ("dissimilar_bodies", "hertz_approach_control"),
+        lambda patches: scaled(patches, NormalOperator, "__call__", 1 / 1.003),
+    ),
+    Defect(
+        "tangential-bias", "Tangential displacements are too large by 0.3 %.",
+        ("cattaneo_mindlin",),
+        lambda patches: scaled(patches, TangentialOperator, "__call__", 1.003),
+    ),
+    Defect(
+        "shear-across-omitted", "Shear along y does not move the surface along x.",
+        ("torsion",), _without_cross_term,
+    ),
+    Defect(
+        "shear-across-sign", "Shear along y moves the surface along x the wrong way.",
+        ("torsion",), _minus_ratio,
+    ),
+    Defect(
+        "upper-body-sheared-not", "The tangential compliance of the upper body is left out.",
+        ("cattaneo_mindlin",), lambda patches: _one_body(patches, ("xx", "yy", "xy")),
+    ),
+    Defect(
+        "upper-body-pressed-not", "The normal compliance of the upper body is left out.",
+        ("hertz_approach_control",), lambda patches: _one_body(patches, ("zz",)),
+    ),
+    Defect(
+        "kappa-for-chi", "Shear waves reflect at the interface by κ instead of χ.",
+        ("layered_reference", "torsion_coated"), _kappa_for_chi,
+    ),
+    Defect(
+        "plane-stress", "Kolosov's constant of the substrate is that of plane stress.",
+        ("layered_reference", "layered_identities"), _plane_stress,
+    ),
+    Defect(
+        "substrate-ratio-in-layer", "Layers of a scene get the substrate's Poisson's ratio.",
+        ("coated_unlike_ratios",), _substrate_ratio_in_layer,
+    ),
+    Defect(
+        "layer-far-only", "Near the load a layered body answers like its outermost material.",
+        ("layered_reference",), _half_space_only,
+    ),
+    Defect(
+        "layered-coupling-axes", "The coupling of a layered body has its axes exchanged.",
+        ("layered_reference",), _parity,
+    ),
+)  # fmt: skip

@@ -1,0 +1,1 @@
+"""What a reader is shown: charts, tables and numbers, as plain records."""

@@ -1,0 +1,88 @@
+"""Errors against cell side on logarithmic axes, with fitted lines and lines of expected slopes."""
+
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from verification.convergence.error_line import ErrorLine, by_size, error_line
+from verification.convergence.observed_order import ObservedOrder
+from verification.exhibits.chart import Chart, Curve, Look, Panel, curve
+
+Errors = Mapping[str, Sequence[float]]
+BELOW = 0.4  # lines of expected slopes run under the data, by this factor
+LEAST, LEAST_JUDGED = 4, 3  # levels that a line is drawn through
+ALONG = 9  # points along a band, which is curved
+SHOWN = 0.005  # smallest half-width that two decimals show
+
+
+def convergence_chart(
+    name: str,
+    title: str,
+    caption: str,
+    spacings: Sequence[float],
+    errors: Errors,
+    slopes: Mapping[str, float],
+    x_label: str = "cell side / contact radius",
+    judged: Mapping[str, int] | None = None,
+) -> Chart:
+    """Every error with the line fitted to it and, where an order is expected, a line of that slope.
+
+    spacings  cell sides, dimensionless; errors of equal ones count by their root mean square
+    errors    name to errors at these, of either sign
+    slopes    name of an error to its expected order
+    judged    name of an error to the number of finest levels that its order is judged on: the
+              line is fitted to these, if they are three; to all, if they are four, where absent
+    """
+    curves: list[Curve] = []
+    for series, (label, values) in enumerate(errors.items()):
+        sizes, root_mean_squares = by_size(spacings, values)
+        count = (judged or {}).get(label)
+        if count is None:
+            count = len(sizes) if len(sizes) >= LEAST else 0
+        curves += _series(label, sizes, root_mean_squares, count, slopes.get(label), series)
+    panel = Panel(x_label=x_label, y_label="relative error", curves=tuple(curves), logarithmic=True)
+    legend = (
+        "Numbers are the slopes of the fitted lines with their 95 % intervals, bands those of the "
+        "lines. Dashed below: the expected slopes."
+    )
+    return Chart(name=name, title=title, caption=f"{caption} {legend}", rows=((panel,),))
+
+
+def _series(
+    label: str, sizes: list[float], errors: list[float], count: int, expected: float | None,
+    series: int,
+) -> list[Curve]:  # fmt: skip
+    """Points, line with its band through so many of the finest, and expected slope of one error."""
+    ends = np.array([max(sizes), min(sizes)])
+    fitted = slice(len(sizes) - count, None)
+    if count < LEAST_JUDGED or min(errors[fitted]) <= 0:
+        curves = [curve(label, sizes, errors, Look.POINTS, series)]
+        start = errors[int(np.argmax(sizes))]
+    else:
+        line = error_line(sizes[fitted], errors[fitted])
+        ends = np.array([max(sizes[fitted]), min(sizes[fitted])])
+        curves = [
+            _band(line, ends, series),
+            curve("", ends, line.at(ends), Look.FITTED, series),
+            curve(f"{label}: {_text(line.observed)}", sizes, errors, Look.LEVELS, series),
+        ]
+        start = float(line.at(ends[:1])[0])
+    if expected is not None:
+        shown = BELOW * start * (ends / ends[0]) ** expected
+        curves.append(curve(f"slope {expected:g}", ends, shown, Look.SLOPE, series))
+    return curves
+
+
+def _text(observed: ObservedOrder) -> str:
+    if not observed.is_legible:
+        return "no order can be read"
+    digits = ".2f" if observed.half_width >= SHOWN else ".1g"
+    return f"{observed.order:.2f} ± {observed.half_width:{digits}}"
+
+
+def _band(line: ErrorLine, ends: NDArray[np.float64], series: int) -> Curve:
+    """The outline of the line's 95 % band."""
+    along = np.geomspace(ends[0], ends[1], ALONG)
+    low, high = line.band(along)
+    return curve("", [*along, *along[::-1]], [*low, *high[::-1]], Look.BAND, series)

@@ -1,0 +1,148 @@
+"""Solving a case and collecting what came out."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from typing import Any
+
+import semi_analytical
+from contact_results.quantities import largest_residual
+from contact_scene import Scene, SurfaceDiscretisation
+from contact_scene.scene_text import describe
+from contact_scene.summary import EffectSummary
+from verification.judging.case import Case, Derived, Finding, Quantity
+from verification.judging.law_verdicts import judge_laws
+from verification.judging.outcome import (
+    CaseOutcome,
+    FindingRecord,
+    RunRecord,
+    SceneRecord,
+    Verdict,
+)
+from verification.judging.refined_errors import refined_errors
+from verification.judging.run import Run, SectionRun
+from verification.judging.section_sketch import section_sketch
+from verification.judging.verdicts import (
+    finite,
+    judge_check,
+    judge_comparison,
+    judge_order,
+    judge_quantity,
+    judge_residuals,
+    unsolved,
+)
+
+Results = Mapping[str, Any]
+AnyRun = Run | SectionRun
+Solve = Callable[[AnyRun], Any]
+
+# Words of a scene file that are not of its scene.
+DISCRETISATION = ("title", "cells", "window", "tolerance", "path accuracy")
+
+
+def solve_run(run: AnyRun) -> Any:
+    """Solve one run of a case with the solver that it is for."""
+    if isinstance(run, SectionRun):
+        return run.solve()
+    decided = semi_analytical.plan(run.scene)
+    if run.effects is not None:
+        decided = run.effects(decided)
+    return semi_analytical.solve(run.scene, run.grid, run.tolerance, plan=decided)
+
+
+def judge(case: Case, solve: Solve = solve_run) -> CaseOutcome:
+    """Solve all runs of a case and judge its quantities and checks.
+
+    A run that the solver gives up is a failed verdict; what would be measured on it is left out.
+    """
+    results: dict[str, Any] = {}
+    failures: list[Verdict] = []
+    for run in case.runs:
+        try:
+            results[run.label] = solve(run)
+        except semi_analytical.SolverError as error:
+            failures.append(unsolved(run, str(error)))
+    return CaseOutcome(
+        name=case.name,
+        title=case.title,
+        problem=case.problem,
+        scenes=_scenes(case, results),
+        runs=tuple(_run_record(r, results[r.label]) for r in case.runs if r.label in results),
+        verdicts=(*failures, *_verdicts(case, results)),
+        findings=tuple(_measure(f, results) for f in case.findings if f.run in results),
+        charts=case.charts(results) if case.charts and not failures else (),
+        limits=case.limits,
+        tables=case.tables(results) if case.tables and not failures else (),
+    )
+
+
+def _verdicts(case: Case, results: Results) -> tuple[Verdict, ...]:
+    measured = [q for q in case.quantities if _needs(q) <= results.keys()]
+    studied = [study for study in case.orders if set(study.levels) <= results.keys()]
+    return (
+        *(_with_levels(quantity, case, results) for quantity in measured),
+        *(judge_comparison(c, results) for c in case.comparisons if set(c.runs) <= results.keys()),
+        *(judge_check(check) for check in case.checks),
+        *(judge_order(study, case, results) for study in studied),
+        *([judge_residuals(case, results), *judge_laws(case, results)] if results else []),
+    )
+
+
+def _with_levels(quantity: Quantity, case: Case, results: Results) -> Verdict:
+    refined = refined_errors(quantity, case, results)
+    return judge_quantity(quantity, case, results).model_copy(update={"refined": refined})
+
+
+def _needs(quantity: Quantity) -> set[str]:
+    """Labels of the runs a verdict on the quantity rests on."""
+    levels = quantity.tolerance.levels if isinstance(quantity.tolerance, Derived) else ()
+    return {quantity.run, *levels}
+
+
+def _measure(finding: Finding, results: Results) -> FindingRecord:
+    return FindingRecord(
+        name=finding.name,
+        run=finding.run,
+        meaning=finding.meaning,
+        unit=finding.unit,
+        value=finite(finding.measure(results[finding.run])),
+        remark=finding.remark,
+    )
+
+
+def _run_record(run: AnyRun, result: Any) -> RunRecord:
+    grid = run.grid if isinstance(run, Run) else None
+    mesh = run.discretisation if isinstance(run, SectionRun) else None
+    return RunRecord(
+        label=run.label,
+        cells=grid.cells if grid else None,
+        window=grid.window if grid else None,
+        elements_per_radius=mesh.elements_per_radius if mesh else None,
+        tolerance=run.tolerance,
+        increments=len(result.increments),
+        iterations=sum(increment.iterations for increment in result.increments),
+        convolutions=sum(i.convolutions for i in result.increments) if grid else 0,
+        factorizations=sum(i.factorizations for i in result.increments) if mesh else 0,
+        largest_residual=finite(largest_residual(result)),
+    )
+
+
+def _scenes(case: Case, results: Results) -> tuple[SceneRecord, ...]:
+    """The scenes of a case, each once, with what the solver planned for them."""
+    records: dict[Scene, SceneRecord] = {}
+    for run in case.runs:
+        if run.label in results and run.scene not in records:
+            effects = results[run.label].plan.effects
+            lines = describe(run.scene, SurfaceDiscretisation())
+            records[run.scene] = SceneRecord(
+                title=run.scene.title,
+                lines=tuple(line for line in lines if line[0] not in DISCRETISATION),
+                effects=tuple(EffectSummary(name=e.name, on=e.on, why=e.why) for e in effects),
+                sketch=section_sketch(run.scene, _largest_radius(results[run.label])),
+            )
+    return tuple(records.values())
+
+
+def _largest_radius(result: Any) -> float:
+    """The largest contact radius of a history [length]."""
+    return max(float(increment.contact_radius) for increment in result.increments)

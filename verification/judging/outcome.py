@@ -1,0 +1,224 @@
+"""What came out of a case: plain values that go into `report.json` as they are."""
+
+import math
+import sys
+from enum import StrEnum
+
+from pydantic import model_validator
+
+from contact_scene.description import Description
+from contact_scene.summary import EffectSummary
+from verification.convergence.observed_order import ORDER_WIDTH
+from verification.exhibits.chart import Chart
+from verification.exhibits.table import Table
+from verification.judging.change import Change, CounterChange, Gone, Origin
+from verification.judging.section_sketch import SectionSketch
+
+TOLERANCE_KINDS = ("required", "derived", "order")
+SAME_BUT_FOR_ROUNDING = 1e-12
+
+
+class Status(StrEnum):
+    """How a judgement ended."""
+
+    PASS = "pass"
+    FAIL = "fail"
+    INCONCLUSIVE = "inconclusive"
+
+
+class OrderRecord(Description):
+    """What an order of convergence was read off."""
+
+    of: str
+    """The quantity that was followed."""
+
+    solver: str
+    refined: str
+    """mesh or increments."""
+
+    sizes: tuple[float, ...]
+    """Cell side, element side or part of a step of every level, coarse to fine."""
+
+    errors: tuple[float, ...]
+    """Error on each level, or change from it to the next."""
+
+
+class RefinedErrors(Description):
+    """Errors of one value on runs of several finenesses, coarse to fine."""
+
+    per_radius: tuple[float, ...]
+    """Cells or elements per contact radius."""
+
+    errors: tuple[float, ...]
+    """Relative to the reference, run by run."""
+
+
+class Verdict(Description):
+    """One judged quantity. Errors are relative to `scale_name`; numbers that are not finite are
+    null and fail."""
+
+    name: str
+    run: str
+    meaning: str
+    unit: str
+    value: float | None
+    reference: float
+    reference_kind: str
+    source: str
+    reference_uncertainty: float | None = None
+    """Standard uncertainty of the reference, in its unit; null where it has none."""
+
+    error: float | None
+    """|value - reference| / scale."""
+
+    allowed: float
+    scale: float
+    scale_name: str
+    tolerance_kind: str
+    """required, derived, or order."""
+
+    because: str
+    status: Status
+    interval: float | None = None
+    """Half-width of the 95 % interval of an observed order."""
+
+    order: OrderRecord | None = None
+    """What an observed order was read off; null for all other verdicts."""
+
+    refined: RefinedErrors | None = None
+    """The same value on coarser and finer runs; null where its case has too few of them."""
+
+    regression: Change | None = None
+    """Against the recorded value; null if the case has no baseline of this level."""
+
+    @model_validator(mode="after")
+    def _states_what_it_measured(self) -> "Verdict":
+        """A record that was changed by hand, or by a defect, contradicts itself somewhere."""
+        problem = _contradiction(self)
+        if problem:
+            raise ValueError(f"{self.name} [{self.run}]: {problem}")
+        return self
+
+    @property
+    def clearance(self) -> float | None:
+        """Error as a part of what is allowed, finite; above 1 is a failure. None without an error
+        in numbers, and for one where nothing is allowed."""
+        if self.error is None or (self.allowed == 0 and self.error > 0):
+            return None
+        if self.error == 0:
+            return 0.0
+        return min(self.error / self.allowed, sys.float_info.max)
+
+
+def _contradiction(verdict: Verdict) -> str:
+    """What the numbers of a verdict do not agree about; empty if they do."""
+    if verdict.tolerance_kind not in TOLERANCE_KINDS:
+        return f"its tolerance is {verdict.tolerance_kind!r}, not {', '.join(TOLERANCE_KINDS)}"
+    # Uncertainties that are derived vanish where refinement changes nothing.
+    allows = verdict.allowed > 0 or (verdict.allowed == 0 and verdict.tolerance_kind == "derived")
+    if not (verdict.scale > 0 and allows):
+        return f"it allows {verdict.allowed:g} of {verdict.scale:g}; both are positive"
+    if not _is_error(verdict):
+        return (
+            f"its error is {verdict.error}, but its value is {verdict.value}, its reference "
+            f"{verdict.reference} and its scale {verdict.scale}"
+        )
+    status = _status_of(verdict)
+    if verdict.status is not status:
+        return (
+            f"its status is {verdict.status}, but an error of {verdict.error} where "
+            f"{verdict.allowed} is allowed is {status}"
+        )
+    return ""
+
+
+def _is_error(verdict: Verdict) -> bool:
+    if verdict.value is None or verdict.error is None:
+        return verdict.value is verdict.error
+    error = abs(verdict.value - verdict.reference) / verdict.scale
+    return math.isclose(verdict.error, error, rel_tol=SAME_BUT_FOR_ROUNDING)
+
+
+def _status_of(verdict: Verdict) -> Status:
+    if verdict.error is None:
+        return Status.FAIL
+    if verdict.interval is not None and verdict.interval > ORDER_WIDTH:
+        return Status.INCONCLUSIVE
+    return Status.PASS if verdict.error <= verdict.allowed else Status.FAIL
+
+
+class FindingRecord(Description):
+    """A number that is reported and not judged; null where it is not finite."""
+
+    name: str
+    run: str
+    meaning: str
+    unit: str
+    value: float | None
+    remark: str
+    regression: Change | None = None
+    """Against the recorded value; null if the case has no baseline of this level."""
+
+
+class RunRecord(Description):
+    """One solve and its deterministic cost."""
+
+    label: str
+    cells: tuple[int, int] | None
+    window: tuple[float, float] | None
+    """Cells and window of the surface; null for finite elements."""
+
+    elements_per_radius: int | None = None
+    """Elements over the contact radius; null for a surface grid."""
+
+    tolerance: float
+    increments: int
+    iterations: int
+    convolutions: int
+    factorizations: int = 0
+    """Sparse factorisations of finite elements."""
+
+    largest_residual: float | None
+    changes: tuple[CounterChange, ...] = ()
+    """Counts that differ from the recorded ones."""
+
+
+class SceneRecord(Description):
+    """A scene in words, and the effects that its plan switches on or off."""
+
+    title: str
+    lines: tuple[tuple[str, str], ...]
+    effects: tuple[EffectSummary, ...]
+    sketch: SectionSketch | None = None
+    """The scene in section, to scale; null where it was not solved."""
+
+
+class CaseOutcome(Description):
+    """Everything a case has to say."""
+
+    name: str
+    title: str
+    problem: str
+    scenes: tuple[SceneRecord, ...]
+    runs: tuple[RunRecord, ...]
+    verdicts: tuple[Verdict, ...]
+    findings: tuple[FindingRecord, ...]
+    charts: tuple[Chart, ...]
+    limits: tuple[str, ...]
+    tables: tuple[Table, ...] = ()
+    baseline: Origin | None = None
+    """Where the recorded numbers are from; null if there are none of this level."""
+
+    gone: tuple[Gone, ...] = ()
+    """What was recorded and is not measured any more."""
+
+    def count(self, status: Status) -> int:
+        """How many verdicts have this status."""
+        return sum(verdict.status is status for verdict in self.verdicts)
+
+    @property
+    def status(self) -> Status:
+        """The worst status of its verdicts."""
+        if self.count(Status.FAIL):
+            return Status.FAIL
+        return Status.INCONCLUSIVE if self.count(Status.INCONCLUSIVE) else Status.PASS

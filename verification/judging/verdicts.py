@@ -1,0 +1,222 @@
+"""From a measured number to a verdict."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from itertools import pairwise
+from typing import TYPE_CHECKING, Any
+
+from contact_results.quantities import largest_residual
+from verification.convergence.error_line import by_size
+from verification.convergence.observed_order import (
+    ORDER_OFF,
+    ORDER_WIDTH,
+    numerical_uncertainty,
+    observed_order,
+)
+from verification.judging.case import Case, Check, Comparison, Derived, Quantity, Required
+from verification.judging.order_of_convergence import OrderOfChange, OrderOfConvergence, Refinement
+from verification.judging.outcome import OrderRecord, Status, Verdict
+from verification.judging.run import Run
+from verification.problems.reference import Reference, ReferenceKind
+
+if TYPE_CHECKING:
+    from verification.judging.run import SectionRun
+
+Results = Mapping[str, Any]
+
+COVERAGE = 2.0  # standard uncertainties in a tolerance
+
+
+def judge_quantity(quantity: Quantity, case: Case, results: Results) -> Verdict:
+    """The measured value against its reference; a value that is not finite fails."""
+    value, tolerance = quantity.measure(results[quantity.run]), quantity.tolerance
+    if not isinstance(tolerance, Derived):
+        return _judged(quantity, quantity.run, value, "required", tolerance.allowed)
+    allowed = _derived(quantity, tolerance, case, results, _scale(quantity))
+    return _judged(quantity, quantity.run, value, "derived", allowed)
+
+
+def judge_check(check: Check) -> Verdict:
+    """The measured value against its reference; a value that is not finite fails."""
+    return _judged(check, check.subject, check.measure(), "required", check.tolerance.allowed)
+
+
+def judge_comparison(comparison: Comparison, results: Results) -> Verdict:
+    """The difference of two runs, against zero."""
+    one, other = comparison.runs
+    value = comparison.difference(results[one], results[other])
+    same = Check(
+        comparison.name, comparison.meaning, "", f"{one} and {other}", lambda: value,
+        Reference(0.0, comparison.kind, comparison.source),
+        Required(comparison.allowed, comparison.because), 1.0, "the second run's",
+    )  # fmt: skip
+    return judge_check(same)
+
+
+def _scale(quantity: Quantity | Check) -> float:
+    """What an error is divided by."""
+    return abs(quantity.reference.value) if quantity.scale is None else quantity.scale
+
+
+def _judged(
+    quantity: Quantity | Check, measured_on: str, value: float, kind: str, allowed: float
+) -> Verdict:
+    reference, scale = quantity.reference, _scale(quantity)
+    error = abs(value - reference.value) / scale
+    return Verdict(
+        name=quantity.name,
+        run=measured_on,
+        meaning=quantity.meaning,
+        unit=quantity.unit,
+        value=finite(value),
+        reference=reference.value,
+        reference_kind=reference.kind,
+        source=reference.source,
+        reference_uncertainty=reference.uncertainty or None,
+        error=finite(error),
+        allowed=allowed,
+        scale=scale,
+        scale_name=quantity.scale_name,
+        tolerance_kind=kind,
+        because=quantity.tolerance.because,
+        status=Status.PASS if error <= allowed else Status.FAIL,  # NaN compares as a failure
+    )
+
+
+def _derived(
+    quantity: Quantity, tolerance: Derived, case: Case, results: Results, scale: float
+) -> float:
+    return min(tolerance.cap, expanded_uncertainty(quantity, tolerance, case, results) / scale)
+
+
+def expanded_uncertainty(
+    quantity: Quantity, tolerance: Derived, case: Case, results: Results
+) -> float:
+    """2 √(u_num² + u_ref²), in the unit of the quantity; infinite where a level has no number."""
+    values = [quantity.measure(results[label]) for label in tolerance.levels]
+    if not all(map(math.isfinite, values)):
+        return math.inf
+    u_num = numerical_uncertainty(_spacings(case, tolerance.levels), values, tolerance.order)
+    return COVERAGE * math.hypot(u_num, quantity.reference.uncertainty)
+
+
+def judge_order(study: OrderOfConvergence | OrderOfChange, case: Case, results: Results) -> Verdict:
+    """The observed order against the expected one, or INCONCLUSIVE where it is not well known."""
+    sizes, errors = _refined(study, case, results)
+    known = all(math.isfinite(error) and error > 0 for error in errors)
+    observed = observed_order(sizes, errors) if known else None
+    difference = math.nan if observed is None else abs(observed.order - study.expected)
+    off = 0.0 if study.not_yet is None else study.not_yet.allowance
+    agrees = False if observed is None else observed.agrees_with(study.expected, off)
+    runs = "" if len(errors) in (len(study.levels), len(study.levels) - 1) else (
+        f", each the root mean square of {len(study.levels) / len(errors):.3g} runs"
+    )  # fmt: skip
+    return Verdict(
+        name=study.name,
+        run=f"{study.levels[0]} to {study.levels[-1]}",
+        meaning=f"order of convergence: {study.meaning}",
+        unit="",
+        value=None if observed is None else observed.order,
+        reference=study.expected,
+        reference_kind=ReferenceKind.THEORY,
+        source=study.because,
+        error=finite(difference),
+        allowed=ORDER_OFF if observed is None else observed.may_be_off_by(off),
+        scale=1.0,
+        scale_name="1",
+        tolerance_kind="order",
+        because=f"an order is judged where its 95 % interval is no wider than ± {ORDER_WIDTH}, and "
+        f"may be off by that interval or {ORDER_OFF}{_not_yet(study)}; "
+        f"{len(errors)} {'changes' if isinstance(study, OrderOfChange) else 'levels'}{runs}",
+        status=order_status(agrees),
+        interval=None if observed is None else observed.half_width,
+        order=OrderRecord(
+            of=study.of,
+            solver=case.run(study.levels[0]).solver,
+            refined=study.refined if isinstance(study, OrderOfChange) else Refinement.MESH,
+            sizes=tuple(sizes),
+            errors=tuple(errors) if known else (),
+        ),
+    )
+
+
+def _not_yet(study: OrderOfConvergence | OrderOfChange) -> str:
+    known = study.not_yet
+    return "" if known is None else f", here {known.allowance:g}, as {known.because}"
+
+
+def _refined(
+    study: OrderOfConvergence | OrderOfChange, case: Case, results: Results
+) -> tuple[list[float], list[float]]:
+    """Sizes, coarse to fine, and the errors or changes there."""
+    levels = [results[label] for label in study.levels]
+    if isinstance(study, OrderOfChange):
+        sizes = [study.size(level) for level in levels[:-1]]
+        return sizes, [study.change(*pair) for pair in pairwise(levels)]
+    return by_size(_spacings(case, study.levels), [study.error(level) for level in levels])
+
+
+def order_status(agrees: bool | None) -> Status:
+    """The verdict on an order; None where it is not known well enough."""
+    if agrees is None:
+        return Status.INCONCLUSIVE
+    return Status.PASS if agrees else Status.FAIL
+
+
+def judge_residuals(case: Case, results: Results) -> Verdict:
+    """The largest residual of any increment of any run that was solved, against its tolerance."""
+    runs = [run for run in case.runs if run.label in results]
+    ratios = [largest_residual(results[run.label]) / run.tolerance for run in runs]
+    # NaN must win, so the comparison is written for it to be the worst
+    worst = max(range(len(runs)), key=lambda n: (math.isnan(ratios[n]), ratios[n]))
+    run = runs[worst]
+    residual = largest_residual(results[run.label])
+    return Verdict(
+        name="largest_residual",
+        run=run.label,
+        meaning=f"largest residual of any increment of the {len(runs)} run(s); it is in this one",
+        unit="",
+        value=finite(residual),
+        reference=0.0,
+        reference_kind=ReferenceKind.IDENTITY,
+        source="the equations of contact and friction, evaluated afresh after every increment",
+        error=finite(residual),
+        allowed=run.tolerance,
+        scale=1.0,
+        scale_name="dimensionless",
+        tolerance_kind="required",
+        because="every increment ends within the tolerance that was asked for",
+        status=Status.PASS if residual <= run.tolerance else Status.FAIL,
+    )
+
+
+def unsolved(run: Run | SectionRun, message: str) -> Verdict:
+    """The verdict on a run that the solver gave up."""
+    return Verdict(
+        name="solved",
+        run=run.label,
+        meaning=f"the solver gave up: {message}",
+        unit="",
+        value=None,
+        reference=0.0,
+        reference_kind=ReferenceKind.IDENTITY,
+        source="every run of a case has a solution",
+        error=None,
+        allowed=run.tolerance,
+        scale=1.0,
+        scale_name="dimensionless",
+        tolerance_kind="required",
+        because="a run without a result cannot be judged",
+        status=Status.FAIL,
+    )
+
+
+def finite(value: float) -> float | None:
+    """The value for a record that holds no NaN and no infinity."""
+    return float(value) if math.isfinite(value) else None
+
+
+def _spacings(case: Case, levels: tuple[str, ...]) -> list[float]:
+    return [case.run(label).spacing for label in levels]

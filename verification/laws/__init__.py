@@ -1,0 +1,1 @@
+"""Laws of frequency responses and influence coefficients."""

@@ -1,0 +1,176 @@
+"""Laws of the surface FRF about limits, bounds and monotonicity: P9, P10, P12 to P18."""
+
+import numpy as np
+from numpy.random import Generator
+
+from semi_analytical.frf.depth import Descent, Level
+from semi_analytical.frf.matrix import frf_matrix
+from semi_analytical.frf.stack import Film, HalfSpace, Stack
+from semi_analytical.frf.surface import half_space_scalars, remainder_scalars, scalars
+from semi_analytical.frf.uniform_load import uniform_load_matrix
+from verification.laws.law import ROUNDING, Law, apart, deficit
+from verification.laws.random_stacks import decades, film, half_space, stack, wave_vector
+
+# Bound of the echo of whatever lies below the outer layer, in units of 1/(G alpha): 24 (1 - nu) is
+# reached on the softest base at x = 1.
+ECHO = 50.0
+
+
+def _thin(rng: Generator) -> float:
+    """Difference of the observed order from one, for contrasts up to a hundred."""
+    base = half_space(rng)
+    coating = base.shear_modulus * decades(rng, -2, 2), half_space(rng).poisson_ratio
+    limit = np.array(scalars(Stack((), base), 1.0))
+    far, near = (
+        np.abs(np.array(scalars(Stack([(*coating, h)], base), 1.0)) - limit).max()
+        for h in (2e-6, 1e-6)
+    )
+    # Below this the difference is rounding, which has no order.
+    return abs(float(np.log2(far / near)) - 1) if near > 1e-12 * limit.max() else 0.0
+
+
+def _thick(rng: Generator) -> float:
+    """Distance from the outer half-space, over its bound."""
+    body, x = stack(rng), rng.uniform(1, 300)
+    alpha = x / body.layers[0].thickness
+    outer = half_space_scalars(body.outer, alpha)
+    bound = ECHO * (1 + x * x) * np.exp(-2 * x) + ROUNDING
+    difference = np.subtract(scalars(body, alpha), outer)
+    return float(np.abs(difference).max() / (bound * float(outer.csh)))
+
+
+def _stiffer(rng: Generator) -> float:
+    body, k, factor = stack(rng), wave_vector(rng), decades(rng, 0, 3)
+    place = int(rng.integers(0, len(body.layers) + (body.base is not None)))
+    if place == len(body.layers) and body.base is not None:
+        stiffer = Stack(body.layers, (factor * body.base[0], body.base[1]))
+    else:
+        stiffer = _with_film(body, place, body.layers[place]._replace(
+            shear_modulus=factor * body.layers[place].shear_modulus))  # fmt: skip
+    return deficit(frf_matrix(body, *k), frf_matrix(stiffer, *k))
+
+
+def _less_compressible(rng: Generator) -> float:
+    body, k = stack(rng), wave_vector(rng)
+    low, high = sorted((body.layers[0].poisson_ratio, half_space(rng).poisson_ratio))
+    return deficit(
+        *(
+            frf_matrix(_with_film(body, 0, body.layers[0]._replace(poisson_ratio=nu)), *k)
+            for nu in (low, high)
+        )
+    )
+
+
+def _thicker(rng: Generator) -> float:
+    (G, nu), k = half_space(rng), wave_vector(rng)
+    soft, h, factor = G / decades(rng, 0, 3), film(rng).thickness, rng.uniform(1, 10)
+    thick, thin = (frf_matrix(Stack([(soft, nu, t)], (G, nu)), *k) for t in (factor * h, h))
+    return deficit(thick, thin)
+
+
+def _between(rng: Generator) -> float:
+    one, other, k = half_space(rng), half_space(rng), wave_vector(rng)
+    soft = HalfSpace(*map(min, one, other))
+    stiff = HalfSpace(*map(max, one, other))
+    F = frf_matrix(Stack([(*soft, film(rng).thickness)], stiff), *k)
+    below = frf_matrix(Stack((), soft), *k)
+    return max(deficit(below, F), deficit(F, frf_matrix(Stack((), stiff), *k)))
+
+
+def _rigid_limit(rng: Generator) -> float:
+    """Difference of the observed order from one."""
+    films = [film(rng) for _ in range(rng.integers(1, 4))]
+    x = decades(rng, -2, 1)
+    alpha = x / films[-1].thickness
+    rigid = np.array(scalars(Stack(films), alpha))
+    G = films[-1].shear_modulus * 1e4 * max(1.0, 1 / x)
+    far, near = (
+        np.abs(np.array(scalars(Stack(films, (stiff, 0.3)), alpha)) - rigid).max()
+        for stiff in (G, 2 * G)
+    )
+    return abs(float(np.log2(far / near)) - 1) if near > 1e-10 * rigid.max() else 0.0
+
+
+def _long_waves(rng: Generator) -> float:
+    films = [film(rng) for _ in range(rng.integers(1, 4))]
+    softest = min(f.shear_modulus for f in films)
+    uniform = uniform_load_matrix(Stack(films))
+    contrast = max(f.shear_modulus for f in films) / softest
+    alpha = 1e-9 / (contrast * sum(f.thickness for f in films))
+    return apart(frf_matrix(Stack(films), alpha, 0.0), uniform.astype(np.complex128))
+
+
+def _incompressible(rng: Generator) -> float:
+    body, alpha = stack(rng), np.hypot(*wave_vector(rng))
+    G, _, h = body.layers[0]
+    limit, close = (
+        np.array(scalars(_with_film(body, 0, Film(G, nu, h)), alpha)) for nu in (0.5, 0.5 - 1e-13)
+    )
+    # d(1/M)/d(nu) = -4/G per unit thickness, at most, and a few more for c11 and c12.
+    scale = limit.max() + min(h, 1 / alpha) / G
+    return float(np.abs(close - limit).max() / scale)
+
+
+def _echo(rng: Generator) -> float:
+    """Remainder of a body with one layer, over its bound."""
+    body, x = stack(rng, most_layers=1), rng.uniform(1, 300)
+    G, _, h = body.layers[0]
+    echo = np.array(remainder_scalars(body, x / h)) * (x / h) * G
+    bound = (ECHO if x < 2 else ECHO / 3) * (1 + x * x) * np.exp(-2 * x)
+    return float(np.abs(echo).max() / bound)
+
+
+def _overflow(rng: Generator) -> float:
+    body, m = stack(rng), decades(rng, 3, 6)
+    values = [*frf_matrix(body, m, -m).ravel(), *remainder_scalars(body, m)]
+    return float(np.count_nonzero(~np.isfinite(values)))
+
+
+def _depth(rng: Generator) -> float:
+    """Surface traction and FRF found again at z = 0, and both sides of interfaces compared."""
+    body = stack(rng, most_layers=3)
+    alpha = np.array([rng.uniform(0.1, 3) / sum(f.thickness for f in body.layers)])
+    descent = Descent(body, alpha)
+    top = descent.at(Level(0.0, 0))
+    c11, c12, c22, _ = scalars(body, alpha)
+    surface = np.array([[c11, c12], [c12, c22]])
+    worst = max(
+        float(np.abs(top.traction[..., 0] - np.eye(2)).max()),
+        float(np.abs(top.displacement - surface).max() / np.abs(surface).max()),
+    )
+    below = len(body.layers) - (body.base is None)
+    for k, depth in enumerate(np.cumsum([f.thickness for f in body.layers])[:below]):
+        above, under = (descent.at(Level(float(depth), layer)) for layer in (k, k + 1))
+        for one, other, scale in (
+            (above.traction, under.traction, 1.0),
+            (above.displacement, under.displacement, np.abs(surface).max()),
+        ):
+            worst = max(worst, float(np.abs(one - other).max() / scale))
+    return worst
+
+
+def _with_film(body: Stack, place: int, new: Film) -> Stack:
+    return Stack([*body.layers[:place], new, *body.layers[place + 1 :]], body.base)
+
+
+LIMIT_LAWS = (
+    Law("thin_layer_order", "P9", "a vanishing layer leaves the substrate at first order in h; "
+        "distance of the observed order from one", _thin, 0.02),
+    Law("thick_layer", "P10", "short waves feel the outer layer alone; distance over the bound "
+        "50 (1 + x²) e⁻²ˣ / αG, x = αh", _thick, 1.0),
+    Law("stiffer", "P12", "stiffer material anywhere yields less (Loewner order)", _stiffer),
+    Law("less_compressible", "P12", "a larger ν at fixed G yields less", _less_compressible),
+    Law("thicker", "P13", "a thicker soft layer yields more", _thicker),
+    Law("between", "P13", "the response lies between those of the two half-spaces", _between),
+    Law("rigid_limit_order", "P14", "a rigid base is the limit of stiff ones at first order in "
+        "1/G; distance of the observed order from one", _rigid_limit, 0.02),
+    Law("long_waves", "P14", "long waves over a rigid base shear and squeeze every layer "
+        "uniformly", _long_waves, 1e-8),
+    Law("incompressible", "P15", "nothing happens at ν = ½: the difference to ν = ½ - 1e-13",
+        _incompressible, 1e-12),
+    Law("echo", "P16", "the remainder of one layer dies like its echo; over the bound", _echo, 1.0),
+    Law("finite", "P17", "nothing overflows up to αh = 1e8: entries that are not finite", _overflow,
+        0.5),
+    Law("depth", "P18", "at z = 0 the applied traction and the FRF are found again; traction and "
+        "displacement are continuous at interfaces", _depth, 1e-12),
+)  # fmt: skip

@@ -1,0 +1,55 @@
+"""The numbers that cases read off the end of a run, or of one of its loading steps."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, TypeAlias
+
+from contact_results.quantities import force_along_x, shift_along_x
+
+if TYPE_CHECKING:
+    import fem_reference
+    import semi_analytical
+
+    Result: TypeAlias = semi_analytical.Result | fem_reference.Result
+
+
+def normal_force(result: Result) -> float:
+    """Normal force [force]."""
+    return float(result.steps[-1].normal_force)
+
+
+def approach(result: Result) -> float:
+    """Approach since first touch [length]."""
+    return float(result.steps[-1].approach)
+
+
+def peak_pressure(result: Result) -> float:
+    """Largest pressure of any cell or ring [force/length²]."""
+    return float(result.steps[-1].peak_pressure)
+
+
+def contact_radius(result: Result) -> float:
+    """√(contact area / π) [length]."""
+    return float(result.steps[-1].contact_radius)
+
+
+def stick_radius(result: Result, step: int = -1) -> float:
+    """√(stick area / π) [length]; NaN without friction.
+
+    step  index of the loading step
+    """
+    radius = result.steps[step].stick_radius
+    return float("nan") if radius is None else float(radius)
+
+
+def shift(result: semi_analytical.Result, step: int = -1) -> float:
+    """Tangential shift along x [length].
+
+    step  index of the loading step
+    """
+    return shift_along_x(result.steps[step])
+
+
+def tangential_force(result: semi_analytical.Result) -> float:
+    """Tangential force along x [force]."""
+    return force_along_x(result.steps[-1])

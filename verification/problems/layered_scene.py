@@ -1,0 +1,73 @@
+"""The paper's coated scene: its bodies, and what their surfaces answer in the semi-closed form."""
+
+from __future__ import annotations
+
+from functools import cache
+
+import numpy as np
+from numpy.typing import NDArray
+
+from contact_scene import RIGID, Body, IsotropicMaterial, Layer, LoadStep, Paraboloid, Scene
+from semi_analytical.frf.stack import stack_of
+from semi_analytical.frf.surface import scalars
+from verification.closed_forms.coated_indentation import (
+    LayeredIndentation,
+    LayeredSurface,
+    paraboloid_under,
+)
+from verification.problems import paper_scene as paper
+from verification.problems.paper_scene import HERTZ
+from verification.problems.reference import Reference, ReferenceKind
+
+SUBSTRATE = IsotropicMaterial(young_modulus=210e9, poisson_ratio=0.3)
+FREDHOLM = "Fredholm equation for the Abel transform of the pressure, to 1e-13"
+# Of the semi-closed solution: measured against the shipped reference rows.
+SEMI_CLOSED_ERROR = 1e-12
+
+
+def film(modulus_ratio: float, thickness_over_radius: float) -> Layer:
+    """A coating: Young's modulus over the substrate's, thickness over the Hertz radius."""
+    material = IsotropicMaterial(
+        young_modulus=modulus_ratio * SUBSTRATE.young_modulus, poisson_ratio=0.3
+    )
+    return Layer(thickness=thickness_over_radius * HERTZ.contact_radius, material=material)
+
+
+def coated(*layers: Layer) -> Body:
+    """The substrate under these layers, outermost first."""
+    return Body(material=SUBSTRATE, layers=layers)
+
+
+def rigid_ball() -> Paraboloid:
+    """The paper's ball as a rigid paraboloid."""
+    return Paraboloid(radius=paper.RADIUS, material=RIGID)
+
+
+def pressed(title: str, indenter: Paraboloid, body: Body, load: LoadStep | None = None) -> Scene:
+    """Indenter on a body under the paper's force unless another load is given."""
+    step = load or LoadStep(normal_force=paper.NORMAL_FORCE)
+    return Scene(title=title, indenter=indenter, body=body, loading=(step,))
+
+
+@cache
+def surface_of(*bodies: Body) -> LayeredSurface:
+    """The answer of two bodies, or of one under a rigid one, to pressure."""
+    stacks = [stack_of(body) for body in bodies if body.deforms]
+
+    def compliance(k: NDArray[np.float64]) -> NDArray[np.float64]:
+        return np.asarray(sum(scalars(stack, k).c22 for stack in stacks))
+
+    outer = sum((1 - stack.outer.poisson_ratio) / stack.outer.shear_modulus for stack in stacks)
+    thickness = min(stack.layers[0].thickness for stack in stacks if stack.layers)
+    return LayeredSurface(compliance, 2 / outer, thickness)
+
+
+@cache
+def exact_contact(*bodies: Body) -> LayeredIndentation:
+    """The paper's ball on these bodies under the paper's force, semi-closed."""
+    return paraboloid_under(paper.NORMAL_FORCE, surface_of(*bodies), paper.RADIUS)
+
+
+def semi_closed(value: float, source: str = FREDHOLM) -> Reference:
+    """A number of the semi-closed solution."""
+    return Reference(value, ReferenceKind.SEMI_CLOSED, source, SEMI_CLOSED_ERROR * abs(value))

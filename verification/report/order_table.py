@@ -1,0 +1,76 @@
+"""Quantities whose order of convergence is not judged under a kind of refinement, and why.
+
+The tables are complete for the standard and for the full level: a test compares them with what
+these judge.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from itertools import product
+
+from verification.judging.order_of_convergence import Followed, Refinement
+from verification.judging.outcome import CaseOutcome
+from verification.judging.run import Run, SectionRun
+
+SURFACE, SECTION = Run.solver, SectionRun.solver
+BY_COUPLING = "friction moves pressures by the coupling alone; the approach, their mean, is judged"
+SCATTERS = "increments move it by less than a part of a cell or element: scatter, of no order"
+NOTHING_TO_REFINE = (
+    "a twist does not act back on the pressure: bodies pressed and twisted once need one increment"
+)
+ELSEWHERE = "judged by other cases, or from the standard level on"
+# Not judged at the standard level, but at the full one.
+LATER = {
+    (Followed.ENERGY, SURFACE, Refinement.INCREMENTS): (
+        "up to 64 increments per step it falls faster than by any one order; judged at the full "
+        "level, on more of them"
+    ),
+}
+REASONS = {
+    (Followed.PRESSURE, SURFACE, Refinement.INCREMENTS): BY_COUPLING,
+    (Followed.PRESSURE, SECTION, Refinement.INCREMENTS): BY_COUPLING,
+    (Followed.PEAK_PRESSURE, SURFACE, Refinement.INCREMENTS): SCATTERS,
+    (Followed.PEAK_PRESSURE, SECTION, Refinement.INCREMENTS): SCATTERS,
+    (Followed.CONTACT_RADIUS, SURFACE, Refinement.INCREMENTS): SCATTERS,
+    (Followed.CONTACT_RADIUS, SECTION, Refinement.MESH): (
+        "the error is A h + B h², A from reading the edge off the last two pressures and B from "
+        "these; on the meshes of fem_hertz neither dominates, as its chart shows"
+    ),
+    (Followed.SHIFT, SECTION, Refinement.INCREMENTS): (
+        "bodies that are alike need one increment; of those that couple coupled_history holds the "
+        "shift against the other solver on the same increments, and sheared_increments judges the "
+        "order of that one"
+    ),
+    (Followed.TWIST, SURFACE, Refinement.MESH): (
+        "the rim of a punch is a staircase of cells; torsion judges the order of its shear"
+    ),
+    (Followed.TWIST, SURFACE, Refinement.INCREMENTS): NOTHING_TO_REFINE,
+    (Followed.TWIST, SECTION, Refinement.INCREMENTS): NOTHING_TO_REFINE,
+}
+
+
+@dataclass(frozen=True)
+class NotJudged:
+    """A gap in the table of orders."""
+
+    of: Followed
+    solver: str
+    refined: Refinement
+    reason: str
+
+
+def not_judged(outcomes: Iterable[CaseOutcome]) -> tuple[NotJudged, ...]:
+    """What no verdict of these cases judges the order of."""
+    judged = {
+        (verdict.order.of, verdict.order.solver, verdict.order.refined)
+        for case in outcomes
+        for verdict in case.verdicts
+        if verdict.order is not None
+    }
+    return tuple(
+        NotJudged(*place, (REASONS | LATER).get(place, ELSEWHERE))
+        for place in product(Followed, (SURFACE, SECTION), Refinement)
+        if place not in judged
+    )

@@ -1,0 +1,60 @@
+"""The block of a report that differs between equal runs."""
+
+from __future__ import annotations
+
+import subprocess
+from collections.abc import Iterable
+from datetime import UTC, datetime
+from pathlib import Path
+
+from contact_results.directory.code_digest import code_digest
+from contact_results.directory.machine import library_versions, machine, program_version
+from verification.running.report_record import Benchmark, Provenance
+from verification.running.study import Conclusion
+
+SOURCE = Path(__file__).resolve().parents[2]
+SECONDS_FOR_GIT = 10
+
+
+def provenance(
+    command: str,
+    seconds: dict[str, float],
+    benchmarks: Iterable[Benchmark] = (),
+    timed: Conclusion | None = None,
+) -> Provenance:
+    """Versions, machine, commit and times of this process.
+
+    command     the command that makes the same report again
+    seconds     wall seconds by case
+    benchmarks  measured on the way
+    timed       what a study finds by its seconds
+    """
+    # Of what computes: a kept report or record that this very command replaces is no change.
+    commit, changes = _git("rev-parse", "HEAD"), _git("status", "--porcelain", ".", ":!reports")
+    return Provenance(
+        program_version=program_version(),
+        commit=commit,
+        changed=commit is not None and changes != "",  # where git does not say: they may differ
+        sources=code_digest().hex(),
+        command=command,
+        date=datetime.now(UTC).isoformat(timespec="seconds"),
+        machine=machine(),
+        libraries=library_versions(),
+        seconds={name: round(value, 2) for name, value in seconds.items()},
+        benchmarks=tuple(benchmarks),
+        timed=timed,
+    )
+
+
+def _git(*arguments: str) -> str | None:
+    """What git says about the source; None if it is no repository or there is no git."""
+    if not (SOURCE / ".git").exists():
+        return None
+    try:
+        answer = subprocess.run(
+            ["git", "-C", str(SOURCE), *arguments],
+            capture_output=True, text=True, timeout=SECONDS_FOR_GIT, check=True,
+        )  # fmt: skip
+    except (OSError, subprocess.SubprocessError):
+        return None
+    return answer.stdout.strip()

@@ -1,0 +1,54 @@
+"""`study.json`: the conclusion of a study with what was lost and who made it."""
+
+from __future__ import annotations
+
+import json
+
+from pydantic import model_validator
+
+from contact_scene.description import Description
+from verification.exhibits.chart import Chart
+from verification.judging.outcome import Status
+from verification.running.provenance_record import Provenance
+from verification.running.study import STUDY_VERSION, Conclusion, LostCase
+
+
+class StudyRecord(Description):
+    """All that the page of a study shows."""
+
+    schema_version: int = STUDY_VERSION
+    name: str
+    title: str
+    question: str
+    level: str
+    conclusion: Conclusion
+    lost: tuple[LostCase, ...]
+    """Cases that have no record: the conclusion does without them."""
+
+    provenance: Provenance
+
+    @model_validator(mode="after")
+    def _is_of_this_version(self) -> StudyRecord:
+        if self.schema_version != STUDY_VERSION:
+            raise ValueError(f"it is of version {self.schema_version}, not {STUDY_VERSION}")
+        return self
+
+    @property
+    def charts(self) -> tuple[Chart, ...]:
+        """All that it draws."""
+        timed = self.provenance.timed
+        return (*self.conclusion.charts, *(timed.charts if timed is not None else ()))
+
+    @property
+    def status(self) -> Status:
+        """Fail if a statement failed or a case was lost."""
+        outcomes = {statement.outcome for statement in self.conclusion.statements}
+        if self.lost or Status.FAIL in outcomes:
+            return Status.FAIL
+        return Status.INCONCLUSIVE if Status.INCONCLUSIVE in outcomes else Status.PASS
+
+
+def dump_study(record: StudyRecord) -> str:
+    """The record as JSON text, every key present."""
+    values = record.model_dump(mode="json")
+    return json.dumps(values, indent=1, ensure_ascii=False, allow_nan=False) + "\n"

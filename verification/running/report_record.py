@@ -1,0 +1,118 @@
+"""`report.json`: all that a report shows. Only `provenance` differs between two equal runs."""
+
+import json
+from pathlib import Path
+from typing import Any
+
+from pydantic import ValidationError, model_validator
+
+from contact_scene.description import Description
+from verification.judging.case import Level
+from verification.judging.change import GoneCase
+from verification.judging.outcome import CaseOutcome, Status, Verdict
+from verification.running.provenance_record import Benchmark, Provenance
+from verification.running.record import StudyRecord
+
+__all__ = ["Benchmark", "Provenance", "Report"]
+
+REPORT_VERSION = 1
+
+
+class Report(Description):
+    """A verification report."""
+
+    schema_version: int = REPORT_VERSION
+    level: str
+    counts: dict[Status, int]
+    """How many verdicts ended how."""
+
+    cases: tuple[CaseOutcome, ...]
+    omissions: tuple[str, ...]
+    """What is not verified, and known limits."""
+
+    provenance: Provenance
+    studies: tuple[StudyRecord, ...] = ()
+    """Records of studies, each made by its own command."""
+
+    chosen: bool = False
+    """Whether only cases that were asked for ran; otherwise all of the level did."""
+
+    gone: tuple[GoneCase, ...] = ()
+    """Recorded cases that a report of all cases does not have any more."""
+
+    @model_validator(mode="after")
+    def _counts_what_it_lists(self) -> "Report":
+        if self.schema_version != REPORT_VERSION:
+            raise ValueError(f"it is of version {self.schema_version}, not {REPORT_VERSION}")
+        levels = [level.name.lower() for level in Level]
+        if self.level not in levels:
+            raise ValueError(f"its level is {self.level!r}, not {', '.join(levels)}")
+        names = [case.name for case in self.cases]
+        twice = sorted({name for name in names if names.count(name) > 1})
+        if twice:
+            raise ValueError(f"it has a case twice: {', '.join(twice)}")
+        if self.counts != (counted := count(self.cases)):
+            raise ValueError(
+                f"it counts {_counts_text(self.counts)}, but lists {_counts_text(counted)}"
+            )
+        return self
+
+    @property
+    def status(self) -> Status:
+        """Fail if anything failed; inconclusive only if nothing did."""
+        if self.counts[Status.FAIL] or self.failed_studies:
+            return Status.FAIL
+        return Status.INCONCLUSIVE if not self.counts[Status.PASS] else Status.PASS
+
+    @property
+    def failures(self) -> tuple[tuple[CaseOutcome, Verdict], ...]:
+        """Every failed verdict with its case."""
+        return tuple(
+            (case, verdict)
+            for case in self.cases
+            for verdict in case.verdicts
+            if verdict.status is Status.FAIL
+        )
+
+    @property
+    def failed_studies(self) -> tuple[StudyRecord, ...]:
+        """Studies that failed and were made by the sources of this report."""
+        return tuple(
+            study
+            for study in self.studies
+            if study.status is Status.FAIL and study.provenance.has_sources_of(self.provenance)
+        )
+
+
+def count(cases: tuple[CaseOutcome, ...]) -> dict[Status, int]:
+    """Verdicts of all cases by status, every status present."""
+    return {status: sum(case.count(status) for case in cases) for status in Status}
+
+
+def _counts_text(counts: dict[Status, int]) -> str:
+    return ", ".join(f"{counts.get(status, 0)} {status}" for status in Status)
+
+
+def dump_report(report: Report) -> str:
+    """The report as JSON text, every key present."""
+    record = report.model_dump(mode="json")
+    return json.dumps(record, indent=1, ensure_ascii=False, allow_nan=False) + "\n"
+
+
+def load_report(path: Path) -> Report:
+    """The report back from its file; ValueError, in one line, for what is no report of this version
+    or contradicts itself; OSError if unreadable."""
+    text = path.read_text(encoding="utf-8")
+    try:
+        return Report.model_validate_json(text)
+    except ValidationError as error:
+        first = error.errors(include_url=False)[0]
+        place = ".".join(map(str, first["loc"]))
+        problem = first["msg"].removeprefix("Value error, ")
+        raise ValueError(f"{place}: {problem}" if place else problem) from None
+
+
+def report_schema() -> dict[str, Any]:
+    """JSON Schema of `report.json`."""
+    schema = Report.model_json_schema(mode="serialization")
+    return {"$schema": "https://json-schema.org/draft/2020-12/schema", **schema}

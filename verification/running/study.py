@@ -1,0 +1,106 @@
+"""A study: cases that are computed one by one, and what is concluded from all of them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import ClassVar, Protocol
+
+from contact_scene.description import Description
+from verification.exhibits.chart import Chart
+from verification.exhibits.table import Table
+from verification.judging.case import Level
+from verification.judging.outcome import Status
+
+STUDY_VERSION = 1
+
+
+class StudyCase(Protocol):
+    """A frozen dataclass of plain values that says what to compute; it is sent to a worker.
+
+    record_type  what `compute` returns, so that it can be read back from its file
+    """
+
+    record_type: ClassVar[type[Description]]
+
+    @property
+    def name(self) -> str:
+        """Names the case within its study: letters, digits and hyphens."""
+
+    def compute(self) -> Description:
+        """Do the work; raises what the solvers raise."""
+
+
+@dataclass(frozen=True)
+class Settings:
+    """How much is computed.
+
+    level   decides what is left open
+    cells   of the finest grid along each side; None leaves it to the level
+    levels  of refinement, for studies that refine; None leaves it to the level
+    """
+
+    level: Level
+    cells: int | None = None
+    levels: int | None = None
+
+
+class Statement(Description):
+    """One line of the verdict: a claim, how it was judged, and the numbers behind it."""
+
+    claim: str
+    outcome: Status | None
+    """None for a finding: a number that is reported and not judged."""
+
+    measured: str
+    because: str = ""
+
+
+class LostCase(Description):
+    """A case without a record."""
+
+    name: str
+    reason: str
+
+
+class Conclusion(Description):
+    """What a study shows. Texts are for people; the numbers behind them are in the records."""
+
+    statements: tuple[Statement, ...]
+    answer: str = ""
+    """To the question of the study, in a sentence; empty where only the statements answer it."""
+
+    tables: tuple[Table, ...] = ()
+    charts: tuple[Chart, ...] = ()
+    remarks: tuple[str, ...] = ()
+    """What is assumed, and what the study does not show."""
+
+    @property
+    def failed(self) -> bool:
+        """Whether a statement failed."""
+        return any(statement.outcome is Status.FAIL for statement in self.statements)
+
+
+Records = Mapping[str, Description]
+
+
+@dataclass(frozen=True)
+class Study:
+    """A study of the catalogue.
+
+    title     a line for lists and the head of the page
+    question  what it is about, for a reader
+    cases     what has to be computed
+    conclude  from the records that there are, by name of the case: some may be missing
+    exports   more files from the records, text by file name
+    timed     what follows from the seconds in the records, which no run repeats; it goes into the
+              provenance, so that all else is the same at every run
+    """
+
+    name: str
+    title: str
+    question: str
+    cases: Callable[[Settings], tuple[StudyCase, ...]]
+    conclude: Callable[[Settings, Records], Conclusion]
+    exports: Callable[[Settings, Records], Mapping[str, str]] = lambda settings, records: {}
+    timed: Callable[[Settings, Records], Conclusion | None] = lambda settings, records: None

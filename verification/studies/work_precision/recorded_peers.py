@@ -1,0 +1,147 @@
+"""What other codes are recorded to have found and spent, beside our own method."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from math import inf
+from typing import Any
+
+from verification.exhibits.chart import Chart, Look, Panel, curve
+from verification.exhibits.numbers import plain
+from verification.exhibits.table import Table
+from verification.references import load_reference
+from verification.studies.work_precision.point import Point, cheapest, dependable, seconds
+
+NAME = "peers"
+HEIGHT = 2.4
+OTHERS = "other codes, recorded"
+BESIDE = "semi-analytical, in their turn"  # our own runs of the record
+OURS = "slipstick"
+TOLD = (0.01, 0.001)  # errors that costs are told for
+JUDGED = {"hertz": ("pressure", "Hertz: pressure, L2"), "cattaneo": (
+    "shear", "Cattaneo-Mindlin, ν = 0: shear at 0.9 µW, Σ|q - q_exact| / Σµp")}  # fmt: skip
+
+Record = Mapping[str, Any]
+Points = Mapping[tuple[str, str], tuple[Point, ...]]
+
+
+def recorded_peers() -> Record:
+    """The record that `measure` wrote."""
+    return load_reference(NAME)
+
+
+def peer_charts(record: Record) -> tuple[Chart, ...]:
+    """Error against CPU seconds, one curve for every code."""
+    codes = _codes(record)
+    charts = []
+    for contact, (quantity, meaning) in JUDGED.items():
+        curves = [
+            curve(
+                code,
+                [run["seconds"] for run in runs],
+                [abs(run["errors"][quantity]) for run in runs],
+                Look.POINTS,
+                series,
+            )
+            for series, code in enumerate(codes)
+            if (runs := _converged(record, contact, code))
+        ]
+        panel = Panel(
+            x_label="CPU seconds", y_label="relative error", curves=tuple(curves),
+            logarithmic=True, height=HEIGHT,
+        )  # fmt: skip
+        charts.append(
+            Chart(
+                name=f"peers_{contact}",
+                title=f"Other codes, {meaning}",
+                caption="Error against CPU seconds of one thread, set-up included, on grids of "
+                f"{_cells(record)} cells a side; all codes in turn on one machine. They share "
+                "cells of constant traction, and so the error of a grid.",
+                rows=((panel,),),
+            )
+        )
+    return tuple(charts)
+
+
+def peer_points(record: Record) -> Points:
+    """By contact and quantity, of every converged run: errors and seconds, no counted work. A code
+    is a curve of the method OTHERS, and our own runs between them are the method BESIDE."""
+    found: dict[tuple[str, str], list[Point]] = {}
+    for run in record["runs"]:
+        if not run.get("converged"):
+            continue
+        method = BESIDE if run["code"] == OURS else OTHERS
+        n = run["cells"]
+        for quantity, error in run["errors"].items():
+            point = Point(method, run["code"], f"{n} x {n}", n, abs(error), run["seconds"], inf)
+            found.setdefault((run["contact"], quantity), []).append(point)
+    # What no other code was asked for compares nothing.
+    return {key: tuple(p) for key, p in found.items() if any(q.method == OTHERS for q in p)}
+
+
+def peer_answer(record: Record) -> str:
+    """What an accuracy costs with every code, cheapest first, all in turn on one machine."""
+    points, parts, first = peer_points(record), [], []
+    for contact, (quantity, meaning) in JUDGED.items():
+        steady = dependable(points.get((contact, quantity), ()))
+        for target in TOLD:
+            if ranked := _ranked(steady, target):
+                costs = ", ".join(f"{p.curve} {plain(p.seconds, 2)} s" for p in ranked)
+                parts.append(f"{meaning} to {100 * target:g} %: {costs}")
+                first.append(ranked[0].curve)
+    if not parts:
+        return ""
+    return (
+        f"Other codes in turn with ours, recorded on {record['date']}: ours is the cheapest in "
+        f"{first.count(OURS)} of {len(first)}; cheapest first, {'; '.join(parts)}."
+    )
+
+
+def _ranked(points: Sequence[Point], target: float) -> list[Point]:
+    """What every code that reaches it pays, cheapest first."""
+    codes = dict.fromkeys(point.curve for point in points)
+    best = [cheapest([p for p in points if p.curve == code], target, seconds) for code in codes]
+    return sorted((p for p in best if p is not None), key=seconds)
+
+
+def peer_table(record: Record) -> Table:
+    """Every run."""
+    rows = []
+    for run in record["runs"]:
+        words = f"{run['code']} {run.get('version', '')}".strip()
+        grid = f"{run['contact']}, {run['cells']} x {run['cells']}"
+        if "lost" in run:
+            rows.append((words, grid, "–", "–", run["lost"]))
+            continue
+        error = run["errors"][JUDGED[run["contact"]][0]]
+        state = "converged" if run["converged"] else "not converged"
+        rows.append((words, grid, plain(error, 2), plain(run["seconds"], 2), state))
+    return Table(
+        title="Other codes, run by run",
+        columns=("code", "problem", "error", "CPU seconds", "end"),
+        rows=tuple(rows),
+        note=f"Recorded on {record['date']}, Python {record['python']}.",
+    )
+
+
+def peer_remarks(record: Record) -> tuple[str, ...]:
+    """What the comparison rests on, and who is missing."""
+    missing = [f"{name} could not be installed: {why}." for name, why in record["missing"].items()]
+    return (f"Other codes: {record['problem']}.", *missing)
+
+
+def _cells(record: Record) -> str:
+    cells = [run["cells"] for run in record["runs"]]
+    return f"{min(cells)} to {max(cells)}"
+
+
+def _codes(record: Record) -> list[str]:
+    return list(dict.fromkeys(run["code"] for run in record["runs"]))
+
+
+def _converged(record: Record, contact: str, code: str) -> list[Record]:
+    return [
+        run
+        for run in record["runs"]
+        if (run["contact"], run["code"]) == (contact, code) and run.get("converged")
+    ]
