@@ -90,6 +90,10 @@ ORDERS = {
         *("cases", "defects", "studies", "peers", "benchmarks"),
         "report",
     ),
+    "verification.studies.stability": (
+        *("cell", "record", "loading", "pose", "solvers", "judged", "views"),
+        *("verdicts", "charts", "tables", "study"),
+    ),
 }
 
 # What the modules within each name may not import.

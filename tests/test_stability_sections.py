@@ -12,6 +12,7 @@ from contact_scene import FiniteElementDiscretisation
 from fem_reference import Increment, Method, Result, solve
 from verification.observed.sections import section_laws
 from verification.studies.stability.cell import LoadingPath, Solver, StabilityCell, Surface
+from verification.studies.stability.judged import judged
 from verification.studies.stability.pose import TOLERANCE, pose
 from verification.studies.stability.record import Verdict
 
@@ -39,7 +40,7 @@ CELLS = [
 @pytest.mark.parametrize("solver", BOTH)
 @pytest.mark.parametrize("cell", CELLS, ids=lambda cell: cell.name)
 def test_hard_cell_converges(cell: StabilityCell, solver: Solver) -> None:
-    record = replace(cell, solver=solver).compute()
+    record = judged(replace(cell, solver=solver))
     assert record.verdict is Verdict.CONVERGED, record.reason
     assert record.residual is not None
     assert record.observed is not None
@@ -62,7 +63,7 @@ def test_hard_cell_converges(cell: StabilityCell, solver: Solver) -> None:
 def test_what_has_no_solution_is_refused_by_name(
     change: dict[str, Any], reason: str, solver: Solver
 ) -> None:
-    record = replace(ORDINARY, **change, solver=solver).compute()
+    record = judged(replace(ORDINARY, **change, solver=solver))
     assert record.verdict is Verdict.REFUSED
     assert reason in record.reason
     assert replace(ORDINARY, **change).posable == (reason != "UnsupportedScene")

@@ -14,9 +14,10 @@ from verification.observed.surfaces import surface_violation
 from verification.report.drawing import look_of
 from verification.running.case_store import CaseStore
 from verification.running.study import Settings
-from verification.studies.stability import judged, solvers, study, verdicts
+from verification.studies.stability import solvers, study, verdicts
 from verification.studies.stability.cell import LoadingPath, Solver, StabilityCell, Surface
 from verification.studies.stability.charts import CLASSES, class_of, view_chart
+from verification.studies.stability.judged import StabilityRun, judged
 from verification.studies.stability.pose import Posed, pose
 from verification.studies.stability.record import CellRecord, Verdict
 from verification.studies.stability.solvers import Solved, by_superposition
@@ -48,7 +49,10 @@ def test_different_cells_have_different_names_and_files(tmp_path: object) -> Non
     ]  # fmt: skip
     assert len({cell.name for cell in cells}) == len(cells)
     store = CaseStore(tmp_path)
-    assert all(store.path(a) != store.path(b) for a, b in combinations(cells, 2))
+    assert all(
+        store.path(StabilityRun(a)) != store.path(StabilityRun(b))
+        for a, b in combinations(cells, 2)
+    )
 
 
 @pytest.mark.parametrize(
@@ -76,7 +80,7 @@ def test_different_cells_have_different_names_and_files(tmp_path: object) -> Non
     ids=lambda cell: cell.name,
 )
 def test_hard_cell_converges(cell: StabilityCell) -> None:
-    record = cell.compute()
+    record = judged(cell)
     assert record.verdict is Verdict.CONVERGED, record.reason
     assert record.residual is not None
     assert record.residual <= record.tolerance <= 1e-7
@@ -84,14 +88,14 @@ def test_hard_cell_converges(cell: StabilityCell) -> None:
 
 
 def test_more_than_friction_carries_is_refused() -> None:
-    record = replace(ORDINARY, push=1.001).compute()
+    record = judged(replace(ORDINARY, push=1.001))
     assert record.verdict is Verdict.REFUSED
     assert "friction limit" in record.reason
 
 
 def test_scale_changes_nothing() -> None:
     records = [
-        replace(ORDINARY, length=length, modulus=modulus).compute()
+        judged(replace(ORDINARY, length=length, modulus=modulus))
         for length, modulus in ((1e-3, 210e9), (1e-9, 1e3), (1.0, 1e12))
     ]
     # Round-off may cost or save an iteration.
@@ -133,16 +137,16 @@ def test_an_answer_above_the_tolerance_is_silent_failure(monkeypatch: pytest.Mon
     def careless(posed: Posed) -> Solved:
         return by_superposition(replace(posed, tolerance=1e-4))
 
-    monkeypatch.setitem(judged.SOLVERS, ORDINARY.solver, careless)
-    assert ORDINARY.compute().verdict is Verdict.SILENT
+    monkeypatch.setitem(solvers.SOLVERS, ORDINARY.solver, careless)
+    assert judged(ORDINARY).verdict is Verdict.SILENT
 
 
 def test_giving_up_is_recorded_with_its_residual(monkeypatch: pytest.MonkeyPatch) -> None:
     def helpless(posed: Posed) -> Solved:
         raise NotConverged("the shear", 60, 1e-3, 1e-8)
 
-    monkeypatch.setitem(judged.SOLVERS, ORDINARY.solver, helpless)
-    record = ORDINARY.compute()
+    monkeypatch.setitem(solvers.SOLVERS, ORDINARY.solver, helpless)
+    record = judged(ORDINARY)
     assert record.verdict is Verdict.NOT_CONVERGED
     assert record.residual == 1e-3
     assert "NotConverged" in record.reason
@@ -150,7 +154,7 @@ def test_giving_up_is_recorded_with_its_residual(monkeypatch: pytest.MonkeyPatch
 
 def test_the_way_of_the_solver_is_told() -> None:
     ways = [
-        replace(ORDINARY, **change).compute().way
+        judged(replace(ORDINARY, **change)).way
         for change in ({}, {"surface": Surface.ALIKE_BALL},
                        {"surface": Surface.ALIKE_BALL, "path": LoadingPath.PRESS})
     ]  # fmt: skip
@@ -168,7 +172,7 @@ def test_contact_that_outgrows_its_window_gets_a_larger_one(
 def records() -> dict[str, CellRecord]:
     """Good records of all cells of the quick level."""
     found = {}
-    for cell in study.cases(Settings(Level.QUICK)):
+    for cell in study_cells(Level.QUICK, 32):
         error = (
             "UnsupportedScene: …"
             if not cell.posable
@@ -205,7 +209,7 @@ def test_bad_cells_fail_the_statement_of_their_solver_that_names_them(
 ) -> None:
     assert outcomes(records()) == EVERYTHING_GOOD * len(Solver)
     bad = GOOD.model_copy(update={"verdict": verdict, "reason": "because"})
-    cells = [c for c in study.cases(Settings(Level.QUICK)) if c.solver is solver]
+    cells = [c for c in study_cells(Level.QUICK, 32) if c.solver is solver]
     names = [cell.name for cell in cells[:2]]
     conclusion = study.conclude(Settings(Level.QUICK), records() | dict.fromkeys(names, bad))
     judged_as = [s.outcome for s in conclusion.statements]
@@ -317,6 +321,6 @@ def test_every_cell_is_a_line_of_the_table() -> None:
 
 def test_verdicts_name_at_most_a_dozen_cells() -> None:
     bad = GOOD.model_copy(update={"verdict": Verdict.SILENT})
-    cells = study.cases(Settings(Level.QUICK))
+    cells = study_cells(Level.QUICK, 32)
     text = verdicts.nothing_silent(dict.fromkeys(cells, bad)).measured
     assert f"and {len(cells) - verdicts.MOST_NAMED} more" in text

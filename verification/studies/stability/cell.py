@@ -4,10 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, fields
 from enum import StrEnum
-from typing import Any, ClassVar
-
-from contact_scene.description import Description
-from verification.studies.stability.record import CellRecord
+from typing import Any
 
 
 class Surface(StrEnum):
@@ -68,7 +65,6 @@ class StabilityCell:
                     contact radius, which is about as fine
     """
 
-    record_type: ClassVar[type[Description]] = CellRecord
     friction: float = 0.1
     push: float = 0.6
     modulus_ratio: float = 2.0
@@ -105,12 +101,6 @@ class StabilityCell:
             if value != getattr(ordinary, key)
         ]
         return "-".join(parts).replace(".", "p").replace("+", "") or "ordinary"
-
-    def compute(self) -> CellRecord:
-        """Solve it; whatever the solver says is the record."""
-        from verification.studies.stability.judged import judged
-
-        return judged(self)
 
 
 NOT_OF_REVOLUTION = (Surface.TWO_SPOTS, Surface.ROUGH, Surface.PATCHY, Surface.GREASED)

@@ -11,9 +11,16 @@ from verification.judging.law_verdicts import OTHER_NORMS
 from verification.studies.stability.cell import StabilityCell
 from verification.studies.stability.record import CellRecord, Verdict
 from verification.studies.stability.verdicts import WORK
-from verification.studies.stability.view import NAMES, View
+from verification.studies.stability.views import View
 
 Found = Mapping[str, CellRecord]
+
+# Coordinates as people read them.
+NAMES = {
+    "friction": "µ", "push": "T / µW", "modulus_ratio": "E1/E2", "thickness": "h/a",
+    "poisson_ratio": "ν of the layer", "path": "path", "surface": "surface", "load": "W / W(a)",
+    "length": "a (m)", "modulus": "E2 (Pa)", "solver": "solver",
+}  # fmt: skip
 
 # Classes from best to worst, each with the series whose colour and shape it takes; a place shows
 # the worst of its cells. First the decades of the residual over what is allowed.

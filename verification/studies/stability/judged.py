@@ -1,12 +1,15 @@
-"""The verdict on one cell."""
+"""A cell solved, and the verdict on it."""
 
 from __future__ import annotations
 
 import time
+from dataclasses import dataclass
+from typing import ClassVar
 
 import numpy as np
 
 from contact_scene import SceneError
+from contact_scene.description import Description
 from contact_scene.solver_errors import (
     GrossSliding,
     NotConverged,
@@ -22,6 +25,21 @@ from verification.studies.stability.solvers import SOLVERS
 
 # What a scene may be refused for: its load, its meaning, its size.
 REFUSALS = (GrossSliding, UnsupportedScene, ResourceRefused)
+
+
+@dataclass(frozen=True)
+class StabilityRun:
+    """A cell to be solved; whatever the solver says is the record."""
+
+    record_type: ClassVar[type[Description]] = CellRecord
+    cell: StabilityCell
+
+    @property
+    def name(self) -> str:
+        return self.cell.name
+
+    def compute(self) -> CellRecord:
+        return judged(self.cell)
 
 
 def judged(cell: StabilityCell) -> CellRecord:

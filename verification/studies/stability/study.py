@@ -10,6 +10,7 @@ from verification.judging.case import Level
 from verification.running.study import Conclusion, Records, Settings, Study
 from verification.studies.stability.cell import StabilityCell
 from verification.studies.stability.charts import view_chart
+from verification.studies.stability.judged import StabilityRun
 from verification.studies.stability.record import CellRecord
 from verification.studies.stability.tables import tables
 from verification.studies.stability.verdicts import answer, statements
@@ -40,9 +41,9 @@ REMARKS = (
 )
 
 
-def cases(settings: Settings) -> tuple[StabilityCell, ...]:
+def cases(settings: Settings) -> tuple[StabilityRun, ...]:
     """Every cell of the level."""
-    return study_cells(settings.level, _cells(settings))
+    return tuple(map(StabilityRun, study_cells(settings.level, _cells(settings))))
 
 
 def conclude(settings: Settings, records: Records) -> Conclusion:
@@ -77,7 +78,7 @@ def _cells(settings: Settings) -> int:
 
 
 def _found(settings: Settings, records: Records) -> dict[StabilityCell, CellRecord]:
-    found = {cell: records.get(cell.name) for cell in cases(settings)}
+    found = {run.cell: records.get(run.name) for run in cases(settings)}
     return {cell: r for cell, r in found.items() if isinstance(r, CellRecord)}
 
 
