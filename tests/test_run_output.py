@@ -14,7 +14,6 @@ import numpy as np
 import pytest
 from synthetic_result import CONVOLUTIONS, ITERATIONS, MU, WORST_RESIDUAL, synthetic_result
 
-from contact_results.centre_line import along_centre_line
 from contact_results.directory.file_names import RUN_FILES, SUMMARY
 from contact_results.files.result_files import write_result
 from contact_scene.engineering_units import quantity
@@ -128,12 +127,6 @@ def test_profile_holds_the_numbers_of_the_line_y_0(tmp_path: Path, ny: int) -> N
     mine = [row for row in table if row["step"] == "2"]
     assert [float(row["x"]) for row in mine] == result.grid.x.tolist()
     assert [float(row["shear_x"]) for row in mine] == shear.tolist()
-
-
-def test_centre_line_is_second_order_between_two_rows() -> None:
-    y = np.array([-1.5, -0.5, 0.5, 1.5])
-    field = np.stack([1.0 + 0.0 * y, 2.0 + y, y**2])
-    assert along_centre_line(field).tolist() == [1.0, 2.0, 0.25]  # h^2/8 * (y^2)'' = 1/4
 
 
 def test_frictionless_profile_leaves_shear_and_slip_empty(frictionless: Path) -> None:

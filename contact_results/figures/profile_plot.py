@@ -5,7 +5,6 @@ from typing import Any
 import numpy as np
 from matplotlib.figure import Figure
 
-from contact_results.centre_line import along_centre_line
 from contact_results.figures import style
 from contact_results.figures.map_panels import MapFrame
 from contact_results.figures.shown_steps import (
@@ -15,6 +14,7 @@ from contact_results.figures.shown_steps import (
     sheared,
     span,
 )
+from contact_results.surface import surface_of
 from contact_scene.engineering_units import EngineeringUnit, engineering_unit
 from semi_analytical import Result
 
@@ -37,7 +37,7 @@ def _draw_pressure(ax: Any, result: Result, length: EngineeringUnit) -> None:
     unit = engineering_unit(max(step.peak_pressure for step in result.steps), "Pa")
     groups = runs_of_equal(selected(result.steps), lambda step: step.pressure)
     for number, group in enumerate(groups):
-        pressure = along_centre_line(group[0].pressure) / unit.size
+        pressure = surface_of(result).along(group[0].pressure) / unit.size
         ax.plot(result.grid.x / length.size, pressure, label=span(group), **_line(number))
     ax.set_ylim(bottom=0.0)
     ax.set_ylabel(f"pressure p ({unit.name})")
@@ -53,13 +53,13 @@ def _draw_shear(ax: Any, result: Result, length: EngineeringUnit) -> None:
     mu = result.scene.friction.coefficient if result.scene.friction else None
     if isinstance(mu, float):
         for number, group in enumerate(runs_of_equal(steps, lambda step: step.pressure)):
-            bound = mu * along_centre_line(group[0].pressure) / unit.size
+            bound = mu * surface_of(result).along(group[0].pressure) / unit.size
             ax.fill_between(x, -bound, bound, color=style.GREY, alpha=0.12, linewidth=0)
             label = "± µp" if number == 0 else None
             ax.plot(x, bound, color=style.GREY, linewidth=0.8, label=label)
             ax.plot(x, -bound, color=style.GREY, linewidth=0.8)
     for number, step in enumerate(steps):
-        shear = along_centre_line(shear_of(step)[k]) / unit.size
+        shear = surface_of(result).along(shear_of(step)[k]) / unit.size
         ax.plot(x, shear, label=span([step]), **_line(number))
     ax.axhline(0.0, color="black", linewidth=0.5)
     ax.set_ylabel(f"shear $q_{'xy'[k]}$ ({unit.name})")

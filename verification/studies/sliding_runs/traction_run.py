@@ -6,8 +6,8 @@ import time
 from dataclasses import dataclass
 from typing import ClassVar
 
-from contact_results.centre_line import along_centre_line
 from contact_results.quantities import force_along_x, shear_of, shift_along_x
+from contact_results.surface import Surface, surface_of
 from contact_scene import LoadStep
 from contact_scene.description import Description
 from semi_analytical import Increment, solve
@@ -94,7 +94,7 @@ class TractionRun:
         q = shear_of(result.steps[0])
         return TractionRecord(
             x=tuple((grid.x / HERTZ.contact_radius).tolist()),
-            profiles=tuple(_profile(step) for step in result.steps),
+            profiles=tuple(_profile(step, surface_of(result)) for step in result.steps),
             history=tuple(_point(increment) for increment in result.increments),
             self_equilibrium=float(abs(q.sum(axis=(1, 2))).max() / abs(q).sum()),
             halvings=sum(i.halvings for i in result.increments),
@@ -103,12 +103,12 @@ class TractionRun:
         )
 
 
-def _profile(step: Increment) -> Profile:
+def _profile(step: Increment, surface: Surface) -> Profile:
     p_H = HERTZ.peak_pressure
     return Profile(
         force=force_along_x(step) / FRICTION_LIMIT,
-        pressure=tuple((along_centre_line(step.pressure) / p_H).tolist()),
-        shear=tuple((along_centre_line(shear_of(step)[0]) / (FRICTION * p_H)).tolist()),
+        pressure=tuple((surface.along(step.pressure) / p_H).tolist()),
+        shear=tuple((surface.along(shear_of(step)[0]) / (FRICTION * p_H)).tolist()),
     )
 
 

@@ -1,0 +1,227 @@
+"""Where the fields of a result live: on the cells of a grid, or on rings around the z axis.
+
+Whoever writes, draws or sums fields asks here, and need not know which solver they came from.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+if TYPE_CHECKING:
+    import fem_reference
+    import semi_analytical
+
+    Increment = semi_analytical.Increment | fem_reference.Increment
+    Result = semi_analytical.Result | fem_reference.Result
+
+Field = NDArray[np.float64]
+
+
+class Line(NamedTuple):
+    """The line through the axis on which profiles are shown.
+
+    places      (n,) [length]
+    label       what the places are
+    components  names of what vectors have along and across it
+    """
+
+    places: Field
+    label: str
+    components: tuple[str, str]
+
+
+class Surface(Protocol):
+    """Places that carry the fields of a result. A scalar field has the shape of `weights`."""
+
+    @property
+    def axes(self) -> Mapping[str, Field]:
+        """What each index of a field counts, by name [length, angles radian]."""
+
+    @property
+    def positions(self) -> Field:
+        """x and y of every place (2, …) [length]."""
+
+    @property
+    def weights(self) -> Field:
+        """Area that every place stands for, so that sums with them are integrals [length^2]."""
+
+    @property
+    def line(self) -> Line:
+        """Where `along` takes its values."""
+
+    def scalar(self, increment: Increment, name: str) -> NDArray[Any] | None:
+        """A scalar field of an increment; None where it has none."""
+
+    def vector(self, increment: Increment, name: str) -> Field | None:
+        """The x and y components (2, …) of shear or slip; None where an increment has none."""
+
+    def along(self, field: Field) -> Field:
+        """Values (n,) of a scalar field on the line."""
+
+    def vector_along(self, vector: Field) -> Field:
+        """Components (2, n) along and across the line."""
+
+
+@dataclass(frozen=True, eq=False)
+class Cells:
+    """Equal rectangles, index [i, j] = (x_i, y_j); the line is y = 0.
+
+    x, y       centres (nx,), (ny,) [length]
+    cell_area  [length^2]
+    """
+
+    x: Field
+    y: Field
+    cell_area: float
+
+    @property
+    def axes(self) -> Mapping[str, Field]:
+        """Centres along x and y."""
+        return {"x": self.x, "y": self.y}
+
+    @property
+    def positions(self) -> Field:
+        """Centres (2, nx, ny) [length]."""
+        return np.stack(np.meshgrid(self.x, self.y, indexing="ij"))
+
+    @property
+    def weights(self) -> Field:
+        """The area of a cell (nx, ny) [length^2]."""
+        return np.full((len(self.x), len(self.y)), self.cell_area)
+
+    @property
+    def line(self) -> Line:
+        """All x at y = 0."""
+        return Line(self.x, "x at y = 0", ("x", "y"))
+
+    def scalar(self, increment: Increment, name: str) -> NDArray[Any] | None:
+        """As the increment has it."""
+        field: NDArray[Any] | None = getattr(increment, name)
+        return field
+
+    vector = scalar
+
+    def along(self, field: Field) -> Field:
+        """Values on y = 0 of a field (…, nx, ny).
+
+        With an even number of rows the line runs between two of them and their mean is taken,
+        which differs from the value at y = 0 by the curvature times h^2/8 only.
+        """
+        ny = field.shape[-1]
+        return np.asarray((field[..., (ny - 1) // 2] + field[..., ny // 2]) / 2)
+
+    vector_along = along
+
+
+@dataclass(frozen=True, eq=False)
+class Rings:
+    """Rings around the z axis, fields linear in between; index [ring] or [ring, angle].
+
+    Without angles places are on the ray along the load. Angles cover a half circle whose points
+    stand for their mirror images, too.
+
+    radii      ascending (rings,) [length]
+    angles     from the direction of the tangential load (angles,) [radian]; None where one
+               function of the radius says all
+    direction  of the tangential load, unit vector
+    polar      whether all vectors are outward and around the axis, the same on a whole ring
+    """
+
+    radii: Field
+    angles: Field | None
+    direction: tuple[float, float]
+    polar: bool
+
+    @property
+    def axes(self) -> Mapping[str, Field]:
+        """Radii, and angles where there are any."""
+        return {"radii": self.radii} | ({} if self.angles is None else {"angles": self.angles})
+
+    @property
+    def positions(self) -> Field:
+        """(2, rings) or (2, rings, angles) [length]."""
+        if self.angles is None:
+            return self._turned(np.stack([self.radii, np.zeros_like(self.radii)]))
+        around = np.stack([np.cos(self.angles), np.sin(self.angles)])
+        return self._turned(self.radii[:, None] * around[:, None])
+
+    @property
+    def weights(self) -> Field:
+        """2π∫ψ r dr with the hat function ψ of a ring, constant towards the axis, times the share
+        of the circle that a point stands for [length^2]."""
+        inner, outer = self.radii[:-1], self.radii[1:]
+        area = np.zeros_like(self.radii)
+        area[0] = self.radii[0] ** 2 / 2
+        area[:-1] += (outer - inner) * (2 * inner + outer) / 6
+        area[1:] += (outer - inner) * (inner + 2 * outer) / 6
+        if self.angles is None:
+            return 2 * np.pi * area
+        ends = [0.0, *(self.angles[1:] + self.angles[:-1]) / 2, np.pi]
+        return 2 * np.diff(ends) * area[:, None]
+
+    @property
+    def line(self) -> Line:
+        """The radius, or where fields depend on the angle from edge to edge along the load."""
+        along_x = self.direction == (1.0, 0.0)
+        load = ("x", "y") if along_x else (r"\parallel", r"\perp")
+        if self.angles is None:
+            return Line(self.radii, "radius r", ("r", "θ") if self.polar else load)
+        places = np.concatenate([-self.radii[::-1], self.radii])
+        return Line(places, "distance from the axis along the load", load)
+
+    def scalar(self, increment: Increment, name: str) -> NDArray[Any] | None:
+        """The field, at every angle where there are angles."""
+        return self._everywhere(getattr(increment, name))
+
+    def vector(self, increment: Increment, name: str) -> Field | None:
+        """From what the increment has outward, around the axis and along the load."""
+        parts = [
+            self._everywhere(getattr(increment, f"{name}_{component}"))
+            for component in ("radial", "circumferential", "along_load")
+        ]
+        given = [part for part in parts if part is not None]
+        if not given:
+            return None
+        nothing = np.zeros_like(given[0])
+        outward, around, ahead = (nothing if part is None else part for part in parts)
+        angles = np.zeros_like(self.radii) if self.angles is None else self.angles
+        cos, sin = np.cos(angles), np.sin(angles)
+        return self._turned(
+            np.stack([outward * cos - around * sin + ahead, outward * sin + around * cos])
+        )
+
+    def along(self, field: Field) -> Field:
+        """Values over the radius; with angles from behind the axis to ahead of it."""
+        if self.angles is None:
+            return field
+        return np.concatenate([field[..., ::-1, -1], field[..., :, 0]], axis=-1)
+
+    def vector_along(self, vector: Field) -> Field:
+        """Components along and across the load."""
+        return self.along(self._turned(vector, -1))
+
+    def _everywhere(self, field: NDArray[Any] | None) -> NDArray[Any] | None:
+        if field is None or self.angles is None or field.ndim > 1:
+            return field
+        return np.broadcast_to(field[:, None], (len(self.radii), len(self.angles)))
+
+    def _turned(self, vector: Field, sense: int = 1) -> Field:
+        """From axes along and across the load to x and y, or with sense −1 back."""
+        (x, y), (along, across) = self.direction, vector
+        y *= sense
+        return np.stack([along * x - across * y, along * y + across * x])
+
+
+def surface_of(result: Result) -> Surface:
+    """What a result's fields live on."""
+    if hasattr(result, "grid"):
+        return Cells(result.grid.x, result.grid.y, result.grid.cell_area)
+    increments = result.increments
+    angles = next((i.angles for i in increments if i.angles is not None), None)
+    polar = all(i.shear_along_load is None and i.slip_along_load is None for i in increments)
+    return Rings(increments[0].radii, angles, result.plan.direction, polar)
