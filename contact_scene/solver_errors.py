@@ -29,6 +29,18 @@ class GrossSliding(SolverError):
     """The tangential load exceeds what friction can carry under force control."""
 
 
+class ContactAtWindowEdge(SolverError):
+    """The contact reached the border of the computed window, so its tractions are cut off."""
+
+
+class ContactAtZoneEdge(SolverError):
+    """The contact reached the end of the zone of fine elements, so its tractions are cut off."""
+
+
+class ContactNotResolved(SolverError):
+    """The contact lies between the cell centres: no cell touches."""
+
+
 class ResourceRefused(SolverError):
     """The solve would need more memory than this machine has available."""
 

@@ -4,10 +4,10 @@ It shares `contact_scene` with `semi_analytical` and no numerics, so that the tw
 against each other.
 """
 
-from fem_reference.errors import ContactAtZoneEdge
+from contact_scene.residuals import Residuals
+from contact_scene.solver_errors import ContactAtZoneEdge
 from fem_reference.fields import Increment, Result
 from fem_reference.plan import Effect, Path, Plan, plan
-from fem_reference.residuals import Residuals
 from fem_reference.solve import Method, solve
 
 __all__ = [

@@ -18,8 +18,8 @@ from contact_scene import (
     LoadStep,
     Scene,
 )
+from contact_scene.solver_errors import ContactAtZoneEdge
 from fem_reference.contact.complementarity.method import complementarity_method
-from fem_reference.errors import ContactAtZoneEdge
 from fem_reference.history import march
 from fem_reference.model import ContactModel
 from fem_reference.plan import plan

@@ -7,10 +7,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from contact_scene import FiniteElementDiscretisation, Scene
+from contact_scene.residuals import Residuals
 from contact_scene.summary import ContactStatus
 from fem_reference.mesh.section_mesh import SectionMesh
 from fem_reference.plan import Plan
-from fem_reference.residuals import Residuals
 
 Field = NDArray[np.float64]
 Mask = NDArray[np.bool_]

@@ -6,8 +6,8 @@ from enum import Enum
 from typing import Any
 
 from contact_scene import FiniteElementDiscretisation, Scene
+from contact_scene.solver_errors import ContactAtZoneEdge
 from contact_scene.standing import Keeper, Mark, Standing
-from fem_reference.errors import ContactAtZoneEdge
 from fem_reference.expected_radius import expected_radius
 from fem_reference.fields import Increment, Result
 from fem_reference.history import Method as Solver

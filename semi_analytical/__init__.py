@@ -1,7 +1,7 @@
 """Contact by superposition and FFT: the semi-analytical method."""
 
-from semi_analytical.discretise import discretise
-from semi_analytical.errors import (
+from contact_scene.residuals import Residuals
+from contact_scene.solver_errors import (
     ContactAtWindowEdge,
     ContactNotResolved,
     GrossSliding,
@@ -10,11 +10,11 @@ from semi_analytical.errors import (
     SolverError,
     UnsupportedScene,
 )
+from semi_analytical.discretise import discretise
 from semi_analytical.fields import Increment, Result
 from semi_analytical.grid import SurfaceGrid
 from semi_analytical.other_plans import all_effects, one_way
 from semi_analytical.plan import Coupling, Effect, Plan, plan
-from semi_analytical.residuals import Residuals
 from semi_analytical.solve import solve, solve_discretised
 
 __all__ = [

@@ -13,13 +13,14 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from contact_scene.residuals import worst
+from contact_scene.solver_errors import NotConverged
 from semi_analytical.admissible_shear import (
     Field,
     TangentialLoad,
     Vector,
     VectorField,
 )
-from semi_analytical.errors import NotConverged
 from semi_analytical.normal import solve_normal
 from semi_analytical.normal_load import Motion, NormalLoad
 from semi_analytical.tangential import TangentialSolution, solve_tangential
@@ -141,7 +142,7 @@ def solve_coupled(
             enough,
         )
         iterations += sheared.iterations + pressed.iterations
-        residual = max(sheared.residual, pressed.first_residual)
+        residual = worst(sheared.residual, pressed.first_residual)
         if residual <= tolerance:
             closing = pressed.motion
             return CoupledSolution(

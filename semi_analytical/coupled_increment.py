@@ -5,10 +5,11 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from contact_scene.residuals import worst
+from contact_scene.solver_errors import GrossSliding, NotConverged
 from semi_analytical.alternation import CoupledProblem, CoupledSolution, solve_coupled
 from semi_analytical.box import Box, box_around
 from semi_analytical.contact_area import covered_cells
-from semi_analytical.errors import GrossSliding, NotConverged
 from semi_analytical.full_slip import (
     at_limit,
     reaches_limit,
@@ -73,7 +74,7 @@ def solve_coupled_increment(
         trial = _Trial(model, last, normal, tangential, box, solution, iterations)
         state, g = trial.state()
         assert state.sheared is not None
-        residual = max(
+        residual = worst(
             state.pressing.complementarity,
             state.pressing.penetration,
             state.sheared.residuals.worst,

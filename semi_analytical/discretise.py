@@ -16,7 +16,7 @@ from contact_scene import (
     Scene,
     SurfaceDiscretisation,
 )
-from semi_analytical.errors import ContactAtWindowEdge, ContactNotResolved
+from contact_scene.solver_errors import ContactAtWindowEdge, ContactNotResolved
 from semi_analytical.grid import SurfaceGrid
 from semi_analytical.load_targets import normal_target
 from semi_analytical.model import ContactModel

@@ -6,10 +6,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from contact_scene import Scene
+from contact_scene.residuals import Residuals
 from contact_scene.summary import ContactStatus
 from semi_analytical.grid import SurfaceGrid
 from semi_analytical.plan import Plan
-from semi_analytical.residuals import Residuals
 
 Field = NDArray[np.float64]
 VectorField = NDArray[np.float64]

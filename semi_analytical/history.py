@@ -7,19 +7,17 @@ import numpy as np
 from numpy.typing import NDArray
 
 from contact_scene import ControlKind, LoadRamp
+from contact_scene.solver_errors import NotConverged, SolverError
 from contact_scene.standing import Mark
-from semi_analytical.admissible_shear import magnitude
 from semi_analytical.balance import balanced
 from semi_analytical.contact_area import stuck_cells
 from semi_analytical.energy import NOTHING_YET
-from semi_analytical.errors import NotConverged, SolverError
 from semi_analytical.fields import Increment
-from semi_analytical.increment import State, moment_of, solve_increment
+from semi_analytical.increment import State, residuals_of, solve_increment
 from semi_analytical.load_targets import normal_target, tangential_target
 from semi_analytical.model import ContactModel
 from semi_analytical.plan import Coupling, Plan
 from semi_analytical.pressing import NormalTarget
-from semi_analytical.residuals import Residuals
 from semi_analytical.sheared import Sheared, untouched
 from semi_analytical.shearing import TangentialTarget
 
@@ -112,6 +110,8 @@ class _Path:
             if self.plan.shear:
                 tangential = tangential_target(self.ramp, self.start, end, self.plan.torsion)
             after = self.advance(self.model, state, normal, tangential, self.tolerance)
+            residuals = residuals_of(self.model, after)
+            residuals.require(self.tolerance, "the increment", after.iterations)
             return balanced(self.model, state, after), 0
         except NotConverged as error:
             if halvings_left == 0 or self.model.convolutions.count > until:
@@ -144,12 +144,6 @@ def _increment(
     pressing, sheared, cell = state.pressing, state.sheared, model.grid.cell_area
     p = pressing.pressure
     force, tilt = state.target.force, pressing.tilt
-    residuals = Residuals(
-        pressing.complementarity,
-        pressing.penetration,
-        None if force is None else abs(state.normal_force - force) / force,
-        moment_equilibrium=_moment_equilibrium(model, state),
-    )
     pressed = Increment(
         step=step,
         index=index,
@@ -166,8 +160,8 @@ def _increment(
         input_work=state.energy.input_work,
         unresolved_work=state.energy.unresolved,
         energy_imbalance=state.energy.imbalance(before.energy if before else NOTHING_YET),
-        residuals=residuals,
-        iterations=pressing.iterations,
+        residuals=residuals_of(model, state),
+        iterations=state.iterations,
         convolutions=0,
     )
     if sheared is None:
@@ -176,8 +170,6 @@ def _increment(
     stuck = stuck_cells(sheared.shear, bound, sheared.in_stick) * cell
     increment = replace(
         pressed,
-        residuals=replace(residuals, **vars(sheared.residuals)),
-        iterations=pressing.iterations + sheared.iterations,
         status=sheared.status if model.scene.friction else pressed.status,
         shear=sheared.shear,
         slip=sheared.slip,
@@ -191,15 +183,6 @@ def _increment(
         dissipated_energy=sheared.dissipated_energy,
     )
     return _traced(increment, before, sheared)
-
-
-def _moment_equilibrium(model: ContactModel, state: State) -> float | None:
-    """|Σp (y, x) - M| / Σp r where a moment is given."""
-    tilting, p = state.target.tilting, state.pressing.pressure
-    if tilting is None or tilting.moment is None:
-        return None
-    missing = np.subtract(moment_of(model, p), tilting.moment)
-    return float(np.hypot(*missing) / (np.sum(p * magnitude(model.arms)) * model.grid.cell_area))
 
 
 def _traced(increment: Increment, before: State | None, sheared: Sheared) -> Increment:

@@ -5,6 +5,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from contact_scene.residuals import Residuals
+from semi_analytical.admissible_shear import magnitude
 from semi_analytical.energy import NOTHING_YET, Energy
 from semi_analytical.model import ContactModel
 from semi_analytical.pressing import NormalTarget, Pair, Pressing, press
@@ -36,6 +38,11 @@ class State:
     energy: Energy = NOTHING_YET
     rounds: int = 0
 
+    @property
+    def iterations(self) -> int:
+        """Of the pressure and shear solvers, in the increment."""
+        return self.pressing.iterations + (self.sheared.iterations if self.sheared else 0)
+
 
 def moment_of(model: ContactModel, pressure: Field) -> Pair:
     """(Σp y, Σp x) times the cell area [force length]."""
@@ -48,6 +55,27 @@ def reached_moment(model: ContactModel, target: NormalTarget, pressure: Field) -
     if target.tilting is None:
         return None
     return target.tilting.moment or moment_of(model, pressure)
+
+
+def residuals_of(model: ContactModel, state: State) -> Residuals:
+    """How well a state fulfils its equations and carries its load."""
+    pressing, force = state.pressing, state.target.force
+    pressed = Residuals(
+        pressing.complementarity,
+        pressing.penetration,
+        None if force is None else abs(state.normal_force - force) / force,
+        moment_equilibrium=_moment_equilibrium(model, state),
+    )
+    return pressed if state.sheared is None else pressed.with_shear(state.sheared.residuals)
+
+
+def _moment_equilibrium(model: ContactModel, state: State) -> float | None:
+    """|Σp (y, x) - M| / Σp r where a moment is given."""
+    tilting, p = state.target.tilting, state.pressing.pressure
+    if tilting is None or tilting.moment is None:
+        return None
+    missing = np.subtract(moment_of(model, p), tilting.moment)
+    return float(np.hypot(*missing) / (np.sum(p * magnitude(model.arms)) * model.grid.cell_area))
 
 
 def solve_increment(

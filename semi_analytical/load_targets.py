@@ -6,7 +6,7 @@ import numpy as np
 
 from contact_scene import ControlKind, LoadRamp
 from contact_scene.load_path import Control
-from semi_analytical.errors import GrossSliding
+from contact_scene.solver_errors import GrossSliding
 from semi_analytical.increment import State
 from semi_analytical.pressing import NormalTarget, Pair, Tilting
 from semi_analytical.shearing import TangentialTarget, Torsion

@@ -1,7 +1,7 @@
 """Memory of a solve, estimated before anything is allocated."""
 
 from contact_scene.free_memory import available_bytes
-from semi_analytical.errors import ResourceRefused
+from contact_scene.solver_errors import ResourceRefused
 from semi_analytical.grid import SurfaceGrid
 from semi_analytical.plan import Coupling, Plan
 

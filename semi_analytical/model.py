@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from contact_scene import FrictionMap, Scene
-from semi_analytical.errors import UnsupportedScene
+from contact_scene.solver_errors import UnsupportedScene
 from semi_analytical.grid import SurfaceGrid
 from semi_analytical.influence.bodies import influence_coefficients
 from semi_analytical.influence.coefficients import InfluenceCoefficients

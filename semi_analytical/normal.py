@@ -12,7 +12,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from semi_analytical.errors import NotConverged
+from contact_scene.residuals import worst
+from contact_scene.solver_errors import NotConverged
 from semi_analytical.normal_load import Map, Motion, NormalLoad
 
 Field = NDArray[np.float64]
@@ -59,7 +60,7 @@ class _Problem:
         total = np.sum(p)  # zero where a step under a fixed approach has overshot
         complementarity = np.sum(np.abs(g) * p) / total if total > 0 else 0.0
         penetration = -np.min(g, where=self.allowed, initial=0.0)
-        return float(max(complementarity, penetration) / overlap)
+        return worst(complementarity, penetration) / overlap
 
 
 def solve_normal(

@@ -7,7 +7,7 @@ from enum import StrEnum
 from contact_scene import Body, FrictionMap, IsotropicMaterial, Scene
 from contact_scene.discretisation import PATH_ACCURACY
 from contact_scene.material import Material
-from semi_analytical.errors import UnsupportedScene
+from contact_scene.solver_errors import UnsupportedScene
 from semi_analytical.path_increments import Bodies, StepIncrements, path_increments, refined
 
 # |beta| below this is round-off of equal materials given in different units.

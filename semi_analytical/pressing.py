@@ -6,9 +6,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from contact_scene import HeightMap
+from contact_scene.residuals import worst
+from contact_scene.solver_errors import ContactAtWindowEdge, ContactNotResolved, NotConverged
 from semi_analytical.box import Box, box_around
 from semi_analytical.contact_area import covered_cells
-from semi_analytical.errors import ContactAtWindowEdge, ContactNotResolved, NotConverged
 from semi_analytical.model import ContactModel, doubled
 from semi_analytical.normal import solve_normal
 from semi_analytical.normal_load import FixedApproach, Motion, NormalLoad, PressureSum
@@ -139,7 +140,7 @@ def press(model: ContactModel, target: NormalTarget, tolerance: float) -> Pressi
         g = np.where(allowed, gap, np.inf) + u - load.closure(solution.motion)
         overlap = load.overlap(solution.motion, gap, allowed)
         measures = (complementarity(p, g, overlap), penetration(g, overlap))
-        residual = max(measures)
+        residual = worst(*measures)
         if residual <= tolerance:
             refuse_contact_at_edge(p, model)
             approach, tilt = target.reached(model, solution.motion)

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from contact_scene.residuals import ShearResiduals
 from contact_scene.summary import ContactStatus
 from semi_analytical.admissible_shear import everywhere
 from semi_analytical.model import ContactModel
@@ -14,21 +15,6 @@ Field = NDArray[np.float64]
 VectorField = NDArray[np.float64]
 Mask = NDArray[np.bool_]
 Vector = NDArray[np.float64]
-
-
-@dataclass(frozen=True)
-class ShearResiduals:
-    """See residuals.Residuals; None where the control or the state leaves them undefined."""
-
-    friction_cone: float
-    slip_direction: float | None
-    tangential_equilibrium: float | None
-    torque_equilibrium: float | None = None
-
-    @property
-    def worst(self) -> float:
-        """The largest of those that apply."""
-        return max(value for value in vars(self).values() if value is not None)
 
 
 @dataclass(frozen=True)

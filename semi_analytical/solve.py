@@ -3,9 +3,9 @@
 from collections.abc import Callable
 
 from contact_scene import HeightMap, Scene, SurfaceDiscretisation
+from contact_scene.solver_errors import ContactAtWindowEdge
 from contact_scene.standing import Keeper, Standing
 from semi_analytical.discretise import GROWTH, discretise
-from semi_analytical.errors import ContactAtWindowEdge
 from semi_analytical.fields import Increment, Result
 from semi_analytical.grid import SurfaceGrid
 from semi_analytical.history import marked

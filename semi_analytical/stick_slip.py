@@ -5,9 +5,10 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
+from contact_scene.residuals import ShearResiduals
+from contact_scene.solver_errors import GrossSliding, NotConverged
 from contact_scene.summary import ContactStatus
 from semi_analytical.admissible_shear import magnitude
-from semi_analytical.errors import GrossSliding, NotConverged
 from semi_analytical.full_slip import (
     at_limit,
     reaches_limit,
@@ -18,7 +19,6 @@ from semi_analytical.model import ContactModel
 from semi_analytical.residuals import friction_cone, slip_direction
 from semi_analytical.sheared import (
     Sheared,
-    ShearResiduals,
     first_motion,
     rigid,
     surface_target,

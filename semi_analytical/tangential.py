@@ -14,6 +14,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from contact_scene.residuals import worst
+from contact_scene.solver_errors import NotConverged
 from semi_analytical.admissible_shear import (
     Field,
     TangentialLoad,
@@ -21,7 +23,6 @@ from semi_analytical.admissible_shear import (
     VectorField,
     magnitude,
 )
-from semi_analytical.errors import NotConverged
 from semi_analytical.residuals import slip_direction
 
 Map = Callable[[VectorField], VectorField]
@@ -113,7 +114,7 @@ def solve_tangential(
     state = problem.natural(q, u, motion)
     for number in range(MOST_STEPS):
         slip = load.rigid(state.motion) + target - u
-        residual = max(state.error, slip_direction(q, bound, slip, u))
+        residual = worst(state.error, slip_direction(q, bound, slip, u))
         first = residual if number == 0 else first
         aim = max(tolerance, enough * first)
         if residual <= aim:

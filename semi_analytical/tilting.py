@@ -10,7 +10,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from semi_analytical.errors import NotConverged
+from contact_scene.solver_errors import NotConverged
 from semi_analytical.multipliers import MOST_SWEEPS, find_multiplier
 from semi_analytical.normal_load import Constraint, Map, Motion
 

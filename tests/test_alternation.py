@@ -6,10 +6,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 from random_compliance import as_map, compliance, rough_inverse
 
+from contact_scene.solver_errors import NotConverged
 from semi_analytical import alternation
 from semi_analytical.admissible_shear import FixedShift, ShearSum, magnitude, project_on_discs
 from semi_analytical.alternation import CoupledProblem, solve_coupled
-from semi_analytical.errors import NotConverged
 from semi_analytical.normal_load import FixedApproach, PressureSum
 
 TOLERANCE = 1e-11

@@ -16,14 +16,14 @@ from synthetic_result import synthetic_result
 import semi_analytical
 from contact_results.one_thread import VARIABLES
 from contact_scene import scene_schema
-from contact_scene.summary import summary_schema
-from semi_analytical.errors import (
+from contact_scene.solver_errors import (
     ContactAtWindowEdge,
     GrossSliding,
     NotConverged,
     ResourceRefused,
     UnsupportedScene,
 )
+from contact_scene.summary import summary_schema
 from slipstick.cli import main
 from slipstick.cli.lazy_commands import COMMANDS
 

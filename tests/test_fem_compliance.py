@@ -328,7 +328,7 @@ def test_a_compliance_of_other_sources_is_not_taken(cache, monkeypatch, tmp_path
 
 def test_what_a_compliance_is_computed_by_is_in_its_key():
     """Nothing outside FOLDERS is imported there but values, refusals and libraries."""
-    allowed = ("contact_scene", "fem_reference.errors", "fem_reference.memory")
+    allowed = ("contact_scene", "fem_reference.memory")
     for folder in sources.FOLDERS:
         for source in (sources.PACKAGE / folder).rglob("*.py"):
             for name in re.findall(r"^from (\S+) import", source.read_text(), re.MULTILINE):

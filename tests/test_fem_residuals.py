@@ -51,11 +51,6 @@ def test_nothing_that_moves_has_no_wrong_direction() -> None:
     assert residuals.slip_direction(nothing, PRESSURE, nothing, nothing) == 0
 
 
-def test_worst_is_the_largest_and_a_missing_number_the_worst() -> None:
-    assert residuals.Residuals(1e-9, 2e-9, None, 3e-9).worst == 3e-9
-    assert np.isnan(residuals.Residuals(1e-9, float("nan")).worst)
-
-
 @pytest.mark.parametrize("what", ["press", "shear"])
 def test_wrong_answer_of_a_solver_is_not_accepted(what: str, monkeypatch) -> None:
     """The last check of an increment starts from its fields, whatever the solver says."""

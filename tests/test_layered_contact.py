@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from contact_scene import RIGID, Body, IsotropicMaterial, Layer, LoadStep, Paraboloid, Scene
+from contact_scene.solver_errors import ResourceRefused, UnsupportedScene
 from semi_analytical import SurfaceGrid, plan, solve
-from semi_analytical.errors import ResourceRefused, UnsupportedScene
 from semi_analytical.influence import layered_memory
 from verification.closed_forms.coated_indentation import paraboloid
 from verification.problems.layered_scene import surface_of

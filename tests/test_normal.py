@@ -8,8 +8,8 @@ from random_compliance import as_map, compliance, rough_inverse
 from scipy.linalg import cholesky, solve_triangular
 from scipy.optimize import brentq, nnls
 
+from contact_scene.solver_errors import NotConverged
 from semi_analytical import normal
-from semi_analytical.errors import NotConverged
 from semi_analytical.normal import solve_normal
 from semi_analytical.normal_load import FixedApproach, PressureSum
 

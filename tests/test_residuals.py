@@ -4,7 +4,6 @@ import numpy as np
 import pytest
 
 from semi_analytical.residuals import (
-    Residuals,
     complementarity,
     friction_cone,
     penetration,
@@ -55,8 +54,3 @@ def test_slip_that_nearly_vanishes_is_judged_by_the_displacement():
 def test_without_slip_or_displacement_there_is_no_defect():
     nothing = np.zeros((2, 2, 2))
     assert slip_direction(along(0.3), BOUND, nothing, nothing) == 0
-
-
-def test_the_worst_residual_leaves_out_what_does_not_apply():
-    assert Residuals(1e-9, 2e-9, None).worst == 2e-9
-    assert Residuals(1e-9, 2e-9, 0.0, 0.0, 3e-9, None).worst == 3e-9

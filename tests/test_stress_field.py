@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 from polar_synthesis import fields_at, hertz_transform
 
 from contact_scene import RIGID, Body, IsotropicMaterial, Layer
-from semi_analytical.errors import ResourceRefused
+from contact_scene.solver_errors import ResourceRefused
 from semi_analytical.frf.stack import Stack, stack_of
 from semi_analytical.grid import SurfaceGrid
 from semi_analytical.stress import (

@@ -6,7 +6,7 @@ from typing import Any
 
 import pytest
 
-from semi_analytical.errors import NotConverged
+from contact_scene.solver_errors import NotConverged
 from verification.cases.fretting_loop import fretting_loop_on
 from verification.cases.hertz_point import hertz_on
 from verification.cases.load_paths import load_paths_on

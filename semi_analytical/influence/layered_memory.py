@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from contact_scene.free_memory import available_bytes
-from semi_analytical.errors import ResourceRefused
+from contact_scene.solver_errors import ResourceRefused
 
 # Arrays of the size of the window alive at the peak (six results, three point responses and
 # the work space of one average), and everything that does not grow with the window.

@@ -1,7 +1,7 @@
 """Memory of the fields at depth, estimated before anything is allocated."""
 
 from contact_scene.free_memory import available_bytes
-from semi_analytical.errors import ResourceRefused
+from contact_scene.solver_errors import ResourceRefused
 from semi_analytical.stress.components import FIELDS, TRACTIONS
 
 DOUBLE = 8

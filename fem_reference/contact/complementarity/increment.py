@@ -6,13 +6,13 @@ from math import pi
 import numpy as np
 from numpy.typing import NDArray
 
-from contact_scene.solver_errors import GrossSliding, NotConverged
+from contact_scene.residuals import Residuals, ShearResiduals
+from contact_scene.solver_errors import ContactAtZoneEdge, GrossSliding
 from fem_reference.contact.complementarity.alternation import Coupled, alternate
 from fem_reference.contact.complementarity.contact_problem import ContactProblem, Sideways
 from fem_reference.contact.complementarity.pressing import Pressed, press
 from fem_reference.contact.complementarity.shearing import shear
 from fem_reference.contact.complementarity.slipping import (
-    SlipResiduals,
     at_limit,
     capacity,
     reaches_limit,
@@ -21,9 +21,8 @@ from fem_reference.contact.complementarity.slipping import (
     target_of,
 )
 from fem_reference.contact.complementarity.state import Slid, State, untouched
-from fem_reference.errors import ContactAtZoneEdge
 from fem_reference.loads import Loads, NormalTarget
-from fem_reference.residuals import Residuals, complementarity, penetration
+from fem_reference.residuals import complementarity, penetration
 
 Field = NDArray[np.float64]
 
@@ -46,8 +45,7 @@ def advance(problem: ContactProblem, before: State | None, loads: Loads, toleran
             f"the contact reaches {problem.radii[-1]:.6g} m, where the zone of fine elements "
             f"ends; give a larger contact_radius"
         )
-    if not state.residuals.worst <= tolerance:
-        raise NotConverged("the increment", state.steps, state.residuals.worst, tolerance)
+    state.residuals.require(tolerance, "the increment", state.steps)
     return state
 
 
@@ -67,14 +65,14 @@ def _uncoupled(problem: ContactProblem, before: State | None, loads: Loads) -> S
     return replace(
         state,
         slid=after,
-        residuals=replace(state.residuals, **vars(residuals)),
+        residuals=state.residuals.with_shear(residuals),
         steps=state.steps + steps,
     )
 
 
 def _sheared(
     sideways: Sideways, p: Field, last: Slid, loads: Loads
-) -> tuple[Slid, SlipResiduals, int]:
+) -> tuple[Slid, ShearResiduals, int]:
     """The shear part under its load, its residuals, and linear systems solved."""
     if last.motion is None:
         raise GrossSliding(
@@ -114,7 +112,7 @@ def _coupled(
     return replace(
         state,
         slid=after,
-        residuals=replace(state.residuals, **vars(residuals)),
+        residuals=state.residuals.with_shear(residuals),
         sweeps=solved.sweeps,
     )
 

@@ -1,11 +1,12 @@
 """The shear half of an increment: stick, slip, and what the surfaces remember."""
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from math import pi
 
 import numpy as np
 from numpy.typing import NDArray
 
+from contact_scene.residuals import ShearResiduals
 from contact_scene.solver_errors import GrossSliding
 from contact_scene.summary import ContactStatus
 from fem_reference.contact.complementarity.box_program import Sides
@@ -111,19 +112,9 @@ def displaced(sideways: Sideways, p: Field, q: Field) -> Field:
     return np.asarray(displacement)
 
 
-@dataclass(frozen=True)
-class SlipResiduals:
-    """The shear's part of `residuals.Residuals`, by the same names."""
-
-    friction_cone: float
-    slip_direction: float | None
-    tangential_equilibrium: float | None
-    torque_equilibrium: float | None
-
-
 def slip_residuals(
     sideways: Sideways, p: Field, after: Slid, step: Field | None, loads: Loads
-) -> SlipResiduals:
+) -> ShearResiduals:
     """How well a state obeys friction and carries its load.
 
     step  slip increment over the hats; None where it is undefined
@@ -139,8 +130,8 @@ def slip_residuals(
     if target.resultant is not None:
         limit = capacity(sideways, p)
         defect = abs(after.resultant / (2 * pi) - target.resultant)
-        missing = defect / limit if limit > 0 else 0.0
-    return SlipResiduals(
+        missing = 0.0 if limit == 0 else defect / limit
+    return ShearResiduals(
         friction_cone=friction_cone(np.abs(after.shear), bound),
         slip_direction=direction,
         tangential_equilibrium=None if loads.twisting else missing,

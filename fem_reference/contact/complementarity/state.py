@@ -6,11 +6,11 @@ from math import pi
 import numpy as np
 from numpy.typing import NDArray
 
+from contact_scene.residuals import Residuals
 from contact_scene.summary import ContactStatus
 from fem_reference.contact.complementarity.box_program import Sides
 from fem_reference.contact.complementarity.contact_problem import Sideways
 from fem_reference.loads import Loads
-from fem_reference.residuals import Residuals
 
 Field = NDArray[np.float64]
 

@@ -5,6 +5,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from contact_scene.residuals import Residuals
 from contact_scene.solver_errors import GrossSliding, NotConverged
 from fem_reference.contact.harmonics.alternation import (
     AT_LIMIT,
@@ -20,7 +21,6 @@ from fem_reference.contact.harmonics.state import PointState
 from fem_reference.loads import NormalTarget, TangentialTarget
 from fem_reference.residuals import (
     LEAST_SLIP,
-    Residuals,
     complementarity,
     friction_cone,
     penetration,
@@ -162,7 +162,8 @@ class _Trial:
         limit = np.sum(w * bound)
         # What shear alone does: where all sticks from the start, all together moves nothing.
         by_shear, _ = problem.compliance.displacement(np.zeros_like(p), q)
-        moved = max(_longest(by_shear), _longest(self.before.displacement), ROUND_OFF * approach)
+        lengths = _longest(by_shear), _longest(self.before.displacement), ROUND_OFF * approach
+        moved = float(np.max(lengths))
         slid = solution.shift is not None
         return Residuals(
             complementarity=complementarity(p, w * g, w, approach),
@@ -188,8 +189,8 @@ def slip_direction(q: Field, bound: Vector, passed: Field, areas: Vector, moved:
     """
     work = areas * bound * _length(passed)
     missing = np.sum(work - areas * np.sum(q * passed, axis=0))
-    scale = max(np.sum(work), LEAST_SLIP * moved * np.sum(areas * bound))
-    return float(missing / scale) if scale > 0 else 0.0
+    scale = np.maximum(np.sum(work), LEAST_SLIP * moved * np.sum(areas * bound))
+    return 0.0 if scale == 0 else float(missing / scale)
 
 
 def _length(vectors: Field) -> Vector:

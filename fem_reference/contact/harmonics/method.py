@@ -8,12 +8,12 @@ from functools import cached_property
 
 import numpy as np
 
+from contact_scene.solver_errors import ContactAtZoneEdge
 from fem_reference.contact.harmonics.angular_grid import AngularGrid, axisymmetric_grid, end_grid
 from fem_reference.contact.harmonics.increment import advance
 from fem_reference.contact.harmonics.point_contact import PointContact, point_contact
 from fem_reference.contact.harmonics.reported import reported
 from fem_reference.contact.harmonics.state import PointState
-from fem_reference.errors import ContactAtZoneEdge
 from fem_reference.fields import Increment
 from fem_reference.loads import Loads, Place, TangentialTarget
 from fem_reference.model import ContactModel

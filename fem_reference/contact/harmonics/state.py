@@ -5,9 +5,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from contact_scene.residuals import Residuals
 from contact_scene.summary import ContactStatus
 from fem_reference.contact.harmonics.point_compliance import PointCompliance
-from fem_reference.residuals import Residuals
 
 Field = NDArray[np.float64]
 Vector = NDArray[np.float64]

@@ -7,7 +7,7 @@ from math import pi
 import numpy as np
 from numpy.typing import NDArray
 
-from contact_scene.solver_errors import GrossSliding, NotConverged
+from contact_scene.solver_errors import ContactAtZoneEdge, GrossSliding, NotConverged
 from fem_reference.contact.complementarity.shearing import SidewaysTarget
 from fem_reference.contact.complementarity.slipping import reaches_limit
 from fem_reference.contact.penalty.augmentation import augmented
@@ -18,7 +18,6 @@ from fem_reference.contact.penalty.spring_contact import PenaltyLaw
 from fem_reference.contact.penalty.springs import NORMAL, solve_by_springs
 from fem_reference.contact.penalty.state import PenaltyState, Solution, untouched
 from fem_reference.contact.penalty.surface import ElasticSurface, Target
-from fem_reference.errors import ContactAtZoneEdge
 from fem_reference.loads import Loads
 
 Field = NDArray[np.float64]
@@ -54,8 +53,7 @@ def advance(
             f"the contact reaches {problem.points.radii[-1]:.6g} m, where the zone of fine "
             f"elements ends; give a larger contact_radius"
         )
-    if not state.residuals.worst <= tolerance:
-        raise NotConverged("the increment", state.iterations, state.residuals.worst, tolerance)
+    state.residuals.require(tolerance, "the increment", state.iterations)
     return state
 
 

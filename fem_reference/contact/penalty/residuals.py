@@ -9,12 +9,13 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
+from contact_scene.residuals import Residuals
 from fem_reference.contact.penalty.newton import Iterate
 from fem_reference.contact.penalty.problem import PenaltyProblem
 from fem_reference.contact.penalty.spring_contact import Response
 from fem_reference.contact.penalty.surface import Target
 from fem_reference.plan import Path
-from fem_reference.residuals import Residuals, friction_cone
+from fem_reference.residuals import friction_cone
 
 Field = NDArray[np.float64]
 

@@ -7,9 +7,9 @@ from typing import Self
 import numpy as np
 from numpy.typing import NDArray
 
+from contact_scene.residuals import Residuals
 from fem_reference.contact.penalty.newton import Iterate
 from fem_reference.loads import Loads, NormalTarget
-from fem_reference.residuals import Residuals
 
 Field = NDArray[np.float64]
 Mask = NDArray[np.bool_]
