@@ -29,14 +29,16 @@ from verification.report.counts import counts_text
 from verification.report.extent import extent
 from verification.report.features import features
 from verification.report.page import render_page
-from verification.report.prices import price_table, prices, telling_chart
+from verification.report.prices import PAPERS_ROUTE, price_table, telling_chart
 from verification.report.sections import TITLES, stored_records, study_section
 from verification.report.sketch import sketch_svg, thin_layers
 from verification.report.summary_text import render_summary
 from verification.running.record import StudyRecord, dump_study
 from verification.running.report_record import Report
+from verification.running.row import Row
 from verification.running.study import Conclusion, Statement
 from verification.studies.catalogue import STUDIES
+from verification.studies.work_precision.price_rows import Reached
 
 SECTIONS = (
     "verdict", "baseline", "answers", "cases", "solvers", "paper", "frf", "cost", "stability",
@@ -116,32 +118,37 @@ def test_a_study_answers_its_question_in_its_own_words() -> None:
     assert both.missing is not None
 
 
-def priced(*tables: Table) -> StudyRecord:
-    """A study of what accuracy costs."""
-    titles = [table.title.partition(", ")[2] for table in tables]
-    charts = tuple(chart(f"chart_{n}", title) for n, title in enumerate(titles))
+def priced(*rows: Row) -> StudyRecord:
+    """A study of what accuracy costs, with a diagram for every quantity."""
+    charts = tuple(chart(str(name), "Diagram") for name in dict.fromkeys(
+        row.parameters["chart"] for row in rows
+    ))  # fmt: skip
     return study("work-precision", "It depends.").model_copy(
         update={"conclusion": Conclusion(
             statements=(Statement(claim="c", outcome=Status.PASS, measured="m"),),
-            answer="It depends.", tables=tables, charts=charts,
+            answer="It depends.", rows=rows, charts=charts,
         )}
     )  # fmt: skip
 
 
-def settings(quantity: str, *costs: tuple[str, str]) -> Table:
-    """Cheapest settings for a quantity, at 1 % and 0.1 %, by method."""
-    rows = tuple((method, "1 s: coarse", cost) for method, cost in costs)
-    return Table(
-        title=f"Cheapest setting by the clock, {quantity}", columns=("method", "1 %", "0.1 %"),
-        rows=rows,
+def prices(title: str, **costs: float | None) -> tuple[Row, ...]:
+    """What a quantity costs to 1 % and to 0.1 %, by method: 1 s, and this."""
+    return tuple(
+        Row(
+            parameters={"title": title, "method": method, "target": target,
+                        "chart": f"chart of {title}"},
+            measures={"cost": cost}, units={"cost": "s"},
+            words={"reached": Reached.NOT if cost is None else Reached.TRIED, "setting": "8 x 8"},
+        )
+        for method, asked in costs.items() for target, cost in ((0.01, 1.0), (0.001, asked))
     )  # fmt: skip
 
 
 def test_what_an_accuracy_costs_is_one_table_of_quantities_and_methods() -> None:
     record = priced(
-        settings("Hertz: pressure, L2", ("cells", "–"), ("elements", "–")),
-        settings("Hertz: radius", ("cells", "9 s: 8 x 8"), ("elements", "–")),
-        settings("Hertz: approach", ("cells", "2 s: 16 x 16"), ("sampled", "3 s: 8 x 8")),
+        *prices("Hertz: pressure, L2", cells=None, elements=None),
+        *prices("Hertz: radius", cells=9.0, elements=None),
+        *prices("Hertz: approach", cells=2.0, sampled=3.0),
     )
     (answer,) = [a for a in answers(report_of((), (record,))) if "cost" in a.question]
     assert answer.table is not None
@@ -153,11 +160,20 @@ def test_what_an_accuracy_costs_is_one_table_of_quantities_and_methods() -> None
     )
     # The chart is of the quantity that most methods get there.
     assert answer.chart is not None
-    assert answer.chart.title == "Hertz: approach"
-    assert [price.reached for price in prices(record.conclusion)] == [0, 1, 2]
+    assert answer.chart.name == "chart of Hertz: approach"
 
 
-def test_a_study_without_such_tables_has_no_table_of_prices() -> None:
+def test_the_chart_of_prices_is_one_that_the_papers_own_route_was_tried_on() -> None:
+    record = priced(
+        *prices("shift", cells=1.0, **{PAPERS_ROUTE: None}),
+        *prices("approach", cells=2.0, sampled=3.0),
+    )
+    shown = telling_chart(record.conclusion)
+    assert shown is not None
+    assert shown.name == "chart of shift"
+
+
+def test_a_study_without_prices_has_no_table_of_them() -> None:
     conclusion = study("work-precision").conclusion
     assert price_table(conclusion, "") is None
     assert telling_chart(conclusion) == conclusion.charts[0]

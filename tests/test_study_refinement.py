@@ -15,13 +15,8 @@ from fem_reference import Method
 from fem_reference.contact.complementarity import method as complementarity
 from semi_analytical import UnsupportedScene
 from slipstick.cli import main
-from verification.convergence.level_record import (
-    SHEAR,
-    LevelRecord,
-    StoredField,
-    at_centres,
-    change,
-)
+from verification.convergence.level_record import SHEAR, LevelRecord
+from verification.convergence.stored_field import StoredField, at_centres, change
 from verification.judging.case import Level
 from verification.judging.outcome import Status
 from verification.running.study import Settings, Study

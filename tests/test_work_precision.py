@@ -27,6 +27,7 @@ from verification.report.prices import price_table
 from verification.running.provenance import provenance
 from verification.running.record import StudyRecord, dump_study
 from verification.running.study import Conclusion, Settings
+from verification.studies.work_precision.charts import SERIES
 from verification.studies.work_precision.cold_cache import CACHE, cold_cache
 from verification.studies.work_precision.contacts import CONTACTS
 from verification.studies.work_precision.point import (
@@ -39,6 +40,13 @@ from verification.studies.work_precision.point import (
     seconds,
 )
 from verification.studies.work_precision.points import points_of
+from verification.studies.work_precision.price import (
+    CLOCK,
+    WORK,
+    answer_in,
+    statements_in,
+    tables_in,
+)
 from verification.studies.work_precision.recorded_peers import (
     OTHERS,
     peer_answer,
@@ -50,6 +58,7 @@ from verification.studies.work_precision.study import STUDY, cases
 from verification.studies.work_precision.usual_route import SampledCoefficients, Sampling
 
 SETTINGS = Settings(Level.QUICK)
+KEPT = Path(__file__).parents[1] / "reports/studies/work-precision/study.json"
 positive = st.floats(1e-6, 1.0)
 points = st.lists(
     st.builds(
@@ -205,6 +214,17 @@ def test_the_clock_changes_the_provenance_alone() -> None:
     assert dump_study(other.model_copy(update={"provenance": one.provenance})) == dump_study(one)
     assert files[0]["settings.csv"] == files[1]["settings.csv"]
     assert files[0]["seconds.csv"] != files[1]["seconds.csv"]
+
+
+def test_the_kept_record_says_what_its_numbers_say() -> None:
+    """Statements, tables and answers, by counted work and by the clock."""
+    kept = StudyRecord.model_validate_json(KEPT.read_bytes())
+    assert kept.provenance.timed is not None
+    for price, said in ((WORK, kept.conclusion), (CLOCK, kept.provenance.timed)):
+        own = [row for row in said.rows if row.parameters["method"] in SERIES]
+        assert statements_in(own) == said.statements[-len(statements_in(own)) :]
+        assert tables_in(price, said.rows) == said.tables[: len(tables_in(price, said.rows))]
+        assert said.answer.startswith(answer_in(price, own))
 
 
 def test_the_clock_judges_nothing() -> None:

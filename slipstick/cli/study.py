@@ -160,6 +160,7 @@ def _studied(
     from verification.running.case_store import CaseStore
     from verification.running.provenance import provenance
     from verification.running.record import StudyRecord
+    from verification.running.row_files import row_files
 
     refuse_if_unwritable(directory)
     with in_sole_use(directory):
@@ -182,7 +183,7 @@ def _studied(
             lost=tuple(end.lost for end in ends if end.lost is not None),
             provenance=provenance(command, seconds, timed=study.timed(settings, records)),
         )
-        write_study(record, study.exports(settings, records), directory)
+        write_study(record, {**row_files(records), **study.exports(settings, records)}, directory)
     return record
 
 

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 from contact_results.quantities import shear_of
 from contact_scene import Body, IsotropicMaterial
 from verification.cases.indentation_reference import Indentation
-from verification.convergence.level_record import at_centres
+from verification.convergence.stored_field import at_centres
 from verification.exhibits.chart import Chart
 from verification.exhibits.convergence_chart import convergence_chart
 from verification.judging.case import Case, Comparison, Level

@@ -11,6 +11,7 @@ from verification.exhibits.chart import Chart
 from verification.exhibits.table import Table
 from verification.judging.case import Level
 from verification.judging.outcome import Status
+from verification.running.row import Row
 
 STUDY_VERSION = 1
 
@@ -18,7 +19,8 @@ STUDY_VERSION = 1
 class StudyCase(Protocol):
     """A frozen dataclass of plain values that says what to compute; it is sent to a worker.
 
-    record_type  what `compute` returns, so that it can be read back from its file
+    record_type  what `compute` returns, so that it can be read back from its file; of a study's
+                 cases a `CaseRecord`
     """
 
     record_type: ClassVar[type[Description]]
@@ -54,6 +56,8 @@ class Statement(Description):
 
     measured: str
     because: str = ""
+    about: Row | None = None
+    """The same as fields: what it is about, and the numbers behind it; null in older records."""
 
 
 class LostCase(Description):
@@ -72,6 +76,9 @@ class Conclusion(Description):
 
     tables: tuple[Table, ...] = ()
     charts: tuple[Chart, ...] = ()
+    rows: tuple[Row, ...] = ()
+    """Numbers that are read on: tables and pages are made of them."""
+
     remarks: tuple[str, ...] = ()
     """What is assumed, and what the study does not show."""
 
@@ -92,7 +99,7 @@ class Study:
     question  what it is about, for a reader
     cases     what has to be computed
     conclude  from the records that there are, by name of the case: some may be missing
-    exports   more files from the records, text by file name
+    exports   more files from the records, text by file name; their rows are written anyway
     timed     what follows from the seconds in the records, which no run repeats; it goes into the
               provenance, so that all else is the same at every run
     """

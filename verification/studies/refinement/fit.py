@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from itertools import pairwise
 from math import hypot
 
-from verification.convergence.level_record import LevelRecord, change
+from verification.convergence.level_record import LevelRecord
 from verification.convergence.observed_order import (
     ORDER_WIDTH,
     TRIPLETS_AGREE,
@@ -19,6 +19,7 @@ from verification.convergence.observed_order import (
     triplets_agree,
     triplets_of_changes,
 )
+from verification.convergence.stored_field import change
 from verification.judging.outcome import Status
 from verification.judging.verdicts import order_status
 from verification.studies.refinement.expected import Expected

@@ -13,13 +13,8 @@ from contact_scene import Scene
 from contact_scene.description import Description
 from fem_reference import Increment, Method, Result, solve
 from fem_reference.contact.harmonics.surface_tractions import tractions_at
-from verification.convergence.level_record import (
-    PRESSURE,
-    SHEAR,
-    Field,
-    LevelRecord,
-    StoredField,
-)
+from verification.convergence.level_record import PRESSURE, SHEAR, LevelRecord
+from verification.convergence.stored_field import Field, StoredField
 from verification.studies.refinement.studied_scene import StudiedScene, cut_into
 from verification.studies.work_precision import counted_work
 

@@ -13,13 +13,8 @@ from contact_results.quantities import largest_residual, named_values
 from contact_scene import FrictionMap, HeightMap, Scene, SceneFile
 from contact_scene.description import Description
 from semi_analytical import Plan, Result, SurfaceGrid, UnsupportedScene, discretise, plan, solve
-from verification.convergence.level_record import (
-    PRESSURE,
-    SHEAR,
-    Field,
-    LevelRecord,
-    StoredField,
-)
+from verification.convergence.level_record import PRESSURE, SHEAR, LevelRecord
+from verification.convergence.stored_field import Field, StoredField
 from verification.running.study import Settings
 from verification.studies.refinement.studied_scene import StudiedScene
 

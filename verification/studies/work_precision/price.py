@@ -2,18 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections import Counter
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
+from itertools import groupby
 
-from verification.exhibits.numbers import EXTRAPOLATED, NOT_REACHED, plain
+from verification.exhibits.numbers import EXTRAPOLATED, plain
 from verification.exhibits.table import Table
-from verification.judging.outcome import Status
+from verification.running.row import Row
 from verification.running.study import Statement
 from verification.studies.work_precision.charts import SERIES
 from verification.studies.work_precision.contacts import CONTACTS
 from verification.studies.work_precision.point import (
     TARGETS,
-    Beyond,
     Cost,
     Point,
     beyond,
@@ -21,6 +22,21 @@ from verification.studies.work_precision.point import (
     dependable,
     operations,
     seconds,
+)
+from verification.studies.work_precision.price_rows import (
+    COST,
+    ERROR,
+    LEAST,
+    Reached,
+    at_target,
+    by_quantity,
+    cheapest_guess,
+    cheapest_row,
+    cost_text,
+    dearest,
+    is_reached,
+    nearest_row,
+    setting_and_cost,
 )
 from verification.studies.work_precision.recorded_peers import OTHERS
 
@@ -39,6 +55,7 @@ Everything = Mapping[tuple[str, str], tuple[Point, ...]]
 class Price:
     """A cost and how it is written.
 
+    chart  beginning of the names of its diagrams
     words  what is counted, for a sentence
     note   under every table
     """
@@ -46,25 +63,16 @@ class Price:
     cost: Cost
     scale: float
     unit: str
+    chart: str
     words: str
     note: str
-
-    def text(self, point: Point) -> str:
-        """What a setting costs."""
-        return self._with_unit(self.cost(point))
-
-    def guess(self, setting: Beyond) -> str:
-        """What a setting would cost that was not tried."""
-        return f"{EXTRAPOLATED} {self._with_unit(setting.cost)}"
-
-    def _with_unit(self, cost: float) -> str:
-        return f"{plain(cost / self.scale, 2)} {self.unit}"
 
 
 WORK = Price(
     operations,
     MILLION,
     "Mop",
+    "counted",
     "counted work",
     "Millions of counted operations, the same at every run, set-up of exact coefficients left out, "
     "and the setting; " + NOTE.format(mark=EXTRAPOLATED),
@@ -73,56 +81,122 @@ CLOCK = Price(
     seconds,
     1.0,
     "s",
+    "precision",
     "CPU time",
     "CPU seconds, and the setting; " + NOTE.format(mark=EXTRAPOLATED) + " The codes of the last "
     "rows were run in turn with our own, at another time than the rest: compare them with that.",
 )
 
 
-def statements_in(price: Price, everything: Everything) -> tuple[Statement, ...]:
-    """What the accuracy that is asked for costs, quantity by quantity."""
+def price_rows(price: Price, everything: Everything) -> tuple[Row, ...]:
+    """What every target costs with every method, quantity by quantity."""
     return tuple(
-        Statement(
-            claim=f"{quantity_title(*key)} to {percent(ASKED)}",
-            outcome=None,
-            measured=_cheapest_text(price, dependable(points)),
-        )
+        _row(price, key, target, [p for p in steady if p.method == method])
         for key, points in everything.items()
+        for steady in (dependable(points),)
+        for method in _methods(steady)
+        for target in TARGETS
     )
 
 
-def answer_in(price: Price, everything: Everything) -> str:
+def _methods(points: Sequence[Point]) -> list[str]:
+    """Ours in their order, then others."""
+    tried = {point.method for point in points}
+    return [name for name in SERIES if name in tried] + sorted(tried - set(SERIES))
+
+
+def _row(price: Price, key: tuple[str, str], target: float, points: Sequence[Point]) -> Row:
+    """Of one method, whose points are dependable."""
+    contact, quantity = key
+    best, further = cheapest(points, target, price.cost), beyond(points, target, price.cost)
+    measures: dict[str, float | None] = {COST: None, LEAST: min(p.error for p in points)}
+    words = {"reached": Reached.NOT.value}
+    if best is not None:
+        measures |= {COST: price.cost(best) / price.scale, ERROR: best.error}
+        words = {"reached": Reached.TRIED.value, "setting": best.setting}
+        words |= {"code": best.curve} if best.method == OTHERS else {}
+    elif further is not None:
+        measures |= {COST: further.cost / price.scale, "order": further.order}
+        setting = (
+            f"extrapolated to {further.fineness:.0f} cells or elements "
+            f"by order {plain(further.order, 2)}"
+        )
+        words = {"reached": Reached.BEYOND.value, "setting": setting}
+    return Row(
+        parameters={
+            "contact": contact,
+            "quantity": quantity,
+            "title": quantity_title(*key),
+            "method": points[0].method,
+            "target": target,
+            "chart": f"{price.chart}_{contact}_{quantity}",
+        },
+        measures=measures,
+        units={COST: price.unit},
+        words=words,
+    )
+
+
+def statements_in(rows: Iterable[Row]) -> tuple[Statement, ...]:
+    """What the accuracy that is asked for costs, quantity by quantity."""
+    statements = []
+    for title, prices in by_quantity(at_target(rows, ASKED)):
+        best = cheapest_row(prices)
+        statements.append(
+            Statement(
+                claim=f"{title} to {percent(ASKED)}",
+                outcome=None,
+                measured=_not_reached(prices)
+                if best is None
+                else f"{best.parameters['method']}, {best.words['setting']}: {cost_text(best)}",
+                about=best or nearest_row(prices),
+            )
+        )
+    return tuple(statements)
+
+
+def _not_reached(prices: Sequence[Row]) -> str:
+    nearest, further = nearest_row(prices), cheapest_guess(prices)
+    text = (
+        f"not reached; the least error is {plain(nearest.measures[LEAST], 2)} "
+        f"({nearest.parameters['method']})"
+    )
+    return text if further is None else f"{text}; {setting_and_cost(further)}"
+
+
+def answer_in(price: Price, rows: Sequence[Row]) -> str:
     """For how many quantities that accuracy is reached, by which methods, at which cost."""
-    best = [cheapest(dependable(points), ASKED, price.cost) for points in everything.values()]
-    settings = [point for point in best if point is not None]
+    asked = at_target(rows, ASKED)
+    best = [cheapest_row(prices) for _, prices in by_quantity(asked)]
+    settings = [row for row in best if row is not None]
     if not settings:
         return f"No setting that was tried reaches {percent(ASKED)}."
-    counts = {name: sum(p.method == name for p in settings) for name in SERIES}
-    parts = [f"{name} for {count}" for name, count in counts.items() if count]
-    dearest = max(settings, key=price.cost)
+    counts = Counter(row.parameters["method"] for row in settings)
+    tried = Counter(row.parameters["method"] for row in asked)
+    good = Counter(row.parameters["method"] for row in asked if is_reached(row))
     return (
         f"{percent(ASKED)} is reached for {len(settings)} of {len(best)} quantities, in at most "
-        f"{price.text(dearest)}; cheapest of ours by {price.words}: {'; '.join(parts)}. "
-        f"By method, of the quantities that it was tried on: {_by_method(everything)}."
+        f"{cost_text(dearest(settings))}; cheapest of ours by {price.words}: "
+        f"{'; '.join(f'{name} for {counts[name]}' for name in SERIES if counts[name])}. "
+        "By method, of the quantities that it was tried on: "
+        f"{'; '.join(f'{n}: {good[n]} of {tried[n]}' for n in SERIES if tried[n])}."
     )
 
 
-def _by_method(everything: Everything) -> str:
-    """How often every method reaches the accuracy that is asked for."""
-    tried = {
-        name: [[p for p in points if p.method == name] for points in everything.values()]
-        for name in SERIES
-    }
-    counts = [
-        (name, sum(reached(p, ASKED) for p in found if p), sum(bool(p) for p in found))
-        for name, found in tried.items()
-    ]
-    return "; ".join(f"{name}: {good} of {asked}" for name, good, asked in counts if asked)
-
-
-def tables_in(price: Price, everything: Everything) -> tuple[Table, ...]:
+def tables_in(price: Price, rows: Iterable[Row]) -> tuple[Table, ...]:
     """The cheapest setting of every method for every target, a table for every quantity."""
-    return tuple(_table(price, key, points) for key, points in everything.items())
+    return tuple(
+        Table(
+            title=f"Cheapest setting by {price.words}, {title}",
+            columns=("method", *(percent(target) for target in TARGETS)),
+            rows=tuple(
+                (str(method), *map(setting_and_cost, costs))
+                for method, costs in groupby(prices, lambda row: row.parameters["method"])
+            ),
+            note=price.note,
+        )
+        for title, prices in by_quantity(rows)
+    )
 
 
 def reached(points: Sequence[Point], target: float) -> bool:
@@ -139,54 +213,3 @@ def quantity_title(contact: str, quantity: str) -> str:
     """Of a quantity on a contact, for people."""
     problem = CONTACTS[contact]
     return f"{problem.title}: {problem.errors[quantity]}"
-
-
-def solved(found: int, asked: int) -> Statement:
-    """Whether every setting has a record."""
-    return Statement(
-        claim="every setting is solved",
-        outcome=Status.PASS if found == asked else Status.FAIL,
-        measured=f"{found} of {asked}",
-    )
-
-
-def _cheapest_text(price: Price, points: Sequence[Point]) -> str:
-    best = cheapest(points, ASKED, price.cost)
-    if best is None:
-        least = min(points, key=lambda p: p.error)
-        text = f"not reached; the least error is {plain(least.error, 2)} ({least.method})"
-        further = beyond(points, ASKED, price.cost)
-        return text if further is None else f"{text}; {_further_text(price, further)}"
-    return f"{best.method}, {best.setting}: {price.text(best)}"
-
-
-def _table(price: Price, key: tuple[str, str], points: Sequence[Point]) -> Table:
-    steady = dependable(points)
-    names = [*SERIES, *sorted({p.method for p in points} - set(SERIES))]
-    rows = [
-        (name, *(_cell(price, [p for p in steady if p.method == name], t) for t in TARGETS))
-        for name in names
-        if any(point.method == name for point in points)
-    ]
-    return Table(
-        title=f"Cheapest setting by {price.words}, {quantity_title(*key)}",
-        columns=("method", *(percent(target) for target in TARGETS)),
-        rows=tuple(rows),
-        note=price.note,
-    )
-
-
-def _cell(price: Price, points: Sequence[Point], target: float) -> str:
-    best = cheapest(points, target, price.cost)
-    if best is not None:
-        who = f" ({best.curve})" if best.method == OTHERS else ""
-        return f"{price.text(best)}{who}: {best.setting}"
-    further = beyond(points, target, price.cost)
-    return NOT_REACHED if further is None else _further_text(price, further)
-
-
-def _further_text(price: Price, further: Beyond) -> str:
-    return (
-        f"{price.guess(further)}: extrapolated to {further.fineness:.0f} cells or elements "
-        f"by order {plain(further.order, 2)}"
-    )

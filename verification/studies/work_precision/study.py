@@ -11,8 +11,9 @@ import io
 from collections.abc import Mapping, Sequence
 
 from verification.judging.outcome import Status
+from verification.running.rules import solved
 from verification.running.study import Conclusion, Records, Settings, Statement, Study
-from verification.studies.work_precision.charts import time_chart, work_chart
+from verification.studies.work_precision.charts import SERIES, time_chart, work_chart
 from verification.studies.work_precision.contacts import CONTACTS
 from verification.studies.work_precision.families import all_cases
 from verification.studies.work_precision.points import Found, points_of, setting_text
@@ -22,9 +23,9 @@ from verification.studies.work_precision.price import (
     Everything,
     answer_in,
     percent,
+    price_rows,
     quantity_title,
     reached,
-    solved,
     statements_in,
     tables_in,
 )
@@ -71,16 +72,16 @@ def conclude(settings: Settings, records: Records) -> Conclusion:
     """Statements, tables and diagrams by counted work."""
     found = _found_of(settings, records)
     everything = _everything(found)
-    peers = recorded_peers()
+    rows, peers = price_rows(WORK, everything), recorded_peers()
     leading = [(c.name, next(iter(c.errors))) for c in CONTACTS.values()]
     return Conclusion(
         statements=(
-            solved(len(found), len(all_cases(settings.level))),
+            solved("every setting is solved", len(found), len(all_cases(settings.level))),
             _reached(everything),
-            *statements_in(WORK, everything),
+            *statements_in(rows),
         ),
-        answer=answer_in(WORK, everything),
-        tables=(*tables_in(WORK, everything), peer_table(peers)),
+        answer=answer_in(WORK, rows),
+        tables=(*tables_in(WORK, rows), peer_table(peers)),
         charts=(
             *(
                 work_chart(CONTACTS[c], q, everything[c, q])
@@ -89,6 +90,7 @@ def conclude(settings: Settings, records: Records) -> Conclusion:
             ),
             *peer_charts(peers),
         ),
+        rows=rows,
         remarks=(
             *SHARED,
             *peer_remarks(peers),
@@ -102,10 +104,13 @@ def timed(settings: Settings, records: Records) -> Conclusion:
     ours, peers = _everything(_found_of(settings, records)), recorded_peers()
     others = peer_points(peers)
     beside = {key: (*points, *others.get(key, ())) for key, points in ours.items()}
+    rows = price_rows(CLOCK, beside)
+    own = [row for row in rows if row.parameters["method"] in SERIES]
     return Conclusion(
-        statements=statements_in(CLOCK, ours),
-        answer=" ".join(filter(None, (answer_in(CLOCK, ours), peer_answer(peers)))),
-        tables=tables_in(CLOCK, beside),
+        statements=statements_in(own),
+        answer=" ".join(filter(None, (answer_in(CLOCK, own), peer_answer(peers)))),
+        tables=tables_in(CLOCK, rows),
+        rows=rows,
         charts=tuple(time_chart(CONTACTS[c], q, points) for (c, q), points in beside.items()),
         remarks=BY_THE_CLOCK,
     )

@@ -1,0 +1,122 @@
+"""Rows of a study: what is written of them, and the rules that judge them."""
+
+import csv
+import io
+from dataclasses import dataclass
+from enum import StrEnum
+from typing import ClassVar
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from contact_scene.description import Description
+from verification.judging.outcome import Status
+from verification.running.row import CaseRecord, Row, found, parameters_of
+from verification.running.row_files import row_files
+from verification.running.rules import RESIDUAL, converged, solved, within
+
+numbers = st.floats(allow_nan=False, allow_infinity=False) | st.none()
+names = st.text(st.characters(codec="utf-8", categories=["L", "N"]), min_size=1, max_size=8)
+rows = st.builds(
+    CaseRecord,
+    parameters=st.dictionaries(names, numbers | st.booleans() | st.integers() | names),
+    measures=st.dictionaries(names, numbers),
+    counters=st.dictionaries(names, st.integers(0, 2**40)),
+    words=st.dictionaries(names.map("said_{}".format), names),
+)
+
+
+class How(StrEnum):
+    WELL = "well"
+
+
+@dataclass(frozen=True)
+class Inner:
+    ratio: float
+
+
+@dataclass(frozen=True)
+class Asked:
+    record_type: ClassVar[type[Description]] = CaseRecord
+    name: str
+    how: How = How.WELL
+    inner: Inner = Inner(2.0)
+    cells: tuple[int, int] = (4, 6)
+
+
+@given(rows)
+def test_a_record_comes_back_from_its_file(record: CaseRecord) -> None:
+    assert CaseRecord.model_validate_json(record.model_dump_json()) == record
+
+
+@given(st.dictionaries(names, rows, min_size=1))
+def test_every_number_of_every_row_is_written(records: dict[str, CaseRecord]) -> None:
+    lines = list(csv.DictReader(io.StringIO(row_files(records)["rows.csv"])))
+    assert [line["case"] for line in lines] == list(records)
+    for line, record in zip(lines, records.values(), strict=True):
+        for name, value in record.measures.items():
+            assert line[f"{name} [1]"] == ("" if value is None else str(value))
+        for name, count in record.counters.items():
+            assert line[f"{name} [count]"] == str(count)
+        for name, word in record.words.items():
+            assert line[name] == word
+
+
+def test_units_stand_in_the_head_and_parts_in_a_file_of_their_own() -> None:
+    part = Row(parameters={"step": 1}, measures={"shift": 2e-6}, units={"shift": "m"})
+    files = row_files({"one": CaseRecord(parts=(part, part), seconds=0.5, repeats=3)})
+    assert files["parts.csv"].splitlines() == ["case,step,shift [m]", "one,1,2e-06", "one,1,2e-06"]
+    assert files["seconds.csv"].splitlines() == ["case,seconds,repeats", "one,0.5,3"]
+    assert "parts.csv" not in row_files({"one": CaseRecord()})
+
+
+def test_the_clock_changes_no_other_file() -> None:
+    one, other = (row_files({"one": CaseRecord(seconds=s, repeats=n)}) for s, n in ((1, 1), (2, 5)))
+    assert {name for name in one if one[name] != other[name]} == {"seconds.csv"}
+
+
+def test_parameters_are_the_plain_values_of_a_case() -> None:
+    expected = {"name": "a", "how": "well", "ratio": 2.0, "cells": "4 x 6"}
+    assert parameters_of(Asked("a")) == expected
+
+
+def test_cases_without_a_record_are_left_out() -> None:
+    a, b = Asked("a"), Asked("b")
+    assert found((a, b), {"b": CaseRecord()}) == {b: CaseRecord()}
+
+
+def residual(value: float | None) -> Row:
+    return Row(measures={RESIDUAL: value})
+
+
+@pytest.mark.parametrize(
+    ("values", "complete", "outcome"),
+    [
+        ([1e-9, 1e-8], True, Status.PASS),
+        ([1e-9, 2e-8], True, Status.FAIL),
+        ([1e-9, None, 1e-9], True, Status.FAIL),  # not finite
+        ([1e-9], False, Status.INCONCLUSIVE),
+    ],
+)
+def test_the_worst_residual_decides(
+    values: list[float | None], complete: bool, outcome: Status
+) -> None:
+    said = converged([residual(v) for v in values], 1e-8, "in all", complete=complete)
+    assert said.outcome is outcome
+    assert ("not finite" in said.measured) == (None in values)
+
+
+def test_signs_do_not_matter_to_what_is_allowed_and_what_a_row_lacks_is_not_asked() -> None:
+    rows = (Row(measures={"peak": -3e-3}), Row(measures={"approach": 1e-3}))
+    good = within("Hertz", rows, {"peak": 4e-3, "approach": 2e-3}, "asked", complete=True)
+    bad = within("Hertz", rows, {"peak": 2e-3, "approach": 2e-3}, "asked", complete=True)
+    assert (good.outcome, bad.outcome) == (Status.PASS, Status.FAIL)
+    assert bad.measured == "peak 0.003, approach 0.001"
+    assert bad.about is not None
+    assert bad.about.measures == {"peak": 3e-3, "approach": 1e-3}
+
+
+def test_what_was_not_solved_fails() -> None:
+    assert solved("all", 3, 4).outcome is Status.FAIL
+    assert solved("all", 4, 4, "solves").measured == "4 of 4 solves"

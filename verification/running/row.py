@@ -1,0 +1,91 @@
+"""Rows: what a study measures, one observation each, so that any rule, table or diagram reads it.
+
+A case leaves one row. What it saw on its way (increments, points of a profile, verdicts) are the
+row's parts, rows themselves.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import fields, is_dataclass
+from enum import Enum
+from typing import Any, Protocol, TypeVar
+
+from pydantic import Field
+
+from contact_scene.description import Description
+from verification.convergence.stored_field import StoredField
+
+Value = str | bool | int | float | None
+
+
+class Row(Description):
+    """One observation."""
+
+    parameters: dict[str, Value] = Field(default_factory=dict)
+    """What it is of: what was asked for."""
+
+    measures: dict[str, float | None] = Field(default_factory=dict)
+    """What was measured; null where it is not finite or not known."""
+
+    units: dict[str, str] = Field(default_factory=dict)
+    """Of the measures that have one."""
+
+    counters: dict[str, int] = Field(default_factory=dict)
+    """What was counted: the same at every run."""
+
+    words: dict[str, str] = Field(default_factory=dict)
+    """What was said: kinds of ends, reasons."""
+
+    def number(self, name: str) -> float | None:
+        """A measure, a counter or a parameter that is a number; None without one."""
+        known: Any = {**self.parameters, **self.counters, **self.measures}.get(name)
+        return None if isinstance(known, str) else known
+
+
+class CaseRecord(Row):
+    """What a case of a study leaves, whatever it computes."""
+
+    parts: tuple[Row, ...] = ()
+    """What it saw on its way."""
+
+    fields: dict[str, StoredField] = Field(default_factory=dict)
+    """Fields that other cases are compared with."""
+
+    seconds: float = 0.0
+    """CPU time; with `repeats`, all that differs between equal runs."""
+
+    repeats: int = 1
+    """Solves of which `seconds` is the median."""
+
+
+class Named(Protocol):
+    """A case, by what its record is found."""
+
+    @property
+    def name(self) -> str: ...
+
+
+C = TypeVar("C", bound=Named)
+
+
+def found(cases: Iterable[C], records: Mapping[str, Description]) -> dict[C, CaseRecord]:
+    """The records that there are, by case, in the order of the cases."""
+    known = ((case, records.get(case.name)) for case in cases)
+    return {case: record for case, record in known if isinstance(record, CaseRecord)}
+
+
+def parameters_of(case: Any) -> dict[str, Value]:
+    """The plain values that a case is made of, by the names of its fields."""
+    values: dict[str, Value] = {}
+    for field in fields(case):
+        value = getattr(case, field.name)
+        if is_dataclass(value):
+            values |= parameters_of(value)
+        elif isinstance(value, Enum):
+            values[field.name] = value.value
+        elif isinstance(value, tuple):
+            values[field.name] = " x ".join(map(str, value))
+        else:
+            values[field.name] = value
+    return values
