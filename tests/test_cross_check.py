@@ -14,7 +14,7 @@ from verification.cases.cross_check_contacts import FRICTIONS, RATIOS, THICKNESS
 from verification.cases.cross_check_sides import Sides
 from verification.cases.cross_check_stress import stress_difference
 from verification.judging.case import Level
-from verification.judging.judgement import judge, solve_run
+from verification.judging.judgement import judge
 from verification.judging.outcome import Status
 from verification.judging.run import SectionRun
 from verification.running.study import Settings
@@ -211,20 +211,20 @@ def test_where_stick_came_back_to_the_axis_two_elements_off_it_errs_alike_on_eve
 def stiffer_film(run: object) -> object:
     """The run of elements with a coating of 1.02 times the modulus; that of cells as it is."""
     if not isinstance(run, SectionRun):
-        return solve_run(run)  # type: ignore[arg-type]
+        return run.solve()  # type: ignore[arg-type]
     body = run.scene.body
     (layer,) = body.layers
     E, nu = layer.material.young_modulus, layer.material.poisson_ratio
     material = IsotropicMaterial(young_modulus=1.02 * E, poisson_ratio=nu)
     other = body.model_copy(update={"layers": (layer.model_copy(update={"material": material}),)})
-    return solve_run(replace(run, scene=run.scene.model_copy(update={"body": other})))
+    return replace(run, scene=run.scene.model_copy(update={"body": other})).solve()
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize("broken", [False, True], ids=["same bodies", "another coating"])
 def test_case_tells_bodies_apart(broken: bool) -> None:
     case = cross_check_on((Sides(SMOOTH, 96, 64),))
-    outcome = judge(case, stiffer_film if broken else solve_run)
+    outcome = judge(case, stiffer_film) if broken else judge(case)
     failed = {verdict.name for verdict in outcome.verdicts if verdict.status is Status.FAIL}
     expected = {"approach_difference", "pressure_difference", "stress_difference"}
     assert failed == (expected if broken else set())

@@ -21,7 +21,6 @@ from verification.external_codes.calculix_result import read_normal_force, read_
 from verification.external_codes.coated_scene import FRICTIONLESS, HERTZ_RADIUS, far_displacement
 from verification.external_codes.recorded import NAME, Recorded, recorded
 from verification.external_codes.run_calculix import FINENESSES, SCENES, deck_hash
-from verification.judging.judgement import solve_run
 from verification.judging.outcome import Status
 from verification.judging.verdicts import judge_quantity
 from verification.references import load_reference
@@ -226,7 +225,7 @@ def test_case_judges_both_solvers_on_every_record():
 def test_frictionless_contact_is_that_of_the_external_code():
     case = external_codes_on(Sizes(128, 32))
     beside = Beside(NAMES[FRICTIONLESS.name], recorded(FRICTIONLESS.name), Sizes(128, 32))
-    results = {run.label: solve_run(run) for run in (beside.section, beside.surface)}
+    results = {run.label: run.solve() for run in (beside.section, beside.surface)}
     judged = [quantity for quantity in case.quantities if quantity.run in results]
     assert len(judged) == 4
     for quantity in judged:

@@ -8,14 +8,13 @@ import pytest
 import semi_analytical
 from contact_scene import Body, CoulombFriction, LoadStep
 from contact_scene.solver_errors import NotConverged
-from fem_reference import Method
 from verification.cases import coupled_history
 from verification.cases.torsion import torque_step
 from verification.judging.case import Case
-from verification.judging.judgement import solve_run
 from verification.judging.law_verdicts import OTHER_NORMS, judge_laws
 from verification.judging.outcome import Status
 from verification.judging.run import SOLVER_TOLERANCE, Run, SectionRun, per_radius
+from verification.judging.solver import Method
 from verification.judging.verdicts import judge_quantity
 from verification.observed.laws import observed
 from verification.observed.prescribed import missed
@@ -79,12 +78,12 @@ RUNS = {
 
 @pytest.fixture(scope="module", params=RUNS)
 def result(request: pytest.FixtureRequest):
-    return solve_run(RUNS[request.param])
+    return RUNS[request.param].solve()
 
 
 @pytest.fixture(scope="module")
 def solved():
-    return {name: solve_run(RUNS[name]) for name in ("cells", "cells, twisted", "rings", "springs")}
+    return {name: RUNS[name].solve() for name in ("cells", "cells, twisted", "rings", "springs")}
 
 
 def changed(result, **factors):
@@ -160,7 +159,7 @@ def test_number_that_is_not_finite_is_a_violation(solved):
 @pytest.mark.parametrize("way", WAYS)
 @pytest.mark.parametrize("history", SMOOTH)
 def test_no_shear_without_friction(history, way):
-    result = solve_run(WAYS[way](SMOOTH[history]))
+    result = WAYS[way](SMOOTH[history]).solve()
     assert max(observed(result)) <= ALLOWED
     *before, last = result.increments
     names = "shear", "shear_radial", "shear_along_load", "shear_circumferential"
@@ -193,7 +192,7 @@ def test_increments_that_cannot_be_held_against_laws_are_counted(solved, name):
 
 def test_energy_that_is_taken_as_told_is_counted():
     run = Run("cells, coupled", coupled(), GRID)
-    _, energy = judge_laws(Case("planted", "", "", (run,), ()), {run.label: solve_run(run)})
+    _, energy = judge_laws(Case("planted", "", "", (run,), ()), {run.label: run.solve()})
     assert "in 2 of 3 increments a contact with friction has grown" in energy.meaning
 
 
@@ -204,7 +203,7 @@ def gives_up(*_given):
 def test_history_that_cannot_be_led_by_its_motion_fails(monkeypatch):
     case = coupled_history.coupled_history_on(16, 8, 2)
     run = next(run for run in case.runs if run.label == case.quantities[0].run)
-    result = solve_run(run)
+    result = run.solve()
     monkeypatch.setattr(semi_analytical, "solve", gives_up)
     verdicts = [judge_quantity(q, case, {run.label: result}) for q in case.quantities[:2]]
     assert [verdict.status for verdict in verdicts] == [Status.FAIL, Status.FAIL]
@@ -214,7 +213,7 @@ def test_history_that_cannot_be_led_by_its_motion_fails(monkeypatch):
 def test_history_led_by_its_motion_is_held_to_the_limit_of_every_run(monkeypatch):
     case = coupled_history.coupled_history_on(16, 8, 2)
     laws = case.quantities[1]
-    results = {laws.run: solve_run(case.run(laws.run))}
+    results = {laws.run: case.run(laws.run).solve()}
     assert judge_quantity(laws, case, results).status is Status.PASS
     monkeypatch.setattr(coupled_history, "observed", lambda result: (2 * ALLOWED, None))
     assert judge_quantity(laws, case, results).status is Status.FAIL

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from verification.cases import sheared_increments
-from verification.cases.catalogue import catalogue
+from verification.cases.catalogue import choose
 from verification.cases.fem_hertz import fem_hertz_on
 from verification.cases.fem_partial_slip import fem_partial_slip_on
 from verification.cases.sheared_increments import sheared_increments_on
@@ -18,7 +18,6 @@ from verification.convergence.observed_order import observed_order
 from verification.exhibits.chart import Look
 from verification.exhibits.convergence_chart import convergence_chart
 from verification.judging.case import Case, Derived, Level, Quantity, Required
-from verification.judging.judgement import solve_run
 from verification.judging.order_of_convergence import Followed, OrderOfConvergence, Refinement
 from verification.judging.outcome import Status, Verdict
 from verification.judging.verdicts import judge_order, judge_quantity
@@ -40,7 +39,7 @@ def judged_at(level: Level) -> frozenset[Place]:
             case.run(order.levels[0]).solver,
             Refinement.MESH if isinstance(order, OrderOfConvergence) else order.refined,
         )
-        for case in catalogue(level).values()
+        for case in choose(level)
         for order in case.orders
     )
 
@@ -170,7 +169,7 @@ def test_lines_of_a_chart_are_those_that_are_judged(
     monkeypatch.setattr(sheared_increments, "CELLS", 16)
     monkeypatch.setattr(sheared_increments, "ENERGETIC", 2)
     case = case_of()
-    results = {run.label: solve_run(run) for run in case.runs}
+    results = {run.label: run.solve() for run in case.runs}
     drawn = [
         c
         for chart in case.charts(results)

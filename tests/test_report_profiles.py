@@ -18,7 +18,6 @@ from verification.cases.indentation_charts import indentation_chart
 from verification.cases.indentation_reference import FEW, WEAK
 from verification.exhibits.chart import Chart, Curve, Look
 from verification.judging.case import Case
-from verification.judging.judgement import solve_run
 from verification.references import load_reference
 from verification.report.profiles_together import NEAR, SAME, profiles_together
 from verification.running.report_record import Report
@@ -29,7 +28,7 @@ CELLS, ELEMENTS = 32, 8
 def profiles_of(one: Case) -> tuple[Chart, ...]:
     """The charts that a case makes, without its verdicts."""
     assert one.charts is not None
-    return one.charts({run.label: solve_run(run) for run in one.runs})
+    return one.charts({run.label: run.solve() for run in one.runs})
 
 
 @cache

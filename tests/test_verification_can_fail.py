@@ -14,7 +14,7 @@ from verification.cases.near_sliding import near_sliding_on
 from verification.defects.defect import planted
 from verification.defects.registry import DEFECTS
 from verification.judging.case import Case
-from verification.judging.judgement import judge, solve_run
+from verification.judging.judgement import judge
 from verification.judging.outcome import CaseOutcome, Status
 from verification.judging.refinement import refinement
 
@@ -73,7 +73,7 @@ def test_residual_above_tolerance_fails() -> None:
 
     def solve(run: Any) -> Any:
         loose = type(run)(run.label, run.scene, run.grid, 1e-4)
-        return solve_run(loose) if run.label == next(iter(lax)) else solve_run(run)
+        return loose.solve() if run.label == next(iter(lax)) else run.solve()
 
     # By the word of the solver, and by its fields.
     seen = {"largest_residual", "observed_violation", "energy_imbalance"}
@@ -86,7 +86,7 @@ def test_solver_that_gives_up_fails_and_the_rest_is_still_judged() -> None:
     def solve(run: Any) -> Any:
         if run is case.runs[0]:
             raise NotConverged("the shear", 60, 1e-3, 1e-8)
-        return solve_run(run)
+        return run.solve()
 
     outcome = judge(case, solve)
     assert failed(outcome) == {"solved"}

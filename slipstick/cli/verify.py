@@ -14,7 +14,7 @@ from slipstick.cli.scheduler_option import SchedulerOption, workers_at
 if TYPE_CHECKING:
     from verification.judging.case import Case
     from verification.running.case_pool import Workers
-    from verification.running.report_record import Report
+    from verification.running.report_record import Benchmark, Report
 
 
 MOST_WARNINGS = 20
@@ -87,14 +87,14 @@ def verify(
     the others are finished.
     """  # fmt: skip
     from slipstick.cli.name_mistakes import unknown_names
-    from verification.cases.catalogue import catalogue, choose
+    from verification.cases.catalogue import CASES, choose
     from verification.judging.case import Level
     from verification.judging.outcome import Status
     from verification.running.local_workers import cores
 
     chosen = Level[level.name]
     listing = f"slipstick verify --list --level {level}"
-    if problem := unknown_names("case", names or (), catalogue(chosen), listing):
+    if problem := unknown_names("case", names or (), CASES, listing):
         raise typer.BadParameter(problem)
     cases = choose(chosen, names or ())
     if list_cases:
@@ -121,7 +121,6 @@ def _verified(
 ) -> Report:
     from contact_results.directory.sole_use import in_sole_use
     from slipstick.cli.judged_cases import judged
-    from verification.benchmarks import benchmarks
     from verification.regression.baseline_files import read_baselines
     from verification.regression.comparison import compared
     from verification.report.files import refuse_if_unwritable, set_aside_report, write_report
@@ -146,13 +145,19 @@ def _verified(
             counts=count(outcomes),
             cases=outcomes,
             omissions=OMISSIONS,
-            provenance=provenance(command, seconds, () if names else benchmarks()),
+            provenance=provenance(command, seconds, () if names else _benchmarks()),
             studies=studies,
             chosen=bool(names),
         )
         report = compared(measured, baselines)
         write_report(report, directory)
     return report
+
+
+def _benchmarks() -> tuple[Benchmark, ...]:
+    from verification.benchmarks import benchmarks
+
+    return tuple(benchmarks())
 
 
 def _print_list(cases: tuple[Case, ...]) -> None:

@@ -6,13 +6,13 @@ from collections.abc import Callable, Mapping
 from math import pi
 from typing import TYPE_CHECKING
 
-from fem_reference import Method
 from verification.cases.fem_hertz import SCENE, meshed, pressure_error
 from verification.cases.fem_levels import allowed, because, finest, judged_within
 from verification.cases.hertz_point import SOURCE, approach_error, peak_error
 from verification.exhibits.chart import Chart, Look, Panel, curve
 from verification.judging.case import Case, Level, Quantity, Required
 from verification.judging.run import SectionRun, per_radius
+from verification.judging.solver import Method
 from verification.observed.end_state import approach, contact_radius, peak_pressure
 from verification.problems.paper_scene import HERTZ
 from verification.problems.reference import Reference, ReferenceKind, closed_form, exact_zero

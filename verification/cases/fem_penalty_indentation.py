@@ -6,13 +6,13 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
-from fem_reference import Method
 from verification.cases.consistent_tangent import consistent_tangent
 from verification.cases.fem_indentation import INNERMOST, Pressed
 from verification.cases.fem_levels import finest, judged_within
 from verification.cases.indentation_reference import COATED, FEW, STRONG, WEAK
 from verification.exhibits.chart import Chart
 from verification.judging.case import Case, Finding, Level, Quantity, Required
+from verification.judging.solver import Method
 from verification.observed.end_state import approach, contact_radius
 
 if TYPE_CHECKING:

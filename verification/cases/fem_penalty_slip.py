@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from fem_reference import Method
 from verification.cases.fem_levels import finest, judged_within, label
 from verification.cases.fem_partial_slip import (
     ASKED,
@@ -30,6 +29,7 @@ from verification.exhibits.chart import Chart
 from verification.exhibits.profile_chart import ProfileLabels
 from verification.judging.case import Case, Level, Quantity, Required
 from verification.judging.run import SectionRun, per_radius
+from verification.judging.solver import Method
 from verification.problems.paper_scene import HERTZ
 from verification.problems.reference import closed_form, exact_zero
 

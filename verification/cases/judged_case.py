@@ -44,13 +44,13 @@ class CaseToJudge:
     def compute(self) -> JudgedCase:
         """Solve and judge it. What is kept on disk is left alone: what is judged must be what the
         code computes now, not what it computed before somebody changed it."""
-        from verification.cases.catalogue import catalogue
+        from verification.cases.catalogue import case_of
         from verification.judging.case import Level
         from verification.judging.judgement import judge
 
         started = time.perf_counter()
         with _no_cache_on_disk():
-            outcome = judge(catalogue(Level[self.level])[self.name])
+            outcome = judge(case_of(self.name, Level[self.level]))
         return JudgedCase(outcome=outcome, seconds=time.perf_counter() - started)
 
 

@@ -8,13 +8,12 @@ from enum import IntEnum
 from typing import TYPE_CHECKING, Any
 
 from verification.judging.order_of_convergence import OrderOfChange, OrderOfConvergence
-from verification.judging.run import Run
+from verification.judging.run import AnyRun
 from verification.problems.reference import Reference, ReferenceKind
 
 if TYPE_CHECKING:
     from verification.exhibits.chart import Chart
     from verification.exhibits.table import Table
-    from verification.judging.run import SectionRun
 
 
 class Level(IntEnum):
@@ -133,7 +132,7 @@ class Case:
     name: str
     title: str
     problem: str
-    runs: tuple[Run | SectionRun, ...]
+    runs: tuple[AnyRun, ...]
     quantities: tuple[Quantity, ...]
     orders: tuple[OrderOfConvergence | OrderOfChange, ...] = ()
     findings: tuple[Finding, ...] = ()
@@ -143,6 +142,6 @@ class Case:
     tables: Callable[[Mapping[str, Any]], tuple[Table, ...]] | None = None
     limits: tuple[str, ...] = ()
 
-    def run(self, label: str) -> Run | SectionRun:
+    def run(self, label: str) -> AnyRun:
         """The run of this label; KeyError if there is none."""
         return {run.label: run for run in self.runs}[label]

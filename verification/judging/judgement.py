@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from typing import Any
 
-import semi_analytical
 from contact_results.quantities import largest_residual
 from contact_scene import Scene, SurfaceDiscretisation
 from contact_scene.scene_text import describe
+from contact_scene.solver_errors import SolverError
 from contact_scene.summary import EffectSummary
 from verification.judging.case import Case, Derived, Finding, Quantity
 from verification.judging.law_verdicts import judge_laws
@@ -20,7 +20,7 @@ from verification.judging.outcome import (
     Verdict,
 )
 from verification.judging.refined_errors import refined_errors
-from verification.judging.run import Run, SectionRun
+from verification.judging.run import AnyRun, Run, SectionRun
 from verification.judging.section_sketch import section_sketch
 from verification.judging.verdicts import (
     finite,
@@ -33,24 +33,13 @@ from verification.judging.verdicts import (
 )
 
 Results = Mapping[str, Any]
-AnyRun = Run | SectionRun
 Solve = Callable[[AnyRun], Any]
 
 # Words of a scene file that are not of its scene.
 DISCRETISATION = ("title", "cells", "window", "tolerance", "path accuracy")
 
 
-def solve_run(run: AnyRun) -> Any:
-    """Solve one run of a case with the solver that it is for."""
-    if isinstance(run, SectionRun):
-        return run.solve()
-    decided = semi_analytical.plan(run.scene)
-    if run.effects is not None:
-        decided = run.effects(decided)
-    return semi_analytical.solve(run.scene, run.grid, run.tolerance, plan=decided)
-
-
-def judge(case: Case, solve: Solve = solve_run) -> CaseOutcome:
+def judge(case: Case, solve: Solve = lambda run: run.solve()) -> CaseOutcome:
     """Solve all runs of a case and judge its quantities and checks.
 
     A run that the solver gives up is a failed verdict; what would be measured on it is left out.
@@ -60,7 +49,7 @@ def judge(case: Case, solve: Solve = solve_run) -> CaseOutcome:
     for run in case.runs:
         try:
             results[run.label] = solve(run)
-        except semi_analytical.SolverError as error:
+        except SolverError as error:
             failures.append(unsolved(run, str(error)))
     return CaseOutcome(
         name=case.name,

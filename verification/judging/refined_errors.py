@@ -10,7 +10,7 @@ from typing import Any
 
 from verification.judging.case import Case, Quantity
 from verification.judging.outcome import RefinedErrors
-from verification.judging.run import Run, SectionRun
+from verification.judging.run import AnyRun, Run, SectionRun
 
 LEAST = 4  # levels: from fewer nothing is known of their scatter
 
@@ -37,13 +37,13 @@ def refined_errors(
     )
 
 
-def followed_on(quantity: Quantity, case: Case) -> tuple[Run | SectionRun, ...]:
+def followed_on(quantity: Quantity, case: Case) -> tuple[AnyRun, ...]:
     """The run that the quantity is judged on, and those that differ from it in fineness alone."""
     judged = case.run(quantity.run)
     return tuple(run for run in case.runs if _differ_in_fineness(run, judged))
 
 
-def _differ_in_fineness(one: Run | SectionRun, other: Run | SectionRun) -> bool:
+def _differ_in_fineness(one: AnyRun, other: AnyRun) -> bool:
     """Whether nothing but cells, elements and where they fall tells two runs apart. Meshes that are
     not laid alike to the edge differ in `beyond`."""
     if isinstance(one, Run) and isinstance(other, Run):
@@ -57,7 +57,7 @@ def _differ_in_fineness(one: Run | SectionRun, other: Run | SectionRun) -> bool:
     return False
 
 
-def _radius(run: Run | SectionRun, result: Any) -> float:
+def _radius(run: AnyRun, result: Any) -> float:
     """What a run's spacing is divided by to be a part of the contact radius."""
     if isinstance(run, SectionRun):
         return 1.0

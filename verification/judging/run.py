@@ -4,11 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import ClassVar
+from typing import TYPE_CHECKING, ClassVar
 
 from contact_scene import FiniteElementDiscretisation, Scene
-from fem_reference import Method, Result, solve
-from semi_analytical import Plan, SurfaceGrid
+from verification.judging.solver import Method, Solver
+
+if TYPE_CHECKING:
+    import fem_reference
+    import semi_analytical
+    from semi_analytical import Plan, SurfaceGrid
 
 SOLVER_TOLERANCE = 1e-8
 
@@ -26,12 +30,21 @@ class Run:
     tolerance: float = SOLVER_TOLERANCE
     effects: Callable[[Plan], Plan] | None = None
 
-    solver: ClassVar[str] = "semi-analytical"
+    solver: ClassVar[Solver] = Solver.CELLS
 
     @property
     def spacing(self) -> float:
         """The longer side of a cell [length]."""
         return max(self.grid.spacing)
+
+    def solve(self) -> semi_analytical.Result:
+        """The solution; raises what `semi_analytical.solve` raises."""
+        from semi_analytical import plan, solve
+
+        decided = plan(self.scene)
+        if self.effects is not None:
+            decided = self.effects(decided)
+        return solve(self.scene, self.grid, self.tolerance, plan=decided)
 
 
 @dataclass(frozen=True)
@@ -47,7 +60,8 @@ class SectionRun:
     discretisation: FiniteElementDiscretisation
     method: Method = Method.COMPLEMENTARITY
     beyond: float = 0.0
-    solver: ClassVar[str] = "finite elements"
+
+    solver: ClassVar[Solver] = Solver.ELEMENTS
 
     @property
     def tolerance(self) -> float:
@@ -59,9 +73,15 @@ class SectionRun:
         """Side of an element at the contact over the contact radius."""
         return 1 / (self.discretisation.elements_per_radius + self.beyond)
 
-    def solve(self) -> Result:
+    def solve(self) -> fem_reference.Result:
         """The solution; raises what `fem_reference.solve` raises."""
-        return solve(self.scene, self.discretisation, self.method)
+        import fem_reference
+
+        method = fem_reference.Method(self.method.value)
+        return fem_reference.solve(self.scene, self.discretisation, method)
+
+
+AnyRun = Run | SectionRun
 
 
 def per_radius(elements: int, contact_radius: float | None = None) -> FiniteElementDiscretisation:

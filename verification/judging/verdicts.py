@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from itertools import pairwise
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from contact_results.quantities import largest_residual
 from verification.convergence.error_line import by_size
@@ -18,11 +18,8 @@ from verification.convergence.observed_order import (
 from verification.judging.case import Case, Check, Comparison, Derived, Quantity, Required
 from verification.judging.order_of_convergence import OrderOfChange, OrderOfConvergence, Refinement
 from verification.judging.outcome import OrderRecord, Status, Verdict
-from verification.judging.run import Run
+from verification.judging.run import AnyRun
 from verification.problems.reference import Reference, ReferenceKind
-
-if TYPE_CHECKING:
-    from verification.judging.run import SectionRun
 
 Results = Mapping[str, Any]
 
@@ -192,7 +189,7 @@ def judge_residuals(case: Case, results: Results) -> Verdict:
     )
 
 
-def unsolved(run: Run | SectionRun, message: str) -> Verdict:
+def unsolved(run: AnyRun, message: str) -> Verdict:
     """The verdict on a run that the solver gave up."""
     return Verdict(
         name="solved",

@@ -5,7 +5,6 @@ from __future__ import annotations
 from typing import Any
 
 import semi_analytical
-from verification.observed.sections import section_laws
 from verification.observed.surface_energy import surface_imbalance
 from verification.observed.surfaces import surface_violation
 
@@ -17,4 +16,6 @@ def observed(result: Any) -> tuple[float, float | None]:
     one way."""
     if isinstance(result, semi_analytical.Result):
         return surface_violation(result), surface_imbalance(result)
+    from verification.observed.sections import section_laws
+
     return section_laws(result)

@@ -12,9 +12,6 @@ from contact_results.directory.atomic_file import atomic_file
 from contact_results.directory.directory_lock import acquire, release
 from contact_results.directory.refusal import OutputRefused
 from contact_results.directory.stop_signals import stop_signals_held
-from verification.report.junit import render_junit
-from verification.report.page import render_page
-from verification.report.summary_text import render_summary
 from verification.running.report_record import Report, dump_report
 
 PAGE = "index.html"
@@ -83,6 +80,11 @@ def write_report(report: Report, directory: Path) -> None:
     A record of other numbers goes first and the new one comes last: a directory with a
     `report.json` holds files that belong together.
     """
+    # Drawing takes long to import: whoever has just a directory to prepare does without.
+    from verification.report.junit import render_junit
+    from verification.report.page import render_page
+    from verification.report.summary_text import render_summary
+
     texts = {
         PAGE: render_page(report),
         JUNIT: render_junit(report),

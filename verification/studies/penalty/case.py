@@ -9,12 +9,13 @@ from typing import ClassVar
 import numpy as np
 
 from contact_scene.description import Description
-from fem_reference import Method, Result
+from fem_reference import Result
 from verification.cases.fem_hertz import SCENE, meshed, pressure_error
 from verification.cases.fem_indentation import Pressed
 from verification.cases.fem_penalty_indentation import by_springs
 from verification.cases.indentation_reference import COATED, FEW, STRONG, WEAK
 from verification.judging.run import SOLVER_TOLERANCE, SectionRun, per_radius
+from verification.judging.solver import Method
 from verification.observed.end_state import approach, peak_pressure
 from verification.problems.paper_scene import HERTZ
 

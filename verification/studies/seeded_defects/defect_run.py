@@ -8,7 +8,7 @@ from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, ClassVar
 
 from contact_scene.description import Description
-from verification.cases.catalogue import catalogue
+from verification.cases.catalogue import case_of, choose
 from verification.cases.judged_case import CaseToJudge, JudgedCase, lost
 from verification.defects.defect import planted
 from verification.defects.registry import DEFECTS
@@ -72,6 +72,7 @@ class DefectRun:
 
     def compute(self) -> DefectRecord:
         """Plant the defect, let the case be judged, and take the defect out again."""
+        choose(Level.QUICK)  # what modules compute when they are imported, they compute healthy
         if self.defect == HEALTHY:
             outcome = judged(self.case)
         else:
@@ -94,7 +95,7 @@ def judged(name: str) -> CaseOutcome:
             store.save(case, case.compute())
             record = store.load(case)
     except Exception as error:  # whatever it is, it must be named: so does the pool of `verify`
-        return lost(catalogue(Level.QUICK)[name], f"{type(error).__name__}: {error}")
+        return lost(case_of(name, Level.QUICK), f"{type(error).__name__}: {error}")
     assert isinstance(record, JudgedCase)
     return record.outcome
 

@@ -35,7 +35,7 @@ def seen_by(settings: Settings, defect: Defect) -> tuple[str, ...]:
     """The cases under a defect: those that ought to see it, or the whole quick catalogue."""
     if settings.level is Level.QUICK:
         return defect.cases
-    return tuple(build.__name__ for build in CASES)
+    return CASES
 
 
 def defect_runs(settings: Settings) -> tuple[DefectRun, ...]:

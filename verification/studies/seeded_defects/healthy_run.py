@@ -10,8 +10,9 @@ import numpy as np
 from contact_scene.description import Description
 from verification.defects.healthy_contacts import FAMILIES
 from verification.judging.case import Derived
-from verification.judging.judgement import AnyRun, judge, solve_run
+from verification.judging.judgement import judge
 from verification.judging.outcome import Status
+from verification.judging.run import AnyRun
 from verification.judging.verdicts import expanded_uncertainty
 
 SEED = 20
@@ -56,7 +57,7 @@ class HealthyRun:
         results: dict[str, Any] = {}
 
         def solve(run: AnyRun) -> Any:
-            results[run.label] = solve_run(run)
+            results[run.label] = run.solve()
             return results[run.label]
 
         outcome = judge(case, solve)

@@ -1,0 +1,84 @@
+"""Verifying one case builds and imports that case: not the others, no study, no solver but its."""
+
+import ast
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from verification.cases.catalogue import CASES, case_of
+from verification.judging.case import Level
+
+ROOT = Path(__file__).resolve().parents[1]
+LOADED = "import sys; print(*(name for name in sys.modules))"
+# What a command has loaded when its first case goes to a worker.
+AT_WORK = """
+from slipstick.cli.application import main
+from verification.running.local_workers import LocalWorkers
+def submit(self, *asked):
+    print(*sys.modules)
+    sys.exit()
+import sys
+LocalWorkers.submit = submit
+main(sys.argv[1:])
+"""
+JUDGED = """
+import sys
+from verification.cases.judged_case import CaseToJudge
+CaseToJudge(sys.argv[1], "QUICK").compute()
+print(*sys.modules)
+"""
+
+
+def loaded(program: str, *arguments: str, cwd: Path) -> set[str]:
+    """Names of the modules that a program lists in its last line."""
+    ended = subprocess.run(
+        [sys.executable, "-c", program, *arguments], capture_output=True, text=True, check=True,
+        cwd=cwd,
+    )  # fmt: skip
+    return set(ended.stdout.splitlines()[-1].split())
+
+
+def within(modules: set[str], *rooms: str) -> set[str]:
+    """The modules of these rooms."""
+    return {name for name in modules for room in rooms if f"{name}.".startswith(f"{room}.")}
+
+
+@pytest.mark.parametrize("program", [AT_WORK, JUDGED], ids=["command", "worker"])
+def test_one_case_loads_no_other(program: str, tmp_path: Path) -> None:
+    asked = ("verify", "hertz_point", "--workers", "1") if program is AT_WORK else ("hertz_point",)
+    modules = loaded(program, *asked, cwd=tmp_path)
+    assert "verification.cases.hertz_point" in modules
+    assert not within(modules, *(f"verification.cases.{name}" for name in CASES[1:]))
+    assert not within(
+        modules, "fem_reference", "skfem", "matplotlib", "jinja2", "verification.studies",
+        "verification.defects", "verification.peers", "verification.external_codes",
+        "verification.benchmarks", "verification.report.page", "verification.report.svg",
+    )  # fmt: skip
+
+
+def cases_of(module: Path) -> set[str]:
+    """Names of the functions of a module that make a case of a level."""
+    return {
+        node.name
+        for node in ast.parse(module.read_text(encoding="utf-8")).body
+        if isinstance(node, ast.FunctionDef) and node.returns is not None
+        and ast.unparse(node.returns) == "Case"
+        and [ast.unparse(of.annotation) for of in node.args.args if of.annotation] == ["Level"]
+    }  # fmt: skip
+
+
+def test_every_module_with_a_case_is_listed_under_the_name_of_the_case() -> None:
+    made = {
+        module.stem: found
+        for module in (ROOT / "verification/cases").glob("*.py")
+        if (found := cases_of(module))
+    }
+    assert made == {name: {name} for name in CASES}
+
+
+@pytest.mark.parametrize("name", ["hertz", "Hertz_point", "catalogue", "hertz_point.json"])
+def test_what_is_not_listed_is_no_case(name: str) -> None:
+    with pytest.raises(KeyError, match=name):
+        case_of(name, Level.QUICK)

@@ -1,0 +1,17 @@
+"""By what a run is solved, for those who need not import it."""
+
+from enum import StrEnum
+
+
+class Solver(StrEnum):
+    """The two solvers."""
+
+    CELLS = "semi-analytical"
+    ELEMENTS = "finite elements"
+
+
+class Method(StrEnum):
+    """How finite elements enforce contact and friction, by the names of `fem_reference.Method`."""
+
+    COMPLEMENTARITY = "complementarity"
+    PENALTY = "penalty"
