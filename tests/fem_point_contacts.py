@@ -5,10 +5,10 @@ from hankel_responses import Coating
 from ring_responses import half_space, rings
 
 from fem_reference.contact.harmonics.angular_grid import AngularGrid, axisymmetric_grid, end_grid
-from fem_reference.contact.harmonics.increment import advance
 from fem_reference.contact.harmonics.point_compliance import PointCompliance
 from fem_reference.contact.harmonics.point_contact import PointContact
-from fem_reference.contact.harmonics.state import PointState
+from fem_reference.contact.harmonics.point_increment import advance
+from fem_reference.contact.harmonics.point_state import PointState
 from fem_reference.loads import NormalTarget, TangentialTarget
 
 RINGS = 16  # on the contact radius

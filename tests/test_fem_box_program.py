@@ -8,8 +8,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.optimize import lsq_linear
 
-from fem_reference.contact.complementarity import box_program
-from fem_reference.contact.complementarity.box_program import (
+from fem_reference.contact import box_program
+from fem_reference.contact.box_program import (
     BoxProgram,
     BoxSolution,
     Total,

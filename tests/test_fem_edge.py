@@ -8,8 +8,8 @@ from contact_scenes import LOAD, MU, NU, RADIUS, RIGID_BALL, YOUNG, A, scene, st
 from fem_scenes import end, solved
 from scipy.linalg import toeplitz
 
-from fem_reference.contact.complementarity.box_program import BoxProgram, Total, solve_box
-from fem_reference.contact.complementarity.edge import edge_radius, stick_area
+from fem_reference.contact.box_program import BoxProgram, Total, solve_box
+from fem_reference.contact.ring_edge import edge_radius, stick_area
 from verification.references import load_reference
 
 CENTRE = 200

@@ -23,13 +23,14 @@ from hypothesis import strategies as st
 
 from contact_scene.solver_errors import GrossSliding, NotConverged
 from contact_scene.summary import ContactStatus
-from fem_reference.contact.harmonics import alternation, continuation, increment, newton, shearing
+from fem_reference.contact.harmonics import continuation, point_increment, root, shear_in_discs
+from fem_reference.contact.harmonics import turns as turns_module
 from fem_reference.contact.harmonics.admissible_shear import into_discs, project
 from fem_reference.contact.harmonics.angular_grid import axisymmetric_grid, end_grid, mid_grid
 from fem_reference.contact.harmonics.equations import Equations, Iterate
-from fem_reference.contact.harmonics.increment import advance
+from fem_reference.contact.harmonics.point_increment import advance
 from fem_reference.contact.harmonics.reported import reported
-from fem_reference.contact.harmonics.shearing import ShearProblem, solve_shear
+from fem_reference.contact.harmonics.shear_in_discs import ShearProblem, solve_shear
 from fem_reference.loads import NormalTarget, Place, TangentialTarget
 from verification.closed_forms.cattaneo_mindlin import PartialSlip
 
@@ -352,7 +353,7 @@ def few_points(mu, **more):
 @pytest.mark.parametrize("mu", [0.1, 0.3, 3.0, 12.0])
 @pytest.mark.parametrize("led", FIRST)
 def test_newton_alone_solves_a_first_increment(led, mu, part, monkeypatch):
-    monkeypatch.setattr(alternation, "MOST_TURNS", 0)
+    monkeypatch.setattr(turns_module, "MOST_TURNS", 0)
     state = advance(few_points(mu), None, *FIRST[led](mu, part), TOLERANCE)
     assert state.turns == 0
     assert state.residuals.worst <= TOLERANCE
@@ -362,7 +363,7 @@ def test_newton_alone_solves_a_first_increment(led, mu, part, monkeypatch):
 def test_newton_and_turns_agree_on_a_first_increment(led, monkeypatch):
     of, loads = few_points(0.3), FIRST[led](0.3, 0.6)
     by_turns = advance(of, None, *loads, 1e-10)
-    monkeypatch.setattr(alternation, "MOST_TURNS", 0)
+    monkeypatch.setattr(turns_module, "MOST_TURNS", 0)
     by_newton = advance(of, None, *loads, 1e-10)
     np.testing.assert_allclose(by_newton.pressure, by_turns.pressure, atol=1e-8)
     np.testing.assert_allclose(by_newton.shear, by_turns.shear, atol=1e-8)
@@ -374,8 +375,8 @@ def by_continuation_alone(monkeypatch):
     def without(*_):
         raise NotConverged("the coupled increment", 0, np.inf, TOLERANCE)
 
-    monkeypatch.setattr(alternation, "MOST_TURNS", 0)
-    monkeypatch.setattr(increment, "solve_by_newton", without)
+    monkeypatch.setattr(turns_module, "MOST_TURNS", 0)
+    monkeypatch.setattr(point_increment, "solve_by_newton", without)
 
 
 @pytest.mark.parametrize("part", [0.0, 0.3, 0.9])
@@ -404,7 +405,7 @@ def test_derivative_is_that_of_the_equations(rng):
     """By all values, the compliance of springs among them, off the kinks."""
     of, (normal, tangential) = few_points(0.3), FIRST["by force"](0.3, 0.6)
     n = len(of.gap)
-    problem = alternation.CoupledProblem(
+    problem = turns_module.CoupledProblem(
         of.compliance, of.gap, 0.3, np.zeros((2, n)), normal, tangential
     )
     equations = Equations(problem)
@@ -420,7 +421,7 @@ def test_increment_counts_what_failed_turns_took(monkeypatch):
     of, loads = few_points(0.3), FIRST["by force"](0.3, 0.6)
     took = {}
     for turns in (0, 5):
-        monkeypatch.setattr(alternation, "MOST_TURNS", turns)
+        monkeypatch.setattr(turns_module, "MOST_TURNS", turns)
         state = advance(of, None, *loads, TOLERANCE)
         assert state.turns == turns
         took[turns] = state.solves
@@ -431,7 +432,7 @@ def test_increment_counts_what_a_failed_shear_took(monkeypatch):
     of, loads = few_points(0.3), FIRST["by force"](0.3, 0.6)
     took = []
     for most in (1, 3):
-        monkeypatch.setattr(shearing, "MOST_STEPS", most)
+        monkeypatch.setattr(shear_in_discs, "MOST_STEPS", most)
         took.append(advance(of, None, *loads, TOLERANCE).solves)
     assert took[1] == took[0] + 2
 
@@ -440,8 +441,8 @@ def test_failure_counts_all_methods(monkeypatch):
     of, loads = few_points(0.3), FIRST["by force"](0.3, 0.6)
     took = {}
     for turns, steps in ((0, 2), (5, 2), (5, 4)):
-        monkeypatch.setattr(alternation, "MOST_TURNS", turns)
-        monkeypatch.setattr(newton, "MOST_STEPS", steps)
+        monkeypatch.setattr(turns_module, "MOST_TURNS", turns)
+        monkeypatch.setattr(root, "MOST_STEPS", steps)
         with pytest.raises(NotConverged) as failure:
             advance(of, None, *loads, TOLERANCE)
         took[turns, steps] = failure.value.iterations
@@ -487,14 +488,14 @@ def singular(*_, **__):
 
 
 def test_newton_takes_over_where_a_turn_is_singular(monkeypatch):
-    monkeypatch.setattr(shearing, "cho_factor", singular)
+    monkeypatch.setattr(shear_in_discs, "cho_factor", singular)
     state = advance(few_points(0.3), None, *FIRST["by motion"](0.3, 0.6), TOLERANCE)
     assert state.residuals.worst <= TOLERANCE
 
 
 @pytest.mark.parametrize("led", FIRST)
 def test_singular_equations_are_an_increment_that_does_not_converge(led, monkeypatch):
-    monkeypatch.setattr(shearing, "cho_factor", singular)
+    monkeypatch.setattr(shear_in_discs, "cho_factor", singular)
     monkeypatch.setattr(np.linalg, "solve", singular)
     with pytest.raises(NotConverged):
         advance(few_points(0.3), None, *FIRST[led](0.3, 0.6), TOLERANCE)
@@ -522,15 +523,15 @@ def test_newton_takes_no_step_that_it_has_not_tried(led, monkeypatch):
 
     monkeypatch.setattr(Equations, "missed", trying)
     monkeypatch.setattr(Equations, "linearised", taking)
-    monkeypatch.setattr(alternation, "MOST_TURNS", 0)
-    monkeypatch.setattr(newton, "MOST_HALVINGS", 2)
+    monkeypatch.setattr(turns_module, "MOST_TURNS", 0)
+    monkeypatch.setattr(root, "MOST_HALVINGS", 2)
     advance(few_points(12.0), None, *FIRST[led](12.0, 0.6), TOLERANCE)
     starts = [at for at in taken if not any(at is trial for trial in tried)]
     assert len(taken) > len(starts) == 1
 
 
 def test_failure_is_loud(monkeypatch):
-    monkeypatch.setattr(newton, "MOST_STEPS", 2)
+    monkeypatch.setattr(root, "MOST_STEPS", 2)
     of = contact(NU_ZERO, mu=8.0)
     state = pressed(of, hertz_force(0.0), 3)
     with pytest.raises(NotConverged) as failure:
@@ -556,7 +557,7 @@ def test_at_the_friction_limit_all_shear_is_along_the_load(coupled):
     assert np.max(np.abs(q_y)) < 1e-12
     assert state.status is ContactStatus.GROSS_SLIDING
     assert state.tangential_shift is None
-    with pytest.raises(GrossSliding, match="prescribe tangential_shift"):
+    with pytest.raises(GrossSliding, match="prescribe the shift or twist"):
         sheared(of, state, 0.5 * MU * state.normal_force)
 
 

@@ -1,11 +1,9 @@
-"""Both meshers fill the section they are given, and nothing is lost on the way to a file."""
+"""Both meshers fill the section they are given."""
 
 import builtins
 import os
 import sys
-from dataclasses import replace
 
-import meshio
 import numpy as np
 import pytest
 from hypothesis import given
@@ -14,7 +12,6 @@ from hypothesis import strategies as st
 from contact_scene import RIGID, Body, IsotropicMaterial, Layer
 from contact_scene.solver_errors import SolverError, UnsupportedScene
 from fem_reference.mesh.gmsh_mesh import GmshMissing, gmsh_section_mesh
-from fem_reference.mesh.mesh_file import read_section, write_section
 from fem_reference.mesh.section_mesh import SectionMesh, section_mesh
 from fem_reference.mesh.section_outline import GROWTH
 
@@ -174,42 +171,3 @@ def test_missing_gmsh_is_named_with_its_packages(monkeypatch, error):
     monkeypatch.setattr(builtins, "__import__", fail)
     with pytest.raises(GmshMissing, match=f"{error}.*libglu1-mesa.*tensor"):
         gmsh_section_mesh(stack(), 4)
-
-
-@pytest.mark.parametrize("ending", ["msh", "vtu"])
-def test_a_mesh_file_gives_back_the_mesh(tmp_path, mesher, ending):
-    section = mesher(BODIES["thin under thick"], 4)
-    path = tmp_path / f"section.{ending}"
-    write_section(section, path)
-    again = read_section(path, section.outline)
-    assert np.array_equal(again.points, section.points)
-    assert np.array_equal(again.quads, section.quads)
-    assert np.array_equal(again.layer, section.layer)
-
-
-@pytest.mark.parametrize("ending", ["msh", "vtu"])
-def test_a_mesh_file_of_another_body_is_refused(tmp_path, ending):
-    section = section_mesh(BODIES["coated"], 4)
-    path = tmp_path / f"section.{ending}"
-    write_section(section, path)
-    other = replace(section.outline, interfaces=(2.0, section.outline.depth))
-    with pytest.raises(SolverError, match="not between the interfaces"):
-        read_section(path, other)
-
-
-@pytest.mark.parametrize("ending", ["msh", "vtu"])
-def test_a_mesh_file_with_triangles_is_refused(tmp_path, ending):
-    section = section_mesh(stack(), 4)
-    points = np.zeros((section.points.shape[1], 3))
-    points[:, :2] = section.points.T
-    first, *others = section.quads.T
-    cells = [("quad", np.array(others)), ("triangle", np.array([first[:3], first[[0, 2, 3]]]))]
-    path = tmp_path / f"section.{ending}"
-    meshio.write_points_cells(path, points, cells, file_format={"msh": "gmsh22"}.get(ending))
-    with pytest.raises(SolverError, match=r"expected quadrilaterals alone.*'triangle': 2"):
-        read_section(path, section.outline)
-
-
-def test_a_mesh_file_has_a_known_ending(tmp_path):
-    with pytest.raises(ValueError, match=r"ends in \.msh or \.vtu"):
-        write_section(section_mesh(stack(), 4), tmp_path / "section.stl")

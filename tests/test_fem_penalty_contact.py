@@ -25,7 +25,7 @@ from contact_scene import Body, IsotropicMaterial, Layer, Paraboloid, Scene
 from contact_scene.solver_errors import GrossSliding, NotConverged
 from contact_scene.summary import ContactStatus
 from fem_reference import ContactAtZoneEdge, Increment, Method, Result, solve
-from fem_reference.contact.penalty import increment as penalty_increment
+from fem_reference.contact.penalty import passes
 from fem_reference.contact.penalty.springs import solve_by_springs
 from verification.closed_forms.cattaneo_mindlin import PartialSlip
 from verification.closed_forms.moduli import tangential_modulus
@@ -279,7 +279,7 @@ def test_wrong_solution_is_not_let_through(monkeypatch) -> None:
         found = solve_by_springs(surface, law, target, start, tolerance)
         return replace(found, traction=1.001 * found.traction)
 
-    monkeypatch.setattr(penalty_increment, "solve_by_springs", careless)
+    monkeypatch.setattr(passes, "solve_by_springs", careless)
     with pytest.raises(NotConverged) as caught:
         penalised(scene(PRESS, friction=None), augmentations=0)
     assert caught.value.residual > 1e-4

@@ -7,7 +7,7 @@ from fem_scenes import solved
 
 from contact_scene.solver_errors import NotConverged
 from fem_reference import residuals
-from fem_reference.contact.complementarity import increment as increment_module
+from fem_reference.contact.complementarity import ring_increment as increment_module
 
 WEIGHTS = np.array([0.1, 0.4, 0.5])
 PRESSURE = np.array([2.0, 1.0, 0.0])

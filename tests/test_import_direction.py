@@ -66,19 +66,28 @@ ORDERS = {
         *("effects", "plan", "loads", "residuals", "fields", "energy", "model", "history"),
         *("contact", "stress", "expected_radius", "solve"),
     ),
-    "fem_reference.mesh": ("section_outline", "section_mesh", "gmsh_mesh", "mesh_file"),
+    "fem_reference.mesh": ("section_outline", "section_mesh", "gmsh_mesh"),
     "fem_reference.elasticity": (
         *("far_field", "motion", "weak_form", "elimination_order", "numbering", "assembly"),
         *("factored_section", "sources", "stored_compliance", "compliance", "hats"),
     ),
-    "fem_reference.contact": ("complementarity", "harmonics", "penalty"),
+    "fem_reference.contact": (
+        *("box_program", "ring_edge", "friction_limit", "one_component", "zone_edge"),
+        *("complementarity", "harmonics", "penalty"),
+    ),
     "fem_reference.contact.complementarity": (
-        *("box_program", "edge", "contact_problem", "pressing", "shearing", "state", "slipping"),
-        *("together", "alternation", "increment", "method"),
+        *("contact_problem", "pressing", "tresca", "ring_state", "slipping"),
+        *("together", "sweeps", "ring_increment", "method"),
+    ),
+    "fem_reference.contact.harmonics": (
+        *("angular_grid", "ring_compliance", "point_compliance", "point_state", "point_contact"),
+        *("admissible_shear", "shear_in_discs", "turns", "equations", "root", "continuation"),
+        *("point_increment", "reported", "surface_tractions", "method"),
     ),
     "fem_reference.contact.penalty": (
-        *("gauss_points", "coulomb_return", "law", "surface", "edge", "problem", "spring_contact"),
-        *("step", "newton", "springs", "state", "augmentation", "residuals", "increment", "method"),
+        *("gauss_points", "coulomb_return", "law", "surface", "fitted_edge", "problem"),
+        *("spring_contact", "step", "newton", "springs", "spring_state", "augmentation"),
+        *("spring_residuals", "passes", "method"),
     ),
     # Its floors: what judges stands on what is known, what is shown on what was judged.
     "verification": (

@@ -7,8 +7,8 @@ from typing import Any
 
 import numpy as np
 
-from fem_reference.contact.complementarity import contact_problem, increment, slipping
-from fem_reference.contact.complementarity.state import untouched
+from fem_reference.contact.complementarity import contact_problem, ring_increment, slipping
+from fem_reference.contact.complementarity.ring_state import untouched
 from fem_reference.contact.penalty import law as penalty_law
 from fem_reference.contact.penalty.spring_contact import PenaltyLaw
 from fem_reference.elasticity import compliance, hats
@@ -123,7 +123,7 @@ def _forgetful(patches: Patches) -> None:
 
         return sheared
 
-    patches.function(increment, "_sheared", wrap)
+    patches.function(ring_increment, "_sheared", wrap)
 
 
 def _slip_reversed(patches: Patches) -> None:

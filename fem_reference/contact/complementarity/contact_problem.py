@@ -38,6 +38,19 @@ class Sideways:
     by_pressure: Matrix | None
     on_axis: bool
 
+    def limited(self, bound: Field) -> Field:
+        """A bound of the shear, or the pressure, without the ring on the axis where there can be
+        none."""
+        return bound if self.on_axis else np.where(np.arange(len(bound)) > 0, bound, 0.0)
+
+    def resultant(self, q: Field) -> float:
+        """Of a shear, over 2π; zero where symmetry leaves none."""
+        return 0.0 if self.motion is None else float(np.sum(self.motion * q))
+
+    def capacity(self, p: Field) -> float:
+        """The largest resultant over 2π that friction carries under a pressure."""
+        return self.coefficient * self.resultant(self.limited(p))
+
 
 @dataclass(frozen=True)
 class ContactProblem:

@@ -7,14 +7,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fem_reference.contact.complementarity.contact_problem import ContactProblem, contact_problem
-from fem_reference.contact.complementarity.edge import edge_radius, stick_area
-from fem_reference.contact.complementarity.increment import advance
-from fem_reference.contact.complementarity.slipping import limited
-from fem_reference.contact.complementarity.state import Slid, State
+from fem_reference.contact.complementarity.ring_increment import advance
+from fem_reference.contact.complementarity.ring_state import Slid, State
+from fem_reference.contact.one_component import with_shear
+from fem_reference.contact.ring_edge import edge_radius, stick_area
 from fem_reference.fields import Increment
 from fem_reference.loads import Loads, Place
 from fem_reference.model import ContactModel
-from fem_reference.plan import Path, Plan
+from fem_reference.plan import Plan
 
 Field = NDArray[np.float64]
 
@@ -56,12 +56,11 @@ class Complementarity:
         return pressed if state.slid is None else self._with_shear(pressed, state, state.slid)
 
     def _with_shear(self, pressed: Increment, state: State, slid: Slid) -> Increment:
-        sideways, path = self.problem.sideways, self.plan.path
+        sideways = self.problem.sideways
         assert sideways is not None
-        bound = sideways.coefficient * limited(sideways, state.pressure)
+        bound = sideways.coefficient * sideways.limited(state.pressure)
         in_stick = (state.pressure > 0) & (slid.sides == 0) & (sideways.coefficient > 0)
         stuck = stick_area(pressed.radii, bound, slid.shear, slid.sides, pressed.contact_radius)
-        slip = slid.slip / self.problem.weights
         sheared = replace(
             pressed,
             status=slid.status,
@@ -69,25 +68,7 @@ class Complementarity:
             stick_radius=sqrt(stuck / pi),
             dissipated_energy=slid.dissipated,
         )
-        if path is Path.TWISTING:
-            return replace(
-                sheared,
-                shear_circumferential=slid.shear,
-                slip_circumferential=slip,
-                torque=state.torque,
-                twist=state.twist,
-            )
-        if path is Path.PRESSING_WITH_FRICTION:
-            sheared = replace(sheared, shear_radial=slid.shear, slip_radial=slip)
-        else:
-            sheared = replace(sheared, shear_along_load=slid.shear, slip_along_load=slip)
-        force, shift = state.tangential_force, state.tangential_shift
-        x, y = self.plan.direction
-        return replace(
-            sheared,
-            tangential_force=(force * x, force * y),
-            tangential_shift=None if shift is None else (shift * x, shift * y),
-        )
+        return with_shear(sheared, self.plan, state, slid.shear, slid.slip / self.problem.weights)
 
 
 def _contact_radius(problem: ContactProblem, p: Field) -> float:

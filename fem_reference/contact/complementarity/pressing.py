@@ -12,7 +12,7 @@ from math import pi
 import numpy as np
 from numpy.typing import NDArray
 
-from fem_reference.contact.complementarity.box_program import BoxProgram, Sides, Total, solve_box
+from fem_reference.contact.box_program import BoxProgram, Sides, Total, solve_box
 from fem_reference.loads import NormalTarget
 
 Field = NDArray[np.float64]

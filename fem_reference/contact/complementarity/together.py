@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.linalg import LinAlgError, solve
 
-from fem_reference.contact.complementarity.box_program import ROUND_OFF, Sides
+from fem_reference.contact.box_program import ROUND_OFF, Sides
 from fem_reference.contact.complementarity.contact_problem import ContactProblem
 from fem_reference.loads import NormalTarget
 
@@ -27,15 +27,22 @@ MOST_STEPS = 25
 
 
 @dataclass(frozen=True)
-class Settled:
-    """Pressure, shear and approach on sides that they agree with, and linear systems solved."""
+class Coupled:
+    """Pressure, approach and shear in equilibrium, and what that took.
+
+    contact   -1 where the surfaces are apart, 0 where they touch
+    slipping  0 where they stick, ±1 where they slip against a shear of that sign
+    steps     linear systems solved
+    sweeps    solutions of pressure and shear in turn
+    """
 
     pressure: Field
-    shear: Field
     approach: float
+    shear: Field
     contact: Sides
     slipping: Sides
-    steps: int
+    steps: int = 0
+    sweeps: int = 0
 
 
 def settle(
@@ -44,7 +51,7 @@ def settle(
     before: Field,
     contact: Sides,
     slipping: Sides,
-) -> Settled | int:
+) -> Coupled | int:
     """The coupled increment from nearby sides, or else the number of linear systems wasted.
 
     before  displacement of the surfaces past each other before the increment, over the hats
@@ -60,7 +67,7 @@ def settle(
         if np.array_equal(now, touching) and np.array_equal(then, sides):
             apart = np.where(touching, 0, -1).astype(np.int8)
             p = np.maximum(p, 0.0)
-            return Settled(p, _within(problem, p, q), approach, apart, sides, step)
+            return Coupled(p, approach, _within(problem, p, q), apart, sides, step)
         touching, sides = now, then
         if touching.tobytes() + sides.tobytes() in seen or not touching.any():
             return step

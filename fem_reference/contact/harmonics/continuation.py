@@ -17,9 +17,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from contact_scene.solver_errors import NotConverged
-from fem_reference.contact.harmonics.alternation import CoupledProblem, CoupledSolution
 from fem_reference.contact.harmonics.equations import Equations, Iterate
-from fem_reference.contact.harmonics.newton import Root, Start, root
+from fem_reference.contact.harmonics.root import Root, Start, root
+from fem_reference.contact.harmonics.turns import CoupledProblem, CoupledSolution
 
 Vector = NDArray[np.float64]
 Matrix = NDArray[np.float64]

@@ -12,7 +12,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from fem_reference.contact.harmonics.alternation import AT_LIMIT, CoupledProblem, CoupledSolution
+from fem_reference.contact.friction_limit import AT_LIMIT
+from fem_reference.contact.harmonics.turns import CoupledProblem, CoupledSolution
 
 Field = NDArray[np.float64]
 Vector = NDArray[np.float64]

@@ -8,12 +8,12 @@ from functools import cached_property
 
 import numpy as np
 
-from contact_scene.solver_errors import ContactAtZoneEdge
 from fem_reference.contact.harmonics.angular_grid import AngularGrid, axisymmetric_grid, end_grid
-from fem_reference.contact.harmonics.increment import advance
 from fem_reference.contact.harmonics.point_contact import PointContact, point_contact
+from fem_reference.contact.harmonics.point_increment import advance
+from fem_reference.contact.harmonics.point_state import PointState
 from fem_reference.contact.harmonics.reported import reported
-from fem_reference.contact.harmonics.state import PointState
+from fem_reference.contact.zone_edge import refuse_contact_at_edge
 from fem_reference.fields import Increment
 from fem_reference.loads import Loads, Place, TangentialTarget
 from fem_reference.model import ContactModel
@@ -81,8 +81,5 @@ class HarmonicMethod:
     def _refuse_contact_at_edge(self, state: PointState) -> None:
         compliance = state.compliance
         last = compliance.ring_of_point == len(compliance.rings.radii) - 1
-        if not self.model.ends_at_rim and np.any(state.pressure[last] > 0):
-            raise ContactAtZoneEdge(
-                f"the contact reaches {compliance.rings.radii[-1]:.6g} m, where the zone of fine "
-                f"elements ends; give a larger contact_radius"
-            )
+        touching = not self.model.ends_at_rim and bool(np.any(state.pressure[last] > 0))
+        refuse_contact_at_edge(touching, compliance.rings.radii[-1])

@@ -8,8 +8,8 @@ from numpy.typing import NDArray
 from contact_scene.residuals import Residuals
 from fem_reference.contact.harmonics.angular_grid import AngularGrid
 from fem_reference.contact.harmonics.point_compliance import PointCompliance
+from fem_reference.contact.harmonics.point_state import PointState
 from fem_reference.contact.harmonics.ring_compliance import ring_compliance
-from fem_reference.contact.harmonics.state import PointState
 from fem_reference.memory import require_memory
 from fem_reference.model import ContactModel
 

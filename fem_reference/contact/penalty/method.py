@@ -11,12 +11,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from contact_scene.summary import ContactStatus
-from fem_reference.contact.complementarity.slipping import AT_LIMIT
-from fem_reference.contact.penalty.edge import edge_radius, stick_area
-from fem_reference.contact.penalty.increment import advance
+from fem_reference.contact.friction_limit import contact_status
+from fem_reference.contact.one_component import with_shear
+from fem_reference.contact.penalty.fitted_edge import edge_radius, stick_area
 from fem_reference.contact.penalty.law import Penalty, penalty_stiffness
+from fem_reference.contact.penalty.passes import advance
 from fem_reference.contact.penalty.problem import PenaltyProblem, contact_modulus, penalty_problem
-from fem_reference.contact.penalty.state import PenaltyState
+from fem_reference.contact.penalty.spring_state import PenaltyState
 from fem_reference.fields import Increment
 from fem_reference.history import Method as Solver
 from fem_reference.loads import Loads, Place
@@ -55,7 +56,7 @@ class PenaltyMethod:
     problem: PenaltyProblem
 
     def advance(self, before: PenaltyState | None, loads: Loads, tolerance: float) -> PenaltyState:
-        """The state at the end of an increment; raises what `penalty_increment.advance` raises."""
+        """The state at the end of an increment; raises what `passes.advance` raises."""
         return advance(self.problem, self.penalty.augmentations, before, loads, tolerance)
 
     def increment(self, state: PenaltyState, place: Place) -> Increment:
@@ -81,34 +82,14 @@ class PenaltyMethod:
         return pressed if state.slip is None else self._with_shear(pressed, state, state.slip)
 
     def _with_shear(self, pressed: Increment, state: PenaltyState, slip: Field) -> Increment:
-        path, q = self.plan.path, state.traction[1]
-        in_stick = state.in_contact & ~state.in_slip
         sheared = replace(
             pressed,
             status=self._status(state),
-            in_stick=in_stick,
+            in_stick=state.in_contact & ~state.in_slip,
             stick_radius=self._stick_radius(state, pressed.contact_radius),
             dissipated_energy=state.dissipated,
         )
-        if path is Path.TWISTING:
-            return replace(
-                sheared,
-                shear_circumferential=q,
-                slip_circumferential=slip,
-                torque=state.torque,
-                twist=state.twist,
-            )
-        if path is Path.PRESSING_WITH_FRICTION:
-            sheared = replace(sheared, shear_radial=q, slip_radial=slip)
-        else:
-            sheared = replace(sheared, shear_along_load=q, slip_along_load=slip)
-        force, shift = state.tangential_force, state.tangential_shift
-        x, y = self.plan.direction
-        return replace(
-            sheared,
-            tangential_force=(force * x, force * y),
-            tangential_shift=None if shift is None else (shift * x, shift * y),
-        )
+        return with_shear(sheared, self.plan, state, state.traction[1], slip)
 
     def _contact_radius(self, state: PenaltyState) -> float:
         """Where the pressure ends: at the rim of a flat punch if its last point carries any."""
@@ -130,11 +111,7 @@ class PenaltyMethod:
         return sqrt(area / pi)
 
     def _status(self, state: PenaltyState) -> ContactStatus:
-        problem, in_slip = self.problem, state.in_slip
-        if not np.array_equal(in_slip, state.in_contact):
-            return ContactStatus.PARTIAL_SLIP if np.any(in_slip) else ContactStatus.FULL_STICK
-        if not problem.driven:
-            return ContactStatus.NO_STICK_AREA_LEFT
-        carried = abs(float(problem.surface.resultant(state.traction)[1]))
-        limit = problem.capacity(state.traction[0]) * (1 - AT_LIMIT)
-        return ContactStatus.GROSS_SLIDING if carried >= limit else ContactStatus.NO_STICK_AREA_LEFT
+        problem, stuck = self.problem, state.in_contact & ~state.in_slip
+        carried = float(problem.surface.resultant(state.traction)[1]) if problem.driven else None
+        limit = problem.capacity(state.traction[0])
+        return contact_status(state.in_contact, stuck, carried, limit)

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from contact_scene import Body, FlatPunch, IsotropicMaterial, Scene
+from fem_reference.contact.one_component import target_of
 from fem_reference.contact.penalty.gauss_points import GaussPoints, gauss_points
 from fem_reference.contact.penalty.law import Penalty, penalty_stiffness
 from fem_reference.contact.penalty.surface import ElasticSurface, Target
@@ -53,18 +54,14 @@ class PenaltyProblem:
 
     def target(self, loads: Loads) -> Target:
         """What is prescribed of each component."""
-        normal = loads.normal
-        pairs: list[tuple[float | None, float | None]] = [(normal.force, normal.approach)]
-        if loads.tangential is not None:
-            pairs.append((loads.tangential.force, loads.tangential.shift))
-        elif loads.twisting is not None:
-            pairs.append((loads.twisting.torque, loads.twisting.twist))
-        elif len(self.surface.motion) > 1:
-            pairs.append((None, 0.0))
-        values = [motion if force is None else force / (2 * pi) for force, motion in pairs]
-        return Target(
-            np.array([force is not None for force, _ in pairs]), np.array(values, dtype=float)
-        )
+        force, approach = loads.normal.force, loads.normal.approach
+        pairs = [(None if force is None else force / (2 * pi), approach)]
+        if len(self.surface.motion) > 1:
+            sideways = target_of(loads)
+            pairs.append((sideways.resultant, sideways.motion or 0.0))
+        values = [motion if load is None else load for load, motion in pairs]
+        free = [load is not None for load, _ in pairs]
+        return Target(np.array(free), np.array(values, dtype=float))
 
     def pressing_alone(self) -> Self:
         """The pressure without any shear."""

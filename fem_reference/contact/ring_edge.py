@@ -13,7 +13,7 @@ from math import pi, sqrt
 import numpy as np
 from numpy.typing import NDArray
 
-from fem_reference.contact.complementarity.box_program import Sides
+from fem_reference.contact.box_program import Sides
 
 Field = NDArray[np.float64]
 

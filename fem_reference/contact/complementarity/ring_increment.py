@@ -6,21 +6,17 @@ from math import pi
 import numpy as np
 from numpy.typing import NDArray
 
-from contact_scene.residuals import Residuals, ShearResiduals
-from contact_scene.solver_errors import ContactAtZoneEdge, GrossSliding
-from fem_reference.contact.complementarity.alternation import Coupled, alternate
+from contact_scene.residuals import Residuals
 from fem_reference.contact.complementarity.contact_problem import ContactProblem, Sideways
 from fem_reference.contact.complementarity.pressing import Pressed, press
-from fem_reference.contact.complementarity.shearing import shear
-from fem_reference.contact.complementarity.slipping import (
-    at_limit,
-    capacity,
-    reaches_limit,
-    slid,
-    slip_residuals,
-    target_of,
-)
-from fem_reference.contact.complementarity.state import Slid, State, untouched
+from fem_reference.contact.complementarity.ring_state import Slid, State, untouched
+from fem_reference.contact.complementarity.slipping import at_limit, slid, slip_residuals
+from fem_reference.contact.complementarity.sweeps import alternate
+from fem_reference.contact.complementarity.together import Coupled
+from fem_reference.contact.complementarity.tresca import shear
+from fem_reference.contact.friction_limit import motion_undefined, reaches_limit
+from fem_reference.contact.one_component import target_of
+from fem_reference.contact.zone_edge import refuse_contact_at_edge
 from fem_reference.loads import Loads, NormalTarget
 from fem_reference.residuals import complementarity, penetration
 
@@ -40,11 +36,7 @@ def advance(problem: ContactProblem, before: State | None, loads: Loads, toleran
         state = _coupled(problem, sideways, before, loads, tolerance)
     else:
         state = _uncoupled(problem, before, loads)
-    if problem.open_end and state.pressure[-1] > 0:
-        raise ContactAtZoneEdge(
-            f"the contact reaches {problem.radii[-1]:.6g} m, where the zone of fine elements "
-            f"ends; give a larger contact_radius"
-        )
+    refuse_contact_at_edge(problem.open_end and state.pressure[-1] > 0, problem.radii[-1])
     state.residuals.require(tolerance, "the increment", state.steps)
     return state
 
@@ -61,31 +53,24 @@ def _uncoupled(problem: ContactProblem, before: State | None, loads: Loads) -> S
     if problem.sideways is None:
         return state
     last = before.slid if before is not None and before.slid is not None else untouched(len(gap))
-    after, residuals, steps = _sheared(problem.sideways, pressed.pressure, last, loads)
-    return replace(
-        state,
-        slid=after,
-        residuals=state.residuals.with_shear(residuals),
-        steps=state.steps + steps,
-    )
+    after, step, steps = _sheared(problem.sideways, pressed.pressure, last, loads)
+    state = replace(state, steps=state.steps + steps)
+    return _with_shear(state, problem.sideways, after, step)
 
 
 def _sheared(
     sideways: Sideways, p: Field, last: Slid, loads: Loads
-) -> tuple[Slid, ShearResiduals, int]:
-    """The shear part under its load, its residuals, and linear systems solved."""
+) -> tuple[Slid, Field | None, int]:
+    """The shear part under its load, the slip increment unless undefined, and linear systems
+    solved."""
     if last.motion is None:
-        raise GrossSliding(
-            "the increment before reached the friction limit under force control, where the "
-            "motion is undefined, so the history cannot go on; prescribe the shift or twist instead"
-        )
+        raise motion_undefined()
     target = target_of(loads)
-    if reaches_limit(target, capacity(sideways, p)):
-        after = at_limit(sideways, p, target, last)
-        return after, slip_residuals(sideways, p, after, None, loads), 0
+    if reaches_limit(target.resultant, sideways.capacity(p)):
+        return at_limit(sideways, p, target, last), None, 0
     solved = shear(sideways, sideways.coefficient * p, target, last.offset, last.sides)
     after, step = slid(sideways, p, solved.shear, solved.motion, solved.sides, last)
-    return after, slip_residuals(sideways, p, after, step, loads), solved.steps
+    return after, step, solved.steps
 
 
 def _coupled(
@@ -100,21 +85,20 @@ def _coupled(
     rings = len(problem.gap)
     last = before.slid if before is not None and before.slid is not None else untouched(rings)
     contact = np.zeros(rings, np.int8) if before is None else before.contact
-    start = Coupled(np.zeros(rings), 0.0, last.shear, contact, last.sides, 0, 0)
+    start = Coupled(np.zeros(rings), 0.0, last.shear, contact, last.sides)
     solved = alternate(problem, loads.normal, last.offset, start, ENOUGH * tolerance)
     p, q = solved.pressure, solved.shear
     opened = problem.gap + sideways.by_pressure.T @ q
     gap = problem.normal @ p + opened - solved.approach * problem.weights
     pressed = Pressed(p, solved.approach, solved.contact, solved.steps)
     after, step = slid(sideways, p, q, 0.0, solved.slipping, last)
-    state = _pressed(problem, pressed, gap, loads)
-    residuals = slip_residuals(sideways, p, after, step, loads)
-    return replace(
-        state,
-        slid=after,
-        residuals=state.residuals.with_shear(residuals),
-        sweeps=solved.sweeps,
-    )
+    state = replace(_pressed(problem, pressed, gap, loads), sweeps=solved.sweeps)
+    return _with_shear(state, sideways, after, step)
+
+
+def _with_shear(state: State, sideways: Sideways, after: Slid, step: Field | None) -> State:
+    missed = slip_residuals(sideways, state.pressure, after, step, state.loads)
+    return replace(state, slid=after, residuals=state.residuals.with_shear(missed))
 
 
 def _pressed(problem: ContactProblem, pressed: Pressed, gap: Field, loads: Loads) -> State:

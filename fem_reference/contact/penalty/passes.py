@@ -7,17 +7,17 @@ from math import pi
 import numpy as np
 from numpy.typing import NDArray
 
-from contact_scene.solver_errors import ContactAtZoneEdge, GrossSliding, NotConverged
-from fem_reference.contact.complementarity.shearing import SidewaysTarget
-from fem_reference.contact.complementarity.slipping import reaches_limit
+from contact_scene.solver_errors import NotConverged
+from fem_reference.contact.friction_limit import motion_undefined, reaches_limit
 from fem_reference.contact.penalty.augmentation import augmented
 from fem_reference.contact.penalty.newton import Iterate, defect, solve_by_newton
 from fem_reference.contact.penalty.problem import PenaltyProblem
-from fem_reference.contact.penalty.residuals import penalty_residuals
 from fem_reference.contact.penalty.spring_contact import PenaltyLaw
+from fem_reference.contact.penalty.spring_residuals import penalty_residuals
+from fem_reference.contact.penalty.spring_state import PenaltyState, Solution, untouched
 from fem_reference.contact.penalty.springs import NORMAL, solve_by_springs
-from fem_reference.contact.penalty.state import PenaltyState, Solution, untouched
 from fem_reference.contact.penalty.surface import ElasticSurface, Target
+from fem_reference.contact.zone_edge import refuse_contact_at_edge
 from fem_reference.loads import Loads
 
 Field = NDArray[np.float64]
@@ -39,20 +39,14 @@ def advance(
     """
     last = before or untouched(problem.surface.gap)
     if np.isnan(last.motion).any():
-        raise GrossSliding(
-            "the increment before reached the friction limit under force control, where the "
-            "motion is undefined, so the history cannot go on; prescribe the shift or twist instead"
-        )
+        raise motion_undefined()
     solver = _Passes(problem.surface, problem.target(loads), ENOUGH * tolerance, tolerance)
     limit = None
     if problem.driven and solver.target.free[1]:
         limit = _at_limit(problem, augmentations, last, loads, solver)
     state = limit or _advanced(problem, augmentations, last, loads, solver)
-    if problem.open_end and state.traction[0, -1] > 0:
-        raise ContactAtZoneEdge(
-            f"the contact reaches {problem.points.radii[-1]:.6g} m, where the zone of fine "
-            f"elements ends; give a larger contact_radius"
-        )
+    at_edge = problem.open_end and state.traction[0, -1] > 0
+    refuse_contact_at_edge(at_edge, problem.points.radii[-1])
     state.residuals.require(tolerance, "the increment", state.iterations)
     return state
 
@@ -179,7 +173,7 @@ def _at_limit(
     pressed = _advanced(alone, augmentations, last.pressing_alone(), loads, pressing)
     load = float(solver.target.value[1])
     capacity = problem.capacity(pressed.traction[0])
-    if not reaches_limit(SidewaysTarget(resultant=load), capacity):
+    if not reaches_limit(load, capacity):
         return None
     surface, sign = problem.surface, np.sign(load)
     traction = np.vstack([pressed.traction, sign * problem.friction * pressed.traction])

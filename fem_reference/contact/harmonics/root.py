@@ -11,14 +11,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from contact_scene.solver_errors import NotConverged
-from fem_reference.contact.harmonics.alternation import (
+from fem_reference.contact.harmonics.equations import Equations, Iterate
+from fem_reference.contact.harmonics.turns import (
     CoupledProblem,
     CoupledSolution,
     approach_of,
     press,
     sides_of,
 )
-from fem_reference.contact.harmonics.equations import Equations, Iterate
 
 Field = NDArray[np.float64]
 Vector = NDArray[np.float64]

@@ -13,18 +13,11 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from fem_reference.contact.complementarity.box_program import BoxProgram, Sides, Total, solve_box
+from fem_reference.contact.box_program import BoxProgram, Sides, Total, solve_box
 from fem_reference.contact.complementarity.contact_problem import Sideways
+from fem_reference.contact.one_component import SidewaysTarget
 
 Field = NDArray[np.float64]
-
-
-@dataclass(frozen=True)
-class SidewaysTarget:
-    """Either the shear's resultant over 2π, or the indenter's motion, or none for radial shear."""
-
-    resultant: float | None = None
-    motion: float | None = None
 
 
 @dataclass(frozen=True)
@@ -47,7 +40,7 @@ def shear(
 
     free  s - u (n,)
     """
-    limit = bound if sideways.on_axis else np.where(np.arange(len(bound)) > 0, bound, 0.0)
+    limit = sideways.limited(bound)
     right, total = free, None
     if target.resultant is not None:
         assert sideways.motion is not None

@@ -5,17 +5,17 @@ Each sweep solves the pressure at the present shear and the shear at the new pre
 what touches and what slips is known before the tractions are, and these follow at once.
 """
 
-from dataclasses import dataclass
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from contact_scene.solver_errors import NotConverged
-from fem_reference.contact.complementarity.box_program import Sides
 from fem_reference.contact.complementarity.contact_problem import ContactProblem
 from fem_reference.contact.complementarity.pressing import press
-from fem_reference.contact.complementarity.shearing import SidewaysTarget, shear
-from fem_reference.contact.complementarity.together import settle
+from fem_reference.contact.complementarity.together import Coupled, settle
+from fem_reference.contact.complementarity.tresca import shear
+from fem_reference.contact.one_component import SidewaysTarget
 from fem_reference.loads import NormalTarget
 
 Field = NDArray[np.float64]
@@ -23,19 +23,6 @@ Field = NDArray[np.float64]
 MOST_SWEEPS = 96
 # By now the sides are nearly settled where friction is weak, and sweeps are slow where it is not.
 SETTLED = (6, 12, 24, 48, 96)
-
-
-@dataclass(frozen=True)
-class Coupled:
-    """Pressure, approach and shear in equilibrium; sides as of `Pressed` and `Sheared`."""
-
-    pressure: Field
-    approach: float
-    shear: Field
-    contact: Sides
-    slipping: Sides
-    steps: int
-    sweeps: int
 
 
 def alternate(
@@ -75,14 +62,6 @@ def alternate(
             if isinstance(settled, int):
                 steps += settled
                 continue
-            return Coupled(
-                settled.pressure,
-                settled.approach,
-                settled.shear,
-                settled.contact,
-                settled.slipping,
-                steps + settled.steps,
-                sweep,
-            )
+            return replace(settled, steps=steps + settled.steps, sweeps=sweep)
     residual = change / largest if largest > 0 else np.inf
     raise NotConverged("the coupled increment", steps, residual, tolerance)

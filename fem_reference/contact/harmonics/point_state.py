@@ -7,13 +7,12 @@ from numpy.typing import NDArray
 
 from contact_scene.residuals import Residuals
 from contact_scene.summary import ContactStatus
+from fem_reference.contact.friction_limit import contact_status
 from fem_reference.contact.harmonics.point_compliance import PointCompliance
 
 Field = NDArray[np.float64]
 Vector = NDArray[np.float64]
 Mask = NDArray[np.bool_]
-
-SLIDING = 1e-6
 
 
 @dataclass(frozen=True)
@@ -57,9 +56,5 @@ class PointState:
     @property
     def status(self) -> ContactStatus:
         """How the contact carries its tangential load."""
-        if np.any(self.in_stick):
-            everything = np.array_equal(self.in_stick, self.pressure > 0)
-            return ContactStatus.FULL_STICK if everything else ContactStatus.PARTIAL_SLIP
-        if abs(self.tangential_force) >= (1 - SLIDING) * self.limit:
-            return ContactStatus.GROSS_SLIDING
-        return ContactStatus.NO_STICK_AREA_LEFT
+        touching = self.pressure > 0
+        return contact_status(touching, self.in_stick, self.tangential_force, self.limit)

@@ -6,18 +6,18 @@ import numpy as np
 from numpy.typing import NDArray
 
 from contact_scene.residuals import Residuals
-from contact_scene.solver_errors import GrossSliding, NotConverged
-from fem_reference.contact.harmonics.alternation import (
-    AT_LIMIT,
+from contact_scene.solver_errors import NotConverged
+from fem_reference.contact.friction_limit import motion_undefined, reaches_limit
+from fem_reference.contact.harmonics.continuation import solve_by_continuation
+from fem_reference.contact.harmonics.point_contact import PointContact
+from fem_reference.contact.harmonics.point_state import PointState
+from fem_reference.contact.harmonics.root import Start, solve_by_newton
+from fem_reference.contact.harmonics.turns import (
     CoupledProblem,
     CoupledSolution,
     TurnsFailed,
     solve_coupled,
 )
-from fem_reference.contact.harmonics.continuation import solve_by_continuation
-from fem_reference.contact.harmonics.newton import Start, solve_by_newton
-from fem_reference.contact.harmonics.point_contact import PointContact
-from fem_reference.contact.harmonics.state import PointState
 from fem_reference.loads import NormalTarget, TangentialTarget
 from fem_reference.residuals import (
     LEAST_SLIP,
@@ -48,10 +48,7 @@ def advance(
     """
     before = before or contact.untouched()
     if before.tangential_shift is None:
-        raise GrossSliding(
-            "the increment before reached the friction limit under force control, where the "
-            "shift is undefined, so the history cannot go on; prescribe tangential_shift instead"
-        )
+        raise motion_undefined()
     target = before.displacement - before.tangential_shift * contact.compliance.e_x
     problem = CoupledProblem(
         contact.compliance, contact.gap, contact.friction_coefficient, target, normal, tangential
@@ -61,7 +58,8 @@ def advance(
     for _ in range(MOST_ATTEMPTS):
         solution = _solved(problem, p, q, motion, aim)
         turns, solves = turns + solution.turns, solves + solution.solves
-        _refuse_sliding(problem, solution)
+        limit = float(np.sum(contact.compliance.areas * problem.bound(solution.pressure)))
+        reaches_limit(tangential.force, limit, unit=1.0)
         state = _Trial.of(problem, before, solution).state(turns, solves)
         if state.residuals.worst <= tolerance:
             return state
@@ -88,16 +86,6 @@ def _solved(
             continue
         return replace(solution, turns=failed.turns, solves=spent + solution.solves)
     raise NotConverged("the coupled increment", spent, failed.residual, failed.tolerance)
-
-
-def _refuse_sliding(problem: CoupledProblem, solution: CoupledSolution) -> None:
-    force = problem.tangential.force
-    carried = np.sum(problem.compliance.areas * problem.bound(solution.pressure))
-    if force is not None and abs(force) > carried * (1 + AT_LIMIT):
-        raise GrossSliding(
-            f"tangential force {abs(force):.6g} N exceeds the friction limit {carried:.6g} N: "
-            f"gross sliding; prescribe tangential_shift instead"
-        )
 
 
 @dataclass(frozen=True)

@@ -1,15 +1,14 @@
 """What the complementarity method carries from one increment to the next."""
 
 from dataclasses import dataclass
-from math import pi
 
 import numpy as np
 from numpy.typing import NDArray
 
 from contact_scene.residuals import Residuals
 from contact_scene.summary import ContactStatus
-from fem_reference.contact.complementarity.box_program import Sides
-from fem_reference.contact.complementarity.contact_problem import Sideways
+from fem_reference.contact.box_program import Sides
+from fem_reference.contact.one_component import Led
 from fem_reference.loads import Loads
 
 Field = NDArray[np.float64]
@@ -47,7 +46,7 @@ def untouched(rings: int) -> Slid:
 
 
 @dataclass(frozen=True)
-class State:
+class State(Led):
     """The end of an increment.
 
     loads     that were reached
@@ -70,32 +69,11 @@ class State:
     sweeps: int
 
     @property
-    def tangential_force(self) -> float:
-        """Along the load, as prescribed or carried; zero on a path without [force]."""
-        load = self.loads.tangential
-        if self.slid is None or load is None:
-            return 0.0
-        return self.slid.resultant if load.force is None else load.force
+    def carried(self) -> float:
+        """By the shear [force] or [force length]."""
+        return self.slid.resultant if self.slid else 0.0
 
     @property
-    def tangential_shift(self) -> float | None:
-        """Along the load; None where undefined [length]."""
-        return self.slid.motion if self.slid and self.loads.tangential else 0.0
-
-    @property
-    def torque(self) -> float:
-        """About z, as prescribed or carried; zero on a path without [force length]."""
-        load = self.loads.twisting
-        if self.slid is None or load is None:
-            return 0.0
-        return self.slid.resultant if load.torque is None else load.torque
-
-    @property
-    def twist(self) -> float | None:
-        """About z; None where undefined [radian]."""
-        return self.slid.motion if self.slid and self.loads.twisting else 0.0
-
-
-def resultant(sideways: Sideways, q: Field) -> float:
-    """Force or torque of a shear; zero where symmetry leaves none."""
-    return 0.0 if sideways.motion is None else 2 * pi * float(np.sum(sideways.motion * q))
+    def moved(self) -> float | None:
+        """Along the shear [length] or [radian]."""
+        return self.slid.motion if self.slid else 0.0

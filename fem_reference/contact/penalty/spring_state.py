@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from contact_scene.residuals import Residuals
+from fem_reference.contact.one_component import Led
 from fem_reference.contact.penalty.newton import Iterate
 from fem_reference.loads import Loads, NormalTarget
 
@@ -23,7 +24,7 @@ class Solution(Enum):
 
 
 @dataclass(frozen=True)
-class PenaltyState:
+class PenaltyState(Led):
     """The end of an increment. Arrays have the component first: pressure, then shear if any.
 
     loads        that were reached
@@ -80,30 +81,14 @@ class PenaltyState:
         return float(self.motion[0])
 
     @property
-    def tangential_force(self) -> float:
-        """Along the load, as prescribed or carried; zero on a path without [force]."""
-        load = self.loads.tangential
-        if load is None:
-            return 0.0
-        return float(self.resultant[1]) if load.force is None else load.force
+    def carried(self) -> float:
+        """By the shear [force] or [force length]."""
+        return float(self.resultant[1])
 
     @property
-    def tangential_shift(self) -> float | None:
-        """Along the load; None where undefined [length]."""
-        return 0.0 if self.loads.tangential is None else self._motion_along()
-
-    @property
-    def torque(self) -> float:
-        """About z, as prescribed or carried; zero on a path without [force length]."""
-        load = self.loads.twisting
-        if load is None:
-            return 0.0
-        return float(self.resultant[1]) if load.torque is None else load.torque
-
-    @property
-    def twist(self) -> float | None:
-        """About z; None where undefined [radian]."""
-        return 0.0 if self.loads.twisting is None else self._motion_along()
+    def moved(self) -> float | None:
+        """Along the shear [length] or [radian]."""
+        return None if np.isnan(self.motion[1]) else float(self.motion[1])
 
     def pressing_alone(self) -> Self:
         """The same without its shear."""
@@ -119,9 +104,6 @@ class PenaltyState:
             first_pass=first,
             change=None if change is None else (change[0][:1], change[1][:1]),
         )
-
-    def _motion_along(self) -> float | None:
-        return None if np.isnan(self.motion[1]) else float(self.motion[1])
 
 
 def untouched(gap: Field) -> PenaltyState:

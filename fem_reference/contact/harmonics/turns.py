@@ -12,15 +12,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from contact_scene.solver_errors import NotConverged
-from fem_reference.contact.complementarity.box_program import (
+from fem_reference.contact.box_program import (
     BoxProgram,
     BoxSolution,
     Sides,
     Total,
     solve_box,
 )
+from fem_reference.contact.friction_limit import AT_LIMIT
 from fem_reference.contact.harmonics.point_compliance import PointCompliance
-from fem_reference.contact.harmonics.shearing import Sheared, ShearProblem, solve_shear
+from fem_reference.contact.harmonics.shear_in_discs import Sheared, ShearProblem, solve_shear
 from fem_reference.loads import NormalTarget, TangentialTarget
 
 Field = NDArray[np.float64]
@@ -31,7 +32,6 @@ MOST_TURNS = 60
 LOOSEST = 1e-4  # first tolerance of the shear
 REMEMBERED = 30
 DEPENDENT = 1e-10  # part of a difference below which the others explain it
-AT_LIMIT = 1e-6  # part of µW below which a force cannot be told from the friction limit
 
 
 @dataclass(frozen=True)

@@ -1,0 +1,55 @@
+"""What friction can carry in all: whether a load is at that limit, and what the contact does."""
+
+from math import pi
+
+import numpy as np
+from numpy.typing import NDArray
+
+from contact_scene.solver_errors import GrossSliding
+from contact_scene.summary import ContactStatus
+
+Mask = NDArray[np.bool_]
+
+# A force this close to the friction limit, relatively, is at it: what sticks there is round-off.
+AT_LIMIT = 1e-6
+
+
+def reaches_limit(load: float | None, capacity: float, unit: float = 2 * pi) -> bool:
+    """Whether a force or torque is at the friction limit; GrossSliding if it is beyond.
+
+    load      None where the motion is prescribed
+    capacity  the largest load that friction carries
+    unit      what both are to be multiplied with
+    """
+    if load is None:
+        return False
+    if abs(load) > capacity * (1 + AT_LIMIT):
+        raise GrossSliding(
+            f"tangential force or torque {unit * abs(load):.6g} exceeds the friction limit "
+            f"{unit * capacity:.6g}: gross sliding; prescribe the shift or twist instead"
+        )
+    return abs(load) >= capacity * (1 - AT_LIMIT)
+
+
+def motion_undefined() -> GrossSliding:
+    """To be raised for a history that was to go on from where the motion is undefined."""
+    return GrossSliding(
+        "the increment before reached the friction limit under force control, where the motion is "
+        "undefined, so the history cannot go on; prescribe the shift or twist instead"
+    )
+
+
+def contact_status(
+    loaded: Mask, stuck: Mask, carried: float | None, capacity: float
+) -> ContactStatus:
+    """How a contact carries its tangential load.
+
+    loaded, stuck  places that can carry shear, and those of them that do not slip
+    carried        load by the shear, of either sign; None where nothing leads the indenter
+    """
+    if np.any(stuck):
+        whole = np.array_equal(stuck, loaded)
+        return ContactStatus.FULL_STICK if whole else ContactStatus.PARTIAL_SLIP
+    if carried is not None and abs(carried) >= capacity * (1 - AT_LIMIT):
+        return ContactStatus.GROSS_SLIDING
+    return ContactStatus.NO_STICK_AREA_LEFT
