@@ -10,7 +10,7 @@ from report_examples import case, report_of, run_record
 from semi_analytical import solve
 from verification.cases.cattaneo_mindlin import cattaneo_mindlin_on
 from verification.cases.coated_paraboloid import coated_paraboloid_on
-from verification.cases.fem_coated import Row, fem_coated_on
+from verification.cases.fem_coated import fem_coated_on
 from verification.cases.fem_hertz import fem_hertz_on
 from verification.cases.fem_partial_slip import fem_partial_slip_on
 from verification.cases.hertz_point import hertz_on
@@ -40,7 +40,7 @@ def solved() -> Mapping[str, tuple[Chart, ...]]:
     ]  # fmt: skip
     cases = (
         hertz_on((CELLS,)), fem_hertz_on((ELEMENTS,)),
-        coated_paraboloid_on((CELLS,), ()), fem_coated_on([Row(coated[0], ELEMENTS)]),
+        coated_paraboloid_on((CELLS,), ()), fem_coated_on(coated, (ELEMENTS,)),
         cattaneo_mindlin_on((CELLS,)), fem_partial_slip_on(ELEMENTS),
     )  # fmt: skip
     return {one.name: profiles_of(one) for one in cases}

@@ -6,12 +6,12 @@ from typing import Any
 import numpy as np
 import pytest
 
-from verification.cases.fem_profiles import between_rings
-from verification.cases.fem_profiles import relative_l1 as relative_l1_over_radius
-from verification.cases.fem_profiles import relative_l2 as relative_l2_over_radius
 from verification.convergence.error_line import by_size, error_line
 from verification.convergence.observed_order import numerical_uncertainty, observed_order
 from verification.norms import relative_l1, relative_l2, shear_error
+from verification.observed.ring_errors import between_rings
+from verification.observed.ring_errors import relative_l1 as relative_l1_over_radius
+from verification.observed.ring_errors import relative_l2 as relative_l2_over_radius
 
 LEVELS = np.array([1 / n for n in (32, 42, 56, 74, 98, 128)])
 

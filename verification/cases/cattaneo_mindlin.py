@@ -8,13 +8,12 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from contact_results.quantities import shear_of
-from verification.cases.hertz_point import label
-from verification.cases.shifted_grid import ShiftedGrid
 from verification.cases.stopped_shearing import StoppedShearing
 from verification.exhibits.chart import Chart
 from verification.exhibits.convergence_chart import convergence_chart
 from verification.exhibits.profile_chart import Profile, ProfileLabels, Section, profile_chart
 from verification.judging.case import Case, Derived, Level, Quantity, Required
+from verification.judging.ladder import cells_label
 from verification.judging.order_of_convergence import Followed, OrderOfConvergence
 from verification.judging.refinement import part_of_a_cell, refinement
 from verification.judging.run import Run
@@ -23,6 +22,7 @@ from verification.observed.end_state import shift, stick_radius
 from verification.problems import paper_scene as paper
 from verification.problems.paper_scene import FRICTION, HERTZ, NU_ZERO
 from verification.problems.reference import closed_form, exact_zero
+from verification.problems.shifted_grid import ShiftedGrid
 
 if TYPE_CHECKING:
     from semi_analytical import Result
@@ -55,7 +55,7 @@ def cattaneo_mindlin_on(cells: tuple[int, ...], shifted: tuple[int, ...] = ()) -
 
     shifted  cells per side of grids that fall on the contact in other ways too
     """
-    runs = tuple(Run(label(n), SCENE, paper.hertz_grid(n)) for n in cells)
+    runs = tuple(Run(cells_label(n), SCENE, paper.hertz_grid(n)) for n in cells)
     levels = tuple(run.label for run in runs)
     others = tuple(_shifted(n, offset) for n in shifted for offset in OFFSETS)
     return Case(
@@ -93,7 +93,7 @@ def cattaneo_mindlin_on(cells: tuple[int, ...], shifted: tuple[int, ...] = ()) -
 
 def _shifted(cells: int, offset: tuple[float, float]) -> Run:
     grid = paper.hertz_grid(cells)
-    name = f"{label(cells)}, shifted by ({offset[0]:g}, {offset[1]:g}) cells"
+    name = f"{cells_label(cells)}, shifted by ({offset[0]:g}, {offset[1]:g}) cells"
     return Run(name, SCENE, ShiftedGrid(grid.cells, grid.window, offset))
 
 

@@ -11,19 +11,17 @@ from numpy.typing import NDArray
 from contact_scene import Body, IsotropicMaterial, Layer
 from semi_analytical.frf.stack import Film, HalfSpace, Stack
 from semi_analytical.frf.surface import scalars
-from verification.cases import flat_punch
-from verification.cases.fem_coated import central_pressure
 from verification.cases.fem_levels import allowed, because, finest
-from verification.cases.hertz_point import label
 from verification.closed_forms.coated_indentation import (
     LayeredIndentation,
     LayeredSurface,
     paraboloid_under,
 )
 from verification.judging.case import Case, Level, Quantity, Required
+from verification.judging.ladder import cells_label
 from verification.judging.refinement import part_of_a_cell
 from verification.judging.run import Run, SectionRun, per_radius
-from verification.observed.end_state import approach, contact_radius
+from verification.observed.end_state import approach, central_pressure, contact_radius
 from verification.problems import paper_scene as paper
 from verification.problems.layered_scene import pressed, rigid_ball, semi_closed
 from verification.problems.paper_scene import HERTZ
@@ -72,7 +70,7 @@ class UnlikeRatios:
         half_width = paper.WINDOW_PER_RADIUS / 2 * self.exact.contact_radius
         grid = paper.square_grid(CELLS, half_width)
         scene = pressed(f"Rigid ball on a coating, {self.name}", rigid_ball(), self.body)
-        return Run(f"{self.name}, {label(CELLS)}", scene, grid)
+        return Run(f"{self.name}, {cells_label(CELLS)}", scene, grid)
 
     def section_run(self, elements: int) -> SectionRun:
         """By finite elements."""
@@ -94,7 +92,7 @@ class UnlikeRatios:
             ("contact_radius", "√(contact area / π), cells at the edge counted in part", "m",
              contact_radius, exact.contact_radius, Required(cell, "a tenth of a cell"), cells),
             ("central_pressure", "pressure of the cells around the axis", "Pa",
-             flat_punch.central_pressure, float(exact.pressure(0.0)), by_cells, cells),
+             central_pressure, float(exact.pressure(0.0)), by_cells, cells),
             ("approach", "approach since first touch", "m", approach, exact.approach,
              by_mesh, mesh),
             ("contact_radius", "where the pressure ends, from its last two values", "m",

@@ -9,11 +9,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from contact_scene import Cone, LoadStep
-from verification.cases.hertz_point import label
 from verification.closed_forms.cone import ConeContact
 from verification.exhibits.chart import Chart
 from verification.exhibits.profile_chart import Profile, ProfileLabels, Section, profile_chart
 from verification.judging.case import Case, Derived, Level, Quantity
+from verification.judging.ladder import cells_label
 from verification.judging.order_of_convergence import Followed, OrderOfConvergence
 from verification.judging.refinement import part_of_a_cell, refinement
 from verification.judging.run import Run
@@ -45,7 +45,7 @@ def cone_contact(level: Level = Level.QUICK) -> Case:
 def cone_contact_on(cells: tuple[int, ...]) -> Case:
     """The case on square grids of these many cells per side."""
     half_width = paper.WINDOW_PER_RADIUS / 2 * EXACT.contact_radius
-    runs = tuple(Run(label(n), SCENE, paper.square_grid(n, half_width)) for n in cells)
+    runs = tuple(Run(cells_label(n), SCENE, paper.square_grid(n, half_width)) for n in cells)
     levels = tuple(run.label for run in runs)
     finest = levels[-1]
     return Case(

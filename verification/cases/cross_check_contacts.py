@@ -14,10 +14,10 @@ from contact_results.quantities import shear_of
 from contact_scene import CoulombFriction, FiniteElementDiscretisation, LoadStep, Scene
 from semi_analytical.grid import SurfaceGrid
 from verification.cases.indentation_reference import COATED, STRONG, WEAK
-from verification.cases.radial_profile import outward
 from verification.cases.stick_edges import kept_edges
 from verification.closed_forms.coated_indentation import LayeredIndentation
 from verification.judging.run import SOLVER_TOLERANCE
+from verification.observed.radial_profile import outward
 from verification.problems import paper_scene as paper
 from verification.problems.layered_scene import coated, exact_contact, film, rigid_ball
 from verification.problems.paper_scene import HERTZ

@@ -14,10 +14,10 @@ from contact_scene import CoulombFriction, FiniteElementDiscretisation, LoadStep
 from verification.cases.apart_everywhere import Apart, apart_everywhere
 from verification.cases.cross_check_tangential_line import Line
 from verification.cases.fem_harmonics_run import PointsRun
-from verification.cases.hertz_point import label as cells_label
 from verification.exhibits.chart import Chart, Look, Panel, curve
 from verification.exhibits.table import Table
 from verification.judging.case import Case, Comparison, Finding, Level
+from verification.judging.ladder import cells_label
 from verification.judging.run import Run
 from verification.problems import paper_scene as paper
 from verification.problems.layered_scene import coated, film, rigid_ball

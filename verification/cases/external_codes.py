@@ -13,13 +13,13 @@ from numpy.typing import NDArray
 
 from contact_results.quantities import shear_of
 from contact_scene import CoulombFriction, LoadStep, Scene
-from verification.cases.fem_profiles import at_radii
-from verification.cases.hertz_point import label as cells_label
-from verification.cases.radial_profile import along_radii, outward
 from verification.external_codes.recorded import Recorded, recorded
 from verification.judging.case import Case, Level, Quantity, Required
+from verification.judging.ladder import cells_label
 from verification.judging.run import Run, SectionRun, per_radius
 from verification.observed.end_state import normal_force
+from verification.observed.radial_profile import along_radii, outward
+from verification.observed.ring_errors import at_radii
 from verification.problems import paper_scene as paper
 from verification.problems.layered_scene import coated, film, rigid_ball
 from verification.problems.paper_scene import HERTZ

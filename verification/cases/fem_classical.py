@@ -7,14 +7,13 @@ from typing import TYPE_CHECKING
 
 from verification.cases import cone_contact as cone
 from verification.cases import flat_punch as punch
-from verification.cases.fem_coated import central_pressure
 from verification.cases.fem_levels import allowed, label, levels
 from verification.exhibits.chart import Chart
 from verification.exhibits.convergence_chart import convergence_chart
 from verification.judging.case import Case, Level, Quantity, Required
 from verification.judging.order_of_convergence import Followed, NotYetAsymptotic, OrderOfConvergence
 from verification.judging.run import SectionRun, per_radius
-from verification.observed.end_state import approach, contact_radius
+from verification.observed.end_state import approach, central_pressure, contact_radius
 from verification.problems.reference import closed_form, exact_zero
 
 if TYPE_CHECKING:

@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from contact_scene import LoadStep
-from verification.cases.fem_profiles import at_radii
 from verification.cases.indentation_reference import FEW
 from verification.cases.indentation_refinement import LOST, ONE
 from verification.exhibits.chart import Chart
@@ -23,6 +22,7 @@ from verification.judging.order_of_convergence import (
 )
 from verification.judging.run import SectionRun, per_radius
 from verification.observed.end_state import approach, contact_radius
+from verification.observed.ring_errors import at_radii
 from verification.problems import paper_scene as paper
 
 if TYPE_CHECKING:

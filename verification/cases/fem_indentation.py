@@ -11,13 +11,14 @@ from numpy.typing import NDArray
 
 from contact_scene import LoadStep
 from verification.cases.fem_levels import allowed, because, finest, judged_within
-from verification.cases.fem_profiles import at_radii, radial_chart
 from verification.cases.indentation_reference import COATED, FEW, STRONG, WEAK, Indentation
 from verification.exhibits.chart import Chart
 from verification.exhibits.profile_chart import ProfileLabels
 from verification.judging.case import Case, Finding, Level, Quantity, Required
+from verification.judging.radial_chart import radial_chart
 from verification.judging.run import SectionRun, per_radius
 from verification.observed.end_state import approach, contact_radius, stick_radius
+from verification.observed.ring_errors import at_radii
 from verification.problems import paper_scene as paper
 from verification.problems.paper_scene import HERTZ
 

@@ -9,9 +9,7 @@ import numpy as np
 
 from contact_results.quantities import shift_along_x
 from verification.cases.cattaneo_mindlin import SOURCE as CATTANEO
-from verification.cases.fem_hertz import meshed
 from verification.cases.fem_levels import MIDDLE, finest, judged_within, label, order_levels
-from verification.cases.fem_profiles import radial_chart, relative_l1
 from verification.cases.loop_history import LOADED, ExactLoop, loop_energy, loop_steps
 from verification.cases.stopped_shearing import StoppedShearing
 from verification.closed_forms.tangential_history import TangentialHistory
@@ -19,9 +17,12 @@ from verification.exhibits.chart import Chart
 from verification.exhibits.convergence_chart import convergence_chart
 from verification.exhibits.profile_chart import ProfileLabels
 from verification.judging.case import Case, Level, Quantity, Required
+from verification.judging.ladder import meshed
 from verification.judging.order_of_convergence import Followed, OrderOfConvergence
+from verification.judging.radial_chart import radial_chart
 from verification.judging.run import SectionRun, per_radius
 from verification.observed.end_state import stick_radius
+from verification.observed.ring_errors import relative_l1
 from verification.problems import paper_scene as paper
 from verification.problems.paper_scene import FRICTION, HERTZ, NU_ZERO, STEEL
 from verification.problems.reference import closed_form, exact_zero
@@ -78,7 +79,7 @@ def fem_partial_slip_on(
         SectionRun(
             _sheared(n, place),
             SHEARED,
-            per_radius(n, meshed(n, place)),
+            per_radius(n, meshed(HERTZ.contact_radius, n, place)),
             beyond=MIDDLE,
         )
         for n, place in studied

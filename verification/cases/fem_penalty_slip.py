@@ -20,7 +20,6 @@ from verification.cases.fem_partial_slip import (
     WHY,
     shear_error,
 )
-from verification.cases.fem_profiles import radial_chart
 from verification.cases.loop_history import LOADED, loop_energy
 from verification.cases.torsion import EXACT as TWISTED
 from verification.cases.torsion import MONOTONIC, PARTS
@@ -28,6 +27,7 @@ from verification.cases.torsion import SOURCE as TWISTING
 from verification.exhibits.chart import Chart
 from verification.exhibits.profile_chart import ProfileLabels
 from verification.judging.case import Case, Level, Quantity, Required
+from verification.judging.radial_chart import radial_chart
 from verification.judging.run import SectionRun, per_radius
 from verification.judging.solver import Method
 from verification.problems.paper_scene import HERTZ

@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from verification.cases.fem_hertz import meshed
 from verification.cases.fem_levels import (
     MIDDLE,
     allowed,
@@ -16,7 +15,6 @@ from verification.cases.fem_levels import (
     levels,
     order_levels,
 )
-from verification.cases.fem_profiles import radial_chart
 from verification.cases.torsion import (
     EXACT,
     MODULUS,
@@ -32,7 +30,9 @@ from verification.closed_forms.torsion import StuckTorsion
 from verification.exhibits.chart import Chart
 from verification.exhibits.profile_chart import ProfileLabels
 from verification.judging.case import Case, Level, Quantity, Required
+from verification.judging.ladder import meshed
 from verification.judging.order_of_convergence import Followed, OrderOfConvergence
+from verification.judging.radial_chart import radial_chart
 from verification.judging.run import SectionRun, per_radius
 from verification.problems.paper_scene import FRICTION, HERTZ
 from verification.problems.reference import closed_form, exact_zero
@@ -94,7 +94,7 @@ def fem_torsion_on(elements: tuple[int, ...], studied: tuple[tuple[int, float], 
 
 
 def _ball(elements: int, place: float) -> SectionRun:
-    mesh = per_radius(elements, meshed(elements, place))
+    mesh = per_radius(elements, meshed(HERTZ.contact_radius, elements, place))
     return SectionRun(f"ball, {label(elements, place)}", MONOTONIC, mesh, beyond=MIDDLE)
 
 

@@ -8,14 +8,14 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from contact_scene import FlatPunch, LoadStep
-from verification.cases.hertz_point import label
 from verification.closed_forms.flat_punch import FlatPunchContact
 from verification.exhibits.chart import Chart
 from verification.exhibits.convergence_chart import convergence_chart
 from verification.judging.case import Case, Level, Quantity, Required
+from verification.judging.ladder import cells_label
 from verification.judging.refinement import refinement
 from verification.judging.run import Run
-from verification.observed.end_state import approach
+from verification.observed.end_state import approach, central_pressure
 from verification.problems import paper_scene as paper
 from verification.problems.reference import closed_form
 
@@ -42,7 +42,7 @@ def flat_punch(level: Level = Level.QUICK) -> Case:
 def flat_punch_on(cells: tuple[int, ...]) -> Case:
     """The case on square grids of these many cells per side."""
     half_width = WINDOW_PER_RADIUS / 2 * EXACT.contact_radius
-    runs = tuple(Run(label(n), SCENE, paper.square_grid(n, half_width)) for n in cells)
+    runs = tuple(Run(cells_label(n), SCENE, paper.square_grid(n, half_width)) for n in cells)
     finest = runs[-1].label
     cell = runs[-1].grid.spacing[0] / EXACT.contact_radius
     staircase = (
@@ -76,12 +76,6 @@ def flat_punch_on(cells: tuple[int, ...]) -> Case:
             "grid to grid, so no order is judged.",
         ),
     )  # fmt: skip
-
-
-def central_pressure(result: Result) -> float:
-    """Mean pressure of the cells nearest to the axis [force/length²]."""
-    r = np.hypot(*result.grid.coordinates())
-    return float(np.mean(result.steps[-1].pressure[r < 1.01 * r.min()]))
 
 
 def _charts(results: Mapping[str, Result]) -> tuple[Chart, ...]:

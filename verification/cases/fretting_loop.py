@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from verification.cases.hertz_point import ASKED, label
+from verification.cases.hertz_point import ASKED
 from verification.cases.loop_charts import hysteresis_chart
 from verification.cases.loop_history import (
     ExactLoop,
@@ -19,6 +19,7 @@ from verification.cases.loop_history import (
 )
 from verification.exhibits.chart import Chart
 from verification.judging.case import Case, Finding, Level, Quantity, Required
+from verification.judging.ladder import cells_label
 from verification.judging.refinement import part_of_a_cell
 from verification.judging.run import Run
 from verification.problems import paper_scene as paper
@@ -50,8 +51,8 @@ def fretting_loop_on(cells: tuple[int, ...], quarter: int) -> Case:
         "Fretting loop, ν = 0", paper.paraboloid(NU_ZERO), NU_ZERO, *loop_steps(quarter)
     )
     half_width = WINDOW_PER_RADIUS / 2 * HERTZ.contact_radius
-    runs = tuple(Run(label(n), scene, paper.square_grid(n, half_width)) for n in cells)
-    wide = Run(f"{label(cells[0])}, window 3 a", scene, paper.hertz_grid(cells[0]))
+    runs = tuple(Run(cells_label(n), scene, paper.square_grid(n, half_width)) for n in cells)
+    wide = Run(f"{cells_label(cells[0])}, window 3 a", scene, paper.hertz_grid(cells[0]))
     return Case(
         name="fretting_loop",
         title="Fretting loop, ν = 0",
@@ -86,7 +87,7 @@ def _quantities(cells: int) -> tuple[Quantity, ...]:
 
 
 def _of_the_history(cells: int) -> tuple[Quantity, ...]:
-    run = label(cells)
+    run = cells_label(cells)
     return (
         Quantity(
             "largest_shear_error", "largest Σ|q - q_exact| / Σµp of any increment", "", run,
@@ -120,7 +121,7 @@ def _of_the_history(cells: int) -> tuple[Quantity, ...]:
 
 
 def _of_the_cycle(cells: int) -> tuple[Quantity, ...]:
-    run = label(cells)
+    run = cells_label(cells)
     return (
         Quantity(
             "slip_amplitude", "half the range of slip in the cycle, where it is largest", "m", run,

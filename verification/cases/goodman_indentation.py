@@ -10,13 +10,13 @@ import numpy as np
 from contact_results.quantities import shear_of
 from contact_scene import Body, CoulombFriction, IsotropicMaterial, LoadStep, Scene
 from semi_analytical import one_way
-from verification.cases.radial_profile import outward
 from verification.closed_forms.goodman import stick_ratio
 from verification.exhibits.chart import Chart, Look, Panel, curve
 from verification.exhibits.table import Table
 from verification.judging.case import Case, Comparison, Level, Quantity, Required
 from verification.judging.run import Run
 from verification.observed.end_state import approach, contact_radius, peak_pressure, stick_radius
+from verification.observed.radial_profile import outward
 from verification.problems import paper_scene as paper
 from verification.problems.layered_scene import rigid_ball
 from verification.problems.paper_scene import HERTZ

@@ -8,16 +8,16 @@ from typing import Any
 from contact_scene import Body, FiniteElementDiscretisation, LoadStep, Scene
 from fem_reference.energy import elastic_energy
 from semi_analytical import SurfaceGrid
-from verification.cases.fem_hertz import meshed
 from verification.cases.fem_levels import allowed as allowed_of_elements
 from verification.cases.fem_levels import because as because_of_elements
-from verification.cases.hertz_point import SOURCE
 from verification.closed_forms.hertz import PointContact
 from verification.judging.case import Case, Comparison, Level, Quantity, Required
+from verification.judging.ladder import meshed
 from verification.judging.refinement import part_of_a_cell
 from verification.judging.run import SOLVER_TOLERANCE, Run, SectionRun, per_radius
 from verification.observed.end_state import approach, contact_radius, peak_pressure
 from verification.problems import paper_scene as paper
+from verification.problems.hertz import SOURCE
 from verification.problems.layered_scene import coated, film, rigid_ball
 from verification.problems.paper_scene import HERTZ, NORMAL_FORCE, STEEL
 from verification.problems.reference import closed_form
@@ -61,7 +61,7 @@ def hertz_unloading(level: Level = Level.QUICK) -> Case:
 def hertz_unloading_on(cells: int, elements: int) -> Case:
     """The case on a square grid of so many cells, and with so many elements per radius."""
     grid = paper.hertz_grid(cells)
-    mesh = per_radius(elements, meshed(elements))
+    mesh = per_radius(elements, meshed(HERTZ.contact_radius, elements))
     surface = Run(f"{cells}x{cells}", BALL, grid)
     section = SectionRun(f"{elements} elements per radius", BALL, mesh)
     back, once = (_coated(way, scene, grid, mesh) for way, scene in COATED.items())

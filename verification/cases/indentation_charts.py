@@ -8,13 +8,13 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from contact_results.quantities import shear_of
-from verification.cases.hertz_point import label
 from verification.cases.indentation_reference import Indentation
-from verification.cases.radial_profile import along_radii, outward
 from verification.exhibits.chart import Chart, Look, Panel, curve
 from verification.exhibits.profile_chart import SHOWN
 from verification.exhibits.table import Table
+from verification.judging.ladder import cells_label
 from verification.observed.end_state import approach, contact_radius, stick_radius
+from verification.observed.radial_profile import along_radii, outward
 from verification.problems.paper_scene import HERTZ
 
 if TYPE_CHECKING:
@@ -77,8 +77,8 @@ def indentation_chart(one: Indentation, result: Result) -> Chart:
     return Chart(
         name=f"frictional_indentation_{one.file_name}",
         title=f"Pressure and outward shear, {one.name}",
-        caption=f"Computed on {label(grid.cells[0])} cells in {one.increments} increments along "
-        "the cells next to y = 0, over the reference. The shear rises in the stick disc and "
+        caption=f"Computed on {cells_label(grid.cells[0])} cells in {one.increments} increments "
+        "along the cells next to y = 0, over the reference. The shear rises in the stick disc and "
         "follows µp outside it. Below either: computed, as the mean around the circle, less the "
         "reference, at the radii that are judged.",
         rows=tuple((panel,) for panel in panels),

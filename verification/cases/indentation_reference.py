@@ -12,10 +12,10 @@ from numpy.typing import NDArray
 
 from contact_results.quantities import shear_of
 from contact_scene import Body, CoulombFriction, IsotropicMaterial, LoadStep, Scene
-from verification.cases.hertz_point import label
-from verification.cases.radial_profile import along_radii, outward
+from verification.judging.ladder import cells_label
 from verification.judging.run import Run
 from verification.observed.end_state import stick_radius
+from verification.observed.radial_profile import along_radii, outward
 from verification.problems import paper_scene as paper
 from verification.problems.layered_scene import coated, film, rigid_ball
 from verification.problems.paper_scene import HERTZ
@@ -91,7 +91,7 @@ class Indentation:
         """On a window of three contact radii."""
         half_width = paper.WINDOW_PER_RADIUS / 2 * self.contact_radius
         return Run(
-            f"{self.name}, {label(cells)}, {increments} increments",
+            f"{self.name}, {cells_label(cells)}, {increments} increments",
             self.scene[increments],
             paper.square_grid(cells, half_width),
         )

@@ -7,12 +7,12 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from contact_scene import RIGID, Body, IsotropicMaterial, Layer, Paraboloid
-from verification.cases.flat_punch import central_pressure
-from verification.cases.hertz_point import ASKED, SOURCE
+from verification.cases.hertz_point import ASKED
 from verification.judging.case import Case, Comparison, Level, Quantity, Required
 from verification.judging.run import Run
-from verification.observed.end_state import approach, peak_pressure
+from verification.observed.end_state import approach, central_pressure, peak_pressure
 from verification.problems import paper_scene as paper
+from verification.problems.hertz import SOURCE
 from verification.problems.layered_scene import (
     SUBSTRATE,
     coated,

@@ -9,7 +9,6 @@ import numpy as np
 
 from contact_results.quantities import shift_along_x, slip_traction_angle, transverse_shear
 from contact_scene import Sphere
-from verification.cases.hertz_point import label
 from verification.cases.loop_charts import (
     hysteresis_chart,
     loading_history_chart,
@@ -18,6 +17,7 @@ from verification.cases.loop_charts import (
 from verification.cases.loop_history import LOADED, ExactLoop, loop_energy, loop_steps
 from verification.exhibits.chart import Chart
 from verification.judging.case import Case, Finding, Level, Quantity, Required
+from verification.judging.ladder import cells_label
 from verification.judging.run import Run
 from verification.problems import paper_scene as paper
 from verification.problems.paper_scene import FRICTION, STEEL
@@ -49,7 +49,7 @@ def paper_fretting_loop_on(cells: int, quarter: int) -> Case:
         STEEL,
         *loop_steps(quarter),
     )
-    run = Run(label(cells), scene, paper.square_grid(cells, 0.6e-3))
+    run = Run(cells_label(cells), scene, paper.square_grid(cells, 0.6e-3))
     return Case(
         name="paper_fretting_loop",
         title="Fretting loop of the paper's figures 1 and 2",

@@ -11,12 +11,12 @@ from contact_results.quantities import shear_of
 from contact_scene import Cone
 from verification.cases.cone_contact import EXACT as FULL
 from verification.cases.cone_contact import MEAN_PRESSURE, SLOPE
-from verification.cases.hertz_point import label
 from verification.closed_forms.ciavarella_jaeger import Superposition, superpose
 from verification.closed_forms.cone import ConeContact
 from verification.exhibits.chart import Chart
 from verification.exhibits.profile_chart import Profile, ProfileLabels, Section, profile_chart
 from verification.judging.case import Case, Derived, Level, Quantity, Required
+from verification.judging.ladder import cells_label
 from verification.judging.order_of_convergence import Followed, OrderOfConvergence
 from verification.judging.refinement import part_of_a_cell, refinement
 from verification.judging.run import Run
@@ -59,7 +59,7 @@ def sheared_cone(level: Level = Level.QUICK) -> Case:
 def sheared_cone_on(cells: tuple[int, ...]) -> Case:
     """The case on square grids of these many cells per side."""
     half_width = paper.WINDOW_PER_RADIUS / 2 * FULL.contact_radius
-    runs = tuple(Run(label(n), SCENE, paper.square_grid(n, half_width)) for n in cells)
+    runs = tuple(Run(cells_label(n), SCENE, paper.square_grid(n, half_width)) for n in cells)
     levels = tuple(run.label for run in runs)
     return Case(
         name="sheared_cone",

@@ -8,13 +8,12 @@ from math import pi
 from typing import TYPE_CHECKING
 
 from contact_scene import RIGID, Body, IsotropicMaterial, Layer, LoadStep
-from verification.cases.flat_punch import central_pressure
-from verification.cases.hertz_point import label
 from verification.closed_forms.coated_indentation import LayeredIndentation, paraboloid
 from verification.judging.case import Case, Check, Finding, Level, Quantity, Required
+from verification.judging.ladder import cells_label
 from verification.judging.refinement import part_of_a_cell
 from verification.judging.run import Run
-from verification.observed.end_state import contact_radius, normal_force
+from verification.observed.end_state import central_pressure, contact_radius, normal_force
 from verification.problems import paper_scene as paper
 from verification.problems.layered_scene import pressed, rigid_ball, semi_closed, surface_of
 from verification.problems.reference import Reference, ReferenceKind
@@ -114,7 +113,7 @@ def thin_layer_on(cells: int) -> Case:
             )
             for layer in LAYERS
         ),
-        limits=(f"On {label(cells)} cells only; the orders are those of coated_paraboloid.",),
+        limits=(f"On {cells_label(cells)} cells only; the orders are those of coated_paraboloid.",),
     )  # fmt: skip
 
 

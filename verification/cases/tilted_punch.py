@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from contact_scene import FlatPunch, LoadStep, Scene
-from verification.cases.hertz_point import label
 from verification.closed_forms.tilted_punch import TiltedPunch
 from verification.judging.case import Case, Comparison, Level, Quantity, Required
+from verification.judging.ladder import cells_label
 from verification.judging.refinement import refinement
 from verification.judging.run import Run
 from verification.observed.end_state import approach
@@ -51,7 +51,7 @@ def tilted_punch(level: Level = Level.QUICK) -> Case:
 def tilted_punch_on(cells: tuple[int, ...]) -> Case:
     """The case on square grids of these many cells per side."""
     half_width = WINDOW_PER_RADIUS / 2 * RADIUS
-    runs = tuple(Run(label(n), FORCED, paper.square_grid(n, half_width)) for n in cells)
+    runs = tuple(Run(cells_label(n), FORCED, paper.square_grid(n, half_width)) for n in cells)
     led = Run("given tilt", LED, runs[-1].grid)
     finest = runs[-1].label
     cell = runs[-1].grid.spacing[0] / RADIUS

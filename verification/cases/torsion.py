@@ -10,11 +10,11 @@ from scipy.integrate import quad
 
 from contact_results.quantities import energy_between, shear_of
 from contact_scene import Body, CoulombFriction, FlatPunch, LoadStep, Scene
-from verification.cases.hertz_point import label
 from verification.closed_forms.torsion import StuckTorsion, TorsionalPartialSlip
 from verification.exhibits.chart import Chart
 from verification.exhibits.convergence_chart import convergence_chart
 from verification.judging.case import Case, Derived, Level, Quantity, Required
+from verification.judging.ladder import cells_label
 from verification.judging.order_of_convergence import Followed, OrderOfConvergence
 from verification.judging.refinement import part_of_a_cell, refinement
 from verification.judging.run import Run
@@ -92,7 +92,7 @@ def torsion_on(cells: tuple[int, ...]) -> Case:
     """The case on square grids of these many cells per side."""
     finest = cells[-1]
     grid = paper.hertz_grid(finest)
-    levels = tuple(label(n) for n in cells)
+    levels = tuple(cells_label(n) for n in cells)
     return Case(
         name="torsion",
         title="Torsion with partial slip",
@@ -103,7 +103,7 @@ def torsion_on(cells: tuple[int, ...]) -> Case:
             "couples with, so that the closed form holds for any pair of alike bodies."
         ),
         runs=(
-            *(Run(label(n), MONOTONIC, paper.hertz_grid(n)) for n in cells),
+            *(Run(cells_label(n), MONOTONIC, paper.hertz_grid(n)) for n in cells),
             Run("to and fro", LOOP, grid),
             Run("given twist", LED, grid),
             *(Run(_punch(n, finest), STUCK_PUNCH, _punch_grid(n)) for n in cells[::-2]),
@@ -145,7 +145,7 @@ def torsion_on(cells: tuple[int, ...]) -> Case:
 
 
 def _punch(cells: int, finest: int) -> str:
-    return "stuck punch" if cells == finest else f"stuck punch, {label(cells)}"
+    return "stuck punch" if cells == finest else f"stuck punch, {cells_label(cells)}"
 
 
 def _punch_grid(cells: int) -> SurfaceGrid:

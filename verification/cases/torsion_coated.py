@@ -17,9 +17,9 @@ from contact_scene import (
     Paraboloid,
     Scene,
 )
-from verification.cases.hertz_point import label
 from verification.closed_forms.coated_torsion import CoatedTorsion, TorsionalSurface, one_layer
 from verification.judging.case import Case, Derived, Level, Quantity
+from verification.judging.ladder import cells_label
 from verification.judging.refinement import part_of_a_cell, refinement
 from verification.judging.run import Run
 from verification.problems import paper_scene as paper
@@ -73,7 +73,7 @@ def torsion_coated_on(cells: tuple[int, ...]) -> Case:
     """The case on square grids of these many cells per side."""
     scene = _scene()
     half_width = WINDOW_PER_RADIUS / 2 * exact_contact(BODY, BALL).contact_radius
-    runs = tuple(Run(label(n), scene, paper.square_grid(n, half_width)) for n in cells)
+    runs = tuple(Run(cells_label(n), scene, paper.square_grid(n, half_width)) for n in cells)
     levels = tuple(run.label for run in runs)
     return Case(
         name="torsion_coated",

@@ -15,12 +15,12 @@ from contact_scene import (
     Paraboloid,
     Scene,
 )
-from verification.cases.shifted_grid import ShiftedGrid
 from verification.judging.case import Case, Derived, Quantity
 from verification.judging.refinement import refinement
 from verification.judging.run import Run
 from verification.observed.end_state import approach, contact_radius
 from verification.problems.reference import Reference
+from verification.problems.shifted_grid import ShiftedGrid
 
 Random = np.random.Generator
 LEVELS = refinement(32, 96)

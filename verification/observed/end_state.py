@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING, Any, TypeAlias
+
+import numpy as np
 
 from contact_results.quantities import force_along_x, shift_along_x
 
@@ -26,6 +28,16 @@ def approach(result: Result) -> float:
 def peak_pressure(result: Result) -> float:
     """Largest pressure of any cell or ring [force/length²]."""
     return float(result.steps[-1].peak_pressure)
+
+
+def central_pressure(result: Any, step: int = -1) -> float:
+    """Pressure on the axis, or the mean of the cells nearest to it; below a stiff thin coating it
+    is not the largest [force/length²]."""
+    pressure = result.steps[step].pressure
+    if not hasattr(result, "grid"):
+        return float(pressure[0])
+    r = np.hypot(*result.grid.coordinates())
+    return float(np.mean(pressure[r < 1.01 * r.min()]))
 
 
 def contact_radius(result: Result) -> float:

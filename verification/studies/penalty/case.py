@@ -10,13 +10,15 @@ import numpy as np
 
 from contact_scene.description import Description
 from fem_reference import Result
-from verification.cases.fem_hertz import SCENE, meshed, pressure_error
 from verification.cases.fem_indentation import Pressed
 from verification.cases.fem_penalty_indentation import by_springs
 from verification.cases.indentation_reference import COATED, FEW, STRONG, WEAK
+from verification.judging.ladder import meshed
+from verification.judging.observables import APPROACH, PEAK_PRESSURE, PRESSURE_WITHIN
 from verification.judging.run import SOLVER_TOLERANCE, SectionRun, per_radius
 from verification.judging.solver import Method
-from verification.observed.end_state import approach, peak_pressure
+from verification.observed.end_state import approach
+from verification.problems.hertz import BALL
 from verification.problems.paper_scene import HERTZ
 
 HERTZIAN = "hertz"
@@ -84,7 +86,9 @@ class PenaltyCase:
     @property
     def springs_per_radius(self) -> float:
         """k = ε a/E*, of Hertz's contact [1]."""
-        return self.factor * self.elements * HERTZ.contact_radius / meshed(self.elements)
+        return (
+            self.factor * self.elements * HERTZ.contact_radius / meshed(BALL.radius, self.elements)
+        )
 
     @property
     def _pressed(self) -> Pressed:
@@ -93,7 +97,9 @@ class PenaltyCase:
     @property
     def _run(self) -> SectionRun:
         if self.contact == HERTZIAN:
-            run = SectionRun(self.name, SCENE, per_radius(self.elements, meshed(self.elements)))
+            run = SectionRun(
+                self.name, BALL.scene, per_radius(self.elements, meshed(BALL.radius, self.elements))
+            )
         else:
             run = self._pressed.run
         penalty = {"penalty": self.factor, "augmentations": self.augmentations, "box": self.box}
@@ -125,9 +131,9 @@ class PenaltyCase:
         missed = np.trapezoid((end.pressure - exact) ** 2 * r, r)
         norm = np.trapezoid(exact**2 * r, r)
         return {
-            "approach": approach(result) / HERTZ.approach - 1,
-            "peak": peak_pressure(result) / HERTZ.peak_pressure - 1,
-            "pressure": pressure_error(result),
+            "approach": APPROACH.error(BALL)(result),
+            "peak": PEAK_PRESSURE.error(BALL)(result),
+            "pressure": PRESSURE_WITHIN.error(BALL)(result),
             "ripple": float(np.sqrt(missed / norm)),
         }
 

@@ -22,15 +22,18 @@ from semi_analytical import Result as Surface
 from semi_analytical import SurfaceGrid
 from verification.cases import cattaneo_mindlin as cattaneo
 from verification.cases import coated_paraboloid as coated
-from verification.cases import fretting_loop, hertz_point
-from verification.cases.fem_profiles import at_radii
+from verification.cases import fretting_loop
 from verification.cases.indentation_reference import COATED
 from verification.cases.loop_history import loop_energy, loop_steps
-from verification.cases.radial_profile import along_radii, outward
 from verification.closed_forms.cattaneo_mindlin import PartialSlip
+from verification.judging.observables import APPROACH, PRESSURE_L2
 from verification.norms import shear_error
 from verification.observed.end_state import approach, peak_pressure
+from verification.observed.radial_profile import along_radii, outward
+from verification.observed.ring_errors import at_radii
 from verification.problems import paper_scene as paper
+from verification.problems.coated_ball import SOURCE as COATINGS
+from verification.problems.hertz import BALL
 from verification.problems.paper_scene import FRICTION, FRICTION_LIMIT, HERTZ, NU_ZERO
 from verification.studies.work_precision.frozen_route import FrozenHistory
 
@@ -86,7 +89,7 @@ def _hertz(result: Any) -> Errors:
 
 
 def _hertz_surface(result: Surface) -> Errors:
-    return {"pressure": hertz_point.pressure_error(result), **_hertz(result)}
+    return {"pressure": PRESSURE_L2.error(BALL)(result), **_hertz(result)}
 
 
 def _hertz_section(result: Section) -> Errors:
@@ -103,15 +106,15 @@ def _norm(result: Section, exact: Callable[[Field], Field]) -> float:
 
 def _coated_surface(result: Surface) -> Errors:
     return {
-        "pressure": coated.pressure_error(result),
-        "approach": approach(result) / coated.EXACT.approach - 1,
+        "pressure": PRESSURE_L2.error(coated.EXACT)(result),
+        "approach": APPROACH.error(coated.EXACT)(result),
     }
 
 
 def _coated_section(result: Section) -> Errors:
     return {
-        "pressure": _norm(result, coated.EXACT.pressure),
-        "approach": approach(result) / coated.EXACT.approach - 1,
+        "pressure": _norm(result, coated.EXACT.ends[-1].pressure),
+        "approach": APPROACH.error(coated.EXACT)(result),
     }
 
 
@@ -221,7 +224,7 @@ def _frictional(title: str, *loading: LoadStep) -> Scene:
 HERTZIAN = PreciseContact(
     "hertz", "Hertz",
     {"pressure": "pressure, L2", "peak": "peak pressure", "approach": "approach"},
-    HERTZ.contact_radius, lambda _: hertz_point.SCENE, _hertz_surface, _hertz_section,
+    HERTZ.contact_radius, lambda _: BALL.scene, _hertz_surface, _hertz_section,
     "Hertz 1882",
 )  # fmt: skip
 CATTANEO = PreciseContact(
@@ -235,8 +238,8 @@ CATTANEO = PreciseContact(
 COATING = PreciseContact(
     "coated", "Coated, E1/E2 = 2, without friction",
     {"pressure": "pressure, L2", "approach": "approach"},
-    coated.EXACT.contact_radius, lambda _: coated.STUDY.run(32).scene,
-    _coated_surface, _coated_section, coated.SOURCE,
+    coated.EXACT.radius, lambda _: coated.EXACT.scene,
+    _coated_surface, _coated_section, COATINGS,
 )  # fmt: skip
 INDENTATION = PreciseContact(
     "indentation", "Coated, pressed with friction",

@@ -1,15 +1,12 @@
-"""Tractions over the radius as finite elements give them: their errors, and charts of them."""
+"""Tractions over the radius as finite elements give them, and their errors."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
-
-from verification.exhibits.chart import Chart, Look, Panel, curve
-from verification.exhibits.profile_chart import ProfileLabels
 
 if TYPE_CHECKING:
     from fem_reference import Increment
@@ -26,12 +23,16 @@ def at_radii(increment: Increment, traction: Field, r: Field) -> Field:
 
 
 def largest_error(
-    increment: Increment, traction: Field, exact: Callable[[Field], Field], within: float
-) -> float:
-    """Of the rings out to a radius, against a closed form of the radius; dimension of the
-    traction."""
-    judged = increment.radii <= within
-    return float(np.max(np.abs(traction - exact(increment.radii))[judged]))
+    increment: Increment, traction: Field, answer: Any, exact: Callable[[Field], Field],
+    start: float, end: float,
+) -> float:  # fmt: skip
+    """Between two radii, against a field of an answer: at the rings, or at the radii that the
+    answer is tabulated at; dimension of the traction."""
+    tabulated = getattr(answer, "radii", None)
+    r = increment.radii if tabulated is None else tabulated
+    found = traction if tabulated is None else at_radii(increment, traction, r)
+    judged = (r >= start) & (r <= end)
+    return float(np.max(np.abs(found - exact(r))[judged]))
 
 
 def between_rings(increment: Increment, radius: float) -> Field:
@@ -62,37 +63,7 @@ def relative_l1(
     return float(np.sum(np.abs(error) * r) / np.sum(pressure * r))
 
 
-def radial_chart(
-    labels: ProfileLabels,
-    radius: float,
-    scale: float,
-    increment: Increment,
-    traction: Field,
-    exact: tuple[Field, Field],
-) -> Chart:
-    """A traction over the radius with what it should be in grey, and their difference below.
-
-    radius  that r is divided by; scale what the traction is divided by
-    exact   radii and values of the reference
-    """
-    shown = increment.radii <= SHOWN * radius
-    r, found = increment.radii[shown] / radius, traction[shown] / scale
-    known_r, known = exact[0] / radius, exact[1] / scale
-    difference = at_radii(increment, traction, exact[0]) / scale - known
-    above = Panel(
-        x_label="",
-        y_label=labels.y_label,
-        curves=(
-            curve("reference", known_r, known, Look.REFERENCE),
-            curve("finite elements", r, found),
-        ),
-        height=2.6,
-    )
-    below = Panel(
-        x_label=labels.x_label,
-        y_label=labels.difference_label,
-        curves=(curve("", known_r, difference),),
-    )
-    return Chart(
-        name=labels.name, title=labels.title, caption=labels.caption, rows=((above,), (below,))
-    )
+def judged_within(elements: int) -> float:
+    """Part of the contact radius where tractions are judged: 0.9, or less on coarse meshes, where
+    the ripple of the last five elements at the edge reaches further in."""
+    return min(0.9, 1 - 5 / elements)

@@ -1,0 +1,191 @@
+"""A case as it is declared: problems on ladders, and what is judged of them, row by row."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from verification.exhibits.chart import Chart
+from verification.exhibits.table import Table
+from verification.judging.case import (
+    Case,
+    Check,
+    Comparison,
+    Derived,
+    Finding,
+    Quantity,
+    Required,
+)
+from verification.judging.ladder import Ladder, Rung
+from verification.judging.observable import Observable
+from verification.judging.order_of_convergence import NotYetAsymptotic, OrderOfConvergence
+from verification.judging.run import Run, SectionRun
+
+Allowed = float | Mapping[int, float] | Callable[[Rung], float]
+Results = Mapping[str, Any]
+Drawing = Callable[[Results], Chart]
+
+
+@dataclass(frozen=True)
+class Within:
+    """A tolerance that was asked for, or is set by hand.
+
+    allowed  relative to the scale of errors; or by the count of cells, which names the rungs that
+             are judged; or what it is on a rung. Unless rungs are named the finest is judged
+    name     of the verdict, where it is not the observable's
+    """
+
+    what: Observable
+    allowed: Allowed
+    because: str
+    name: str = ""
+
+
+@dataclass(frozen=True)
+class Refined:
+    """A tolerance derived from refinement: twice the numerical uncertainty, no wider than a cap."""
+
+    what: Observable
+    order: float
+    cap: Allowed
+    because: str
+
+
+@dataclass(frozen=True)
+class Falls:
+    """An order of convergence."""
+
+    what: Observable
+    expected: float
+    because: str
+    not_yet: NotYetAsymptotic | None = None
+    meaning: str = ""
+
+
+@dataclass(frozen=True)
+class Reported:
+    """A number that is not judged."""
+
+    what: Observable
+    remark: str
+
+
+Row = Within | Refined | Falls | Reported
+
+
+@dataclass(frozen=True)
+class Judged:
+    """What is judged on the runs of a ladder."""
+
+    runs: tuple[Run | SectionRun, ...]
+    quantities: tuple[Quantity, ...] = ()
+    orders: tuple[OrderOfConvergence, ...] = ()
+    findings: tuple[Finding, ...] = ()
+
+
+def judged(ladder: Ladder, rows: Sequence[Row]) -> Judged:
+    """Every row on the rungs that it is about; on rungs that the ladder does not have, none."""
+    return Judged(
+        ladder.runs,
+        tuple(quantity for row in rows for quantity in _quantities(row, ladder)),
+        tuple(_order(row, ladder) for row in rows if isinstance(row, Falls)),
+        tuple(_finding(row, ladder) for row in rows if isinstance(row, Reported)),
+    )
+
+
+def case(
+    name: str,
+    title: str,
+    problem: str,
+    *parts: Judged,
+    runs: tuple[Run | SectionRun, ...] = (),
+    quantities: tuple[Quantity, ...] = (),
+    findings: tuple[Finding, ...] = (),
+    comparisons: tuple[Comparison, ...] = (),
+    checks: tuple[Check, ...] = (),
+    charts: Sequence[Drawing] = (),
+    tables: Callable[[Results], tuple[Table, ...]] | None = None,
+    limits: tuple[str, ...] = (),
+) -> Case:
+    """A case of these parts, and of what fits no row. Ladders may share runs."""
+    return Case(
+        name=name,
+        title=title,
+        problem=problem,
+        runs=tuple(dict.fromkeys((*(run for part in parts for run in part.runs), *runs))),
+        quantities=(*(q for part in parts for q in part.quantities), *quantities),
+        orders=tuple(order for part in parts for order in part.orders),
+        findings=(*(f for part in parts for f in part.findings), *findings),
+        comparisons=comparisons,
+        checks=checks,
+        charts=(lambda results: tuple(draw(results) for draw in charts)) if charts else None,
+        tables=tables,
+        limits=limits,
+    )
+
+
+def _quantities(row: Row, ladder: Ladder) -> tuple[Quantity, ...]:
+    if isinstance(row, Refined):
+        cap = _allowed(row.cap, ladder.judged)
+        tolerance = Derived(ladder.levels, row.order, cap, row.because)
+        return (_quantity(row.what, ladder, ladder.judged, tolerance),)
+    if not isinstance(row, Within):
+        return ()
+    rungs = (
+        [rung for rung in ladder.rungs if rung.count in row.allowed]
+        if isinstance(row.allowed, Mapping)
+        else [ladder.judged]
+    )
+    return tuple(
+        _quantity(
+            row.what, ladder, rung, Required(_allowed(row.allowed, rung), row.because), row.name
+        )
+        for rung in rungs
+    )
+
+
+def _allowed(allowed: Allowed, rung: Rung) -> float:
+    if callable(allowed):
+        return allowed(rung)
+    return allowed[rung.count] if isinstance(allowed, Mapping) else allowed
+
+
+def _quantity(
+    what: Observable, ladder: Ladder, rung: Rung, tolerance: Required | Derived, name: str = ""
+) -> Quantity:
+    problem = ladder.problem
+    return Quantity(
+        name=name or what.name,
+        meaning=what.said(rung.words),
+        unit=what.unit,
+        run=rung.run.label,
+        measure=what.read(problem),
+        reference=what.reference(problem),
+        tolerance=tolerance,
+        scale=what.scale(problem),
+        scale_name=what.scale_name,
+    )
+
+
+def _order(row: Falls, ladder: Ladder) -> OrderOfConvergence:
+    what = row.what
+    assert what.of is not None
+    return OrderOfConvergence(
+        name=f"order_of_{what.name}",
+        of=what.of,
+        meaning=row.meaning or what.said(ladder.judged.words),
+        levels=ladder.levels,
+        error=what.error(ladder.problem),
+        expected=row.expected,
+        because=row.because,
+        not_yet=row.not_yet,
+    )
+
+
+def _finding(row: Reported, ladder: Ladder) -> Finding:
+    what, rung = row.what, ladder.judged
+    return Finding(
+        what.name, what.said(rung.words), what.unit, rung.run.label, what.read(ladder.problem),
+        row.remark,
+    )  # fmt: skip

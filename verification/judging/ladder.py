@@ -1,0 +1,209 @@
+"""A problem on finer and finer cells or elements, or under stiffer and stiffer springs."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+
+from semi_analytical import SurfaceGrid
+from verification.judging.run import Run, SectionRun, per_radius
+from verification.judging.solver import Method
+from verification.observed.ring_errors import judged_within
+from verification.problems.problem import Problem
+from verification.problems.shifted_grid import ShiftedGrid
+
+CELLS = {
+    "point": "cell",
+    "edge": "√(contact area / π), cells at the edge counted in part",
+    "stick": "√(stick area / π)",
+    "axis": "of the cells around the axis",
+    "domain": "window",
+}
+HATS = {
+    "point": "ring",
+    "edge": "where the pressure ends, from its last two values",
+    "stick": "stick radius",
+    "axis": "on the axis",
+    "domain": "contact",
+}
+SPRINGS = HATS | {
+    "point": "Gauss point",
+    "edge": "where the pressure ends, by a fit of its square",
+}
+
+WINDOW_PER_RADIUS = 3.0
+MIDDLE = 0.5  # of an element
+ASKED_AT = 64  # elements per radius
+
+
+@dataclass(frozen=True)
+class Rung:
+    """A run, and how fine it is.
+
+    count  cells per side or elements per radius
+    reach  that these go over, in radii
+    """
+
+    run: Run | SectionRun
+    count: int
+    reach: float = 1.0
+
+    @property
+    def words(self) -> dict[str, str]:
+        """What this discretisation calls what is measured."""
+        if isinstance(self.run, Run):
+            return CELLS
+        hats = self.run.method is not Method.PENALTY
+        return (HATS if hats else SPRINGS) | {"within": f"{judged_within(self.count):.2g}"}
+
+
+@dataclass(frozen=True)
+class Ladder:
+    """Runs of one problem.
+
+    rungs     coarse to fine
+    judged    the one that numbers are judged on
+    followed  those that orders are read off
+    """
+
+    problem: Problem
+    rungs: tuple[Rung, ...]
+    judged: Rung
+    followed: tuple[Rung, ...]
+
+    @property
+    def runs(self) -> tuple[Run | SectionRun, ...]:
+        """Of all rungs."""
+        return tuple(rung.run for rung in self.rungs)
+
+    @property
+    def levels(self) -> tuple[str, ...]:
+        """Labels of the runs that orders are read off."""
+        return tuple(rung.run.label for rung in self.followed)
+
+    def of(self, count: int) -> Rung:
+        """The rung that is so fine; KeyError if there is none."""
+        return {rung.count: rung for rung in self.rungs}[count]
+
+
+def ladder(problem: Problem, rungs: Sequence[Rung], followed: Sequence[Rung] = ()) -> Ladder:
+    """The last rung is judged; orders are read off all unless others are named."""
+    return Ladder(problem, tuple(rungs), rungs[-1], tuple(followed or rungs))
+
+
+def on_cells(
+    problem: Problem,
+    cells: Sequence[int],
+    window: float = WINDOW_PER_RADIUS,
+    of: str = "",
+    offsets: Sequence[tuple[float, float]] = (),
+) -> Ladder:
+    """Grids around the contact, as many cells along x and y.
+
+    window   over the contact, along x and y
+    of       what the runs are of, for their labels
+    offsets  of the centre from the contact's axis, in cells: as many grids of each size
+    """
+    sides = window * problem.radius, window * (problem.across or problem.radius)
+
+    def rung(n: int, offset: tuple[float, float] | None) -> Rung:
+        name = cells_label(n, of)
+        if offset is None:
+            return Rung(Run(name, problem.scene, SurfaceGrid((n, n), sides)), n, window)
+        name += f", shifted by ({offset[0]:g}, {offset[1]:g}) cells"
+        return Rung(Run(name, problem.scene, ShiftedGrid((n, n), sides, offset)), n, window)
+
+    return ladder(problem, [rung(n, offset) for n in cells for offset in offsets or (None,)])
+
+
+def with_edge_at(
+    problem: Problem,
+    elements: Sequence[int],
+    studied: Sequence[tuple[int, float]] = (),
+    of: str = "",
+) -> Ladder:
+    """Meshes that have the edge of the contact at a part of an element: values are judged with the
+    edge in the middle of one, as where it lies moves an error more than a few elements do.
+
+    studied  elements and place of the edge, for the orders; none: the same meshes
+    """
+    judged = [_placed(problem, n, MIDDLE, of) for n in elements]
+    followed = [_placed(problem, n, place, of) for n, place in studied]
+    rungs = tuple(dict.fromkeys((*judged, *followed)))
+    return Ladder(problem, rungs, judged[-1], tuple(followed or judged))
+
+
+def _placed(problem: Problem, n: int, place: float, of: str) -> Rung:
+    mesh = per_radius(n, meshed(problem.radius, n, place))
+    return Rung(SectionRun(mesh_label(n, place, of), problem.scene, mesh, beyond=MIDDLE), n)
+
+
+def meshed(radius: float, elements: int, place: float = MIDDLE) -> float:
+    """The radius over which so many elements go where the edge of the contact is to lie at this
+    part of the next one [length]."""
+    return radius * elements / (elements + place)
+
+
+def on_elements(
+    problem: Problem,
+    elements: Sequence[int],
+    over: float | None = None,
+    of: str = "",
+    judged_as: str = "",
+) -> Ladder:
+    """Meshes of so many elements over a part of the contact radius, or over its estimate.
+
+    of         what the runs are of, for their labels
+    judged_as  label of the judged run, where it has one of its own
+    """
+    radius = None if over is None else over * problem.radius
+    labels = [mesh_label(n, of=of) for n in elements]
+    labels[-1] = judged_as or labels[-1]
+    return ladder(
+        problem,
+        [
+            Rung(SectionRun(label, problem.scene, per_radius(n, radius)), n)
+            for label, n in zip(labels, elements, strict=True)
+        ],
+    )
+
+
+def on_springs(of: Ladder, name: str, **penalty: float) -> Ladder:
+    """The judged mesh with springs instead of exact contact.
+
+    name     of the run
+    penalty  fields of the discretisation that are about the springs
+    """
+    run = of.judged.run
+    assert isinstance(run, SectionRun)
+    mesh = run.discretisation.model_copy(update=penalty)
+    sprung = replace(run, label=name, discretisation=mesh, method=Method.PENALTY)
+    return ladder(of.problem, [replace(of.judged, run=sprung)])
+
+
+def cells_label(cells: int, of: str = "") -> str:
+    """Of a run on a grid."""
+    return f"{of}, {cells}x{cells}" if of else f"{cells}x{cells}"
+
+
+def mesh_label(elements: int, place: float = MIDDLE, of: str = "") -> str:
+    """Of a run on a mesh."""
+    name = f"{of}, " if of else ""
+    aside = "" if place == MIDDLE else f", edge at {place:g}"
+    return f"{name}{elements} elements per radius{aside}"
+
+
+def asked(figure: float, order: float) -> Callable[[Rung], float]:
+    """What a figure asked for at 64 elements per radius becomes on other meshes."""
+    return lambda rung: figure * (ASKED_AT / rung.count) ** order
+
+
+def part_of_side(part: float) -> Callable[[Rung], float]:
+    """A part of a cell or element over the radius."""
+    return lambda rung: part * rung.reach / rung.count
+
+
+def named(name: str, of: Ladder) -> Ladder:
+    """A ladder of a single rung with another label of its run."""
+    (rung,) = of.rungs
+    return ladder(of.problem, [replace(rung, run=replace(rung.run, label=name))])

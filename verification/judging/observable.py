@@ -1,0 +1,133 @@
+"""A number that is read off a solved step and compared with what is known of it, said once."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, replace
+from typing import Any
+
+from verification.judging.order_of_convergence import Followed
+from verification.problems.problem import Problem
+from verification.problems.reference import Reference
+
+Measure = Callable[[Any, int, Problem], float]
+
+
+@dataclass(frozen=True)
+class Observable:
+    """A number of a step's end, or the norm of an error there.
+
+    name     of its verdict; and of its order of convergence, after `order_of_`
+    meaning  for people. In braces is what each discretisation has its own words for
+    unit     SI; empty for a ratio
+    measure  from a result, the index of a step and the problem to the number
+    value    the same in the problem's answer to the step; None: an error, which should vanish
+    over     the scale that errors are relative to, by its name in the problem; empty: the value
+             itself, or one for an error
+    over_is  what an error without scale is relative to, in words
+    of       what an order of it is an order of
+    step     index of the loading step
+    label    in charts
+    """
+
+    name: str
+    meaning: str
+    unit: str
+    measure: Measure
+    value: Callable[[Any], float] | None
+    over: str = ""
+    over_is: str = ""
+    of: Followed | None = None
+    step: int = -1
+    label: str = ""
+
+    def at(self, step: int, part: float, of: str) -> Observable:
+        """The same at the end of another step, which the load reaches a part of something in."""
+        when = f"{part:g} {of}"
+        return replace(
+            self,
+            name=f"{self.name}_at_{part:g}",
+            meaning=self.meaning.replace("{when}", f" at {when}"),
+            step=step,
+            label=when,
+        )
+
+    def said(self, words: Mapping[str, str]) -> str:
+        """The meaning in the words of a discretisation."""
+        return self.meaning.format_map({"when": "", **words})
+
+    def read(self, problem: Problem) -> Callable[[Any], float]:
+        """What measures it on a result."""
+        return lambda result: self.measure(result, self.step, problem)
+
+    def reference(self, problem: Problem) -> Reference:
+        """What should be measured."""
+        if self.value is None:
+            return problem.no_error
+        value = self.value(problem.ends[self.step])
+        return problem.reference(value, problem.scale(self.over) if self.over else None)
+
+    def scale(self, problem: Problem) -> float | None:
+        """What errors are divided by; None: the reference."""
+        if self.over:
+            return problem.scale(self.over)
+        return 1.0 if self.value is None else None
+
+    @property
+    def scale_name(self) -> str:
+        """What errors are divided by, in words."""
+        return self.over or self.over_is or "the reference"
+
+    def error(self, problem: Problem) -> Callable[[Any], float]:
+        """The relative error of a result, of either sign."""
+        read, value, scale = self.read(problem), self.reference(problem).value, self.scale(problem)
+        if scale is None:
+            return lambda result: read(result) / value - 1
+        return lambda result: (read(result) - value) / scale
+
+
+def number(
+    name: str,
+    meaning: str,
+    unit: str,
+    *,
+    read: Callable[[Any], float] | None = None,
+    exact: str = "",
+    over: str = "",
+    of: Followed | None = None,
+) -> Observable:
+    """A scalar of a step's end, which the exact answer has by the same name.
+
+    read   from the end of the step; None: its attribute of this name, NaN where that is None
+    exact  what the exact answer calls it; empty: the same
+    """
+
+    def attribute(end: Any) -> float:
+        value = getattr(end, name)
+        return float("nan") if value is None else float(value)
+
+    found = read or attribute
+    return Observable(
+        name, meaning, unit, lambda result, step, _: found(result.steps[step]),
+        lambda end: float(getattr(end, exact or name)), over, of=of,
+        label="" if of is None else of.value,
+    )  # fmt: skip
+
+
+def error_norm(
+    name: str,
+    meaning: str,
+    measure: Measure,
+    over_is: str = "the exact field",
+    *,
+    unit: str = "",
+    over: str = "",
+    of: Followed | None = None,
+    norm: str = "",
+) -> Observable:
+    """The norm of the error of a field.
+
+    norm  in charts
+    """
+    label = "" if of is None else f"{of.value} ({norm})" if norm else of.value
+    return Observable(name, meaning, unit, measure, None, over, over_is, of, label=label)

@@ -1,0 +1,52 @@
+"""The paper's ball, rigid, on its coatings, without friction."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+from typing import Any
+
+from verification.problems.hertz import hertzian
+from verification.problems.layered_scene import (
+    FREDHOLM,
+    SEMI_CLOSED_ERROR,
+    coated,
+    exact_contact,
+    film,
+    pressed,
+    rigid_ball,
+)
+from verification.problems.paper_scene import HERTZ
+from verification.problems.problem import Problem
+from verification.problems.reference import ReferenceKind
+from verification.problems.tabulated import TabulatedContact
+from verification.references import load_reference
+
+SOURCE = "references/coated_frictionless_paraboloid.json: Fredholm equation, two settings agree"
+ROWS = load_reference("coated_frictionless_paraboloid")["rows"]
+BARE = hertzian(pressed("Rigid ball on the uncoated half-space", rigid_ball(), coated()))
+
+
+def coated_ball(row: Mapping[str, Any]) -> Problem:
+    """By a row of the reference."""
+    contact = TabulatedContact(row)
+    ratio, thickness = row["E1_over_E2"], row["h_over_aH"]
+    title = f"Rigid ball on a coating, E1/E2 = {ratio:g}, h = {thickness:g} a_H"
+    return Problem(
+        pressed(title, rigid_ball(), coated(film(ratio, thickness))),
+        (contact,),
+        contact.contact_radius,
+        SOURCE,
+        ReferenceKind.SEMI_CLOSED,
+        row["est_rel_error"],
+        {"p_H": HERTZ.peak_pressure},
+    )
+
+
+def solved_here(problem: Problem) -> Problem:
+    """The same by the semi-closed solution, which has the pressure at every radius."""
+    exact = exact_contact(problem.scene.body)
+    return replace(
+        problem, ends=(exact,), radius=exact.contact_radius, source=FREDHOLM,
+        uncertainty=SEMI_CLOSED_ERROR,
+    )  # fmt: skip

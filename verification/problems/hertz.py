@@ -1,0 +1,28 @@
+"""Hertz's contact of the paper's ball: its force on bodies of its E*, without friction."""
+
+from __future__ import annotations
+
+from contact_scene import LoadStep, Scene
+from verification.problems import paper_scene as paper
+from verification.problems.paper_scene import HERTZ
+from verification.problems.problem import Problem
+
+SOURCE = "Hertz 1882; Johnson 1985, ch. 4"
+
+
+def hertzian(scene: Scene) -> Problem:
+    """A scene whose single step ends in the paper's contact."""
+    return Problem(
+        scene, (HERTZ,), HERTZ.contact_radius, SOURCE, scales={"p_H": HERTZ.peak_pressure}
+    )
+
+
+def _pressed(title: str, load: LoadStep) -> Problem:
+    ball = paper.paraboloid(paper.STEEL)
+    return hertzian(paper.frictionless(title, ball, paper.STEEL, load))
+
+
+BALL = _pressed(
+    "Ball on a half-space (paper's data, paraboloid)", LoadStep(normal_force=paper.NORMAL_FORCE)
+)
+LED_BALL = _pressed("Ball on a half-space, approach prescribed", LoadStep(approach=HERTZ.approach))
