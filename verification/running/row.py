@@ -38,8 +38,9 @@ class Row(Description):
     """What was said: kinds of ends, reasons."""
 
     def number(self, name: str) -> float | None:
-        """A measure, a counter or a parameter that is a number; None without one."""
-        known: Any = {**self.parameters, **self.counters, **self.measures}.get(name)
+        """A measure, a counter or a parameter that is a number; None without one. What was asked
+        for goes before what was counted under the same name."""
+        known: Any = {**self.measures, **self.counters, **self.parameters}.get(name)
         return None if isinstance(known, str) else known
 
 
@@ -73,6 +74,11 @@ def found(cases: Iterable[C], records: Mapping[str, Description]) -> dict[C, Cas
     """The records that there are, by case, in the order of the cases."""
     known = ((case, records.get(case.name)) for case in cases)
     return {case: record for case, record in known if isinstance(record, CaseRecord)}
+
+
+def rows_of(cases: Iterable[C], known: Mapping[C, CaseRecord]) -> list[CaseRecord]:
+    """Of these cases, those that have one."""
+    return [known[case] for case in cases if case in known]
 
 
 def parameters_of(case: Any) -> dict[str, Value]:

@@ -51,17 +51,17 @@ def converged(
     where: str,
     *,
     claim: str = "every increment converged",
-    complete: bool = True,
+    asked: int = 0,
 ) -> Statement:
     """Whether every increment of all cases ended within the tolerance.
 
-    where     in words
-    complete  whether all cases that were asked for are there
+    where  in words
+    asked  rows that there should be: open with fewer
     """
     worst = largest(rows, RESIDUAL)
     return Statement(
         claim=claim,
-        outcome=judged(worst <= tolerance, complete=complete),
+        outcome=judged(worst <= tolerance, complete=len(rows) >= asked),
         measured=f"largest residual {_text(worst)} {where}",
         because=f"allowed {tolerance:g}",
         about=_measures({RESIDUAL: worst}),
@@ -69,15 +69,18 @@ def converged(
 
 
 def within(
-    what: str, rows: Sequence[Row], allowed: Mapping[str, float], because: str, *, complete: bool
+    what: str, rows: Sequence[Row], allowed: Mapping[str, float], because: str, *, asked: int = 0
 ) -> Statement:
     """Whether measures are nowhere larger than allowed, by name; those that a row lacks are not
-    asked of it."""
+    asked of it.
+
+    asked  rows that there should be: open with fewer
+    """
     worst = {name: largest(rows, name) for name in allowed}
     limits = ", ".join(f"{name} ≤ {plain(most)}" for name, most in allowed.items())
     return Statement(
         claim=f"{what}: {limits}",
-        outcome=judged(all(worst[n] <= allowed[n] for n in allowed), complete=complete),
+        outcome=judged(all(worst[n] <= allowed[n] for n in allowed), complete=len(rows) >= asked),
         measured=", ".join(f"{name} {_text(error)}" for name, error in worst.items()),
         because=because,
         about=_measures(worst),

@@ -15,42 +15,17 @@ from verification.cases.fem_penalty_indentation import by_springs
 from verification.cases.indentation_reference import COATED, FEW, STRONG, WEAK
 from verification.judging.ladder import meshed
 from verification.judging.observables import APPROACH, PEAK_PRESSURE, PRESSURE_WITHIN
-from verification.judging.run import SOLVER_TOLERANCE, SectionRun, per_radius
+from verification.judging.run import SectionRun, per_radius
 from verification.judging.solver import Method
 from verification.observed.end_state import approach
 from verification.problems.hertz import BALL
 from verification.problems.paper_scene import HERTZ
+from verification.running.row import CaseRecord, parameters_of
+from verification.running.rules import RESIDUAL
 
 HERTZIAN = "hertz"
 FRICTIONAL = {"weak": WEAK, "strong": STRONG, "coated": COATED}
 CONTACTS = (HERTZIAN, *FRICTIONAL)
-
-
-class PenaltyRecord(Description):
-    """What came out. Errors are relative; those of tractions in units of p_H and µp_H."""
-
-    approach: float
-    pressure: float
-    peak: float | None = None
-    """Of the peak pressure, signed; without friction only."""
-
-    ripple: float | None = None
-    """L2 norm of the error of the pressure over that of the pressure, edge included; without
-    friction only."""
-
-    shear: float | None = None
-    overlap: float
-    """Largest, over the approach."""
-
-    largest_residual: float
-    increments: int
-    halvings: int
-    by_springs: int
-    systems: int
-    """Linear systems of all increments."""
-
-    seconds: float
-    """CPU time."""
 
 
 @dataclass(frozen=True)
@@ -65,7 +40,7 @@ class PenaltyCase:
     box            size of the section in contact radii; None: chosen
     """
 
-    record_type: ClassVar[type[Description]] = PenaltyRecord
+    record_type: ClassVar[type[Description]] = CaseRecord
     contact: str
     elements: int
     factor: float = 10.0
@@ -106,21 +81,37 @@ class PenaltyCase:
         discretisation = run.discretisation.model_copy(update=penalty)
         return replace(run, discretisation=discretisation, method=Method.PENALTY)
 
-    def compute(self) -> PenaltyRecord:
-        """Solve and compare; raises what `fem_reference.solve` raises."""
+    def compute(self) -> CaseRecord:
+        """Solve and compare; raises what `fem_reference.solve` raises.
+
+        approach, peak    relative errors, peak without friction only
+        pressure, shear   largest errors over p_H and µp_H, shear with friction only
+        ripple            L2 norm of the error of the pressure over that of the pressure, edge
+                          included; without friction only
+        overlap           largest, over the approach
+        by_springs        increments that springs in series solved
+        systems           linear systems of all increments
+        """
         started = time.process_time()
         result = self._run.solve()
         seconds = time.process_time() - started
         end = result.steps[-1]
         errors = self._of_hertz(result) if self.contact == HERTZIAN else self._of_friction(result)
-        return PenaltyRecord(
-            **errors,
-            overlap=(end.overlap or 0.0) / end.approach,
-            largest_residual=max(i.residuals.worst for i in result.increments),
-            increments=len(result.increments),
-            halvings=sum(i.halvings for i in result.increments),
-            by_springs=round(by_springs(result)),
-            systems=sum(i.iterations for i in result.increments),
+        systems = sum(i.iterations for i in result.increments)
+        return CaseRecord(
+            parameters=parameters_of(self) | {"springs_per_radius": self.springs_per_radius},
+            measures={
+                **errors,
+                "overlap": (end.overlap or 0.0) / end.approach,
+                "systems_per_increment": systems / len(result.increments),
+                RESIDUAL: max(i.residuals.worst for i in result.increments),
+            },
+            counters={
+                "increments": len(result.increments),
+                "halvings": sum(i.halvings for i in result.increments),
+                "by_springs": round(by_springs(result)),
+                "systems": systems,
+            },
             seconds=seconds,
         )
 
@@ -144,8 +135,3 @@ class PenaltyCase:
             "pressure": pressed.pressure_error(result),
             "shear": pressed.shear_error(result),
         }
-
-
-def converged(record: PenaltyRecord) -> bool:
-    """Whether every increment met the tolerance."""
-    return record.largest_residual <= SOLVER_TOLERANCE

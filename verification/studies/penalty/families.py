@@ -2,9 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 from verification.cases.indentation_reference import FEW
 from verification.judging.case import Level
+from verification.running.row import CaseRecord
 from verification.studies.penalty.case import FRICTIONAL, HERTZIAN, PenaltyCase
+
+Found = Mapping[PenaltyCase, CaseRecord]
 
 ELEMENTS = {Level.QUICK: 32, Level.STANDARD: 64, Level.FULL: 128}
 FACTORS = (1.0, 3.0, 10.0, 30.0, 100.0, 300.0, 1000.0)  # c

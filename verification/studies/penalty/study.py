@@ -2,23 +2,22 @@
 
 from __future__ import annotations
 
-import csv
-import io
-from collections.abc import Mapping
-
-from verification.exhibits.numbers import plain
 from verification.exhibits.table import Table
+from verification.running.row import found, rows_of
+from verification.running.row_views import Text, number, row_table
+from verification.running.rules import RESIDUAL
 from verification.running.study import Conclusion, Records, Settings, Study
-from verification.studies.penalty.case import FRICTIONAL, PenaltyCase, PenaltyRecord
+from verification.studies.penalty.case import FRICTIONAL, PenaltyCase
 from verification.studies.penalty.charts import NAMES, charts
 from verification.studies.penalty.families import (
     DEFAULT,
     ELEMENTS,
+    Found,
     all_cases,
     of_friction,
     of_meshes,
 )
-from verification.studies.penalty.verdicts import Found, statements
+from verification.studies.penalty.verdicts import statements
 
 REMARKS = (
     "ε = c E*/h with E* the contact modulus of the outermost materials and h the length of a "
@@ -26,7 +25,6 @@ REMARKS = (
     "The edge of Hertz's contact lies in the middle of an element, where the ripple is largest.",
     "Errors of tractions under friction are the largest from 0.1 to about 0.9 of the radius.",
 )
-FIELDS = tuple(PenaltyRecord.model_fields)
 
 
 def cases(settings: Settings) -> tuple[PenaltyCase, ...]:
@@ -36,81 +34,63 @@ def cases(settings: Settings) -> tuple[PenaltyCase, ...]:
 
 def conclude(settings: Settings, records: Records) -> Conclusion:
     """Statements, tables and figures."""
-    level, found = settings.level, _found(settings, records)
+    level, known = settings.level, found(cases(settings), records)
     return Conclusion(
-        statements=statements(level, found),
+        statements=statements(level, known),
         answer=f"c = {DEFAULT:g} with one augmentation: ten times stiffer springs cost more and "
         "ripple, softer ones leave more to augment.",
-        tables=(_with_friction(settings, found), _meshes(settings, found)),
-        charts=charts(level, found) if found else (),
+        tables=(_with_friction(settings, known), _meshes(settings, known)),
+        charts=charts(level, known) if known else (),
         remarks=REMARKS,
     )
 
 
-def exports(settings: Settings, records: Records) -> Mapping[str, str]:
-    """`errors.csv`: one line for every run."""
-    text = io.StringIO()
-    table = csv.writer(text, lineterminator="\n")
-    table.writerow(("run", *FIELDS))
-    for case, record in _found(settings, records).items():
-        table.writerow((case.name, *(getattr(record, field) for field in FIELDS)))
-    return {"errors.csv": text.getvalue()}
-
-
-def _found(settings: Settings, records: Records) -> Found:
-    found = {case: records.get(case.name) for case in all_cases(settings.level)}
-    return {case: r for case, r in found.items() if isinstance(r, PenaltyRecord)}
-
-
-def _with_friction(settings: Settings, found: Found) -> Table:
-    rows = []
-    for contact in FRICTIONAL:
-        for updates in (0, 1):
-            for case in of_friction(settings.level, contact, updates):
-                if case not in found:
-                    continue
-                record = found[case]
-                rows.append((
-                    f"{NAMES[contact]}, c = {case.factor:g}",
-                    str(updates),
-                    plain(record.approach, 2),
-                    plain(record.pressure, 2),
-                    plain(record.shear, 2),
-                    plain(record.overlap, 2),
-                    f"{record.systems / record.increments:.1f}",
-                    f"{record.by_springs} of {record.increments}",
-                    plain(record.largest_residual, 2),
-                ))  # fmt: skip
-    return Table(
-        title=f"Pressing with friction, {ELEMENTS[settings.level]} elements per radius",
-        columns=(
-            "contact", "augmentations", "approach", "p / p_H", "q / µp_H", "overlap / approach",
-            "systems per increment", "by springs", "largest residual",
-        ),
-        rows=tuple(rows),
-        note="Errors of approach and tractions against the integral equations.",
-    )  # fmt: skip
-
-
-def _meshes(settings: Settings, found: Found) -> Table:
-    rows = [
+def _with_friction(settings: Settings, known: Found) -> Table:
+    rows = rows_of(
         (
-            f"{case.elements} elements per radius",
-            str(updates),
-            plain(found[case].approach, 2),
-            plain(found[case].peak, 2),
-            plain(found[case].pressure, 2),
-            plain(found[case].overlap, 2),
-        )
-        for updates in (0, 1)
-        for case in of_meshes(settings.level, updates)
-        if case in found
-    ]
-    return Table(
-        title=f"Hertz at c = {DEFAULT:g} on three meshes",
-        columns=("mesh", "augmentations", "approach", "p₀", "p / p_H", "overlap / approach"),
-        rows=tuple(rows),
-        note="The stiffness follows the mesh, so that the penalty's error falls with it.",
+            case
+            for contact in FRICTIONAL
+            for updates in (0, 1)
+            for case in of_friction(settings.level, contact, updates)
+        ),
+        known,
+    )
+    columns: dict[str, Text] = {
+        "contact": lambda r: (
+            f"{NAMES[str(r.parameters['contact'])]}, c = {r.parameters['factor']:g}"
+        ),
+        "augmentations": number("augmentations"),
+        "approach": number("approach"),
+        "p / p_H": number("pressure"),
+        "q / µp_H": number("shear"),
+        "overlap / approach": number("overlap"),
+        "systems per increment": lambda r: f"{r.measures['systems_per_increment']:.1f}",
+        "by springs": lambda r: f"{r.counters['by_springs']} of {r.counters['increments']}",
+        "largest residual": number(RESIDUAL),
+    }
+    return row_table(
+        f"Pressing with friction, {ELEMENTS[settings.level]} elements per radius",
+        columns,
+        rows,
+        "Errors of approach and tractions against the integral equations.",
+    )
+
+
+def _meshes(settings: Settings, known: Found) -> Table:
+    cases = (case for updates in (0, 1) for case in of_meshes(settings.level, updates))
+    columns: dict[str, Text] = {
+        "mesh": lambda r: f"{r.parameters['elements']} elements per radius",
+        "augmentations": number("augmentations"),
+        "approach": number("approach"),
+        "p₀": number("peak"),
+        "p / p_H": number("pressure"),
+        "overlap / approach": number("overlap"),
+    }
+    return row_table(
+        f"Hertz at c = {DEFAULT:g} on three meshes",
+        columns,
+        rows_of(cases, known),
+        "The stiffness follows the mesh, so that the penalty's error falls with it.",
     )
 
 
@@ -122,5 +102,4 @@ STUDY = Study(
     "error after an augmentation?",
     cases=cases,
     conclude=conclude,
-    exports=exports,
 )
