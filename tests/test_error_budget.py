@@ -11,6 +11,7 @@ from verification.cases.catalogue import CASES
 from verification.judging.case import Level
 from verification.judging.outcome import Status
 from verification.report.drawing import draw
+from verification.running.row import CaseRecord, value_of
 from verification.running.study import Settings
 from verification.studies.error_budget.budget import (
     BUDGETS,
@@ -19,27 +20,25 @@ from verification.studies.error_budget.budget import (
     MESH,
     SPRINGS,
     TOLERANCE,
+    TOTAL,
     Budget,
     parts_of,
 )
 from verification.studies.error_budget.study import STUDY, cases, chart
 from verification.studies.work_precision.contacts import CONTACTS
-from verification.studies.work_precision.setting import Measured, Method, PrecisionCase
+from verification.studies.work_precision.setting import Method, PrecisionCase
 
 SETTINGS = Settings(Level.QUICK)
 
 
-def measured(case: PrecisionCase, mesh: float = 1.0, tolerance: float = 0.0) -> Measured:
+def measured(case: PrecisionCase, mesh: float = 1.0, tolerance: float = 0.0) -> CaseRecord:
     """An error that is the sum of known parts: h², 1/k and the solver's tolerance."""
     increments = 0.1 / case.increments if case.increments else 0.0
     error = mesh / case.fineness**2 + increments + tolerance * case.tolerance
-    return Measured(
-        errors=dict.fromkeys(CONTACTS[case.contact].errors, error),
-        operations=1.0, unknowns=1, increments=1, seconds=1.0, repeats=1,
-    )  # fmt: skip
+    return CaseRecord(measures=dict.fromkeys(CONTACTS[case.contact].errors, error))
 
 
-def records(**options: float) -> dict[str, Measured]:
+def records(**options: float) -> dict[str, CaseRecord]:
     return {case.name: measured(case, **options) for case in cases(SETTINGS)}
 
 
@@ -72,20 +71,21 @@ def test_parts_are_what_refinement_takes_off() -> None:
     base = budget.base(Level.QUICK)
     found = {case: measured(case) for case in budget.cases(Level.QUICK)}
     for part in parts_of(budget, Level.QUICK, found):
-        assert part.total == pytest.approx(1 / base.fineness**2 + 0.1 / base.increments)
-        assert part.parts[MESH] == pytest.approx(0.75 / base.fineness**2)
-        assert part.parts[INCREMENTS] == pytest.approx(0.05 / base.increments)
-        assert part.parts[TOLERANCE] == 0
-        assert part.largest == INCREMENTS
+        assert part.measures[TOTAL] == pytest.approx(1 / base.fineness**2 + 0.1 / base.increments)
+        assert part.measures[MESH] == pytest.approx(0.75 / base.fineness**2)
+        assert part.measures[INCREMENTS] == pytest.approx(0.05 / base.increments)
+        assert part.measures[TOLERANCE] == 0
+        assert part.words["largest"] == INCREMENTS
 
 
 def test_parts_shrink_when_refined() -> None:
     budget = next(b for b in BUDGETS if b.case == "hertz_point")
     case = PrecisionCase("hertz", Method.SURFACE, 16)
-    errors = {n: PrecisionCase("hertz", Method.SURFACE, n).compute().errors for n in (16, 32, 64)}
+    rows = {n: PrecisionCase("hertz", Method.SURFACE, n).compute() for n in (16, 32, 64)}
     assert budget.contact == case.contact
-    for name in case.compute().errors:
-        assert abs(errors[32][name] - errors[64][name]) < abs(errors[16][name] - errors[32][name])
+    for name in case.problem.errors:
+        coarse, middle, fine = (value_of(rows[n], name) for n in (16, 32, 64))
+        assert abs(middle - fine) < abs(coarse - middle)
 
 
 def test_a_lost_refinement_leaves_its_part_out() -> None:
@@ -93,8 +93,8 @@ def test_a_lost_refinement_leaves_its_part_out() -> None:
     found = {case: measured(case) for case in budget.cases(Level.QUICK)}
     del found[budget.refined(Level.QUICK)[DOMAIN]]
     (first, *_) = parts_of(budget, Level.QUICK, found)
-    assert DOMAIN not in first.parts
-    assert MESH in first.parts
+    assert DOMAIN not in first.measures
+    assert MESH in first.measures
     del found[budget.base(Level.QUICK)]
     assert parts_of(budget, Level.QUICK, found) == ()
 

@@ -26,6 +26,8 @@ from verification.problems.layered_scene import coated, film
 from verification.report.prices import price_table
 from verification.running.provenance import provenance
 from verification.running.record import StudyRecord, dump_study
+from verification.running.row import CaseRecord, parameters_of, value_of
+from verification.running.row_files import row_files
 from verification.running.study import Conclusion, Settings
 from verification.studies.work_precision.charts import SERIES
 from verification.studies.work_precision.cold_cache import CACHE, cold_cache
@@ -53,7 +55,7 @@ from verification.studies.work_precision.recorded_peers import (
     peer_points,
     recorded_peers,
 )
-from verification.studies.work_precision.setting import Measured, Method, PrecisionCase
+from verification.studies.work_precision.setting import OPERATIONS, Method, PrecisionCase
 from verification.studies.work_precision.study import STUDY, cases
 from verification.studies.work_precision.usual_route import SampledCoefficients, Sampling
 
@@ -137,9 +139,7 @@ def test_an_error_that_stalls_is_not_continued() -> None:
 
 def test_what_is_not_reached_is_priced_and_marked() -> None:
     """No setting reaches 0.1 % in one field: its cell has a mark and the cost of the power law."""
-    poor = concluded(
-        lambda r: r.model_copy(update={"errors": dict.fromkeys(r.errors, 0.5 / r.unknowns**0.5)})
-    )
+    poor = concluded(lambda r: with_error(r, 0.5 / r.counters["unknowns"] ** 0.5))
     cells = [row[3] for table in poor.tables for row in table.rows if row[0] == "finite elements"]
     assert cells
     assert all(cell.startswith("≈ ") and "extrapolated to 500 cells" in cell for cell in cells)
@@ -154,20 +154,25 @@ def test_a_change_of_sign_earns_nothing() -> None:
     assert cheapest(dependable((lucky, honest)), 1e-4, seconds) is None
 
 
-def measured(case: PrecisionCase) -> Measured:
+def measured(case: PrecisionCase) -> CaseRecord:
     """Errors of order two and seconds that go with the cells, the same for all methods."""
-    error = 2.0 / case.fineness**2
-    return Measured(
-        errors=dict.fromkeys(CONTACTS[case.contact].errors, error),
-        operations=1e3 * case.fineness**2,
-        unknowns=case.fineness**2,
-        increments=1,
+    errors = dict.fromkeys(CONTACTS[case.contact].errors, 2.0 / case.fineness**2)
+    return CaseRecord(
+        parameters=parameters_of(case),
+        measures={**errors, OPERATIONS: 1e3 * case.fineness**2},
+        counters={"unknowns": case.fineness**2, "increments": 1},
         seconds=1e-5 * case.fineness**2,
         repeats=5,
     )
 
 
-def concluded(change: Callable[[Measured], Measured] = lambda record: record) -> Conclusion:
+def with_error(record: CaseRecord, error: float) -> CaseRecord:
+    """The same with this error of everything."""
+    errors = {name: error for name in record.measures if name != OPERATIONS}
+    return record.model_copy(update={"measures": record.measures | errors})
+
+
+def concluded(change: Callable[[CaseRecord], CaseRecord] = lambda record: record) -> Conclusion:
     records = {case.name: change(measured(case)) for case in cases(SETTINGS)}
     return STUDY.conclude(SETTINGS, records)
 
@@ -180,7 +185,7 @@ def test_every_setting_has_a_name_of_its_own() -> None:
 
 def test_good_settings_pass_and_poor_ones_fail() -> None:
     assert not concluded().failed
-    poor = concluded(lambda r: r.model_copy(update={"errors": dict.fromkeys(r.errors, 0.5)}))
+    poor = concluded(lambda r: with_error(r, 0.5))
     claims = [s.claim for s in poor.statements if s.outcome is Status.FAIL]
     assert claims == ["every quantity is had to 1 %"]
 
@@ -200,7 +205,7 @@ def test_the_clock_changes_the_provenance_alone() -> None:
             case.name: measured(case).model_copy(update={"seconds": pace(case.fineness)})
             for case in cases(SETTINGS)
         }
-        files.append(STUDY.exports(SETTINGS, records))
+        files.append(row_files(records))
         return StudyRecord(
             name=STUDY.name, title=STUDY.title, question=STUDY.question, level="quick",
             conclusion=STUDY.conclude(SETTINGS, records), lost=(),
@@ -212,7 +217,7 @@ def test_the_clock_changes_the_provenance_alone() -> None:
     assert one.provenance.timed is not None
     assert one.provenance.timed != other.provenance.timed
     assert dump_study(other.model_copy(update={"provenance": one.provenance})) == dump_study(one)
-    assert files[0]["settings.csv"] == files[1]["settings.csv"]
+    assert files[0]["rows.csv"] == files[1]["rows.csv"]
     assert files[0]["seconds.csv"] != files[1]["seconds.csv"]
 
 
@@ -267,17 +272,15 @@ def test_the_usual_route_is_tried_on_every_tangential_history() -> None:
         (case, *_) = [
             c for c in cases(SETTINGS) if (c.contact, c.method) == (contact.name, Method.FROZEN)
         ]
-        errors = case.compute().errors
-        assert set(errors) == set(contact.errors)
-        assert all(0 < abs(error) < 0.05 for error in errors.values())
+        record = case.compute()
+        assert set(record.measures) == {*contact.errors, OPERATIONS}
+        assert all(0 < abs(value_of(record, name)) < 0.05 for name in contact.errors)
 
 
 def test_extrapolation_leaves_what_is_not_of_order_two() -> None:
     constant = 1e-3
     found = {
-        case: measured(case).model_copy(
-            update={"errors": {"approach": constant + 2.0 / case.fineness**2}}
-        )
+        case: with_error(measured(case), constant + 2.0 / case.fineness**2)
         for case in cases(SETTINGS)
         if case.contact == "hertz"
     }
@@ -304,7 +307,7 @@ def test_counters_are_the_same_at_every_run(method: Method, options: dict[str, A
     first, second = case.compute(), case.compute()
     clock = {"seconds", "repeats"}
     assert first.model_dump(exclude=clock) == second.model_dump(exclude=clock)
-    assert first.operations > 0
+    assert value_of(first, OPERATIONS) > 0
 
 
 def test_a_measurement_starts_from_an_empty_cache(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -32,6 +32,7 @@ from verification.peers.environment import (
     peers_directory,
 )
 from verification.running.provenance import provenance
+from verification.running.row import value_of
 from verification.studies.work_precision.setting import Method, PrecisionCase
 
 CELLS = (32, 64, 128, 256, 512)
@@ -110,11 +111,13 @@ def peer_run(
 
 def own_run(contact: str, cells: int) -> dict[str, Any]:
     """Our own method on the same grid and machine."""
-    found = PrecisionCase(contact, Method.SURFACE, cells).compute()
+    case = PrecisionCase(contact, Method.SURFACE, cells)
+    found = case.compute()
     return {
-        "code": "slipstick", "contact": contact, "cells": cells, "iterations": found.convolutions,
+        "code": "slipstick", "contact": contact, "cells": cells,
+        "iterations": found.counters["convolutions"],
         "converged": True, "seconds": found.seconds, "repeats": found.repeats,
-        "errors": found.errors,
+        "errors": {name: value_of(found, name) for name in case.problem.errors},
     }  # fmt: skip
 
 

@@ -44,6 +44,14 @@ class Row(Description):
         return None if isinstance(known, str) else known
 
 
+def value_of(row: Row, name: str) -> float:
+    """A measure that is known; KeyError if the row lacks it, ValueError if it is null."""
+    value = row.measures[name]
+    if value is None:
+        raise ValueError(f"{name} is not known of {row.parameters}")
+    return value
+
+
 class CaseRecord(Row):
     """What a case of a study leaves, whatever it computes."""
 

@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
 from verification.judging.case import Level
 from verification.judging.run import SOLVER_TOLERANCE
+from verification.running.row import Row, value_of
 from verification.studies.work_precision.contacts import CONTACTS
-from verification.studies.work_precision.setting import Measured, Method, PrecisionCase
-
-Found = Mapping[PrecisionCase, Measured]
+from verification.studies.work_precision.points import Found
+from verification.studies.work_precision.setting import Method, PrecisionCase
 
 CELLS = {Level.QUICK: 64, Level.STANDARD: 128, Level.FULL: 256}
 ELEMENTS = {Level.QUICK: 16, Level.STANDARD: 32, Level.FULL: 64}
@@ -23,6 +22,7 @@ BOX = 100.0  # contact radii
 MESH, INCREMENTS, SPRINGS, DOMAIN, TOLERANCE = (
     "mesh", "increments", "penalty", "domain", "solver tolerance"
 )  # fmt: skip
+TOTAL = "total error"
 
 
 @dataclass(frozen=True)
@@ -92,36 +92,25 @@ BUDGETS = (
 )
 
 
-@dataclass(frozen=True)
-class Parts:
-    """The error of one quantity and its parts, not negative; of a choice whose solve was lost
-    there is none.
+def parts_of(budget: Budget, level: Level, found: Found) -> tuple[Row, ...]:
+    """The error of every quantity and its parts, not negative; nothing if the base solve was lost.
 
-    total  distance of the base solve from the reference
-    parts  by choice: by how much the error changes when that alone is refined
+    Measures are the distance of the base solve from the reference, TOTAL, and by choice how much
+    the error changes when that alone is refined; of a choice whose solve was lost there is none.
     """
-
-    quantity: str
-    total: float
-    parts: Mapping[str, float]
-
-    @property
-    def largest(self) -> str:
-        """The choice with the largest part."""
-        return max(self.parts, key=lambda choice: self.parts[choice])
-
-
-def parts_of(budget: Budget, level: Level, found: Found) -> tuple[Parts, ...]:
-    """Of every quantity; nothing if the base solve was lost."""
     base = found.get(budget.base(level))
     if base is None:
         return ()
     finer = {name: found[case] for name, case in budget.refined(level).items() if case in found}
-    return tuple(
-        Parts(
-            quantity,
-            abs(error),
-            {name: abs(error - record.errors[quantity]) for name, record in finer.items()},
+    rows = []
+    for quantity, meaning in CONTACTS[budget.contact].errors.items():
+        error = value_of(base, quantity)
+        parts = {name: abs(error - value_of(row, quantity)) for name, row in finer.items()}
+        rows.append(
+            Row(
+                parameters={"case": budget.case, "quantity": quantity, "meaning": meaning},
+                measures={TOTAL: abs(error), **parts},
+                words={"largest": max(parts, key=lambda choice: parts[choice])} if parts else {},
+            )
         )
-        for quantity, error in base.errors.items()
-    )
+    return tuple(rows)

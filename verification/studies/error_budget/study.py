@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import math
+from collections.abc import Iterable, Sequence
 
-from verification.exhibits.chart import Chart, Look, Panel, curve
-from verification.exhibits.numbers import plain
+from verification.exhibits.chart import Chart, Look, curve
+from verification.exhibits.log_chart import log_chart
 from verification.exhibits.table import Table
-from verification.judging.outcome import Status
+from verification.running.row import Row, found, value_of
+from verification.running.row_views import Text, number, row_table
+from verification.running.rules import judged, solved
 from verification.running.study import Conclusion, Records, Settings, Statement, Study
 from verification.studies.error_budget.budget import (
     BOX,
@@ -17,18 +20,15 @@ from verification.studies.error_budget.budget import (
     STIFFER,
     TIGHTER,
     TOLERANCE,
+    TOTAL,
     Budget,
-    Found,
-    Parts,
     parts_of,
 )
-from verification.studies.work_precision.contacts import CONTACTS
-from verification.studies.work_precision.points import setting_text
-from verification.studies.work_precision.setting import Measured, PrecisionCase
+from verification.studies.work_precision.setting import PrecisionCase
 
-TOTAL = "total error"
 NEGLIGIBLE = 0.01  # part of the error that the solver's tolerance may have
 FLOOR = 1e-9  # parts below it are drawn at it: nothing that anybody asks for is so small
+HEIGHT = 1.9
 APART = 0.18  # quantities of one row, of its height
 ROUND_OFF = 1e-7  # below this an error is the reference's own
 REMARKS = (
@@ -51,99 +51,87 @@ def cases(settings: Settings) -> tuple[PrecisionCase, ...]:
 
 def conclude(settings: Settings, records: Records) -> Conclusion:
     """Statements, and a table and a chart for every case."""
-    found: Found = {
-        case: record
-        for case in cases(settings)
-        if isinstance(record := records.get(case.name), Measured)
-    }
-    shown = {b: parts for b in BUDGETS if (parts := parts_of(b, settings.level, found))}
-    worst = max(
-        (
-            (part.parts[TOLERANCE] / max(part.total, ROUND_OFF), budget.case, part.quantity)
-            for budget, parts in shown.items()
-            for part in parts
-            if TOLERANCE in part.parts
-        ),
-        default=None,
-    )
+    asked = cases(settings)
+    known = found(asked, records)
+    shown = {b: parts for b in BUDGETS if (parts := parts_of(b, settings.level, known))}
+    rows = tuple(row for parts in shown.values() for row in parts)
     return Conclusion(
         statements=(
-            Statement(
-                claim="every choice is refined in every case",
-                outcome=Status.PASS if len(found) == len(cases(settings)) else Status.FAIL,
-                measured=f"{len(found)} of {len(cases(settings))} solves",
-            ),
-            Statement(
-                claim="the solver's tolerance is no part of any error",
-                outcome=Status.PASS if worst and worst[0] <= NEGLIGIBLE else Status.FAIL,
-                measured="no case"
-                if worst is None
-                else f"at most {100 * worst[0]:.2g} % of it, in {worst[1]}: {worst[2]}",
-                because=f"allowed {100 * NEGLIGIBLE:g} %; errors below {ROUND_OFF:g} count as that",
-            ),
-            *(
-                Statement(
-                    claim=f"{budget.case}: what most of the error comes from",
-                    outcome=None,
-                    measured="; ".join(f"{p.quantity}: {p.largest}" for p in parts if p.parts),
-                )
-                for budget, parts in shown.items()
-            ),
+            solved("every choice is refined in every case", len(known), len(asked), "solves"),
+            _tolerance_is_no_part(rows),
+            *(_largest_parts(budget.case, parts) for budget, parts in shown.items()),
         ),
         tables=tuple(_table(budget, settings, parts) for budget, parts in shown.items()),
         charts=tuple(chart(budget, parts) for budget, parts in shown.items()),
+        rows=rows,
         remarks=REMARKS,
     )
 
 
-def chart(budget: Budget, parts: Sequence[Parts]) -> Chart:
+def _tolerance_is_no_part(rows: Iterable[Row]) -> Statement:
+    parts = [
+        (value_of(row, TOLERANCE) / max(value_of(row, TOTAL), ROUND_OFF), row)
+        for row in rows
+        if TOLERANCE in row.measures
+    ]
+    part, row = max(parts, key=lambda pair: pair[0], default=(math.inf, None))
+    return Statement(
+        claim="the solver's tolerance is no part of any error",
+        outcome=judged(part <= NEGLIGIBLE),
+        measured="no case"
+        if row is None
+        else f"at most {100 * part:.2g} % of it, in {row.parameters['case']}: "
+        f"{row.parameters['quantity']}",
+        because=f"allowed {100 * NEGLIGIBLE:g} %; errors below {ROUND_OFF:g} count as that",
+        about=row,
+    )
+
+
+def _largest_parts(case: str, parts: Iterable[Row]) -> Statement:
+    known = ((row.parameters["quantity"], row.words.get("largest")) for row in parts)
+    return Statement(
+        claim=f"{case}: what most of the error comes from",
+        outcome=None,
+        measured="; ".join(f"{quantity}: {part}" for quantity, part in known if part),
+    )
+
+
+def chart(budget: Budget, parts: Sequence[Row]) -> Chart:
     """The parts of every quantity under one another, the total at the bottom."""
-    rows = (TOTAL, *reversed(list(parts[0].parts)))  # from below
-    curves = []
-    for series, part in enumerate(parts):
-        values = {**part.parts, TOTAL: part.total}
-        places = [row for row, name in enumerate(rows) if name in values]
-        curves.append(
-            curve(
-                part.quantity,
-                [max(values[rows[row]], FLOOR) for row in places],
-                [row + APART * (len(parts) // 2 - series) for row in places],
-                Look.TILES,
-                series,
-            )
+    total, *choices = parts[0].measures
+    places = (total, *reversed(choices))  # from below
+    curves = [
+        curve(
+            str(part.parameters["quantity"]),
+            [max(value_of(part, name), FLOOR) for name in places],
+            [place + APART * (len(parts) // 2 - series) for place in range(len(places))],
+            Look.TILES,
+            series,
         )
-    panel = Panel(
-        x_label="part of the relative error",
-        y_label="",
-        y_places=rows,
-        curves=tuple(curves),
-        logarithmic=True,
-        height=1.9,
-    )
-    return Chart(
-        name=f"budget_{budget.case}",
-        title=f"Error budget, {budget.title}",
-        caption="By how much the error changes when one choice alone is refined, and the whole "
-        f"error; changes below {FLOOR:g} are drawn there. "
-        + "; ".join(f"{name}: {words}" for name, words in CONTACTS[budget.contact].errors.items())
+        for series, part in enumerate(parts)
+    ]
+    drawn = log_chart(
+        f"budget_{budget.case}",
+        f"Error budget, {budget.title}",
+        "By how much the error changes when one choice alone is refined, and the whole error; "
+        f"changes below {FLOOR:g} are drawn there. "
+        + "; ".join("{quantity}: {meaning}".format(**part.parameters) for part in parts)
         + ".",
-        rows=((panel,),),
+        "part of the relative error",
+        "",
+        curves,
     )
+    ((panel,),) = drawn.rows
+    by_name = panel.model_copy(update={"y_places": places, "height": HEIGHT})
+    return drawn.model_copy(update={"rows": ((by_name,),)})
 
 
-def _table(budget: Budget, settings: Settings, parts: Sequence[Parts]) -> Table:
-    names = tuple(parts[0].parts)
-    return Table(
-        title=f"{budget.case}: parts of the error, {setting_text(budget.base(settings.level))}",
-        columns=("quantity", TOTAL, *names),
-        rows=tuple(
-            (
-                CONTACTS[budget.contact].errors[part.quantity],
-                plain(part.total, 2),
-                *(plain(part.parts[name], 2) for name in names),
-            )
-            for part in parts
-        ),
+def _table(budget: Budget, settings: Settings, parts: Sequence[Row]) -> Table:
+    columns: dict[str, Text] = {"quantity": lambda row: str(row.parameters["meaning"])}
+    return row_table(
+        f"{budget.case}: parts of the error, {budget.base(settings.level).text}",
+        columns | {name: number(name) for name in parts[0].measures},
+        parts,
     )
 
 

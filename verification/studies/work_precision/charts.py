@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 
-from verification.exhibits.chart import Chart, Curve, Look, Panel, curve
+from verification.exhibits.chart import Chart, Look
+from verification.exhibits.log_chart import Points, log_chart, point_curves
 from verification.studies.work_precision.contacts import PreciseContact
 from verification.studies.work_precision.point import (
     Cost,
@@ -16,7 +17,6 @@ from verification.studies.work_precision.point import (
 )
 from verification.studies.work_precision.setting import Method
 
-HEIGHT = 2.4
 FLOOR = 1e-9  # of what can be drawn on a logarithmic axis
 # One colour and marker per method on all diagrams; other codes follow.
 SERIES = [method.value for method in Method]
@@ -46,27 +46,21 @@ def work_chart(contact: PreciseContact, quantity: str, points: Sequence[Point]) 
     )  # fmt: skip
 
 
+def methods_of(points: Iterable[Point]) -> list[str]:
+    """Ours in their order, then others."""
+    tried = {point.method for point in points}
+    return [name for name in SERIES if name in tried] + sorted(tried - set(SERIES))
+
+
 def _chart(
     name: str, title: str, caption: str, x_label: str, points: Sequence[Point], cost: Cost
 ) -> Chart:
     steady = dependable(points)
-    names = [*SERIES, *sorted({point.method for point in points} - set(SERIES))]
-    curves: list[Curve] = []
-    for series, method in enumerate(names):
-        line = pareto([p for p in steady if p.method == method], cost)
-        if line:
-            curves.append(_curve(method, line, cost, Look.POINTS, series))
-    best = pareto(steady, cost)
-    curves.append(_curve("Pareto line", best, cost, Look.BOUND))
-    panel = Panel(
-        x_label=x_label,
-        y_label="relative error",
-        curves=tuple(curves),
-        logarithmic=True,
-        height=HEIGHT,
-    )
-    return Chart(name=name, title=title, caption=caption, rows=((panel,),))
 
+    def drawn(points: Iterable[Point]) -> Points:
+        return [(cost(p), max(p.error, FLOOR)) for p in pareto(points, cost)]
 
-def _curve(label: str, line: Sequence[Point], cost: Cost, look: Look, series: int = 0) -> Curve:
-    return curve(label, [cost(p) for p in line], [max(p.error, FLOOR) for p in line], look, series)
+    names = [*SERIES, *methods_of(points)]
+    lines = [(n, drawn(p for p in steady if p.method == n)) for n in dict.fromkeys(names)]
+    best = point_curves([("Pareto line", drawn(steady))], Look.BOUND)
+    return log_chart(name, title, caption, x_label, "relative error", point_curves(lines) + best)

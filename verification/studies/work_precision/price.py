@@ -11,7 +11,7 @@ from verification.exhibits.numbers import EXTRAPOLATED, plain
 from verification.exhibits.table import Table
 from verification.running.row import Row
 from verification.running.study import Statement
-from verification.studies.work_precision.charts import SERIES
+from verification.studies.work_precision.charts import SERIES, methods_of
 from verification.studies.work_precision.contacts import CONTACTS
 from verification.studies.work_precision.point import (
     TARGETS,
@@ -94,15 +94,9 @@ def price_rows(price: Price, everything: Everything) -> tuple[Row, ...]:
         _row(price, key, target, [p for p in steady if p.method == method])
         for key, points in everything.items()
         for steady in (dependable(points),)
-        for method in _methods(steady)
+        for method in methods_of(steady)
         for target in TARGETS
     )
-
-
-def _methods(points: Sequence[Point]) -> list[str]:
-    """Ours in their order, then others."""
-    tried = {point.method for point in points}
-    return [name for name in SERIES if name in tried] + sorted(tried - set(SERIES))
 
 
 def _row(price: Price, key: tuple[str, str], target: float, points: Sequence[Point]) -> Row:

@@ -13,7 +13,7 @@ from enum import StrEnum
 from itertools import groupby
 
 from verification.exhibits.numbers import EXTRAPOLATED, NOT_REACHED, plain
-from verification.running.row import Row
+from verification.running.row import Row, value_of
 
 COST, ERROR, LEAST = "cost", "error", "least_error"
 
@@ -60,26 +60,20 @@ def by_quantity(rows: Iterable[Row]) -> Iterator[tuple[str, Sequence[Row]]]:
 def cheapest_row(rows: Iterable[Row]) -> Row | None:
     """The one that costs least; None where no setting that was tried is accurate enough."""
     reached = filter(is_reached, rows)
-    return min(reached, key=lambda row: _number(row, COST), default=None)
+    return min(reached, key=lambda row: value_of(row, COST), default=None)
 
 
 def nearest_row(rows: Iterable[Row]) -> Row:
     """The one with the least error."""
-    return min(rows, key=lambda row: _number(row, LEAST))
+    return min(rows, key=lambda row: value_of(row, LEAST))
 
 
 def cheapest_guess(rows: Iterable[Row]) -> Row | None:
     """The least cost of what was not tried; None where nothing can be extrapolated."""
     guessed = [row for row in rows if row.words["reached"] == Reached.BEYOND]
-    return min(guessed, key=lambda row: _number(row, COST), default=None)
+    return min(guessed, key=lambda row: value_of(row, COST), default=None)
 
 
 def dearest(rows: Iterable[Row]) -> Row:
     """The one that costs most."""
-    return max(rows, key=lambda row: _number(row, COST))
-
-
-def _number(row: Row, name: str) -> float:
-    value = row.measures[name]
-    assert value is not None
-    return value
+    return max(rows, key=lambda row: value_of(row, COST))

@@ -6,14 +6,14 @@ from collections.abc import Mapping, Sequence
 from math import inf
 from typing import Any
 
-from verification.exhibits.chart import Chart, Look, Panel, curve
+from verification.exhibits.chart import Chart
+from verification.exhibits.log_chart import drawable, log_chart, point_curves
 from verification.exhibits.numbers import plain
 from verification.exhibits.table import Table
 from verification.references import load_reference
 from verification.studies.work_precision.point import Point, cheapest, dependable, seconds
 
 NAME = "peers"
-HEIGHT = 2.4
 OTHERS = "other codes, recorded"
 BESIDE = "semi-analytical, in their turn"  # our own runs of the record
 OURS = "slipstick"
@@ -32,35 +32,22 @@ def recorded_peers() -> Record:
 
 def peer_charts(record: Record) -> tuple[Chart, ...]:
     """Error against CPU seconds, one curve for every code."""
-    codes = _codes(record)
-    charts = []
-    for contact, (quantity, meaning) in JUDGED.items():
-        curves = [
-            curve(
-                code,
-                [run["seconds"] for run in runs],
-                [abs(run["errors"][quantity]) for run in runs],
-                Look.POINTS,
-                series,
-            )
-            for series, code in enumerate(codes)
-            if (runs := _converged(record, contact, code))
-        ]
-        panel = Panel(
-            x_label="CPU seconds", y_label="relative error", curves=tuple(curves),
-            logarithmic=True, height=HEIGHT,
-        )  # fmt: skip
-        charts.append(
-            Chart(
-                name=f"peers_{contact}",
-                title=f"Other codes, {meaning}",
-                caption="Error against CPU seconds of one thread, set-up included, on grids of "
-                f"{_cells(record)} cells a side; all codes in turn on one machine. They share "
-                "cells of constant traction, and so the error of a grid.",
-                rows=((panel,),),
-            )
+    return tuple(
+        log_chart(
+            f"peers_{contact}",
+            f"Other codes, {meaning}",
+            "Error against CPU seconds of one thread, set-up included, on grids of "
+            f"{_cells(record)} cells a side; all codes in turn on one machine. They share cells of "
+            "constant traction, and so the error of a grid.",
+            "CPU seconds",
+            "relative error",
+            point_curves(
+                (code, drawable((run["seconds"], run["errors"][quantity]) for run in runs))
+                for code, runs in _converged(record, contact).items()
+            ),
         )
-    return tuple(charts)
+        for contact, (quantity, meaning) in JUDGED.items()
+    )
 
 
 def peer_points(record: Record) -> Points:
@@ -135,13 +122,10 @@ def _cells(record: Record) -> str:
     return f"{min(cells)} to {max(cells)}"
 
 
-def _codes(record: Record) -> list[str]:
-    return list(dict.fromkeys(run["code"] for run in record["runs"]))
-
-
-def _converged(record: Record, contact: str, code: str) -> list[Record]:
-    return [
-        run
-        for run in record["runs"]
-        if (run["contact"], run["code"]) == (contact, code) and run.get("converged")
-    ]
+def _converged(record: Record, contact: str) -> dict[str, list[Record]]:
+    """Converged runs on a contact, by code."""
+    found: dict[str, list[Record]] = {run["code"]: [] for run in record["runs"]}
+    for run in record["runs"]:
+        if run["contact"] == contact and run.get("converged"):
+            found[run["code"]].append(run)
+    return found

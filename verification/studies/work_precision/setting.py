@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from enum import StrEnum
 from typing import ClassVar
@@ -15,6 +15,7 @@ from fem_reference import solve as solve_section
 from semi_analytical import Result as Surface
 from semi_analytical import SurfaceGrid, solve
 from verification.judging.run import SOLVER_TOLERANCE
+from verification.running.row import CaseRecord, parameters_of
 from verification.studies.work_precision import counted_work
 from verification.studies.work_precision.cold_cache import timed
 from verification.studies.work_precision.contacts import CONTACTS, PreciseContact
@@ -22,6 +23,7 @@ from verification.studies.work_precision.frozen_route import FrozenHistory, froz
 from verification.studies.work_precision.usual_route import Sampling, solve_sampled
 
 NO_INCREMENTS = 1
+OPERATIONS = "operations"  # counted work, by the name of its measure
 
 
 class Method(StrEnum):
@@ -33,28 +35,6 @@ class Method(StrEnum):
     FROZEN = "sampled response, frozen directions"
     ELEMENTS = "finite elements"
     PENALTY = "finite elements, penalty"
-
-
-class Measured(Description):
-    """What came out."""
-
-    errors: dict[str, float]
-    """By name: relative, signed where the quantity is one number."""
-
-    operations: float
-    """Counted work, see `counted_work`."""
-
-    convolutions: int = 0
-    factorisations: int = 0
-    systems: int = 0
-    unknowns: int
-    """Tractions of the surface grid, or displacements of the section."""
-
-    increments: int
-    seconds: float
-    """CPU time, set-up included: median of the repeats."""
-
-    repeats: int
 
 
 @dataclass(frozen=True)
@@ -71,7 +51,7 @@ class PrecisionCase:
     box         size of the section in contact radii; 0: chosen
     """
 
-    record_type: ClassVar[type[Description]] = Measured
+    record_type: ClassVar[type[Description]] = CaseRecord
     contact: str
     method: Method
     fineness: int
@@ -103,59 +83,77 @@ class PrecisionCase:
         """Whether finite elements solve it."""
         return self.method in (Method.ELEMENTS, Method.PENALTY)
 
-    def compute(self) -> Measured:
-        """Solve, compare and count; raises what the solvers raise."""
+    @property
+    def text(self) -> str:
+        """The setting for people."""
+        n = self.fineness
+        words = [f"{n} elements per radius" if self.by_sections else f"{n} x {n}"]
+        words += [f"tolerance {self.tolerance:g}"] if self.tolerance != SOLVER_TOLERANCE else []
+        words += [f"c = {self.penalty:g}"] if self.penalty else []
+        if any(self.sampling):
+            refinement, extension = self.sampling
+            samples = "1 sample" if refinement == 1 else f"{refinement} samples"
+            words += [f"{samples} per cell side", f"period {2 * extension} windows"]
+        if self.increments:
+            words += ["1 increment" if self.increments == 1 else f"{self.increments} increments"]
+        return ", ".join(words)
+
+    def compute(self) -> CaseRecord:
+        """Solve, compare and count; raises what the solvers raise.
+
+        Measures are the errors by name, relative, signed where the quantity is one number, and
+        counted work (see `counted_work`); unknowns are tractions of the surface grid or
+        displacements of the section.
+        """
         if self.by_sections:
-            section, seconds, repeats = timed(self._section)
-            return Measured(
-                errors=dict(self.problem.section(section)),
-                operations=counted_work.of_section(section),
+            section, *clock = timed(self._section)
+            return self._record(
+                self.problem.section(section),
+                counted_work.of_section(section),
+                clock,
                 factorisations=counted_work.factorisations(section),
                 systems=counted_work.systems(section),
                 unknowns=counted_work.unknowns(section),
                 increments=len(section.increments),
-                seconds=seconds,
-                repeats=repeats,
             )
+        components = 1 if self.problem.scene(NO_INCREMENTS).friction is None else 3
+        unknowns = components * self.fineness**2
         if self.method is Method.FROZEN:
-            history, seconds, repeats = timed(self._frozen)
+            history, *clock = timed(self._frozen)
             work = counted_work.transforms(4 * self.fineness**2, 2 * history.convolutions)
-            return self._measured(
+            return self._record(
                 self.problem.frozen(history),
                 work + self._sampling_operations,
-                history.convolutions,
-                len(history.states),
-                seconds,
-                repeats,
+                clock,
+                convolutions=history.convolutions,
+                unknowns=unknowns,
+                increments=len(history.states),
             )
-        surface, seconds, repeats = timed(self._surface)
-        return self._measured(
+        surface, *clock = timed(self._surface)
+        return self._record(
             self.problem.surface(surface),
             counted_work.of_surface(surface) + self._sampling_operations,
-            counted_work.convolutions(surface),
-            len(surface.increments),
-            seconds,
-            repeats,
+            clock,
+            convolutions=counted_work.convolutions(surface),
+            unknowns=unknowns,
+            increments=len(surface.increments),
         )
 
-    def _measured(
+    def _record(
         self,
         errors: Mapping[str, float],
         operations: float,
-        count: int,
-        increments: int,
-        seconds: float,
-        repeats: int,
-    ) -> Measured:
-        components = 1 if self.problem.scene(NO_INCREMENTS).friction is None else 3
-        return Measured(
-            errors=dict(errors),
-            operations=operations,
-            convolutions=count,
-            unknowns=components * self.fineness**2,
-            increments=increments,
+        clock: Sequence[float],
+        **counters: int,
+    ) -> CaseRecord:
+        seconds, repeats = clock
+        return CaseRecord(
+            parameters=parameters_of(self),
+            measures={**errors, OPERATIONS: operations},
+            counters=counters,
+            words={"setting": self.text},
             seconds=seconds,
-            repeats=repeats,
+            repeats=int(repeats),
         )
 
     @property

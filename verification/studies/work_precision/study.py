@@ -6,17 +6,14 @@ stands apart, in the provenance of its record.
 
 from __future__ import annotations
 
-import csv
-import io
-from collections.abc import Mapping, Sequence
-
 from verification.judging.outcome import Status
+from verification.running.row import found
 from verification.running.rules import solved
 from verification.running.study import Conclusion, Records, Settings, Statement, Study
 from verification.studies.work_precision.charts import SERIES, time_chart, work_chart
 from verification.studies.work_precision.contacts import CONTACTS
 from verification.studies.work_precision.families import all_cases
-from verification.studies.work_precision.points import Found, points_of, setting_text
+from verification.studies.work_precision.points import Found, points_of
 from verification.studies.work_precision.price import (
     CLOCK,
     WORK,
@@ -37,10 +34,9 @@ from verification.studies.work_precision.recorded_peers import (
     peer_table,
     recorded_peers,
 )
-from verification.studies.work_precision.setting import Measured, PrecisionCase
+from verification.studies.work_precision.setting import PrecisionCase
 
 REACHED = 0.01  # what some setting must reach at every level, for every quantity
-MEASURED = ("seconds", "repeats")  # of a record: all else is the same at every run
 SHARED = (
     "A setting counts as accurate to what the finer ones of its curve keep: an error that happens "
     "to change sign earns nothing. The finest of a curve has none above it.",
@@ -70,13 +66,13 @@ def cases(settings: Settings) -> tuple[PrecisionCase, ...]:
 
 def conclude(settings: Settings, records: Records) -> Conclusion:
     """Statements, tables and diagrams by counted work."""
-    found = _found_of(settings, records)
-    everything = _everything(found)
+    known = found(cases(settings), records)
+    everything = _everything(known)
     rows, peers = price_rows(WORK, everything), recorded_peers()
     leading = [(c.name, next(iter(c.errors))) for c in CONTACTS.values()]
     return Conclusion(
         statements=(
-            solved("every setting is solved", len(found), len(all_cases(settings.level))),
+            solved("every setting is solved", len(known), len(cases(settings))),
             _reached(everything),
             *statements_in(rows),
         ),
@@ -101,7 +97,7 @@ def conclude(settings: Settings, records: Records) -> Conclusion:
 
 def timed(settings: Settings, records: Records) -> Conclusion:
     """The same by CPU seconds, beside other codes: findings, no verdicts."""
-    ours, peers = _everything(_found_of(settings, records)), recorded_peers()
+    ours, peers = _everything(found(cases(settings), records)), recorded_peers()
     others = peer_points(peers)
     beside = {key: (*points, *others.get(key, ())) for key, points in ours.items()}
     rows = price_rows(CLOCK, beside)
@@ -116,36 +112,9 @@ def timed(settings: Settings, records: Records) -> Conclusion:
     )
 
 
-def exports(settings: Settings, records: Records) -> Mapping[str, str]:
-    """`settings.csv`: one line for every setting and quantity; `seconds.csv`: one for every
-    setting, with what was measured."""
-    found = _found_of(settings, records)
-    counters = [name for name in Measured.model_fields if name not in ("errors", *MEASURED)]
-    rows = [
-        (*_words(case), quantity, error, *(getattr(record, name) for name in counters))
-        for case, record in found.items()
-        for quantity, error in record.errors.items()
-    ]
-    clock = [
-        (*_words(case), *(getattr(record, name) for name in MEASURED))
-        for case, record in found.items()
-    ]
-    setting = ("contact", "method", "setting")
-    return {
-        "settings.csv": _csv((*setting, "quantity", "error", *counters), rows),
-        "seconds.csv": _csv((*setting, *MEASURED), clock),
-    }
-
-
-def _found_of(settings: Settings, records: Records) -> Found:
-    """The records that there are, by case."""
-    found = {case: records.get(case.name) for case in all_cases(settings.level)}
-    return {case: record for case, record in found.items() if isinstance(record, Measured)}
-
-
-def _everything(found: Found) -> Everything:
+def _everything(known: Found) -> Everything:
     everything = {
-        (contact.name, quantity): points_of(found, contact.name, quantity)
+        (contact.name, quantity): points_of(known, contact.name, quantity)
         for contact in CONTACTS.values()
         for quantity in contact.errors
     }
@@ -163,17 +132,6 @@ def _reached(everything: Everything) -> Statement:
     )
 
 
-def _words(case: PrecisionCase) -> tuple[str, str, str]:
-    return case.contact, case.method.value, setting_text(case)
-
-
-def _csv(head: Sequence[str], rows: Sequence[Sequence[object]]) -> str:
-    text = io.StringIO()
-    table = csv.writer(text, lineterminator="\n")
-    table.writerows([head, *rows])
-    return text.getvalue()
-
-
 STUDY = Study(
     name="work-precision",
     title="What accuracy costs",
@@ -181,6 +139,5 @@ STUDY = Study(
     "0.1 % cost with each of them?",
     cases=cases,
     conclude=conclude,
-    exports=exports,
     timed=timed,
 )
