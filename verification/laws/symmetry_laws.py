@@ -94,13 +94,13 @@ def _work(rng: Generator) -> float:
 def _symmetric_operator(rng: Generator) -> float:
     size, aspect = decades(rng, -1, 1), rng.uniform(0.2, 5)
     K = LayeredCoefficients(stack(rng, 3), (size, size * aspect), (4, 3))
-    operator = _dense_operator(K, (4, 3))
+    operator = dense_operator(K, (4, 3))
     largest = np.abs(operator).max()
     negative = -np.linalg.eigvalsh(operator).min() / largest
     return max(float(np.abs(operator - operator.T).max() / largest), float(negative), 0.0)
 
 
-def _dense_operator(K: LayeredCoefficients, shape: tuple[int, int]) -> np.ndarray:
+def dense_operator(K: LayeredCoefficients, shape: tuple[int, int]) -> np.ndarray:
     """All three displacements of every cell by all three tractions on every cell."""
     i, j = (index.ravel() for index in np.indices(shape))
     di, dj = i[:, None] - i, j[:, None] - j
