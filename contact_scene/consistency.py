@@ -7,7 +7,7 @@ from typing import TypedDict
 from contact_scene.body import Body
 from contact_scene.discretisation import SurfaceDiscretisation
 from contact_scene.friction import CoulombFriction, FrictionMap
-from contact_scene.geometry import FlatPunch, HeightMap, Indenter
+from contact_scene.geometry import Indenter
 from contact_scene.load_path import ControlKind, LoadRamp, load_path
 from contact_scene.loading import LoadStep
 from contact_scene.problem import Path, Problem
@@ -147,21 +147,18 @@ def _arms(indenter: Indenter, ramp: LoadRamp) -> tuple[tuple[float, float], ...]
     way; none for shapes without end."""
     M_x, M_y = ramp.tilting.end
     x, y = abs(M_y) / ramp.normal.end, abs(M_x) / ramp.normal.end
-    if isinstance(indenter, FlatPunch):
-        return ((math.hypot(x, y), indenter.radius),)
-    if isinstance(indenter, HeightMap):
-        return (x, indenter.extent[0] / 2), (y, indenter.extent[1] / 2)
-    return ()
+    ends = () if indenter.rim is None else ((math.hypot(x, y), indenter.rim),)
+    if indenter.extent is None:
+        return ends
+    return *ends, (x, indenter.extent[0] / 2), (y, indenter.extent[1] / 2)
 
 
 def _window_beyond_the_height_map(parts: Parts) -> Iterator[Problem]:
     indenter = parts.get("indenter")
     discretisation = parts.get("semi_analytical")
-    if (
-        not isinstance(indenter, HeightMap)
-        or discretisation is None
-        or discretisation.window is None
-    ):
+    if indenter is None or indenter.extent is None:
+        return
+    if discretisation is None or discretisation.window is None:
         return
     for index, (length, extent) in enumerate(
         zip(discretisation.window, indenter.extent, strict=True)

@@ -1,5 +1,6 @@
 """Indenters: bodies with a shape, and the undeformed gap below them."""
 
+import math
 from abc import abstractmethod
 from typing import Annotated, Any, ClassVar, Literal
 
@@ -13,15 +14,29 @@ from contact_scene.height_map import PairOfSpacings, interpolate
 from contact_scene.quantity import PositiveLength, SlopeAngle
 
 Gap = NDArray[np.float64]
+Pair = tuple[float, float]
 
 
 class ShapedBody(Body):
-    """A body with a shape, first touching the plane z = 0 (at the origin where it has a tip)."""
+    """A body with a shape, first touching the plane z = 0 (at the origin where it has a tip).
 
-    # While the load grows, the normal force goes with this power of the contact radius, and the
-    # approach with that one; None where the contact radius does not change.
-    load_exponent: ClassVar[int | None] = 3
-    approach_exponent: ClassVar[int | None] = 2
+    All that a shape must have is its gap. What else it says of itself solvers may rely on, and what
+    it leaves out they do not assume: a class with a gap of its own inherits nothing that another
+    shape says.
+    """
+
+    # The gap rises with this power k of the distance from first touch: while the load grows, the
+    # approach goes with a^k and the normal force with a^(k+1), a the contact radius. None where the
+    # contact does not grow, or nobody knows how.
+    gap_exponent: ClassVar[int | None] = None
+
+    @classmethod
+    def __pydantic_init_subclass__(cls, **kwargs: Any) -> None:
+        super().__pydantic_init_subclass__(**kwargs)
+        others = [base for base in cls.__mro__[1:] if "initial_gap" in vars(base)]
+        if "initial_gap" in vars(cls) and others != [ShapedBody]:
+            for name in _SAID.difference(vars(cls)):
+                setattr(cls, name, vars(ShapedBody)[name])
 
     @abstractmethod
     def initial_gap(self, x: ArrayLike, y: ArrayLike) -> Gap:
@@ -31,13 +46,77 @@ class ShapedBody(Body):
         Infinite where the body can never touch.
         """
 
+    @property
+    def is_of_revolution(self) -> bool:
+        """Whether the gap is the same all around the origin."""
+        return False
 
-class Sphere(ShapedBody):
+    @property
+    def rim(self) -> float | None:
+        """Radius of an edge that bounds the contact whatever the load [length]; None without."""
+        return None
+
+    @property
+    def extent(self) -> Pair | None:
+        """Lengths along x and y about the origin within which the gap is known [length]; None
+        where it is known everywhere."""
+        return None
+
+    # Good to an order of magnitude, for layouts. As powers of the radius, so that the last digit of
+    # a root is not decided here.
+
+    def contact_at(self, approach: float) -> Pair | None:
+        """Reach of the contact along x and y at an approach, to the power k; None if not known."""
+        return None
+
+    def contact_under(self, force: float, modulus: float) -> Pair | None:
+        """The same under a normal force, between half-spaces, to the power k + 1.
+
+        modulus  E* [force/length^2]
+        """
+        return None
+
+
+_SAID = {"gap_exponent", "is_of_revolution", "rim", "extent", "contact_at", "contact_under"}
+
+
+class SmoothTip(ShapedBody):
+    """A shape with two radii of curvature where it touches first (Johnson 1985, section 4.2)."""
+
+    gap_exponent: ClassVar[int | None] = 2
+
+    @property
+    @abstractmethod
+    def tip_radii(self) -> Pair:
+        """Along x and along y [length]."""
+
+    def contact_at(self, approach: float) -> Pair:
+        """a^2 = R delta, which bounds it along either axis."""
+        R_x, R_y = self.tip_radii
+        return R_x * approach, R_y * approach
+
+    def contact_under(self, force: float, modulus: float) -> Pair:
+        """a^3 = 3 W R / 4 E* with the larger radius."""
+        power = 3.0 * force * max(self.tip_radii) / (4.0 * modulus)
+        return power, power
+
+
+class Sphere(SmoothTip):
     """A sphere, as the exact arc: r^2 / (R + sqrt(R^2 - r^2)) up to its silhouette."""
 
     shape: Literal["sphere"] = "sphere"
     radius: PositiveLength
     """Radius R [length]."""
+
+    @property
+    def is_of_revolution(self) -> bool:
+        """It is."""
+        return True
+
+    @property
+    def tip_radii(self) -> Pair:
+        """R along either."""
+        return self.radius, self.radius
 
     def initial_gap(self, x: ArrayLike, y: ArrayLike) -> Gap:
         """The arc, continued beyond the silhouette by the height R of the equator."""
@@ -46,24 +125,44 @@ class Sphere(ShapedBody):
         return np.asarray(r * (r / (R + np.sqrt((R - r) * (R + r)))))
 
 
-class Paraboloid(ShapedBody):
+class Paraboloid(SmoothTip):
     """A paraboloid of revolution, r^2 / 2R: the shape of Hertz's closed form."""
 
     shape: Literal["paraboloid"] = "paraboloid"
     radius: PositiveLength
     """Radius of curvature R at the tip [length]."""
 
+    @property
+    def is_of_revolution(self) -> bool:
+        """It is."""
+        return True
+
+    @property
+    def tip_radii(self) -> Pair:
+        """R along either."""
+        return self.radius, self.radius
+
     def initial_gap(self, x: ArrayLike, y: ArrayLike) -> Gap:
         """(x^2 + y^2) / 2R."""
         return np.asarray((np.square(x) + np.square(y)) / (2.0 * self.radius))
 
 
-class Ellipsoid(ShapedBody):
+class Ellipsoid(SmoothTip):
     """An elliptical paraboloid, x^2 / 2Rx + y^2 / 2Ry: any smooth convex tip, to second order."""
 
     shape: Literal["ellipsoid"] = "ellipsoid"
     radii: tuple[PositiveLength, PositiveLength]
     """Principal radii of curvature (Rx, Ry) at the tip [length]."""
+
+    @property
+    def is_of_revolution(self) -> bool:
+        """Where its radii are the same."""
+        return self.radii[0] == self.radii[1]
+
+    @property
+    def tip_radii(self) -> Pair:
+        """Rx and Ry."""
+        return self.radii
 
     def initial_gap(self, x: ArrayLike, y: ArrayLike) -> Gap:
         """x^2 / 2Rx + y^2 / 2Ry."""
@@ -74,12 +173,30 @@ class Ellipsoid(ShapedBody):
 class Cone(ShapedBody):
     """A cone, r tan(slope)."""
 
-    load_exponent: ClassVar[int | None] = 2
-    approach_exponent: ClassVar[int | None] = 1
+    gap_exponent: ClassVar[int | None] = 1
 
     shape: Literal["cone"] = "cone"
     slope_angle: SlopeAngle
     """Angle between the flank and the contact plane."""
+
+    @property
+    def is_of_revolution(self) -> bool:
+        """It is."""
+        return True
+
+    def contact_at(self, approach: float) -> Pair:
+        """a = 2 delta / pi tan(slope) (Johnson 1985, section 5.2)."""
+        reach = 2.0 * approach / (np.pi * self._slope)
+        return reach, reach
+
+    def contact_under(self, force: float, modulus: float) -> Pair:
+        """a^2 = 2 W / pi E* tan(slope)."""
+        power = 2.0 * force / (np.pi * modulus * self._slope)
+        return power, power
+
+    @property
+    def _slope(self) -> float:
+        return math.tan(self.slope_angle)
 
     def initial_gap(self, x: ArrayLike, y: ArrayLike) -> Gap:
         """r tan(slope)."""
@@ -89,12 +206,19 @@ class Cone(ShapedBody):
 class FlatPunch(ShapedBody):
     """A circular cylinder pressed on with its flat end."""
 
-    load_exponent: ClassVar[int | None] = None
-    approach_exponent: ClassVar[int | None] = None
-
     shape: Literal["flat_punch"] = "flat_punch"
     radius: PositiveLength
     """Radius of the flat end [length]."""
+
+    @property
+    def is_of_revolution(self) -> bool:
+        """It is."""
+        return True
+
+    @property
+    def rim(self) -> float:
+        """The edge of its end."""
+        return self.radius
 
     def initial_gap(self, x: ArrayLike, y: ArrayLike) -> Gap:
         """Zero below the end, its rim included; infinite outside."""
@@ -104,6 +228,9 @@ class FlatPunch(ShapedBody):
 class HeightMap(ShapedBody):
     """A measured or made-up surface: heights above the plane, on a grid about the origin."""
 
+    # Of the bumps that it touches with.
+    gap_exponent: ClassVar[int | None] = 2
+
     shape: Literal["height_map"] = "height_map"
     file: FileKey
     """A `.npy` file with heights [length], index [i, j] = (x_i, y_j); the lowest touches first."""
@@ -112,7 +239,7 @@ class HeightMap(ShapedBody):
     """Distance of neighbouring heights along x and y [length]; one number for both."""
 
     @property
-    def extent(self) -> tuple[float, float]:
+    def extent(self) -> Pair:
         """Lengths along x and y that the cells of the map cover [length]."""
         (nx, ny), (dx, dy) = self.file.shape, self.spacing
         return nx * dx, ny * dy

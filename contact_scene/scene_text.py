@@ -22,14 +22,14 @@ def describe(scene: Scene, discretisation: SurfaceDiscretisation) -> Iterator[Li
     """Pairs of a word and what the scene says about it, in the order of the file."""
     if scene.title:
         yield "title", scene.title
-    yield "indenter", f"{_shape(scene.indenter)}; {_body(scene.indenter)}"
+    yield "indenter", f"{shape_text(scene.indenter)}; {_body(scene.indenter)}"
     yield "body", _body(scene.body)
     yield "friction", _friction(scene.friction)
     yield from _loading(scene.load_path())
     yield from _discretisation(discretisation)
 
 
-def _shape(indenter: Body) -> str:
+def shape_text(indenter: Body) -> str:
     """The shape with its parameters, whatever these are."""
     own = [name for name in type(indenter).model_fields if name not in ("material", "layers")]
     texts = [_value(name, getattr(indenter, name)) for name in own]

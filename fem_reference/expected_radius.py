@@ -3,22 +3,19 @@
 It decides the mesh and not the answer: a contact that outgrows the mesh is noticed.
 """
 
-from math import pi, sqrt, tan
+from math import sqrt
 
 from contact_scene import (
     Body,
-    Cone,
     ControlKind,
-    Ellipsoid,
     FiniteElementDiscretisation,
-    FlatPunch,
-    HeightMap,
     IsotropicMaterial,
     LoadRamp,
     LoadStep,
     Scene,
 )
-from contact_scene.solver_errors import ContactAtZoneEdge
+from contact_scene.scene_text import shape_text
+from contact_scene.solver_errors import ContactAtZoneEdge, UnsupportedScene
 from fem_reference.contact.complementarity.method import complementarity_method
 from fem_reference.history import march
 from fem_reference.model import ContactModel
@@ -34,12 +31,12 @@ COARSE_TOLERANCE = 1e-8
 def expected_radius(scene: Scene) -> float:
     """Largest contact radius of the history without friction [length].
 
-    Closed forms for half-spaces (Johnson 1985, sections 4.2 and 5.2); with layers, from a coarse
+    Closed forms for half-spaces; with layers, from a coarse
     mesh of about the right size.
     """
     guess = max(_half_space_radius(scene, ramp) for ramp in scene.load_path())
     layered = scene.body.layers or scene.indenter.layers
-    if not layered or isinstance(scene.indenter, FlatPunch):
+    if not layered or scene.indenter.rim is not None:
         return guess
     return max(_coarse_radius(scene, ramp, guess) for ramp in _extremes(scene))
 
@@ -53,17 +50,20 @@ def _extremes(scene: Scene) -> list[LoadRamp]:
 
 def _half_space_radius(scene: Scene, ramp: LoadRamp) -> float:
     """Of a contact between half-spaces, layers counted as if they filled them on their own."""
-    indenter, end = scene.indenter, ramp.normal.end
-    if isinstance(indenter, FlatPunch):
-        return indenter.radius
-    modulus = 1 / (_softness(scene.body) + _softness(indenter))
-    by_force = ramp.normal.kind is ControlKind.FORCE
-    if isinstance(indenter, Cone):
-        slope = tan(indenter.slope_angle)
-        return sqrt(2 * end / (pi * modulus * slope)) if by_force else 2 * end / (pi * slope)
-    assert not isinstance(indenter, HeightMap)
-    radius = indenter.radii[0] if isinstance(indenter, Ellipsoid) else indenter.radius
-    return (3 * end * radius / (4 * modulus)) ** (1 / 3) if by_force else sqrt(end * radius)
+    indenter, end, exponent = scene.indenter, ramp.normal.end, scene.indenter.gap_exponent
+    if indenter.rim is not None:
+        return indenter.rim
+    if ramp.normal.kind is ControlKind.FORCE:
+        modulus = 1 / (_softness(scene.body) + _softness(indenter))
+        power, root = indenter.contact_under(end, modulus), (exponent or 0) + 1
+    else:
+        power, root = indenter.contact_at(end), exponent or 0
+    if power is None:
+        raise UnsupportedScene(
+            f"how large the contact will be is not known beforehand of this indenter "
+            f"({shape_text(indenter)}); give contact_radius in [fem_reference]"
+        )
+    return sqrt(power[0]) if root == 2 else power[0] ** (1 / root)
 
 
 def _softness(body: Body) -> float:

@@ -9,7 +9,6 @@ from numpy.typing import NDArray
 from contact_scene import (
     Body,
     FiniteElementDiscretisation,
-    FlatPunch,
     IsotropicMaterial,
     Scene,
 )
@@ -66,14 +65,14 @@ class ContactModel:
 
     @cached_property
     def hats(self) -> Hats:
-        """Of the corners that can carry traction: below a flat punch they end at its rim."""
-        indenter = self.scene.indenter
-        return hats_on(self.radii, indenter.radius if isinstance(indenter, FlatPunch) else np.inf)
+        """Of the corners that can carry traction: they end at a rim."""
+        rim = self.scene.indenter.rim
+        return hats_on(self.radii, np.inf if rim is None else rim)
 
     @property
     def ends_at_rim(self) -> bool:
         """Whether the contact is as large as the indenter lets it be, whatever the load."""
-        return isinstance(self.scene.indenter, FlatPunch)
+        return self.scene.indenter.rim is not None
 
     @property
     def friction_coefficient(self) -> float:

@@ -4,12 +4,11 @@ from math import hypot
 
 from contact_scene import (
     ControlKind,
-    Ellipsoid,
     FrictionMap,
-    HeightMap,
     IsotropicMaterial,
     Scene,
 )
+from contact_scene.scene_text import shape_text
 from contact_scene.solver_errors import UnsupportedScene
 
 # The sine of an angle below this is round-off of a load that goes straight.
@@ -21,15 +20,10 @@ MOST_CONTRAST = 1e8
 def refuse_shapes(scene: Scene) -> None:
     """Shapes and friction that are not the same all around; raises UnsupportedScene."""
     indenter, friction = scene.indenter, scene.friction
-    if isinstance(indenter, HeightMap):
+    if not indenter.is_of_revolution:
         raise UnsupportedScene(
-            "the indenter is a height map, and this solver takes bodies of revolution; solve it "
-            "with the semi-analytical solver"
-        )
-    if isinstance(indenter, Ellipsoid) and indenter.radii[0] != indenter.radii[1]:
-        raise UnsupportedScene(
-            f"the ellipsoid has radii {indenter.radii[0]:.6g} m and {indenter.radii[1]:.6g} m, and "
-            f"this solver takes bodies of revolution; make them equal"
+            f"the indenter is not the same all around ({shape_text(indenter)}), and this solver "
+            "takes bodies of revolution; solve it with the semi-analytical solver"
         )
     if friction is not None and isinstance(friction.coefficient, FrictionMap):
         raise UnsupportedScene(

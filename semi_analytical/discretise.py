@@ -2,21 +2,23 @@
 
 from functools import partial
 from itertools import product
+from math import sqrt
 
 import numpy as np
 from numpy.typing import NDArray
 
 from contact_scene import (
-    Cone,
-    Ellipsoid,
-    FlatPunch,
     FrictionMap,
-    HeightMap,
     IsotropicMaterial,
     Scene,
     SurfaceDiscretisation,
 )
-from contact_scene.solver_errors import ContactAtWindowEdge, ContactNotResolved
+from contact_scene.scene_text import shape_text
+from contact_scene.solver_errors import (
+    ContactAtWindowEdge,
+    ContactNotResolved,
+    UnsupportedScene,
+)
 from semi_analytical.grid import SurfaceGrid
 from semi_analytical.load_targets import normal_target
 from semi_analytical.model import ContactModel
@@ -52,7 +54,7 @@ def _mapped_cells(scene: Scene) -> tuple[int, int] | None:
 
 
 def _fitted_window(scene: Scene) -> tuple[float, float]:
-    if isinstance(scene.indenter, HeightMap):
+    if scene.indenter.extent is not None:
         return scene.indenter.extent
     loads = _largest_loads(scene)
     semi_axes = _guessed_semi_axes(scene, loads[0])
@@ -131,32 +133,31 @@ def _lean(axis: int, load: NormalTarget) -> float:
 
 
 def _guessed_semi_axes(scene: Scene, load: NormalTarget) -> tuple[float, float]:
-    """Reach of the contact along x and y; a given approach bounds it along both."""
-    indenter = scene.indenter
-    if isinstance(indenter, Ellipsoid) and load.approach is not None:
-        Rx, Ry = indenter.radii
-        return float(np.sqrt(Rx * load.approach)), float(np.sqrt(Ry * load.approach))
-    radius = _guessed_radius(scene, load)
-    return radius, radius
+    """Reach of the contact along x and y, good to an order of magnitude.
 
-
-def _guessed_radius(scene: Scene, load: NormalTarget) -> float:
-    """Contact radius by Hertz's formulas on the substrates, good to an order of magnitude."""
-    indenter = scene.indenter
-    if isinstance(indenter, FlatPunch):
-        return indenter.radius
-    if isinstance(indenter, Cone):
-        slope = float(np.tan(indenter.slope_angle))
-        if load.approach is not None:
-            return 2 * load.approach / (np.pi * slope)
-        assert load.force is not None
-        return float(np.sqrt(2 * load.force / (np.pi * _contact_modulus(scene) * slope)))
-    assert not isinstance(indenter, HeightMap)
-    radius = max(indenter.radii) if isinstance(indenter, Ellipsoid) else indenter.radius
+    raises  UnsupportedScene for a shape that says nothing of it
+    """
+    indenter, exponent = scene.indenter, scene.indenter.gap_exponent or 0
+    if indenter.rim is not None:
+        return indenter.rim, indenter.rim
     if load.approach is not None:
-        return float(np.sqrt(radius * load.approach))
-    assert load.force is not None
-    return float(np.cbrt(0.75 * load.force * radius / _contact_modulus(scene)))
+        powers = indenter.contact_at(load.approach)
+    else:
+        assert load.force is not None
+        powers = indenter.contact_under(load.force, _contact_modulus(scene))
+        exponent += 1
+    if powers is None:
+        raise UnsupportedScene(
+            f"how far the contact will reach is not known beforehand of this indenter "
+            f"({shape_text(indenter)}); give a window in [semi_analytical]"
+        )
+    return _root(powers[0], exponent), _root(powers[1], exponent)
+
+
+def _root(power: float, exponent: int) -> float:
+    if exponent == 3:
+        return float(np.cbrt(power))
+    return sqrt(power) if exponent == 2 else power ** (1 / exponent)
 
 
 def _contact_modulus(scene: Scene) -> float:

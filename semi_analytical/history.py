@@ -131,9 +131,9 @@ def _fractions(model: ContactModel, ramp: LoadRamp, count: int) -> list[float]:
     grows from zero, uniform in load otherwise."""
     exponent = None
     if ramp.normal.start == 0:
-        indenter = model.scene.indenter
-        by_force = ramp.normal.kind is ControlKind.FORCE
-        exponent = indenter.load_exponent if by_force else indenter.approach_exponent
+        exponent = model.scene.indenter.gap_exponent
+        if exponent is not None and ramp.normal.kind is ControlKind.FORCE:
+            exponent += 1
     return [(k / count) ** (exponent or 1) for k in range(1, count + 1)]
 
 

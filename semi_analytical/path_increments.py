@@ -24,7 +24,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from math import ceil, hypot
 
-from contact_scene import ControlKind, FlatPunch, LoadRamp, Scene
+from contact_scene import ControlKind, LoadRamp, Scene
 
 # The sine of an angle below this is round-off of a load that goes straight.
 STRAIGHT = 1e-9
@@ -92,7 +92,7 @@ def path_increments(
     for ramp in scene.load_path():
         # Force and shift are nearly parallel, so that either tells where the other starts.
         start = ramp.tangential.start or last
-        way = _Way(ramp, start, isinstance(scene.indenter, FlatPunch))
+        way = _Way(ramp, start, scene.indenter.rim is not None)
         sheared = sheared or way.ends_sheared
         matters, why = way.matters(bodies.coupled) if shear and sheared else (False, NO_SHEAR)
         count = 1

@@ -5,7 +5,6 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from contact_scene import HeightMap
 from contact_scene.residuals import worst
 from contact_scene.solver_errors import ContactAtWindowEdge, ContactNotResolved, NotConverged
 from semi_analytical.box import Box, box_around
@@ -207,7 +206,7 @@ def _rim(values: Field) -> Field:
 
 def _wider(model: ContactModel) -> str:
     """What helps where the window is too small."""
-    if isinstance(model.scene.indenter, HeightMap):
+    if model.scene.indenter.extent is not None:
         return "the height map and the window must reach beyond the contact"
     return "give a larger window, or leave it out to have it chosen"
 

@@ -2,7 +2,7 @@
 
 from collections.abc import Callable
 
-from contact_scene import HeightMap, Scene, SurfaceDiscretisation
+from contact_scene import Scene, SurfaceDiscretisation
 from contact_scene.solver_errors import ContactAtWindowEdge
 from contact_scene.standing import Keeper, Standing
 from semi_analytical.discretise import GROWTH, discretise
@@ -93,7 +93,7 @@ def solve_discretised(
     decided = plan_of(scene, discretisation.path_accuracy) if plan is None else plan
     first = discretise(scene, discretisation)
     grids = [first]
-    if discretisation.window is None and not isinstance(scene.indenter, HeightMap):
+    if discretisation.window is None and scene.indenter.extent is None:
         for _ in range(MOST_ENLARGEMENTS):
             L_x, L_y = grids[-1].window
             grids.append(SurfaceGrid(first.cells, (GROWTH * L_x, GROWTH * L_y)))

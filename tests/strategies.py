@@ -3,7 +3,10 @@
 import json
 from typing import Any
 
+import numpy as np
 from hypothesis import strategies as st
+
+from contact_scene.geometry import SHAPES
 
 Document = dict[str, Any]
 
@@ -22,11 +25,22 @@ _SIZES = {
     "ellipsoid": {"radii": st.tuples(LENGTHS, LENGTHS).map(list)},
     "cone": {"slope_angle": st.floats(1e-3, 1.0) | st.integers(1, 59).map(lambda n: f"{n} deg")},
     "flat_punch": {"radius": LENGTHS},
+    "height_map": {
+        "file": st.integers(0, 99).map(lambda seed: np.random.default_rng(seed).random((9, 8))),
+        "spacing": LENGTHS,
+    },
 }
-INDENTERS = st.sampled_from(sorted(_SIZES)).flatmap(
+# A text names the file of a height map, which is not there.
+INDENTERS = st.sampled_from(sorted(_SIZES.keys() - {"height_map"})).flatmap(
     lambda shape: st.fixed_dictionaries(
         {"shape": st.just(shape), "material": ELASTIC | st.just("rigid"), **_SIZES[shape]},
         optional={"layers": LAYERS},
+    )
+)
+# A shape that is added to SHAPES needs its sizes here: laws over all shapes then hold for it.
+SHAPED = st.sampled_from(sorted(SHAPES)).flatmap(
+    lambda shape: st.fixed_dictionaries({"material": ELASTIC, **_SIZES[shape]}).map(
+        SHAPES[shape].model_validate
     )
 )
 BODIES = st.fixed_dictionaries({"material": ELASTIC}, optional={"layers": LAYERS})

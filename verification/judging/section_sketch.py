@@ -8,7 +8,6 @@ from numpy.typing import NDArray
 from contact_scene import RIGID, Body, IsotropicMaterial, Rigid, Scene
 from contact_scene.description import Description
 from contact_scene.engineering_units import quantity
-from contact_scene.geometry import HeightMap
 
 POINTS = 48  # of the indenter's outline
 HALF_WIDTH = 3.5  # contact radii to each side of the axis
@@ -81,8 +80,8 @@ def section_sketch(scene: Scene, contact_radius: float) -> SectionSketch | None:
 
 def _outline(scene: Scene, half_width: float) -> tuple[tuple[float, float], ...]:
     indenter = scene.indenter
-    if isinstance(indenter, HeightMap):
-        half_width = min(half_width, (indenter.extent[0] - indenter.spacing[0]) / 2)
+    if indenter.extent is not None:
+        half_width = min(half_width, indenter.extent[0] / 2)
     x = np.linspace(-half_width, half_width, POINTS + 1)
     gap = np.asarray(indenter.initial_gap(x, np.zeros_like(x)))
     touching = np.isfinite(gap)

@@ -7,7 +7,7 @@ from typing import Self
 import numpy as np
 from numpy.typing import NDArray
 
-from contact_scene import Body, FlatPunch, IsotropicMaterial, Scene
+from contact_scene import Body, IsotropicMaterial, Scene
 from fem_reference.contact.one_component import target_of
 from fem_reference.contact.penalty.gauss_points import GaussPoints, gauss_points
 from fem_reference.contact.penalty.law import Penalty, penalty_stiffness
@@ -20,7 +20,7 @@ Field = NDArray[np.float64]
 Matrix = NDArray[np.float64]
 Blocks = tuple[Matrix, Matrix]
 
-# A corner this much beyond the rim of a flat punch, relatively, is at it.
+# A corner this much beyond a rim, relatively, is at it.
 SAME = 1e-9
 
 
@@ -131,7 +131,5 @@ def _outermost(body: Body) -> object:
 
 def _nodes_under(model: ContactModel) -> Field:
     """Corner and midside nodes that the indenter can touch."""
-    indenter = model.scene.indenter
-    if not isinstance(indenter, FlatPunch):
-        return model.radii
-    return model.radii[model.radii <= indenter.radius * (1 + SAME)]
+    rim = model.scene.indenter.rim
+    return model.radii if rim is None else model.radii[model.radii <= rim * (1 + SAME)]

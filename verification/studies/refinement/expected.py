@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from contact_scene import RIGID, ControlKind, Ellipsoid, Paraboloid, Scene, Sphere
+from contact_scene import RIGID, ControlKind, Scene
+from contact_scene.geometry import SmoothTip
 from verification.convergence.level_record import PRESSURE, SHEAR
 
-SMOOTH = Sphere | Paraboloid | Ellipsoid
 PAIRS = ("tangential_shift", "tangential_force")
 SHIFTS = ("tangential_shift_x", "tangential_shift_y")
 
@@ -148,7 +148,7 @@ def by_cells(scene: Scene, couples: bool) -> Mapping[str, Expected]:
 
     couples  whether pressure and shear act on each other
     """
-    if not isinstance(scene.indenter, SMOOTH):
+    if not isinstance(scene.indenter, SmoothTip):
         return {}
     orders = {"approach": MEAN, "contact_radius": RADIUS, "stick_radius": RADIUS}
     orders |= dict.fromkeys((*SHIFTS, "twist"), MEAN) | dict.fromkeys((PRESSURE, SHEAR), EDGES)
@@ -164,7 +164,7 @@ def by_elements(scene: Scene, couples: bool, augmentations: int | None) -> Mappi
     couples        whether pressure and shear act on each other
     augmentations  of the penalty method; None without a penalty
     """
-    if not isinstance(scene.indenter, SMOOTH):
+    if not isinstance(scene.indenter, SmoothTip):
         return {}
     means = CUSPS if couples else BETWEEN_MESHED_APPROACHES
     orders = {PRESSURE: EDGES, SHEAR: EDGES, "twist": CUSPS}

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from functools import cache
 
-from contact_scene import FiniteElementDiscretisation, FlatPunch, Scene, SceneFile
+from contact_scene import FiniteElementDiscretisation, Scene, SceneFile
 from fem_reference import Method, Path, plan, solve
 from fem_reference.mesh.section_outline import sufficient_box
 from fem_reference.model import outermost_modulus
@@ -94,7 +94,7 @@ class SectionStart:
         """Else elements are laid out half an element short of the edge, so that it lies in the
         middle of one on every mesh: where in an element it lies moves the error as much as some
         more elements do, and would hide the order."""
-        punch = isinstance(self.contents.scene.indenter, FlatPunch)
+        punch = self.contents.scene.indenter.rim is not None
         return punch or self.asked.contact_radius is not None
 
 

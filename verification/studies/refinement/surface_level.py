@@ -10,7 +10,7 @@ import numpy as np
 
 from contact_results.path_error import friction_limit
 from contact_results.quantities import largest_residual, named_values
-from contact_scene import FrictionMap, HeightMap, Scene, SceneFile
+from contact_scene import FrictionMap, Scene, SceneFile
 from contact_scene.description import Description
 from semi_analytical import Plan, Result, SurfaceGrid, UnsupportedScene, discretise, plan, solve
 from verification.convergence.level_record import PRESSURE, SHEAR, LevelRecord
@@ -145,7 +145,7 @@ def refuse_fixed_cells(scene: Scene) -> None:
 
 def refuse_fixed_window(scene: Scene) -> None:
     """Raises UnsupportedScene where a height map or a friction map fixes the window."""
-    if isinstance(scene.indenter, HeightMap):
+    if scene.indenter.extent is not None:
         raise UnsupportedScene(
             "the height map says where the indenter ends, which fixes the window: beyond it there "
             "is no gap that could be computed"

@@ -8,7 +8,7 @@ from functools import partial
 from typing import Protocol
 
 import fem_reference
-from contact_scene import FiniteElementDiscretisation, HeightMap
+from contact_scene import FiniteElementDiscretisation
 from fem_reference import Method
 from semi_analytical import (
     ContactAtWindowEdge,
@@ -108,7 +108,7 @@ def _solved(posed: Posed) -> Result:
         try:
             return solve(posed.scene, grid, posed.tolerance)
         except ContactAtWindowEdge:
-            if isinstance(posed.scene.indenter, HeightMap):
+            if posed.scene.indenter.extent is not None:
                 raise
             grid = SurfaceGrid(grid.cells, (GROWTH * grid.window[0], GROWTH * grid.window[1]))
     return solve(posed.scene, grid, posed.tolerance)

@@ -1,0 +1,187 @@
+"""What a shape says of itself is true, and what it does not say no solver assumes."""
+
+import re
+from typing import Any, get_args
+
+import numpy as np
+import pytest
+from contact_scenes import PRESS, RADIUS, A, scene, steel
+from fem_scenes import elements
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from numpy.typing import ArrayLike
+from strategies import SHAPED
+
+import contact_scene
+from contact_scene import RIGID, Paraboloid, Scene, SurfaceDiscretisation
+from contact_scene.geometry import SHAPES, Gap, Indenter, ShapedBody
+from contact_scene.quantity import PositiveLength
+from contact_scene.scene_text import shape_text
+from contact_scene.solver_errors import SolverError, UnsupportedScene
+from fem_reference import plan as plan_of_elements
+from fem_reference import solve as solve_by_elements
+from semi_analytical import solve_discretised
+
+ANGLES = np.linspace(0.0, 2 * np.pi, 17)
+
+
+class Barrel(ShapedBody):
+    """Two radii, and not a word of it."""
+
+    radii: tuple[PositiveLength, PositiveLength]
+
+    def initial_gap(self, x: ArrayLike, y: ArrayLike) -> Gap:
+        """To second order."""
+        R_x, R_y = self.radii
+        return np.asarray(np.square(x) / (2 * R_x) + np.square(y) / (2 * R_y))
+
+
+class Egg(Paraboloid):
+    """Derived from a shape of revolution, which it is not."""
+
+    def initial_gap(self, x: ArrayLike, y: ArrayLike) -> Gap:
+        """Twice as wide along y."""
+        return np.asarray((np.square(x) + np.square(y) / 4) / (2 * self.radius))
+
+
+class Dome(Barrel):
+    """Says that it is of revolution, and nothing of how large its contact is."""
+
+    @property
+    def is_of_revolution(self) -> bool:
+        """It is."""
+        return True
+
+    def initial_gap(self, x: ArrayLike, y: ArrayLike) -> Gap:
+        """Of the fourth order."""
+        return np.asarray((np.square(x) + np.square(y)) ** 2 / self.radii[0] ** 3)
+
+
+NEW = (
+    Barrel(material=steel(), radii=(RADIUS, 3 * RADIUS)),
+    Egg(material=steel(), radius=RADIUS),
+    Dome(material=steel(), radii=(0.1 * RADIUS, RADIUS)),
+)
+ALL = SHAPED | st.sampled_from(NEW)
+
+
+def on(shape: ShapedBody, **update: Any) -> Scene:
+    """A scene with any indenter, one that no file can name included."""
+    return scene(PRESS, friction=None).model_copy(update={"indenter": shape, **update})
+
+
+def test_every_shape_is_registered_everywhere() -> None:
+    branches = get_args(get_args(Indenter)[0])
+    assert [get_args(branch)[0] for branch in branches] == list(SHAPES.values())
+    assert [get_args(branch)[1].tag for branch in branches] == [f"<{name}>" for name in SHAPES]
+    for name, shape in SHAPES.items():
+        assert shape.model_fields["shape"].default == name
+        assert getattr(contact_scene, shape.__name__) is shape
+
+
+@given(ALL, st.floats(1e-9, 1e3))
+def test_what_says_it_is_of_revolution_looks_the_same_all_around(shape, r) -> None:
+    if not shape.is_of_revolution:
+        return
+    around = shape.initial_gap(r * np.cos(ANGLES), r * np.sin(ANGLES))
+    # Round-off of the radius, which an edge or an equator makes large, and of the gap.
+    least, most = shape.initial_gap(r * np.array([1 - 1e-15, 1 + 1e-15]), 0.0)
+    assert np.all((around >= least * (1 - 1e-14)) & (around <= most * (1 + 1e-14)))
+
+
+@given(ALL)
+def test_beyond_a_rim_nothing_touches_and_below_it_all_does(shape) -> None:
+    if shape.rim is None:
+        return
+    r = shape.rim * np.array([0.0, 0.5, 1 - 1e-9, 1 + 1e-9, 2.0])
+    np.testing.assert_array_equal(np.isfinite(shape.initial_gap(r, 0.0)), r < shape.rim)
+    assert np.ptp(shape.initial_gap(r[:3], 0.0)) == 0
+
+
+@given(ALL, st.floats(1e-9, 1.0))
+def test_the_gap_rises_with_the_power_that_is_said(shape, part) -> None:
+    k = shape.gap_exponent
+    if k is None or shape.extent is not None:
+        return
+    reach = shape.contact_at(1e-12 * part)  # far below any radius that is drawn
+    assert reach is not None
+    r = min(reach) ** (1 / k)
+    one, two = shape.initial_gap([r, 2 * r], 0.0)
+    assert two / one == pytest.approx(2.0**k, rel=1e-5)
+
+
+@given(ALL)
+def test_within_its_extent_the_gap_is_known(shape) -> None:
+    length = shape.extent or (1.0, 1.0)
+    x, y = (side / 2 * np.linspace(-1, 1, 7) for side in length)
+    assert not np.any(np.isnan(shape.initial_gap(x[:, None], y)))
+    if shape.extent is not None:
+        with pytest.raises(ValueError, match="covers"):
+            shape.initial_gap(0.51 * shape.extent[0], 0.0)
+
+
+@given(ALL, st.floats(1e-9, 1.0), st.floats(1e3, 1e12))
+def test_a_contact_grows_with_the_load(shape, approach, modulus) -> None:
+    for of in (shape.contact_at, lambda load: shape.contact_under(load, modulus)):
+        smaller, larger = of(approach), of(2 * approach)
+        assert (smaller is None) == (larger is None)
+        if smaller is not None:
+            assert 0 < smaller[0] < larger[0] < np.inf
+            assert 0 < smaller[1] < larger[1] < np.inf
+            assert shape.gap_exponent is not None
+
+
+def test_a_gap_of_its_own_inherits_nothing_that_another_shape_says() -> None:
+    for shape in NEW[:2]:
+        assert not shape.is_of_revolution
+        assert shape.gap_exponent is shape.rim is shape.extent is None
+        assert shape.contact_at(1e-6) is shape.contact_under(1.0, 1e9) is None
+
+
+@given(ALL)
+@settings(max_examples=30)
+def test_finite_elements_take_what_says_it_is_of_revolution_and_refuse_the_rest(shape) -> None:
+    asked = on(shape)
+    if not shape.is_of_revolution:
+        named = re.escape(shape_text(shape))
+        with pytest.raises(UnsupportedScene, match=f"{named}.*bodies of revolution"):
+            plan_of_elements(asked)
+        return
+    plan_of_elements(asked)
+    try:
+        solved = solve_by_elements(asked, elements(4, box=10.0))
+    except SolverError:
+        return
+    assert solved.increments[-1].normal_force == pytest.approx(PRESS["normal_force"])
+
+
+@given(ALL)
+@settings(max_examples=30)
+def test_the_semi_analytical_solver_solves_or_refuses_any_shape(shape) -> None:
+    try:
+        solved = solve_discretised(on(shape), SurfaceDiscretisation(cells=(16, 16)))
+    except SolverError:
+        return
+    assert solved.increments[-1].normal_force == pytest.approx(PRESS["normal_force"])
+
+
+@pytest.mark.parametrize("shape", NEW, ids=lambda shape: type(shape).__name__)
+def test_a_shape_that_says_nothing_is_solved_where_its_window_is_given(shape) -> None:
+    with pytest.raises(UnsupportedScene, match="give a window"):
+        solve_discretised(on(shape), SurfaceDiscretisation(cells=(16, 16)))
+    window = (6 * A, 6 * A)
+    asked = SurfaceDiscretisation(cells=(24, 24), window=window, tolerance=1e-6)
+    assert solve_discretised(on(shape), asked).increments[-1].contact_radius > 0
+
+
+def test_a_shape_of_revolution_that_says_no_more_is_meshed_where_its_radius_is_given() -> None:
+    dome = NEW[2]
+    with pytest.raises(UnsupportedScene, match="give contact_radius"):
+        solve_by_elements(on(dome), elements(4))
+    found = solve_by_elements(on(dome), elements(8, contact_radius=3 * A)).increments[-1]
+    assert 0 < found.contact_radius < 3 * A
+
+
+def test_a_rigid_new_shape_is_no_exception() -> None:
+    with pytest.raises(UnsupportedScene, match="bodies of revolution"):
+        solve_by_elements(on(Egg(material=RIGID, radius=RADIUS)), elements(4))
