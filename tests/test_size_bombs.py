@@ -20,8 +20,7 @@ from study_cases import Square
 from contact_results.directory.checkpoint_file import FORMAT, Unusable, unpacked
 from contact_results.directory.file_names import FIELDS
 from contact_results.files import stored_values
-from contact_results.files.surface_state import NoSuchState, state_of_run
-from contact_results.section.stress_state import section_state_of_run
+from contact_results.stress.loaded_bodies import NoSuchState, state_of_run
 from contact_scene.solver_errors import ResourceRefused
 from fem_reference.elasticity import stored_compliance
 from semi_analytical.influence import cache
@@ -271,7 +270,7 @@ def test_claims_of_a_surface_result_are_refused_unread(
 def test_claims_of_a_section_are_refused_unread(tmp_path: Path, changed: dict[str, Any]) -> None:
     section_result(tmp_path / FIELDS, **changed)
     with frugal(), pytest.raises(NoSuchState, match=f"is not the {FIELDS} of a run"):
-        section_state_of_run(tmp_path, None)
+        state_of_run(tmp_path, None)
 
 
 def test_values_beyond_the_memory_are_refused_unread(

@@ -32,8 +32,8 @@ cells = [32, 32]
 window = ["1.2 mm", "1.2 mm"]
 """
 FILES = {
-    "stress.json", "stress_maxima.csv", "stress_axis.csv", "stress_section.vtu",
-    "stress_section.png", "stress_axis.png", "stress_interfaces.png",
+    "stress.json", "stress_maxima.csv", "stress_axis.csv", "stress_interfaces.csv",
+    "stress_section.vtu", "stress_section.png", "stress_axis.png", "stress_interfaces.png",
 }  # fmt: skip
 
 

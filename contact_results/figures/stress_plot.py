@@ -9,179 +9,182 @@ from typing import Any
 
 import numpy as np
 from matplotlib.figure import Figure
+from matplotlib.tri import Triangulation
 from numpy.typing import NDArray
 
 from contact_results.directory.atomic_file import atomic_file
 from contact_results.figures import style
+from contact_results.stress.extremes import interface_sides
+from contact_results.stress.points import StressField, StressPoints
+from contact_results.stress.tables import sides
+from contact_scene import Body
 from contact_scene.engineering_units import EngineeringUnit, engineering_unit
-from semi_analytical.frf.depth import Level
-from semi_analytical.stress import SubsurfaceField, principal_stresses, von_mises
 
 SECTION, AXIS, INTERFACES = "stress_section.png", "stress_axis.png", "stress_interfaces.png"
 MOST_INTERFACES = 4
-XX, ZZ, XZ = 0, 2, 4
-LINES = 400  # of a section, downward
+# Quadrilaterals within a cell: of a nine-node element the quarters around its middle.
+PARTS = {"quad": ((0, 1, 2, 3),), "quad9": ((0, 4, 8, 7), (4, 1, 5, 8), (8, 5, 2, 6), (7, 8, 6, 3))}
 
 Values = NDArray[np.float64]
 
 
-def write_stress_figures(
-    section: SubsurfaceField, sides: tuple[tuple[Level, ...], ...], directory: Path, title: str
-) -> None:
+def write_stress_figures(field: StressField, body: Body, directory: Path, title: str) -> None:
     """Write the figures of the section y = 0; without layers there is none of interfaces."""
-    figures: dict[str, Callable[[], Figure]] = {
-        SECTION: lambda: section_plot(section, title),
-        AXIS: lambda: axis_plot(section, title),
+    figures: dict[str, Callable[[StressField, Body, str], Figure]] = {
+        SECTION: section_plot,
+        AXIS: axis_plot,
     }
-    if sides:
-        figures[INTERFACES] = lambda: interface_plot(section, sides, title)
+    if body.layers:
+        figures[INTERFACES] = interface_plot
     with style.figure_style():
         for name, draw in figures.items():
             with atomic_file(directory / name) as path:
-                style.save(draw(), path)
+                style.save(draw(field, body, title), path)
 
 
-def section_plot(section: SubsurfaceField, title: str) -> Figure:
+def section_plot(field: StressField, body: Body, title: str) -> Figure:
     """Four stresses on the section, z downward, interfaces dashed; call within `figure_style`."""
-    stress = section.stress[..., 0]
+    points = field.section
     panels = {
-        "von Mises": von_mises(stress, axis=1),
-        "σ_xx": stress[:, XX],
-        "σ_xz": stress[:, XZ],
-        "tension (largest principal)": np.maximum(principal_stresses(stress, axis=1)[:, 0], 0.0),
+        "von Mises": points.von_mises,
+        _named(field, "xx"): points.along_x["xx"],
+        _named(field, "xz"): points.along_x["xz"],
+        "tension (largest principal)": np.maximum(points.principal[0], 0.0),
     }
-    length = engineering_unit(float(section.x[-1]), "m")
-    figure = _titled(9.0, 6.4, title)
+    reach, depth = field.shown
+    length = engineering_unit(reach, "m")
+    quarters = _quarters(points, reach, depth)
+    left = max(-reach, float(points.x.min()))
+    figure = _titled(9.0 if left < 0 else 6.4, 6.4, title)
     axes = figure.subplots(2, 2, sharex=True, sharey=True)
     for ax, (name, values) in zip(axes.flat, panels.items(), strict=True):
-        _draw_section(figure, ax, section, values, name, length)
+        _draw_section(figure, ax, points, quarters, values, name, length)
+        _draw_interfaces(ax, body, depth, length)
+        ax.set_aspect("equal")
+        ax.set_xlim(left / length.size, reach / length.size)
+        ax.set_ylim(depth / length.size, 0.0)
     for ax in axes[-1]:
-        ax.set_xlabel(f"x at y = 0 ({length.name})")
+        ax.set_xlabel(f"{field.label} ({length.name})")
     for ax in axes[:, 0]:
         ax.set_ylabel(f"depth z ({length.name})")
     return figure
 
 
+def axis_plot(field: StressField, body: Body, title: str) -> Figure:
+    """Stresses down the axis, one line per material; call within `figure_style`."""
+    depth = field.shown[1]
+    axis = field.axis.chosen(field.axis.depth <= depth)
+    lines = {_named(field, name): axis.along_x[name] for name in ("xx", "yy", "zz", "xz")}
+    lines["von Mises"] = axis.von_mises
+    length = engineering_unit(depth, "m")
+    unit = engineering_unit(float(max(np.abs(v).max() for v in lines.values())), "Pa")
+    figure = _titled(5.2, 4.8, title)
+    ax = figure.subplots()
+    for number, (name, values) in enumerate(lines.items()):
+        for material in np.unique(axis.material):
+            inside = axis.material == material
+            ax.plot(
+                values[inside] / unit.size,
+                axis.depth[inside] / length.size,
+                label=name if material == axis.material[0] else None,
+                **style.line(number),
+            )
+    _draw_interfaces(ax, body, depth, length)
+    ax.axvline(0.0, color="black", linewidth=0.5)
+    ax.set_ylim(depth / length.size, 0.0)
+    ax.set_xlabel(f"stress on the z axis ({unit.name})")
+    ax.set_ylabel(f"depth z ({length.name})")
+    style.legend_beside(ax)
+    return figure
+
+
+def interface_plot(field: StressField, body: Body, title: str) -> Figure:
+    """What an interface carries, and what jumps there; call within `figure_style`."""
+    reach = field.shown[0]
+    length = engineering_unit(reach, "m")
+    shown = min(len(body.layers), MOST_INTERFACES)
+    unit = engineering_unit(float(np.abs(field.section.stress).max()), "Pa")
+    figure = _titled(9.6, 2.6 * shown + 0.5, title)
+    axes = figure.subplots(shown, 2, sharex=True, squeeze=False)
+    for number, side, points in sides(field, body):
+        if number > shown:
+            break
+        carried, jumping = axes[number - 1]
+        near = points.chosen(np.abs(points.x) <= reach)
+        x, stress = near.x / length.size, near.along_x
+        if side == "above":
+            for n, name in enumerate(("zz", "xz")):
+                label = _named(field, name)
+                carried.plot(x, stress[name] / unit.size, label=label, **style.line(n))
+        values = {_named(field, "xx"): stress["xx"], "von Mises": near.von_mises}
+        for n, (name, jump) in enumerate(values.items(), 2 * (side == "below")):
+            jumping.plot(x, jump / unit.size, label=f"{name} {side}", **style.line(n))
+        for ax in (carried, jumping):
+            ax.set_title(f"interface {number}, z = {length.text(float(near.depth[0]))}")
+    for ax in axes.flat:
+        ax.axhline(0.0, color="black", linewidth=0.5)
+        ax.set_ylabel(f"stress ({unit.name})")
+        style.legend_beside(ax)
+    for ax in axes[-1]:
+        ax.set_xlabel(f"{field.label} ({length.name})")
+    return figure
+
+
+def _named(field: StressField, component: str) -> str:
+    """σ and the letters that the section has for x and y."""
+    along, across = field.letters
+    return "σ_" + component.replace("x", along).replace("y", across)
+
+
+def _quarters(points: StressPoints, reach: float, depth: float) -> NDArray[np.int64]:
+    """(n, 4) corners of what is at least partly in view."""
+    assert points.cells is not None
+    kind, cells = points.cells
+    across, down = np.abs(points.x.ravel()), points.depth.ravel()
+    near = (across[cells].min(axis=1) <= reach) & (down[cells].min(axis=1) <= depth)
+    return cells[near][:, np.array(PARTS[kind])].reshape(-1, 4)
+
+
+def _with_middles(values: Values, quarters: NDArray[np.int64]) -> Values:
+    return np.concatenate([values.ravel(), values.ravel()[quarters].mean(axis=1)])
+
+
 def _draw_section(
     figure: Figure,
     ax: Any,
-    section: SubsurfaceField,
+    points: StressPoints,
+    quarters: NDArray[np.int64],
     values: Values,
     name: str,
     length: EngineeringUnit,
 ) -> None:
-    largest = float(np.abs(values).max())
-    unit = engineering_unit(largest, "Pa")
-    signed = bool(np.any(values < 0))
-    limit = largest / unit.size or 1.0
-    deepest = float(section.depths[-1])
-    depths = (np.arange(LINES) + 0.5) / LINES * deepest
-    half = (section.x[-1] + (section.x[1] - section.x[0]) / 2) / length.size
-    image = ax.imshow(
-        _at_depths(section, values, depths) / unit.size,
-        extent=(-half, half, deepest / length.size, 0.0),
-        interpolation="nearest",
+    """Linear within the triangles between each side of a quadrilateral and its middle."""
+    x, z, drawn = (_with_middles(part, quarters) for part in (points.x, points.depth, values))
+    middles = np.arange(len(drawn) - len(quarters), len(drawn))
+    around = np.stack([quarters, np.roll(quarters, 1, axis=1)], axis=-1)
+    triangles = np.concatenate([np.column_stack([around[:, k], middles]) for k in range(4)])
+    in_view = drawn[triangles]
+    unit = engineering_unit(float(np.abs(in_view).max()), "Pa")
+    limit = float(np.abs(in_view).max()) / unit.size or 1.0
+    signed = bool(np.any(in_view < 0))
+    image = ax.tripcolor(
+        Triangulation(x / length.size, z / length.size, triangles),
+        drawn / unit.size,
+        shading="gouraud",
         cmap=style.SIGNED_MAP if signed else style.MAGNITUDE_MAP,
         vmin=-limit if signed else 0.0,
         vmax=limit,
     )
-    for depth in _interface_depths(section):
-        ax.axhline(depth / length.size, color=style.GREY, linewidth=0.7, linestyle="--")
     figure.colorbar(image, ax=ax, label=f"{name} ({unit.name})")
 
 
-def _at_depths(section: SubsurfaceField, values: Values, depths: Values) -> Values:
-    """Values between the levels, linear within a material so that a jump stays one."""
-    shown = np.empty((len(depths), values.shape[1]))
-    layers = np.array([level.layer for level in section.levels])
-    for layer in np.unique(layers):
-        inside = np.flatnonzero(layers == layer)
-        known = section.depths[inside]
-        lines = np.flatnonzero(depths >= known[0] if layer else depths >= 0)
-        place = np.interp(depths[lines], known, inside)
-        lower = np.floor(place).astype(int)
-        upper = np.minimum(lower + 1, inside[-1])
-        part = (place - lower)[:, None]
-        shown[lines] = (1 - part) * values[lower] + part * values[upper]
-    return shown
-
-
-def _interface_depths(section: SubsurfaceField) -> list[float]:
-    pairs = zip(section.levels, section.levels[1:], strict=False)
-    return [below.depth for above, below in pairs if below.layer > above.layer]
+def _draw_interfaces(ax: Any, body: Body, deepest: float, length: EngineeringUnit) -> None:
+    for _, side, depth, _ in interface_sides(body):
+        if side == "above" and depth < deepest:
+            ax.axhline(depth / length.size, color=style.GREY, linewidth=0.7, linestyle="--")
 
 
 def _titled(width: float, height: float, title: str) -> Figure:
     figure = style.new_figure(width, height)
     figure.suptitle(fill(title, int(13 * width)), fontsize=9.0)
     return figure
-
-
-def axis_plot(section: SubsurfaceField, title: str) -> Figure:
-    """Stresses down the axis, one line per material; call within `figure_style`."""
-    _, stress = section.below()
-    lines = {
-        "σ_xx": stress[:, XX],
-        "σ_zz": stress[:, ZZ],
-        "σ_xz": stress[:, XZ],
-        "von Mises": von_mises(stress, axis=1),
-    }
-    length = engineering_unit(float(section.depths[-1]), "m")
-    unit = engineering_unit(float(max(np.abs(v).max() for v in lines.values())), "Pa")
-    figure = _titled(5.2, 4.8, title)
-    ax = figure.subplots()
-    layers = np.array([level.layer for level in section.levels])
-    for n, (name, values) in enumerate(lines.items()):
-        for layer in np.unique(layers):
-            inside = layers == layer
-            ax.plot(
-                values[inside] / unit.size, section.depths[inside] / length.size,
-                color=style.LINE_COLOURS[n], linestyle=style.LINE_STYLES[n],
-                label=name if layer == layers[0] else None,
-            )  # fmt: skip
-    for depth in _interface_depths(section):
-        ax.axhline(depth / length.size, color=style.GREY, linewidth=0.7, linestyle="--")
-    ax.axvline(0.0, color="black", linewidth=0.5)
-    ax.set_ylim(section.depths[-1] / length.size, 0.0)
-    ax.set_xlabel(f"stress at x = y = 0 ({unit.name})")
-    ax.set_ylabel(f"depth z ({length.name})")
-    ax.legend(loc="center left", bbox_to_anchor=(1.01, 0.5))
-    return figure
-
-
-def interface_plot(
-    section: SubsurfaceField, sides: tuple[tuple[Level, ...], ...], title: str
-) -> Figure:
-    """What an interface carries, and what jumps there; call within `figure_style`."""
-    shown = sides[:MOST_INTERFACES]
-    length = engineering_unit(float(section.x[-1]), "m")
-    stress = section.stress[..., 0]
-    unit = engineering_unit(float(np.abs(stress).max()), "Pa")
-    figure = _titled(9.6, 2.6 * len(shown) + 0.5, title)
-    axes = figure.subplots(len(shown), 2, sharex=True, squeeze=False)
-    for number, (pair, (carried, jumping)) in enumerate(zip(shown, axes, strict=True), 1):
-        for n, (name, k) in enumerate({"σ_zz": ZZ, "σ_xz": XZ}.items()):
-            values = stress[section.levels.index(pair[0]), k] / unit.size
-            carried.plot(section.x / length.size, values, label=name, **_line(n))
-        for n, (side, level) in enumerate(zip(("above", "below"), pair, strict=False)):
-            at = stress[section.levels.index(level)]
-            jumping.plot(
-                section.x / length.size, at[XX] / unit.size, label=f"σ_xx {side}", **_line(2 * n)
-            )
-            jumping.plot(
-                section.x / length.size, von_mises(at) / unit.size,
-                label=f"von Mises {side}", **_line(2 * n + 1),
-            )  # fmt: skip
-        depth = length.text(pair[0].depth)
-        for ax in (carried, jumping):
-            ax.axhline(0.0, color="black", linewidth=0.5)
-            ax.set_ylabel(f"stress ({unit.name})")
-            ax.set_title(f"interface {number}, z = {depth}")
-            ax.legend(loc="center left", bbox_to_anchor=(1.01, 0.5), fontsize=7.5)
-    for ax in axes[-1]:
-        ax.set_xlabel(f"x at y = 0 ({length.name})")
-    return figure
-
-
-def _line(number: int) -> dict[str, Any]:
-    return {"color": style.LINE_COLOURS[number], "linestyle": style.LINE_STYLES[number]}

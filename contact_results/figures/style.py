@@ -53,6 +53,16 @@ def new_figure(width: float, height: float) -> Figure:
     return figure
 
 
+def line(number: int) -> dict[str, Any]:
+    """Colour and dashes of a line, which tell it from its neighbours in print, too."""
+    return {"color": LINE_COLOURS[number], "linestyle": LINE_STYLES[number]}
+
+
+def legend_beside(ax: Any) -> None:
+    """A legend at the right of the axes."""
+    ax.legend(loc="center left", bbox_to_anchor=(1.01, 0.5), handlelength=2.6)
+
+
 def save(figure: Figure, path: Path) -> None:
     """Write the figure without date and program version, which would change its bytes."""
     nothing = {".png": {"Software": None}, ".svg": {"Date": None, "Creator": None}}

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,20 +16,10 @@ from semi_analytical.stress.components import DISPLACEMENT, FIELDS, STRESS
 from semi_analytical.stress.convolution import Convolution, plane_convolution, row_convolution
 from semi_analytical.stress.influence import depth_coefficients
 from semi_analytical.stress.interpolation import line_weights
-from semi_analytical.stress.invariants import principal_stresses, von_mises
 from semi_analytical.stress.levels import levels_of
 from semi_analytical.stress.memory import refuse_beyond_memory
 
 Field = NDArray[np.float64]
-
-
-class Extreme(NamedTuple):
-    """Where a scalar field is largest, and how large: the sample itself, nothing interpolated."""
-
-    value: float
-    x: float
-    y: float
-    level: Level
 
 
 @dataclass(frozen=True)
@@ -53,20 +42,6 @@ class SubsurfaceField:
     def depths(self) -> Field:
         """Depth of each level, shape (nz,) [length]."""
         return np.array([level.depth for level in self.levels])
-
-    def von_mises(self) -> Field:
-        """Equivalent stress, shape (nz, nx, ny)."""
-        return von_mises(self.stress, axis=1)
-
-    def principal(self) -> Field:
-        """Principal stresses, largest first, shape (nz, 3, nx, ny)."""
-        return principal_stresses(self.stress, axis=1)
-
-    def extreme(self, values: Field) -> Extreme:
-        """The largest of some values of shape (nz, nx, ny)."""
-        k, i, j = np.unravel_index(int(np.argmax(values)), values.shape)
-        where = float(self.x[i]), float(self.y[j])
-        return Extreme(float(values[k, i, j]), *where, self.levels[int(k)])
 
     def along_x(self, y: float = 0.0) -> SubsurfaceField:
         """The section at y, by cubic interpolation between rows of cells; shapes (…, nx, 1)."""

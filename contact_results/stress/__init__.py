@@ -1,0 +1,1 @@
+"""What a contact does below the surface: stress at points of a body, its maxima, its files."""

@@ -1,0 +1,69 @@
+"""The largest stresses of a body: in all of it, in each material and on each side of interfaces."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from contact_results.stress.points import StressPoints
+from contact_scene import Body, IsotropicMaterial
+
+
+@dataclass(frozen=True)
+class Extreme:
+    """Where in a region a measure is largest: a point itself, nothing interpolated.
+
+    at_window_edge  whether it is on the edge of what was computed, and there may be more beyond
+    """
+
+    region: str
+    measure: str
+    value: float
+    x: float
+    y: float
+    depth: float
+    at_window_edge: bool
+
+
+def extremes(points: StressPoints, body: Body) -> tuple[Extreme, ...]:
+    """Of every measure in every region."""
+    found = []
+    for region, inside in _regions(points, body):
+        for measure, values in points.measures.items():
+            k = int(np.argmax(np.where(inside, values, -np.inf)))
+            value, x, y, depth = (
+                float(field.flat[k]) for field in (values, points.x, points.y, points.depth)
+            )
+            at_edge = bool(points.at_edge.flat[k])
+            found.append(Extreme(region, measure, value, x, y, depth, at_edge))
+    return tuple(found)
+
+
+def layer_name(layer: int, layers: int) -> str:
+    """`layer 1` for the outermost, `base` below the last."""
+    return f"layer {layer + 1}" if layer < layers else "base"
+
+
+def interface_sides(body: Body) -> list[tuple[int, str, float, int]]:
+    """Number, side, depth and material of both sides of every interface; of a rigid base one."""
+    depths = np.cumsum([layer.thickness for layer in body.layers])
+    sides = []
+    for k, depth in enumerate(depths.tolist()):
+        sides.append((k + 1, "above", depth, k))
+        if k + 1 < len(depths) or isinstance(body.material, IsotropicMaterial):
+            sides.append((k + 1, "below", depth, k + 1))
+    return sides
+
+
+def _regions(points: StressPoints, body: Body) -> Iterator[tuple[str, NDArray[np.bool_]]]:
+    """Names of the regions, and which points belong to them."""
+    yield "body", np.ones(points.x.shape, dtype=bool)
+    if not body.layers:
+        return
+    for material in np.unique(points.material).tolist():
+        yield layer_name(material, len(body.layers)), points.material == material
+    for number, side, depth, material in interface_sides(body):
+        yield f"interface {number} {side}", points.on_side(depth, material)

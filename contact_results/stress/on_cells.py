@@ -1,0 +1,161 @@
+"""Stress below tractions on the cells of a grid."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from contact_results.stress.loaded_bodies import LoadedBodies
+from contact_results.stress.points import StressField, StressPoints
+
+if TYPE_CHECKING:
+    from contact_scene import Body
+    from semi_analytical import SurfaceGrid
+    from semi_analytical.frf.depth import Level
+    from semi_analytical.stress import SubsurfaceField
+
+Field = NDArray[np.float64]
+Indices = NDArray[np.int64]
+
+# Half a window in half extents of the contact: past the contact's rim, where tension is largest,
+# and past what bends a coating down there.
+MARGIN = 1.6
+
+
+def stress_on_cells(
+    state: LoadedBodies,
+    *,
+    indenter: bool = False,
+    depths: Sequence[float] | None = None,
+    volume: bool = False,
+) -> StressField:
+    """Stress on levels, under the whole window, which reaches well beyond the contact.
+
+    depths  both sides of every interface come on top [length]; None for what fits contact and
+            layers
+    volume  whether the field has the cells of the volume
+    Raises ValueError for a depth that is not in the body, ResourceRefused.
+    """
+    from semi_analytical.stress import subsurface
+
+    body = state.indenter if indenter else state.body
+    grid, pressure, shear = _with_margin(state)
+    radius = float(np.sqrt(np.count_nonzero(pressure) * grid.cell_area / np.pi))
+    levels = _levels(body, depths, radius)
+    if indenter and shear is not None:
+        shear = -shear
+    field = subsurface(body, grid, pressure, shear, levels)
+    plane = field.along_x()
+    points, section = _points(field, grid), _points(plane, grid)
+    return StressField(
+        points,
+        replace(section, cells=_quadrilaterals(plane)),
+        _axis(plane),
+        replace(points, cells=_hexahedra(field)) if volume else None,
+        "x at y = 0",
+        ("x", "y"),
+        (float(field.x[-1]), float(field.depths[-1])),
+        np.inf,
+        {
+            "contact_radius": radius,
+            "cells": list(grid.cells),
+            "window": list(grid.window),
+            "levels": [{"depth": float(s.depth), "layer": s.layer} for s in levels],
+        },
+    )
+
+
+def _with_margin(state: LoadedBodies) -> tuple[SurfaceGrid, Field, Field | None]:
+    """Grid, pressure and shear on a window that is no smaller than it was."""
+    from semi_analytical import SurfaceGrid
+
+    x, y = state.axes["x"], state.axes["y"]
+    pressure, shear = state.tractions["pressure"], state.tractions.get("shear")
+    sides = [float(c[-1] - c[0]) / (len(c) - 1) for c in (x, y)]
+    widths = [_margin(pressure, axis) for axis in (0, 1)]
+    pad = [(width, width) for width in widths]
+    cells = (len(x) + 2 * widths[0], len(y) + 2 * widths[1])
+    grid = SurfaceGrid(cells, (cells[0] * sides[0], cells[1] * sides[1]))
+    return grid, np.pad(pressure, pad), None if shear is None else np.pad(shear, [(0, 0), *pad])
+
+
+def _margin(pressure: Field, axis: int) -> int:
+    """Cells to add on either side."""
+    cells = pressure.shape[axis]
+    loaded = np.flatnonzero(np.any(pressure > 0, axis=1 - axis))
+    reach = np.abs(loaded - (cells - 1) / 2).max() + 0.5 if loaded.size else 0.0
+    return max(0, int(np.ceil(MARGIN * reach - cells / 2)))
+
+
+def _levels(body: Body, depths: Sequence[float] | None, radius: float) -> tuple[Level, ...]:
+    """What was asked for and both sides of every interface, downward."""
+    from semi_analytical.frf.stack import stack_of
+    from semi_analytical.stress import default_depths, interfaces
+    from semi_analytical.stress.levels import levels_of
+
+    if depths is None:
+        return default_depths(body, radius)
+    sides = [side for pair in interfaces(body) for side in pair]
+    asked = levels_of(stack_of(body), depths)
+    return tuple(sorted({*asked, *sides}, key=lambda level: (level.depth, level.layer)))
+
+
+def _points(field: SubsurfaceField, grid: SurfaceGrid) -> StressPoints:
+    """(levels, nx, ny); the edge is that of the window."""
+    places = np.meshgrid(field.depths, field.x, field.y, indexing="ij", copy=False)
+    depth, x, y = places
+    layers = np.array([level.layer for level in field.levels])
+    return StressPoints(
+        x,
+        y,
+        depth,
+        np.broadcast_to(layers[:, None, None], x.shape),
+        np.moveaxis(field.displacement, 1, 0),
+        np.moveaxis(field.stress, 1, 0),
+        cylindrical=False,
+        at_edge=np.isin(x, grid.x[[0, -1]]) | np.isin(y, grid.y[[0, -1]]),
+    )
+
+
+def _axis(section: SubsurfaceField) -> StressPoints:
+    """(levels,), interpolated between cells."""
+    displacement, stress = section.below()
+    nothing = np.zeros(len(section.levels))
+    return StressPoints(
+        nothing,
+        nothing,
+        section.depths,
+        np.array([level.layer for level in section.levels]),
+        displacement.T,
+        stress.T,
+        cylindrical=False,
+        at_edge=np.zeros(len(nothing), dtype=bool),
+    )
+
+
+def _quadrilaterals(section: SubsurfaceField) -> tuple[str, Indices]:
+    """Cells between the levels of one material."""
+    top, bottom = (plane[..., 0] for plane in _between(section))
+    corners = [top[:, :-1], top[:, 1:], bottom[:, 1:], bottom[:, :-1]]
+    return "quad", np.stack(corners, axis=-1).reshape(-1, 4)
+
+
+def _hexahedra(field: SubsurfaceField) -> tuple[str, Indices]:
+    """The same of a volume."""
+    less, more = slice(None, -1), slice(1, None)
+    around = ((less, less), (more, less), (more, more), (less, more))
+    corners = [plane[:, i, j] for plane in _between(field) for i, j in around]
+    return "hexahedron", np.stack(corners, axis=-1).reshape(-1, 8)
+
+
+def _between(field: SubsurfaceField) -> tuple[Indices, Indices]:
+    """Numbers of the points above and below everything that lies in one material."""
+    layers = [level.layer for level in field.levels]
+    shape = (len(layers), len(field.x), len(field.y))
+    index = np.arange(np.prod(shape)).reshape(shape)
+    above = np.flatnonzero(np.equal(layers[:-1], layers[1:]))
+    return index[above], index[above + 1]
