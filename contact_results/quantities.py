@@ -8,29 +8,12 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from contact_scene.summary import Residuals
+from contact_scene.increment import SCALARS, State, components, numbers
+from contact_scene.reported import Kind, reported
+from contact_scene.residuals import Residuals
 
 Field = NDArray[np.float64]
 Components = Sequence[float] | NDArray[np.float64]  # along x and y
-
-# Scalars and vectors of an increment that are followed under refinement, with their units; the
-# names are those of `summary.json`. What a solver does not have is left out.
-SCALARS = {
-    "normal_force": "N",
-    "approach": "m",
-    "contact_radius": "m",
-    "peak_pressure": "Pa",
-    "torque": "N m",
-    "twist": "rad",
-    "stick_radius": "m",
-    "dissipated_energy": "J",
-}
-VECTORS = {
-    "tangential_force": "N",
-    "tangential_shift": "m",
-    "moment": "N m",
-    "tilt": "rad",
-}
 
 # Below this part of the peak friction limit the direction of a traction is round-off.
 LEAST_SHEAR = 1e-6
@@ -76,8 +59,8 @@ class SolvedIncrement(Protocol):
         """Energy lost to friction since the start [force*length]."""
 
     @property
-    def residuals(self) -> object:
-        """Record with the residuals of `contact_scene.summary.Residuals`."""
+    def residuals(self) -> Residuals:
+        """How well it fulfils each equation."""
 
 
 class SolvedHistory(Protocol):
@@ -94,32 +77,25 @@ class SolvedHistory(Protocol):
 
 def largest_residual(result: SolvedHistory) -> float:
     """Largest residual of any kind at the end of any increment [1]; NaN wins over every number."""
-    values = [
-        value
-        for increment in result.increments
-        for name in Residuals.model_fields
-        if (value := getattr(increment.residuals, name)) is not None
-    ]
-    return float(np.max(values))
+    return float(np.max([increment.residuals.worst for increment in result.increments]))
 
 
-def named_values(increment: object) -> dict[str, float]:
-    """The scalars that an increment has, components with _x and _y; in SI."""
-    values = {}
-    for name in SCALARS:
-        value = getattr(increment, name, None)
-        if value is not None:
-            values[name] = float(value)
-    for name in VECTORS:
-        vector = getattr(increment, name, None)
-        if vector is not None:
-            values |= {f"{name}_{axis}": float(v) for axis, v in zip("xy", vector, strict=True)}
-    return values
+def named_values(increment: State) -> dict[str, float]:
+    """The key scalars that an increment has, then its key vectors, components with _x and _y; in
+    SI."""
+    values = numbers(increment)
+    keys = [name for name, mark in reported(State).items() if mark.key]
+    return {
+        part: float(value)
+        for name in sorted(keys, key=lambda name: SCALARS[name].kind is Kind.VECTOR)
+        for part in components(name)
+        if (value := values[part]) is not None
+    }
 
 
 def unit_of(name: str) -> str:
     """The unit of a name of `named_values`."""
-    return SCALARS.get(name) or VECTORS[name.removesuffix("_x").removesuffix("_y")]
+    return next(mark.unit for known, mark in SCALARS.items() if name in components(known))
 
 
 def force_along_x(increment: SolvedIncrement) -> float:

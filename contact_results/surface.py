@@ -57,6 +57,10 @@ class Surface(Protocol):
     def scalar(self, increment: Increment, name: str) -> NDArray[Any] | None:
         """A scalar field of an increment; None where it has none."""
 
+    def components(self, increment: Increment, name: str) -> Field | None:
+        """Orthonormal components (n, …) of shear or slip, the solver's own and free of the
+        round-off of turning them; None where an increment has none."""
+
     def vector(self, increment: Increment, name: str) -> Field | None:
         """The x and y components (2, …) of shear or slip; None where an increment has none."""
 
@@ -104,7 +108,7 @@ class Cells:
         field: NDArray[Any] | None = getattr(increment, name)
         return field
 
-    vector = scalar
+    components = vector = scalar
 
     def along(self, field: Field) -> Field:
         """Values on y = 0 of a field (…, nx, ny).
@@ -178,8 +182,8 @@ class Rings:
         """The field, at every angle where there are angles."""
         return self._everywhere(getattr(increment, name))
 
-    def vector(self, increment: Increment, name: str) -> Field | None:
-        """From what the increment has outward, around the axis and along the load."""
+    def components(self, increment: Increment, name: str) -> Field | None:
+        """Outward, around the axis and along the load; the last excludes the first two."""
         parts = [
             self._everywhere(getattr(increment, f"{name}_{component}"))
             for component in ("radial", "circumferential", "along_load")
@@ -187,8 +191,14 @@ class Rings:
         given = [part for part in parts if part is not None]
         if not given:
             return None
-        nothing = np.zeros_like(given[0])
-        outward, around, ahead = (nothing if part is None else part for part in parts)
+        return np.stack([np.zeros_like(given[0]) if part is None else part for part in parts])
+
+    def vector(self, increment: Increment, name: str) -> Field | None:
+        """From what the increment has outward, around the axis and along the load."""
+        components = self.components(increment, name)
+        if components is None:
+            return None
+        outward, around, ahead = components
         angles = np.zeros_like(self.radii) if self.angles is None else self.angles
         cos, sin = np.cos(angles), np.sin(angles)
         return self._turned(

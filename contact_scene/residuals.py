@@ -5,9 +5,11 @@ are the same.
 """
 
 from dataclasses import dataclass, replace
+from typing import Annotated
 
 import numpy as np
 
+from contact_scene.reported import Reported
 from contact_scene.solver_errors import NotConverged
 
 
@@ -48,14 +50,56 @@ class Residuals:
     torque_equilibrium      |∫(q_y x - q_x y) dA - M_z| / ∫µp r dA, under force control of the twist
     """
 
-    complementarity: float
-    penetration: float
-    normal_equilibrium: float | None = None
-    friction_cone: float | None = None
-    slip_direction: float | None = None
-    tangential_equilibrium: float | None = None
-    moment_equilibrium: float | None = None
-    torque_equilibrium: float | None = None
+    complementarity: Annotated[
+        float, Reported("", "Pressure where there is a gap, relative to load and approach.")
+    ]
+    penetration: Annotated[float, Reported("", "Largest penetration relative to the approach.")]
+    normal_equilibrium: Annotated[
+        float | None,
+        Reported(
+            "",
+            "Difference of the integrated pressure from the normal force, relative to it; null "
+            "where the approach is prescribed.",
+        ),
+    ] = None
+    friction_cone: Annotated[
+        float | None,
+        Reported(
+            "",
+            "Largest excess of shear over the friction limit, relative to the largest limit.",
+        ),
+    ] = None
+    slip_direction: Annotated[
+        float | None,
+        Reported(
+            "",
+            "Work that slip would do along the shear instead of against it, relative to the "
+            "limit's.",
+        ),
+    ] = None
+    tangential_equilibrium: Annotated[
+        float | None,
+        Reported(
+            "",
+            "Difference of the integrated shear from the tangential force, relative to the limit.",
+        ),
+    ] = None
+    moment_equilibrium: Annotated[
+        float | None,
+        Reported(
+            "",
+            "Difference of the moments of the pressure from the given ones, relative to the "
+            "pressure times its distance from the origin; null where the tilt is prescribed.",
+        ),
+    ] = None
+    torque_equilibrium: Annotated[
+        float | None,
+        Reported(
+            "",
+            "Difference of the torque of the shear from the given one, relative to the friction "
+            "limit times its distance from the origin; null where the twist is prescribed.",
+        ),
+    ] = None
 
     def with_shear(self, shear: ShearResiduals) -> "Residuals":
         """These and what shear misses."""

@@ -1,31 +1,23 @@
 """The summary of a run, `summary.json`: what both solvers report, by the same names."""
 
 import json
+from dataclasses import dataclass
 from enum import StrEnum
-from typing import Annotated, Any
+from typing import Annotated, Any, TypeAlias
 
-from pydantic import Field
+from pydantic import ConfigDict, Field
+from pydantic.dataclasses import dataclass as pydantic_dataclass
 
+from contact_scene import residuals
 from contact_scene.description import Description
+from contact_scene.increment import Cost, State
 from contact_scene.path_error import PathError
+from contact_scene.reported import Reported
 
 SUMMARY_VERSION = 1
 
-
-def _unit(symbol: str) -> Any:
-    return Field(json_schema_extra={"unit": symbol})
-
-
-Newton = Annotated[float, _unit("N")]
-Metre = Annotated[float, _unit("m")]
-SquareMetre = Annotated[float, _unit("m^2")]
-Pascal = Annotated[float, _unit("Pa")]
-Joule = Annotated[float, _unit("J")]
-PascalMetre = Annotated[float, _unit("Pa m")]
-SquarePascalMetre = Annotated[float, _unit("Pa^2 m")]
-NewtonMetre = Annotated[float, _unit("N m")]
-Radian = Annotated[float, _unit("rad")]
-Ratio = Annotated[float, _unit("1")]
+Ratio: TypeAlias = Annotated[float, Field(json_schema_extra={"unit": "1"})]
+Metre: TypeAlias = Annotated[float, Field(json_schema_extra={"unit": "m"})]
 
 
 class ContactStatus(StrEnum):
@@ -38,130 +30,65 @@ class ContactStatus(StrEnum):
     GROSS_SLIDING = "gross sliding"
 
 
-class Residuals(Description):
+STRICT = ConfigDict(
+    extra="forbid",
+    allow_inf_nan=False,
+    use_attribute_docstrings=True,
+    json_schema_serialization_defaults_required=True,
+)
+
+
+@pydantic_dataclass(frozen=True, config=STRICT)
+class Residuals(residuals.Residuals):
     """Dimensionless convergence measures, evaluated from the final fields; null where unused."""
 
-    complementarity: Ratio
-    """Pressure where there is a gap, relative to load and approach."""
 
-    penetration: Ratio
-    """Largest penetration relative to the approach."""
+@dataclass(frozen=True, kw_only=True)
+class _Closed:
+    """What the end of a step closes, and how well the state there fulfils its equations."""
 
-    normal_equilibrium: Ratio | None = None
-    """Difference of the integrated pressure from the normal force, relative to it; null where
-    the approach is prescribed."""
-
-    friction_cone: Ratio | None = None
-    """Largest excess of shear over the friction limit, relative to the largest limit."""
-
-    slip_direction: Ratio | None = None
-    """Work that slip would do along the shear instead of against it, relative to the limit's."""
-
-    tangential_equilibrium: Ratio | None = None
-    """Difference of the integrated shear from the tangential force, relative to the limit."""
-
-    moment_equilibrium: Ratio | None = None
-    """Difference of the moments of the pressure from the given ones, relative to the pressure times
-    its distance from the origin; null where the tilt is prescribed."""
-
-    torque_equilibrium: Ratio | None = None
-    """Difference of the torque of the shear from the given one, relative to the friction limit
-    times its distance from the origin; null where the twist is prescribed."""
-
-
-class StepSummary(Description):
-    """State at the end of one `[[loading]]` table. Vectors are (x, y), of the indenter relative
-    to the body: positive force gives positive shift."""
-
-    normal_force: Newton
-    """Normal force."""
-
-    approach: Metre
-    """Approach of the bodies, counted from first touch."""
-
-    contact_area: SquareMetre
-    """Area in contact, with sub-cell accuracy."""
-
-    contact_radius: Metre
-    """Radius of the circle of the contact area, sqrt(area / pi)."""
-
-    peak_pressure: Pascal
-    """Largest pressure of any cell (finite elements: of any node)."""
-
-    tangential_force: tuple[Newton, Newton] | None = None
-    """Tangential force; null without friction."""
-
-    tangential_shift: tuple[Metre, Metre] | None = None
-    """Tangential shift; null without friction."""
-
-    torque: NewtonMetre | None = None
-    """Torque about z; null where nothing twists."""
-
-    twist: Radian | None = None
-    """Twist, the rotation about z; null where nothing twists, or undefined."""
-
-    moment: tuple[NewtonMetre, NewtonMetre] | None = None
-    """Moments (Mx, My) of the pressure, the sums of p y and p x; null where nothing tilts."""
-
-    tilt: tuple[Radian, Radian] | None = None
-    """Tilt (x, y): slopes that close the gap at positive y and x; null where nothing tilts."""
-
-    stick_area: SquareMetre | None = None
-    """Area that sticks, with sub-cell accuracy; null without friction."""
-
-    stick_radius: Metre | None = None
-    """Radius of the circle of the stick area, sqrt(area / pi); null without friction."""
-
-    dissipated_energy: Joule | None = None
-    """Energy dissipated by slip since the start of the history; null without friction."""
-
-    elastic_energy: Joule | None = None
-    """Energy stored in both bodies; null for a solver that does not keep the account."""
-
-    input_work: Joule | None = None
-    """Work of forces and moments since the start of the history, by the trapezoidal rule over the
-    increments; null where a motion is undefined, at the friction limit under force control."""
-
-    unresolved_work: Joule | None = None
-    """Part of the input work that is neither stored nor dissipated because increments are finite.
-    It vanishes with them: input_work - unresolved_work is the better value of the work."""
-
-    energy_imbalance: Ratio | None = None
-    """What is missing of input_work = elastic_energy + dissipated_energy + unresolved_work over an
-    increment, relative to the largest of them so far; the largest value in the step."""
-
-    cycle_start: Annotated[int, Field(ge=1)] | None = None
-    """The earlier step, from 1, that ended with the same loads: from its end to the end of this
-    one is a cycle. Null, with the four that follow, where no cycle closes or nothing is sheared."""
-
-    energy_per_cycle: Joule | None = None
-    """Energy dissipated by slip in the cycle."""
-
-    slip_amplitude: Metre | None = None
-    """Half the range of slip in the cycle, at the place where it is largest."""
-
-    ruiz_f1: PascalMetre | None = None
-    """Ruiz's first parameter: largest shear times slip amplitude, at the place where that product
-    is largest (Ruiz, Boddington and Chen 1984)."""
-
-    ruiz_f2: SquarePascalMetre | None = None
-    """Ruiz's second parameter: largest shear times slip amplitude times the largest tension along
-    the surface in the direction of the tangential force, at the place where that product is
-    largest; null unless the stress at the surface was asked for."""
-
+    cycle_start: Annotated[
+        int | None,
+        Field(ge=1),
+        Reported(
+            "",
+            "The earlier step, from 1, that ended with the same loads: from its end to the end of "
+            "this one is a cycle. Null, with the four that follow, where no cycle closes or "
+            "nothing is sheared.",
+        ),
+    ] = None
+    energy_per_cycle: Annotated[
+        float | None, Reported("J", "Energy dissipated by slip in the cycle.")
+    ] = None
+    slip_amplitude: Annotated[
+        float | None,
+        Reported("m", "Half the range of slip in the cycle, at the place where it is largest."),
+    ] = None
+    ruiz_f1: Annotated[
+        float | None,
+        Reported(
+            "Pa m",
+            "Ruiz's first parameter: largest shear times slip amplitude, at the place where that "
+            "product is largest (Ruiz, Boddington and Chen 1984).",
+        ),
+    ] = None
+    ruiz_f2: Annotated[
+        float | None,
+        Reported(
+            "Pa^2 m",
+            "Ruiz's second parameter: largest shear times slip amplitude times the largest tension "
+            "along the surface in the direction of the tangential force, at the place where that "
+            "product is largest; null unless the stress at the surface was asked for.",
+        ),
+    ] = None
     residuals: Residuals
-    """How well the state fulfils its equations."""
 
-    iterations: Annotated[int, Field(ge=0)]
-    """Iterations of the solver over all increments of the step."""
 
-    convolutions: Annotated[int, Field(ge=0)] | None = None
-    """Convolutions (pairs of transforms) over all increments of the step; null for a solver that
-    has none."""
-
-    factorizations: Annotated[int, Field(ge=0)] | None = None
-    """Factorisations of a matrix over all increments of the step; null for a solver that has
-    none."""
+@pydantic_dataclass(frozen=True, kw_only=True, config=STRICT)
+class StepSummary(Cost, _Closed, State):
+    """State at the end of one `[[loading]]` table, and what all its increments have taken.
+    Vectors are (x, y), of the indenter relative to the body: positive force gives positive
+    shift."""
 
     status: ContactStatus
     """How the contact carries its tangential load."""

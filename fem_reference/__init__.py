@@ -6,9 +6,9 @@ against each other.
 
 from contact_scene.residuals import Residuals
 from contact_scene.solver_errors import ContactAtZoneEdge
-from fem_reference.fields import Increment, Result
+from fem_reference.fields import Increment, Method, Result
 from fem_reference.plan import Effect, Path, Plan, plan
-from fem_reference.solve import Method, solve
+from fem_reference.solve import solve
 
 __all__ = [
     "ContactAtZoneEdge",

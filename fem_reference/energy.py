@@ -1,6 +1,6 @@
 """Work put in and energy stored, from what an increment reports."""
 
-from collections.abc import Sequence
+from dataclasses import replace
 from math import pi
 
 import numpy as np
@@ -14,22 +14,30 @@ from fem_reference.plan import Path, Plan
 Field = NDArray[np.float64]
 
 
-def input_work(increments: Sequence[Increment]) -> tuple[float | None, ...]:
-    """Σ ½ (f₀ + f₁)(ω₁ - ω₀) since the start of the history, at the end of every increment
-    [force length]: forces and moments f over their conjugate motions ω. None once a motion is
-    undefined, at the friction limit under force control."""
-    work: list[float | None] = []
-    total: float | None = 0.0
-    forces, motions = np.zeros(4), np.zeros(4)
-    for increment in increments:
-        now, place = _loads(increment)
-        if total is None or place is None:
-            total = None
-        else:
-            total += float(np.sum(0.5 * (forces + now) * (place - motions)))
-            forces, motions = now, place
-        work.append(total)
-    return tuple(work)
+def accounted(
+    scene: Scene, plan: Plan, before: Increment | None, increment: Increment
+) -> Increment:
+    """The increment with its input work and elastic energy.
+
+    before  the increment before it in the history
+    """
+    return replace(
+        increment,
+        input_work=input_work(before, increment),
+        elastic_energy=elastic_energy(scene, plan, increment),
+    )
+
+
+def input_work(before: Increment | None, increment: Increment) -> float | None:
+    """Σ ½ (f₀ + f₁)(ω₁ - ω₀) since the start of the history [force length]: forces and moments f
+    over their conjugate motions ω. None once a motion is undefined, at the friction limit under
+    force control."""
+    worked = 0.0 if before is None else before.input_work
+    forces, motions = (np.zeros(4), np.zeros(4)) if before is None else _loads(before)
+    now, place = _loads(increment)
+    if worked is None or motions is None or place is None:
+        return None
+    return worked + float(np.sum(0.5 * (forces + now) * (place - motions)))
 
 
 def elastic_energy(scene: Scene, plan: Plan, increment: Increment) -> float | None:

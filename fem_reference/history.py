@@ -8,6 +8,7 @@ from contact_scene import ControlKind, LoadRamp, Scene
 from contact_scene.load_path import ScalarControl
 from contact_scene.solver_errors import GrossSliding, NotConverged, SolverError
 from contact_scene.standing import Mark, Standing
+from fem_reference.energy import accounted
 from fem_reference.fields import Increment
 from fem_reference.loads import Loads, NormalTarget, Place, TangentialTarget, TwistTarget
 from fem_reference.plan import Path, Plan
@@ -84,7 +85,8 @@ def marked(
                 error.last_state = last
                 raise
             place = Place(ramp.step, index, count)
-            last = replace(method.increment(state, place), halvings=halvings)
+            told = replace(method.increment(state, place), halvings=halvings)
+            last = accounted(scene, plan, last, told)
             begin, done = end, done + 1
             yield last, Mark(done, state, start)
 

@@ -2,14 +2,13 @@
 
 from collections.abc import Callable, Iterator
 from dataclasses import replace
-from enum import Enum
 from typing import Any
 
 from contact_scene import FiniteElementDiscretisation, Scene
 from contact_scene.solver_errors import ContactAtZoneEdge
 from contact_scene.standing import Keeper, Mark, Standing
 from fem_reference.expected_radius import expected_radius
-from fem_reference.fields import Increment, Result
+from fem_reference.fields import Increment, Method, Result
 from fem_reference.history import Method as Solver
 from fem_reference.history import marked
 from fem_reference.model import ContactModel
@@ -19,13 +18,6 @@ Progress = Callable[[Increment], None]
 
 GROWTH = 1.2
 MOST_ENLARGEMENTS = 8
-
-
-class Method(Enum):
-    """How contact and friction are enforced."""
-
-    COMPLEMENTARITY = "complementarity"
-    PENALTY = "penalty"
 
 
 def solve(
@@ -79,7 +71,7 @@ def solve(
         history = marked(scene, decided, solver, discretisation.tolerance, since)
         try:
             increments = tuple(_told(model, radius, history, since, progress, keeper))
-            return Result(scene, discretisation, model.sections, decided, increments)
+            return Result(scene, discretisation, model.sections, decided, increments, method)
         except ContactAtZoneEdge as error:
             grown = error
     raise grown

@@ -192,10 +192,16 @@ def _traced(increment: Increment, before: State | None, sheared: Sheared) -> Inc
         return increment
     last = before.sheared if before is not None else None
     last = last or untouched(sheared.in_stick.shape)
-    return replace(
+    traced = replace(
         increment,
         slip_before=last.slip,
         slip_distance=sheared.slip_distance,
         dissipation=sheared.dissipation,
         dissipation_before=last.dissipation,
+    )
+    lost, slipped = traced.dissipation_increment, traced.slip_increment
+    return replace(
+        traced,
+        largest_dissipation_increment=None if lost is None else float(np.max(lost)),
+        largest_slip_increment=None if slipped is None else float(np.max(np.hypot(*slipped))),
     )

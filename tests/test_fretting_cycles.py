@@ -14,12 +14,12 @@ import numpy as np
 import pytest
 from contact_scenes import APPROACH, LIMIT, LOAD, MU, PRESS, A, grid, paraboloid, push, slide
 
+from contact_results.cycles import _half_diameter, fretting_cycles
 from contact_results.files.result_files import write_result
 from contact_scene import RIGID, Body, LoadStep
 from contact_scene.cycles import load_cycles
 from contact_scene.load_path import load_path
 from semi_analytical import SurfaceGrid, solve
-from semi_analytical.fretting import _half_diameter, fretting_cycles
 from verification.closed_forms.cattaneo_mindlin import PartialSlip
 from verification.closed_forms.moduli import tangential_modulus
 from verification.closed_forms.ruiz import CycledContact
@@ -257,7 +257,7 @@ import sys
 sys.path.insert(0, {tests!r})
 from contact_scenes import PRESS, grid, push, scene
 from semi_analytical import solve
-from semi_analytical.fretting import fretting_cycles
+from contact_results.cycles import fretting_cycles
 result = solve(scene(PRESS, push(0.5), push(-0.5), push(0.5)), grid(16), 1e-8)
 (cycle,) = fretting_cycles(result)
 assert cycle.ruiz_f2 is None

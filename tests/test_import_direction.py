@@ -54,7 +54,7 @@ ORDER = (
     "coupled_increment",
     "load_targets",
     "history",
-    "fretting",
+    "surface_tension",
     "discretise",
     "solve",
 )

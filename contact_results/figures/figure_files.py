@@ -5,6 +5,7 @@ from pathlib import Path
 
 from matplotlib.figure import Figure
 
+from contact_results.cycles import FrettingCycle
 from contact_results.directory import file_names
 from contact_results.figures.dissipation_map import dissipating, dissipation_map
 from contact_results.figures.fretting_map import fretting_map
@@ -17,7 +18,6 @@ from contact_results.figures.shown_steps import sheared
 from contact_results.figures.stick_slip_map import stick_slip_map
 from contact_results.figures.style import figure_style, save
 from semi_analytical import Result
-from semi_analytical.fretting import FrettingCycle
 
 FEWEST_POINTS = 3  # of a curve; with fewer there is only a line
 

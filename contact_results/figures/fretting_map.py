@@ -7,11 +7,11 @@ import numpy as np
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
+from contact_results.cycles import FrettingCycle
 from contact_results.figures import style
 from contact_results.figures.map_panels import MapFrame, draw_cells, map_axes
 from contact_scene.engineering_units import EngineeringUnit, engineering_unit
 from semi_analytical import Result
-from semi_analytical.fretting import FrettingCycle
 
 Field = NDArray[np.float64]
 
@@ -47,7 +47,8 @@ def _panels(cycle: FrettingCycle) -> Iterator[tuple[str, EngineeringUnit, Field]
         ("dissipated per area", "J/m²", cycle.dissipation),
         ("Ruiz $F_1$ = τ δ", "Pa m", cycle.ruiz_f1),
     ):
-        yield title, engineering_unit(float(np.max(values)), symbol), values
+        if values is not None:
+            yield title, engineering_unit(float(np.max(values)), symbol), values
     if cycle.ruiz_f2 is not None:
         yield "Ruiz $F_2$ = $σ_T$ τ δ", _square_unit(float(np.max(cycle.ruiz_f2))), cycle.ruiz_f2
 

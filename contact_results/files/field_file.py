@@ -1,90 +1,119 @@
-"""`result.h5`: every field at every increment, with units and meaning next to the numbers."""
+"""`result.h5`: every field and scalar at every increment, with units and meaning next to them."""
+
+from __future__ import annotations
 
 import io
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import h5py
+import numpy as np
 
 from contact_results.directory.file_names import FIELDS
-from contact_results.files.dataset import (
-    Dataset,
-    describe,
-    write_dataset,
-    write_scalars,
-)
-from contact_results.files.field_quantities import FIELD_QUANTITIES, SCALAR_QUANTITIES
-from semi_analytical import Increment, Result
-from semi_analytical.fretting import FrettingCycle
+from contact_results.surface import Rings, surface_of
+from contact_scene.increment import SCALARS
+from contact_scene.reported import Kind, Reported, reported
+
+if TYPE_CHECKING:
+    from contact_results.cycles import FrettingCycle
+    from contact_results.surface import Increment, Result
 
 # Level 1 with shuffled bytes is within a tenth of the size of level 9 on these fields, at a
 # fraction of its time.
 COMPRESSION: dict[str, Any] = {"compression": "gzip", "compression_opts": 1, "shuffle": True}
 
-CYCLE_FIELDS = (
-    ("dissipation", "J/m^2", "energy per area lost to friction in the cycle"),
-    ("slip_amplitude", "m", "half the range of slip in the cycle"),
-    ("largest_shear", "Pa", "largest shear in the cycle"),
-    ("ruiz_f1", "Pa m", "largest shear times slip amplitude"),
-    ("surface_tension", "Pa", "largest stress of the surface along the tangential force"),
-    ("ruiz_f2", "Pa^2 m", "ruiz_f1 times the surface tension, zero under compression"),
-)
+AXES = {
+    "x": ("m", "cell centres along x"),
+    "y": ("m", "cell centres along y"),
+    "radii": ("m", "radii of the rings"),
+    "angles": ("rad", "from the direction of the tangential load"),
+}
+PLACES = {"step": "loading step, from 1", "increment": "increment within the step, from 1"}
 
 
 def write_fields(result: Result, cycles: Sequence[FrettingCycle], directory: Path) -> None:
-    """Write grid, scene, fields and scalars, and of the last cycle the fields; equal results give
+    """Write scene, axes, fields and scalars, and of the last cycle the fields; equal results give
     equal bytes.
 
-    Every dataset of `increments` has the increment as its first index and one chunk per increment,
-    so that one of them can be read without the others. Effects that are off have no dataset.
+    Every dataset of `increments` has the increment as its first index, and a field one chunk per
+    increment, so that one of them can be read without the others. Effects that are off have no
+    dataset. Where some increments have angles, all have: a field of the radius alone is the same
+    at every angle.
     """
+    surface = surface_of(result)
     # Made in memory: the HDF5 library may crash the process when the disk is full.
     contents = io.BytesIO()
     with h5py.File(contents, "w") as file:
-        file.attrs["description"] = "slipstick, SI units; arrays are [increment, (x, y), i, j]"
+        axes = ", ".join(surface.axes)
+        file.attrs["description"] = f"slipstick, SI units; fields are [increment, (x, y), {axes}]"
+        file.attrs["solver"] = result.solver
         file.attrs["tolerance"] = result.tolerance
-        write_dataset(file, "scene", result.scene.model_dump_json(), "", "what was solved (JSON)")
-        for name, values in (("x", result.grid.x), ("y", result.grid.y)):
-            write_dataset(file, name, values, "m", f"cell centres along {name}")
+        _write(
+            file, "scene", result.scene.model_dump_json(), Reported("", "what was solved (JSON)")
+        )
+        if isinstance(surface, Rings) and hasattr(result, "discretisation"):
+            file.attrs["direction"] = surface.direction
+            fineness = result.discretisation.model_dump_json()
+            _write(file, "discretisation", fineness, Reported("", "how finely (JSON)"))
+        for name, values in surface.axes.items():
+            _write(file, name, values, Reported(*AXES[name]))
         group = file.create_group("increments", track_order=False)
-        for quantity in FIELD_QUANTITIES:
-            _write_field(group, quantity, result.increments)
-        write_scalars(group, SCALAR_QUANTITIES, result.increments)
+        for name, mark in reported(type(result.increments[0])).items():
+            if mark.kind is Kind.FIELD:
+                _write_field(
+                    group, name, mark, [surface.scalar(i, name) for i in result.increments]
+                )
+        _write_scalars(group, result.increments)
         if cycles:
             _write_cycle(file.create_group("last_cycle", track_order=False), cycles[-1])
     (directory / FIELDS).write_bytes(contents.getbuffer())
 
 
-def _write_cycle(group: Any, cycle: FrettingCycle) -> None:
-    group.attrs["start_step"], group.attrs["end_step"] = cycle.cycle.start, cycle.cycle.end
-    for name, unit, meaning in CYCLE_FIELDS:
-        values = getattr(cycle, name)
-        if values is not None:
-            dataset = group.create_dataset(name, data=values, track_times=False, **COMPRESSION)
-            describe(dataset, unit, meaning)
+def _write_scalars(group: Any, increments: Sequence[Increment]) -> None:
+    """NaN where an increment has none; nothing where none has."""
+    for name, meaning in PLACES.items():
+        attribute = "index" if name == "increment" else name
+        _write(group, name, [getattr(i, attribute) for i in increments], Reported("", meaning))
+    for name, mark in SCALARS.items():
+        values = [getattr(increment, name) for increment in increments]
+        known = next((value for value in values if value is not None), None)
+        if known is not None:
+            nothing = np.full(np.shape(known), np.nan)
+            _write(group, name, np.array([nothing if v is None else v for v in values]), mark)
 
 
-def _write_field(
-    group: Any, quantity: Dataset[Increment], increments: tuple[Increment, ...]
-) -> None:
-    first = next(_present(quantity, increments), None)
+def _write_field(group: Any, name: str, mark: Reported, parts: Sequence[Any]) -> None:
+    first = next((part for part in parts if part is not None), None)
     if first is None:
         return
     dataset = group.create_dataset(
-        quantity.name,
-        shape=(len(increments), *first.shape),
+        name,
+        shape=(len(parts), *first.shape),
         chunks=(1, *first.shape),
         dtype=first.dtype,
         track_times=False,
         **COMPRESSION,
     )
-    describe(dataset, quantity.unit, quantity.meaning)
-    for index, increment in enumerate(increments):
-        values = quantity.of(increment)
-        if values is not None:
-            dataset[index] = values
+    _describe(dataset, mark)
+    for index, part in enumerate(parts):
+        if part is not None:
+            dataset[index] = part
 
 
-def _present(quantity: Dataset[Increment], increments: tuple[Increment, ...]) -> Iterator[Any]:
-    return (values for values in map(quantity.of, increments) if values is not None)
+def _write_cycle(group: Any, cycle: FrettingCycle) -> None:
+    group.attrs["start_step"], group.attrs["end_step"] = cycle.cycle.start, cycle.cycle.end
+    for name, mark in reported(type(cycle)).items():
+        values = getattr(cycle, name)
+        if mark.kind is Kind.FIELD and values is not None:
+            _write(group, name, values, mark, **COMPRESSION)
+
+
+def _write(group: Any, name: str, values: Any, mark: Reported, **how: Any) -> None:
+    _describe(group.create_dataset(name, data=values, track_times=False, **how), mark)
+
+
+def _describe(dataset: Any, mark: Reported) -> None:
+    """Put unit and meaning next to the numbers."""
+    dataset.attrs["unit"] = mark.unit
+    dataset.attrs["description"] = mark.meaning

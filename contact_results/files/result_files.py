@@ -1,15 +1,22 @@
 """All files of a result, in one call."""
 
-from pathlib import Path
+from __future__ import annotations
 
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from contact_results.cycles import FrettingCycle, fretting_cycles
 from contact_results.files.cycle_table import write_cycles
 from contact_results.files.field_file import write_fields
 from contact_results.files.increment_table import write_increments
 from contact_results.files.profile_table import write_profiles
 from contact_results.files.summary_file import write_summary
+from contact_results.surface import Cells, surface_of
 from contact_scene.path_error import PathError
-from semi_analytical import Result
-from semi_analytical.fretting import fretting_cycles
+
+if TYPE_CHECKING:
+    from contact_results.surface import Result
 
 
 def write_result(
@@ -28,9 +35,18 @@ def write_result(
     write_summary(result, cycles, directory, path_errors)
     write_profiles(result, directory)
     write_increments(result, directory)
-    write_cycles(cycles, result.grid, directory)
+    write_cycles(cycles, surface_of(result), directory)
     write_fields(result, cycles, directory)
     if with_figures:
+        _draw(result, cycles, directory)
+
+
+def _draw(result: Any, cycles: Sequence[FrettingCycle], directory: Path) -> None:
+    if isinstance(surface_of(result), Cells):
         from contact_results.figures.figure_files import write_figures
 
         write_figures(result, cycles, directory)
+    else:
+        from contact_results.section.figure_files import write_section_figures
+
+        write_section_figures(result, directory)

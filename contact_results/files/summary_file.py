@@ -1,16 +1,19 @@
-"""`summary.json`: the state at the end of every loading step."""
+"""`summary.json`: the state at the end of every loading step, by the names of all solvers."""
+
+from __future__ import annotations
 
 from collections.abc import Sequence
 from itertools import groupby
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from contact_results.directory.file_names import SUMMARY
+from contact_scene.increment import SCALARS
 from contact_scene.linear_theory import beyond_linear_theory
 from contact_scene.path_error import PathError
+from contact_scene.reported import Kind
 from contact_scene.summary import (
     EffectSummary,
     Residuals,
@@ -18,10 +21,10 @@ from contact_scene.summary import (
     StepSummary,
     dump_summary,
 )
-from semi_analytical import Increment, Result
-from semi_analytical.fretting import FrettingCycle
 
-Pair = tuple[float, float]
+if TYPE_CHECKING:
+    from contact_results.cycles import FrettingCycle
+    from contact_results.surface import Increment, Result
 
 
 def write_summary(
@@ -40,22 +43,56 @@ def summary_of(
     cycles: Sequence[FrettingCycle],
     path_errors: tuple[PathError, ...] | None = None,
 ) -> RunSummary:
-    """The record that all solvers share."""
+    """The record that all solvers share. What a result does not have is null."""
     closed = {cycle.cycle.end: cycle for cycle in cycles}
+    grid = getattr(result, "grid", None)
+    increments: Sequence[Increment] = result.increments
     return RunSummary(
         title=result.scene.title,
-        solver="semi_analytical",
+        solver=result.solver,
         tolerance=result.tolerance,
-        cells=result.grid.cells,
-        window=result.grid.window,
+        cells=grid and grid.cells,
+        window=grid and grid.window,
         effects=tuple(EffectSummary(name=e.name, on=e.on, why=e.why) for e in result.plan.effects),
         steps=tuple(
             _step_summary(list(within), closed.get(step))
-            for step, within in groupby(result.increments, lambda increment: increment.step)
+            for step, within in groupby(increments, lambda increment: increment.step)
         ),
         remarks=beyond_linear_theory(result.scene, result.steps),
         path_errors=path_errors,
     )
+
+
+def _step_summary(within: Sequence[Increment], cycle: FrettingCycle | None) -> StepSummary:
+    """The increments of a step taken together.
+
+    cycle  the one that the step closes
+    """
+    end = within[-1]
+    residuals: dict[str, Any] = {
+        name: None if value is None else float(value) for name, value in vars(end.residuals).items()
+    }
+    return StepSummary(
+        **{
+            name: _together(mark.kind, [getattr(increment, name) for increment in within])
+            for name, mark in SCALARS.items()
+        },
+        **_cycle_keys(cycle),
+        residuals=Residuals(**residuals),
+        status=end.status,
+    )
+
+
+def _together(kind: Kind, values: Sequence[Any]) -> Any:
+    known = [value for value in values if value is not None]
+    if kind is Kind.COUNTER:
+        return sum(known) if known else None
+    if kind is Kind.LARGEST:
+        return float(np.max(known)) if known else None
+    end = values[-1]
+    if end is None:
+        return None
+    return tuple(map(float, end)) if kind is Kind.VECTOR else float(end)
 
 
 def _cycle_keys(cycle: FrettingCycle | None) -> dict[str, Any]:
@@ -70,47 +107,3 @@ def _cycle_keys(cycle: FrettingCycle | None) -> dict[str, Any]:
         "ruiz_f1": float(np.max(cycle.ruiz_f1)),
         "ruiz_f2": None if f2 is None else float(np.max(f2)),
     }
-
-
-def _step_summary(within: Sequence[Increment], cycle: FrettingCycle | None) -> StepSummary:
-    """The state at the end of a step, the cost of its increments taken together.
-
-    cycle  the one that the step closes
-    """
-    end = within[-1]
-    imbalances = [i.energy_imbalance for i in within if i.energy_imbalance is not None]
-    return StepSummary(
-        normal_force=float(end.normal_force),
-        approach=float(end.approach),
-        contact_area=float(end.contact_area),
-        contact_radius=float(end.contact_radius),
-        peak_pressure=float(end.peak_pressure),
-        tangential_force=_pair(end.tangential_force),
-        tangential_shift=_pair(end.tangential_shift),
-        torque=_number(end.torque),
-        twist=_number(end.twist),
-        moment=_pair(end.moment),
-        tilt=_pair(end.tilt),
-        stick_area=_number(end.stick_area),
-        stick_radius=_number(end.stick_radius),
-        dissipated_energy=_number(end.dissipated_energy),
-        elastic_energy=float(end.elastic_energy),
-        input_work=_number(end.input_work),
-        unresolved_work=_number(end.unresolved_work),
-        energy_imbalance=max(imbalances, default=None),
-        **_cycle_keys(cycle),
-        residuals=Residuals.model_validate(
-            {name: _number(getattr(end.residuals, name)) for name in Residuals.model_fields}
-        ),
-        iterations=sum(i.iterations for i in within),
-        convolutions=sum(i.convolutions for i in within),
-        status=end.status,
-    )
-
-
-def _number(value: float | None) -> float | None:
-    return None if value is None else float(value)
-
-
-def _pair(vector: NDArray[np.float64] | None) -> Pair | None:
-    return None if vector is None else (float(vector[0]), float(vector[1]))

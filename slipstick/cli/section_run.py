@@ -34,7 +34,7 @@ def run_on_section(
     from contact_results.directory.run_directory import run_directory
     from contact_results.directory.stop_signals import NOTHING_KEPT, cleaned_up_when_stopped
     from contact_results.directory.timing import write_timing
-    from contact_results.section.result_files import write_section_result
+    from contact_results.files.result_files import write_result
     from slipstick.cli.terminal import tell
 
     identity = solve_identity(contents.scene, contents.fem_reference, solver)
@@ -45,7 +45,7 @@ def run_on_section(
     ):
         result = solve_on_section(contents, solver, stopwatch, keeper)
         with stopwatch.phase("write"):
-            write_section_result(result, method_of(solver), staging, with_figures=figures)
+            write_result(result, staging, with_figures=figures)
         write_timing(stopwatch, staging)
     _print_outcome(result, solver, stopwatch, output)
 

@@ -19,8 +19,8 @@ from verification.problems import paper_scene as paper
 from verification.problems.paper_scene import FRICTION
 
 if TYPE_CHECKING:
+    from contact_results.cycles import FrettingCycle
     from semi_analytical import Increment, Result
-    from semi_analytical.fretting import FrettingCycle
 
 AMPLITUDE = 0.9  # of µW
 LOADED, UNLOADED, RELOADED = 2, 3, 4  # loading steps that end at T*, -T*, T*
@@ -119,7 +119,7 @@ def loop_energy(result: Result) -> float:
 
 def loop_cycle(result: Result, *, surface_stress: bool = False) -> FrettingCycle:
     """What the loop does to the surface."""
-    from semi_analytical.fretting import fretting_cycles
+    from contact_results.cycles import fretting_cycles
 
     (cycle,) = fretting_cycles(result, surface_stress=surface_stress)
     return cycle

@@ -7,15 +7,16 @@ from typing import Any
 
 import numpy as np
 
+from contact_results import cycles
 from semi_analytical import (
     energy,
-    fretting,
     history,
     load_targets,
     normal,
     residuals,
     shearing,
     stick_slip,
+    surface_tension,
 )
 from semi_analytical.model import ContactModel
 from semi_analytical.normal_load import PressureSum
@@ -140,12 +141,12 @@ def _twist_not_conjugate(patches: Patches) -> None:
 
 
 def _whole_range(patches: Patches) -> None:
-    patches.function(fretting, "_half_diameter", lambda whole: lambda path: 2 * whole(path))
+    patches.function(cycles, "_half_diameter", lambda whole: lambda path: 2 * whole(path))
 
 
 def _tension_across(patches: Patches) -> None:
     patches.function(
-        fretting, "_in_plane_stress", lambda whole: lambda *given: whole(*given)[[1, 0, 2]]
+        surface_tension, "_in_plane_stress", lambda whole: lambda *given: whole(*given)[[1, 0, 2]]
     )
 
 

@@ -113,11 +113,14 @@ def _stored_by_elements(patches: Patches) -> None:
 
 
 def _work_on_elements(patches: Patches) -> None:
-    patches.function(
-        fem_reference.energy,
-        "input_work",
-        lambda whole: lambda increments: tuple(w and 0.8 * w for w in whole(increments)),
-    )
+    def wrap(whole: Any) -> Any:
+        def worked(before: Any, increment: Any) -> Any:
+            work, start = whole(before, increment), before.input_work if before else 0.0
+            return None if work is None else start + 0.8 * (work - start)
+
+        return worked
+
+    patches.function(fem_reference.energy, "input_work", wrap)
 
 
 HISTORIES = (

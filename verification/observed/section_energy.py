@@ -14,8 +14,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from fem_reference import Increment, Result
-from fem_reference.energy import elastic_energy, input_work
+from fem_reference import Increment
 
 Field = NDArray[np.float64]
 
@@ -44,17 +43,17 @@ class EnergeticState:
     slip: Field | None = None
 
 
-def energy_missing(result: Result, states: Sequence[EnergeticState]) -> Iterator[float]:
+def energy_missing(states: Sequence[EnergeticState]) -> Iterator[float]:
     """What any increment cannot account for, or tells otherwise, over the largest energy so far."""
     before, worked, lost = None, 0.0, 0.0
     largest = 0.0
-    for state, work in zip(states, input_work(result.increments), strict=True):
-        told = state.told.dissipated_energy
+    for state in states:
+        work, told = state.told.input_work, state.told.dissipated_energy
         dissipated = told or 0.0
         if work is None or state.passed is None or (np.any(state.shear) and told is None):
             return  # the motion is undefined, and with it all that follows
         largest = max(largest, *(abs(e) for e in (state.stored, work, dissipated)))
-        alone = elastic_energy(result.scene, result.plan, state.told)
+        alone = state.told.elastic_energy
         if alone is not None and state.told.overlap is None:
             yield abs(alone - state.stored) / largest
         if state.told.halvings == 0:  # else there are states in between

@@ -31,7 +31,7 @@ def section_laws(result: Result) -> tuple[float, float]:
     else:
         violations, states = _on_rings(result, penalty)
     violations += missed(result.scene, result.steps)
-    return _largest(violations), _largest([0.0, *energy_missing(result, states)])
+    return _largest(violations), _largest([0.0, *energy_missing(states)])
 
 
 def _largest(found: Sequence[float]) -> float:

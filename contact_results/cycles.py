@@ -1,0 +1,160 @@
+"""What a load cycle does to the surface: slip amplitude, dissipated energy, and Ruiz's parameters.
+
+Ruiz, Boddington and Chen (1984, Exp. Mech. 24, 208-217) rank places of a fretting contact by the
+work of friction, F1 = τ δ, and by its product with the tension along the surface, F2 = σ_T τ δ.
+Here, at every place, δ is half the range of slip over one cycle, τ the largest shear and σ_T the
+largest tension within it. Authors who take the whole range for δ get twice these numbers.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import reduce
+from typing import TYPE_CHECKING, Annotated, Any, TypeVar, cast
+
+import numpy as np
+from numpy.typing import NDArray
+
+from contact_results.surface import Surface, surface_of
+from contact_scene.cycles import LoadCycle, load_cycles
+from contact_scene.reported import Kind, Reported
+
+if TYPE_CHECKING:
+    from contact_results.surface import Increment, Result
+
+Field = NDArray[np.float64]
+Vector = NDArray[np.float64]
+Value = TypeVar("Value", float, Field)
+F = Kind.FIELD
+
+PLACES_AT_ONCE = 4096
+
+
+@dataclass(frozen=True)
+class FrettingCycle:
+    """One closed cycle of loads; fields are scalars of the surface.
+
+    cycle            steps between which it lies
+    input_work       None where a motion is undefined
+    dissipation      None for a solver that does not keep it
+    surface_tension  σ_T, at the ends of the steps in the cycle, tension positive. None if not asked
+                     for, or if the tangential force is constant
+    """
+
+    cycle: LoadCycle
+    input_work: Annotated[
+        float | None,
+        Reported("J", "Work of the loads in the cycle, the area of their loops over the motions."),
+    ]
+    dissipated_energy: Annotated[float, Reported("J", "Energy lost to friction in the cycle.")]
+    dissipation: Annotated[
+        Field | None, Reported("J/m^2", "Energy per area lost to friction in the cycle.", F)
+    ]
+    slip_amplitude: Annotated[Field, Reported("m", "Half the range of slip in the cycle.", F)]
+    largest_shear: Annotated[Field, Reported("Pa", "Largest shear in the cycle.", F)]
+    surface_tension: Annotated[
+        Field | None,
+        Reported("Pa", "Largest stress of the surface along the change of tangential force.", F),
+    ] = None
+
+    @property
+    def ruiz_f1(self) -> Annotated[Field, Reported("Pa m", "Largest shear times amplitude.", F)]:
+        """F1 = τ δ [force/length]."""
+        return self.largest_shear * self.slip_amplitude
+
+    @property
+    def ruiz_f2(
+        self,
+    ) -> Annotated[
+        Field | None,
+        Reported("Pa^2 m", "F1 times the surface tension, zero under compression.", F),
+    ]:
+        """F2 = σ_T τ δ [force^2/length^3]; None without σ_T."""
+        if self.surface_tension is None:
+            return None
+        return np.maximum(self.surface_tension, 0.0) * self.ruiz_f1
+
+
+def fretting_cycles(result: Result, *, surface_stress: bool = False) -> tuple[FrettingCycle, ...]:
+    """All cycles that the loading steps close, in the order in which they end.
+
+    A cycle in which the friction limit is reached under force control has no defined slip and is
+    left out; so are all where nothing is sheared.
+
+    surface_stress  also compute the stress at the surface, which σ_T and F2 need: of the lower
+                    body, or of the indenter where that one is rigid (semi-analytical results)
+    """
+    surface = surface_of(result)
+    tension: Any = None
+    if surface_stress:
+        # Not even imported unless asked for.
+        from semi_analytical.surface_tension import SurfaceTension
+
+        tension = SurfaceTension(cast(Any, result))
+    cycles = []
+    for cycle in load_cycles(result.scene.load_path()):
+        path = _path(result.increments, cycle)
+        if all(increment.dissipated_energy is not None for increment in path):
+            stress = tension.within(path) if tension else None
+            cycles.append(_fretting_cycle(surface, cycle, path, stress))
+    return tuple(cycles)
+
+
+def _path(increments: Sequence[Increment], cycle: LoadCycle) -> list[Increment]:
+    """The increments of a cycle, from the one at whose end it begins."""
+    return [
+        i
+        for i in increments
+        if cycle.start < i.step <= cycle.end
+        or (i.step == cycle.start and i.index == i.increments_in_step)
+    ]
+
+
+def _fretting_cycle(
+    surface: Surface, cycle: LoadCycle, path: Sequence[Increment], tension: Field | None
+) -> FrettingCycle:
+    start, end = path[0], path[-1]
+    slips, shears = (
+        [found for i in path if (found := surface.components(i, name)) is not None]
+        for name in ("slip", "shear")
+    )
+    dissipated = _gain(start.dissipated_energy, end.dissipated_energy)
+    assert dissipated is not None
+    return FrettingCycle(
+        cycle=cycle,
+        input_work=_gain(start.input_work, end.input_work),
+        dissipated_energy=dissipated,
+        dissipation=_gain(getattr(start, "dissipation", None), getattr(end, "dissipation", None)),
+        slip_amplitude=_slip_amplitude(slips),
+        largest_shear=np.max([reduce(np.hypot, shear) for shear in shears], axis=0),
+        surface_tension=tension,
+    )
+
+
+def _gain(start: Value | None, end: Value | None) -> Value | None:
+    """What is known at both ends, without the first."""
+    return None if start is None or end is None else end - start
+
+
+def _slip_amplitude(slips: Sequence[Field]) -> Field:
+    """Half the largest distance between any two of the slips, place by place."""
+    moves = np.any([np.any(slip != slips[0], axis=0) for slip in slips], axis=0)
+    amplitude = np.zeros(moves.shape)
+    paths = np.stack([slip[:, moves] for slip in slips])
+    parts = [
+        _half_diameter(paths[..., first : first + PLACES_AT_ONCE])
+        for first in range(0, paths.shape[-1], PLACES_AT_ONCE)
+    ]
+    if parts:
+        amplitude[moves] = np.concatenate(parts)
+    return amplitude
+
+
+def _half_diameter(path: NDArray[np.float64]) -> Vector:
+    """Of sets of points (points, components, sets), half the largest distance in each set."""
+    largest = np.zeros(path.shape[-1])
+    for n in range(1, len(path)):
+        apart = path[n] - path[:n]
+        largest = np.maximum(largest, np.max(np.sum(apart * apart, axis=1), axis=0))
+    return 0.5 * np.sqrt(largest)

@@ -1,0 +1,231 @@
+"""The scalars of an increment: name, unit and meaning of each, once for all solvers.
+
+What a solver does not have, or an effect that is off does not define, is None. A new one is
+declared here and given where an increment is made; no other place lists them.
+"""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Annotated, TypeAlias
+
+import numpy as np
+from numpy.typing import NDArray
+from pydantic import Field, GetPydanticSchema
+
+from contact_scene.reported import Kind, Reported, reported
+from contact_scene.residuals import Residuals
+
+# Along x and y; two numbers in a file.
+Vector: TypeAlias = Annotated[
+    tuple[float, float] | NDArray[np.float64],
+    GetPydanticSchema(lambda _, handler: handler(tuple[float, float])),
+]
+Count: TypeAlias = Annotated[int, Field(ge=0)]
+
+
+@dataclass(frozen=True, kw_only=True)
+class State:
+    """What an increment has led to. Vectors are (x, y), of the indenter relative to the body:
+    positive force gives positive shift."""
+
+    normal_force: Annotated[float, Reported("N", "Normal force.", key=True)]
+    approach: Annotated[
+        float, Reported("m", "Approach of the bodies, counted from first touch.", key=True)
+    ]
+    contact_area: Annotated[float, Reported("m^2", "Area in contact, with sub-cell accuracy.")]
+    contact_radius: Annotated[
+        float,
+        Reported("m", "Radius of the circle of the contact area, sqrt(area / pi).", key=True),
+    ]
+    peak_pressure: Annotated[
+        float,
+        Reported("Pa", "Largest pressure of any cell (finite elements: of any node).", key=True),
+    ]
+    tangential_force: Annotated[
+        Vector | None,
+        Reported("N", "Tangential force; null without friction.", Kind.VECTOR, key=True),
+    ] = None
+    tangential_shift: Annotated[
+        Vector | None,
+        Reported(
+            "m",
+            "Tangential shift; null without friction, or undefined, at the friction limit under "
+            "force control.",
+            Kind.VECTOR,
+            key=True,
+        ),
+    ] = None
+    torque: Annotated[
+        float | None, Reported("N m", "Torque about z; null where nothing twists.", key=True)
+    ] = None
+    twist: Annotated[
+        float | None,
+        Reported(
+            "rad", "Twist, the rotation about z; null where nothing twists, or undefined.", key=True
+        ),
+    ] = None
+    moment: Annotated[
+        Vector | None,
+        Reported(
+            "N m",
+            "Moments (Mx, My) of the pressure, the sums of p y and p x; null where nothing tilts.",
+            Kind.VECTOR,
+            key=True,
+        ),
+    ] = None
+    tilt: Annotated[
+        Vector | None,
+        Reported(
+            "rad",
+            "Tilt (x, y): slopes that close the gap at positive y and x; null where nothing tilts.",
+            Kind.VECTOR,
+            key=True,
+        ),
+    ] = None
+    stick_area: Annotated[
+        float | None,
+        Reported("m^2", "Area that sticks, with sub-cell accuracy; null without friction."),
+    ] = None
+    stick_radius: Annotated[
+        float | None,
+        Reported(
+            "m",
+            "Radius of the circle of the stick area, sqrt(area / pi); null without friction.",
+            key=True,
+        ),
+    ] = None
+    dissipated_energy: Annotated[
+        float | None,
+        Reported(
+            "J",
+            "Energy dissipated by slip since the start of the history; null without friction.",
+            key=True,
+        ),
+    ] = None
+    elastic_energy: Annotated[
+        float | None,
+        Reported(
+            "J",
+            "Energy stored in both bodies; null for a solver that does not keep the account.",
+        ),
+    ] = None
+    input_work: Annotated[
+        float | None,
+        Reported(
+            "J",
+            "Work of forces and moments since the start of the history, by the trapezoidal rule "
+            "over the increments; null where a motion is undefined, at the friction limit under "
+            "force control.",
+        ),
+    ] = None
+    unresolved_work: Annotated[
+        float | None,
+        Reported(
+            "J",
+            "Part of the input work that is neither stored nor dissipated because increments are "
+            "finite. It vanishes with them: input_work - unresolved_work is the better value of "
+            "the work.",
+        ),
+    ] = None
+    energy_imbalance: Annotated[
+        float | None,
+        Reported(
+            "",
+            "What is missing of input_work = elastic_energy + dissipated_energy + unresolved_work "
+            "over an increment, relative to the largest of them so far; of a step the largest.",
+            Kind.LARGEST,
+        ),
+    ] = None
+    largest_dissipation_increment: Annotated[
+        float | None,
+        Reported("J/m^2", "Largest energy per area dissipated within an increment.", Kind.LARGEST),
+    ] = None
+    largest_slip_increment: Annotated[
+        float | None, Reported("m", "Largest slip within an increment.", Kind.LARGEST)
+    ] = None
+    overlap: Annotated[
+        float | None,
+        Reported("m", "Largest overlap that a penalty leaves; null without a penalty."),
+    ] = None
+
+
+@dataclass(frozen=True, kw_only=True)
+class Cost:
+    """What an increment has taken, and how well it was solved."""
+
+    iterations: Annotated[Count, Reported("", "Iterations of the solver.", Kind.COUNTER)]
+    convolutions: Annotated[
+        Count | None,
+        Reported(
+            "", "Convolutions (pairs of transforms); null for a solver that has none.", Kind.COUNTER
+        ),
+    ] = None
+    factorizations: Annotated[
+        Count | None,
+        Reported("", "Factorisations of a matrix; null for a solver that has none.", Kind.COUNTER),
+    ] = None
+    rounds: Annotated[
+        Count | None,
+        Reported(
+            "",
+            "Rounds of alternation between pressure and shear on cells, none where one pass does "
+            "it.",
+            Kind.COUNTER,
+        ),
+    ] = None
+    sweeps: Annotated[
+        Count | None,
+        Reported("", "Passes through pressure and shear of finite elements.", Kind.COUNTER),
+    ] = None
+    halvings: Annotated[
+        Count, Reported("", "How often an increment was cut in two to converge.", Kind.COUNTER)
+    ] = 0
+    worst_residual: Annotated[
+        float | None,
+        Reported("", "Largest residual of any kind at the end of any increment.", Kind.LARGEST),
+    ] = None
+
+
+@dataclass(frozen=True, kw_only=True)
+class ReportedIncrement(Cost, State):
+    """The scalars of one increment, and its place in the history.
+
+    step, index         loading step and increment within it, both counted from 1
+    increments_in_step  how many increments the step has
+    residuals           how well it fulfils each equation
+    """
+
+    step: int
+    index: int
+    increments_in_step: int
+    residuals: Residuals
+    worst_residual: float = field(init=False)
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "worst_residual", self.residuals.worst)
+
+
+SCALARS: Mapping[str, Reported] = {**reported(State), **reported(Cost)}
+
+
+def components(name: str) -> tuple[str, ...]:
+    """The numbers that a scalar of this name consists of: itself, or x and y of a vector."""
+    if SCALARS[name].kind is Kind.VECTOR:
+        return f"{name}_x", f"{name}_y"
+    return (name,)
+
+
+def numbers(increment: State | Cost) -> dict[str, float | int | None]:
+    """All scalars of a record, vectors by component; None where it has none."""
+    found: dict[str, float | int | None] = {}
+    for name in SCALARS:
+        value = getattr(increment, name)
+        parts = components(name)
+        values = value if len(parts) > 1 and value is not None else (value,) * len(parts)
+        found |= dict(zip(parts, map(_number, values), strict=True))
+    return found
+
+
+def _number(value: float | None) -> float | int | None:
+    """A number of Python's own."""
+    return value if value is None or isinstance(value, int) else float(value)

@@ -1,0 +1,68 @@
+"""The largest tension along the surface in a load cycle, for Ruiz's second parameter."""
+
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from contact_scene import Body
+from semi_analytical.fields import Increment, Result
+from semi_analytical.stress import subsurface
+
+Field = NDArray[np.float64]
+Vector = NDArray[np.float64]
+
+# Changes of the tangential force below this part of Σ|q| Δ are round-off and have no direction.
+ROUND_OFF = 1e-9
+
+
+class SurfaceTension:
+    """Of a result; the stress at the end of a step that several cycles share is computed once."""
+
+    def __init__(self, result: Result) -> None:
+        self._result = result
+        self._stresses: dict[int, Field] = {}
+
+    def within(self, path: Sequence[Increment]) -> Field | None:
+        """σ_T (nx, ny): largest stress of the surface along the direction in which the tangential
+        force changes, at the ends of the steps of a cycle, tension positive [force/length^2]. None
+        if the force is constant.
+
+        path  the increments of the cycle; cycles in the order in which they begin
+        """
+        direction = _direction(path, self._result.grid.cell_area)
+        if direction is None:
+            return None
+        self._stresses = {step: s for step, s in self._stresses.items() if step >= path[0].step}
+        ends = [i for i in path if i.index == i.increments_in_step]
+        for end in ends:
+            if end.step not in self._stresses:
+                self._stresses[end.step] = _in_plane_stress(self._result, end)
+        return np.max([_along(direction, self._stresses[end.step]) for end in ends], axis=0)
+
+
+def _in_plane_stress(result: Result, end: Increment) -> Field:
+    """σ_xx, σ_yy, σ_xy (3, nx, ny) at z = 0, tension positive."""
+    body, indenter, shear = result.scene.body, result.scene.indenter, end.shear
+    if not body.deforms:
+        body = Body(material=indenter.material, layers=indenter.layers)
+        shear = None if shear is None else -shear
+    stress = subsurface(body, result.grid, end.pressure, shear, (0.0,)).stress[0]
+    return np.asarray(stress[[0, 1, 5]])
+
+
+def _direction(path: Sequence[Increment], cell_area: float) -> Vector | None:
+    """Unit vector along the largest change of the tangential force since the cycle began."""
+    force = np.array([increment.tangential_force for increment in path])
+    changes = force - force[0]
+    sizes = np.hypot(changes[:, 0], changes[:, 1])
+    carried = max(float(np.sum(np.hypot(*i.shear))) for i in path if i.shear is not None)
+    if np.max(sizes) <= ROUND_OFF * carried * cell_area:
+        return None
+    return np.asarray(changes[np.argmax(sizes)] / np.max(sizes))
+
+
+def _along(direction: Vector, stress: Field) -> Field:
+    """n·σ n."""
+    (x, y), (xx, yy, xy) = direction, stress
+    return np.asarray(x * x * xx + y * y * yy + 2 * x * y * xy)
