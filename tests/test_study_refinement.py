@@ -1,6 +1,6 @@
 """Studies of refinement: orders from planted records, levels of a scene, and what is written."""
 
-import json
+import csv
 import shutil
 from dataclasses import dataclass
 from pathlib import Path
@@ -10,22 +10,23 @@ import numpy as np
 import pytest
 from scene_texts import RIGID_BALL
 
+from contact_results.quantities import unit_of
 from contact_scene.description import Description
 from fem_reference import Method
 from fem_reference.contact.complementarity import method as complementarity
 from semi_analytical import UnsupportedScene
 from slipstick.cli import main
-from verification.convergence.level_record import SHEAR, LevelRecord
-from verification.convergence.stored_field import StoredField, at_centres, change
+from verification.convergence.stored_field import SHEAR, StoredField, at_centres, change
 from verification.judging.case import Level
 from verification.judging.outcome import Status
+from verification.running.row import CaseRecord
 from verification.running.study import Settings, Study
 from verification.studies.refinement import section_level
 from verification.studies.refinement.expected import Expected
 from verification.studies.refinement.fit import Fit, fits
 from verification.studies.refinement.increments import increments_study
 from verification.studies.refinement.mesh import mesh_study
-from verification.studies.refinement.page import order_json, order_table, statement
+from verification.studies.refinement.page import order_row, order_table, statement
 from verification.studies.refinement.refinement import Refinement
 from verification.studies.refinement.section_level import SectionLevel
 from verification.studies.refinement.studied_scene import CannotRefine
@@ -77,7 +78,7 @@ def scene_file(tmp_path: Path) -> Path:
     return path
 
 
-def planted(size: float, relative_error: float, bump: float = 0.0) -> LevelRecord:
+def planted(size: float, relative_error: float, bump: float = 0.0) -> CaseRecord:
     """A level whose approach and shear have this relative error."""
     x = np.linspace(-1, 1, 16)
     shape = np.exp(-4 * (x[:, None] ** 2 + x[None, :] ** 2))
@@ -89,15 +90,12 @@ def planted(size: float, relative_error: float, bump: float = 0.0) -> LevelRecor
         "tangential_shift_x": 1e-6,
         "tangential_shift_y": 1e-18 * size,
     }
-    return LevelRecord(
-        size=size,
-        level="16 x 16 cells",
-        increments=(1, round(1 / size)),
-        values=values,
+    return CaseRecord(
+        parameters={"level": "16 x 16 cells", "size": size},
+        measures={**values, "largest_residual": 1e-9},
+        units={name: unit_of(name) for name in values},
+        counters={"increments": 1 + round(1 / size), "convolutions": 100},
         fields={SHEAR: StoredField.of(shear, float(2 * shape.mean()))},
-        largest_residual=1e-9,
-        work={"convolutions": 100},
-        seconds=1.0,
     )
 
 
@@ -105,7 +103,7 @@ def planted(size: float, relative_error: float, bump: float = 0.0) -> LevelRecor
 class PlantedLevel:
     """A level of a study with this error."""
 
-    record_type: ClassVar[type[Description]] = LevelRecord
+    record_type: ClassVar[type[Description]] = CaseRecord
     size: float
     error: float
 
@@ -113,7 +111,7 @@ class PlantedLevel:
     def name(self) -> str:
         return f"{self.size}"
 
-    def compute(self) -> LevelRecord:
+    def compute(self) -> CaseRecord:
         return planted(self.size, self.error)
 
 
@@ -422,7 +420,7 @@ def test_order_that_levels_do_not_tell_is_not_printed(name: str) -> None:
     assert statement(fit, to_try="").measured.startswith("no order can be read; left on")
     ((*_, observed, triplets, _),) = order_table([fit]).rows
     assert (observed, triplets) == ("no order can be read", "–")
-    assert json.loads(order_json([fit]))[name]["order"] is None
+    assert order_row(fit).measures["order"] is None
 
 
 def leave_well(arguments: list[str]) -> None:
@@ -445,11 +443,12 @@ def test_study_resumes_to_the_same_bytes(
     capfd.readouterr()
     leave_well([*command, "--output", "two"])
     assert capfd.readouterr().err.count("already there") == 2
-    for name in ("levels.csv", "orders.json", "figures/increments_errors.svg"):
+    for name in ("rows.csv", "findings.csv", "figures/increments_errors.svg"):
         assert (folder / "one" / name).read_bytes() == (folder / "two" / name).read_bytes(), name
-    orders = json.loads((folder / "one" / "orders.json").read_text())
+    with (folder / "one" / "findings.csv").open(encoding="utf-8") as file:
+        orders = {line["quantity"]: line for line in csv.DictReader(file)}
     assert orders[SHEAR]["status"] == "inconclusive"
-    assert orders[SHEAR]["expected"] == 1.0
+    assert orders[SHEAR]["expected"] == "1.0"
     page = (folder / "one" / "index.html").read_text(encoding="utf-8")
     assert "backward Euler" in page
     assert "<svg" in page

@@ -183,7 +183,8 @@ def _studied(
             lost=tuple(end.lost for end in ends if end.lost is not None),
             provenance=provenance(command, seconds, timed=study.timed(settings, records)),
         )
-        write_study(record, {**row_files(records), **study.exports(settings, records)}, directory)
+        files = row_files(records, record.conclusion.rows)
+        write_study(record, {**files, **study.exports(settings, records)}, directory)
     return record
 
 

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from contact_scene.description import Description
 
+PRESSURE, SHEAR = "pressure", "shear"
 STORED = np.dtype("<f4")  # differences of less than 1e-6 are below every tolerance in use
 
 Field = NDArray[np.float64]

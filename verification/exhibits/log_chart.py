@@ -13,12 +13,24 @@ Points = Sequence[tuple[float, float]]
 
 
 def log_chart(
-    name: str, title: str, caption: str, x_label: str, y_label: str, curves: Iterable[Curve]
+    name: str,
+    title: str,
+    caption: str,
+    x_label: str,
+    y_label: str,
+    curves: Iterable[Curve],
+    *,
+    height: float = HEIGHT,
+    y_places: tuple[str, ...] = (),
 ) -> Chart:
-    """One panel of curves."""
+    """One panel of curves.
+
+    y_places  names of the places 0, 1, … along y, where these are no numbers
+    """
     panel = Panel(
-        x_label=x_label, y_label=y_label, curves=tuple(curves), logarithmic=True, height=HEIGHT
-    )
+        x_label=x_label, y_label=y_label, curves=tuple(curves), logarithmic=True, height=height,
+        y_places=y_places,
+    )  # fmt: skip
     return Chart(name=name, title=title, caption=caption, rows=((panel,),))
 
 

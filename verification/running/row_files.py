@@ -9,33 +9,33 @@ from collections.abc import Iterable, Mapping, Sequence
 from contact_scene.description import Description
 from verification.running.row import CaseRecord, Row
 
-ROWS, PARTS, SECONDS = "rows.csv", "parts.csv", "seconds.csv"
+ROWS, PARTS, FINDINGS, SECONDS = "rows.csv", "parts.csv", "findings.csv", "seconds.csv"
+
+Cells = Mapping[str, object]
 
 
-def row_files(records: Mapping[str, Description]) -> dict[str, str]:
-    """`rows.csv`, one line for every case; `parts.csv`, one for every part of one, where there
-    are any; `seconds.csv` with what the clock said. By file name; nothing without a record."""
+def row_files(records: Mapping[str, Description], findings: Sequence[Row] = ()) -> dict[str, str]:
+    """By file name: `rows.csv`, one line for every case; `parts.csv`, one for every part of one;
+    `findings.csv`, one for every row of a conclusion; `seconds.csv` with what the clock said.
+    Without those that would be empty."""
     known = {name: r for name, r in records.items() if isinstance(r, CaseRecord)}
-    if not known:
-        return {}
-    parts = [(name, part) for name, record in known.items() for part in record.parts]
     clock = [(name, record.seconds, record.repeats) for name, record in known.items()]
-    return {
-        ROWS: row_text(known.items()),
-        **({PARTS: row_text(parts)} if parts else {}),
-        SECONDS: _text(("case", "seconds", "repeats"), clock),
+    files: dict[str, Sequence[Cells]] = {
+        ROWS: _named(known.items()),
+        PARTS: _named((name, part) for name, record in known.items() for part in record.parts),
+        FINDINGS: [_cells(row) for row in findings],
+        SECONDS: [dict(zip(("case", "seconds", "repeats"), line, strict=True)) for line in clock],
     }
+    return {name: _text(lines) for name, lines in files.items() if lines}
 
 
-def row_text(rows: Iterable[tuple[str, Row]]) -> str:
-    """A line for every row, by name of its case; a column for every name that any of them has:
-    parameters by their name, measures as name [unit], counters as name [count], words."""
-    lines = [(name, _cells(row)) for name, row in rows]
-    head = dict.fromkeys(column for _, cells in lines for column in cells)
-    return _text(("case", *head), [(name, *map(cells.get, head)) for name, cells in lines])
+def _named(rows: Iterable[tuple[str, Row]]) -> list[Cells]:
+    """By name of the case that they are of."""
+    return [{"case": name, **_cells(row)} for name, row in rows]
 
 
-def _cells(row: Row) -> Mapping[str, object]:
+def _cells(row: Row) -> Cells:
+    """Parameters by their name, measures as name [unit], counters as name [count], words."""
     return {
         **row.parameters,
         **{f"{name} [{row.units.get(name, '1')}]": v for name, v in row.measures.items()},
@@ -44,8 +44,12 @@ def _cells(row: Row) -> Mapping[str, object]:
     }
 
 
-def _text(head: Sequence[str], rows: Sequence[Sequence[object]]) -> str:
+def _text(lines: Iterable[Cells]) -> str:
+    """A column for every name that any line has."""
+    lines = tuple(lines)
     text = io.StringIO()
-    table = csv.writer(text, lineterminator="\n")
-    table.writerows([head, *rows])
+    head = dict.fromkeys(name for line in lines for name in line)
+    table = csv.DictWriter(text, head, lineterminator="\n")
+    table.writeheader()
+    table.writerows(lines)
     return text.getvalue()

@@ -110,7 +110,7 @@ def chart(budget: Budget, parts: Sequence[Row]) -> Chart:
         )
         for series, part in enumerate(parts)
     ]
-    drawn = log_chart(
+    return log_chart(
         f"budget_{budget.case}",
         f"Error budget, {budget.title}",
         "By how much the error changes when one choice alone is refined, and the whole error; "
@@ -120,10 +120,9 @@ def chart(budget: Budget, parts: Sequence[Row]) -> Chart:
         "part of the relative error",
         "",
         curves,
+        height=HEIGHT,
+        y_places=places,
     )
-    ((panel,),) = drawn.rows
-    by_name = panel.model_copy(update={"y_places": places, "height": HEIGHT})
-    return drawn.model_copy(update={"rows": ((by_name,),)})
 
 
 def _table(budget: Budget, settings: Settings, parts: Sequence[Row]) -> Table:

@@ -6,9 +6,9 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from fem_reference import Method
-from verification.convergence.level_record import LevelRecord
 from verification.exhibits.numbers import plain
-from verification.judging.outcome import Status
+from verification.running.row import Row
+from verification.running.rules import judged
 from verification.running.study import Conclusion, Records, Settings, Statement, Study
 from verification.studies.refinement import page
 from verification.studies.refinement.expected import by_box
@@ -62,7 +62,7 @@ def domain_study(
         """What the section of the scene's own size leaves, and what it costs."""
         found = refinement.found(settings, records)
         fits = [fit for fit in refinement.fitted(found) if fit.name in JUDGED and fit.expected]
-        if not fits or found[-1].level != _words(start.box, start):
+        if not fits or found[-1].parameters["level"] != _words(start.box, start):
             return Conclusion(statements=())
         left = {page.label(fit.name): fit.remaining for fit in fits}
         coarse = {page.label(fit.name): fit.errors[0] for fit in fits}
@@ -70,7 +70,7 @@ def domain_study(
         return Conclusion(
             statements=(_left(left, start), _cost(smallest, found[-1])),
             answer=f"A section of {_words(start.box, start)} leaves {plain(left[worst], 2)} of the "
-            f"{worst}, one of {smallest.level} {plain(coarse[worst], 2)}.",
+            f"{worst}, one of {smallest.parameters['level']} {plain(coarse[worst], 2)}.",
         )
 
     return study_of(
@@ -105,10 +105,9 @@ def _words(box: float, start: SectionStart) -> str:
 def _left(left: dict[str, float], start: SectionStart) -> Statement:
     worst = max(left.values())
     chosen = start.asked.box is None
-    status = Status.PASS if worst <= LEFT else Status.FAIL
     return Statement(
         claim=f"what a section of {_words(start.box, start)} leaves",
-        outcome=status if chosen else None,
+        outcome=judged(worst <= LEFT) if chosen else None,
         measured="; ".join(f"{name} {plain(error, 2)}" for name, error in left.items()),
         because=f"allowed {LEFT:g}: so large a section is chosen that the substrate's own far "
         "field stands in for that of the layers"
@@ -117,12 +116,13 @@ def _left(left: dict[str, float], start: SectionStart) -> Statement:
     )
 
 
-def _cost(smallest: LevelRecord, own: LevelRecord) -> Statement:
-    many, few = own.work["displacements"], smallest.work["displacements"]
+def _cost(smallest: Row, own: Row) -> Statement:
+    coarse = smallest.parameters["level"]
+    many, few = own.counters["displacements"], smallest.counters["displacements"]
     return Statement(
         claim="what it costs",
         outcome=None,
-        measured=f"{many} displacements, {many / few:.2f} times as many as {smallest.level}",
+        measured=f"{many} displacements, {many / few:.2f} times as many as {coarse}",
         because="elements grow by one ratio outwards: a section twice as large takes a few more "
         "rows and columns of them",
     )

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from contact_scene import RIGID, ControlKind, Scene
 from contact_scene.geometry import SmoothTip
-from verification.convergence.level_record import PRESSURE, SHEAR
+from verification.convergence.stored_field import PRESSURE, SHEAR
 
 PAIRS = ("tangential_shift", "tangential_force")
 SHIFTS = ("tangential_shift_x", "tangential_shift_y")

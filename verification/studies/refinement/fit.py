@@ -7,7 +7,6 @@ from dataclasses import dataclass
 from itertools import pairwise
 from math import hypot
 
-from verification.convergence.level_record import LevelRecord
 from verification.convergence.observed_order import (
     ORDER_WIDTH,
     TRIPLETS_AGREE,
@@ -22,7 +21,9 @@ from verification.convergence.observed_order import (
 from verification.convergence.stored_field import change
 from verification.judging.outcome import Status
 from verification.judging.verdicts import order_status
+from verification.running.row import CaseRecord, Row
 from verification.studies.refinement.expected import Expected
+from verification.studies.refinement.level_row import size_of, values_of
 
 FEWEST_LEVELS = 4  # for values
 FEWEST_JUDGED = 5  # for orders: through four levels a curve of three parameters fits by chance
@@ -102,7 +103,7 @@ class Fit:
 
 
 def fits(
-    records: Sequence[LevelRecord], expected: Mapping[str, Expected], tolerance: float
+    records: Sequence[CaseRecord], expected: Mapping[str, Expected], tolerance: float
 ) -> tuple[Fit, ...]:
     """Fits of all quantities that change under refinement.
 
@@ -110,9 +111,10 @@ def fits(
     tolerance  of the solver, relative: smaller changes are not looked at
     """
     found = []
-    for name in records[-1].values:
-        if all(name in record.values for record in records):
-            values = [record.values[name] for record in records]
+    levels = [values_of(record) for record in records]
+    for name in levels[-1]:
+        if all(name in level for level in levels):
+            values = [level[name] for level in levels]
             scale = _scale(name, records[-1])
             if scale > _round_off(name, records[-1]) and _changes(values, scale, tolerance):
                 found.append(_scalar(name, records, values, scale, expected.get(name)))
@@ -127,18 +129,19 @@ def _legible(observed: ObservedOrder | None) -> ObservedOrder | None:
     return observed if observed is not None and observed.is_legible else None
 
 
-def _scale(name: str, record: LevelRecord) -> float:
+def _scale(name: str, record: Row) -> float:
     """What errors are relative to: the value, or the length of the vector it belongs to."""
     stem, _, axis = name.rpartition("_")
+    values = values_of(record)
     if axis in ("x", "y"):
-        return hypot(record.values[f"{stem}_x"], record.values[f"{stem}_y"])
-    return abs(record.values[name])
+        return hypot(values[f"{stem}_x"], values[f"{stem}_y"])
+    return abs(values[name])
 
 
-def _round_off(name: str, record: LevelRecord) -> float:
+def _round_off(name: str, record: Row) -> float:
     """Below this a motion or a load vanishes by symmetry: a small part of the approach or of the
     normal force, times the contact radius for rotations and moments."""
-    values = record.values
+    values = values_of(record)
     approach, force = values["approach"], values["normal_force"]
     radius = values["contact_radius"]
     natural = {
@@ -159,12 +162,12 @@ def _changes(values: Sequence[float], scale: float, tolerance: float) -> bool:
 
 def _scalar(
     name: str,
-    records: Sequence[LevelRecord],
+    records: Sequence[CaseRecord],
     values: Sequence[float],
     scale: float,
     expected: Expected | None,
 ) -> Fit:
-    sizes = [record.size for record in records]
+    sizes = [size_of(record) for record in records]
     order = ASSUMED if expected is None else expected.order
     fit: RefinedValue = refined_value(sizes, values, order)
     errors = tuple(abs(value - fit.limit) / scale for value in values)
@@ -184,16 +187,16 @@ def _scalar(
 
 
 def _field(
-    name: str, records: Sequence[LevelRecord], expected: Expected | None, tolerance: float
+    name: str, records: Sequence[CaseRecord], expected: Expected | None, tolerance: float
 ) -> Fit | None:
     """Its changes from level to level fall with the order of its error."""
     pairs = list(pairwise(records))
     changes = field_changes(name, records)
     if len(changes) < len(pairs) or max(changes) <= ABOVE_TOLERANCE * tolerance or 0 in changes:
         return None
-    sizes = [coarse.size for coarse, _ in pairs]
+    sizes = [size_of(coarse) for coarse, _ in pairs]
     order = ASSUMED if expected is None else expected.order
-    ratio = records[-2].size / records[-1].size
+    ratio = size_of(records[-2]) / size_of(records[-1])
     return Fit(
         name,
         expected,
@@ -209,21 +212,21 @@ def _field(
     )
 
 
-def field_changes(name: str, records: Sequence[LevelRecord]) -> tuple[float, ...]:
+def field_changes(name: str, records: Sequence[CaseRecord]) -> tuple[float, ...]:
     """Changes of a field to the next level; fewer where a level has none."""
     fields = [record.fields[name] for record in records if name in record.fields]
     changes = (change(coarse, fine) for coarse, fine in pairwise(fields))
     return tuple(found for found in changes if found is not None)
 
 
-def distance(record: LevelRecord, reference: LevelRecord) -> dict[str, float]:
+def distance(record: CaseRecord, reference: CaseRecord) -> dict[str, float]:
     """By how much every quantity of the reference differs, relative to its scale there; without
     those that vanish by symmetry or that the record lacks."""
-    found = {}
-    for name, value in reference.values.items():
+    found, values = {}, values_of(record)
+    for name, value in values_of(reference).items():
         scale = _scale(name, reference)
-        if name in record.values and scale > _round_off(name, reference):
-            found[name] = abs(record.values[name] - value) / scale
+        if name in values and scale > _round_off(name, reference):
+            found[name] = abs(values[name] - value) / scale
     for name, field in reference.fields.items():
         difference = change(record.fields[name], field) if name in record.fields else None
         found |= {} if difference is None else {name: difference}

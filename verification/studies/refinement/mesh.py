@@ -7,10 +7,11 @@ from pathlib import Path
 
 from fem_reference import Method
 from semi_analytical import SurfaceGrid
-from verification.convergence.level_record import LevelRecord
 from verification.judging.case import Level
+from verification.running.row import Row
 from verification.running.study import Settings, Study
 from verification.studies.refinement.expected import by_cells, by_elements
+from verification.studies.refinement.level_row import values_of
 from verification.studies.refinement.refinement import Refinement, count_of, study_of
 from verification.studies.refinement.section_level import SectionLevel
 from verification.studies.refinement.section_start import SectionStart
@@ -105,5 +106,5 @@ def _too_coarse(coarsest: str, fewest: int) -> CannotRefine:
     )
 
 
-def _contact_radius(finest: LevelRecord) -> float:
-    return finest.values["contact_radius"]
+def _contact_radius(finest: Row) -> float:
+    return values_of(finest)["contact_radius"]

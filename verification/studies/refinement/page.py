@@ -2,23 +2,23 @@
 
 from __future__ import annotations
 
-import csv
-import io
-import json
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 
 from contact_results.quantities import unit_of
-from verification.convergence.level_record import PRESSURE, SHEAR, LevelRecord
 from verification.convergence.observed_order import (
     ILLEGIBLE,
     ORDER_OFF,
     ORDER_WIDTH,
     TRIPLETS_AGREE,
 )
+from verification.convergence.stored_field import PRESSURE, SHEAR
 from verification.exhibits.chart import Chart, Curve, Look, Panel, curve
 from verification.exhibits.numbers import plain, value_text
 from verification.exhibits.table import Table
 from verification.judging.outcome import Status
+from verification.running.row import CaseRecord, Row
+from verification.running.row_views import Text, number, row_table
+from verification.running.rules import RESIDUAL
 from verification.running.study import Statement
 from verification.studies.refinement.fit import (
     APPROACHING,
@@ -27,6 +27,7 @@ from verification.studies.refinement.fit import (
     Fit,
     field_changes,
 )
+from verification.studies.refinement.level_row import INCREMENTS, work_of
 
 NOTE_AT = 0.06  # part of a slope line, from its finer end
 BELOW = 0.5  # slope lines run under the data, by this factor
@@ -63,6 +64,7 @@ def statement(fit: Fit, to_try: str) -> Statement:
         measured=f"{order_text(fit)}{_by_triplets(fit)}; left on the finest level "
         f"{plain(fit.remaining, 2)}{_not_judged(fit, to_try)}",
         because=because,
+        about=order_row(fit),
     )
 
 
@@ -71,17 +73,6 @@ def _not_judged(fit: Fit, to_try: str) -> str:
     if fit.status is not Status.INCONCLUSIVE:
         return ""
     return f"; not judged: {fit.unsettled}; try {to_try}"
-
-
-def converged(records: Sequence[LevelRecord], tolerance: float) -> Statement:
-    """Whether every increment of every level ended within the tolerance."""
-    worst = max(record.largest_residual for record in records)
-    return Statement(
-        claim="every increment converged",
-        outcome=Status.PASS if worst <= tolerance else Status.FAIL,
-        measured=f"largest residual {plain(worst, 2)} on {len(records)} levels",
-        because=f"allowed {tolerance:g}",
-    )
 
 
 def label(name: str) -> str:
@@ -125,27 +116,38 @@ def order_table(fits: Sequence[Fit]) -> Table:
     )  # fmt: skip
 
 
-def level_table(records: Sequence[LevelRecord], names: Sequence[str]) -> Table:
+def level_table(records: Sequence[CaseRecord], names: Sequence[str]) -> Table:
     """One row per level, in their order.
 
     names  of the scalars that are shown
     """
-    fields, counted = records[-1].fields, records[-1].work
+    fields = records[-1].fields
     rows = []
-    for number, record in enumerate(records):
-        changes = (field_changes(field, records[number : number + 2]) for field in fields)
-        rows.append((
-            record.level, str(sum(record.increments)),
-            *(value_text(record.values[name], unit_of(name)) for name in names),
-            *(plain(change[0], 3) if change else "–" for change in changes),
-            plain(record.largest_residual, 2), *(str(record.work[kind]) for kind in counted),
-        ))  # fmt: skip
-    heads = [label(name) for name in names] + [f"change of {field}" for field in fields]
-    return Table(
-        title="Levels",
-        columns=("level", "increments", *heads, "largest residual", *counted),
-        rows=tuple(rows),
-    )
+    for place, record in enumerate(records):
+        changes = {f: field_changes(f, records[place : place + 2]) for f in fields}
+        known = {f"change of {field}": change[0] for field, change in changes.items() if change}
+        rows.append(record.model_copy(update={"measures": record.measures | known}))
+    columns: dict[str, Text] = {
+        "level": lambda row: str(row.parameters["level"]),
+        INCREMENTS: _count(INCREMENTS),
+        **{label(name): _with_unit(name) for name in names},
+        **{name: _if_known(name) for name in (f"change of {field}" for field in fields)},
+        "largest residual": number(RESIDUAL),
+        **{kind: _count(kind) for kind in work_of(records[-1])},
+    }
+    return row_table("Levels", columns, rows)
+
+
+def _with_unit(name: str) -> Text:
+    return lambda row: value_text(row.measures[name], row.units[name])
+
+
+def _if_known(name: str) -> Text:
+    return lambda row: plain(row.measures[name]) if name in row.measures else "–"
+
+
+def _count(name: str) -> Text:
+    return lambda row: str(row.counters[name])
 
 
 def error_chart(name: str, x_label: str, fits: Sequence[Fit], unit: float) -> Chart:
@@ -206,47 +208,29 @@ def _inside(line: Curve) -> tuple[float, float]:
     return x, y
 
 
-def level_csv(records: Sequence[LevelRecord]) -> str:
-    """All scalars on all levels, in SI, the changes of the fields to the next level, and what was
-    counted."""
-    names, fields, counted = records[-1].values, records[-1].fields, records[-1].work
-    text = io.StringIO()
-    table = csv.writer(text, lineterminator="\n")
-    units = [f"{name} [{unit_of(name)}]" for name in names]
-    changes = [f"{field}_change [1]" for field in fields]
-    table.writerow(["level", "increments", "size", *units, *changes, *counted])
-    for number, record in enumerate(records):
-        table.writerow([
-            record.level, sum(record.increments), record.size,
-            *(record.values.get(name) for name in names),
-            *(next(iter(field_changes(f, records[number : number + 2])), None) for f in fields),
-            *(record.work[kind] for kind in counted),
-        ])  # fmt: skip
-    return text.getvalue()
-
-
-def order_json(fits: Sequence[Fit]) -> str:
-    """Orders and limits, in SI."""
-    return json.dumps({fit.name: _values(fit) for fit in fits}, indent=1) + "\n"
-
-
-def _values(fit: Fit) -> Mapping[str, object]:
-    return {
-        "unit": unit_of_fit(fit) or "1",
+def order_row(fit: Fit) -> Row:
+    """Order and limit of a quantity, in SI."""
+    last, before = fit.triplets
+    known = fit.observed
+    unit = unit_of_fit(fit)
+    measures = {
         "finest": fit.finest,
         "limit": fit.limit,
         "uncertainty": fit.uncertainty,
         "left_on_finest": fit.remaining,
-        "order": None if fit.observed is None else fit.observed.order,
-        "half_width": None if fit.observed is None else fit.observed.half_width,
-        "triplets": fit.triplets,
-        "unsettled": fit.unsettled,
-        "expected": None if fit.expected is None else fit.expected.order,
-        "because": None if fit.expected is None else fit.expected.because,
-        "status": fit.status,
-        "sizes": fit.sizes,
-        "errors": fit.errors,
+        "order": None if known is None else known.order,
+        "half_width": None if known is None else known.half_width,
+        "triplet": last,
+        "triplet_before": before,
     }
+    words = {"status": fit.status, "unsettled": fit.unsettled}
+    expected = fit.expected
+    return Row(
+        parameters={"quantity": fit.name, "expected": None if expected is None else expected.order},
+        measures=measures,
+        units=dict.fromkeys(("finest", "limit", "uncertainty"), unit) if unit else {},
+        words={name: word for name, word in words.items() if word is not None},
+    )
 
 
 def _by_triplets(fit: Fit) -> str:

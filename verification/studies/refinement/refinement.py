@@ -5,9 +5,10 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
-from verification.convergence.level_record import LevelRecord
 from verification.judging.case import Level
 from verification.judging.outcome import Status
+from verification.running.row import CaseRecord, Row, found
+from verification.running.rules import converged
 from verification.running.study import (
     Conclusion,
     Records,
@@ -31,7 +32,7 @@ class Refinement:
     """One thing that is refined while the others stay.
 
     name       of charts and files
-    levels     coarse to fine; each computes a LevelRecord
+    levels     coarse to fine; each computes a `level_row`
     expected   orders by quantity
     axis       what sizes are, for people; unit: what they are divided by
     tolerance  of the solver
@@ -43,15 +44,14 @@ class Refinement:
     expected: Mapping[str, Expected]
     axis: str
     tolerance: float
-    unit: Callable[[LevelRecord], float] = field(default=lambda finest: 1.0)
+    unit: Callable[[Row], float] = field(default=lambda finest: 1.0)
     finer: str = "more --levels"
 
-    def found(self, settings: Settings, records: Records) -> tuple[LevelRecord, ...]:
+    def found(self, settings: Settings, records: Records) -> tuple[CaseRecord, ...]:
         """The records of the levels, of those that have one."""
-        by_name = (records.get(level.name) for level in self.levels(settings))
-        return tuple(r for r in by_name if isinstance(r, LevelRecord))
+        return tuple(found(self.levels(settings), records).values())
 
-    def fitted(self, levels: Sequence[LevelRecord]) -> tuple[Fit, ...]:
+    def fitted(self, levels: Sequence[CaseRecord]) -> tuple[Fit, ...]:
         """Orders and limits; nothing for too few levels."""
         if len(levels) < FEWEST_LEVELS:
             return ()
@@ -68,13 +68,14 @@ class Refinement:
         shown = [fit.name for fit in of if not fit.is_field]
         orders = (page.order_table(of),) if of else ()
         return Conclusion(
-            statements=(*judged, page.converged(levels, self.tolerance)),
+            statements=(*judged, converged(levels, self.tolerance, f"on {len(levels)} levels")),
             tables=(*orders, page.level_table(levels, shown)),
             charts=(
                 (page.error_chart(f"{self.name}_errors", self.axis, of, self.unit(levels[-1])),)
                 if of
                 else ()
             ),
+            rows=tuple(map(page.order_row, of)),
             remarks=page.LIMITS,
         )
 
@@ -88,14 +89,6 @@ class Refinement:
         except CannotRefine as refusal:
             return f"{wanted} with other --cells: {refusal}"
         return wanted
-
-    def exports(self, settings: Settings, records: Records) -> Mapping[str, str]:
-        """Values of all levels, and orders."""
-        levels = self.found(settings, records)
-        if not levels:
-            return {}
-        orders = page.order_json(self.fitted(levels))
-        return {"levels.csv": page.level_csv(levels), "orders.json": orders}
 
 
 Further = Callable[[Settings, Records], Conclusion]
@@ -121,7 +114,6 @@ def study_of(
         question,
         lambda settings: tuple(refinement.levels(settings)),
         conclude,
-        refinement.exports,
     )
 
 
@@ -132,6 +124,7 @@ def joined(*conclusions: Conclusion) -> Conclusion:
         answer=next((one.answer for one in conclusions if one.answer), ""),
         tables=tuple(t for one in conclusions for t in one.tables),
         charts=tuple(c for one in conclusions for c in one.charts),
+        rows=tuple(r for one in conclusions for r in one.rows),
         remarks=tuple(dict.fromkeys(r for one in conclusions for r in one.remarks)),
     )
 

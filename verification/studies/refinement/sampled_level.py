@@ -10,30 +10,18 @@ from contact_scene.description import Description
 from semi_analytical import Result, plan
 from semi_analytical.history import march
 from semi_analytical.model import ContactModel
-from verification.convergence.level_record import LevelRecord
 from verification.laws.sampling_route import errors_between
+from verification.running.row import CaseRecord, Row, Value
+from verification.studies.refinement.level_row import INCREMENTS
 from verification.studies.refinement.surface_level import SurfaceLevel, recorded
 from verification.studies.work_precision.usual_route import SampledModel, Sampling
-
-
-class SampledRecord(Description):
-    """What the sampled response gave."""
-
-    found: LevelRecord
-    coefficients: dict[str, float]
-    """Errors, by the names of `SamplingErrors`."""
-
-    @property
-    def seconds(self) -> float:
-        """CPU time."""
-        return self.found.seconds
 
 
 @dataclass(frozen=True)
 class SampledLevel:
     """A level whose influence coefficients come from samples."""
 
-    record_type: ClassVar[type[Description]] = SampledRecord
+    record_type: ClassVar[type[Description]] = CaseRecord
     solved: SurfaceLevel
     refinement: int
     extension: int
@@ -42,8 +30,9 @@ class SampledLevel:
     def name(self) -> str:
         return f"sampled-r{self.refinement}-e{self.extension}-{self.solved.name}"
 
-    def compute(self) -> SampledRecord:
-        """Solve; raises what `semi_analytical.solve` raises."""
+    def compute(self) -> CaseRecord:
+        """Solve; raises what `semi_analytical.solve` raises. The one part of the record has the
+        errors of the coefficients, by the names of `SamplingErrors`."""
         started = time.process_time()
         contents, grid = self.solved.scene.read(), self.solved.grid
         scene, tolerance = contents.scene, contents.semi_analytical.tolerance
@@ -55,5 +44,12 @@ class SampledLevel:
         errors = errors_between((sampled.zz, sampled.zx), (exact.zz, exact.zx))
         found = recorded(result, self.solved, time.process_time() - started)
         nx, ny = (how.count(len(row)) for row in (exact.zz, exact.zz.T))
-        found = found.model_copy(update={"work": {"samples": nx * ny}})
-        return SampledRecord(found=found, coefficients=asdict(errors))
+        factors: dict[str, Value] = {"refinement": self.refinement, "extension": self.extension}
+        coefficients: dict[str, float | None] = asdict(errors)
+        return found.model_copy(
+            update={
+                "parameters": found.parameters | factors,
+                "counters": {INCREMENTS: found.counters[INCREMENTS], "samples": nx * ny},
+                "parts": (Row(measures=coefficients),),
+            }
+        )

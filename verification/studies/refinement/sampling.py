@@ -8,9 +8,9 @@ from pathlib import Path
 
 from fem_reference import Method
 from semi_analytical import SurfaceGrid
-from verification.convergence.level_record import LevelRecord
 from verification.exhibits.numbers import plain
-from verification.judging.outcome import Status
+from verification.running.row import CaseRecord, Row, found, value_of
+from verification.running.rules import judged
 from verification.running.study import (
     Conclusion,
     Records,
@@ -21,10 +21,18 @@ from verification.running.study import (
 )
 from verification.studies.refinement import page
 from verification.studies.refinement.expected import Expected, by_period
-from verification.studies.refinement.fit import Fit, distance
+from verification.studies.refinement.fit import Fit
 from verification.studies.refinement.refinement import Refinement, count_of, joined
-from verification.studies.refinement.sampled_level import SampledLevel, SampledRecord
-from verification.studies.refinement.sampling_page import Swept, error_chart, error_table
+from verification.studies.refinement.sampled_level import SampledLevel
+from verification.studies.refinement.sampling_page import (
+    AXES,
+    EXTENSION,
+    REFINEMENT,
+    distances,
+    error_chart,
+    error_table,
+    quantities,
+)
 from verification.studies.refinement.studied_scene import CannotRefine, StudiedScene
 from verification.studies.refinement.surface_level import (
     SurfaceLevel,
@@ -33,7 +41,6 @@ from verification.studies.refinement.surface_level import (
 )
 from verification.studies.work_precision.usual_route import Sampling
 
-REFINEMENT, EXTENSION = "refinement", "extension"
 CELLS = 32  # samples grow with the square of cells, refinement and extension each
 HELD = 2  # of the factor that is not refined
 MOST_SAMPLES = 4096  # along a side
@@ -61,8 +68,8 @@ def sampling_study(
     refuse_fixed_cells(start.contents.scene)
     by_images = by_period(start.contents.scene, start.couples)
     by_factor = {
-        REFINEMENT: _swept(start, REFINEMENT, "samples per cell side", {}),
-        EXTENSION: _swept(start, EXTENSION, "period over twice the window", by_images),
+        REFINEMENT: _swept(start, REFINEMENT, {}),
+        EXTENSION: _swept(start, EXTENSION, by_images),
     }
 
     def cases(settings: Settings) -> tuple[StudyCase, ...]:
@@ -70,30 +77,24 @@ def sampling_study(
         return (_exact(start, settings), *{level.name: level for level in levels}.values())
 
     def conclude(settings: Settings, records: Records) -> Conclusion:
-        solved = _solutions(records)
-        exact = records.get(_exact(start, settings).name)
-        orders = [one.conclusion(settings, solved) for one in by_factor.values()]
+        orders = [one.conclusion(settings, records) for one in by_factor.values()]
         orders = [_named(name, one) for name, one in zip(by_factor, orders, strict=True)]
-        if not isinstance(exact, LevelRecord):
+        known = found((_exact(start, settings),), records)
+        if not known:
             return joined(*orders)
-        sweeps = [_compared(one, settings, records, exact) for one in by_factor.values()]
-        whole = [one for one in sweeps if one.factors]
+        (exact,) = known.values()
+        sweeps = (
+            distances(name, one.found(settings, records), exact) for name, one in by_factor.items()
+        )
+        whole = [rows for rows in sweeps if rows]
         shown = Conclusion(
-            statements=_extrapolated(by_factor, settings, solved, exact),
+            statements=_extrapolated(by_factor, settings, records, exact),
             answer=_answer(whole[-1], _grid(start, settings)) if whole else "",
             tables=(error_table(whole),) if whole else (),
-            charts=tuple(error_chart(one, f"the other factor is {HELD}") for one in whole),
+            charts=tuple(error_chart(rows, f"the other factor is {HELD}") for rows in whole),
             remarks=LIMITS,
         )
         return joined(shown, *orders)
-
-    def exports(settings: Settings, records: Records) -> dict[str, str]:
-        solved = _solutions(records)
-        return {
-            f"{name}-{file}": text
-            for name, one in by_factor.items()
-            for file, text in one.exports(settings, solved).items()
-        }
 
     return Study(
         "sampling",
@@ -103,7 +104,6 @@ def sampling_study(
         "periodic images; the coefficients of this project need neither.",
         cases,
         conclude,
-        exports,
     )
 
 
@@ -116,9 +116,7 @@ def _exact(start: SurfaceStart, settings: Settings) -> SurfaceLevel:
     return start.level(_grid(start, settings), 0.0, "exact coefficients")
 
 
-def _swept(
-    start: SurfaceStart, name: str, axis: str, expected: Mapping[str, Expected]
-) -> Refinement:
+def _swept(start: SurfaceStart, name: str, expected: Mapping[str, Expected]) -> Refinement:
     """Of one factor of the sampling, by doubling; periods begin where images bend the surface
     little."""
 
@@ -138,20 +136,15 @@ def _swept(
             for factor, pair in zip(factors, pairs, strict=True)
         )
 
-    return Refinement(f"sampling_{name}", levels, expected, f"1 / {axis}", start.tolerance)
+    return Refinement(f"sampling_{name}", levels, expected, f"1 / {AXES[name]}", start.tolerance)
 
 
 def _words(refinement: int, extension: int) -> str:
     return f"{refinement} per cell side, period {2 * extension} windows"
 
 
-def _solutions(records: Records) -> Records:
-    """The records with what was solved in place of it and the coefficients' errors."""
-    return {n: r.found if isinstance(r, SampledRecord) else r for n, r in records.items()}
-
-
 def _named(name: str, conclusion: Conclusion) -> Conclusion:
-    """Which factor its statements and tables are about."""
+    """Which factor its statements, tables and rows are about."""
     return conclusion.model_copy(
         update={
             "statements": tuple(
@@ -162,54 +155,44 @@ def _named(name: str, conclusion: Conclusion) -> Conclusion:
                 one.model_copy(update={"title": f"{one.title}, {name}"})
                 for one in conclusion.tables
             ),
+            "rows": tuple(
+                one.model_copy(update={"parameters": {"factor": name, **one.parameters}})
+                for one in conclusion.rows
+            ),
         }
     )
 
 
-def _compared(
-    refinement: Refinement, settings: Settings, records: Records, exact: LevelRecord
-) -> Swept:
-    """The levels that have a record, by their distance from the exact solution."""
-    levels = refinement.levels(settings)
-    known = [(case, records.get(case.name)) for case in levels]
-    found = [(case, r) for case, r in known if isinstance(r, SampledRecord)]
-    name = refinement.name.removeprefix("sampling_")
-    return Swept(
-        name,
-        refinement.axis.removeprefix("1 / "),
-        tuple(getattr(case, name) for case, _ in found),
-        tuple(record.coefficients for _, record in found),
-        tuple(distance(record.found, exact) for _, record in found),
-    )
-
-
-def _answer(extended: Swept, grid: SurfaceGrid) -> str:
+def _answer(extended: Sequence[Row], grid: SurfaceGrid) -> str:
     """What both factors as they are held leave."""
-    left = {page.label(name): error for name, error in extended.solution[0].items() if error}
-    parts = ", ".join(f"{plain(100 * error, 2)} % of the {name}" for name, error in left.items())
+    first = extended[0]
+    period = int(first.number("value") or 0)
+    left = {page.label(name): first.measures[name] for name in quantities(first)}
+    parts = ", ".join(
+        f"{plain(100 * error, 2)} % of the {name}" for name, error in left.items() if error
+    )
     cells = "{} x {} cells".format(*grid.cells)
     return (
-        f"On {cells}, {_words(HELD, extended.factors[0])} leave {parts}; exact coefficients have "
-        "neither factor."
+        f"On {cells}, {_words(HELD, period)} leave {parts}; exact coefficients have neither factor."
     )
 
 
 def _extrapolated(
-    by_factor: Mapping[str, Refinement], settings: Settings, solved: Records, exact: LevelRecord
+    by_factor: Mapping[str, Refinement], settings: Settings, records: Records, exact: CaseRecord
 ) -> tuple[Statement, ...]:
     """Both limits together, against the solution by exact coefficients: what one factor changes
     hardly depends on the other."""
-    refined, extended = (one.found(settings, solved) for one in by_factor.values())
+    refined, extended = (one.found(settings, records) for one in by_factor.values())
     by_refinement, by_extension = (
-        {fit.name: fit for fit in one.fitted(found)}
-        for one, found in zip(by_factor.values(), (refined, extended), strict=True)
+        {fit.name: fit for fit in one.fitted(levels)}
+        for one, levels in zip(by_factor.values(), (refined, extended), strict=True)
     )
     statements = []
     for name in JUDGED:
         one, other = by_refinement.get(name), by_extension.get(name)
         if one is None or other is None or not extended:
             continue
-        held, right = extended[0].values[name], exact.values[name]
+        held, right = value_of(extended[0], name), value_of(exact, name)
         both = _limit(one) + _limit(other) - held
         doubt = 2 * hypot(one.uncertainty or 0.0, other.uncertainty or 0.0)
         off_held, off_both = (abs(value - right) / abs(right) for value in (held, both))
@@ -224,10 +207,10 @@ def _limit(fit: Fit) -> float:
 
 def _agrees(name: str, held: float, both: float, doubt: float) -> Statement:
     allowed = min(doubt, CAP)
-    good = Status.INCONCLUSIVE if doubt > CAP and both <= doubt else Status.FAIL
+    complete = both <= allowed or not both <= doubt
     return Statement(
         claim=f"{page.label(name)}: sampled ever finer and wider it tends to the exact one",
-        outcome=Status.PASS if both <= allowed else good,
+        outcome=judged(both <= allowed, complete=complete),
         measured=f"{plain(held, 2)} off where both factors are {HELD}, {plain(both, 2)} by both "
         "limits",
         because=f"allowed {plain(allowed, 2)}: twice the uncertainty of the limits, no more than "

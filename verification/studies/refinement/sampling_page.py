@@ -3,14 +3,19 @@ that they give."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterable, Mapping, Sequence
 
-from verification.exhibits.chart import Chart, Look, Panel, curve
+from verification.exhibits.chart import Chart, Panel
+from verification.exhibits.log_chart import point_curves
 from verification.exhibits.numbers import plain
 from verification.exhibits.table import Table
+from verification.running.row import CaseRecord, Row, value_of
+from verification.running.row_views import Text, points, row_table
 from verification.studies.refinement import page
+from verification.studies.refinement.fit import distance
 
+REFINEMENT, EXTENSION = "refinement", "extension"
+AXES = {REFINEMENT: "samples per cell side", EXTENSION: "period over twice the window"}
 COEFFICIENTS = {
     "own": "loaded cell",
     "neighbour": "next cell",
@@ -21,80 +26,73 @@ COEFFICIENTS = {
 LEAST = 1e-12  # drawn; smaller errors are round-off
 
 
-@dataclass(frozen=True)
-class Swept:
-    """One factor of the sampling, the other one held.
-
-    axis          what the factor is, for people
-    factors       its values
-    coefficients  errors at each, by the names of `SamplingErrors`
-    solution      distances from the exact solution at each, by quantity
-    """
-
-    name: str
-    axis: str
-    factors: tuple[int, ...]
-    coefficients: tuple[Mapping[str, float], ...]
-    solution: tuple[Mapping[str, float], ...]
+def distances(factor: str, levels: Iterable[CaseRecord], exact: CaseRecord) -> tuple[Row, ...]:
+    """What every level of a factor is off by: its coefficients with their sign, relative to the
+    exact ones, and its solution, relative to the one that these give."""
+    return tuple(
+        Row(
+            parameters={"factor": factor, "value": level.parameters[factor]},
+            measures={**level.parts[0].measures, **distance(level, exact)},
+        )
+        for level in levels
+    )
 
 
-def error_chart(swept: Swept, held: str) -> Chart:
+def quantities(row: Row) -> tuple[str, ...]:
+    """Those of the solution, among its measures."""
+    return tuple(name for name in row.measures if name not in COEFFICIENTS)
+
+
+def error_chart(rows: Sequence[Row], held: str) -> Chart:
     """Errors against the factor."""
-    names = {name: page.label(name) for name in swept.solution[-1]}
+    factor = str(rows[0].parameters["factor"])
+    names = {name: page.label(name) for name in quantities(rows[-1])}
     return Chart(
-        name=f"sampling_{swept.name}",
-        title=f"Sampled response against the {swept.axis}",
+        name=f"sampling_{factor}",
+        title=f"Sampled response against the {AXES[factor]}",
         caption=f"Distance from the exact coefficients, relative to the coefficient, and of the "
         f"solution from the one by exact coefficients on the same grid; {held}. Where a curve "
         "levels out, the factor that is held decides.",
         rows=(
-            (_panel("influence coefficients", "", swept, swept.coefficients, COEFFICIENTS),),
-            (_panel("solution of the scene", swept.axis, swept, swept.solution, names),),
+            (_panel("influence coefficients", "", rows, COEFFICIENTS),),
+            (_panel("solution of the scene", AXES[factor], rows, names),),
         ),
     )
 
 
-def _panel(
-    title: str,
-    x_label: str,
-    swept: Swept,
-    errors: Sequence[Mapping[str, float]],
-    names: Mapping[str, str],
-) -> Panel:
-    curves = []
-    for series, (name, words) in enumerate(names.items()):
-        values = [abs(error[name]) for error in errors]
-        if min(values) > LEAST:
-            curves.append(curve(words, swept.factors, values, Look.POINTS, series))
+def _panel(title: str, x_label: str, rows: Sequence[Row], names: Mapping[str, str]) -> Panel:
+    lines = {words: points(rows, "value", name) for name, words in names.items()}
+    drawn = {
+        words: line if len(line) == len(rows) and min(y for _, y in line) > LEAST else ()
+        for words, line in lines.items()
+    }
     return Panel(
         x_label=x_label,
         y_label="relative error",
-        curves=tuple(curves),
+        curves=tuple(point_curves(drawn.items())),
         title=title,
         logarithmic=True,
         height=2.0,
     )
 
 
-def error_table(sweeps: Sequence[Swept]) -> Table:
-    """One row per setting."""
-    names = sweeps[0].solution[-1]
-    rows = [
-        (
-            f"{swept.axis} {factor}",
-            *(f"{plain(100 * coefficients[name], 2)} %" for name in COEFFICIENTS),
-            *(f"{plain(100 * solution[name], 2)} %" for name in names),
-        )
-        for swept in sweeps
-        for factor, coefficients, solution in zip(
-            swept.factors, swept.coefficients, swept.solution, strict=True
-        )
-    ]
-    return Table(
-        title="Distance from exact coefficients",
-        columns=("setting", *COEFFICIENTS.values(), *(page.label(name) for name in names)),
-        rows=tuple(rows),
-        note="Coefficients with their sign, relative to the exact one: the first five columns. The "
+def error_table(sweeps: Iterable[Sequence[Row]]) -> Table:
+    """One line per setting."""
+    rows = [row for of in sweeps for row in of]
+    columns: dict[str, Text] = {
+        "setting": lambda row: f"{AXES[str(row.parameters['factor'])]} {row.parameters['value']}",
+        **{words: _percent(name) for name, words in COEFFICIENTS.items()},
+        **{page.label(name): _percent(name) for name in quantities(rows[0])},
+    }
+    return row_table(
+        "Distance from exact coefficients",
+        columns,
+        rows,
+        "Coefficients with their sign, relative to the exact one: the first five columns. The "
         "shape at the last cell is what is left there after the error halfway is taken off. Then "
         "the solution of the scene, next to the one by exact coefficients on the same grid.",
     )
+
+
+def _percent(name: str) -> Text:
+    return lambda row: f"{plain(100 * value_of(row, name), 2)} %"

@@ -4,17 +4,17 @@ from __future__ import annotations
 
 import time
 from dataclasses import dataclass
-from typing import Any, ClassVar, cast
+from typing import ClassVar
 
 import numpy as np
 
-from contact_results.quantities import largest_residual, named_values
 from contact_scene import Scene
 from contact_scene.description import Description
 from fem_reference import Increment, Method, Result, solve
 from fem_reference.contact.harmonics.surface_tractions import tractions_at
-from verification.convergence.level_record import PRESSURE, SHEAR, LevelRecord
-from verification.convergence.stored_field import Field, StoredField
+from verification.convergence.stored_field import PRESSURE, SHEAR, Field, StoredField
+from verification.running.row import CaseRecord
+from verification.studies.refinement.level_row import level_row
 from verification.studies.refinement.studied_scene import StudiedScene, cut_into
 from verification.studies.work_precision import counted_work
 
@@ -35,7 +35,7 @@ class SectionLevel:
     level     in words
     """
 
-    record_type: ClassVar[type[Description]] = LevelRecord
+    record_type: ClassVar[type[Description]] = CaseRecord
     scene: StudiedScene
     method: str
     elements: int
@@ -50,7 +50,7 @@ class SectionLevel:
     def name(self) -> str:
         return f"{self.method}-{self.elements}-{self.box:.0f}-{sum(self.increments)}"
 
-    def compute(self) -> LevelRecord:
+    def compute(self) -> CaseRecord:
         """Solve; raises what `fem_reference.solve` raises."""
         started = time.process_time()
         contents = self.scene.read()
@@ -65,21 +65,13 @@ class SectionLevel:
         return recorded(result, self, time.process_time() - started)
 
 
-def recorded(result: Result, level: SectionLevel, seconds: float) -> LevelRecord:
+def recorded(result: Result, level: SectionLevel, seconds: float) -> CaseRecord:
     """What is kept of a result."""
-    return LevelRecord(
-        size=level.size,
-        level=level.level,
-        increments=level.increments,
-        values=named_values(result.steps[-1]),
-        fields=_fields(result, level.reach),
-        largest_residual=largest_residual(cast("Any", result)),  # residuals alone are read
-        work={
-            "displacements": counted_work.unknowns(result),
-            "linear systems": counted_work.systems(result),
-        },
-        seconds=seconds,
-    )
+    work = {
+        "displacements": counted_work.unknowns(result),
+        "linear systems": counted_work.systems(result),
+    }
+    return level_row(level, result, _fields(result, level.reach), work, seconds)
 
 
 def _fields(result: Result, reach: float) -> dict[str, StoredField]:

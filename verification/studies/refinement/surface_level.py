@@ -9,13 +9,13 @@ from typing import ClassVar
 import numpy as np
 
 from contact_results.path_error import friction_limit
-from contact_results.quantities import largest_residual, named_values
 from contact_scene import FrictionMap, Scene, SceneFile
 from contact_scene.description import Description
 from semi_analytical import Plan, Result, SurfaceGrid, UnsupportedScene, discretise, plan, solve
-from verification.convergence.level_record import PRESSURE, SHEAR, LevelRecord
-from verification.convergence.stored_field import Field, StoredField
+from verification.convergence.stored_field import PRESSURE, SHEAR, Field, StoredField
+from verification.running.row import CaseRecord
 from verification.running.study import Settings
+from verification.studies.refinement.level_row import level_row
 from verification.studies.refinement.studied_scene import StudiedScene
 
 
@@ -29,7 +29,7 @@ class SurfaceLevel:
            None: all of the window
     """
 
-    record_type: ClassVar[type[Description]] = LevelRecord
+    record_type: ClassVar[type[Description]] = CaseRecord
     scene: StudiedScene
     cells: tuple[int, int]
     window: tuple[float, float]
@@ -47,7 +47,7 @@ class SurfaceLevel:
         """Cells over the window."""
         return SurfaceGrid(self.cells, self.window)
 
-    def compute(self) -> LevelRecord:
+    def compute(self) -> CaseRecord:
         started = time.process_time()
         result = self.solve(self.scene.read())
         return recorded(result, self, time.process_time() - started)
@@ -58,7 +58,7 @@ class SurfaceLevel:
         return solve(contents.scene, self.grid, contents.semi_analytical.tolerance, plan=cut)
 
 
-def recorded(result: Result, level: SurfaceLevel, seconds: float) -> LevelRecord:
+def recorded(result: Result, level: SurfaceLevel, seconds: float) -> CaseRecord:
     """What is kept of a result."""
     end = result.steps[-1]
     limit = friction_limit(result.scene, end.pressure)
@@ -66,16 +66,8 @@ def recorded(result: Result, level: SurfaceLevel, seconds: float) -> LevelRecord
     fields = {PRESSURE: _stored(end.pressure[None], end.pressure, kept)}
     if end.shear is not None:
         fields[SHEAR] = _stored(end.shear, limit, kept)
-    return LevelRecord(
-        size=level.size,
-        level=level.level,
-        increments=level.increments,
-        values=named_values(end),
-        fields=fields,
-        largest_residual=largest_residual(result),
-        work={"convolutions": sum(increment.convolutions for increment in result.increments)},
-        seconds=seconds,
-    )
+    work = {"convolutions": sum(increment.convolutions for increment in result.increments)}
+    return level_row(level, result, fields, work, seconds)
 
 
 def _stored(field: Field, scale: Field, kept: tuple[int, int]) -> StoredField:

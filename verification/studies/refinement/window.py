@@ -11,14 +11,16 @@ from contact_scene.description import Description
 from contact_scene.solver_errors import SolverError
 from fem_reference import Method
 from semi_analytical import ContactAtWindowEdge, SurfaceGrid
-from verification.convergence.level_record import LevelRecord
-from verification.exhibits.chart import Chart, Look, Panel, curve
+from verification.exhibits.chart import Chart, Look, curve
+from verification.exhibits.log_chart import log_chart, point_curves
 from verification.exhibits.numbers import plain
-from verification.exhibits.table import Table
-from verification.judging.outcome import Status
+from verification.running.row import CaseRecord, Row, found
+from verification.running.row_views import row_table
+from verification.running.rules import converged, judged
 from verification.running.study import Conclusion, Records, Settings, Statement, Study
 from verification.studies.refinement import page
 from verification.studies.refinement.fit import ABOVE_TOLERANCE, distance
+from verification.studies.refinement.level_row import size_of, values_of
 from verification.studies.refinement.refinement import count_of
 from verification.studies.refinement.studied_scene import StudiedScene
 from verification.studies.refinement.surface_level import (
@@ -31,6 +33,7 @@ GROWTH = 0.25  # by so much of the scene's own the window grows from level to le
 SMALLER = (0.25, 0.4, 0.55, 0.7, 0.85)  # of the scene's own: which of them hold the contact is seen
 DRAWN = 1e-12
 REFUSED = ContactAtWindowEdge.__name__
+REFUSALS = "Windows that do not hold the contact"
 LIMITS = (
     "The cells about the centre are the same in every window; a larger one has more around them. "
     "Coefficients are exact at any distance, and the convolution is padded to twice the window: "
@@ -40,38 +43,26 @@ LIMITS = (
 )
 
 
-class WindowRecord(Description):
-    """How the solve on one window ended."""
-
-    found: LevelRecord | None
-    error: str
-    """The kind of error that refused it, empty if none did."""
-
-    message: str
-
-    @property
-    def seconds(self) -> float:
-        """CPU time."""
-        return 0.0 if self.found is None else self.found.seconds
-
-
 @dataclass(frozen=True)
 class Window:
     """The scene on one window."""
 
-    record_type: ClassVar[type[Description]] = WindowRecord
+    record_type: ClassVar[type[Description]] = CaseRecord
     solved: SurfaceLevel
 
     @property
     def name(self) -> str:
         return f"window-{self.solved.name}"
 
-    def compute(self) -> WindowRecord:
+    def compute(self) -> CaseRecord:
         """Solve, or say by what that was refused."""
         try:
-            return WindowRecord(found=self.solved.compute(), error="", message="")
+            return self.solved.compute()
         except SolverError as error:
-            return WindowRecord(found=None, error=type(error).__name__, message=str(error))
+            return CaseRecord(
+                parameters={"level": self.solved.level},
+                words={"error": type(error).__name__, "message": str(error)},
+            )
 
 
 def window_study(
@@ -95,30 +86,24 @@ def window_study(
             for grid in grids
         )
 
-    def ends(settings: Settings, records: Records) -> list[tuple[str, WindowRecord]]:
-        """Smallest window first."""
-        known = [(case.solved.level, records.get(case.name)) for case in cases(settings)]
-        return [(words, record) for words, record in known if isinstance(record, WindowRecord)]
-
     def conclude(settings: Settings, records: Records) -> Conclusion:
-        known = ends(settings, records)
-        solved = [record.found for _, record in known if record.found is not None]
-        statements = [_refused(known)]
+        known = list(found(cases(settings), records).values())  # smallest window first
+        refused = [record for record in known if _error(record)]
+        solved = [record for record in known if not _error(record)]
+        said = [_refused(known)]
+        tables = [row_table(REFUSALS, {"window": _level, "error": _error}, refused)]
+        if solved:
+            on = f"on {len(solved)} levels"
+            said.append(converged(solved, start.tolerance, on))
+            tables.insert(0, page.level_table(solved, tuple(values_of(solved[-1]))))
         if len(solved) > 1:
-            statements = [_unchanged(solved, start.tolerance), *statements]
-        tables = [_refusals(known)]
-        if not solved:
-            return Conclusion(statements=tuple(statements), tables=tuple(tables), remarks=LIMITS)
+            said.insert(0, _unchanged(solved, start.tolerance))
         return Conclusion(
-            statements=(*statements, page.converged(solved, start.tolerance)),
-            tables=(page.level_table(solved, tuple(solved[-1].values)), *tables),
+            statements=tuple(said),
+            tables=tuple(tables),
             charts=(_chart(solved, start.tolerance),) if len(solved) > 2 else (),
             remarks=LIMITS,
         )
-
-    def exports(settings: Settings, records: Records) -> dict[str, str]:
-        solved = [end.found for _, end in ends(settings, records) if end.found is not None]
-        return {"levels.csv": page.level_csv(solved)} if solved else {}
 
     return Study(
         "window",
@@ -127,7 +112,6 @@ def window_study(
         "and smaller around the same cells, down to some that do not hold the contact.",
         cases,
         conclude,
-        exports,
     )
 
 
@@ -143,13 +127,13 @@ def _words(grid: SurfaceGrid) -> str:
     return "{} x {} cells, {} mm".format(*grid.cells, sides)
 
 
-def _unchanged(solved: Sequence[LevelRecord], tolerance: float) -> Statement:
+def _unchanged(solved: Sequence[CaseRecord], tolerance: float) -> Statement:
     *others, largest = solved
     changes = [(d, name) for other in others for name, d in distance(other, largest).items()]
     worst, name = max(changes)
     return Statement(
         claim="a window that holds the contact does not matter",
-        outcome=Status.PASS if worst <= ABOVE_TOLERANCE * tolerance else Status.FAIL,
+        outcome=judged(worst <= ABOVE_TOLERANCE * tolerance),
         measured=f"largest change {plain(worst, 2)}, of the {page.label(name)}, "
         f"over {len(solved)} windows",
         because=f"allowed {ABOVE_TOLERANCE:g} tolerances of {tolerance:g}: the convolution is not "
@@ -157,58 +141,51 @@ def _unchanged(solved: Sequence[LevelRecord], tolerance: float) -> Statement:
     )
 
 
-def _chart(solved: Sequence[LevelRecord], tolerance: float) -> Chart:
+def _chart(solved: Sequence[CaseRecord], tolerance: float) -> Chart:
     """Changes from the largest window, over the size of the window."""
     *others, largest = solved
-    sizes = [1 / record.size for record in others]
+    sizes = [1 / size_of(record) for record in others]
     changes = [distance(record, largest) for record in others]
-    curves = [
-        curve(page.label(name), sizes, [max(d[name], DRAWN) for d in changes], Look.POINTS, series)
-        for series, name in enumerate(changes[0])
-        if any(d[name] > DRAWN for d in changes)
-    ]
+    lines = []
+    for name in changes[0]:
+        line = [(x, max(d[name], DRAWN)) for x, d in zip(sizes, changes, strict=True)]
+        lines.append((page.label(name), line if max(y for _, y in line) > DRAWN else ()))
     bound = 2 * (ABOVE_TOLERANCE * tolerance,)
-    panel = Panel(
-        x_label="window over the scene's own",
-        y_label="relative change",
-        curves=(*curves, curve("allowed", (sizes[0], sizes[-1]), bound, Look.BOUND)),
-        logarithmic=True,
+    return log_chart(
+        "window_changes",
+        "Changes with the window",
+        "Distance of every window that holds the contact from the largest one, relative to the "
+        f"value, for fields to Σp or Σµp; changes below {DRAWN:g} are drawn there, and quantities "
+        "that change by less everywhere are left out.",
+        "window over the scene's own",
+        "relative change",
+        [*point_curves(lines), curve("allowed", (sizes[0], sizes[-1]), bound, Look.BOUND)],
         height=2.2,
     )
-    return Chart(
-        name="window_changes",
-        title="Changes with the window",
-        caption="Distance of every window that holds the contact from the largest one, relative to "
-        f"the value, for fields to Σp or Σµp; changes below {DRAWN:g} are drawn there, and "
-        "quantities that change by less everywhere are left out.",
-        rows=((panel,),),
-    )
 
 
-def _refusals(ends: Sequence[tuple[str, WindowRecord]]) -> Table:
-    return Table(
-        title="Windows that do not hold the contact",
-        columns=("window", "error"),
-        rows=tuple((words, end.error) for words, end in ends if end.error),
-    )
+def _level(record: Row) -> str:
+    return str(record.parameters["level"])
 
 
-def _refused(ends: Sequence[tuple[str, WindowRecord]]) -> Statement:
+def _error(record: Row) -> str:
+    return record.words.get("error", "")
+
+
+def _refused(ends: Sequence[CaseRecord]) -> Statement:
     """Too small a window is refused by name, as are all smaller ones."""
-    errors = [record.error for _, record in ends if record.error]
-    first = [bool(record.error) for _, record in ends]
-    largest = next(((words, r) for words, r in reversed(ends) if r.error), None)
-    in_order = first == sorted(first, reverse=True)
-    if largest is None:
-        outcome, measured = Status.INCONCLUSIVE, "none of the windows was too small"
-    else:
-        words, record = largest
-        right = in_order and set(errors) == {REFUSED}
-        outcome = Status.PASS if right else Status.FAIL
-        measured = f"{len(errors)} windows, up to {words}: {record.error}: {record.message}"
+    refused = [record for record in ends if _error(record)]
+    measured = "none of the windows was too small"
+    if refused:
+        measured = (
+            f"{len(refused)} windows, up to {_level(refused[-1])}: {_error(refused[-1])}: "
+            f"{refused[-1].words['message']}"
+        )
+    in_order = refused == list(ends[: len(refused)])
+    right = in_order and {_error(record) for record in refused} == {REFUSED}
     return Statement(
         claim="a window that does not hold the contact is refused by name",
-        outcome=outcome,
+        outcome=judged(right, complete=bool(refused)),
         measured=measured,
         because=f"tractions that are cut off are no result: {REFUSED} is raised, for every window "
         "below the first that holds the contact",
