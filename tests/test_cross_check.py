@@ -9,30 +9,53 @@ import pytest
 import fem_reference
 import semi_analytical
 from contact_scene import IsotropicMaterial
-from verification.cases.cross_check import cross_check_on
-from verification.cases.cross_check_contacts import FRICTIONS, RATIOS, THICKNESSES, CheckedContact
-from verification.cases.cross_check_sides import Sides
-from verification.cases.cross_check_stress import stress_difference
+from verification.cases.both_solvers.contacts import (
+    FRICTIONS,
+    RATIOS,
+    THICKNESSES,
+    CheckedContact,
+)
+from verification.cases.both_solvers.differences import Difference, differences
+from verification.cases.both_solvers.left_out import (
+    away_from_kinks,
+    clear_of_axis,
+    radii,
+    width,
+)
+from verification.cases.both_solvers.sides import Sides
+from verification.cases.both_solvers.stress import stress_difference
+from verification.cases.cross_check import CHOSEN, cross_check_on
 from verification.judging.case import Level
 from verification.judging.judgement import judge
 from verification.judging.outcome import Status
 from verification.judging.run import SectionRun
+from verification.running.row import CaseRecord
+from verification.running.row_files import row_files
 from verification.running.study import Settings
-from verification.studies.cross_check.contact_run import CrossCheckRecord, CrossCheckRun
-from verification.studies.cross_check.difference import Difference, differences
-from verification.studies.cross_check.study import STUDY
+from verification.studies.cross_check import STUDY, CrossCheckRun
 
 SMOOTH = CheckedContact(2.0, 1.0, 0.0)
 ROUGH = CheckedContact(0.5, 1.0, 0.1)
 QUICK = Settings(Level.QUICK)
+NAME = CrossCheckRun(Sides(SMOOTH, 128, 64)).name
+
+
+def changed(record: CaseRecord, **values: float) -> CaseRecord:
+    """With some of its measures multiplied, in the row and over the radius."""
+
+    def of(measures: dict[str, float | None]) -> dict[str, float | None]:
+        return {name: value * values.get(name, 1.0) for name, value in measures.items()}
+
+    parts = tuple(part.model_copy(update={"measures": of(part.measures)}) for part in record.parts)
+    return record.model_copy(update={"measures": of(record.measures), "parts": parts})
 
 
 @pytest.fixture(scope="module")
-def record() -> CrossCheckRecord:
-    return CrossCheckRun(2.0, 1.0, 0.0, 64, 32).compute()
+def record() -> CaseRecord:
+    return CrossCheckRun(Sides(SMOOTH, 64, 32)).compute()
 
 
-def test_both_solvers_agree_and_say_what_they_leave(record: CrossCheckRecord) -> None:
+def test_both_solvers_agree_and_say_what_they_leave(record: CaseRecord) -> None:
     found = differences(record)
     assert set(found) == {"pressure", "approach"}
     for one in found.values():
@@ -42,8 +65,8 @@ def test_both_solvers_agree_and_say_what_they_leave(record: CrossCheckRecord) ->
         assert max(one.to_reference) < one.required
 
 
-def test_a_record_comes_back_from_its_text(record: CrossCheckRecord) -> None:
-    assert CrossCheckRecord.model_validate_json(record.model_dump_json()) == record
+def test_a_record_comes_back_from_its_text(record: CaseRecord) -> None:
+    assert CaseRecord.model_validate_json(record.model_dump_json()) == record
 
 
 def test_the_matrix_has_every_contact_once() -> None:
@@ -51,24 +74,20 @@ def test_the_matrix_has_every_contact_once() -> None:
     cases = STUDY.cases(QUICK)
     asked = product(RATIOS, THICKNESSES, FRICTIONS)
     bodies = {(ratio, 0.0 if ratio == 1 else h, mu) for ratio, h, mu in asked}
-    runs = [c for c in cases if isinstance(c, CrossCheckRun)]
-    solved = {
-        (c.modulus_ratio, 0.0 if c.modulus_ratio == 1 else c.thickness, c.friction) for c in runs
-    }
+    contacts = [c.sides.contact for c in cases if isinstance(c, CrossCheckRun)]
+    solved = {(c.modulus_ratio, c.thickness if c.is_coated else 0.0, c.friction) for c in contacts}
     assert len({case.name for case in cases}) == len(cases) == len(bodies) == 48
     assert solved == bodies
     assert "48 scenes, 45 of them" in STUDY.question
+    assert {contact for chosen in CHOSEN.values() for contact in chosen} <= set(contacts)
 
 
-def test_an_agreement_within_poorer_own_errors_is_told(record: CrossCheckRecord) -> None:
-    good, poor = (
-        record.finite_elements.model_copy(update={"own_pressure": own}) for own in (1e-6, 0.5)
-    )
-    ours = record.semi_analytical.model_copy(update={"own_pressure": 1e-6})
-    (case,) = (c for c in STUDY.cases(QUICK) if c.name.startswith("2-1-0-"))
-    for side, told in ((good, False), (poor, True)):
-        changed = record.model_copy(update={"finite_elements": side, "semi_analytical": ours})
-        conclusion = STUDY.conclude(QUICK, {case.name: changed})
+def test_an_agreement_within_poorer_own_errors_is_told(record: CaseRecord) -> None:
+    own = ("own_pressure_cells", "own_pressure_elements")
+    known = [record.measures[name] for name in own]
+    for elements, told in ((1e-6, False), (0.5, True)):
+        factors = dict(zip(own, (1e-6 / known[0], elements / known[1]), strict=True))
+        conclusion = STUDY.conclude(QUICK, {NAME: changed(record, **factors)})
         (statement,) = (s for s in conclusion.statements if "agree: pressure" in s.claim)
         assert ("1 of them with own errors beyond it" in statement.measured) is told
 
@@ -81,9 +100,8 @@ def test_own_errors_decide_between_fail_and_inconclusive() -> None:
     assert Difference(0.0, 1.0, 0.0, 0.0, (2.0, 1.0)).nearer == "elements"
 
 
-def test_study_concludes_from_the_records_there_are(record: CrossCheckRecord) -> None:
-    case = next(c for c in STUDY.cases(QUICK) if c.name.startswith("2-1-0-"))
-    conclusion = STUDY.conclude(QUICK, {case.name: record})
+def test_study_concludes_from_the_records_there_are(record: CaseRecord) -> None:
+    conclusion = STUDY.conclude(QUICK, {NAME: record})
     by_claim = {statement.claim: statement for statement in conclusion.statements}
     agree = by_claim["both solvers agree: pressure, r < 0.9 a, over p₀"]
     assert agree.outcome is Status.PASS
@@ -95,17 +113,14 @@ def test_study_concludes_from_the_records_there_are(record: CrossCheckRecord) ->
         "shear_differences",
     }
     assert all(len(chart.rows) == len(RATIOS) for chart in conclusion.charts)
-    assert len(
-        STUDY.exports(QUICK, {case.name: record})["differences.csv"].splitlines()
-    ) == 1 + len(record.radii)
+    assert len(row_files({NAME: record})["parts.csv"].splitlines()) == 1 + len(record.parts)
 
 
 def test_the_answer_has_differences_and_both_distances_to_the_reference(
-    record: CrossCheckRecord,
+    record: CaseRecord,
 ) -> None:
-    case = next(c for c in STUDY.cases(QUICK) if c.name.startswith("2-1-0-"))
     found = differences(record)["approach"]
-    answer = STUDY.conclude(QUICK, {case.name: record}).answer
+    answer = STUDY.conclude(QUICK, {NAME: record}).answer
     assert "On 1 contacts" in answer
     assert f"{100 * found.value:.2g} % in approach (E1/E2 = 2, h = 1 a_H, µ = 0" in answer
     assert found.to_reference is not None
@@ -117,70 +132,78 @@ def test_the_answer_has_differences_and_both_distances_to_the_reference(
     assert STUDY.conclude(QUICK, {}).answer == ""
 
 
-def test_contacts_beyond_what_is_required_are_named(record: CrossCheckRecord) -> None:
-    side = record.semi_analytical
-    off = {"numbers": side.numbers | {"approach": 1.002 * side.numbers["approach"]}}
-    changed = record.model_copy(update={"semi_analytical": side.model_copy(update=off)})
-    conclusion = STUDY.conclude(QUICK, {CrossCheckRun(2.0, 1.0, 0.0, 128, 64).name: changed})
+def test_contacts_beyond_what_is_required_are_named(record: CaseRecord) -> None:
+    conclusion = STUDY.conclude(QUICK, {NAME: changed(record, approach_cells=1.002)})
     (statement,) = (s for s in conclusion.statements if "agree: approach" in s.claim)
     assert "beyond it: E1/E2 = 2, h = 1 a_H, µ = 0: 0.00" in statement.measured
     assert "beyond what is asked in 1 of 2 comparisons" in conclusion.answer
 
 
-def test_what_is_left_out_of_the_shear_is_told(record: CrossCheckRecord) -> None:
-    side, count = record.semi_analytical, len(record.radii)
-    shear = [0.0] * count
+def test_what_is_left_out_of_the_shear_is_told(record: CaseRecord) -> None:
+    shear = [0.0] * len(record.parts)
     shear[3], shear[5] = 0.7, 0.2
-    judged = tuple(n not in (3, 4) for n in range(count))
-    update = {
-        "shear_judged": judged,
-        "semi_analytical": side.model_copy(update={"shear": tuple(shear)}),
-        "finite_elements": record.finite_elements.model_copy(update={"shear": (0.0,) * count}),
-    }
-    name = CrossCheckRun(2.0, 1.0, 0.1, 128, 64).name
-    conclusion = STUDY.conclude(QUICK, {name: record.model_copy(update=update)})
+    parts = tuple(
+        part.model_copy(
+            update={
+                "parameters": part.parameters | {"shear_judged": n not in (3, 4)},
+                "measures": part.measures | {"shear_cells": shear[n], "shear_elements": 0.0},
+            }
+        )
+        for n, part in enumerate(record.parts)
+    )
+    rubbed = CrossCheckRun(Sides(replace(SMOOTH, friction=0.1), 128, 64)).name
+    parameters = record.parameters | {"friction": 0.1}
+    conclusion = STUDY.conclude(
+        QUICK, {rubbed: record.model_copy(update={"parts": parts, "parameters": parameters})}
+    )
     (told,) = (s for s in conclusion.statements if "where it is not judged" in s.claim)
     assert told.measured.startswith("at most 0.7 of µp₀ (E1/E2 = 2")
     assert "away from the axis and from the kinks of the shear" in conclusion.answer
 
 
 @pytest.mark.parametrize("wrong", ["pressure", "shear", "approach"])
-def test_a_side_that_is_wrong_fails(record: CrossCheckRecord, wrong: str) -> None:
-    side = record.semi_analytical
-    ones = (1.0,) * len(record.radii)
-    changes: dict[str, dict[str, object]] = {
-        "pressure": {"pressure": tuple(1.03 * p for p in side.pressure)},
-        "shear": {"shear": ones},
-        "approach": {"numbers": side.numbers | {"approach": 1.002 * side.numbers["approach"]}},
-    }
-    changed = side.model_copy(update=changes[wrong])
-    (statement,) = (
-        s
-        for s in STUDY.conclude(
-            QUICK,
-            {CrossCheckRun(2.0, 1.0, 0.0, 128, 64).name: record.model_copy(
-                update={"semi_analytical": changed})},
-        ).statements
-        if f"agree: {wrong}" in s.claim
-    )  # fmt: skip
+def test_a_side_that_is_wrong_fails(record: CaseRecord, wrong: str) -> None:
+    if wrong == "shear":
+        parts = tuple(
+            part.model_copy(update={"measures": part.measures | {"shear_cells": 1.0}})
+            for part in record.parts
+        )
+        parameters = record.parameters | {"friction": 0.1}
+        off = record.model_copy(update={"parts": parts, "parameters": parameters})
+    else:
+        off = changed(record, pressure_cells=1.03, approach_cells=1.002)
+    conclusion = STUDY.conclude(QUICK, {NAME: off})
+    (statement,) = (s for s in conclusion.statements if f"agree: {wrong}" in s.claim)
     assert statement.outcome is Status.FAIL
 
 
+def test_a_number_that_is_none_is_not_passed_over(record: CaseRecord) -> None:
+    for lost in ("approach_cells", "own_pressure_cells"):
+        bad = record.model_copy(update={"measures": record.measures | {lost: None}})
+        (name,) = (name for name in differences(record) if name in lost)
+        assert not differences(bad)[name].is_explained
+    part = record.parts[2].model_copy(
+        update={"measures": record.parts[2].measures | {"pressure_cells": None}}
+    )
+    bad = record.model_copy(update={"parts": (*record.parts[:2], part, *record.parts[3:])})
+    assert differences(bad)["pressure"].status is Status.FAIL
+
+
 def test_profiles_of_both_solvers_are_at_the_same_radii() -> None:
-    radii = ROUGH.radii(8, 32)
-    on_cells = ROUGH.on_grid(semi_analytical.solve(ROUGH.scene, ROUGH.grid(32), 1e-8), radii)
-    on_rings = ROUGH.on_rings(fem_reference.solve(ROUGH.scene, ROUGH.mesh(16)), radii)
+    at = radii(8, 32)
+    on_cells = ROUGH.on_grid(semi_analytical.solve(ROUGH.scene, ROUGH.grid(32), 1e-8), at)
+    on_rings = ROUGH.on_rings(fem_reference.solve(ROUGH.scene, ROUGH.mesh(16)), at)
     np.testing.assert_allclose(on_cells.pressure, on_rings.pressure, atol=0.05)
     np.testing.assert_allclose(on_cells.shear, on_rings.shear, atol=0.1)
     with pytest.raises(ValueError, match="rings"):
-        ROUGH.on_rings(fem_reference.solve(ROUGH.scene, ROUGH.mesh(16)), radii + 0.01)
+        ROUGH.on_rings(fem_reference.solve(ROUGH.scene, ROUGH.mesh(16)), at + 0.01)
 
 
 def test_the_edges_of_stick_are_not_judged() -> None:
-    radii = ROUGH.radii(32, 64)
-    kept = ROUGH.away_from_stick_edges(radii, (0.25, 0.5), 64, 32)
+    at = radii(32, 64)
+    kept = away_from_kinks(at, (0.25, 0.5), width(64, 32))
     for edge in (0.25, 0.5):
-        assert not kept[np.argmin(np.abs(radii - edge))]
+        assert not kept[np.argmin(np.abs(at - edge))]
     assert kept[0]
     assert kept[-1]
 
@@ -188,13 +211,13 @@ def test_the_edges_of_stick_are_not_judged() -> None:
 @pytest.mark.parametrize("edges", [(0.0, 0.3), (1 / 64, 0.3), (1 / 64,)])
 def test_two_elements_are_left_out_where_stick_ends_at_the_axis(edges: tuple[float, ...]) -> None:
     rings = np.arange(2, 58) / 64
-    np.testing.assert_array_equal(ROUGH.clear_of_axis(rings, edges, 256, 64), rings[1:])
+    np.testing.assert_array_equal(clear_of_axis(rings, edges, width(256, 64)), rings[1:])
 
 
 def test_all_is_judged_where_stick_ends_off_the_axis() -> None:
     rings = np.arange(2, 58) / 64
     for edges in ((), (0.3,), (1.1 / 64, 0.3)):
-        np.testing.assert_array_equal(ROUGH.clear_of_axis(rings, edges, 256, 64), rings)
+        np.testing.assert_array_equal(clear_of_axis(rings, edges, width(256, 64)), rings)
 
 
 @pytest.mark.slow

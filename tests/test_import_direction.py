@@ -98,6 +98,10 @@ ORDERS = {
         *("cases", "defects", "studies", "peers", "benchmarks"),
         "report",
     ),
+    "verification.cases.both_solvers": (
+        *("left_out", "contacts", "sides", "differences", "stress", "line", "charts", "tables"),
+        "statements",
+    ),
     "verification.studies.stability": (
         *("cell", "record", "loading", "pose", "solvers", "judged", "views"),
         *("verdicts", "charts", "tables", "study"),

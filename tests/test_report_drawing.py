@@ -3,8 +3,6 @@
 import math
 import re
 from pathlib import Path
-from types import SimpleNamespace
-from typing import Any
 
 import numpy as np
 import pytest
@@ -13,14 +11,14 @@ from hypothesis import strategies as st
 
 import verification.report
 from contact_results.figures import style
-from verification.cases.cross_check_contacts import FRICTIONS, RATIOS, THICKNESSES
+from verification.cases.both_solvers.charts import difference_chart
+from verification.cases.both_solvers.contacts import CONTACTS, FRICTIONS, RATIOS, THICKNESSES
 from verification.exhibits.chart import Chart, Look, Panel, curve
 from verification.report.drawing import draw
 from verification.report.log_ticks import MOST, log_ticks
 from verification.report.svg import inline_svg
 from verification.report.thinned import FINENESS, thinned
-from verification.studies.cross_check.charts import difference_chart
-from verification.studies.cross_check.contacts import is_its_own
+from verification.running.row import CaseRecord, Row
 
 UNIT = ((0.0, 1.0), (0.0, 1.0))
 STYLES = Path(verification.report.__file__).parent / "templates" / "style.css"
@@ -114,16 +112,14 @@ def test_no_two_series_of_one_chart_are_drawn_alike() -> None:
 
 
 def test_an_empty_panel_says_why_and_measures_nothing() -> None:
-    record = SimpleNamespace(
-        semi_analytical=SimpleNamespace(pressure=[1.0, 0.9]),
-        finite_elements=SimpleNamespace(pressure=[0.99, 0.92]),
-        radii=[0.05, 0.9], shear_judged=[True, True],
-    )  # fmt: skip
-    found: Any = {
-        (ratio, thickness, mu): record
-        for ratio in RATIOS for thickness in THICKNESSES for mu in FRICTIONS
-        if is_its_own(ratio, thickness)
-    }  # fmt: skip
+    parts = tuple(
+        Row(
+            parameters={"r_over_a": r, "shear_judged": True},
+            measures={"pressure_cells": 1.0, "pressure_elements": 0.99},
+        )
+        for r in (0.05, 0.9)
+    )
+    found = dict.fromkeys(CONTACTS, CaseRecord(parts=parts))
     with style.figure_style():
         figure = draw(difference_chart(found, "pressure"))
         figure.draw_without_rendering()

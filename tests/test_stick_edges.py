@@ -10,9 +10,9 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 
 import fem_reference
-from verification.cases.cross_check_contacts import CheckedContact
-from verification.cases.cross_check_tangential_line import Line
-from verification.cases.stick_edges import kept_edges, kept_fronts
+from verification.cases.both_solvers.contacts import CheckedContact
+from verification.cases.both_solvers.left_out import kept_edges, kept_fronts
+from verification.cases.both_solvers.line import Line
 from verification.problems.paper_scene import HERTZ
 
 RETURNING = CheckedContact(4.0, 0.25, 0.3)

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from contact_results.quantities import shift_along_x
 from contact_scene import CoulombFriction, FiniteElementDiscretisation, LoadStep, Scene
 from verification.cases.apart_everywhere import Apart, apart_everywhere
-from verification.cases.cross_check_tangential_line import Line
+from verification.cases.both_solvers.line import Line
 from verification.cases.fem_harmonics_run import PointsRun
 from verification.exhibits.chart import Chart, Look, Panel, curve
 from verification.exhibits.table import Table

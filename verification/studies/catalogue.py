@@ -7,7 +7,7 @@ from pathlib import Path
 from fem_reference import Method
 from verification.running.study import Study
 from verification.studies.coated_tractions import STUDY as COATED_TRACTIONS
-from verification.studies.cross_check.study import STUDY as CROSS_CHECK
+from verification.studies.cross_check import STUDY as CROSS_CHECK
 from verification.studies.error_budget.study import STUDY as ERROR_BUDGET
 from verification.studies.gross_sliding.study import STUDY as GROSS_SLIDING
 from verification.studies.penalty.study import STUDY as PENALTY

@@ -14,7 +14,7 @@ from fem_reference.stress import subsurface as section_field
 from semi_analytical.frf.depth import Level
 from semi_analytical.grid import SurfaceGrid
 from semi_analytical.stress import SubsurfaceField, subsurface
-from verification.cases.cross_check_contacts import CheckedContact
+from verification.cases.both_solvers.contacts import CheckedContact
 from verification.exhibits.chart import Chart, Look, Panel, curve
 
 if TYPE_CHECKING:

@@ -6,22 +6,15 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
 from fem_reference.contact.harmonics.surface_tractions import tractions_at
-from verification.cases.fem_levels import judged_within
-from verification.cases.stick_edges import kept_fronts
+from verification.cases.both_solvers.left_out import AXIS, FRONT, Field, Mask, kept_fronts
+from verification.observed.ring_errors import judged_within
 from verification.problems.paper_scene import FRICTION, HERTZ
 
 if TYPE_CHECKING:
     import fem_reference
     import semi_analytical
-
-Field = NDArray[np.float64]
-Mask = NDArray[np.bool_]
-
-# Of elements or cells, whichever is larger: shear has a cusp where stick begins.
-FRONT, AXIS = 1.5, 2.0
 
 
 @dataclass(frozen=True)

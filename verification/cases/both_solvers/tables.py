@@ -1,27 +1,28 @@
-"""The numbers of every contact."""
+"""The numbers of every contact by both solvers."""
 
 from __future__ import annotations
 
+from verification.cases.both_solvers.contacts import CheckedContact
+from verification.cases.both_solvers.differences import COMPARED, Apart, Difference, Found
+from verification.cases.both_solvers.sides import ELEMENTS, SIDES, number
 from verification.exhibits.numbers import plain
 from verification.exhibits.table import Table
-from verification.judging.status_words import SYMBOLS
+from verification.judging.status_words import SYMBOLS as STATUS
 from verification.problems.paper_scene import NORMAL_FORCE
-from verification.studies.cross_check.contacts import Apart, Found
-from verification.studies.cross_check.difference import Difference
 
-SYMBOL = {"pressure": "p", "shear": "q", "approach": "δ"}
+SYMBOLS = tuple(compared.symbol for compared in COMPARED.values())
 CONTACT = ("E1/E2", "h / a_H", "µ")
 
 
 def difference_table(apart: Apart) -> Table:
     """How far the solvers are apart, with the own error of each side."""
     columns = [*CONTACT]
-    for symbol in SYMBOL.values():
+    for symbol in SYMBOLS:
         columns += [f"Δ{symbol}", f"{symbol}: cells", f"{symbol}: elements", f"{symbol}: nearer"]
     rows = []
-    for key, of in apart.items():
-        row = [f"{value:g}" for value in key]
-        for name in SYMBOL:
+    for contact, of in apart.items():
+        row = _coordinates(contact)
+        for name in COMPARED:
             one = of.get(name)
             row += ["–"] * 4 if one is None else _cells_of(one)
         rows.append(tuple(row))
@@ -37,14 +38,14 @@ def difference_table(apart: Apart) -> Table:
 def reference_table(apart: Apart) -> Table:
     """Errors of both sides where neither made the reference."""
     columns = [*CONTACT]
-    for symbol in SYMBOL.values():
+    for symbol in SYMBOLS:
         columns += [f"{symbol}: cells", f"{symbol}: elements"]
     rows = []
-    for key, of in apart.items():
+    for contact, of in apart.items():
         errors = {name: one.to_reference for name, one in of.items()}
         if any(error is not None for error in errors.values()):
-            row = [f"{value:g}" for value in key]
-            for name in SYMBOL:
+            row = _coordinates(contact)
+            for name in COMPARED:
                 error = errors.get(name)
                 row += ["–"] * 2 if error is None else [plain(side, 2) for side in error]
             rows.append(tuple(row))
@@ -60,17 +61,14 @@ def reference_table(apart: Apart) -> Table:
 def number_table(found: Found) -> Table:
     """Radii and energies by both."""
     rows = []
-    for key, record in found.items():
-        one, other = record.semi_analytical.numbers, record.finite_elements.numbers
-        a, b = one["contact_radius"], other["contact_radius"]
-        row = [*(f"{value:g}" for value in key), plain(a / b - 1, 2)]
-        if "stick_radius" in one and "stick_radius" in other:
-            row += [f"{one['stick_radius'] / a:.4f}", f"{other['stick_radius'] / b:.4f}"]
-            scale = NORMAL_FORCE * other["approach"]
-            row += [
-                plain(side["dissipated_energy"] / scale, 3) if "dissipated_energy" in side else "–"
-                for side in (one, other)
-            ]
+    for contact, record in found.items():
+        a, b = (number(record, f"contact_radius_{side}") for side in SIDES)
+        row = [*_coordinates(contact), plain(a / b - 1, 2)]
+        if contact.friction:
+            c, d = (number(record, f"stick_radius_{side}") for side in SIDES)
+            scale = NORMAL_FORCE * number(record, f"approach_{ELEMENTS}")
+            energies = (number(record, f"dissipated_energy_{side}") / scale for side in SIDES)
+            row += [f"{c / a:.4f}", f"{d / b:.4f}", *(plain(energy, 3) for energy in energies)]
         else:
             row += ["–"] * 4
         rows.append(tuple(row))
@@ -85,8 +83,12 @@ def number_table(found: Found) -> Table:
 
 def _cells_of(one: Difference) -> list[str]:
     return [
-        f"{SYMBOLS[one.status]} {plain(one.value, 2)}",
-        plain(one.semi_analytical, 2),
-        plain(one.finite_elements, 2),
+        f"{STATUS[one.status]} {plain(one.value, 2)}",
+        plain(one.cells, 2),
+        plain(one.elements, 2),
         one.nearer,
     ]
+
+
+def _coordinates(contact: CheckedContact) -> list[str]:
+    return [f"{value:g}" for value in (contact.modulus_ratio, contact.thickness, contact.friction)]

@@ -1,20 +1,21 @@
-"""Coated contacts for both solvers, and what is compared: profiles over the radius, and numbers."""
+"""Coated contacts for both solvers: their scenes, tractions, and references that neither made."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from itertools import product
 from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy.ndimage import map_coordinates
 
+import fem_reference
 from contact_results.quantities import shear_of
 from contact_scene import CoulombFriction, FiniteElementDiscretisation, LoadStep, Scene
 from semi_analytical.grid import SurfaceGrid
-from verification.cases.indentation_reference import COATED, STRONG, WEAK
-from verification.cases.stick_edges import kept_edges
+from verification.cases.both_solvers.left_out import EVEN, MARGIN, kept_edges
+from verification.cases.indentation_reference import COATED, STRONG, WEAK, Indentation
 from verification.closed_forms.coated_indentation import LayeredIndentation
 from verification.judging.run import SOLVER_TOLERANCE
 from verification.observed.radial_profile import outward
@@ -23,7 +24,6 @@ from verification.problems.layered_scene import coated, exact_contact, film, rig
 from verification.problems.paper_scene import HERTZ
 
 if TYPE_CHECKING:
-    import fem_reference
     import semi_analytical
 
 Field = NDArray[np.float64]
@@ -36,11 +36,9 @@ FRICTIONS = (0.0, 0.1, 0.3)
 # longer the shear remembers the edge of every increment: that ripple falls with the increments, and
 # finer cells or elements only show it more sharply.
 INCREMENTS = {0.0: 1, 0.1: 20, 0.3: 80}
-EDGE = 2.0  # cells or elements to each side of a kink of the shear
-MARGIN = 1.15  # half a window in contact radii without friction
-JUDGED_WITHIN = 0.9
 DIRECTIONS = 16
-EVEN = 1e-9
+ALIKE = 1.0  # E1/E2 of a coating that is none, whatever its thickness
+STANDS_FOR_ALL = 1.0  # its h / a_H
 
 # Pressing with friction: the solution without increments, by modulus ratio, thickness, friction;
 # where the moduli are equal the coating is none.
@@ -85,6 +83,11 @@ class CheckedContact:
         return f"{self.modulus_ratio:g}-{self.thickness:g}-{self.friction:g}".replace(".", "p")
 
     @property
+    def is_coated(self) -> bool:
+        """Whether the coating differs from what is below."""
+        return self.modulus_ratio != ALIKE
+
+    @property
     def scene(self) -> Scene:
         """What both solvers solve."""
         mu = self.friction
@@ -124,44 +127,24 @@ class CheckedContact:
             tolerance=SOLVER_TOLERANCE,
         )
 
-    def radii(self, elements: int, cells: int, within: float = JUDGED_WITHIN) -> Field:
-        """Where tractions are judged: the rings of a mesh, over the contact radius, from two
-        elements and two cells off the axis. Nearer the outward shear turns round within a cell."""
-        rings = np.arange(2, elements + 1) / elements
-        judged = (rings >= 2 * 2 * MARGIN / cells) & (rings <= within * (1 + EVEN))
-        return np.asarray(rings[judged])
-
     def stick_edges(
-        self, result: fem_reference.Result | semi_analytical.Result, cells: int, elements: int
+        self, result: fem_reference.Result | semi_analytical.Result, resolution: float
     ) -> tuple[float, ...]:
-        """Where the shear of a result has kinks, over the contact radius: the edge of stick, and
-        where that turned outward after it had come back; none without friction."""
+        """Where the shear of a result has kinks, over the contact radius: last the edge of stick,
+        before where that turned outward after it had come back; none without friction."""
         radii = [one.stick_radius for one in result.increments if one.stick_radius is not None]
         if not radii:
             return ()
         over = [radius / self.contact_radius for radius in radii]
-        return kept_edges(over, _width(cells, elements))
+        return kept_edges(over, resolution)
 
-    def clear_of_axis(
-        self, radii: Field, edges: Sequence[float], cells: int, elements: int
-    ) -> Field:
-        """The radii further from the axis than two cells and two elements; all of them unless stick
-        ends, or turned, within one. For cells and elements the outward shear then jumps at the
-        axis, which the pressure answers with a logarithmic peak: as many elements away its error is
-        the same on every mesh."""
-        width = _width(cells, elements)
-        if not any(edge <= width for edge in edges):
-            return radii
-        return np.asarray(radii[radii > EDGE * width * (1 + EVEN)])
-
-    def away_from_stick_edges(
-        self, radii: Field, edges: Sequence[float], cells: int, elements: int
-    ) -> NDArray[np.bool_]:
-        """Which radii are further from all kinks than two cells and two elements."""
-        away = np.ones(len(radii), dtype=bool)
-        for edge in edges:
-            away &= np.abs(radii - edge) > EDGE * _width(cells, elements)
-        return away
+    def tractions(
+        self, result: fem_reference.Result | semi_analytical.Result, radii: Field
+    ) -> Profiles:
+        """Of either solver at these radii."""
+        if isinstance(result, fem_reference.Result):
+            return self.on_rings(result, radii)
+        return self.on_grid(result, radii)
 
     def on_grid(self, result: semi_analytical.Result, radii: Field) -> Profiles:
         """Means over the directions, by cubic splines between the cells."""
@@ -189,7 +172,7 @@ class CheckedContact:
         if not self.friction:
             p = np.asarray(self.frictionless.pressure(radii * self.contact_radius))
             return Profiles(p / self.peak_pressure, np.zeros_like(p))
-        known = FRICTIONAL.get((self.modulus_ratio, self.thickness, self.friction))
+        known = self._frictional
         if known is None:
             return None
         fine = "r_fine_over_aH" in known.row
@@ -210,13 +193,23 @@ class CheckedContact:
         """Approach of the reference [length]; None where there is none."""
         if not self.friction:
             return self.frictionless.approach
-        known = FRICTIONAL.get((self.modulus_ratio, self.thickness, self.friction))
-        return None if known is None else known.approach
+        return None if self._frictional is None else self._frictional.approach
+
+    @property
+    def _frictional(self) -> Indentation | None:
+        return FRICTIONAL.get((self.modulus_ratio, self.thickness, self.friction))
 
 
-def _width(cells: int, elements: int) -> float:
-    """Of a cell or an element, whichever is larger, over the contact radius."""
-    return max(2 * MARGIN / cells, 1 / elements)
+def is_its_own(ratio: float, thickness: float) -> bool:
+    """Whether no other thickness makes the same body."""
+    return ratio != ALIKE or thickness == STANDS_FOR_ALL
+
+
+CONTACTS = tuple(
+    CheckedContact(ratio, thickness, friction)
+    for ratio, thickness, friction in product(RATIOS, THICKNESSES, FRICTIONS)
+    if is_its_own(ratio, thickness)
+)
 
 
 def _around(field: Field, grid: SurfaceGrid, r: Field) -> Field:
@@ -225,13 +218,3 @@ def _around(field: Field, grid: SurfaceGrid, r: Field) -> Field:
     x, y = np.outer(r, np.cos(angle)), np.outer(r, np.sin(angle))
     at = [(x - grid.x[0]) / grid.spacing[0], (y - grid.y[0]) / grid.spacing[1]]
     return np.asarray(map_coordinates(field, at, order=3).mean(axis=1))
-
-
-def numbers(end: semi_analytical.Increment | fem_reference.Increment) -> Mapping[str, float]:
-    """Scalars of the end of a run by either solver, in SI; those that both have."""
-    found = {"approach": end.approach, "contact_radius": end.contact_radius}
-    for name in ("stick_radius", "dissipated_energy"):
-        value = getattr(end, name)
-        if value is not None:
-            found[name] = value
-    return {name: float(value) for name, value in found.items()}

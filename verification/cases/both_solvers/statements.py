@@ -2,42 +2,46 @@
 
 from __future__ import annotations
 
+import numpy as np
+
+from verification.cases.both_solvers.contacts import CONTACTS, CheckedContact
+from verification.cases.both_solvers.differences import (
+    COMPARED,
+    COVERAGE,
+    Apart,
+    Compared,
+    Difference,
+    Found,
+)
+from verification.cases.both_solvers.sides import (
+    CELLS,
+    ELEMENTS,
+    column,
+    judged_radii,
+    kept_edges,
+)
 from verification.exhibits.numbers import plain
 from verification.judging.outcome import Status
 from verification.judging.run import SOLVER_TOLERANCE
+from verification.running.row import Row
+from verification.running.rules import converged
 from verification.running.study import Statement
-from verification.studies.cross_check.contacts import (
-    Apart,
-    Found,
-    Key,
-    contact_text,
-    expected_contacts,
-)
-from verification.studies.cross_check.difference import (
-    CELLS,
-    COVERAGE,
-    ELEMENTS,
-    REQUIRED,
-    Difference,
-)
-
-MEANINGS = {
-    "pressure": "pressure, r < 0.9 a, over p₀",
-    "shear": "shear, r < 0.9 a and away from its kinks, over µp₀",
-    "approach": "approach, relative",
-}
-UNITS = {"pressure": " of p₀", "shear": " of µp₀", "approach": ""}
 
 
 def statements(found: Found, apart: Apart) -> tuple[Statement, ...]:
     """One per quantity, then what the differences are due to."""
     return (
-        *(_agreement(name, apart) for name in REQUIRED),
+        *(_agreement(compared, apart) for compared in COMPARED.values()),
         _explained(apart),
         _kept(found),
         _left_out(found),
         _nearer(apart),
-        _converged(found),
+        converged(
+            tuple(found.values()),
+            SOLVER_TOLERANCE,
+            f"on {len(found)} of {len(CONTACTS)} contacts",
+            asked=len(CONTACTS),
+        ),
     )
 
 
@@ -46,13 +50,13 @@ def answer(apart: Apart, fineness: str) -> str:
 
     fineness  of both solvers, in words
     """
-    worst = {name: _worst_contact(name, apart) for name in REQUIRED}
+    worst = {name: _worst_contact(name, apart) for name in COMPARED}
     parts = [
-        f"{_percent(one.value)}{UNITS[name]} in {name} ({contact_text(key)}; their own errors "
+        f"{_percent(one.value)}{_of(COMPARED[name])} in {name} ({contact.name}; their own errors "
         f"leave ± {_percent(COVERAGE * one.joint)})"
         for name, found in worst.items()
         if found is not None
-        for key, one in [found]
+        for contact, one in [found]
     ]
     if not parts:
         return ""
@@ -66,7 +70,7 @@ def answer(apart: Apart, fineness: str) -> str:
         f"On {len(apart)} contacts, compared up to 0.9 a, away from the axis and from the kinks of "
         f"the shear, they are at most {_listed(parts)} apart, {asked}."
     )
-    known = [text for name in REQUIRED if (text := _to_reference(name, apart))]
+    known = [text for name in COMPARED if (text := _to_reference(name, apart))]
     if not known:
         return apart_text
     return (
@@ -89,34 +93,43 @@ def _to_reference(name: str, apart: Apart) -> str:
     )
 
 
-def _known(name: str, apart: Apart) -> list[tuple[Key, Difference]]:
+def _known(name: str, apart: Apart) -> list[tuple[CheckedContact, Difference]]:
     """The contacts with a reference that neither solver made."""
     return [
-        (key, of[name])
-        for key, of in apart.items()
+        (contact, of[name])
+        for contact, of in apart.items()
         if name in of and of[name].to_reference is not None
     ]
 
 
-def _worst_contact(name: str, apart: Apart) -> tuple[Key, Difference] | None:
-    every = [(key, of[name]) for key, of in apart.items() if name in of]
+def _worst_contact(name: str, apart: Apart) -> tuple[CheckedContact, Difference] | None:
+    every = [(contact, of[name]) for contact, of in apart.items() if name in of]
     return max(every, key=lambda item: item[1].value, default=None)
 
 
-def _agreement(name: str, apart: Apart) -> Statement:
-    every = [of[name] for of in apart.values() if name in of]
+def _of(compared: Compared) -> str:
+    return f" of {compared.scale}" if compared.scale else ""
+
+
+def _agreement(compared: Compared, apart: Apart) -> Statement:
+    every = [of[compared.name] for of in apart.values() if compared.name in of]
     worst = max(every, key=lambda one: one.value, default=None)
     statuses = [one.status for one in every]
     counts = {status: statuses.count(status) for status in Status}
     return Statement(
-        claim=f"both solvers agree: {MEANINGS[name]}",
+        claim=f"both solvers agree: {compared.meaning}",
         outcome=_worst(statuses),
-        measured=f"{counts[Status.PASS]} of {len(every)} contacts within {REQUIRED[name]:g}"
+        measured=f"{counts[Status.PASS]} of {len(every)} contacts within {compared.required:g}"
         f"{_uncertain(every)}, {counts[Status.INCONCLUSIVE]} beyond it but within their own "
         "errors; largest difference "
         + ("–" if worst is None else f"{plain(worst.value, 2)} ± {plain(worst.joint, 2)}")
-        + _beyond(name, apart),
-        because=f"required {REQUIRED[name]:g}",
+        + _beyond(compared.name, apart),
+        because=f"required {compared.required:g}",
+        about=Row(
+            words={"quantity": compared.name},
+            measures={} if worst is None else {"difference": worst.value, "joint": worst.joint},
+            counters={str(status): count for status, count in counts.items()},
+        ),
     )
 
 
@@ -129,8 +142,8 @@ def _uncertain(every: list[Difference]) -> str:
 def _beyond(name: str, apart: Apart) -> str:
     """The contacts that are further apart than is required, by name."""
     named = [
-        f"{contact_text(key)}: {plain(of[name].value, 2)}"
-        for key, of in apart.items()
+        f"{contact.name}: {plain(of[name].value, 2)}"
+        for contact, of in apart.items()
         if name in of and of[name].status is not Status.PASS
     ]
     return f"; beyond it: {'; '.join(named)}" if named else ""
@@ -149,10 +162,10 @@ def _explained(apart: Apart) -> Statement:
 
 
 def _kept(found: Found) -> Statement:
-    turned = {key: record.stick_edges[:-1] for key, record in found.items()}
+    turned = {contact: kept_edges(record)[:-1] for contact, record in found.items()}
     named = [
-        f"{contact_text(key)}: at {_listed([f'{edge:.3f}' for edge in edges])} a"
-        for key, edges in turned.items()
+        f"{contact.name}: at {_listed([f'{edge:.3f}' for edge in edges])} a"
+        for contact, edges in turned.items()
         if edges
     ]
     return Statement(
@@ -167,26 +180,22 @@ def _kept(found: Found) -> Statement:
 def _left_out(found: Found) -> Statement:
     """The largest difference of shear that no verdict sees."""
     apart = {
-        key: max(
-            (
-                abs(one - other)
-                for one, other, judged in zip(
-                    record.semi_analytical.shear, record.finite_elements.shear,
-                    record.shear_judged, strict=True,
-                )
-                if not judged
-            ),
-            default=0.0,
+        contact: float(
+            np.max(
+                np.abs(column(record, f"shear_{CELLS}") - column(record, f"shear_{ELEMENTS}")),
+                where=~judged_radii(record)[1],
+                initial=0.0,
+            )
         )
-        for key, record in found.items()
-    }  # fmt: skip
-    worst = max(apart, key=lambda key: apart[key], default=None)
+        for contact, record in found.items()
+    }
+    worst = max(apart, key=lambda contact: apart[contact], default=None)
     return Statement(
         claim="how far apart both are in the shear at its kinks, where it is not judged",
         outcome=None,
         measured="nowhere left out"
         if worst is None or apart[worst] == 0
-        else f"at most {plain(apart[worst], 2)} of µp₀ ({contact_text(worst)})",
+        else f"at most {plain(apart[worst], 2)} of µp₀ ({worst.name})",
         because="a finding: cells and elements round a kink, each in its way; nearer to the axis "
         "than two cells or elements and beyond 0.9 a nothing is compared at all",
     )
@@ -194,7 +203,7 @@ def _left_out(found: Found) -> Statement:
 
 def _nearer(apart: Apart) -> Statement:
     parts = []
-    for name in REQUIRED:
+    for name in COMPARED:
         known = _known(name, apart)
         cells = sum(one.nearer == CELLS for _, one in known)
         parts.append(f"{name}: {CELLS} {cells}, {ELEMENTS} {len(known) - cells}")
@@ -203,21 +212,6 @@ def _nearer(apart: Apart) -> Statement:
         outcome=None,
         measured="; ".join(parts),
         because="a finding, at these finenesses",
-    )
-
-
-def _converged(found: Found) -> Statement:
-    worst = max(
-        (s.residual for r in found.values() for s in (r.semi_analytical, r.finite_elements)),
-        default=0.0,
-    )
-    expected = len(expected_contacts())
-    good = Status.PASS if worst <= SOLVER_TOLERANCE else Status.FAIL
-    return Statement(
-        claim="every increment converged",
-        outcome=good if len(found) == expected else Status.INCONCLUSIVE,
-        measured=f"largest residual {plain(worst, 2)}; {len(found)} of {expected} contacts",
-        because=f"allowed {SOLVER_TOLERANCE:g}",
     )
 
 

@@ -1,1 +1,0 @@
-"""Both solvers on the same coated contacts."""
