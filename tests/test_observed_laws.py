@@ -9,7 +9,6 @@ import semi_analytical
 from contact_scene import Body, CoulombFriction, LoadStep
 from contact_scene.solver_errors import NotConverged
 from verification.cases import coupled_history
-from verification.cases.torsion import torque_step
 from verification.judging.case import Case
 from verification.judging.law_verdicts import OTHER_NORMS, judge_laws
 from verification.judging.outcome import Status
@@ -21,6 +20,7 @@ from verification.observed.prescribed import missed
 from verification.problems import paper_scene as paper
 from verification.problems.layered_scene import SUBSTRATE, pressed, rigid_ball
 from verification.problems.paper_scene import FRICTION_LIMIT, NORMAL_FORCE, NU_ZERO, STEEL
+from verification.problems.torsion import torque_step
 
 ALLOWED = OTHER_NORMS * SOLVER_TOLERANCE
 SEEN = 10 * ALLOWED

@@ -9,13 +9,13 @@ import fem_reference
 from contact_scene import read_scene_file
 from semi_analytical import plan
 from verification.cases.catalogue import CASES, choose
-from verification.cases.loop_history import AMPLITUDE, ExactLoop
 from verification.cases.paper_fretting_loop import paper_fretting_loop
 from verification.closed_forms.mindlin_deresiewicz import FrettingLoop
 from verification.judging.case import Case, Derived, Level
 from verification.judging.refinement import refinement
 from verification.judging.run import SectionRun
 from verification.problems import paper_scene as paper
+from verification.problems.loop_history import AMPLITUDE, ExactLoop
 
 SCENES = Path(__file__).resolve().parents[1] / "scenes"
 QUICK = {case.name: case for case in choose(Level.QUICK)}

@@ -9,7 +9,7 @@ from verification.cases.fem_levels import because, levels
 from verification.judging.case import Case, Level
 from verification.judging.declared_case import Within, case, judged
 from verification.judging.drawings import profile
-from verification.judging.ladder import asked, on_elements
+from verification.judging.ladder import asked, named, on_elements
 from verification.judging.observables import (
     APPROACH,
     CENTRAL_PRESSURE,
@@ -43,7 +43,7 @@ def fem_coated_on(rows: Sequence[Mapping[str, Any]], elements: tuple[int, ...]) 
     Meshes are fitted to the contact by the solver itself."""
     names = [f"E1/E2 = {row['E1_over_E2']:g}, h = {row['h_over_aH']:g} a_H" for row in rows]
     ladders = [
-        on_elements(coated_ball(row), elements, of=name, judged_as=name)
+        named(name, on_elements(coated_ball(row), elements, of=name))
         for name, row in zip(names, rows, strict=True)
     ]
     return case(

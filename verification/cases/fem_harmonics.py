@@ -17,7 +17,7 @@ from contact_scene import (
     Scene,
 )
 from fem_reference.contact.harmonics.surface_tractions import tractions_at
-from verification.cases.cattaneo_mindlin import EXACT, PARTS, SCENE, SLIDING_SHIFT, SOURCE
+from verification.cases.cattaneo_mindlin import CATTANEO, PARTS
 from verification.cases.fem_harmonics_run import PointsRun
 from verification.cases.fem_levels import allowed, because, finest, label
 from verification.exhibits.chart import Chart, Look, Panel, curve
@@ -26,6 +26,7 @@ from verification.judging.run import per_radius
 from verification.problems import paper_scene as paper
 from verification.problems.paper_scene import FRICTION, HERTZ, STEEL
 from verification.problems.reference import closed_form, exact_zero
+from verification.problems.sheared import SLIDING_SHIFT, SOURCE
 
 if TYPE_CHECKING:
     from fem_reference import Increment, Result
@@ -39,6 +40,7 @@ ALIKE = paper.frictional(
     STEEL,
     *(paper.tangential_step(part, increments=1) for part in PARTS),
 )
+EXACT = dict(zip(PARTS, CATTANEO.ends[1:], strict=True))
 MINDLIN = {part: paper.partial_slip(STEEL, part * paper.FRICTION_LIMIT) for part in PARTS}
 
 # Incompressible, so that pressing leaves no shear; it sticks all over.
@@ -70,7 +72,7 @@ def fem_harmonics(level: Level = Level.QUICK) -> Case:
 def fem_harmonics_on(elements: int) -> Case:
     """The case on meshes of so many elements per contact radius."""
     mesh = per_radius(elements, 0.99 * HERTZ.contact_radius)
-    exact = PointsRun(f"ν = 0, {label(elements)}", SCENE, mesh)
+    exact = PointsRun(f"ν = 0, {label(elements)}", CATTANEO.scene, mesh)
     alike = PointsRun(f"ν = 0.3, {label(elements)}", ALIKE, mesh)
     disc = PointsRun(f"disc, {label(elements)}", BONDED, per_radius(elements, PUNCH))
     return Case(

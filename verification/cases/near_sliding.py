@@ -2,19 +2,39 @@
 
 from __future__ import annotations
 
-from contact_scene import IsotropicMaterial, LoadStep, Scene
-from verification.cases.cattaneo_mindlin import SLIDING_SHIFT, SOURCE
-from verification.judging.case import Case, Level, Quantity, Required
-from verification.judging.run import Run
-from verification.observed.end_state import shift, tangential_force
+from contact_results.quantities import force_along_x
+from contact_scene import IsotropicMaterial, LoadStep
+from verification.judging.case import Case, Level
+from verification.judging.declared_case import Within, case, judged
+from verification.judging.ladder import Ladder, named, on_cells
+from verification.judging.observable import Observable
+from verification.judging.observables import SHIFT
 from verification.problems import paper_scene as paper
-from verification.problems.paper_scene import NU_ZERO, STEEL
-from verification.problems.reference import closed_form, identity
+from verification.problems.paper_scene import FRICTION_LIMIT, HERTZ, NU_ZERO, STEEL
+from verification.problems.problem import Problem
+from verification.problems.reference import ReferenceKind
+from verification.problems.sheared import sheared
 
 CELLS = 64
 PARTS = (0.99, 0.999, 0.9999)
 MATERIALS = {"ν = 0": NU_ZERO, "ν = 0.3": STEEL}
 BEYOND = 5.0  # shifts at gross sliding
+OF_SLIDING = (
+    Within(
+        Observable(
+            "sliding_force", "tangential force while sliding", "N",
+            lambda result, step, _: force_along_x(result.steps[step]), lambda limit: float(limit),
+        ),
+        1e-7, "ten times the solver's tolerance, for sums over all cells",
+    ),
+)  # fmt: skip
+OF_STEP = (
+    Within(
+        SHIFT, 1e-3,
+        "the stick zone is a few cells wide or less: its force is known to a part of a cell's, the "
+        "shift with it",
+    ),
+)  # fmt: skip
 
 
 def near_sliding(level: Level = Level.QUICK) -> Case:
@@ -23,68 +43,47 @@ def near_sliding(level: Level = Level.QUICK) -> Case:
 
 
 def near_sliding_on(cells: int) -> Case:
-    """The case on a square grid of this many cells per side."""
-    grid = paper.hertz_grid(cells)
-    steps = [
-        Run(f"{name}, {part:g} µW", _one_step(material, part), grid)
-        for name, material in MATERIALS.items()
-        for part in PARTS
-    ]
-    slides = [
-        Run(f"{name}, sliding", _sliding(material), grid) for name, material in MATERIALS.items()
-    ]
-    return Case(
-        name="near_sliding",
-        title="Up to gross sliding and beyond",
-        problem=(
-            "The paper's contact sheared in a single step to 0.99, 0.999 and 0.9999 of µW, with "
-            "ν = 0 and ν = 0.3, and dragged to five times the shift at gross sliding. What is "
-            "judged is that every solve ends within its tolerance, and that sliding takes µW: "
-            "every particle then slips along x, whatever ν is."
+    """The case on a square grid of this many cells per side. For ν > 0 the closed form of the shift
+    is no answer."""
+    return case(
+        "near_sliding",
+        "Up to gross sliding and beyond",
+        "The paper's contact sheared in a single step to 0.99, 0.999 and 0.9999 of µW, with "
+        "ν = 0 and ν = 0.3, and dragged to five times the shift at gross sliding. What is "
+        "judged is that every solve ends within its tolerance, and that sliding takes µW: "
+        "every particle then slips along x, whatever ν is.",
+        *(
+            judged(_one_step(name, part, cells), OF_STEP if material is NU_ZERO else ())
+            for name, material in MATERIALS.items()
+            for part in PARTS
         ),
-        runs=(*steps, *slides),
-        quantities=(
-            *(_shift(run.label, part) for run, part in zip(steps, PARTS, strict=False)),
-            *(_limit(run.label) for run in slides),
+        *(
+            judged(named(f"{name}, sliding", on_cells(_sliding(material), (cells,))), OF_SLIDING)
+            for name, material in MATERIALS.items()
         ),
         limits=("Under force control at µW itself the shift is undefined; it is not a case.",),
     )
 
 
-def _one_step(material: IsotropicMaterial, part: float) -> Scene:
-    return paper.frictional(
-        f"One step to {part:g} µW, ν = {material.poisson_ratio:g}",
-        paper.paraboloid(material),
-        material,
-        paper.tangential_step(part, increments=1),
-    )
+def _one_step(name: str, part: float, cells: int) -> Ladder:
+    problem = sheared(f"One step to {part:g} µW, {name}", (part,), MATERIALS[name])
+    return named(f"{name}, {part:g} µW", on_cells(problem, (cells,)))
 
 
-def _sliding(material: IsotropicMaterial) -> Scene:
+def _sliding(material: IsotropicMaterial) -> Problem:
     sliding_shift = paper.partial_slip(material, 0.0).sliding_shift
-    return paper.frictional(
+    scene = paper.frictional(
         f"Dragged to {BEYOND:g} sliding shifts, ν = {material.poisson_ratio:g}",
         paper.paraboloid(material),
         material,
         LoadStep(tangential_shift=(0.8 * sliding_shift, 0.0), increments=2),
         LoadStep(tangential_shift=(BEYOND * sliding_shift, 0.0), increments=6),
     )
-
-
-def _shift(run: str, part: float) -> Quantity:
-    exact = paper.partial_slip(NU_ZERO, part * paper.FRICTION_LIMIT).shift
-    return Quantity(
-        "shift", f"tangential shift after one step to {part:g} µW", "m", run, shift,
-        closed_form(exact, SOURCE, SLIDING_SHIFT),
-        Required(1e-3, "the stick zone is a few cells wide or less: its force is known to a part "
-                 "of a cell's, the shift with it"),
-        SLIDING_SHIFT, "the shift at gross sliding",
-    )  # fmt: skip
-
-
-def _limit(run: str) -> Quantity:
-    return Quantity(
-        "sliding_force", "tangential force while sliding", "N", run, tangential_force,
-        identity(paper.FRICTION_LIMIT, "at full slip along x the shear is µp everywhere: T = µW"),
-        Required(1e-7, "ten times the solver's tolerance, for sums over all cells"),
-    )  # fmt: skip
+    return Problem(
+        scene,
+        (FRICTION_LIMIT,),
+        HERTZ.contact_radius,
+        "at full slip along x the shear is µp everywhere: T = µW",
+        ReferenceKind.IDENTITY,
+        uncertainty=0.0,
+    )

@@ -14,12 +14,12 @@ from verification.cases.loop_charts import (
     loading_history_chart,
     tractions_chart,
 )
-from verification.cases.loop_history import LOADED, ExactLoop, loop_energy, loop_steps
 from verification.exhibits.chart import Chart
 from verification.judging.case import Case, Finding, Level, Quantity, Required
 from verification.judging.ladder import cells_label
 from verification.judging.run import Run
 from verification.problems import paper_scene as paper
+from verification.problems.loop_history import LOADED, ExactLoop, loop_energy, loop_steps
 from verification.problems.paper_scene import FRICTION, STEEL
 from verification.problems.reference import Reference, ReferenceKind
 

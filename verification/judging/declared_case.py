@@ -34,12 +34,14 @@ class Within:
     allowed  relative to the scale of errors; or by the count of cells, which names the rungs that
              are judged; or what it is on a rung. Unless rungs are named the finest is judged
     name     of the verdict, where it is not the observable's
+    each     every rung is judged
     """
 
     what: Observable
     allowed: Allowed
     because: str
     name: str = ""
+    each: bool = False
 
 
 @dataclass(frozen=True)
@@ -132,11 +134,10 @@ def _quantities(row: Row, ladder: Ladder) -> tuple[Quantity, ...]:
         return (_quantity(row.what, ladder, ladder.judged, tolerance),)
     if not isinstance(row, Within):
         return ()
-    rungs = (
-        [rung for rung in ladder.rungs if rung.count in row.allowed]
-        if isinstance(row.allowed, Mapping)
-        else [ladder.judged]
-    )
+    if isinstance(row.allowed, Mapping):
+        rungs = [rung for rung in ladder.rungs if rung.count in row.allowed]
+    else:
+        rungs = list(ladder.rungs) if row.each else [ladder.judged]
     return tuple(
         _quantity(
             row.what, ladder, rung, Required(_allowed(row.allowed, rung), row.because), row.name
@@ -156,7 +157,7 @@ def _quantity(
 ) -> Quantity:
     problem = ladder.problem
     return Quantity(
-        name=name or what.name,
+        name=name or what.name + what.suffix,
         meaning=what.said(rung.words),
         unit=what.unit,
         run=rung.run.label,
@@ -186,6 +187,6 @@ def _order(row: Falls, ladder: Ladder) -> OrderOfConvergence:
 def _finding(row: Reported, ladder: Ladder) -> Finding:
     what, rung = row.what, ladder.judged
     return Finding(
-        what.name, what.said(rung.words), what.unit, rung.run.label, what.read(ladder.problem),
-        row.remark,
+        what.name + what.suffix, what.said(rung.words), what.unit, rung.run.label,
+        what.read(ladder.problem), row.remark,
     )  # fmt: skip

@@ -18,6 +18,7 @@ CELLS = {
     "stick": "√(stick area / π)",
     "axis": "of the cells around the axis",
     "domain": "window",
+    "sum": "Σ",
 }
 HATS = {
     "point": "ring",
@@ -25,6 +26,7 @@ HATS = {
     "stick": "stick radius",
     "axis": "on the axis",
     "domain": "contact",
+    "sum": "∫",
 }
 SPRINGS = HATS | {
     "point": "Gauss point",
@@ -127,10 +129,11 @@ def with_edge_at(
 
     studied  elements and place of the edge, for the orders; none: the same meshes
     """
-    judged = [_placed(problem, n, MIDDLE, of) for n in elements]
-    followed = [_placed(problem, n, place, of) for n, place in studied]
-    rungs = tuple(dict.fromkeys((*judged, *followed)))
-    return Ladder(problem, rungs, judged[-1], tuple(followed or judged))
+    meshes = tuple(dict.fromkeys((*((n, MIDDLE) for n in elements), *studied)))
+    rungs = {mesh: _placed(problem, *mesh, of) for mesh in meshes}
+    judged = max(meshes, key=lambda mesh: (mesh[0], -abs(mesh[1] - MIDDLE)))
+    followed = tuple(rungs[mesh] for mesh in studied or meshes)
+    return Ladder(problem, tuple(rungs.values()), rungs[judged], followed)
 
 
 def _placed(problem: Problem, n: int, place: float, of: str) -> Rung:
@@ -149,21 +152,17 @@ def on_elements(
     elements: Sequence[int],
     over: float | None = None,
     of: str = "",
-    judged_as: str = "",
 ) -> Ladder:
     """Meshes of so many elements over a part of the contact radius, or over its estimate.
 
-    of         what the runs are of, for their labels
-    judged_as  label of the judged run, where it has one of its own
+    of  what the runs are of, for their labels
     """
     radius = None if over is None else over * problem.radius
-    labels = [mesh_label(n, of=of) for n in elements]
-    labels[-1] = judged_as or labels[-1]
     return ladder(
         problem,
         [
-            Rung(SectionRun(label, problem.scene, per_radius(n, radius)), n)
-            for label, n in zip(labels, elements, strict=True)
+            Rung(SectionRun(mesh_label(n, of=of), problem.scene, per_radius(n, radius)), n)
+            for n in elements
         ],
     )
 
@@ -204,6 +203,10 @@ def part_of_side(part: float) -> Callable[[Rung], float]:
 
 
 def named(name: str, of: Ladder) -> Ladder:
-    """A ladder of a single rung with another label of its run."""
-    (rung,) = of.rungs
-    return ladder(of.problem, [replace(rung, run=replace(rung.run, label=name))])
+    """The same with another label of the judged run."""
+    judged = replace(of.judged, run=replace(of.judged.run, label=name))
+
+    def renamed(rungs: tuple[Rung, ...]) -> tuple[Rung, ...]:
+        return tuple(judged if rung == of.judged else rung for rung in rungs)
+
+    return Ladder(of.problem, renamed(of.rungs), judged, renamed(of.followed))

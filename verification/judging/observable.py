@@ -6,6 +6,8 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from typing import Any
 
+import numpy as np
+
 from verification.judging.order_of_convergence import Followed
 from verification.problems.problem import Problem
 from verification.problems.reference import Reference
@@ -17,7 +19,7 @@ Measure = Callable[[Any, int, Problem], float]
 class Observable:
     """A number of a step's end, or the norm of an error there.
 
-    name     of its verdict; and of its order of convergence, after `order_of_`
+    name     of its order of convergence, after `order_of_`; with the suffix, of its verdict
     meaning  for people. In braces is what each discretisation has its own words for
     unit     SI; empty for a ratio
     measure  from a result, the index of a step and the problem to the number
@@ -28,6 +30,8 @@ class Observable:
     of       what an order of it is an order of
     step     index of the loading step
     label    in charts
+    suffix   of the verdict's name: which step
+    source   of this number, where it is not the problem's
     """
 
     name: str
@@ -40,17 +44,33 @@ class Observable:
     of: Followed | None = None
     step: int = -1
     label: str = ""
+    suffix: str = ""
+    source: str = ""
 
     def at(self, step: int, part: float, of: str) -> Observable:
         """The same at the end of another step, which the load reaches a part of something in."""
         when = f"{part:g} {of}"
         return replace(
             self,
-            name=f"{self.name}_at_{part:g}",
+            suffix=f"_at_{part:g}",
             meaning=self.meaning.replace("{when}", f" at {when}"),
             step=step,
             label=when,
         )
+
+    def over_stops(self, stops: str) -> Observable:
+        """The root mean square of its errors over all steps but the first: single ones change their
+        sign from grid to grid, as edges of contact and stick zone fall anywhere.
+
+        stops  in words
+        """
+
+        def mean(result: Any, step: int, problem: Problem) -> float:
+            each = (replace(self, step=k).error(problem) for k in range(1, len(problem.ends)))
+            return float(np.sqrt(np.mean([error(result) ** 2 for error in each])))
+
+        meaning = self.meaning.replace("{when}", f" at {stops}, root mean square")
+        return replace(self, meaning=meaning, unit="", measure=mean, value=None, over="")
 
     def said(self, words: Mapping[str, str]) -> str:
         """The meaning in the words of a discretisation."""
@@ -63,9 +83,11 @@ class Observable:
     def reference(self, problem: Problem) -> Reference:
         """What should be measured."""
         if self.value is None:
-            return problem.no_error
-        value = self.value(problem.ends[self.step])
-        return problem.reference(value, problem.scale(self.over) if self.over else None)
+            known = problem.no_error
+        else:
+            value = self.value(problem.ends[self.step])
+            known = problem.reference(value, problem.scale(self.over) if self.over else None)
+        return replace(known, source=self.source or known.source)
 
     def scale(self, problem: Problem) -> float | None:
         """What errors are divided by; None: the reference."""
@@ -95,6 +117,7 @@ def number(
     exact: str = "",
     over: str = "",
     of: Followed | None = None,
+    source: str = "",
 ) -> Observable:
     """A scalar of a step's end, which the exact answer has by the same name.
 
@@ -110,7 +133,7 @@ def number(
     return Observable(
         name, meaning, unit, lambda result, step, _: found(result.steps[step]),
         lambda end: float(getattr(end, exact or name)), over, of=of,
-        label="" if of is None else of.value,
+        label="" if of is None else of.value, source=source,
     )  # fmt: skip
 
 
@@ -124,10 +147,13 @@ def error_norm(
     over: str = "",
     of: Followed | None = None,
     norm: str = "",
+    source: str = "",
 ) -> Observable:
     """The norm of the error of a field.
 
     norm  in charts
     """
     label = "" if of is None else f"{of.value} ({norm})" if norm else of.value
-    return Observable(name, meaning, unit, measure, None, over, over_is, of, label=label)
+    return Observable(
+        name, meaning, unit, measure, None, over, over_is, of, label=label, source=source
+    )

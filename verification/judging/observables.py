@@ -2,20 +2,15 @@
 
 from __future__ import annotations
 
-from typing import Any
+from dataclasses import replace
 
-from contact_results.quantities import shear_of, shift_along_x
-from verification import norms
+from contact_results.quantities import shift_along_x
+from verification.judging import field_errors
 from verification.judging.observable import Observable, error_norm, number
 from verification.judging.order_of_convergence import Followed
-from verification.observed import ring_errors
 from verification.observed.end_state import central_pressure
-from verification.observed.ring_errors import judged_within
-from verification.problems.paper_scene import FRICTION
-from verification.problems.problem import OVER_RADIUS, Problem
-
-SLIDING_SHIFT = "the shift at gross sliding"
-PEAK = "p_H"
+from verification.problems.problem import OVER_PEAK, OVER_RADIUS
+from verification.problems.sheared import OVER_LIMIT, OVER_SLIDING_SHIFT, OVER_SLIDING_WORK
 
 APPROACH = number("approach", "approach of the bodies since first touch", "m", of=Followed.APPROACH)
 PEAK_PRESSURE = number(
@@ -29,40 +24,45 @@ CENTRAL_PRESSURE = Observable(
     lambda exact: float(exact.pressure(0.0)), of=Followed.PEAK_PRESSURE, label="central pressure",
 )  # fmt: skip
 SHIFT = number(
-    "shift", "tangential shift{when}", "m", read=shift_along_x, over=SLIDING_SHIFT,
+    "shift", "tangential shift{when}", "m", read=shift_along_x, over=OVER_SLIDING_SHIFT,
     of=Followed.SHIFT,
 )  # fmt: skip
 STICK_RADIUS = number("stick_radius", "{stick}{when}", "m", over=OVER_RADIUS)
-DISSIPATED = number("dissipated_energy", "energy dissipated up to{when}", "J", of=Followed.ENERGY)
+ENERGY = number(
+    "energy", "energy dissipated{when}", "J", read=lambda end: float(end.dissipated_energy or 0.0),
+    exact="dissipated_energy", of=Followed.ENERGY, source="Mindlin and Deresiewicz 1953",
+)  # fmt: skip
+WORK = replace(ENERGY, over=OVER_SLIDING_WORK)
 TWIST = number("twist", "twist{when}", "rad", of=Followed.TWIST)
-
-
-def _pressure_l2(result: Any, step: int, problem: Problem) -> float:
-    end, exact = result.steps[step], problem.ends[step].pressure
-    if hasattr(result, "grid"):
-        known = problem.on_surface(exact, *result.grid.coordinates())
-        return norms.relative_l2(end.pressure, known)
-    return ring_errors.relative_l2(end, end.pressure, exact, problem.radius)
-
-
-def _largest_pressure_error(result: Any, step: int, problem: Problem) -> float:
-    end, exact = result.steps[step], problem.ends[step]
-    within = judged_within(result.discretisation.elements_per_radius) * problem.radius
-    error = ring_errors.largest_error(end, end.pressure, exact, exact.pressure, 0.0, within)
-    return error / problem.scale(PEAK)
-
-
-def _shear_error(result: Any, step: int, problem: Problem) -> float:
-    end = result.steps[step]
-    exact = problem.on_surface(problem.ends[step].shear, *result.grid.coordinates())
-    return norms.shear_error(shear_of(end), exact, FRICTION * end.pressure)
-
-
+PRESSURE_L1 = error_norm(
+    "pressure",
+    "pressure over the {domain}, L1",
+    field_errors.pressure_l1,
+    of=Followed.PRESSURE,
+    norm="L1",
+)
 PRESSURE_L2 = error_norm(
-    "pressure", "pressure over the {domain}, L2", _pressure_l2, of=Followed.PRESSURE, norm="L2"
+    "pressure",
+    "pressure over the {domain}, L2",
+    field_errors.pressure_l2,
+    of=Followed.PRESSURE,
+    norm="L2",
 )
 PRESSURE_WITHIN = error_norm(
     "pressure", "largest error of the pressure within {within} of the radius, over p_H",
-    _largest_pressure_error, PEAK,
+    field_errors.largest_pressure_error, OVER_PEAK,
 )  # fmt: skip
-SHEAR = error_norm("shear", "Σ|q - q_exact| / Σµp{when}", _shear_error, "Σµp", of=Followed.SHEAR)
+SHEAR = error_norm(
+    "shear",
+    "{sum}|q - q_exact| / {sum}µp{when}",
+    field_errors.shear_error,
+    "Σµp",
+    of=Followed.SHEAR,
+)
+SHEAR_AROUND = error_norm(
+    "shear",
+    "largest error of the shear{when}, a tenth of the radius to either side of the stick edge "
+    "apart, over µp_H",
+    field_errors.shear_around_error,
+    OVER_LIMIT,
+)

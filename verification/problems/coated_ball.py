@@ -17,7 +17,7 @@ from verification.problems.layered_scene import (
     rigid_ball,
 )
 from verification.problems.paper_scene import HERTZ
-from verification.problems.problem import Problem
+from verification.problems.problem import OVER_PEAK, Problem
 from verification.problems.reference import ReferenceKind
 from verification.problems.tabulated import TabulatedContact
 from verification.references import load_reference
@@ -39,7 +39,7 @@ def coated_ball(row: Mapping[str, Any]) -> Problem:
         SOURCE,
         ReferenceKind.SEMI_CLOSED,
         row["est_rel_error"],
-        {"p_H": HERTZ.peak_pressure},
+        {OVER_PEAK: HERTZ.peak_pressure},
     )
 
 

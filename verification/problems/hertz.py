@@ -5,7 +5,7 @@ from __future__ import annotations
 from contact_scene import LoadStep, Scene
 from verification.problems import paper_scene as paper
 from verification.problems.paper_scene import HERTZ
-from verification.problems.problem import Problem
+from verification.problems.problem import OVER_PEAK, Problem
 
 SOURCE = "Hertz 1882; Johnson 1985, ch. 4"
 
@@ -13,7 +13,7 @@ SOURCE = "Hertz 1882; Johnson 1985, ch. 4"
 def hertzian(scene: Scene) -> Problem:
     """A scene whose single step ends in the paper's contact."""
     return Problem(
-        scene, (HERTZ,), HERTZ.contact_radius, SOURCE, scales={"p_H": HERTZ.peak_pressure}
+        scene, (HERTZ,), HERTZ.contact_radius, SOURCE, scales={OVER_PEAK: HERTZ.peak_pressure}
     )
 
 

@@ -13,7 +13,7 @@ from contact_scene import Scene
 from verification.problems.reference import ROUNDING, Reference, ReferenceKind
 
 Field = NDArray[np.float64]
-OVER_RADIUS = "the contact radius"
+OVER_RADIUS, OVER_PEAK = "the contact radius", "p_H"
 
 
 @dataclass(frozen=True)

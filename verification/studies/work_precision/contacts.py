@@ -20,11 +20,9 @@ from contact_scene import LoadStep, Scene
 from fem_reference import Result as Section
 from semi_analytical import Result as Surface
 from semi_analytical import SurfaceGrid
-from verification.cases import cattaneo_mindlin as cattaneo
 from verification.cases import coated_paraboloid as coated
-from verification.cases import fretting_loop
+from verification.cases.fretting_loop import WINDOW_PER_RADIUS
 from verification.cases.indentation_reference import COATED
-from verification.cases.loop_history import loop_energy, loop_steps
 from verification.closed_forms.cattaneo_mindlin import PartialSlip
 from verification.judging.observables import APPROACH, PRESSURE_L2
 from verification.norms import shear_error
@@ -34,14 +32,18 @@ from verification.observed.ring_errors import at_radii
 from verification.problems import paper_scene as paper
 from verification.problems.coated_ball import SOURCE as COATINGS
 from verification.problems.hertz import BALL
+from verification.problems.loop_history import SOURCE as LOOP_SOURCE
+from verification.problems.loop_history import ExactLoop, loop_energy, loop_steps
 from verification.problems.paper_scene import FRICTION, FRICTION_LIMIT, HERTZ, NU_ZERO
+from verification.problems.sheared import SLIDING_SHIFT
 from verification.studies.work_precision.frozen_route import FrozenHistory
 
 Field = NDArray[np.float64]
 Errors = Mapping[str, float]
 
 SHEARED = 0.9  # of µW
-LARGEST = fretting_loop.LARGEST_SHIFT
+LOOPED = ExactLoop(NU_ZERO)
+LARGEST = LOOPED.end.shift
 QUARTER = 3  # increments from T = 0 to the largest
 JUDGED = (0.1, 0.9)  # part of the radius where the tractions of the last contact are judged
 
@@ -143,24 +145,24 @@ def _cattaneo_frozen(history: FrozenHistory) -> Errors:
     exact = replace(sheared(), tangential_force=end.force)
     r = np.hypot(*history.grid.coordinates())
     return {"shear": shear_error(end.shear, exact.shear(r), history.bound),
-            "shift": (end.shift - exact.shift) / cattaneo.SLIDING_SHIFT}  # fmt: skip
+            "shift": (end.shift - exact.shift) / SLIDING_SHIFT}  # fmt: skip
 
 
 def _shift(end: Any) -> float:
-    return (shift_along_x(end) - sheared().shift) / cattaneo.SLIDING_SHIFT
+    return (shift_along_x(end) - sheared().shift) / SLIDING_SHIFT
 
 
 def _loop(result: Any) -> Errors:
-    exact = fretting_loop.EXACT
+    exact = LOOPED
     return {
         "energy": loop_energy(result) / exact.energy_per_cycle - 1,
-        "shift": exact.largest_shift_error(result) / fretting_loop.LARGEST_SHIFT,
+        "shift": exact.largest_shift_error(result) / LARGEST,
     }
 
 
 def _loop_frozen(history: FrozenHistory) -> Errors:
     """All under the forces that came with the shift."""
-    state, worst, exact = fretting_loop.EXACT.virgin, 0.0, []
+    state, worst, exact = LOOPED.virgin, 0.0, []
     for found in history.states:
         state = state.loaded_to(found.force)
         worst = max(worst, abs(found.shift - state.shift))
@@ -168,7 +170,7 @@ def _loop_frozen(history: FrozenHistory) -> Errors:
     start, _, end = (found.dissipated_energy for found in history.turned)
     return {
         "energy": (end - start) / (exact[-1] - exact[0]) - 1,
-        "shift": worst / fretting_loop.LARGEST_SHIFT,
+        "shift": worst / LARGEST,
     }
 
 
@@ -255,7 +257,7 @@ LOOP = PreciseContact(
     {"energy": "energy of a cycle", "shift": "largest error of the shift"},
     HERTZ.contact_radius,
     lambda k: _frictional("Fretting loop, ν = 0", *loop_steps(k)),
-    _loop, _loop, fretting_loop.SOURCE, window=fretting_loop.WINDOW_PER_RADIUS, increments=QUARTER,
+    _loop, _loop, LOOP_SOURCE, window=WINDOW_PER_RADIUS, increments=QUARTER,
     turns=(LARGEST, -LARGEST, LARGEST), frozen=_loop_frozen,
 )  # fmt: skip
 CONTACTS = {c.name: c for c in (HERTZIAN, CATTANEO, COATING, INDENTATION, LOOP)}

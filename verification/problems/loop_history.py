@@ -16,12 +16,18 @@ from verification.closed_forms.ruiz import CycledContact
 from verification.closed_forms.tangential_history import TangentialHistory
 from verification.norms import shear_error
 from verification.problems import paper_scene as paper
-from verification.problems.paper_scene import FRICTION
+from verification.problems.paper_scene import FRICTION, HERTZ
+from verification.problems.problem import Problem
+from verification.problems.sheared import OVER_LIMIT
 
 if TYPE_CHECKING:
     from contact_results.cycles import FrettingCycle
     from semi_analytical import Increment, Result
 
+SOURCE = "Mindlin and Deresiewicz 1953"
+OVER_LARGEST_SHIFT = "the largest shift of the loop"
+OVER_LARGEST_SLIP = "the largest slip amplitude"
+OVER_LARGEST_WAY = "the largest way"
 AMPLITUDE = 0.9  # of µW
 LOADED, UNLOADED, RELOADED = 2, 3, 4  # loading steps that end at T*, -T*, T*
 PRESSED = 1
@@ -110,6 +116,25 @@ class ExactLoop:
         return float(np.max([
             abs((i.stick_radius or 0.0) - e.stick_radius) for i, e in self.along(result)
         ]))  # fmt: skip
+
+
+def fretting_loop(title: str, material: IsotropicMaterial, quarter: int) -> Problem:
+    """The paper's ball on a body of its material, T* in `quarter` increments. The answer is that to
+    the whole loop; it is exact for ν = 0."""
+    exact = ExactLoop(material)
+    slip = float(exact.cycled.slip_amplitude(HERTZ.contact_radius))
+    return Problem(
+        paper.frictional(title, paper.paraboloid(material), material, *loop_steps(quarter)),
+        (exact,),
+        HERTZ.contact_radius,
+        SOURCE,
+        scales={
+            OVER_LARGEST_SHIFT: exact.end.shift,
+            OVER_LARGEST_SLIP: slip,
+            OVER_LARGEST_WAY: 5 * slip,
+            OVER_LIMIT: FRICTION * HERTZ.peak_pressure,
+        },
+    )
 
 
 def loop_energy(result: Result) -> float:

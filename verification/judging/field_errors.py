@@ -1,0 +1,72 @@
+"""Errors of a field at the end of a step against the exact one, by either solver."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from contact_results.quantities import shear_of
+from verification import norms
+from verification.observed import ring_errors
+from verification.observed.ring_errors import judged_within
+from verification.problems.paper_scene import FRICTION
+from verification.problems.problem import OVER_PEAK, Problem
+from verification.problems.sheared import OVER_LIMIT
+
+Field = NDArray[np.float64]
+AT_EDGE = 0.1  # contact radii to each side of a stick edge
+
+
+def pressure_l1(result: Any, step: int, problem: Problem) -> float:
+    """Σ|p - p_exact| / Σ p_exact over all cells [1]."""
+    known = problem.on_surface(problem.ends[step].pressure, *result.grid.coordinates())
+    return norms.relative_l1(result.steps[step].pressure, known)
+
+
+def pressure_l2(result: Any, step: int, problem: Problem) -> float:
+    """Relative L2 error of the pressure over all cells, or over the rings, linear between [1]."""
+    end, exact = result.steps[step], problem.ends[step].pressure
+    if hasattr(result, "grid"):
+        known = problem.on_surface(exact, *result.grid.coordinates())
+        return norms.relative_l2(end.pressure, known)
+    return ring_errors.relative_l2(end, end.pressure, exact, problem.radius)
+
+
+def largest_pressure_error(result: Any, step: int, problem: Problem) -> float:
+    """Largest error of the pressure of rings away from the edge, over p_H [1]."""
+    end, exact = result.steps[step], problem.ends[step]
+    within = judged_within(result.discretisation.elements_per_radius) * problem.radius
+    error = ring_errors.largest_error(end, end.pressure, exact, exact.pressure, 0.0, within)
+    return error / problem.scale(OVER_PEAK)
+
+
+def shear_error(result: Any, step: int, problem: Problem) -> float:
+    """Σ|q - q_exact| / Σµp over all cells; or the integrals over the rings, of the shear along the
+    load [1]."""
+    end, exact = result.steps[step], problem.ends[step].shear
+    if hasattr(result, "grid"):
+        known = problem.on_surface(exact, *result.grid.coordinates())
+        return norms.shear_error(shear_of(end), known, FRICTION * end.pressure)
+    along = end.shear_along_load
+    return ring_errors.relative_l1(end, along, exact, problem.radius) / FRICTION
+
+
+def away_from_edges(r: Field, judged: float, edges: Sequence[float], radius: float) -> NDArray[Any]:
+    """Whether radii are within a part of the contact radius and away from stick edges, where the
+    shear has a cusp."""
+    smooth = r <= judged * radius
+    for edge in edges:
+        smooth &= np.abs(r - edge) > AT_EDGE * radius
+    return smooth
+
+
+def shear_around_error(result: Any, step: int, problem: Problem) -> float:
+    """Largest error of the circumferential shear of rings away from the edges, over µp_H [1]."""
+    end, exact = result.steps[step], problem.ends[step]
+    within = judged_within(result.discretisation.elements_per_radius)
+    smooth = away_from_edges(end.radii, within, [exact.stick_radius], problem.radius)
+    error = np.abs(end.shear_circumferential[smooth] - exact.shear(end.radii[smooth]))
+    return float(np.max(error) / problem.scale(OVER_LIMIT))

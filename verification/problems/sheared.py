@@ -1,0 +1,32 @@
+"""Cattaneo and Mindlin's contact: pressed, then sheared with stops on the way; exact for ν = 0."""
+
+from __future__ import annotations
+
+from contact_scene import IsotropicMaterial
+from verification.problems import paper_scene as paper
+from verification.problems.paper_scene import FRICTION, FRICTION_LIMIT, HERTZ, NU_ZERO
+from verification.problems.problem import Problem
+
+SOURCE = "Cattaneo 1938; Mindlin 1949"
+OVER_SLIDING_SHIFT = "the shift at gross sliding"
+OVER_SLIDING_WORK = "the work of µW over the shift at gross sliding"
+OVER_LIMIT = "µp_H"
+SLIDING_SHIFT = paper.partial_slip(NU_ZERO, 0.0).sliding_shift
+
+
+def sheared(title: str, parts: tuple[float, ...], material: IsotropicMaterial = NU_ZERO) -> Problem:
+    """To these parts of µW, one increment each."""
+    steps = (paper.tangential_step(part, increments=1) for part in parts)
+    stops = tuple(paper.partial_slip(material, part * FRICTION_LIMIT) for part in parts)
+    sliding = stops[0].sliding_shift
+    return Problem(
+        paper.frictional(title, paper.paraboloid(material), material, *steps),
+        (HERTZ, *stops),
+        HERTZ.contact_radius,
+        SOURCE,
+        scales={
+            OVER_SLIDING_SHIFT: sliding,
+            OVER_SLIDING_WORK: FRICTION_LIMIT * sliding,
+            OVER_LIMIT: FRICTION * HERTZ.peak_pressure,
+        },
+    )

@@ -1,0 +1,107 @@
+"""The paper's ball twisted under its force, and a flat punch that sticks while it is twisted."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from scipy.integrate import quad
+
+from contact_scene import Body, CoulombFriction, FlatPunch, LoadStep, Scene
+from verification.closed_forms.torsion import StuckTorsion, TorsionalPartialSlip
+from verification.problems import paper_scene as paper
+from verification.problems.paper_scene import FRICTION, HERTZ, STEEL
+from verification.problems.problem import Problem
+from verification.problems.sheared import OVER_LIMIT
+
+SOURCE = "Lubkin 1951"
+MODULUS = STEEL.shear_modulus / 2
+OVER_TWIST = "the largest twist"
+AMPLITUDE = 0.9  # of the sliding torque, in the loop
+
+
+def virgin(torque: float) -> TorsionalPartialSlip:
+    """The paper's ball, twisted for the first time by a torque >= 0."""
+    return TorsionalPartialSlip.under_moment(
+        torque, HERTZ.contact_radius, HERTZ.peak_pressure, FRICTION, MODULUS
+    )
+
+
+SLIDING_TORQUE = virgin(0.0).sliding_moment
+LARGEST = virgin(AMPLITUDE * SLIDING_TORQUE)
+
+
+def torque_step(part: float) -> LoadStep:
+    """Torque up to a part of the sliding torque in one increment: exact, as the load goes
+    straight."""
+    return LoadStep(torque=part * SLIDING_TORQUE, increments=1)
+
+
+@dataclass(frozen=True)
+class Twisted:
+    """The end of a step of the loop: what is known of it.
+
+    energy_per_cycle  lost since the first torque of + AMPLITUDE, at its second [force*length]
+    """
+
+    twist: float
+    energy_per_cycle: float = 0.0
+
+
+def _problem(title: str, ends: tuple[object, ...], *steps: LoadStep) -> Problem:
+    return Problem(
+        paper.frictional(title, paper.paraboloid(STEEL), STEEL, *steps),
+        (HERTZ, *ends),
+        HERTZ.contact_radius,
+        SOURCE,
+        scales={OVER_LIMIT: FRICTION * HERTZ.peak_pressure, OVER_TWIST: LARGEST.twist},
+    )
+
+
+PARTS = {1: 0.5, 2: 0.9, 3: 0.99}  # of the sliding torque, by loading step
+TWISTED = _problem(
+    "Ball in torsion",
+    tuple(virgin(part * SLIDING_TORQUE) for part in PARTS.values()),
+    *map(torque_step, PARTS.values()),
+)
+LED = _problem(
+    "Ball in torsion by a given twist", (LARGEST,), LoadStep(twist=LARGEST.twist, increments=1)
+)
+
+
+def _loop() -> tuple[Twisted, ...]:
+    """The virgin curve gives the loop: from a reversal at M* on, the twist changes by twice what
+    half the change of torque would give (Masing)."""
+    reached = LARGEST.twist
+    back = reached - 2 * virgin(0.5 * AMPLITUDE * SLIDING_TORQUE).twist
+    # Area of the loop: 4 φ* M* - 8 ∫ φ dM along the virgin curve.
+    area = quad(
+        lambda torque: virgin(torque).twist, 0, AMPLITUDE * SLIDING_TORQUE, epsrel=1e-10, epsabs=0
+    )[0]
+    energy = 4 * reached * AMPLITUDE * SLIDING_TORQUE - 8 * area
+    return Twisted(reached), Twisted(back), Twisted(-reached), Twisted(reached, energy)
+
+
+TO_AND_FRO = _problem(
+    "Ball in torsion to and fro",
+    _loop(),
+    *map(torque_step, (AMPLITUDE, 0.0, -AMPLITUDE, AMPLITUDE)),
+)
+
+PUNCH_RADIUS = 0.4e-3
+# q/p is largest at the rim, 3M/(2Wa) = 0.45: nothing slips.
+STUCK_TORQUE = 0.3 * paper.NORMAL_FORCE * PUNCH_RADIUS
+STUCK = Problem(
+    Scene(
+        title="Flat punch in torsion without slip",
+        indenter=FlatPunch(radius=PUNCH_RADIUS, material=STEEL),
+        body=Body(material=STEEL),
+        friction=CoulombFriction(coefficient=1.0),
+        loading=(
+            LoadStep(normal_force=paper.NORMAL_FORCE, increments=1),
+            LoadStep(torque=STUCK_TORQUE, increments=1),
+        ),
+    ),
+    (None, StuckTorsion(PUNCH_RADIUS, MODULUS, STUCK_TORQUE)),
+    PUNCH_RADIUS,
+    "Reissner and Sagoci 1944",
+)
