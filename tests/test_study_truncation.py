@@ -24,7 +24,7 @@ from verification.studies.refinement.expected import by_box
 from verification.studies.refinement.sampled_level import SampledLevel
 from verification.studies.refinement.sampling import sampling_study
 from verification.studies.refinement.studied_scene import CannotRefine, StudiedScene
-from verification.studies.refinement.surface_level import SurfaceStart
+from verification.studies.refinement.surface_start import SurfaceStart
 from verification.studies.refinement.window import window_study
 
 MATERIAL = 'material = { young_modulus = "420 GPa", poisson_ratio = 0.3 }'

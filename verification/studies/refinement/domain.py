@@ -55,7 +55,7 @@ def domain_study(
         levels,
         by_box(start.contents.scene, start.couples),
         "contact radius / size of the section",
-        start.asked.tolerance,
+        start.tolerance,
     )
 
     def chosen(settings: Settings, records: Records) -> Conclusion:

@@ -16,11 +16,8 @@ from verification.studies.refinement.refinement import Refinement, count_of, stu
 from verification.studies.refinement.section_level import SectionLevel
 from verification.studies.refinement.section_start import SectionStart
 from verification.studies.refinement.studied_scene import CannotRefine, StudiedScene
-from verification.studies.refinement.surface_level import (
-    SurfaceLevel,
-    SurfaceStart,
-    refuse_fixed_cells,
-)
+from verification.studies.refinement.surface_level import SurfaceLevel
+from verification.studies.refinement.surface_start import SurfaceStart, refuse_fixed_cells
 
 # Neighbouring grids are not multiples of each other: how a round contact cuts the cells differs
 # from grid to grid, and only that tells its scatter from the order.
@@ -60,7 +57,7 @@ def _of_cells(scene: StudiedScene) -> Refinement:
 
     def levels(settings: Settings) -> tuple[SurfaceLevel, ...]:
         counts = [
-            tuple(2 * round(count / RATIO**number / 2) for count in start.cells(settings))
+            tuple(2 * round(count / RATIO**number / 2) for count in start.cells(settings.cells))
             for number in reversed(range(count_of(settings)))
         ]
         if min(counts[0]) < FEWEST_CELLS:
@@ -96,7 +93,7 @@ def _of_elements(scene: StudiedScene, method: Method) -> Refinement:
     augmentations = asked.augmentations if method is Method.PENALTY else None
     expected = by_elements(start.contents.scene, start.couples, augmentations)
     return Refinement(
-        "mesh", levels, expected, "element side / contact radius", asked.tolerance, finer=ASKED_BY
+        "mesh", levels, expected, "element side / contact radius", start.tolerance, finer=ASKED_BY
     )
 
 

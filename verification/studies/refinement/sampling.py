@@ -34,11 +34,8 @@ from verification.studies.refinement.sampling_page import (
     quantities,
 )
 from verification.studies.refinement.studied_scene import CannotRefine, StudiedScene
-from verification.studies.refinement.surface_level import (
-    SurfaceLevel,
-    SurfaceStart,
-    refuse_fixed_cells,
-)
+from verification.studies.refinement.surface_level import SurfaceLevel
+from verification.studies.refinement.surface_start import SurfaceStart, refuse_fixed_cells
 from verification.studies.work_precision.usual_route import Sampling
 
 CELLS = 32  # samples grow with the square of cells, refinement and extension each

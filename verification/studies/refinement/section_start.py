@@ -46,6 +46,11 @@ class SectionStart:
         return self.contents.fem_reference
 
     @property
+    def tolerance(self) -> float:
+        """Of the solver."""
+        return self.asked.tolerance
+
+    @property
     def couples(self) -> bool:
         """Whether pressure and shear act on each other."""
         path = plan(self.contents.scene).path
@@ -88,6 +93,12 @@ class SectionStart:
             size,
             level,
         )
+
+    def cut(
+        self, increments: tuple[int, ...], size: float, level: str, elements: int | None
+    ) -> SectionLevel:
+        """A level of other increments, on so many elements per radius or those of the scene."""
+        return self.level(size, level, increments=increments, elements=elements)
 
     @property
     def _radius_is_known(self) -> bool:

@@ -9,12 +9,11 @@ from typing import ClassVar
 import numpy as np
 
 from contact_results.path_error import friction_limit
-from contact_scene import FrictionMap, Scene, SceneFile
+from contact_scene import SceneFile
 from contact_scene.description import Description
-from semi_analytical import Plan, Result, SurfaceGrid, UnsupportedScene, discretise, plan, solve
+from semi_analytical import Result, SurfaceGrid, plan, solve
 from verification.convergence.stored_field import PRESSURE, SHEAR, Field, StoredField
 from verification.running.row import CaseRecord
-from verification.running.study import Settings
 from verification.studies.refinement.level_row import level_row
 from verification.studies.refinement.studied_scene import StudiedScene
 
@@ -83,63 +82,3 @@ def _stored(field: Field, scale: Field, kept: tuple[int, int]) -> StoredField:
 def _middle(count: int, part: int) -> slice:
     start = (count - part) // 2
     return slice(start, start + part)
-
-
-@dataclass(frozen=True)
-class SurfaceStart:
-    """What a study of the semi-analytical method starts from: the grid and the plan of a scene."""
-
-    scene: StudiedScene
-    contents: SceneFile
-    grid: SurfaceGrid
-    plan: Plan
-
-    @classmethod
-    def of(cls, scene: StudiedScene) -> SurfaceStart:
-        """As `slipstick run` would choose it."""
-        contents = scene.read()
-        grid = discretise(contents.scene, contents.semi_analytical)
-        decided = plan(contents.scene, contents.semi_analytical.path_accuracy)
-        return cls(scene, contents, grid, decided)
-
-    @property
-    def tolerance(self) -> float:
-        """Of the solver."""
-        return self.contents.semi_analytical.tolerance
-
-    @property
-    def couples(self) -> bool:
-        """Whether pressure and shear act on each other."""
-        return self.plan.coupling is not type(self.plan.coupling).NONE
-
-    def cells(self, settings: Settings) -> tuple[int, int]:
-        """As asked for, or those of the scene."""
-        return self.grid.cells if settings.cells is None else (settings.cells, settings.cells)
-
-    def level(
-        self,
-        grid: SurfaceGrid,
-        size: float,
-        level: str,
-        increments: tuple[int, ...] | None = None,
-        kept: tuple[int, int] | None = None,
-    ) -> SurfaceLevel:
-        """A level, in the increments of the plan if none are given."""
-        counts = increments or self.plan.increments
-        return SurfaceLevel(self.scene, grid.cells, grid.window, counts, size, level, kept)
-
-
-def refuse_fixed_cells(scene: Scene) -> None:
-    """Raises UnsupportedScene where a friction map fixes the cells."""
-    if scene.friction is not None and isinstance(scene.friction.coefficient, FrictionMap):
-        raise UnsupportedScene("the friction map has one value per cell, which fixes the cells")
-
-
-def refuse_fixed_window(scene: Scene) -> None:
-    """Raises UnsupportedScene where a height map or a friction map fixes the window."""
-    if scene.indenter.extent is not None:
-        raise UnsupportedScene(
-            "the height map says where the indenter ends, which fixes the window: beyond it there "
-            "is no gap that could be computed"
-        )
-    refuse_fixed_cells(scene)

@@ -23,11 +23,8 @@ from verification.studies.refinement.fit import ABOVE_TOLERANCE, distance
 from verification.studies.refinement.level_row import size_of, values_of
 from verification.studies.refinement.refinement import count_of
 from verification.studies.refinement.studied_scene import StudiedScene
-from verification.studies.refinement.surface_level import (
-    SurfaceLevel,
-    SurfaceStart,
-    refuse_fixed_window,
-)
+from verification.studies.refinement.surface_level import SurfaceLevel
+from verification.studies.refinement.surface_start import SurfaceStart, refuse_fixed_window
 
 GROWTH = 0.25  # by so much of the scene's own the window grows from level to level
 SMALLER = (0.25, 0.4, 0.55, 0.7, 0.85)  # of the scene's own: which of them hold the contact is seen
@@ -78,7 +75,7 @@ def window_study(
     refuse_fixed_window(start.contents.scene)
 
     def cases(settings: Settings) -> tuple[Window, ...]:
-        own = SurfaceGrid(start.cells(settings), start.grid.window)
+        own = SurfaceGrid(start.cells(settings.cells), start.grid.window)
         larger = (1 + GROWTH * number for number in range(count_of(settings)))
         grids = [_about_the_centre(own, factor) for factor in (*SMALLER, *larger)]
         return tuple(

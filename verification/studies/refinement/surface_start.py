@@ -1,0 +1,87 @@
+"""What a study of the semi-analytical method starts from: the grid and the plan of a scene."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from contact_scene import FrictionMap, Scene, SceneFile
+from semi_analytical import Plan, SurfaceGrid, UnsupportedScene, discretise, plan
+from verification.studies.refinement.studied_scene import StudiedScene
+from verification.studies.refinement.surface_level import SurfaceLevel
+
+
+@dataclass(frozen=True)
+class SurfaceStart:
+    """A scene, and how `slipstick run` would solve it."""
+
+    scene: StudiedScene
+    contents: SceneFile
+    grid: SurfaceGrid
+    plan: Plan
+
+    @classmethod
+    def of(cls, scene: StudiedScene) -> SurfaceStart:
+        """As `slipstick run` would choose it."""
+        contents = scene.read()
+        grid = discretise(contents.scene, contents.semi_analytical)
+        decided = plan(contents.scene, contents.semi_analytical.path_accuracy)
+        return cls(scene, contents, grid, decided)
+
+    @property
+    def tolerance(self) -> float:
+        """Of the solver."""
+        return self.contents.semi_analytical.tolerance
+
+    @property
+    def couples(self) -> bool:
+        """Whether pressure and shear act on each other."""
+        return self.plan.coupling is not type(self.plan.coupling).NONE
+
+    @property
+    def increments(self) -> tuple[int, ...]:
+        """Of each step, as asked for or chosen."""
+        return self.plan.increments
+
+    @property
+    def path_matters(self) -> tuple[bool, ...]:
+        """Of each step: whether increments are needed for accuracy."""
+        return tuple(step.path_matters for step in self.plan.path)
+
+    def cells(self, asked: int | None) -> tuple[int, int]:
+        """As asked for along each side, or those of the scene."""
+        return self.grid.cells if asked is None else (asked, asked)
+
+    def cut(
+        self, increments: tuple[int, ...], size: float, level: str, cells: int | None
+    ) -> SurfaceLevel:
+        """A level of other increments, on so many cells along each side or those of the scene."""
+        grid = SurfaceGrid(self.cells(cells), self.grid.window)
+        return self.level(grid, size, level, increments)
+
+    def level(
+        self,
+        grid: SurfaceGrid,
+        size: float,
+        level: str,
+        increments: tuple[int, ...] | None = None,
+        kept: tuple[int, int] | None = None,
+    ) -> SurfaceLevel:
+        """A level, in the increments of the plan if none are given."""
+        counts = increments or self.plan.increments
+        return SurfaceLevel(self.scene, grid.cells, grid.window, counts, size, level, kept)
+
+
+def refuse_fixed_cells(scene: Scene) -> None:
+    """Raises UnsupportedScene where a friction map fixes the cells."""
+    if scene.friction is not None and isinstance(scene.friction.coefficient, FrictionMap):
+        raise UnsupportedScene("the friction map has one value per cell, which fixes the cells")
+
+
+def refuse_fixed_window(scene: Scene) -> None:
+    """Raises UnsupportedScene where a height map or a friction map fixes the window."""
+    if scene.indenter.extent is not None:
+        raise UnsupportedScene(
+            "the height map says where the indenter ends, which fixes the window: beyond it there "
+            "is no gap that could be computed"
+        )
+    refuse_fixed_cells(scene)
