@@ -1,4 +1,4 @@
-"""What finite increments cost in a result, by solving it again with twice as many.
+"""What finite increments cost in a result, from one with twice as many.
 
 An error C/n is twice the change by doubling, and errors of higher order are less. The order may
 still be a little below 1 where increments are large, so the estimate takes two and a half changes:
@@ -8,7 +8,7 @@ first order is uncertain by one change.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -21,30 +21,10 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from contact_scene import Scene
-    from contact_scene.standing import Keeper
     from semi_analytical import Increment, Result
 
 
 CHANGES = 2.5
-
-
-def path_errors(
-    result: Result,
-    progress: Callable[[Increment], None] | None = None,
-    keeper: Keeper | None = None,
-) -> tuple[PathError, ...]:
-    """Errors at the ends of all steps; solves the scene with twice the increments wherever the
-    path matters, and not at all where it matters nowhere. Raises what `solve` raises.
-
-    keeper  of that solve
-    """
-    from semi_analytical import solve
-
-    refined = result.plan.refined()
-    finer = result
-    if refined != result.plan:
-        finer = solve(result.scene, result.grid, result.tolerance, progress, refined, keeper)
-    return compared(result, finer)
 
 
 def compared(result: Result, finer: Result) -> tuple[PathError, ...]:

@@ -26,6 +26,7 @@ from contact_scene.solver_errors import (
 from contact_scene.summary import summary_schema
 from slipstick.cli import main
 from slipstick.cli.lazy_commands import COMMANDS
+from slipstick.solvers.names import SolverName
 
 ROOT = Path(__file__).resolve().parents[1]
 
@@ -114,6 +115,21 @@ def test_help_imports_nothing_heavy() -> None:
 
 def test_check_imports_nothing_heavy(scene: Path) -> None:
     assert not imported_by("check", scene) & set(HEAVY)
+
+
+@pytest.mark.parametrize("solver", SolverName)
+@pytest.mark.parametrize("command", ["plan", "run"])
+def test_a_solver_is_used_without_the_other_and_without_the_harness(
+    scene: Path, command: str, solver: SolverName
+) -> None:
+    options = ["--output", scene.parent / "out", "--no-figures"] if command == "run" else []
+    coarse = ("--set", "semi_analytical.cells=[16,16]", "--set",
+              "fem_reference.elements_per_radius=4")  # fmt: skip
+    imported = imported_by(command, scene, "--solver", solver, *coarse, *options)
+    own, other = ("fem_reference", "semi_analytical") if solver.is_fem else (
+        "semi_analytical", "fem_reference")  # fmt: skip
+    assert own in imported
+    assert not imported & {other, "verification"}
 
 
 def test_schema_imports_nothing_heavy() -> None:
@@ -307,7 +323,7 @@ def test_run_reports_progress_and_outcome(
     ]
     assert "24 x 20 cells" in output.out
     assert "1e-08" in output.out
-    assert re.search(r"3 +1 +8 +-90 ", output.out)
+    assert re.search(r"3 +1 +8 +0.4 +3 +-90 ", output.out)
     timing = json.loads((scene.parent / "out" / "timing.json").read_text(encoding="utf-8"))
     assert timing["program"] == "slipstick"
     assert set(timing["wall_seconds"]) >= {"read", "solve", "write"}

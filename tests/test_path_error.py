@@ -12,12 +12,13 @@ from coupled_scenes import bulk
 from coupled_scenes import scene as coupled_scene
 from scene_texts import RIGID_BALL
 
-import semi_analytical
+import slipstick.path_errors
 from contact_results.files.summary_file import summary_of
-from contact_results.path_error import CHANGES, compared, path_errors, shear_difference
+from contact_results.path_error import CHANGES, compared, shear_difference
 from contact_scene.path_error import PathError
 from contact_scene.summary import load_summary
 from semi_analytical import Result, plan, solve
+from slipstick.path_errors import path_errors
 
 TOLERANCE = 1e-9
 TURNING = scene(PRESS, push(0.5), push(0, 0.5, increments=8))
@@ -79,7 +80,7 @@ def test_a_path_that_does_not_matter_is_not_solved_again(monkeypatch):
     def refuse(*arguments, **more):
         raise AssertionError("solved again")
 
-    monkeypatch.setattr(semi_analytical, "solve", refuse)
+    monkeypatch.setattr(slipstick.path_errors, "solve", refuse)
     assert all(error.shear == 0 for error in path_errors(result))
 
 

@@ -1,7 +1,7 @@
 """How far a solve is: a bar on a terminal, plain lines in a log."""
 
 import time
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 
 from rich.console import Console
@@ -14,11 +14,10 @@ from rich.progress import (
     TimeRemainingColumn,
 )
 
-from semi_analytical import Increment
+from contact_scene.increment import ReportedIncrement
+from slipstick.solvers.solver import Progress as Observer
 
 SECONDS_BETWEEN_LINES = 10.0
-
-Observer = Callable[[Increment], None]
 
 
 @contextmanager
@@ -44,9 +43,9 @@ def solve_progress(increments: Sequence[int]) -> Iterator[Observer]:
         steps = len(increments)
         task = bar.add_task(f"step 1/{steps}", total=sum(increments), residual="–")
 
-        def observe(increment: Increment) -> None:
+        def observe(increment: ReportedIncrement) -> None:
             step = f"step {increment.step}/{steps}"
-            residual = f"{increment.residuals.worst:.1e}"
+            residual = f"{increment.worst_residual:.1e}"
             bar.update(task, advance=1, description=step, residual=residual)
 
         yield observe
@@ -60,7 +59,7 @@ class _Log:
         self.steps = steps
         self.started = self.last_line = time.monotonic()
 
-    def __call__(self, increment: Increment) -> None:
+    def __call__(self, increment: ReportedIncrement) -> None:
         now = time.monotonic()
         step_ends = increment.index == increment.increments_in_step
         if not step_ends and now - self.last_line < SECONDS_BETWEEN_LINES:
@@ -69,5 +68,5 @@ class _Log:
         self.console.print(
             f"step {increment.step}/{self.steps}, "
             f"increment {increment.index}/{increment.increments_in_step}, "
-            f"residual {increment.residuals.worst:.1e}, {now - self.started:.1f} s"
+            f"residual {increment.worst_residual:.1e}, {now - self.started:.1f} s"
         )

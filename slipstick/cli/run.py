@@ -1,21 +1,19 @@
 """`slipstick run`: from a scene to a directory of results."""
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
 from slipstick.cli.scene_options import SceneArgument, SetOption
-from slipstick.cli.solver_option import SolverName, SolverOption
+from slipstick.cli.solver_option import SolverOption
+from slipstick.solvers.names import SolverName
 
 if TYPE_CHECKING:
-    from contact_results.directory.timing import Stopwatch
-    from contact_scene import SceneFile
+    from contact_results.surface import Result
     from contact_scene.path_error import PathError
     from contact_scene.standing import Keeper
-    from semi_analytical import Result
-
-    PathErrors = tuple[PathError, ...]
+    from slipstick.solvers.solver import Solver
 
 
 def run(
@@ -65,7 +63,7 @@ def run(
     from contact_results.directory.code_digest import solve_identity
     from contact_results.directory.run_directory import run_directory
     from contact_results.directory.stop_signals import NOTHING_KEPT, cleaned_up_when_stopped
-    from contact_results.directory.timing import Stopwatch
+    from contact_results.directory.timing import Stopwatch, write_timing
     from contact_scene import read_scene_file
     from slipstick.cli.terminal import tell
 
@@ -73,8 +71,6 @@ def run(
     with stopwatch.phase("read"):
         contents = read_scene_file(scene, overrides or ())
     if solver.is_fem:
-        from slipstick.cli.section_run import run_on_section
-
         _refuse_beside_fem(
             {
                 "--all-effects": all_effects,
@@ -82,19 +78,39 @@ def run(
                 "--path-error": path_error,
             }
         )
-        run_on_section(contents, solver, stopwatch, output, overwrite=overwrite, figures=figures)
-        return
-    asked = (contents.scene, contents.semi_analytical, all_effects)
+    with stopwatch.phase("import"):
+        chosen = solver.solver
+        from slipstick.cli.progress import solve_progress
+    fineness = chosen.fineness(contents)
+    asked = (contents.scene, fineness, solver, all_effects)
     with (
         cleaned_up_when_stopped(kept=lambda: NOTHING_KEPT),
         checkpointed(output, solve_identity(*asked), tell) as keeper,
         checkpointed(output, solve_identity(*asked, 2), tell, "doubled-checkpoint") as doubled,
         run_directory(output, overwrite=overwrite) as staging,
     ):
-        result = _solve(contents, stopwatch, all_effects, keeper)
-        errors = _path_errors(result, stopwatch, doubled) if path_error else None
-        _write(result, stopwatch, staging, figures, surface_stress, errors)
-    _print_outcome(result, errors, stopwatch, output)
+        decided = chosen.plan(contents.scene, fineness)
+        if all_effects:
+            decided = _with_all_effects(decided)
+        with stopwatch.phase("solve"), solve_progress(decided.increments) as observe:
+            result = chosen.solve(contents.scene, fineness, decided, observe, keeper)
+        errors = None
+        if path_error:
+            with stopwatch.phase("path error"):
+                errors = _path_errors(result, doubled)
+        with stopwatch.phase("write"):
+            from contact_results.files.result_files import write_result
+
+            write_result(
+                result,
+                staging,
+                with_figures=figures,
+                surface_stress=surface_stress,
+                path_errors=errors,
+            )
+        write_timing(stopwatch, staging)
+    _print_outcome(chosen, result, errors, stopwatch.wall_seconds["solve"])
+    typer.echo(f"results in {output}")
     if all_effects:
         _print_saving(result)
 
@@ -107,65 +123,23 @@ def _refuse_beside_fem(options: dict[str, bool]) -> None:
             )
 
 
-def _solve(
-    contents: "SceneFile", stopwatch: "Stopwatch", all_effects: bool, keeper: "Keeper"
-) -> "Result":
-    with stopwatch.phase("import"):
-        import semi_analytical
-        from slipstick.cli.progress import solve_progress
-    decided = semi_analytical.plan(contents.scene, contents.semi_analytical.path_accuracy)
-    if all_effects:
-        decided = semi_analytical.all_effects(decided)
-    with stopwatch.phase("solve"), solve_progress(decided.increments) as observe:
-        return semi_analytical.solve_discretised(
-            contents.scene,
-            contents.semi_analytical,
-            progress=observe,
-            plan=decided,
-            keeper=keeper,
-        )
-
-
-def _path_errors(result: "Result", stopwatch: "Stopwatch", keeper: "Keeper") -> "PathErrors":
-    from contact_results.path_error import path_errors
+def _path_errors(result: Any, keeper: "Keeper") -> "tuple[PathError, ...]":
     from slipstick.cli.progress import solve_progress
+    from slipstick.path_errors import path_errors
 
-    refined = result.plan.refined().increments
-    with stopwatch.phase("path error"), solve_progress(refined) as observe:
+    with solve_progress(result.plan.refined().increments) as observe:
         return path_errors(result, observe, keeper)
 
 
-def _write(
-    result: "Result",
-    stopwatch: "Stopwatch",
-    staging: Path,
-    figures: bool,
-    surface_stress: bool,
-    errors: "PathErrors | None",
-) -> None:
-    from contact_results.directory.timing import write_timing
-    from contact_results.files.result_files import write_result
-
-    with stopwatch.phase("write"):
-        write_result(
-            result,
-            staging,
-            with_figures=figures,
-            surface_stress=surface_stress,
-            path_errors=errors,
-        )
-    write_timing(stopwatch, staging)
-
-
 def _print_outcome(
-    result: "Result", errors: "PathErrors | None", stopwatch: "Stopwatch", output: Path
+    solver: "Solver", result: "Result", errors: "tuple[PathError, ...] | None", seconds: float
 ) -> None:
     from contact_scene.linear_theory import beyond_linear_theory
-    from slipstick.cli.outcome_text import outcome_columns, path_error_columns, solved_with
+    from slipstick.cli.outcome_text import outcome_columns, path_error_columns, solved_in
     from slipstick.cli.terminal import print_pairs, print_table, tell
 
-    print_pairs(solved_with(result, stopwatch.wall_seconds["solve"]))
-    columns = outcome_columns(result)
+    print_pairs([*solver.layout(result), *solved_in(result, seconds)])
+    columns = outcome_columns(result.steps)
     print_table(columns, zip(*columns.values(), strict=True), numbers=True)
     if errors is not None:
         typer.echo("  errors by finite increments, estimated by doubling them:")
@@ -173,10 +147,15 @@ def _print_outcome(
         print_table(columns, zip(*columns.values(), strict=True), numbers=True)
     for remark in beyond_linear_theory(result.scene, result.steps):
         tell(f"warning: {remark}")
-    typer.echo(f"results in {output}")
 
 
-def _print_saving(forced: "Result") -> None:
+def _with_all_effects(plan: Any) -> Any:
+    from semi_analytical import all_effects
+
+    return all_effects(plan)
+
+
+def _print_saving(forced: Any) -> None:
     """Solve again as planned, on the same grid, and compare."""
     from semi_analytical import plan, solve
     from slipstick.cli.outcome_text import saving

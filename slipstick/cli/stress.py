@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from slipstick.cli.scene_options import SetOption
-from slipstick.cli.solver_option import SolverName, SolverOption
+from slipstick.cli.solver_option import SolverOption
+from slipstick.solvers.names import SolverName
 
 if TYPE_CHECKING:
     from contact_results.stress.extremes import Extreme
@@ -117,17 +118,11 @@ def _solved(scene: Path, solver: SolverName, overrides: list[str]) -> Result:
     from slipstick.cli.progress import solve_progress
 
     contents = read_scene_file(scene, overrides)
-    if solver.is_fem:
-        from contact_results.directory.timing import Stopwatch
-        from slipstick.cli.section_run import solve_on_section
-
-        return solve_on_section(contents, solver, Stopwatch())
-    from semi_analytical import plan, solve_discretised
-
-    asked = contents.semi_analytical
-    decided = plan(contents.scene, asked.path_accuracy)
+    chosen = solver.solver
+    fineness = chosen.fineness(contents)
+    decided = chosen.plan(contents.scene, fineness)
     with solve_progress(decided.increments) as observe:
-        return solve_discretised(contents.scene, asked, progress=observe, plan=decided)
+        return chosen.solve(contents.scene, fineness, decided, observe)
 
 
 def _below(

@@ -12,7 +12,7 @@ import typer
 from slipstick.cli.errors import ExitCode
 from slipstick.cli.scene_options import SetOption
 from slipstick.cli.scheduler_option import SchedulerOption, workers_at
-from slipstick.cli.solver_option import SolverName, method_of
+from slipstick.solvers.names import SolverName
 
 if TYPE_CHECKING:
     from verification.running.case_pool import Workers
@@ -213,7 +213,7 @@ def _scene_study(
     from verification.studies.refinement.studied_scene import CannotRefine
 
     known = SCENE_STUDIES[name]
-    by = {solver: method_of(solver) if solver.is_fem else None for solver in SolverName}
+    by = {solver: solver.method for solver in SolverName}
     method = known.methods[0] if solver is None else by[solver]
     if method not in known.methods:
         able = " or ".join(one for one, method in by.items() if method in known.methods)

@@ -1,0 +1,43 @@
+"""The solvers by the names of the command line."""
+
+from __future__ import annotations
+
+from enum import StrEnum
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from fem_reference import Method
+    from slipstick.solvers.solver import Solver
+
+
+class SolverName(StrEnum):
+    """What a solver is called."""
+
+    SEMI_ANALYTICAL = "semi-analytical"
+    FEM = "fem"
+    FEM_COMPLEMENTARITY = "fem-complementarity"
+
+    @property
+    def is_fem(self) -> bool:
+        """Whether it solves on a section, by finite elements."""
+        return self is not SolverName.SEMI_ANALYTICAL
+
+    @property
+    def method(self) -> Method | None:
+        """How finite elements enforce contact and friction; None for the other solver."""
+        if not self.is_fem:
+            return None
+        from fem_reference import Method
+
+        return Method.PENALTY if self is SolverName.FEM else Method.COMPLEMENTARITY
+
+    @property
+    def solver(self) -> Solver:
+        """The solver; no other is imported."""
+        if self.method is None:
+            from slipstick.solvers.on_cells import OnCells
+
+            return OnCells()
+        from slipstick.solvers.on_elements import OnElements
+
+        return OnElements(self.method)

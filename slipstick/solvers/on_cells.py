@@ -1,0 +1,69 @@
+"""The semi-analytical solver, on the cells of a surface grid."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import semi_analytical
+from contact_scene import Scene, SceneFile, SurfaceDiscretisation
+from contact_scene.engineering_units import engineering_unit
+from contact_scene.standing import Keeper
+from semi_analytical import Plan, Result, SurfaceGrid
+from semi_analytical.memory import estimated_bytes
+from slipstick.solvers.solver import MOST_STEPS_SHOWN, Pairs, Progress, increments_text
+
+
+class OnCells:
+    """See `solver.Solver`."""
+
+    def fineness(self, contents: SceneFile) -> SurfaceDiscretisation:
+        return contents.semi_analytical
+
+    def default(self) -> SurfaceDiscretisation:
+        return SurfaceDiscretisation()
+
+    def plan(self, scene: Scene, fineness: SurfaceDiscretisation) -> Plan:
+        return semi_analytical.plan(scene, fineness.path_accuracy)
+
+    def solve(
+        self,
+        scene: Scene,
+        fineness: SurfaceDiscretisation,
+        plan: Plan,
+        progress: Progress | None = None,
+        keeper: Keeper | None = None,
+    ) -> Result:
+        return semi_analytical.solve_discretised(scene, fineness, progress, plan, keeper)
+
+    def work(self, scene: Scene, fineness: SurfaceDiscretisation, plan: Plan) -> Pairs:
+        """Grid, tolerance, increments and memory; what the scene left open says so."""
+        grid = semi_analytical.discretise(scene, fineness)
+        left_open = [name for name in ("cells", "window") if getattr(fineness, name) is None]
+        chosen = f" ({' and '.join(left_open)} chosen)" if left_open else ""
+        yield "grid", _grid_text(grid) + chosen
+        yield "tolerance", f"{fineness.tolerance:.3g}"
+        yield "increments", increments_text(plan.increments)
+        if any(step.path_matters for step in plan.path):
+            accuracy = f"{fineness.path_accuracy:.3g}, where the scene names no increments"
+            yield "path accuracy", accuracy
+        yield "memory", f"about {estimated_bytes(grid, plan) / 2**20:.0f} MiB"
+
+    def reasons(self, plan: Plan) -> Sequence[tuple[str, str, str]]:
+        """The beginning of a long history; nothing where no path matters."""
+        if not any(step.path_matters for step in plan.path):
+            return ()
+        shown = [
+            (str(number), str(step.count), step.why)
+            for number, step in enumerate(plan.path[:MOST_STEPS_SHOWN], start=1)
+        ]
+        return shown if len(plan.path) <= MOST_STEPS_SHOWN else [*shown, ("…", "", "")]
+
+    def layout(self, result: Result) -> Pairs:
+        yield "grid", _grid_text(result.grid)
+
+
+def _grid_text(grid: SurfaceGrid) -> str:
+    """Cells and window of a grid."""
+    (nx, ny), (Lx, Ly) = grid.cells, grid.window
+    length = engineering_unit(max(Lx, Ly), "m")
+    return f"{nx} x {ny} cells on {Lx / length.size:.4g} x {length.text(Ly)}"

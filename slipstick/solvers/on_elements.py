@@ -1,0 +1,106 @@
+"""The finite-element solvers, on the section of bodies of revolution."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import fem_reference
+from contact_scene import FiniteElementDiscretisation, Scene, SceneFile
+from contact_scene.engineering_units import quantity
+from contact_scene.standing import Keeper
+from fem_reference import Method, Path, Plan, Result
+from fem_reference.expected_radius import expected_radius
+from fem_reference.memory import required_bytes
+from fem_reference.mesh.section_mesh import SectionMesh
+from fem_reference.model import ContactModel
+from slipstick.solvers.solver import Pairs, Progress, increments_text
+
+Meshes = tuple[SectionMesh | None, SectionMesh | None]
+
+NODES_PER_ELEMENT = 4  # biquadratic: about one corner, two midsides and a middle each
+
+
+@dataclass(frozen=True)
+class OnElements:
+    """See `solver.Solver`.
+
+    method  how contact and friction are enforced
+    """
+
+    method: Method
+
+    def fineness(self, contents: SceneFile) -> FiniteElementDiscretisation:
+        return contents.fem_reference
+
+    def default(self) -> FiniteElementDiscretisation:
+        return FiniteElementDiscretisation()
+
+    def plan(self, scene: Scene, fineness: FiniteElementDiscretisation) -> Plan:
+        return fem_reference.plan(scene)
+
+    def solve(
+        self,
+        scene: Scene,
+        fineness: FiniteElementDiscretisation,
+        plan: Plan,
+        progress: Progress | None = None,
+        keeper: Keeper | None = None,
+    ) -> Result:
+        return fem_reference.solve(scene, fineness, self.method, progress, keeper)
+
+    def work(self, scene: Scene, fineness: FiniteElementDiscretisation, plan: Plan) -> Pairs:
+        """Mesh, tolerance, increments, factorisations and memory."""
+        radius = fineness.contact_radius or expected_radius(scene)
+        sections = ContactModel.of(scene, fineness, radius).sections
+        chosen = "" if fineness.contact_radius else ", estimated without friction"
+        yield "method", _method_text(self.method, fineness)
+        yield "contact radius", f"{quantity(radius, 'm')}{chosen}"
+        yield "mesh", _mesh_text(sections, fineness)
+        yield "tolerance", f"{fineness.tolerance:.3g}"
+        yield "increments", increments_text(plan.increments)
+        motions, distinct = _motions(plan, fineness), _distinct(sections)
+        text = "one per body and angular harmonic" if motions > 1 else "one per body"
+        factored = f"{motions * len(distinct)}, {text}; no work where the cache has them"
+        yield "factorisations", factored
+        largest = max(section.quads.shape[1] for section in distinct)
+        components = 2 if motions == 1 else 3
+        unknowns = NODES_PER_ELEMENT * largest * components
+        needed = required_bytes(largest, unknowns, components, False)
+        yield "memory", f"about {needed / 2**20:.0f} MiB"
+
+    def reasons(self, plan: Plan) -> Sequence[tuple[str, str, str]]:
+        return ()
+
+    def layout(self, result: Result) -> Pairs:
+        yield "method", _method_text(self.method, result.discretisation)
+        yield "mesh", _mesh_text(result.sections, result.discretisation)
+
+
+def _method_text(method: Method, asked: FiniteElementDiscretisation) -> str:
+    if method is Method.COMPLEMENTARITY:
+        return "finite elements, complementarity: no penalty"
+    return (
+        f"finite elements, penalty of {asked.penalty:g} contact moduli per element, "
+        f"{asked.augmentations} augmentation{'s' if asked.augmentations != 1 else ''}"
+    )
+
+
+def _mesh_text(sections: Meshes, asked: FiniteElementDiscretisation) -> str:
+    parts = []
+    for section in _distinct(sections):
+        outline = section.outline
+        parts.append(f"{section.quads.shape[1]} elements to {outline.box:.4g} contact radii")
+    return f"{asked.elements_per_radius} elements per contact radius; " + ", ".join(parts)
+
+
+def _distinct(sections: Meshes) -> list[SectionMesh]:
+    """Each mesh once: bodies alike share theirs."""
+    return list({id(section): section for section in sections if section is not None}.values())
+
+
+def _motions(plan: Plan, asked: FiniteElementDiscretisation) -> int:
+    """Angular harmonics for which a stiffness is factored."""
+    if plan.path is Path.HARMONICS:
+        return asked.harmonics + 1
+    return 2 if plan.path in (Path.TWISTING, Path.SHEARING) else 1

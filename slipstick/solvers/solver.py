@@ -1,0 +1,65 @@
+"""What commands and scripts ask of a solver."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from typing import TYPE_CHECKING, Any, Protocol, TypeAlias
+
+if TYPE_CHECKING:
+    from contact_results.surface import Result
+    from contact_scene import (
+        FiniteElementDiscretisation,
+        Scene,
+        SceneFile,
+        SurfaceDiscretisation,
+    )
+    from contact_scene.increment import ReportedIncrement
+    from contact_scene.standing import Keeper
+
+    Discretisation: TypeAlias = SurfaceDiscretisation | FiniteElementDiscretisation
+
+Progress: TypeAlias = Callable[["ReportedIncrement"], None]
+Pairs: TypeAlias = Iterator[tuple[str, str]]
+
+MOST_STEPS_SHOWN = 12
+
+
+class Solver(Protocol):
+    """A way of solving scenes. Its plans are its own; they have `effects` and `increments`."""
+
+    def fineness(self, contents: SceneFile) -> Discretisation:
+        """The table of a scene file that is meant for it."""
+
+    def default(self) -> Discretisation:
+        """How fine it is unless somebody says otherwise."""
+
+    def plan(self, scene: Scene, fineness: Any) -> Any:
+        """What a solve will compute; raises UnsupportedScene."""
+
+    def solve(
+        self,
+        scene: Scene,
+        fineness: Any,
+        plan: Any,
+        progress: Progress | None = None,
+        keeper: Keeper | None = None,
+    ) -> Result:
+        """The result of a plan; raises a SolverError."""
+
+    def work(self, scene: Scene, fineness: Any, plan: Any) -> Pairs:
+        """How fine a solve would be and what it would take, in words."""
+
+    def reasons(self, plan: Any) -> Sequence[tuple[str, str, str]]:
+        """Steps whose increments have a reason worth telling: number, increments and why."""
+
+    def layout(self, result: Any) -> Pairs:
+        """How fine a result is, in words."""
+
+
+def increments_text(counts: tuple[int, ...]) -> str:
+    """How many, and of a short history how many in every step."""
+    if len(counts) == 1:
+        return str(counts[0])
+    shown = " + ".join(map(str, counts[:MOST_STEPS_SHOWN]))
+    more = " + …" if len(counts) > MOST_STEPS_SHOWN else ""
+    return f"{sum(counts)} = {shown}{more} in {len(counts)} steps"
