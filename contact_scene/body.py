@@ -27,6 +27,12 @@ class Body(Description):
     """Layers on the substrate, outermost first."""
 
     @property
+    def elastic_materials(self) -> tuple[IsotropicMaterial, ...]:
+        """What can deform, outermost first."""
+        substrate = (self.material,) if isinstance(self.material, IsotropicMaterial) else ()
+        return *(layer.material for layer in self.layers), *substrate
+
+    @property
     def deforms(self) -> bool:
         """Whether any part of the body is elastic."""
-        return bool(self.layers) or isinstance(self.material, IsotropicMaterial)
+        return bool(self.elastic_materials)

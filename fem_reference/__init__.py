@@ -4,10 +4,11 @@ It shares `contact_scene` with `semi_analytical` and no numerics, so that the tw
 against each other.
 """
 
+from contact_scene.effect import Effect
 from contact_scene.residuals import Residuals
 from contact_scene.solver_errors import ContactAtZoneEdge
 from fem_reference.fields import Increment, Method, Result
-from fem_reference.plan import Effect, Path, Plan, plan
+from fem_reference.plan import Path, Plan, plan
 from fem_reference.solve import solve
 
 __all__ = [

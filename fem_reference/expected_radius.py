@@ -9,7 +9,6 @@ from contact_scene import (
     Body,
     ControlKind,
     FiniteElementDiscretisation,
-    IsotropicMaterial,
     LoadRamp,
     LoadStep,
     Scene,
@@ -68,9 +67,7 @@ def _half_space_radius(scene: Scene, ramp: LoadRamp) -> float:
 
 def _softness(body: Body) -> float:
     """(1-ν²)/E, the mean over the elastic materials of a body."""
-    parts = [layer.material for layer in body.layers]
-    if isinstance(body.material, IsotropicMaterial):
-        parts.append(body.material)
+    parts = body.elastic_materials
     return sum(1 / part.plane_strain_modulus for part in parts) / max(1, len(parts))
 
 

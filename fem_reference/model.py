@@ -9,7 +9,6 @@ from numpy.typing import NDArray
 from contact_scene import (
     Body,
     FiniteElementDiscretisation,
-    IsotropicMaterial,
     Scene,
 )
 from contact_scene.friction import FrictionMap
@@ -134,12 +133,6 @@ def outermost_modulus(scene: Scene) -> float:
     """Young's modulus of the outermost elastic material, if need be the indenter's
     [force/length^2]."""
     for body in (scene.body, scene.indenter):
-        for material in _materials(body):
+        for material in body.elastic_materials:
             return material.young_modulus
     raise ValueError("two rigid bodies")
-
-
-def _materials(body: Body) -> list[IsotropicMaterial]:
-    """The elastic ones, outermost first."""
-    substrate = [body.material] if isinstance(body.material, IsotropicMaterial) else []
-    return [*(layer.material for layer in body.layers), *substrate]

@@ -4,12 +4,14 @@ from dataclasses import dataclass
 from math import ceil, hypot
 
 from contact_scene import ControlKind, FrictionMap, LoadRamp, Scene
-from fem_reference.coupling import coupling
-from fem_reference.effects import Effect as Effect
+from contact_scene.effect import Effect
+from contact_scene.pair import coupling, refuse_contrast
 from fem_reference.effects import effects
 from fem_reference.path import Path as Path
-from fem_reference.refusals import refuse_contrast, refuse_loads, refuse_shapes
+from fem_reference.refusals import refuse_loads, refuse_shapes
 
+# Of the shear moduli within a body: beyond, its stiffness matrix loses the softest part.
+MOST_CONTRAST = 1e8
 ROUND_OFF = 1e-9
 # Increments of a step whose path matters; errors fall as their inverse.
 PATH_INCREMENTS = 20
@@ -35,7 +37,9 @@ class Plan:
 def plan(scene: Scene) -> Plan:
     """Decide the path of a scene; raises UnsupportedScene for what is not axisymmetric enough."""
     refuse_shapes(scene)
-    refuse_contrast(scene)
+    refuse_contrast(
+        scene, MOST_CONTRAST, f", and finite elements carry a ratio up to {MOST_CONTRAST:.0e}"
+    )
     friction = scene.friction is not None
     ramps = scene.load_path()
     loaded = any(any(ramp.tangential.end) for ramp in ramps)

@@ -5,7 +5,6 @@ from math import hypot
 from contact_scene import (
     ControlKind,
     FrictionMap,
-    IsotropicMaterial,
     Scene,
 )
 from contact_scene.scene_text import shape_text
@@ -13,8 +12,6 @@ from contact_scene.solver_errors import UnsupportedScene
 
 # The sine of an angle below this is round-off of a load that goes straight.
 STRAIGHT = 1e-9
-# Of the moduli within a body: beyond, its stiffness matrix loses the softest part.
-MOST_CONTRAST = 1e8
 
 
 def refuse_shapes(scene: Scene) -> None:
@@ -71,18 +68,3 @@ def _turns(one: tuple[float, float], other: tuple[float, float]) -> bool:
     """Whether two loads are not on one line, round-off apart."""
     cross = one[0] * other[1] - one[1] * other[0]
     return abs(cross) > STRAIGHT * hypot(*one) * hypot(*other)
-
-
-def refuse_contrast(scene: Scene) -> None:
-    """Bodies as good as rigid and free next to each other; raises UnsupportedScene."""
-    for name, body in (("body", scene.body), ("indenter", scene.indenter)):
-        materials = [layer.material for layer in body.layers]
-        if isinstance(body.material, IsotropicMaterial):
-            materials.append(body.material)
-        moduli = [material.shear_modulus for material in materials]
-        if moduli and max(moduli) > MOST_CONTRAST * min(moduli):
-            raise UnsupportedScene(
-                f"the materials of the {name} have shear moduli from {min(moduli):.3g} to "
-                f"{max(moduli):.3g} Pa, and finite elements carry a ratio up to "
-                f"{MOST_CONTRAST:.0e}; name a rigid base, or leave the soft part out"
-            )

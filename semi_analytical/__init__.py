@@ -1,5 +1,6 @@
 """Contact by superposition and FFT: the semi-analytical method."""
 
+from contact_scene.effect import Effect
 from contact_scene.residuals import Residuals
 from contact_scene.solver_errors import (
     ContactAtWindowEdge,
@@ -14,7 +15,7 @@ from semi_analytical.discretise import discretise
 from semi_analytical.fields import Increment, Result
 from semi_analytical.grid import SurfaceGrid
 from semi_analytical.other_plans import all_effects, one_way
-from semi_analytical.plan import Coupling, Effect, Plan, plan
+from semi_analytical.plan import Coupling, Plan, plan
 from semi_analytical.solve import solve, solve_discretised
 
 __all__ = [

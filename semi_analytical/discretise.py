@@ -9,10 +9,10 @@ from numpy.typing import NDArray
 
 from contact_scene import (
     FrictionMap,
-    IsotropicMaterial,
     Scene,
     SurfaceDiscretisation,
 )
+from contact_scene.pair import contact_modulus
 from contact_scene.scene_text import shape_text
 from contact_scene.solver_errors import (
     ContactAtWindowEdge,
@@ -144,7 +144,7 @@ def _guessed_semi_axes(scene: Scene, load: NormalTarget) -> tuple[float, float]:
         powers = indenter.contact_at(load.approach)
     else:
         assert load.force is not None
-        powers = indenter.contact_under(load.force, _contact_modulus(scene))
+        powers = indenter.contact_under(load.force, contact_modulus(scene))
         exponent += 1
     if powers is None:
         raise UnsupportedScene(
@@ -158,13 +158,3 @@ def _root(power: float, exponent: int) -> float:
     if exponent == 3:
         return float(np.cbrt(power))
     return sqrt(power) if exponent == 2 else power ** (1 / exponent)
-
-
-def _contact_modulus(scene: Scene) -> float:
-    """E* = 1 / Σ (1 - nu^2) / E over what is elastic, substrate or outermost layer."""
-    compliance = 0.0
-    for body in (scene.body, scene.indenter):
-        material = body.layers[0].material if body.layers else body.material
-        if isinstance(material, IsotropicMaterial):
-            compliance += 1 / material.plane_strain_modulus
-    return 1 / compliance

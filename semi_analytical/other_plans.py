@@ -2,7 +2,8 @@
 
 from dataclasses import replace
 
-from semi_analytical.plan import COUPLING, Coupling, Effect, Plan
+from contact_scene.effect import COUPLING, Effect
+from semi_analytical.plan import Coupling, Plan
 
 # Names of the effects that can be computed where they vanish.
 COMPUTED = ("tangential load", "tilt", "torsion", COUPLING)

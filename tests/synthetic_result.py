@@ -7,12 +7,13 @@ import numpy as np
 
 from contact_scene import Body as LowerBody
 from contact_scene import CoulombFriction, IsotropicMaterial, LoadStep, Paraboloid, Scene
+from contact_scene.effect import Effect
 from contact_scene.residuals import Residuals
 from contact_scene.summary import ContactStatus
 from semi_analytical.fields import Field, Increment, Result
 from semi_analytical.grid import SurfaceGrid
 from semi_analytical.path_increments import StepIncrements
-from semi_analytical.plan import Coupling, Effect, Plan
+from semi_analytical.plan import Coupling, Plan
 
 STEEL = IsotropicMaterial(young_modulus=420e9, poisson_ratio=0.3)
 MU, RADIUS, PEAK = 0.1, 0.4e-3, 3e9

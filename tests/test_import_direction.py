@@ -62,7 +62,7 @@ ORDER = (
 ORDERS = {
     "semi_analytical": ORDER,
     "fem_reference": (
-        *("memory", "scales", "mesh", "elasticity", "path", "coupling", "refusals"),
+        *("memory", "scales", "mesh", "elasticity", "path", "refusals"),
         *("effects", "plan", "loads", "residuals", "fields", "energy", "model", "history"),
         *("contact", "stress", "expected_radius", "solve"),
     ),

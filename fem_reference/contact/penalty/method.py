@@ -10,13 +10,14 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from contact_scene.pair import contact_modulus
 from contact_scene.summary import ContactStatus
 from fem_reference.contact.friction_limit import contact_status
 from fem_reference.contact.one_component import with_shear
 from fem_reference.contact.penalty.fitted_edge import edge_radius, stick_area
 from fem_reference.contact.penalty.law import Penalty, penalty_stiffness
 from fem_reference.contact.penalty.passes import advance
-from fem_reference.contact.penalty.problem import PenaltyProblem, contact_modulus, penalty_problem
+from fem_reference.contact.penalty.problem import PenaltyProblem, penalty_problem
 from fem_reference.contact.penalty.spring_state import PenaltyState
 from fem_reference.fields import Increment
 from fem_reference.history import Method as Solver

@@ -7,7 +7,7 @@ from typing import Self
 import numpy as np
 from numpy.typing import NDArray
 
-from contact_scene import Body, IsotropicMaterial, Scene
+from contact_scene.pair import contact_modulus
 from fem_reference.contact.one_component import target_of
 from fem_reference.contact.penalty.gauss_points import GaussPoints, gauss_points
 from fem_reference.contact.penalty.law import Penalty, penalty_stiffness
@@ -105,6 +105,7 @@ def penalty_problem(model: ContactModel, path: Path, penalty: Penalty) -> Penalt
     return PenaltyProblem(
         points=points,
         surface=ElasticSurface(points.weights, compliance, np.array(motion), gap),
+        # Of the outermost materials: it is them that an overlap as short as an edge presses.
         stiffness=penalty_stiffness(penalty, contact_modulus(model.scene), element),
         friction=model.friction_coefficient if c > 1 else 0.0,
         element=element,
@@ -112,21 +113,6 @@ def penalty_problem(model: ContactModel, path: Path, penalty: Penalty) -> Penalt
         path=path,
         open_end=not model.ends_at_rim,
     )
-
-
-def contact_modulus(scene: Scene) -> float:
-    """E* of the outermost materials: it is them that an overlap as short as an edge presses
-    [force/length^2]."""
-    compliances = [
-        1 / material.plane_strain_modulus
-        for material in map(_outermost, (scene.body, scene.indenter))
-        if isinstance(material, IsotropicMaterial)
-    ]
-    return 1 / sum(compliances)
-
-
-def _outermost(body: Body) -> object:
-    return body.layers[0].material if body.layers else body.material
 
 
 def _nodes_under(model: ContactModel) -> Field:

@@ -1,0 +1,72 @@
+"""The two bodies as a pair: whether pressure shears them, and how unlike their materials may be."""
+
+from contact_scene.body import Body
+from contact_scene.material import IsotropicMaterial, Material
+from contact_scene.scene import Scene
+from contact_scene.solver_errors import UnsupportedScene
+
+# |beta| below this is round-off of equal materials given in different units.
+UNCOUPLED = 1e-12
+
+
+def coupling(scene: Scene) -> tuple[bool, str]:
+    """Whether pressure moves the surfaces past each other, and why.
+
+    For half-spaces Dundurs' beta decides (Dundurs 1969); a layer couples by itself unless the
+    other body is its mirror image.
+    """
+    lower, upper = scene.body, scene.indenter
+    if (lower.material, lower.layers) == (upper.material, upper.layers):
+        return False, "the two bodies are alike: pressure moves both surfaces by the same amount"
+    beta = dundurs_beta(scene)
+    if beta is None:
+        return True, "a coating moves sideways under pressure, and the other body does not follow"
+    text = f"Dundurs' beta is {beta:.2g}"
+    if abs(beta) <= UNCOUPLED:
+        return False, f"{text}: pressure does not move the surfaces past each other"
+    return True, f"{text}: pressure moves the surfaces past each other"
+
+
+def dundurs_beta(scene: Scene) -> float | None:
+    """½ [(1-2ν1)/G1 - (1-2ν2)/G2] / [(1-ν1)/G1 + (1-ν2)/G2]; a rigid body has 1/G = 0.
+
+    None where one of the bodies is not the same all through.
+    """
+    difference = total = 0.0
+    for sign, body in ((1, scene.body), (-1, scene.indenter)):
+        if any(layer.material != body.material for layer in body.layers):
+            return None
+        if isinstance(body.material, IsotropicMaterial):
+            nu, G = body.material.poisson_ratio, body.material.shear_modulus
+            difference += sign * (1 - 2 * nu) / G
+            total += (1 - nu) / G
+    return 0.5 * difference / total
+
+
+def contact_modulus(scene: Scene) -> float:
+    """E* of the outermost materials: 1/E* = Σ (1-ν²)/E over what is elastic [force/length^2]."""
+    outermost = map(_outermost, (scene.body, scene.indenter))
+    return 1 / sum(
+        1 / material.plane_strain_modulus
+        for material in outermost
+        if isinstance(material, IsotropicMaterial)
+    )
+
+
+def _outermost(body: Body) -> Material:
+    return body.layers[0].material if body.layers else body.material
+
+
+def refuse_contrast(scene: Scene, most: float, why: str) -> None:
+    """Raise UnsupportedScene where the materials of a body are too unlike.
+
+    most  largest ratio of shear moduli
+    why   what a solver makes of a larger one
+    """
+    for name, body in (("body", scene.body), ("indenter", scene.indenter)):
+        moduli = [material.shear_modulus for material in body.elastic_materials]
+        if moduli and max(moduli) > most * min(moduli):
+            raise UnsupportedScene(
+                f"the materials of the {name} have shear moduli from {min(moduli):.3g} to "
+                f"{max(moduli):.3g} Pa{why}; name a rigid base, or leave the soft part out"
+            )
