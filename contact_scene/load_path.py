@@ -6,6 +6,7 @@ from enum import Enum
 from typing import Generic, TypeVar
 
 from contact_scene.loading import LoadStep
+from contact_scene.solver_errors import GrossSliding
 
 Vector = tuple[float, float]
 Value = TypeVar("Value", float, Vector)
@@ -30,6 +31,41 @@ class Control(Generic[Value]):
     kind: ControlKind
     start: Value | None
     end: Value
+
+    def led(
+        self, fraction: float, reached: tuple[Value, Value | None]
+    ) -> tuple[Value | None, Value | None]:
+        """Force and displacement at a fraction of the step, of which one is given.
+
+        Exactly `end` at the end and wherever nothing changes, so that equal loads are equal.
+
+        reached  force and displacement of the state at the start of the step, where it takes over
+                 from the other kind; no displacement where that is undefined
+        raises   GrossSliding where it would have to be taken over
+        """
+        by_force = self.kind is ControlKind.FORCE
+        begin = self.start
+        if begin is None:
+            begin = reached[0] if by_force else reached[1]
+        if begin is None:
+            raise GrossSliding(
+                "the step before reached the friction limit under force control, where the motion "
+                "is undefined; end that step below the limit"
+            )
+        value = _between(begin, self.end, fraction)
+        return (value, None) if by_force else (None, value)
+
+
+def _between(begin: Value, end: Value, fraction: float) -> Value:
+    match begin, end:
+        case (float(), float()):
+            return _ramped(begin, end, fraction)
+        case _:
+            return _ramped(begin[0], end[0], fraction), _ramped(begin[1], end[1], fraction)
+
+
+def _ramped(begin: float, end: float, fraction: float) -> float:
+    return end if fraction == 1 or begin == end else begin + (end - begin) * fraction
 
 
 ScalarControl = Control[float]

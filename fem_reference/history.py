@@ -4,16 +4,14 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from typing import Generic, Protocol, TypeVar
 
-from contact_scene import ControlKind, LoadRamp, Scene
+from contact_scene import LoadRamp, Scene
 from contact_scene.load_path import ScalarControl
-from contact_scene.solver_errors import GrossSliding, NotConverged, SolverError
+from contact_scene.march import Place, Reached, marked_increments
 from contact_scene.standing import Mark, Standing
 from fem_reference.energy import accounted
 from fem_reference.fields import Increment
-from fem_reference.loads import Loads, NormalTarget, Place, TangentialTarget, TwistTarget
+from fem_reference.loads import Loads, NormalTarget, TangentialTarget, TwistTarget
 from fem_reference.plan import Path, Plan
-
-MOST_HALVINGS = 4
 
 
 class State(Protocol):
@@ -66,119 +64,58 @@ def marked(
     since   where the same march stood before, to go on from there
     raises  NotConverged and GrossSliding, with the last converged increment as `last_state`
     """
-    mark: Mark[S] | None = since.mark if since else None
-    state = mark.state if mark else None
-    last: Increment | None = since.increments[-1] if since else None
-    done = 0
-    for ramp, count in zip(scene.load_path(), plan.increments, strict=True):
-        behind = mark.within(done, count) if mark else 0
-        start = mark.start if mark and 0 < behind < count else state
-        path = _Path(method, plan, ramp, start, tolerance)
-        fractions = [0.0, *_fractions(scene, ramp, count)]
-        done += behind
-        begin = fractions[behind]
-        for index, end in enumerate(fractions[behind + 1 :], start=behind + 1):
-            try:
-                state, halvings = path.reach(state, begin, end, MOST_HALVINGS)
-            except SolverError as error:
-                error.where = f"step {ramp.step}, increment {index} of {count}"
-                error.last_state = last
-                raise
-            place = Place(ramp.step, index, count)
-            told = replace(method.increment(state, place), halvings=halvings)
-            last = accounted(scene, plan, last, told)
-            begin, done = end, done + 1
-            yield last, Mark(done, state, start)
+    return marked_increments(scene, plan.increments, _Solver(scene, method, plan, tolerance), since)
 
 
 @dataclass(frozen=True)
-class _Path(Generic[S]):
-    """The loads along one ramp, from the state at its start."""
+class _Solver(Generic[S]):
+    """A method as the march sees it: it counts nothing, and halves as often as it may."""
 
+    scene: Scene
     method: Method[S]
     plan: Plan
-    ramp: LoadRamp
-    start: S | None
     tolerance: float
+    most_spent: float = 0.0
 
-    def reach(self, state: S | None, begin: float, end: float, halvings_left: int) -> tuple[S, int]:
-        """The state at fraction `end`, in two halves where one increment does not converge, and
-        the number of halvings that took."""
-        try:
-            return self.method.advance(state, self._loads(end), self.tolerance), 0
-        except NotConverged:
-            if halvings_left == 0:
-                raise
-        middle = 0.5 * (begin + end)
-        half, first = self.reach(state, begin, middle, halvings_left - 1)
-        whole, second = self.reach(half, middle, end, halvings_left - 1)
-        return whole, 1 + first + second
+    def spent(self) -> float:
+        """Nothing."""
+        return 0.0
 
-    def _loads(self, fraction: float) -> Loads:
+    def advance(self, ramp: LoadRamp, start: S | None, before: S | None, fraction: float) -> S:
+        """The state at a fraction of the ramp."""
         path = self.plan.path
-        return Loads(
-            self._normal(fraction),
-            self._tangential(fraction) if path in (Path.SHEARING, Path.HARMONICS) else None,
-            self._twisting(fraction) if path is Path.TWISTING else None,
+        loads = Loads(
+            _normal(ramp, start, fraction),
+            self._tangential(ramp, start, fraction)
+            if path in (Path.SHEARING, Path.HARMONICS)
+            else None,
+            _twisting(ramp, start, fraction) if path is Path.TWISTING else None,
         )
+        return self.method.advance(before, loads, self.tolerance)
 
-    def _normal(self, fraction: float) -> NormalTarget:
-        control = self.ramp.normal
-        if control.kind is ControlKind.FORCE:
-            reached = self.start.normal_force if self.start else 0.0
-            return NormalTarget(force=_at(control, reached, fraction))
-        reached = self.start.approach if self.start else 0.0
-        return NormalTarget(approach=_at(control, reached, fraction))
+    def report(self, reached: Reached[S], last: Increment | None) -> Increment:
+        """As the method reports it, with the account of energy carried on."""
+        increment = self.method.increment(reached.state, reached.place)
+        increment = replace(increment, halvings=reached.halvings)
+        return accounted(self.scene, self.plan, last, increment)
 
-    def _tangential(self, fraction: float) -> TangentialTarget:
-        control = self.ramp.tangential
+    def _tangential(self, ramp: LoadRamp, start: S | None, fraction: float) -> TangentialTarget:
+        control = ramp.tangential
         x, y = self.plan.direction
         along = ScalarControl(
             control.kind,
             None if control.start is None else control.start[0] * x + control.start[1] * y,
             control.end[0] * x + control.end[1] * y,
         )
-        if control.kind is ControlKind.FORCE:
-            reached = self.start.tangential_force if self.start else 0.0
-            return TangentialTarget(force=_at(along, reached, fraction))
-        shift = self.start.tangential_shift if self.start else 0.0
-        return TangentialTarget(shift=_at(along, _defined(along, shift, "shift"), fraction))
-
-    def _twisting(self, fraction: float) -> TwistTarget:
-        control = self.ramp.twisting
-        if control.kind is ControlKind.FORCE:
-            reached = self.start.torque if self.start else 0.0
-            return TwistTarget(torque=_at(control, reached, fraction))
-        twist = self.start.twist if self.start else 0.0
-        return TwistTarget(twist=_at(control, _defined(control, twist, "twist"), fraction))
+        reached = (start.tangential_force, start.tangential_shift) if start else (0.0, 0.0)
+        return TangentialTarget(*along.led(fraction, reached))
 
 
-def _defined(control: ScalarControl, reached: float | None, name: str) -> float:
-    if reached is None:
-        raise GrossSliding(
-            f"the step before reached the friction limit under force control, where the {name} is "
-            f"undefined; end that step below the limit"
-        )
-    return reached
+def _normal(ramp: LoadRamp, start: State | None, fraction: float) -> NormalTarget:
+    reached = (start.normal_force, start.approach) if start else (0.0, 0.0)
+    return NormalTarget(*ramp.normal.led(fraction, reached))
 
 
-def _at(control: ScalarControl, reached: float, fraction: float) -> float:
-    """Between start and end; exactly `end` at the end and wherever nothing changes.
-
-    reached  by the state at the start, where the control takes over from another
-    """
-    begin = reached if control.start is None else control.start
-    if fraction == 1 or begin == control.end:
-        return control.end
-    return begin + (control.end - begin) * fraction
-
-
-def _fractions(scene: Scene, ramp: LoadRamp, count: int) -> list[float]:
-    """Where in the ramp the increments end: uniform in contact radius while the normal load
-    grows from zero, uniform in load otherwise."""
-    exponent = None
-    if ramp.normal.start == 0:
-        exponent = scene.indenter.gap_exponent
-        if exponent is not None and ramp.normal.kind is ControlKind.FORCE:
-            exponent += 1
-    return [(k / count) ** (exponent or 1) for k in range(1, count + 1)]
+def _twisting(ramp: LoadRamp, start: State | None, fraction: float) -> TwistTarget:
+    reached = (start.torque, start.twist) if start else (0.0, 0.0)
+    return TwistTarget(*ramp.twisting.led(fraction, reached))

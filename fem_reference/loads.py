@@ -37,12 +37,3 @@ class Loads:
     normal: NormalTarget
     tangential: TangentialTarget | None = None
     twisting: TwistTarget | None = None
-
-
-@dataclass(frozen=True)
-class Place:
-    """Where in the history an increment stands: step and increment counted from 1."""
-
-    step: int
-    index: int
-    increments_in_step: int

@@ -6,9 +6,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from contact_scene import ControlKind, LoadRamp
-from contact_scene.solver_errors import NotConverged, SolverError
-from contact_scene.standing import Mark
+from contact_scene import LoadRamp
+from contact_scene.march import Place, Reached, marked_increments
+from contact_scene.standing import Mark, Standing
 from semi_analytical.balance import balanced
 from semi_analytical.contact_area import stuck_cells
 from semi_analytical.energy import NOTHING_YET
@@ -27,7 +27,6 @@ Advance = Callable[
     [ContactModel, State | None, NormalTarget, TangentialTarget | None, float], State
 ]
 
-MOST_HALVINGS = 4
 # An increment that has taken more without converging is not cut any further. The last attempt that
 # fails before the halves converge is over after at most 17 200 in the stability map.
 MOST_CONVOLUTIONS = 30_000
@@ -39,40 +38,15 @@ def march(model: ContactModel, plan: Plan, tolerance: float) -> Iterator[Increme
 
 
 def marked(
-    model: ContactModel, plan: Plan, tolerance: float, since: Mark[State] | None = None
+    model: ContactModel, plan: Plan, tolerance: float, since: Standing | None = None
 ) -> Iterator[tuple[Increment, Mark[State]]]:
     """Increments of the scene's load path, each with the mark from which the march can go on.
 
-    since   a mark of the same march, to begin after it
-    raises  NotConverged and GrossSliding, with the last converged State as `last_state`
+    since   where the same march stood before, to go on from there
+    raises  NotConverged and GrossSliding, with the last converged increment as `last_state`
     """
-    advance = _advance(plan)
-    state = since.state if since else None
-    done = 0
-    for ramp, count in zip(model.scene.load_path(), plan.increments, strict=True):
-        behind = since.within(done, count) if since else 0
-        start = since.start if since and 0 < behind < count else state
-        path = _Path(model, ramp, start, plan, advance, tolerance)
-        fractions = [0.0, *_fractions(model, ramp, count)]
-        done += behind
-        begin = fractions[behind]
-        for index, end in enumerate(fractions[behind + 1 :], start=behind + 1):
-            counted, before = model.convolutions.count, state
-            try:
-                until = counted + MOST_CONVOLUTIONS
-                state, halvings = path.reach(state, begin, end, MOST_HALVINGS, until)
-            except SolverError as error:
-                error.where = f"step {ramp.step}, increment {index} of {count}"
-                raise
-            increment = _increment(model, before, state, ramp.step, index, count)
-            increment = replace(
-                increment,
-                halvings=halvings,
-                rounds=state.rounds,
-                convolutions=int(np.ceil(model.convolutions.count - counted)),
-            )
-            begin, done = end, done + 1
-            yield increment, Mark(done, state, start)
+    solver = _Solver(model, plan, _advance(plan), tolerance)
+    return marked_increments(model.scene, plan.increments, solver, since)
 
 
 def _advance(plan: Plan) -> Advance:
@@ -89,65 +63,52 @@ def _advance(plan: Plan) -> Advance:
 
 
 @dataclass(frozen=True)
-class _Path:
-    """The loads along one ramp, from the state at its start."""
+class _Solver:
+    """The model as the march sees it; it counts convolutions."""
 
     model: ContactModel
-    ramp: LoadRamp
-    start: State | None
     plan: Plan
-    advance: Advance
+    increment: Advance
     tolerance: float
 
-    def reach(
-        self, state: State | None, begin: float, end: float, halvings_left: int, until: float
-    ) -> tuple[State, int]:
-        """The state at fraction `end`, in two halves where one increment does not converge, and
-        the number of halvings that took; none after a count `until` of convolutions."""
-        try:
-            normal = normal_target(self.ramp, self.start, end, self.plan.tilt)
-            tangential = None
-            if self.plan.shear:
-                tangential = tangential_target(self.ramp, self.start, end, self.plan.torsion)
-            after = self.advance(self.model, state, normal, tangential, self.tolerance)
-            residuals = residuals_of(self.model, after)
-            residuals.require(self.tolerance, "the increment", after.iterations)
-            return balanced(self.model, state, after), 0
-        except NotConverged as error:
-            if halvings_left == 0 or self.model.convolutions.count > until:
-                error.last_state = state
-                raise
-        except SolverError as error:
-            error.last_state = state
-            raise
-        middle = 0.5 * (begin + end)
-        state, first = self.reach(state, begin, middle, halvings_left - 1, until)
-        state, second = self.reach(state, middle, end, halvings_left - 1, until)
-        return state, 1 + first + second
+    @property
+    def most_spent(self) -> float:
+        """Of one increment."""
+        return MOST_CONVOLUTIONS
+
+    def spent(self) -> float:
+        """Convolutions so far."""
+        return self.model.convolutions.count
+
+    def advance(
+        self, ramp: LoadRamp, start: State | None, before: State | None, fraction: float
+    ) -> State:
+        """The state at a fraction of the ramp, accepted, with its energies."""
+        normal = normal_target(ramp, start, fraction, self.plan.tilt)
+        tangential = None
+        if self.plan.shear:
+            tangential = tangential_target(ramp, start, fraction, self.plan.torsion)
+        after = self.increment(self.model, before, normal, tangential, self.tolerance)
+        residuals_of(self.model, after).require(self.tolerance, "the increment", after.iterations)
+        return balanced(self.model, before, after)
+
+    def report(self, reached: Reached[State], last: Increment | None) -> Increment:
+        """The state, with what the increment has changed and cost."""
+        return replace(
+            _increment(self.model, reached.before, reached.state, reached.place),
+            halvings=reached.halvings,
+            rounds=reached.state.rounds,
+            convolutions=int(np.ceil(reached.spent)),
+        )
 
 
-def _fractions(model: ContactModel, ramp: LoadRamp, count: int) -> list[float]:
-    """Where in the ramp the increments end: uniform in contact radius while the normal load
-    grows from zero, uniform in load otherwise."""
-    exponent = None
-    if ramp.normal.start == 0:
-        exponent = model.scene.indenter.gap_exponent
-        if exponent is not None and ramp.normal.kind is ControlKind.FORCE:
-            exponent += 1
-    return [(k / count) ** (exponent or 1) for k in range(1, count + 1)]
-
-
-def _increment(
-    model: ContactModel, before: State | None, state: State, step: int, index: int, count: int
-) -> Increment:
+def _increment(model: ContactModel, before: State | None, state: State, place: Place) -> Increment:
     """The state as it is reported, with what the increment from the state before has changed."""
     pressing, sheared, cell = state.pressing, state.sheared, model.grid.cell_area
     p = pressing.pressure
     force, tilt = state.target.force, pressing.tilt
     pressed = Increment(
-        step=step,
-        index=index,
-        increments_in_step=count,
+        **vars(place),
         pressure=p,
         gap=model.gap + pressing.displacement - pressing.closure(model),
         normal_force=state.normal_force if force is None else force,

@@ -68,7 +68,7 @@ def solve(
     if progress is not None:
         for increment in increments:
             progress(increment)
-    for increment, mark in marked(model, decided, tolerance, since.mark if since else None):
+    for increment, mark in marked(model, decided, tolerance, since):
         increments.append(increment)
         if keeper is not None:
             keeper.keep(Standing(tuple(increments), mark, grid))

@@ -6,6 +6,7 @@ from contact_scenes import APPROACH, LIMIT, LOAD, MU, RADIUS, A, grid, steel
 from coupled_scenes import bulk, coated, press, push, scene
 
 from contact_scene import RIGID, Cone, Ellipsoid, FlatPunch, HeightMap, Layer, Paraboloid
+from contact_scene.march import MOST_HALVINGS
 from semi_analytical import NotConverged, alternation, coupled_increment, history, solve
 
 TOLERANCE = 1e-8
@@ -172,9 +173,9 @@ def test_a_hopeless_increment_is_given_up_when_its_budget_is_spent(monkeypatch, 
     assert np.isfinite(caught.value.residual)
     assert caught.value.residual > TOLERANCE
     last = caught.value.last_state
-    np.testing.assert_array_equal(last.pressing.pressure, reached[-1].pressure)
+    np.testing.assert_array_equal(last.pressure, reached[-1].pressure)
     assert begun[-1] - begun[0] <= budget
-    halved_at_most = 1 + history.MOST_HALVINGS
+    halved_at_most = 1 + MOST_HALVINGS
     attempts = {0: range(1, 2), 50: range(2, halved_at_most), 10**9: [halved_at_most]}
     assert len(begun) in attempts[budget]
 

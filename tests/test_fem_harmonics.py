@@ -21,6 +21,7 @@ from hankel_responses import Coating
 from hypothesis import given
 from hypothesis import strategies as st
 
+from contact_scene.march import Place
 from contact_scene.solver_errors import GrossSliding, NotConverged
 from contact_scene.summary import ContactStatus
 from fem_reference.contact.harmonics import continuation, point_increment, root, shear_in_discs
@@ -31,7 +32,7 @@ from fem_reference.contact.harmonics.equations import Equations, Iterate
 from fem_reference.contact.harmonics.point_increment import advance
 from fem_reference.contact.harmonics.reported import reported
 from fem_reference.contact.harmonics.shear_in_discs import ShearProblem, solve_shear
-from fem_reference.loads import NormalTarget, Place, TangentialTarget
+from fem_reference.loads import NormalTarget, TangentialTarget
 from verification.closed_forms.cattaneo_mindlin import PartialSlip
 
 GRIDS = (axisymmetric_grid(), end_grid(2), end_grid(7), mid_grid(2), mid_grid(7))

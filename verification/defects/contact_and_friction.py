@@ -8,9 +8,9 @@ from typing import Any
 import numpy as np
 
 from contact_results import cycles
+from contact_scene import march
 from semi_analytical import (
     energy,
-    history,
     load_targets,
     normal,
     residuals,
@@ -125,7 +125,7 @@ def _blind_to_friction(patches: Patches) -> None:
 
 
 def _few_increments(patches: Patches) -> None:
-    patches.function(history, "_fractions", lambda whole: lambda *given: whole(*given)[-1:])
+    patches.function(march, "fractions", lambda whole: lambda *given: whole(*given)[-1:])
 
 
 def _arms_exchanged(patches: Patches) -> None:

@@ -6,13 +6,14 @@ from math import pi, sqrt
 import numpy as np
 from numpy.typing import NDArray
 
+from contact_scene.march import Place
 from fem_reference.contact.complementarity.contact_problem import ContactProblem, contact_problem
 from fem_reference.contact.complementarity.ring_increment import advance
 from fem_reference.contact.complementarity.ring_state import Slid, State
 from fem_reference.contact.one_component import with_shear
 from fem_reference.contact.ring_edge import edge_radius, stick_area
 from fem_reference.fields import Increment
-from fem_reference.loads import Loads, Place
+from fem_reference.loads import Loads
 from fem_reference.model import ContactModel
 from fem_reference.plan import Plan
 

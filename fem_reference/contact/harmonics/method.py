@@ -8,6 +8,7 @@ from functools import cached_property
 
 import numpy as np
 
+from contact_scene.march import Place
 from fem_reference.contact.harmonics.angular_grid import AngularGrid, axisymmetric_grid, end_grid
 from fem_reference.contact.harmonics.point_contact import PointContact, point_contact
 from fem_reference.contact.harmonics.point_increment import advance
@@ -15,7 +16,7 @@ from fem_reference.contact.harmonics.point_state import PointState
 from fem_reference.contact.harmonics.reported import reported
 from fem_reference.contact.zone_edge import refuse_contact_at_edge
 from fem_reference.fields import Increment
-from fem_reference.loads import Loads, Place, TangentialTarget
+from fem_reference.loads import Loads, TangentialTarget
 from fem_reference.model import ContactModel
 from fem_reference.plan import Plan
 

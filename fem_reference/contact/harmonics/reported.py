@@ -5,11 +5,11 @@ from math import pi, sqrt
 import numpy as np
 from numpy.typing import NDArray
 
+from contact_scene.march import Place
 from contact_scene.summary import ContactStatus
 from fem_reference.contact.harmonics.point_state import PointState
 from fem_reference.contact.ring_edge import edge_radius
 from fem_reference.fields import Increment
-from fem_reference.loads import Place
 
 Field = NDArray[np.float64]
 

@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from contact_scene.march import Place
 from contact_scene.pair import contact_modulus
 from contact_scene.summary import ContactStatus
 from fem_reference.contact.friction_limit import contact_status
@@ -21,7 +22,7 @@ from fem_reference.contact.penalty.problem import PenaltyProblem, penalty_proble
 from fem_reference.contact.penalty.spring_state import PenaltyState
 from fem_reference.fields import Increment
 from fem_reference.history import Method as Solver
-from fem_reference.loads import Loads, Place
+from fem_reference.loads import Loads
 from fem_reference.model import ContactModel
 from fem_reference.plan import Path, Plan
 

@@ -1,0 +1,129 @@
+"""March through a load history: steps are cut into increments, and these in halves where needed."""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from typing import Any, Generic, Protocol, TypeVar
+
+from contact_scene.load_path import ControlKind, LoadRamp
+from contact_scene.scene import Scene
+from contact_scene.solver_errors import NotConverged, SolverError
+from contact_scene.standing import Mark, Standing
+
+MOST_HALVINGS = 4
+
+S = TypeVar("S")
+Told = TypeVar("Told")
+
+
+@dataclass(frozen=True)
+class Place:
+    """Where in the history an increment stands: step and increment counted from 1."""
+
+    step: int
+    index: int
+    increments_in_step: int
+
+
+@dataclass(frozen=True)
+class Reached(Generic[S]):
+    """The end of an increment.
+
+    before    state at its start; None before first touch
+    halvings  how often it was cut in two to converge
+    spent     what the solver has spent on it
+    """
+
+    place: Place
+    before: S | None
+    state: S
+    halvings: int
+    spent: float
+
+
+class Solver(Protocol[S, Told]):
+    """What solves the increments of a history, and reports them.
+
+    most_spent  an increment that has taken more without converging is not cut any further
+    """
+
+    @property
+    def most_spent(self) -> float: ...
+
+    def spent(self) -> float:
+        """Counted so far, in a unit of its own."""
+
+    def advance(self, ramp: LoadRamp, start: S | None, before: S | None, fraction: float) -> S:
+        """The state at a fraction of a ramp, from the state before; `start` is that of the ramp.
+
+        raises  NotConverged, and what halves do not help against
+        """
+
+    def report(self, reached: Reached[S], last: Told | None) -> Told:
+        """The increment as it is reported, after the last one that was."""
+
+
+def marked_increments(
+    scene: Scene, counts: Sequence[int], solver: Solver[S, Told], since: Standing | None = None
+) -> Iterator[tuple[Told, Mark[S]]]:
+    """Increments of the scene's load path, each with the mark from which the march can go on.
+
+    counts  how many increments each loading step takes
+    since   where the same march stood before, to go on from there
+    raises  what the solver raises, with the last converged increment as `last_state`
+    """
+    mark: Mark[S] | None = since.mark if since else None
+    last: Told | None = since.increments[-1] if since else None
+    state, done = mark.state if mark else None, 0
+    for ramp, count in zip(scene.load_path(), counts, strict=True):
+        behind = mark.within(done, count) if mark else 0
+        start = mark.start if mark and 0 < behind < count else state
+        done += behind
+        ends = [0.0, *fractions(scene, ramp, count)]
+        for index in range(behind + 1, len(ends)):
+            way = _Way(solver, ramp, start, solver.spent())
+            before = state
+            try:
+                state, halvings = way.reach(before, ends[index - 1], ends[index], MOST_HALVINGS)
+            except SolverError as error:
+                error.where = f"step {ramp.step}, increment {index} of {count}"
+                error.last_state = last
+                raise
+            place, spent = Place(ramp.step, index, count), solver.spent() - way.begun
+            last = solver.report(Reached(place, before, state, halvings, spent), last)
+            done += 1
+            yield last, Mark(done, state, start)
+
+
+def fractions(scene: Scene, ramp: LoadRamp, count: int) -> list[float]:
+    """Where in the ramp the increments end: uniform in contact radius while the normal load
+    grows from zero, uniform in load otherwise."""
+    exponent = None
+    if ramp.normal.start == 0:
+        exponent = scene.indenter.gap_exponent
+        if exponent is not None and ramp.normal.kind is ControlKind.FORCE:
+            exponent += 1
+    return [(k / count) ** (exponent or 1) for k in range(1, count + 1)]
+
+
+@dataclass(frozen=True)
+class _Way(Generic[S]):
+    """Along one ramp, from the state at its start; `begun` with so much spent."""
+
+    solver: Solver[S, Any]
+    ramp: LoadRamp
+    start: S | None
+    begun: float
+
+    def reach(self, state: S | None, begin: float, end: float, halvings_left: int) -> tuple[S, int]:
+        """The state at fraction `end`, in two halves where one increment does not converge, and
+        the number of halvings that took."""
+        try:
+            return self.solver.advance(self.ramp, self.start, state, end), 0
+        except NotConverged:
+            too_much = self.begun + self.solver.most_spent
+            if halvings_left == 0 or self.solver.spent() > too_much:
+                raise
+        middle = 0.5 * (begin + end)
+        half, first = self.reach(state, begin, middle, halvings_left - 1)
+        whole, second = self.reach(half, middle, end, halvings_left - 1)
+        return whole, 1 + first + second
