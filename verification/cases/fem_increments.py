@@ -8,8 +8,6 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from contact_scene import LoadStep
-from verification.cases.indentation_reference import FEW
 from verification.cases.indentation_refinement import LOST, ONE
 from verification.exhibits.chart import Chart
 from verification.exhibits.convergence_chart import convergence_chart
@@ -23,7 +21,6 @@ from verification.judging.order_of_convergence import (
 from verification.judging.run import SectionRun, per_radius
 from verification.observed.end_state import approach, contact_radius
 from verification.observed.ring_errors import at_radii
-from verification.problems import paper_scene as paper
 
 if TYPE_CHECKING:
     from fem_reference import Result
@@ -152,10 +149,9 @@ def _label(increments: int) -> str:
 
 
 def _run(elements: int, increments: int) -> SectionRun:
-    step = LoadStep(normal_force=paper.NORMAL_FORCE, increments=increments)
     return SectionRun(
         _label(increments),
-        ONE.scene[FEW].model_copy(update={"loading": (step,)}),
+        ONE.problem(increments).scene,
         per_radius(elements, 0.97 * ONE.contact_radius),
     )
 

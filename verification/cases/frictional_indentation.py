@@ -2,10 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from functools import partial
+from typing import Any
 
 from verification.cases.indentation_charts import indentation_chart, indentation_table
-from verification.cases.indentation_reference import (
+from verification.judging.case import Case, Comparison, Level
+from verification.judging.declared_case import Drawing, Reported, Within, case, judged
+from verification.judging.ladder import Ladder, cells_label, named, on_cells
+from verification.judging.observables import APPROACH, CONTACT_RADIUS
+from verification.judging.pressing_errors import PRESSURE, SHEAR, SHEAR_AT_EDGE
+from verification.observed.end_state import stick_radius
+from verification.problems.indentation import (
     COATED,
     FEW,
     MANY,
@@ -14,11 +22,16 @@ from verification.cases.indentation_reference import (
     WEAK,
     Indentation,
 )
-from verification.judging.case import Case, Comparison, Finding, Level, Quantity, Required
-from verification.observed.end_state import approach, contact_radius
 from verification.problems.reference import ReferenceKind
 
 ASKED = "asked of the coupled solver on 256 x 256 cells"
+ROWS = (
+    Within(APPROACH, 2e-4, ASKED),
+    Within(CONTACT_RADIUS, 3e-3, ASKED),
+    Within(PRESSURE, 5e-3, ASKED),
+    Within(SHEAR, 1e-2, ASKED),
+    Within(SHEAR_AT_EDGE, 3e-2, ASKED),
+)
 
 
 def frictional_indentation(level: Level = Level.QUICK) -> Case:
@@ -29,53 +42,47 @@ def frictional_indentation(level: Level = Level.QUICK) -> Case:
 
 
 def frictional_indentation_on(
-    cells: int, judged: Sequence[Indentation], extrapolated: Sequence[Indentation]
+    cells: int, contacts: Sequence[Indentation], extrapolated: Sequence[Indentation]
 ) -> Case:
     """The case on a square grid: these are judged, the stick radius of those is extrapolated."""
-    runs = {
+    grids = {
         one: {
-            n: one.run(cells, n) for n in (FEW, MANY) if n == one.increments or one in extrapolated
+            n: on_grid(one, cells, n)
+            for n in (FEW, MANY)
+            if n == one.increments or one in extrapolated
         }
-        for one in judged
+        for one in contacts
     }
-    return Case(
-        name="frictional_indentation",
-        title="Pressing with friction",
-        problem=(
-            "The paper's ball, rigid, pressed by 1 kN on bodies of the paper's E* and on its "
-            "coated one. Their surfaces move towards the axis below the ball; friction resists, "
-            "and all but a central disc slips. Pressure and shear act on each other, and the shear "
-            "of the disc remembers the whole way. The references come from integral equations over "
-            "the radius."
-        ),
-        runs=tuple(run for each in runs.values() for run in each.values()),
-        quantities=tuple(
-            quantity
-            for one in judged
-            for quantity in _quantities(one, runs[one][one.increments].label)
+    return case(
+        "frictional_indentation",
+        "Pressing with friction",
+        "The paper's ball, rigid, pressed by 1 kN on bodies of the paper's E* and on its "
+        "coated one. Their surfaces move towards the axis below the ball; friction resists, "
+        "and all but a central disc slips. Pressure and shear act on each other, and the shear "
+        "of the disc remembers the whole way. The references come from integral equations over "
+        "the radius.",
+        *(
+            judged(grid, ROWS if n == one.increments else _unjudged(one, n))
+            for one, each in grids.items()
+            for n, grid in each.items()
         ),
         comparisons=tuple(
             Comparison(
                 f"stick_radius_{one.file_name}", f"{one.name}: relative error of the stick radius, "
                 f"extrapolated from {FEW} and {MANY} increments",
-                (runs[one][FEW].label, runs[one][MANY].label), one.stick_error, 2e-2, ASKED,
+                (grids[one][FEW].levels[0], grids[one][MANY].levels[0]),
+                partial(stick_error, one), 2e-2, ASKED,
                 one.source, ReferenceKind.SEMI_CLOSED,
             )
             for one in extrapolated
         ),
-        findings=tuple(
-            Finding(
-                "shear", "largest error of the shear, over µp_H", "", run.label, one.shear_error,
-                f"not judged: {one.increments} increments are",
-            )
-            for one, each in runs.items() for n, run in each.items() if n < one.increments
-        ),
-        charts=lambda results: tuple(
-            indentation_chart(one, results[runs[one][one.increments].label]) for one in judged
-        ),
+        charts=tuple(_chart(one, each[one.increments]) for one, each in grids.items()),
         tables=lambda results: (
             indentation_table(
-                [(one, results[run.label]) for one in judged for run in runs[one].values()]
+                [
+                    (one, results[grid.levels[0]])
+                    for one, each in grids.items() for grid in each.values()
+                ]
             ),
         ),
         limits=(
@@ -86,29 +93,26 @@ def frictional_indentation_on(
     )  # fmt: skip
 
 
-def _quantities(one: Indentation, run: str) -> tuple[Quantity, ...]:
-    return (
-        Quantity(
-            "approach", "approach of the bodies since first touch", "m", run, approach,
-            one.reference(one.approach), Required(2e-4, ASKED),
-        ),
-        Quantity(
-            "contact_radius", "√(contact area / π), cells at the edge counted in part", "m", run,
-            contact_radius, one.reference(one.contact_radius),
-            Required(3e-3, ASKED),
-        ),
-        Quantity(
-            "pressure", "largest error of the pressure from 0.1 to 0.95 of the radius, over p_H",
-            "", run, one.pressure_error, one.no_error, Required(5e-3, ASKED), 1.0,
-            "p_H, the peak pressure without friction",
-        ),
-        Quantity(
-            "shear", "largest error of the shear from 0.1 to 0.95 of the radius, two cells around "
-            "the stick edge apart, over µp_H",
-            "", run, one.shear_error, one.no_error, Required(1e-2, ASKED), 1.0, "µp_H",
-        ),
-        Quantity(
-            "shear_at_stick_edge", "the same within two cells of the stick edge", "", run,
-            one.edge_error, one.no_error, Required(3e-2, ASKED), 1.0, "µp_H",
-        ),
-    )  # fmt: skip
+def on_grid(one: Indentation, cells: int, increments: int) -> Ladder:
+    """Pressed in so many increments, on a window of three contact radii."""
+    label = f"{one.name}, {cells_label(cells)}, {increments} increments"
+    return named(label, on_cells(one.problem(increments), (cells,)))
+
+
+def _unjudged(one: Indentation, increments: int) -> tuple[Reported, ...]:
+    if increments > one.increments:
+        return ()
+    return (Reported(SHEAR, f"not judged: {one.increments} increments are"),)
+
+
+def stick_error(one: Indentation, few: Any, many: Any) -> float:
+    """Relative error of the stick radius, extrapolated in the increments."""
+    radius = 2 * stick_radius(many) - stick_radius(few)
+    return abs(radius / (one.stick_part * one.contact_radius) - 1)
+
+
+def _chart(one: Indentation, grid: Ladder) -> Drawing:
+    def draw(results: Mapping[str, Any]) -> Any:
+        return indentation_chart(one, results[grid.levels[0]])
+
+    return draw

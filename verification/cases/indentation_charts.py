@@ -8,13 +8,20 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from contact_results.quantities import shear_of
-from verification.cases.indentation_reference import Indentation
 from verification.exhibits.chart import Chart, Look, Panel, curve
 from verification.exhibits.profile_chart import SHOWN
 from verification.exhibits.table import Table
 from verification.judging.ladder import cells_label
+from verification.judging.pressing_errors import (
+    judged_radii,
+    pressure_at,
+    pressure_error,
+    shear_at,
+    shear_error,
+)
 from verification.observed.end_state import approach, contact_radius, stick_radius
-from verification.observed.radial_profile import along_radii, outward
+from verification.observed.radial_profile import outward
+from verification.problems.indentation import Indentation
 from verification.problems.paper_scene import HERTZ
 
 if TYPE_CHECKING:
@@ -28,8 +35,10 @@ def indentation_table(results: Iterable[tuple[Indentation, Result]]) -> Table:
             f"{one.name}, {result.grid.cells[0]}², {len(result.increments)}",
             f"{approach(result) / one.approach - 1:+.1e}",
             f"{contact_radius(result) / one.contact_radius - 1:+.1e}",
-            f"{one.pressure_error(result):.1e}",
-            f"{one.shear_error(result):.1e}",
+            *(
+                f"{error(result, -1, one.problem(one.increments)):.1e}"
+                for error in (pressure_error, shear_error)
+            ),
             f"{stick_radius(result) / one.contact_radius:.4f} ({one.stick_part:.4f})",
             f"{np.median([i.convolutions for i in result.increments]):.0f}",
         )
@@ -53,25 +62,31 @@ def indentation_chart(one: Indentation, result: Result) -> Chart:
     r = np.hypot(grid.x[half], grid.y[row]) / a
     shown = r < SHOWN
     unit = HERTZ.peak_pressure
+    radii = judged_radii(result, one.problem(one.increments))
     fields = {
-        "p / p_H": (end.pressure / unit, "p_over_pH"),
-        "q / µp_H": (outward(shear_of(end), grid) / (one.friction * unit), "q_over_mu_pH"),
+        "p / p_H": (end.pressure, one.pressure, pressure_at, unit),
+        "q / µp_H": (outward(shear_of(end), grid), one.shear, shear_at, one.friction * unit),
     }
     panels = []
-    for name, (field, key) in fields.items():
-        radii, exact = one.judged_profile(key)
-        found = along_radii(field, grid, radii * a).mean(axis=1)
+    for name, (field, exact, at, scale) in fields.items():
+        found = at(result, radii).mean(axis=1)
         panels += [
             Panel(
                 x_label="",
                 y_label=name,
                 curves=(
-                    curve("reference", one.row["r_over_a"], one.row[key], Look.REFERENCE),
-                    curve("computed", r[shown], field[half, row][shown]),
+                    curve(
+                        "reference", one.row["r_over_a"], exact(one.radii) / scale, Look.REFERENCE
+                    ),
+                    curve("computed", r[shown], field[half, row][shown] / scale),
                 ),
                 height=1.6,
             ),
-            Panel(x_label="", y_label=f"Δ{name}", curves=(curve("", radii, found - exact),)),
+            Panel(
+                x_label="",
+                y_label=f"Δ{name}",
+                curves=(curve("", radii / a, (found - exact(radii)) / scale),),
+            ),
         ]
     panels[-1] = panels[-1].model_copy(update={"x_label": "r / a"})
     return Chart(

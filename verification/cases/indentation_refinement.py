@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import replace
+from functools import partial
 from itertools import pairwise
 from typing import TYPE_CHECKING
 
 from contact_results.quantities import shear_of
 from contact_scene import Body, IsotropicMaterial
-from verification.cases.indentation_reference import Indentation
+from verification.cases.frictional_indentation import stick_error
 from verification.convergence.stored_field import at_centres
 from verification.exhibits.chart import Chart
 from verification.exhibits.convergence_chart import convergence_chart
@@ -18,6 +18,7 @@ from verification.judging.order_of_convergence import Followed, OrderOfChange, R
 from verification.judging.run import Run
 from verification.observed.end_state import approach
 from verification.problems import paper_scene as paper
+from verification.problems.indentation import Indentation
 from verification.problems.reference import ReferenceKind
 
 if TYPE_CHECKING:
@@ -31,12 +32,12 @@ INCREMENTS_CELLS = 128
 # both far from the axis. Stick radius, contact radius and approach by superposing Spence's punches,
 # δ R = 1.04015 a².
 ONE = Indentation(
-    "ν = 0, µ = 0.2986",
-    "half",
     {
         "mu": 0.2986, "c_over_a": 0.49972, "a_over_aH": 0.97037,
         "delta_over_deltaH": 1.04015 * 0.97037**2,
     },
+    "ν = 0, µ = 0.2986",
+    "half",
     Body(
         material=IsotropicMaterial(young_modulus=paper.CONTACT_MODULUS, poisson_ratio=0.0)
     ),
@@ -81,7 +82,7 @@ def indentation_refinement_on(cells: tuple[int, ...], increments: tuple[int, ...
             Comparison(
                 "stick_radius", f"relative error of the stick radius, extrapolated from {FEW} and "
                 f"{MANY} increments",
-                (few.label, many.label), ONE.stick_error, _part_of_stick(0.5),
+                (few.label, many.label), partial(stick_error, ONE), _part_of_stick(0.5),
                 "half a cell: the stick edge moves by cells from increment to increment",
                 ONE.source, ReferenceKind.SEMI_CLOSED,
             ),
@@ -167,8 +168,12 @@ def _run(cells: int, increments: int) -> Run:
     def cut(plan: Plan) -> Plan:
         return plan.cut_into((increments,))
 
-    run = replace(ONE.run(cells, CELLS_INCREMENTS), effects=cut)
-    return replace(run, label=f"{cells}x{cells}, {increments} increments")
+    return Run(
+        f"{cells}x{cells}, {increments} increments",
+        ONE.problem(CELLS_INCREMENTS).scene,
+        paper.square_grid(cells, paper.WINDOW_PER_RADIUS / 2 * ONE.contact_radius),
+        effects=cut,
+    )
 
 
 def _approach_error(few: Result, many: Result) -> float:
@@ -178,8 +183,7 @@ def _approach_error(few: Result, many: Result) -> float:
 
 def _part_of_stick(cells: float) -> float:
     """A part of a cell on the quick grid over the stick radius."""
-    spacing = ONE.run(QUICK_CELLS, CELLS_INCREMENTS).grid.spacing[0]
-    return cells * spacing / (ONE.stick_part * ONE.contact_radius)
+    return cells * paper.WINDOW_PER_RADIUS / QUICK_CELLS / ONE.stick_part
 
 
 def _charts(

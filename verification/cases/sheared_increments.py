@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import replace
 from itertools import pairwise
 from typing import TYPE_CHECKING
 
@@ -11,7 +10,6 @@ import numpy as np
 
 from contact_results.quantities import shear_of, shift_along_x
 from contact_scene import LoadStep
-from verification.cases.indentation_reference import FEW
 from verification.cases.indentation_refinement import (
     LOST,
     ONE,
@@ -121,14 +119,14 @@ def increment_size(result: Result) -> float:
 
 
 def _run(increments: int) -> Run:
-    one = ONE.run(CELLS, FEW)
     force = PART * ONE.friction * paper.NORMAL_FORCE
     loading = (
         LoadStep(normal_force=paper.NORMAL_FORCE, increments=increments),
         LoadStep(tangential_force=(force, 0.0), increments=increments),
     )
-    scene = one.scene.model_copy(update={"loading": loading})
-    return replace(one, label=f"{increments} increments", scene=scene)
+    scene = ONE.problem(increments).scene.model_copy(update={"loading": loading})
+    grid = paper.square_grid(CELLS, paper.WINDOW_PER_RADIUS / 2 * ONE.contact_radius)
+    return Run(f"{increments} increments", scene, grid)
 
 
 def _energetic(results: list[Result]) -> int:

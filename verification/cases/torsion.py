@@ -90,7 +90,7 @@ OF_LOOP = (
 )  # fmt: skip
 OF_GIVEN_TWIST = (
     Within(
-        number("torque", "torque at the twist of 0.9 of the limit", "N m", exact="moment"), 1e-3,
+        number("torque", "torque at the twist of 0.9 of the limit", exact="moment"), 1e-3,
         "a fifth of what was asked of the twist: near the limit the torque hardly depends on it",
         name="torque_of_given_twist",
     ),

@@ -19,6 +19,8 @@ CELLS = {
     "axis": "of the cells around the axis",
     "domain": "window",
     "sum": "Σ",
+    "between": "0.1 to 0.95",
+    "but": "two cells around the stick edge apart, ",
 }
 HATS = {
     "point": "ring",
@@ -27,6 +29,7 @@ HATS = {
     "axis": "on the axis",
     "domain": "contact",
     "sum": "∫",
+    "but": "",
 }
 SPRINGS = HATS | {
     "point": "Gauss point",
@@ -56,7 +59,8 @@ class Rung:
         if isinstance(self.run, Run):
             return CELLS
         hats = self.run.method is not Method.PENALTY
-        return (HATS if hats else SPRINGS) | {"within": f"{judged_within(self.count):.2g}"}
+        within = f"{judged_within(self.count):.2g}"
+        return (HATS if hats else SPRINGS) | {"within": within, "between": f"0.1 to {within}"}
 
 
 @dataclass(frozen=True)

@@ -8,6 +8,8 @@ from typing import Any
 
 import numpy as np
 
+from contact_results.quantities import unit_of
+from contact_scene.increment import SCALARS, components
 from verification.judging.order_of_convergence import Followed
 from verification.problems.problem import Problem
 from verification.problems.reference import Reference
@@ -111,30 +113,37 @@ class Observable:
 def number(
     name: str,
     meaning: str,
-    unit: str,
     *,
-    read: Callable[[Any], float] | None = None,
+    quantity: str = "",
     exact: str = "",
     over: str = "",
     of: Followed | None = None,
     source: str = "",
 ) -> Observable:
-    """A scalar of a step's end, which the exact answer has by the same name.
+    """A registered quantity of a step's end; NaN where the step has none.
 
-    read   from the end of the step; None: its attribute of this name, NaN where that is None
-    exact  what the exact answer calls it; empty: the same
+    quantity  its registered name, with _x or _y of a vector; empty: the name
+    exact     what the exact answer calls it; empty: the name
     """
+    quantity = quantity or name
+    known = next(known for known in SCALARS if quantity in components(known))
+    part = components(known).index(quantity)
 
-    def attribute(end: Any) -> float:
-        value = getattr(end, name)
-        return float("nan") if value is None else float(value)
+    def read(result: Any, step: int, _: Problem) -> float:
+        value = getattr(result.steps[step], known)
+        return float("nan") if value is None else float(np.ravel(value)[part])
 
-    found = read or attribute
     return Observable(
-        name, meaning, unit, lambda result, step, _: found(result.steps[step]),
-        lambda end: float(getattr(end, exact or name)), over, of=of,
-        label="" if of is None else of.value, source=source,
-    )  # fmt: skip
+        name,
+        meaning,
+        unit_of(quantity),
+        read,
+        lambda end: float(getattr(end, exact or name)),
+        over,
+        of=of,
+        label="" if of is None else of.value,
+        source=source,
+    )
 
 
 def error_norm(

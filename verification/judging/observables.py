@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from contact_results.quantities import shift_along_x
 from verification.judging import field_errors
 from verification.judging.observable import Observable, error_norm, number
 from verification.judging.order_of_convergence import Followed
@@ -12,28 +11,28 @@ from verification.observed.end_state import central_pressure
 from verification.problems.problem import OVER_PEAK, OVER_RADIUS
 from verification.problems.sheared import OVER_LIMIT, OVER_SLIDING_SHIFT, OVER_SLIDING_WORK
 
-APPROACH = number("approach", "approach of the bodies since first touch", "m", of=Followed.APPROACH)
+APPROACH = number("approach", "approach of the bodies since first touch", of=Followed.APPROACH)
 PEAK_PRESSURE = number(
-    "peak_pressure", "largest pressure of any {point}", "Pa", of=Followed.PEAK_PRESSURE
+    "peak_pressure", "largest pressure of any {point}", of=Followed.PEAK_PRESSURE
 )
-CONTACT_RADIUS = number("contact_radius", "{edge}", "m", of=Followed.CONTACT_RADIUS)
-NORMAL_FORCE = number("normal_force", "force that the approach takes", "N", exact="load")
+CONTACT_RADIUS = number("contact_radius", "{edge}", of=Followed.CONTACT_RADIUS)
+NORMAL_FORCE = number("normal_force", "force that the approach takes", exact="load")
 CENTRAL_PRESSURE = Observable(
     "central_pressure", "pressure {axis}", "Pa",
     lambda result, step, _: central_pressure(result, step),
     lambda exact: float(exact.pressure(0.0)), of=Followed.PEAK_PRESSURE, label="central pressure",
 )  # fmt: skip
 SHIFT = number(
-    "shift", "tangential shift{when}", "m", read=shift_along_x, over=OVER_SLIDING_SHIFT,
+    "shift", "tangential shift{when}", quantity="tangential_shift_x", over=OVER_SLIDING_SHIFT,
     of=Followed.SHIFT,
 )  # fmt: skip
-STICK_RADIUS = number("stick_radius", "{stick}{when}", "m", over=OVER_RADIUS)
+STICK_RADIUS = number("stick_radius", "{stick}{when}", over=OVER_RADIUS)
 ENERGY = number(
-    "energy", "energy dissipated{when}", "J", read=lambda end: float(end.dissipated_energy or 0.0),
+    "energy", "energy dissipated{when}", quantity="dissipated_energy",
     exact="dissipated_energy", of=Followed.ENERGY, source="Mindlin and Deresiewicz 1953",
 )  # fmt: skip
 WORK = replace(ENERGY, over=OVER_SLIDING_WORK)
-TWIST = number("twist", "twist{when}", "rad", of=Followed.TWIST)
+TWIST = number("twist", "twist{when}", of=Followed.TWIST)
 PRESSURE_L1 = error_norm(
     "pressure",
     "pressure over the {domain}, L1",

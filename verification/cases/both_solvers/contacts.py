@@ -15,11 +15,11 @@ from contact_results.quantities import shear_of
 from contact_scene import CoulombFriction, FiniteElementDiscretisation, LoadStep, Scene
 from semi_analytical.grid import SurfaceGrid
 from verification.cases.both_solvers.left_out import EVEN, MARGIN, kept_edges
-from verification.cases.indentation_reference import COATED, STRONG, WEAK, Indentation
 from verification.closed_forms.coated_indentation import LayeredIndentation
 from verification.judging.run import SOLVER_TOLERANCE
 from verification.observed.radial_profile import outward
 from verification.problems import paper_scene as paper
+from verification.problems.indentation import COATED, STRONG, WEAK, Indentation
 from verification.problems.layered_scene import coated, exact_contact, film, rigid_ball
 from verification.problems.paper_scene import HERTZ
 

@@ -10,15 +10,15 @@ import numpy as np
 
 from contact_scene.description import Description
 from fem_reference import Result
-from verification.cases.fem_indentation import Pressed
+from verification.cases.fem_indentation import pressed
 from verification.cases.fem_penalty_indentation import by_springs
-from verification.cases.indentation_reference import COATED, FEW, STRONG, WEAK
-from verification.judging.ladder import meshed
+from verification.judging.ladder import Ladder, meshed
 from verification.judging.observables import APPROACH, PEAK_PRESSURE, PRESSURE_WITHIN
-from verification.judging.run import SectionRun, per_radius
+from verification.judging.pressing_errors import PRESSURE, SHEAR
+from verification.judging.run import Run, SectionRun, per_radius
 from verification.judging.solver import Method
-from verification.observed.end_state import approach
 from verification.problems.hertz import BALL
+from verification.problems.indentation import COATED, FEW, STRONG, WEAK
 from verification.problems.paper_scene import HERTZ
 from verification.running.row import CaseRecord, parameters_of
 from verification.running.rules import RESIDUAL
@@ -66,17 +66,17 @@ class PenaltyCase:
         )
 
     @property
-    def _pressed(self) -> Pressed:
-        return Pressed(FRICTIONAL[self.contact], self.elements, self.increments)
+    def _pressed(self) -> Ladder:
+        return pressed(FRICTIONAL[self.contact], self.elements, self.increments)
 
     @property
     def _run(self) -> SectionRun:
         if self.contact == HERTZIAN:
-            run = SectionRun(
-                self.name, BALL.scene, per_radius(self.elements, meshed(BALL.radius, self.elements))
-            )
+            mesh = per_radius(self.elements, meshed(BALL.radius, self.elements))
+            run: Run | SectionRun = SectionRun(self.name, BALL.scene, mesh)
         else:
-            run = self._pressed.run
+            run = self._pressed.judged.run
+        assert isinstance(run, SectionRun)
         penalty = {"penalty": self.factor, "augmentations": self.augmentations, "box": self.box}
         discretisation = run.discretisation.model_copy(update=penalty)
         return replace(run, discretisation=discretisation, method=Method.PENALTY)
@@ -129,9 +129,5 @@ class PenaltyCase:
         }
 
     def _of_friction(self, result: Result) -> dict[str, float]:
-        pressed = self._pressed
-        return {
-            "approach": approach(result) / pressed.of.approach - 1,
-            "pressure": pressed.pressure_error(result),
-            "shear": pressed.shear_error(result),
-        }
+        problem = self._pressed.problem
+        return {what.name: what.error(problem)(result) for what in (APPROACH, PRESSURE, SHEAR)}

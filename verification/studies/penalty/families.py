@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from verification.cases.indentation_reference import FEW
 from verification.judging.case import Level
+from verification.problems.indentation import FEW
 from verification.running.row import CaseRecord
 from verification.studies.penalty.case import FRICTIONAL, HERTZIAN, PenaltyCase
 

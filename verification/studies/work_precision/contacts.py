@@ -22,7 +22,6 @@ from semi_analytical import Result as Surface
 from semi_analytical import SurfaceGrid
 from verification.cases import coated_paraboloid as coated
 from verification.cases.fretting_loop import WINDOW_PER_RADIUS
-from verification.cases.indentation_reference import COATED
 from verification.closed_forms.cattaneo_mindlin import PartialSlip
 from verification.judging.observables import APPROACH, PRESSURE_L2
 from verification.norms import shear_error
@@ -32,6 +31,7 @@ from verification.observed.ring_errors import at_radii
 from verification.problems import paper_scene as paper
 from verification.problems.coated_ball import SOURCE as COATINGS
 from verification.problems.hertz import BALL
+from verification.problems.indentation import COATED
 from verification.problems.loop_history import SOURCE as LOOP_SOURCE
 from verification.problems.loop_history import ExactLoop, loop_energy, loop_steps
 from verification.problems.paper_scene import FRICTION, FRICTION_LIMIT, HERTZ, NU_ZERO
@@ -214,9 +214,7 @@ def _pressed(
 
 
 def _pressing(increments: int) -> Scene:
-    step = LoadStep(normal_force=paper.NORMAL_FORCE, increments=increments)
-    (scene, *_) = COATED.scene.values()
-    return scene.model_copy(update={"loading": (step,)})
+    return COATED.problem(increments).scene
 
 
 def _frictional(title: str, *loading: LoadStep) -> Scene:

@@ -1,0 +1,91 @@
+"""Errors of tractions at the radii that a contact pressed with friction is tabulated at, by either
+solver."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from contact_results.quantities import shear_of
+from verification.judging.observable import error_norm
+from verification.observed.radial_profile import along_radii, outward
+from verification.observed.ring_errors import at_radii, judged_within
+from verification.problems.problem import OVER_PEAK, Problem
+from verification.problems.sheared import OVER_LIMIT
+
+Field = NDArray[np.float64]
+
+INNERMOST, OUTERMOST = 0.1, 0.95  # part of the radius where tractions are judged; on cells
+EDGE_CELLS = 2  # to each side of the stick edge, where the shear has a kink
+ROUNDING = 1e-9  # of the radii of a table
+
+
+def pressure_at(result: Any, r: Field) -> Field:
+    """Pressure (radii, directions) at the end of a result [force/length²]."""
+    end = result.steps[-1]
+    if hasattr(result, "grid"):
+        return along_radii(end.pressure, result.grid, r)
+    return at_radii(end, end.pressure, r)[:, None]
+
+
+def shear_at(result: Any, r: Field) -> Field:
+    """Outward shear (radii, directions) at the end of a result [force/length²]."""
+    end = result.steps[-1]
+    if hasattr(result, "grid"):
+        return along_radii(outward(shear_of(end), result.grid), result.grid, r)
+    return at_radii(end, end.shear_radial, r)[:, None]
+
+
+def judged_radii(result: Any, problem: Problem) -> Field:
+    """Those of the table that are away from axis and edge [length]."""
+    outermost = OUTERMOST
+    if not hasattr(result, "grid"):
+        outermost = judged_within(result.discretisation.elements_per_radius)
+    r = problem.ends[-1].radii
+    part = r / problem.radius
+    return np.asarray(r[(part > INNERMOST - ROUNDING) & (part < outermost + ROUNDING)])
+
+
+def pressure_error(result: Any, _: int, problem: Problem) -> float:
+    """Largest error of the pressure, over p_H [1]."""
+    r = judged_radii(result, problem)
+    error = np.abs(pressure_at(result, r) - problem.ends[-1].pressure(r)[:, None])
+    return float(np.max(error) / problem.scale(OVER_PEAK))
+
+
+def shear_errors(result: Any, problem: Problem) -> tuple[Field, NDArray[np.bool_]]:
+    """Errors over µp_H at the judged radii, and which of these are cells at the edge of
+    the stick zone."""
+    r, exact = judged_radii(result, problem), problem.ends[-1]
+    error = np.max(np.abs(shear_at(result, r) - exact.shear(r)[:, None]), axis=1)
+    width = EDGE_CELLS * result.grid.spacing[0] if hasattr(result, "grid") else 0.0
+    at_edge = np.abs(r - exact.stick_part * problem.radius) < width
+    return error / problem.scale(OVER_LIMIT), at_edge
+
+
+def shear_error(result: Any, _: int, problem: Problem) -> float:
+    """Largest error of the outward shear away from the edge of the stick zone."""
+    error, at_edge = shear_errors(result, problem)
+    return float(np.max(error[~at_edge]))
+
+
+def edge_error(result: Any, _: int, problem: Problem) -> float:
+    """Largest error of the outward shear at the edge of the stick zone; zero if the reference has
+    no point there."""
+    error, at_edge = shear_errors(result, problem)
+    return float(np.max(error, where=at_edge, initial=0.0))
+
+
+PRESSURE = error_norm(
+    "pressure", "largest error of the pressure from {between} of the radius, over p_H",
+    pressure_error, "p_H, the peak pressure without friction",
+)  # fmt: skip
+SHEAR = error_norm(
+    "shear", "largest error of the shear from {between} of the radius, {but}over µp_H", shear_error,
+    OVER_LIMIT,
+)  # fmt: skip
+SHEAR_AT_EDGE = error_norm(
+    "shear_at_stick_edge", "the same within two cells of the stick edge", edge_error, OVER_LIMIT
+)

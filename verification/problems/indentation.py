@@ -1,0 +1,81 @@
+"""Pressing with friction: contacts whose answer is a row of a reference, each with its body."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from contact_scene import Body, CoulombFriction, IsotropicMaterial, LoadStep, Scene
+from verification.problems import paper_scene as paper
+from verification.problems.layered_scene import coated, film, rigid_ball
+from verification.problems.paper_scene import HERTZ
+from verification.problems.problem import OVER_PEAK, Problem
+from verification.problems.reference import ReferenceKind
+from verification.problems.sheared import OVER_LIMIT
+from verification.problems.tabulated import TabulatedContact
+from verification.references import load_reference
+
+FEW, MANY = 20, 40  # increments, uniform in contact radius
+REFERENCE_ERROR = 1e-7  # of radii and approach, relative
+
+
+@dataclass(frozen=True, eq=False)
+class Indentation(TabulatedContact):
+    """One row of a reference, and the body it is about.
+
+    name        for people; file_name for files
+    increments  how many make the shear as accurate as is asked
+    """
+
+    name: str
+    file_name: str
+    body: Body
+    source: str
+    increments: int = FEW
+
+    @property
+    def stick_part(self) -> float:
+        """Reference stick radius over contact radius."""
+        return float(self.row["c_over_a"])
+
+    def problem(self, increments: int) -> Problem:
+        """The rigid ball pressed on the body in so many increments."""
+        scene = Scene(
+            title=f"Rigid ball pressed with friction: {self.name}",
+            indenter=rigid_ball(),
+            body=self.body,
+            friction=CoulombFriction(coefficient=self.friction),
+            loading=(LoadStep(normal_force=paper.NORMAL_FORCE, increments=increments),),
+        )
+        return Problem(
+            scene,
+            (self,),
+            self.contact_radius,
+            self.source,
+            ReferenceKind.SEMI_CLOSED,
+            REFERENCE_ERROR,
+            {
+                OVER_PEAK: HERTZ.peak_pressure,
+                OVER_LIMIT: self.friction * HERTZ.peak_pressure,
+            },
+        )
+
+
+def _bare(file_name: str, row: Mapping[str, Any], increments: int) -> Indentation:
+    nu = float(row["nu"])
+    modulus = paper.CONTACT_MODULUS * (1 - nu**2)
+    body = Body(material=IsotropicMaterial(young_modulus=modulus, poisson_ratio=nu))
+    source = "references/frictional_indentation_homogeneous.json: self-similar (Spence 1975)"
+    return Indentation(row, f"ν = {nu:g}, µ = {row['mu']:g}", file_name, body, source, increments)
+
+
+_ROWS = load_reference("frictional_indentation_homogeneous")["rows"]
+WEAK = _bare("weak", _ROWS[0], FEW)
+STRONG = _bare("strong", _ROWS[1], MANY)
+NU_ZERO = _bare("nu_zero", _ROWS[2], FEW)
+_ROW = load_reference("frictional_indentation_coated")
+COATED = Indentation(
+    _ROW, "coated, µ = 0.1", "coated", coated(film(_ROW["E1_over_E2"], _ROW["h_over_aH"])),
+    "references/frictional_indentation_coated.json: Volterra equation along the load path",
+)  # fmt: skip
