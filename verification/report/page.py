@@ -11,7 +11,6 @@ from verification.exhibits.chart import Chart
 from verification.exhibits.numbers import plain, value_text
 from verification.exhibits.table import Table
 from verification.judging.outcome import CaseOutcome, SceneRecord, Status, Verdict
-from verification.judging.status_words import SYMBOLS, WORDS
 from verification.judging.verdict_text import (
     clearance_text,
     failure_text,
@@ -31,7 +30,6 @@ from verification.report.changes import (
     origins,
     without_baseline,
 )
-from verification.report.columns import alignment
 from verification.report.counts import counts_text
 from verification.report.extent import extent
 from verification.report.features import features
@@ -41,7 +39,7 @@ from verification.report.profiles_together import profiles_together
 from verification.report.sections import study_of, study_section
 from verification.report.shared_styles import with_shared_styles
 from verification.report.sketch import sketch_svg, thin_layers
-from verification.report.svg import inline_svg
+from verification.report.templating import environment
 from verification.running.report_record import Report
 from verification.running.study_text import measured_text
 
@@ -55,7 +53,6 @@ PLACES = {
 }
 
 MANY_ROWS = 24  # a longer table is folded
-LONG_CELL = 18  # characters; a longer text is broken into lines
 
 
 def render_page(report: Report) -> str:
@@ -65,23 +62,14 @@ def render_page(report: Report) -> str:
 
 @cache
 def _environment() -> jinja2.Environment:
-    environment = jinja2.Environment(
-        loader=jinja2.PackageLoader("verification.report"),
-        autoescape=True,
-        undefined=jinja2.StrictUndefined,
-        trim_blocks=True,
-        lstrip_blocks=True,
-    )
-    environment.filters.update(
+    made = environment()
+    made.filters.update(
         value=value_text, plain=plain, clearance=clearance_text, order=order_text,
-        uncertainty=uncertainty_text, failure=failure_text, svg=_figure,
+        uncertainty=uncertainty_text, failure=failure_text,
     )  # fmt: skip
-    environment.globals.update(
-        symbols=SYMBOLS,
-        words=WORDS,
+    made.globals.update(
         Status=Status,
         MANY_ROWS=MANY_ROWS,
-        LONG_CELL=LONG_CELL,
         bar=_bar,
         sheets=_sheets,
         sketch=_sketch,
@@ -96,23 +84,18 @@ def _environment() -> jinja2.Environment:
         observed_orders=observed_orders,
         not_judged=not_judged,
         both_solvers=_both_solvers,
-        alignment=alignment,
         extent=extent,
         inconclusive=_inconclusive,
         counts_text=counts_text,
     )
-    environment.globals.update(
+    made.globals.update(
         change_counts=change_counts,
         change_rows=change_rows,
         changes_text=changes_text,
         origins=origins,
         without_baseline=without_baseline,
     )
-    return environment
-
-
-def _figure(chart: Chart, prefix: str = "") -> Markup:
-    return Markup(inline_svg(chart, prefix))  # our own drawing, escaped where it holds text
+    return made
 
 
 def _sketch(scene: SceneRecord, name: str) -> Markup:

@@ -3,21 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from functools import cache
 from pathlib import Path
-
-import jinja2
-from markupsafe import Markup
 
 from contact_results.directory.atomic_file import atomic_file
 from contact_results.directory.stop_signals import stop_signals_held
 from contact_results.figures import style
 from verification.exhibits.chart import Chart
-from verification.judging.status_words import SYMBOLS, WORDS
-from verification.report.columns import alignment
 from verification.report.drawing import draw
 from verification.report.files import remove_set_aside, set_aside
-from verification.report.svg import inline_svg
+from verification.report.templating import environment
 from verification.running.record import StudyRecord, dump_study
 from verification.running.stored_studies import RECORD
 
@@ -49,7 +43,7 @@ def write_study(record: StudyRecord, exports: Mapping[str, str], directory: Path
 
 def render_study(record: StudyRecord) -> str:
     """The page as HTML; equal records give equal text."""
-    return _environment().get_template("study.html").render(study=record)
+    return environment().get_template("study.html").render(study=record)
 
 
 def _write_figure(chart: Chart, directory: Path) -> None:
@@ -59,17 +53,3 @@ def _write_figure(chart: Chart, directory: Path) -> None:
         for kind in FIGURE_TYPES:
             with atomic_file(directory / f"{chart.name}.{kind}") as temporary:
                 style.save(figure, temporary)
-
-
-@cache
-def _environment() -> jinja2.Environment:
-    environment = jinja2.Environment(
-        loader=jinja2.PackageLoader("verification.report"),
-        autoescape=True,
-        undefined=jinja2.StrictUndefined,
-        trim_blocks=True,
-        lstrip_blocks=True,
-    )
-    environment.filters["svg"] = lambda chart: Markup(inline_svg(chart))
-    environment.globals.update(symbols=SYMBOLS, words=WORDS, alignment=alignment)
-    return environment
