@@ -6,7 +6,7 @@ promises.
 
 import numpy as np
 
-from contact_scene import (
+from slipstick import (
     RIGID,
     Body,
     CoulombFriction,
@@ -16,11 +16,9 @@ from contact_scene import (
     LoadStep,
     Paraboloid,
     Scene,
+    SurfaceDiscretisation,
+    solve,
 )
-from fem_reference import Method
-from fem_reference import solve as solve_by_elements
-from semi_analytical import SurfaceGrid
-from semi_analytical import solve as solve_by_cells
 
 PRESSURE, SHEAR, APPROACH = 5e-3, 2e-2, 1e-3  # of the peak, of µ times the peak, relative
 A = 0.32e-3  # about the contact radius: it lays out grid and mesh and does not decide the answer
@@ -44,9 +42,10 @@ scene = Scene(
 )
 
 # How finely. The two share the scene and no line of numerics.
-cells = solve_by_cells(scene, SurfaceGrid((97, 97), (2.4 * A, 2.4 * A)), tolerance=1e-8)
+grid = SurfaceDiscretisation(cells=(97, 97), window=(2.4 * A, 2.4 * A))
 mesh = FiniteElementDiscretisation(elements_per_radius=48, contact_radius=A)
-elements = solve_by_elements(scene, mesh, Method.COMPLEMENTARITY)
+cells = solve(scene, "semi-analytical", grid)
+elements = solve(scene, "fem-complementarity", mesh)
 
 one, other = cells.steps[-1], elements.steps[-1]
 print("           approach     contact radius   energy lost")

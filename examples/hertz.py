@@ -6,8 +6,7 @@ Run it with `python examples/hertz.py`. It fails if the finest grid misses by mo
 from math import pi
 from pathlib import Path
 
-from contact_scene import load_scene
-from semi_analytical import SurfaceGrid, solve
+from slipstick import SurfaceDiscretisation, load_scene, solve
 
 PROMISE = 4e-5  # relative error of the peak pressure on 256 x 256 cells
 
@@ -25,12 +24,12 @@ print(f"Hertz: contact radius {a * 1e3:.6f} mm, peak pressure {p0 / 1e6:.4f} MPa
 # How finely: three grids over a window of three contact radii. The cells next to the axis have
 # their centres half a diagonal h/sqrt(2) away from it, where Hertz's pressure is lower by the share
 # h^2/4a^2: the error of the largest cell value falls with the cell area.
-coarse = SurfaceGrid(cells=(64, 64), window=(3 * a, 3 * a))
-for grid in (coarse, coarse.refined(2), coarse.refined(4)):
-    end = solve(scene, grid, tolerance=1e-8).steps[-1]
+for cells in (64, 128, 256):
+    grid = SurfaceDiscretisation(cells=(cells, cells), window=(3 * a, 3 * a))
+    end = solve(scene, discretisation=grid).steps[-1]
     error = end.peak_pressure / p0 - 1
     print(
-        f"{grid.cells[0]:3d} x {grid.cells[1]:3d} cells:"
+        f"{cells:3d} x {cells:3d} cells:"
         f" peak pressure {end.peak_pressure / 1e6:.4f} MPa, error {error:+.1e}"
     )
 

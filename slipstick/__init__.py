@@ -1,1 +1,73 @@
-"""The product as its users meet it."""
+"""Frictional slip-stick contact of coated bodies, from Python.
+
+    scene = slipstick.load_scene("scene.toml")     # or slipstick.Scene(...)
+    result = slipstick.solve(scene)                # solver="fem": by finite elements
+    slipstick.save(result, "out")                  # summary, tables, fields, figures
+    run = slipstick.load("out")                    # and back, arrays with units and meaning
+
+The names here are all that a script needs; they are imported when they are used. The solvers'
+own names are in `semi_analytical` and `fem_reference`.
+"""
+
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from contact_results.files.stored_run import StoredRun, load
+    from contact_scene import (
+        RIGID,
+        Body,
+        Cone,
+        CoulombFriction,
+        Ellipsoid,
+        FiniteElementDiscretisation,
+        FlatPunch,
+        IsotropicMaterial,
+        Layer,
+        LoadStep,
+        Paraboloid,
+        Scene,
+        Sphere,
+        SurfaceDiscretisation,
+        load_scene,
+    )
+    from slipstick.solving import plan, save, solve
+
+__all__ = [
+    "load_scene",
+    "Scene",
+    "Body",
+    "Layer",
+    "IsotropicMaterial",
+    "RIGID",
+    "Sphere",
+    "Paraboloid",
+    "Ellipsoid",
+    "Cone",
+    "FlatPunch",
+    "CoulombFriction",
+    "LoadStep",
+    "SurfaceDiscretisation",
+    "FiniteElementDiscretisation",
+    "plan",
+    "solve",
+    "save",
+    "load",
+    "StoredRun",
+]
+
+HOMES = {
+    **dict.fromkeys(__all__, "contact_scene"),
+    **dict.fromkeys(("plan", "solve", "save"), "slipstick.solving"),
+    **dict.fromkeys(("load", "StoredRun"), "contact_results.files.stored_run"),
+}
+
+
+def __getattr__(name: str) -> Any:
+    if name in HOMES:
+        return getattr(import_module(HOMES[name]), name)
+    raise AttributeError(f"module 'slipstick' has no attribute {name!r}")
+
+
+def __dir__() -> list[str]:
+    return sorted({*globals(), *HOMES})

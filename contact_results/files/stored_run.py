@@ -1,0 +1,93 @@
+"""A run read back from its directory: summary, scene, and arrays with their units and meaning."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from os import PathLike
+from pathlib import Path
+from typing import Any
+
+import h5py
+from numpy.typing import NDArray
+
+from contact_results.directory.file_names import FIELDS, SUMMARY
+from contact_results.files.stored_values import MISREAD, text, values
+from contact_scene import Scene
+from contact_scene.summary import RunSummary, load_summary
+
+
+@dataclass(frozen=True)
+class StoredValues:
+    """An array as it is stored.
+
+    unit  in SI; empty if dimensionless
+    """
+
+    array: NDArray[Any]
+    unit: str
+    meaning: str
+
+
+class StoredGroup(Mapping[str, StoredValues]):
+    """Arrays of a file by name; each is read when it is asked for."""
+
+    def __init__(self, path: Path, group: str) -> None:
+        self._path, self._group = path, group
+        with h5py.File(path) as file:
+            found = file.get(group, {}).items()
+            self._names = tuple(
+                name for name, item in found if isinstance(item, h5py.Dataset) and item.shape
+            )
+
+    def __getitem__(self, name: str) -> StoredValues:
+        if name not in self._names:
+            raise KeyError(f"{self._path} has no {name!r} in {self._group}: {self._names}")
+        with h5py.File(self._path) as file:
+            dataset = file[self._group][name]
+            marks = dataset.attrs["unit"], dataset.attrs["description"]
+            return StoredValues(values(dataset), *marks)
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._names)
+
+    def __len__(self) -> int:
+        return len(self._names)
+
+
+@dataclass(frozen=True)
+class StoredRun:
+    """What `slipstick run` has written.
+
+    summary      state at the end of every step, effects, remarks
+    scene        what was solved
+    coordinates  of the fields: x and y of cells, or radii and angles of rings
+    increments   every field and scalar, the increment as the first index
+    last_cycle   fields of the last closed load cycle; empty if there is none
+    """
+
+    summary: RunSummary
+    scene: Scene
+    coordinates: StoredGroup
+    increments: StoredGroup
+    last_cycle: StoredGroup
+
+
+def load(directory: str | PathLike[str]) -> StoredRun:
+    """The run that `slipstick run` or `slipstick.save` has left in a directory.
+
+    Raises FileNotFoundError if there is none, ValueError for files that are no run's, and
+    ResourceRefused for arrays that do not fit into memory.
+    """
+    summary, fields = Path(directory) / SUMMARY, Path(directory) / FIELDS
+    for path in (summary, fields):
+        if not path.is_file():
+            raise FileNotFoundError(f"{directory} is no run: it has no {path.name}")
+    record = load_summary(summary.read_text(encoding="utf-8"))
+    try:
+        with h5py.File(fields) as file:
+            scene = Scene.model_validate_json(text(file["scene"]))
+        groups = (StoredGroup(fields, group) for group in ("/", "increments", "last_cycle"))
+        return StoredRun(record, scene, *groups)
+    except MISREAD as error:
+        raise ValueError(f"{fields} is not the {FIELDS} of a run: {error}") from None

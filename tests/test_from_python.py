@@ -1,0 +1,156 @@
+"""`import slipstick`: a dozen names that cost nothing until they are used, and what they do."""
+
+import subprocess
+import sys
+from pathlib import Path
+from typing import Any
+
+import h5py
+import numpy as np
+import pytest
+
+import fem_reference
+import semi_analytical
+import slipstick
+from contact_results.files.result_files import write_result
+from contact_results.surface import surface_of
+from contact_scene import read_scene_file
+from contact_scene.increment import SCALARS
+from contact_scene.reported import reported
+from slipstick.solvers.names import SolverName
+
+ROOT = Path(__file__).resolve().parents[1]
+STEEL = slipstick.IsotropicMaterial(young_modulus=210e9, poisson_ratio=0.3)
+SCENE = slipstick.Scene(
+    title="ball",
+    indenter=slipstick.Paraboloid(radius=18e-3, material=STEEL),
+    body=slipstick.Body(material=STEEL),
+    friction=slipstick.CoulombFriction(coefficient=0.1),
+    loading=(
+        slipstick.LoadStep(normal_force=1e3),
+        *(slipstick.LoadStep(tangential_force=(t, 0.0), increments=2) for t in (60.0, -60.0, 60.0)),
+    ),
+)
+COARSE: dict[str, Any] = {
+    solver: slipstick.FiniteElementDiscretisation(elements_per_radius=6)
+    if solver.is_fem
+    else slipstick.SurfaceDiscretisation(cells=(16, 16))
+    for solver in SolverName
+}
+
+
+@pytest.mark.parametrize("name", slipstick.__all__)
+def test_every_name_is_there_and_says_what_it_is(name: str) -> None:
+    assert name in dir(slipstick)
+    assert getattr(slipstick, name).__doc__
+
+
+def test_another_name_is_refused_as_by_any_module() -> None:
+    with pytest.raises(AttributeError, match="module 'slipstick' has no attribute 'sovle'"):
+        slipstick.sovle  # noqa: B018
+
+
+def imported_after(script: str) -> set[str]:
+    """Top-level modules of a fresh process that has run a script."""
+    tell = "; import sys; print(*{name.partition('.')[0] for name in sys.modules})"
+    ran = subprocess.run(
+        [sys.executable, "-c", script + tell], cwd=ROOT, capture_output=True, text=True, check=True
+    )
+    return set(ran.stdout.split())
+
+
+def test_import_brings_in_nothing() -> None:
+    heavy = {"numpy", "pydantic", "scipy", "h5py", "matplotlib", "typer", "rich"}
+    ours = {"contact_scene", "contact_results", "semi_analytical", "fem_reference", "verification"}
+    assert not imported_after("import slipstick") & (heavy | ours)
+    assert not imported_after("from slipstick import Scene, load_scene") & {"scipy", "h5py", *ours
+        - {"contact_scene"}}  # fmt: skip
+
+
+@pytest.mark.parametrize("solver", SolverName)
+def test_a_solver_is_all_that_a_plan_imports(solver: SolverName) -> None:
+    script = (
+        "import slipstick; "
+        "scene = slipstick.load_scene('scenes/hertz.toml'); "
+        f"slipstick.plan(scene, {solver.value!r})"
+    )
+    others = {"semi_analytical", "fem_reference", "verification", "matplotlib", "typer"}
+    own = "fem_reference" if solver.is_fem else "semi_analytical"
+    assert imported_after(script) & others == {own}
+
+
+@pytest.mark.parametrize("solver", SolverName)
+def test_a_result_comes_back_as_it_was_saved(solver: SolverName, tmp_path: Path) -> None:
+    """The same bits as the solver's own call, and back from the disk with units and places."""
+    result: Any = slipstick.solve(SCENE, solver.value, COARSE[solver])
+    slipstick.save(result, tmp_path / "out", figures=False)
+    run = slipstick.load(tmp_path / "out")
+    assert run.scene == SCENE
+    assert run.summary.solver == result.solver
+    assert [step.approach for step in run.summary.steps] == [end.approach for end in result.steps]
+    axes = surface_of(result).axes
+    assert set(run.coordinates) == set(axes)
+    for name, places in axes.items():
+        assert np.array_equal(run.coordinates[name].array, places)
+        assert run.coordinates[name].unit == ("rad" if name == "angles" else "m")
+    pressures = np.array([increment.pressure for increment in result.increments])
+    assert np.array_equal(run.increments["pressure"].array, pressures)
+    for name in run.increments:
+        mark = (SCALARS | reported(type(result.steps[0]))).get(name)
+        assert mark is None or run.increments[name].unit == mark.unit
+        assert run.increments[name].meaning
+    assert run.last_cycle["slip_amplitude"].unit == "m"
+    assert np.max(run.last_cycle["slip_amplitude"].array) == run.summary.steps[-1].slip_amplitude
+
+
+def test_the_solvers_own_calls_give_the_same_bits() -> None:
+    surface, mesh = COARSE[SolverName.SEMI_ANALYTICAL], COARSE[SolverName.FEM]
+    pairs = (
+        (slipstick.solve(SCENE, discretisation=surface),
+         semi_analytical.solve_discretised(SCENE, surface)),
+        (slipstick.solve(SCENE, "fem-complementarity", mesh), fem_reference.solve(SCENE, mesh)),
+    )  # fmt: skip
+    for one, other in pairs:
+        for a, b in zip(one.increments, other.increments, strict=True):
+            assert np.array_equal(a.pressure, b.pressure)
+            assert a.dissipated_energy == b.dissipated_energy
+
+
+def test_a_scene_file_says_how_finely(tmp_path: Path) -> None:
+    contents = read_scene_file(ROOT / "scenes/hertz.toml", ["semi_analytical.cells=[24,24]"])
+    assert slipstick.solve(contents).grid.cells == (24, 24)
+
+
+def test_progress_is_told_every_increment() -> None:
+    told: list[Any] = []
+    result = slipstick.solve(SCENE, discretisation=COARSE["semi-analytical"], progress=told.append)
+    assert tuple(told) == result.increments
+
+
+def test_a_wrong_name_or_discretisation_is_told_with_what_was_expected() -> None:
+    with pytest.raises(ValueError, match="no solver 'fea'; expected one of semi-analytical, fem"):
+        slipstick.solve(SCENE, "fea")
+    with pytest.raises(ValueError, match="takes a FiniteElementDiscretisation, got Surface"):
+        slipstick.solve(SCENE, "fem", COARSE["semi-analytical"])
+
+
+def test_what_is_no_run_is_refused_by_name(tmp_path: Path) -> None:
+    with pytest.raises(FileNotFoundError, match=r"is no run: it has no summary.json"):
+        slipstick.load(tmp_path)
+    write_result(slipstick.solve(SCENE, discretisation=COARSE["semi-analytical"]), tmp_path,
+                 with_figures=False)  # fmt: skip
+    (tmp_path / "result.h5").write_bytes(b"something else")
+    with pytest.raises(ValueError, match=r"is not the result.h5 of a run"):
+        slipstick.load(tmp_path)
+    with h5py.File(tmp_path / "result.h5", "w") as file:
+        file["scene"] = "{}"
+    with pytest.raises(ValueError, match=r"is not the result.h5 of a run"):
+        slipstick.load(tmp_path)
+    with pytest.raises(KeyError, match="no 'shaer'"):
+        stored(tmp_path)["shaer"]
+
+
+def stored(directory: Path) -> Any:
+    slipstick.save(slipstick.solve(SCENE, discretisation=COARSE["semi-analytical"]),
+                   directory / "again", figures=False)  # fmt: skip
+    return slipstick.load(directory / "again").increments
