@@ -91,7 +91,7 @@ ORDERS = {
     ),
     # Its floors: what judges stands on what is known, what is shown on what was judged.
     "verification": (
-        *("closed_forms", "references", "baselines", "norms", "convergence", "exhibits"),
+        *("closed_forms", "references", "baselines", "norms", "solver", "convergence", "exhibits"),
         *("problems", "laws", "observed", "external_codes"),
         "judging",
         *("running", "regression"),

@@ -13,7 +13,6 @@ from verification.judging.case import Case
 from verification.judging.law_verdicts import OTHER_NORMS, judge_laws
 from verification.judging.outcome import Status
 from verification.judging.run import SOLVER_TOLERANCE, Run, SectionRun, per_radius
-from verification.judging.solver import Method
 from verification.judging.verdicts import judge_quantity
 from verification.observed.laws import observed
 from verification.observed.prescribed import missed
@@ -21,6 +20,7 @@ from verification.problems import paper_scene as paper
 from verification.problems.layered_scene import SUBSTRATE, pressed, rigid_ball
 from verification.problems.paper_scene import FRICTION_LIMIT, NORMAL_FORCE, NU_ZERO, STEEL
 from verification.problems.torsion import torque_step
+from verification.solver import Method
 
 ALLOWED = OTHER_NORMS * SOLVER_TOLERANCE
 SEEN = 10 * ALLOWED

@@ -14,6 +14,7 @@ from verification.exhibits.table import Table
 Field = NDArray[np.float64]
 Mask = NDArray[np.bool_]
 
+NAME = "apart_everywhere"  # by which the page finds the table
 TITLE = "Both solvers everywhere, also where they are not compared"
 NOWHERE = "–"
 
@@ -62,6 +63,7 @@ def apart_everywhere(lines: Sequence[Apart], what: str, over: str, x_name: str) 
     value, at, why = worst.largest
     side = float(worst.x[1] - worst.x[0])
     return Table(
+        name=NAME,
         title=TITLE,
         columns=("load", f"largest difference of {what} over {over}, compared", "left out",
                  f"at x / {x_name}", "left out, since it is"),

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -121,7 +122,10 @@ def cattaneo_mindlin_on(cells: tuple[int, ...], shifted: tuple[int, ...] = ()) -
                 "and at the edge of the contact.",
                 "qₓ / µp₀",
                 FRICTION * HERTZ.peak_pressure,
-                *shears_along_x(STOPS),
+                *(
+                    replace(one, profile="cattaneo_mindlin") if one.step == LOOPED else one
+                    for one in shears_along_x(STOPS)
+                ),
             ),
             convergence(
                 grids,

@@ -9,7 +9,7 @@ from typing import Any
 from verification.cases.hertz_point import ASKED, EDGE
 from verification.judging.case import Case, Comparison, Level
 from verification.judging.declared_case import Falls, Refined, Within, case, judged
-from verification.judging.drawings import convergence, profile
+from verification.judging.drawings import PRESSURE, convergence, profile
 from verification.judging.ladder import on_cells, part_of_side
 from verification.judging.observable import Observable
 from verification.judging.observables import (
@@ -98,6 +98,7 @@ def coated_paraboloid_on(
                 "and their difference, in units of the peak pressure without coating.",
                 "p / p_H",
                 HERTZ.peak_pressure,
+                replace(PRESSURE, profile="coated"),
             ),
             convergence(
                 followed,

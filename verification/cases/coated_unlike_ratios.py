@@ -70,14 +70,15 @@ class UnlikeRatios:
         half_width = paper.WINDOW_PER_RADIUS / 2 * self.exact.contact_radius
         grid = paper.square_grid(CELLS, half_width)
         scene = pressed(f"Rigid ball on a coating, {self.name}", rigid_ball(), self.body)
-        return Run(f"{self.name}, {cells_label(CELLS)}", scene, grid)
+        return Run(f"{self.name}, {cells_label(CELLS)}", scene, grid, problem=self.name)
 
     def section_run(self, elements: int) -> SectionRun:
         """By finite elements."""
         scene = pressed(
             f"Rigid ball on a coating, {self.name}, by finite elements", rigid_ball(), self.body
         )
-        return SectionRun(f"{self.name}, {elements} elements", scene, per_radius(elements))
+        name = f"{self.name}, {elements} elements"
+        return SectionRun(name, scene, per_radius(elements), problem=self.name)
 
     def quantities(self, elements: int) -> tuple[Quantity, ...]:
         """What is judged."""

@@ -40,7 +40,7 @@ def dissimilar_bodies(level: Level = Level.QUICK) -> Case:
         "Pairs of different materials with the E* of hertz_point: a rigid ball on steel, and a "
         "ball on an incompressible body. Without friction Hertz's solution knows only E*.",
         *(
-            judged(named(name, on_cells(hertzian(scene), (CELLS,))), ROWS)
+            judged(named(name, on_cells(hertzian(scene), (CELLS,), of=name)), ROWS)
             for name, scene in scenes.items()
         ),
         limits=(

@@ -100,13 +100,14 @@ class Beside:
     def section(self) -> SectionRun:
         """By finite elements."""
         label = f"{self.name}, {self.sizes.elements} elements per radius"
-        return SectionRun(label, self.scene, per_radius(self.sizes.elements))
+        return SectionRun(label, self.scene, per_radius(self.sizes.elements), problem=self.name)
 
     @cached_property
     def surface(self) -> Run:
         """On cells."""
         grid = paper.hertz_grid(self.sizes.cells)
-        return Run(f"{self.name}, {cells_label(self.sizes.cells)}", self.scene, grid)
+        label = f"{self.name}, {cells_label(self.sizes.cells)}"
+        return Run(label, self.scene, grid, problem=self.name)
 
     def quantities(self) -> tuple[Quantity, ...]:
         """The force and the tractions by both solvers."""

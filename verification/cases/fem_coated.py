@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from typing import Any
 
+from verification.cases.coated_paraboloid import STUDIED
 from verification.cases.fem_levels import because, levels
 from verification.judging.case import Case, Level
 from verification.judging.declared_case import Within, case, judged
-from verification.judging.drawings import profile
+from verification.judging.drawings import PRESSURE, profile
 from verification.judging.ladder import asked, named, on_elements
 from verification.judging.observables import (
     APPROACH,
@@ -61,7 +63,8 @@ def fem_coated_on(rows: Sequence[Mapping[str, Any]], elements: tuple[int, ...]) 
                 "Pressure by finite elements over the semi-closed solution, and their difference.",
                 "p / p_H",
                 HERTZ.peak_pressure,
+                replace(PRESSURE, profile="coated" if row["E1_over_E2"] == STUDIED else ""),
             )
-            for number, (name, one) in enumerate(zip(names, ladders, strict=True), 1)
+            for number, (row, name, one) in enumerate(zip(rows, names, ladders, strict=True), 1)
         ),
     )

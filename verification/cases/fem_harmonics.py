@@ -129,7 +129,7 @@ def _at(step: int, part: float, run: str, elements: int) -> tuple[Quantity, ...]
             lambda result: shift_at(result, step - 1),
             closed_form(exact.shift, SOURCE, SLIDING_SHIFT),
             Required(allowed(ASKED["shift"], elements, CUSP), because(CUSP)), SLIDING_SHIFT,
-            "the shift at gross sliding",
+            "the shift at gross sliding", "shift", part,
         ),
         Quantity(
             f"shear_at_{part:g}", f"∫|q - q_exact| dA / µW at {part:g} µW", "", run, shear_error,
@@ -145,7 +145,7 @@ def _at(step: int, part: float, run: str, elements: int) -> tuple[Quantity, ...]
             f"stick_radius_at_{part:g}", f"√(stick area / π) at {part:g} µW", "m", run,
             stick_radius, closed_form(exact.stick_radius, SOURCE, HERTZ.contact_radius),
             Required(1 / elements, "an element: stick or slip is known ring by ring"),
-            HERTZ.contact_radius, "the contact radius",
+            HERTZ.contact_radius, "the contact radius", "stick_radius", part,
         ),
     )  # fmt: skip
 

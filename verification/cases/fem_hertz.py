@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from verification.cases.fem_levels import because, levels, order_levels
 from verification.judging.case import Case, Level
 from verification.judging.declared_case import Falls, Within, case, judged
-from verification.judging.drawings import convergence, profile
+from verification.judging.drawings import PRESSURE, convergence, profile
 from verification.judging.ladder import MIDDLE, Rung, asked, with_edge_at
 from verification.judging.observables import (
     APPROACH,
@@ -85,6 +87,7 @@ def fem_hertz_on(elements: tuple[int, ...], studied: tuple[tuple[int, float], ..
                 "last elements at the edge.",
                 "p / p₀",
                 HERTZ.peak_pressure,
+                replace(PRESSURE, profile="hertz"),
             ),
             convergence(
                 meshes,

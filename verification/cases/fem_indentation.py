@@ -31,7 +31,7 @@ ROWS = (
 
 def pressed(one: Indentation, elements: int, increments: int) -> Ladder:
     """The scene of frictional_indentation, but for its increments, on one mesh."""
-    meshes = on_elements(one.problem(increments), (elements,), over=0.97)
+    meshes = on_elements(one.problem(increments), (elements,), over=0.97, of=one.name)
     return named(f"{one.name}, {increments} increments", meshes)
 
 

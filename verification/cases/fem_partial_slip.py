@@ -162,7 +162,7 @@ def fem_partial_slip_on(
                 loop_profile(
                     loop, step, f"fem_partial_slip_{name}", name,
                     f"Shear by finite elements over the closed form at {force} µW, and their "
-                    "difference.",
+                    "difference.", "cattaneo_mindlin" if step == LOADED else "",
                 )
                 for step, name, force in DRAWN
             ),
@@ -186,8 +186,13 @@ def fem_partial_slip_on(
 DRAWN = ((LOADED, "loaded", "0.9"), (LOADED + 1, "reversed", "-0.9"))
 
 
-def loop_profile(loop: Ladder, step: int, name: str, when: str, caption: str) -> Drawing:
-    """The shear at the end of a step of the loop."""
+def loop_profile(
+    loop: Ladder, step: int, name: str, when: str, caption: str, profile: str = ""
+) -> Drawing:
+    """The shear at the end of a step of the loop.
+
+    profile  by which a page finds it drawn by both solvers
+    """
 
     def draw(results: Any) -> Chart:
         result = results[loop.judged.run.label]
@@ -197,7 +202,13 @@ def loop_profile(loop: Ladder, step: int, name: str, when: str, caption: str) ->
         labels = ProfileLabels(name, f"Shear over the radius, {when}", caption, "q / µp₀", "r / a")
         limit = LOOP.scale(OVER_LIMIT)
         return radial_chart(
-            labels, HERTZ.contact_radius, limit, end, end.shear_along_load, (r, exact.shear(r))
+            labels,
+            HERTZ.contact_radius,
+            limit,
+            end,
+            end.shear_along_load,
+            (r, exact.shear(r)),
+            profile,
         )
 
     return draw

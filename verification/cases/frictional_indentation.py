@@ -96,7 +96,7 @@ def frictional_indentation_on(
 def on_grid(one: Indentation, cells: int, increments: int) -> Ladder:
     """Pressed in so many increments, on a window of three contact radii."""
     label = f"{one.name}, {cells_label(cells)}, {increments} increments"
-    return named(label, on_cells(one.problem(increments), (cells,)))
+    return named(label, on_cells(one.problem(increments), (cells,), of=one.name))
 
 
 def _unjudged(one: Indentation, increments: int) -> tuple[Reported, ...]:

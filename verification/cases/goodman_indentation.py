@@ -78,8 +78,9 @@ def _run(friction: float, increments: int, cells: int) -> Run:
         loading=(LoadStep(normal_force=paper.NORMAL_FORCE, increments=increments),),
     )
     grid = paper.square_grid(cells, MARGIN * HERTZ.contact_radius)
-    label = f"µ = {friction:g}, {cells} cells, {increments} increments"
-    return Run(label, scene, grid, effects=one_way)
+    problem = f"µ = {friction:g}"
+    label = f"{problem}, {cells} cells, {increments} increments"
+    return Run(label, scene, grid, effects=one_way, problem=problem)
 
 
 def _quantities(run: str) -> tuple[Quantity, ...]:

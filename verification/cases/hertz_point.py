@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from verification.judging.case import Case, Level
 from verification.judging.declared_case import Falls, Refined, Within, case, judged
-from verification.judging.drawings import convergence, profile
+from verification.judging.drawings import PRESSURE, convergence, profile
 from verification.judging.ladder import on_cells, part_of_side
 from verification.judging.observables import APPROACH, CONTACT_RADIUS, PEAK_PRESSURE, PRESSURE_L2
 from verification.judging.order_of_convergence import NotYetAsymptotic
@@ -74,6 +76,7 @@ def hertz_on(cells: tuple[int, ...]) -> Case:
                 "difference: it is confined to the cells at the edge of the contact.",
                 "p / p₀",
                 HERTZ.peak_pressure,
+                replace(PRESSURE, profile="hertz"),
             ),
             convergence(
                 grids,

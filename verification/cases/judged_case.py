@@ -11,7 +11,8 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, ClassVar
 
 from contact_scene.description import Description
-from verification.judging.outcome import CaseOutcome, Status, Verdict
+from verification.judging.outcome import CaseOutcome
+from verification.judging.verdicts import lost as without_result
 
 if TYPE_CHECKING:
     from verification.judging.case import Case
@@ -56,30 +57,13 @@ class CaseToJudge:
 
 def lost(case: Case, reason: str) -> CaseOutcome:
     """The outcome of a case that has no record: one failed verdict."""
-    verdict = Verdict(
-        name="solved",
-        run="all",
-        meaning=f"the case has no outcome: {reason}",
-        unit="",
-        value=None,
-        reference=0.0,
-        reference_kind="identity",
-        source="every run of a case has a solution",
-        error=None,
-        allowed=1.0,
-        scale=1.0,
-        scale_name="dimensionless",
-        tolerance_kind="required",
-        because="a case without a result cannot be judged",
-        status=Status.FAIL,
-    )
     return CaseOutcome(
         name=case.name,
         title=case.title,
         problem=case.problem,
         scenes=(),
         runs=(),
-        verdicts=(verdict,),
+        verdicts=(without_result("all", f"the case has no outcome: {reason}", "case"),),
         findings=(),
         charts=(),
         limits=case.limits,

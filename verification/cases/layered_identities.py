@@ -82,7 +82,7 @@ def layered_identities_on(cells: int) -> Case:
     """The case on a square grid of this many cells per side."""
     pairs = {**SAME_CONTACT, **HOMOGENEOUS, **ELASTIC_PAIRS}
     runs = {
-        name: Run(name, pressed(name, *pair), paper.hertz_grid(cells))
+        name: Run(name, pressed(name, *pair), paper.hertz_grid(cells), problem=name)
         for name, pair in pairs.items()
     }
     first, *others = SAME_CONTACT

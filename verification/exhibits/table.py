@@ -11,3 +11,6 @@ class Table(Description):
     rows: tuple[tuple[str, ...], ...]
     note: str = ""
     """What to see in it."""
+
+    name: str = ""
+    """By which it is found, where somebody looks for it."""

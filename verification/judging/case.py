@@ -54,6 +54,9 @@ class Quantity:
 
     scale       what an error is divided by; None: the reference's absolute value
     scale_name  what the error is relative to, in words
+    quantity    what is measured, where the name says more than that; by it numbers of different
+                cases and solvers are found to be of one kind
+    at          the load that it is measured at, over its limit, where that tells quantities apart
     """
 
     name: str
@@ -65,6 +68,8 @@ class Quantity:
     tolerance: Required | Derived
     scale: float | None = None
     scale_name: str = "the reference"
+    quantity: str = ""
+    at: float | None = None
 
 
 @dataclass(frozen=True)

@@ -157,7 +157,7 @@ def _quantity(
 ) -> Quantity:
     problem = ladder.problem
     return Quantity(
-        name=name or what.name + what.suffix,
+        name=name or what.verdict,
         meaning=what.said(rung.words),
         unit=what.unit,
         run=rung.run.label,
@@ -166,6 +166,8 @@ def _quantity(
         tolerance=tolerance,
         scale=what.scale(problem),
         scale_name=what.scale_name,
+        quantity=what.name,
+        at=what.part,
     )
 
 
@@ -187,6 +189,6 @@ def _order(row: Falls, ladder: Ladder) -> OrderOfConvergence:
 def _finding(row: Reported, ladder: Ladder) -> Finding:
     what, rung = row.what, ladder.judged
     return Finding(
-        what.name + what.suffix, what.said(rung.words), what.unit, rung.run.label,
+        what.verdict, what.said(rung.words), what.unit, rung.run.label,
         what.read(ladder.problem), row.remark,
     )  # fmt: skip

@@ -27,12 +27,14 @@ class Drawn:
     """A field at the end of a step.
 
     found, exact  from the end of the step, and of the exact answer as a function of r
+    profile       by which a page finds it drawn by both solvers
     """
 
     found: Callable[[Any], Field]
     exact: Callable[[Any], Callable[[Field], Field]]
     label: str = "computed"
     step: int = -1
+    profile: str = ""
 
 
 PRESSURE = Drawn(lambda end: end.pressure, lambda exact: exact.pressure)
@@ -62,6 +64,7 @@ def profile(
                     section.of(one.found(result.steps[one.step])) / unit,
                     problem.on_surface(one.exact(problem.ends[one.step]), section.x, section.y)
                     / unit,
+                    one.profile,
                 )
                 for one in fields
             ]
@@ -71,7 +74,9 @@ def profile(
         r = getattr(answer, "radii", np.linspace(0.0, problem.radius, POINTS))
         exact = one.exact(answer)(r)
         labels = ProfileLabels(name, title, caption, y_label, "r / a")
-        return radial_chart(labels, problem.radius, unit, end, one.found(end), (r, exact))
+        return radial_chart(
+            labels, problem.radius, unit, end, one.found(end), (r, exact), one.profile
+        )
 
     return draw
 

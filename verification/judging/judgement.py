@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from dataclasses import replace
 from typing import Any
 
 from contact_results.quantities import largest_residual
@@ -19,7 +20,6 @@ from verification.judging.outcome import (
     SceneRecord,
     Verdict,
 )
-from verification.judging.refined_errors import refined_errors
 from verification.judging.run import AnyRun, Run, SectionRun
 from verification.judging.section_sketch import section_sketch
 from verification.judging.verdicts import (
@@ -56,7 +56,7 @@ def judge(case: Case, solve: Solve = lambda run: run.solve()) -> CaseOutcome:
         title=case.title,
         problem=case.problem,
         scenes=_scenes(case, results),
-        runs=tuple(_run_record(r, results[r.label]) for r in case.runs if r.label in results),
+        runs=tuple(_run_record(r, case, results[r.label]) for r in case.runs if r.label in results),
         verdicts=(*failures, *_verdicts(case, results)),
         findings=tuple(_measure(f, results) for f in case.findings if f.run in results),
         charts=case.charts(results) if case.charts and not failures else (),
@@ -69,17 +69,12 @@ def _verdicts(case: Case, results: Results) -> tuple[Verdict, ...]:
     measured = [q for q in case.quantities if _needs(q) <= results.keys()]
     studied = [study for study in case.orders if set(study.levels) <= results.keys()]
     return (
-        *(_with_levels(quantity, case, results) for quantity in measured),
+        *(judge_quantity(quantity, case, results) for quantity in measured),
         *(judge_comparison(c, results) for c in case.comparisons if set(c.runs) <= results.keys()),
         *(judge_check(check) for check in case.checks),
         *(judge_order(study, case, results) for study in studied),
         *([judge_residuals(case, results), *judge_laws(case, results)] if results else []),
     )
-
-
-def _with_levels(quantity: Quantity, case: Case, results: Results) -> Verdict:
-    refined = refined_errors(quantity, case, results)
-    return judge_quantity(quantity, case, results).model_copy(update={"refined": refined})
 
 
 def _needs(quantity: Quantity) -> set[str]:
@@ -99,7 +94,7 @@ def _measure(finding: Finding, results: Results) -> FindingRecord:
     )
 
 
-def _run_record(run: AnyRun, result: Any) -> RunRecord:
+def _run_record(run: AnyRun, case: Case, result: Any) -> RunRecord:
     grid = run.grid if isinstance(run, Run) else None
     mesh = run.discretisation if isinstance(run, SectionRun) else None
     return RunRecord(
@@ -107,6 +102,9 @@ def _run_record(run: AnyRun, result: Any) -> RunRecord:
         cells=grid.cells if grid else None,
         window=grid.window if grid else None,
         elements_per_radius=mesh.elements_per_radius if mesh else None,
+        method=run.method if isinstance(run, SectionRun) else None,
+        problem=run.problem,
+        planned=_planned(run, case),
         tolerance=run.tolerance,
         increments=len(result.increments),
         iterations=sum(increment.iterations for increment in result.increments),
@@ -114,6 +112,14 @@ def _run_record(run: AnyRun, result: Any) -> RunRecord:
         factorizations=sum(i.factorizations for i in result.increments) if mesh else 0,
         largest_residual=finite(largest_residual(result)),
     )
+
+
+def _planned(run: AnyRun, case: Case) -> str | None:
+    """The label of the run that differs from this one in leaving the effects to the plan."""
+    if not isinstance(run, Run) or run.effects is None:
+        return None
+    same = (one for one in case.runs if replace(run, label=one.label, effects=None) == one)
+    return next((one.label for one in same), None)
 
 
 def _scenes(case: Case, results: Results) -> tuple[SceneRecord, ...]:

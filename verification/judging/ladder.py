@@ -7,10 +7,10 @@ from dataclasses import dataclass, replace
 
 from semi_analytical import SurfaceGrid
 from verification.judging.run import Run, SectionRun, per_radius
-from verification.judging.solver import Method
 from verification.observed.ring_errors import judged_within
 from verification.problems.problem import Problem
 from verification.problems.shifted_grid import ShiftedGrid
+from verification.solver import Method
 
 CELLS = {
     "point": "cell",
@@ -107,7 +107,7 @@ def on_cells(
     """Grids around the contact, as many cells along x and y.
 
     window   over the contact, along x and y
-    of       what the runs are of, for their labels
+    of       which problem of the case it is, in words; begins the labels
     offsets  of the centre from the contact's axis, in cells: as many grids of each size
     """
     sides = window * problem.radius, window * (problem.across or problem.radius)
@@ -115,9 +115,10 @@ def on_cells(
     def rung(n: int, offset: tuple[float, float] | None) -> Rung:
         name = cells_label(n, of)
         if offset is None:
-            return Rung(Run(name, problem.scene, SurfaceGrid((n, n), sides)), n, window)
+            return Rung(Run(name, problem.scene, SurfaceGrid((n, n), sides), problem=of), n, window)
         name += f", shifted by ({offset[0]:g}, {offset[1]:g}) cells"
-        return Rung(Run(name, problem.scene, ShiftedGrid((n, n), sides, offset)), n, window)
+        grid = ShiftedGrid((n, n), sides, offset)
+        return Rung(Run(name, problem.scene, grid, problem=of), n, window)
 
     return ladder(problem, [rung(n, offset) for n in cells for offset in offsets or (None,)])
 
@@ -142,7 +143,8 @@ def with_edge_at(
 
 def _placed(problem: Problem, n: int, place: float, of: str) -> Rung:
     mesh = per_radius(n, meshed(problem.radius, n, place))
-    return Rung(SectionRun(mesh_label(n, place, of), problem.scene, mesh, beyond=MIDDLE), n)
+    name = mesh_label(n, place, of)
+    return Rung(SectionRun(name, problem.scene, mesh, beyond=MIDDLE, problem=of), n)
 
 
 def meshed(radius: float, elements: int, place: float = MIDDLE) -> float:
@@ -159,13 +161,16 @@ def on_elements(
 ) -> Ladder:
     """Meshes of so many elements over a part of the contact radius, or over its estimate.
 
-    of  what the runs are of, for their labels
+    of  which problem of the case it is, in words; begins the labels
     """
     radius = None if over is None else over * problem.radius
     return ladder(
         problem,
         [
-            Rung(SectionRun(mesh_label(n, of=of), problem.scene, per_radius(n, radius)), n)
+            Rung(
+                SectionRun(mesh_label(n, of=of), problem.scene, per_radius(n, radius), problem=of),
+                n,
+            )
             for n in elements
         ],
     )

@@ -14,91 +14,46 @@ a case see them.
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping
 from typing import Any
 
 from verification.judging.case import Case
-from verification.judging.outcome import Status, Verdict
-from verification.judging.verdicts import finite
+from verification.judging.outcome import IMBALANCE, VIOLATION, Verdict
+from verification.judging.verdicts import judge_worst
 from verification.observed.laws import observed
 from verification.observed.unseen import Unseen, unseen
-from verification.problems.reference import ReferenceKind
-
-Results = Mapping[str, Any]
 
 # Fields are judged apart from the solver, with other norms.
 OTHER_NORMS = 10.0
-VIOLATION, IMBALANCE = "observed_violation", "energy_imbalance"
 
 
-def judge_laws(case: Case, results: Results) -> tuple[Verdict, ...]:
+def judge_laws(case: Case, results: Mapping[str, Any]) -> tuple[Verdict, ...]:
     """The largest violation and the largest imbalance of all runs that were solved, each against
     the tolerance of its run."""
-    found = {label: observed(results[label]) for label in _solved(case, results)}
+    found = {run.label: observed(results[run.label]) for run in case.runs if run.label in results}
     violated = {label: violation for label, (violation, _) in found.items()}
     missing = {label: energy for label, (_, energy) in found.items() if energy is not None}
     gaps = {label: unseen(results[label]) for label in found}
+    but_slip = sum(gaps.values(), Unseen()).of_slip
     verdicts = [
-        _verdict(
-            case, violated, VIOLATION, "largest violation of a law of contact and "
-            "friction in any increment",
+        judge_worst(
+            case, violated, VIOLATION, "largest violation of a law of contact and friction in any "
+            f"increment of the {{runs}} run(s); it is in this one{but_slip}",
             "gap, overlap, friction, slip against shear, forces, moments and energy lost, found "
             "again in the fields",
-            "within the tolerance, but for a factor of {factor:g} between the norms of the solver "
-            "and these",
-            sum(gaps.values(), Unseen()).of_slip,
-        ),
+            f"within the tolerance, but for a factor of {OTHER_NORMS:g} between the norms of the "
+            "solver and these", OTHER_NORMS,
+        )
     ]  # fmt: skip
     if missing:
+        but_energy = sum((gaps[label] for label in missing), Unseen()).of_energy
         verdicts.append(
-            _verdict(
-                case, missing, IMBALANCE, "largest part of the energy that any increment "
-                "cannot account for",
+            judge_worst(
+                case, missing, IMBALANCE, "largest part of the energy that any increment cannot "
+                f"account for of the {{runs}} run(s); it is in this one{but_energy}",
                 "first law: work put in is stored, dissipated or left open by the increment",
                 "residuals within the tolerance move the energy by a few times as much; "
-                "{factor:g} times are allowed",
-                sum((gaps[label] for label in missing), Unseen()).of_energy,
+                f"{OTHER_NORMS:g} times are allowed", OTHER_NORMS,
             )
         )  # fmt: skip
     return tuple(verdicts)
-
-
-def _solved(case: Case, results: Results) -> list[str]:
-    return [run.label for run in case.runs if run.label in results]
-
-
-def _verdict(
-    case: Case,
-    found: Mapping[str, float],
-    name: str,
-    what: str,
-    source: str,
-    because: str,
-    but: str,
-) -> Verdict:
-    """On the run that is worst for its tolerance; what is no number is worse than all.
-
-    but  what could not be held against the laws
-    """
-    clearance = {label: value / case.run(label).tolerance for label, value in found.items()}
-    worst = max(clearance, key=lambda label: (math.isnan(clearance[label]), clearance[label]))
-    allowed = OTHER_NORMS * case.run(worst).tolerance
-    value = found[worst]
-    return Verdict(
-        name=name,
-        run=worst,
-        meaning=f"{what} of the {len(found)} run(s); it is in this one{but}",
-        unit="",
-        value=finite(value),
-        reference=0.0,
-        reference_kind=ReferenceKind.IDENTITY,
-        source=source,
-        error=finite(value),
-        allowed=allowed,
-        scale=1.0,
-        scale_name="dimensionless",
-        tolerance_kind="required",
-        because=because.format(factor=OTHER_NORMS),
-        status=Status.PASS if value <= allowed else Status.FAIL,
-    )

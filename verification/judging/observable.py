@@ -21,7 +21,7 @@ Measure = Callable[[Any, int, Problem], float]
 class Observable:
     """A number of a step's end, or the norm of an error there.
 
-    name     of its order of convergence, after `order_of_`; with the suffix, of its verdict
+    name     of its order of convergence, after `order_of_`
     meaning  for people. In braces is what each discretisation has its own words for
     unit     SI; empty for a ratio
     measure  from a result, the index of a step and the problem to the number
@@ -32,8 +32,8 @@ class Observable:
     of       what an order of it is an order of
     step     index of the loading step
     label    in charts
-    suffix   of the verdict's name: which step
     source   of this number, where it is not the problem's
+    part     the load that it is measured at, over its limit, where that tells numbers apart
     """
 
     name: str
@@ -46,19 +46,24 @@ class Observable:
     of: Followed | None = None
     step: int = -1
     label: str = ""
-    suffix: str = ""
     source: str = ""
+    part: float | None = None
 
     def at(self, step: int, part: float, of: str) -> Observable:
         """The same at the end of another step, which the load reaches a part of something in."""
         when = f"{part:g} {of}"
         return replace(
             self,
-            suffix=f"_at_{part:g}",
             meaning=self.meaning.replace("{when}", f" at {when}"),
             step=step,
             label=when,
+            part=part,
         )
+
+    @property
+    def verdict(self) -> str:
+        """The name of a verdict on it."""
+        return self.name if self.part is None else f"{self.name}_at_{self.part:g}"
 
     def over_stops(self, stops: str) -> Observable:
         """The root mean square of its errors over all steps but the first: single ones change their

@@ -12,7 +12,15 @@ from verification.convergence.observed_order import ORDER_WIDTH
 from verification.exhibits.chart import Chart
 from verification.exhibits.table import Table
 from verification.judging.change import Change, CounterChange, Gone, Origin
+from verification.judging.order_of_convergence import Followed, Refinement
 from verification.judging.section_sketch import SectionSketch
+from verification.solver import Method, Solver
+
+# Verdicts that any case has.
+SOLVED, RESIDUAL = "solved", "largest_residual"
+VIOLATION, IMBALANCE = "observed_violation", "energy_imbalance"
+# Of these the run is found, not chosen: it is no part of what they are.
+FOUND_IN_A_RUN = (RESIDUAL, VIOLATION, IMBALANCE)
 
 TOLERANCE_KINDS = ("required", "derived", "order")
 SAME_BUT_FOR_ROUNDING = 1e-12
@@ -29,13 +37,12 @@ class Status(StrEnum):
 class OrderRecord(Description):
     """What an order of convergence was read off."""
 
-    of: str
-    """The quantity that was followed."""
+    of: Followed
+    meaning: str = ""
+    """What was followed, exactly; empty in older records."""
 
-    solver: str
-    refined: str
-    """mesh or increments."""
-
+    solver: Solver
+    refined: Refinement
     sizes: tuple[float, ...]
     """Cell side, element side or part of a step of every level, coarse to fine."""
 
@@ -59,6 +66,18 @@ class Verdict(Description):
 
     name: str
     run: str
+    """What it was measured on, in words."""
+
+    runs: tuple[str, ...] = ()
+    """Labels of the runs that it was measured on, or that an order was read off."""
+
+    quantity: str = ""
+    """What was measured: the same name wherever it is the same, whatever body, run and tolerance
+    are. Empty for what is no quantity of a contact, and in older records."""
+
+    at: float | None = None
+    """The load that it was measured at, over its limit, where that tells quantities apart."""
+
     meaning: str
     unit: str
     value: float | None
@@ -171,6 +190,16 @@ class RunRecord(Description):
     elements_per_radius: int | None = None
     """Elements over the contact radius; null for a surface grid."""
 
+    method: Method | None = None
+    """Null for a surface grid, and in older records."""
+
+    problem: str = ""
+    """Which of the problems of its case was solved; empty where there is one."""
+
+    planned: str | None = None
+    """Label of the run that differs in its effects alone, which are those that its scene calls for;
+    null where this one has them, or there is no such run."""
+
     tolerance: float
     increments: int
     iterations: int
@@ -181,6 +210,16 @@ class RunRecord(Description):
     largest_residual: float | None
     changes: tuple[CounterChange, ...] = ()
     """Counts that differ from the recorded ones."""
+
+    @property
+    def solver(self) -> Solver:
+        """What solved it."""
+        return Solver.ELEMENTS if self.cells is None else Solver.CELLS
+
+    @property
+    def fineness(self) -> int:
+        """Cells a side, or elements per contact radius."""
+        return self.cells[0] if self.cells is not None else self.elements_per_radius or 0
 
 
 class SceneRecord(Description):

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, ClassVar
 
 from contact_scene import FiniteElementDiscretisation, Scene
-from verification.judging.solver import Method, Solver
+from verification.solver import Method, Solver
 
 if TYPE_CHECKING:
     import fem_reference
@@ -22,6 +22,7 @@ class Run:
     """One solve: a scene on a grid to a tolerance. The label names it within its case.
 
     effects  from the plan of the scene to the one to solve with; None: as planned
+    problem  which of the problems of its case, in words; empty where there is one
     """
 
     label: str
@@ -29,6 +30,7 @@ class Run:
     grid: SurfaceGrid
     tolerance: float = SOLVER_TOLERANCE
     effects: Callable[[Plan], Plan] | None = None
+    problem: str = ""
 
     solver: ClassVar[Solver] = Solver.CELLS
 
@@ -53,6 +55,7 @@ class SectionRun:
 
     beyond  elements by which the contact reaches past the radius that the mesh counts them over,
             where that is known; the mean, where meshes differ in that alone
+    problem  which of the problems of its case, in words; empty where there is one
     """
 
     label: str
@@ -60,6 +63,7 @@ class SectionRun:
     discretisation: FiniteElementDiscretisation
     method: Method = Method.COMPLEMENTARITY
     beyond: float = 0.0
+    problem: str = ""
 
     solver: ClassVar[Solver] = Solver.ELEMENTS
 

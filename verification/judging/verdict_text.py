@@ -6,7 +6,7 @@ from contact_scene.engineering_units import engineering_unit
 from verification.convergence.observed_order import ObservedOrder
 from verification.exhibits.numbers import NOT_FINITE, plain, value_text
 from verification.judging.change import Change
-from verification.judging.outcome import Status, Verdict
+from verification.judging.outcome import SOLVED, Status, Verdict
 
 ROUNDING = 1e-12
 
@@ -56,7 +56,7 @@ def failure_line(case: str, verdict: Verdict, level: str) -> str:
 
 def failure_text(verdict: Verdict) -> str:
     """The value, what was expected and allowed, and the recorded value where there is one."""
-    if verdict.name == "solved":
+    if verdict.name == SOLVED:
         return verdict.meaning + _was_text(verdict)
     measured, reference = (
         value_text(value, verdict.unit) for value in (verdict.value, verdict.reference)

@@ -17,9 +17,10 @@ from verification.convergence.observed_order import (
 )
 from verification.judging.case import Case, Check, Comparison, Derived, Quantity, Required
 from verification.judging.order_of_convergence import OrderOfChange, OrderOfConvergence, Refinement
-from verification.judging.outcome import OrderRecord, Status, Verdict
+from verification.judging.outcome import RESIDUAL, SOLVED, OrderRecord, Status, Verdict
+from verification.judging.refined_errors import refined_errors
 from verification.judging.run import AnyRun
-from verification.problems.reference import Reference, ReferenceKind
+from verification.problems.reference import Reference, ReferenceKind, identity
 
 Results = Mapping[str, Any]
 
@@ -28,11 +29,21 @@ COVERAGE = 2.0  # standard uncertainties in a tolerance
 
 def judge_quantity(quantity: Quantity, case: Case, results: Results) -> Verdict:
     """The measured value against its reference; a value that is not finite fails."""
-    value, tolerance = quantity.measure(results[quantity.run]), quantity.tolerance
-    if not isinstance(tolerance, Derived):
-        return _judged(quantity, quantity.run, value, "required", tolerance.allowed)
-    allowed = _derived(quantity, tolerance, case, results, _scale(quantity))
-    return _judged(quantity, quantity.run, value, "derived", allowed)
+    tolerance = quantity.tolerance
+    if isinstance(tolerance, Derived):
+        u = expanded_uncertainty(quantity, tolerance, case, results) / _scale(quantity)
+        kind, allowed = "derived", min(tolerance.cap, u)
+    else:
+        kind, allowed = "required", tolerance.allowed
+    value = quantity.measure(results[quantity.run])
+    return _judged(quantity, quantity.run, value, kind, allowed).model_copy(
+        update={
+            "runs": (quantity.run,),
+            "quantity": quantity.quantity or quantity.name,
+            "at": quantity.at,
+            "refined": refined_errors(quantity, case, results),
+        }
+    )
 
 
 def judge_check(check: Check) -> Verdict:
@@ -49,7 +60,7 @@ def judge_comparison(comparison: Comparison, results: Results) -> Verdict:
         Reference(0.0, comparison.kind, comparison.source),
         Required(comparison.allowed, comparison.because), 1.0, "the second run's",
     )  # fmt: skip
-    return judge_check(same)
+    return judge_check(same).model_copy(update={"runs": comparison.runs})
 
 
 def _scale(quantity: Quantity | Check) -> float:
@@ -82,12 +93,6 @@ def _judged(
     )
 
 
-def _derived(
-    quantity: Quantity, tolerance: Derived, case: Case, results: Results, scale: float
-) -> float:
-    return min(tolerance.cap, expanded_uncertainty(quantity, tolerance, case, results) / scale)
-
-
 def expanded_uncertainty(
     quantity: Quantity, tolerance: Derived, case: Case, results: Results
 ) -> float:
@@ -113,6 +118,7 @@ def judge_order(study: OrderOfConvergence | OrderOfChange, case: Case, results: 
     return Verdict(
         name=study.name,
         run=f"{study.levels[0]} to {study.levels[-1]}",
+        runs=study.levels,
         meaning=f"order of convergence: {study.meaning}",
         unit="",
         value=None if observed is None else observed.order,
@@ -131,6 +137,7 @@ def judge_order(study: OrderOfConvergence | OrderOfChange, case: Case, results: 
         interval=None if observed is None else observed.half_width,
         order=OrderRecord(
             of=study.of,
+            meaning=study.meaning,
             solver=case.run(study.levels[0]).solver,
             refined=study.refined if isinstance(study, OrderOfChange) else Refinement.MESH,
             sizes=tuple(sizes),
@@ -164,50 +171,63 @@ def order_status(agrees: bool | None) -> Status:
 
 def judge_residuals(case: Case, results: Results) -> Verdict:
     """The largest residual of any increment of any run that was solved, against its tolerance."""
-    runs = [run for run in case.runs if run.label in results]
-    ratios = [largest_residual(results[run.label]) / run.tolerance for run in runs]
-    # NaN must win, so the comparison is written for it to be the worst
-    worst = max(range(len(runs)), key=lambda n: (math.isnan(ratios[n]), ratios[n]))
-    run = runs[worst]
-    residual = largest_residual(results[run.label])
-    return Verdict(
-        name="largest_residual",
-        run=run.label,
-        meaning=f"largest residual of any increment of the {len(runs)} run(s); it is in this one",
-        unit="",
-        value=finite(residual),
-        reference=0.0,
-        reference_kind=ReferenceKind.IDENTITY,
-        source="the equations of contact and friction, evaluated afresh after every increment",
-        error=finite(residual),
-        allowed=run.tolerance,
-        scale=1.0,
-        scale_name="dimensionless",
-        tolerance_kind="required",
-        because="every increment ends within the tolerance that was asked for",
-        status=Status.PASS if residual <= run.tolerance else Status.FAIL,
+    found = {r.label: largest_residual(results[r.label]) for r in case.runs if r.label in results}
+    return judge_worst(
+        case, found, RESIDUAL, "largest residual of any increment of the {runs} run(s); it is in "
+        "this one", "the equations of contact and friction, evaluated afresh after every increment",
+        "every increment ends within the tolerance that was asked for",
+    )  # fmt: skip
+
+
+def judge_worst(
+    case: Case,
+    found: Mapping[str, float],
+    name: str,
+    meaning: str,
+    source: str,
+    because: str,
+    factor: float = 1.0,
+) -> Verdict:
+    """Of numbers that should vanish, by the label of their run, the one that is worst for the
+    tolerance of its run; what is no number is worse than all.
+
+    meaning  with the number of runs in place of {runs}
+    factor   what is allowed over the tolerance
+    """
+    ratio = {label: value / case.run(label).tolerance for label, value in found.items()}
+    worst = max(ratio, key=lambda label: (math.isnan(ratio[label]), ratio[label]))
+    allowed = factor * case.run(worst).tolerance
+    return _law(
+        name, meaning.format(runs=len(found)), worst, found[worst], source, allowed, because
     )
 
 
 def unsolved(run: AnyRun, message: str) -> Verdict:
     """The verdict on a run that the solver gave up."""
-    return Verdict(
-        name="solved",
-        run=run.label,
-        meaning=f"the solver gave up: {message}",
-        unit="",
-        value=None,
-        reference=0.0,
-        reference_kind=ReferenceKind.IDENTITY,
-        source="every run of a case has a solution",
-        error=None,
-        allowed=run.tolerance,
-        scale=1.0,
-        scale_name="dimensionless",
-        tolerance_kind="required",
-        because="a run without a result cannot be judged",
-        status=Status.FAIL,
-    )
+    return lost(run.label, f"the solver gave up: {message}", "run", run.tolerance)
+
+
+def lost(where: str, meaning: str, what: str, tolerance: float = 1.0) -> Verdict:
+    """The verdict on a run or case that has no result.
+
+    what  it is
+    """
+    return _law(
+        SOLVED, meaning, where, math.nan, "every run of a case has a solution", tolerance,
+        f"a {what} without a result cannot be judged",
+    )  # fmt: skip
+
+
+def _law(
+    name: str, meaning: str, run: str, value: float, source: str, allowed: float, because: str
+) -> Verdict:
+    """On a number that vanishes by the equations themselves, dimensionless."""
+    return judge_check(
+        Check(
+            name, meaning, "", run, lambda: value, identity(0.0, source),
+            Required(allowed, because), 1.0, "dimensionless",
+        )
+    )  # fmt: skip
 
 
 def finite(value: float) -> float | None:

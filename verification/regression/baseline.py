@@ -5,7 +5,13 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from contact_scene.description import Description
-from verification.judging.outcome import FindingRecord, RunRecord, Status, Verdict
+from verification.judging.outcome import (
+    FOUND_IN_A_RUN,
+    FindingRecord,
+    RunRecord,
+    Status,
+    Verdict,
+)
 
 if TYPE_CHECKING:
     from verification.judging.outcome import CaseOutcome
@@ -13,9 +19,6 @@ if TYPE_CHECKING:
 
 BASELINE_VERSION = 1
 COUNTERS = ("increments", "iterations", "convolutions", "factorizations")
-
-# The run of such a quantity is found, not chosen: it is no part of what the quantity is.
-FOUND_IN_A_RUN = ("largest_residual", "observed_violation", "energy_imbalance")
 
 Key = tuple[str, ...]
 

@@ -4,25 +4,22 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 
-from verification.cases.apart_everywhere import TITLE as EVERYWHERE
+from verification.cases.apart_everywhere import NAME as EVERYWHERE
 from verification.exhibits.chart import Chart
 from verification.exhibits.numbers import plain
 from verification.exhibits.table import Table
 from verification.judging.outcome import CaseOutcome, Verdict
 from verification.judging.verdict_text import clearance_text
 from verification.problems.reference import ReferenceKind
-from verification.report.both_solvers import (
-    CELLS,
-    ELEMENTS,
-    SharedReference,
-    shared_references,
-)
+from verification.report.both_solvers import WORDS, SharedReference, shared_references
 from verification.report.equal_fineness import nearer_sentences, nearer_table, votes
 from verification.report.prices import price_table, telling_chart
 from verification.report.sections import StudySection, study_of, study_section
 from verification.running.record import StudyRecord
 from verification.running.report_record import Report
+from verification.solver import Solver
 
+CLAIMS = 2  # of a study without an answer
 Direct = tuple[CaseOutcome, Verdict]
 
 
@@ -31,7 +28,6 @@ class Answer:
     """A question, what the records say, and where more of it stands.
 
     sentences  made from the records; empty without an answer
-    findings   what a study found to it, claim by claim
     table      numbers to it
     links      anchor and text
     missing    the study that would answer it, or answer it better, with its command
@@ -42,7 +38,6 @@ class Answer:
     chart: Chart | None
     links: tuple[tuple[str, str], ...]
     missing: StudySection | None = None
-    findings: tuple[str, ...] = ()
     table: Table | None = None
 
 
@@ -81,30 +76,21 @@ def _disagreement(report: Report) -> Answer:
     shared = shared_references(report)
     cast = votes(shared)
     study = study_section(report, "cross-check")
-    said, claimed = _of_study(study.record)
-    sentences = [*_nearer(shared), *_direct(report), *said]
+    answered = study.record is not None and study.record.conclusion.answer
+    said = (f"{study.record.title}: {answered}",) if study.record and answered else ()
+    sentences = (*_nearer(shared), *_direct(report), *said)
     links = [("solvers", "all of them")] if shared else []
     if study.record is not None:
         links.append((f"study-{study.name}", study.title))
     return Answer(
         "Where do finite elements and the semi-analytical method disagree, and which is nearer to "
         "the reference?",
-        tuple(sentences),
+        sentences,
         None if shared else _chart(study.record, ()),
         tuple(links),
         study if study.record is None else None,
-        claimed,
         nearer_table(cast, shared) if cast else None,
     )
-
-
-def _of_study(record: StudyRecord | None) -> tuple[tuple[str, ...], tuple[str, ...]]:
-    """Its answer as a sentence; what it states, where an older record has no answer."""
-    if record is None:
-        return (), ()
-    if record.conclusion.answer:
-        return (f"{record.title}: {record.conclusion.answer}",), ()
-    return (), tuple(_statements(record, ("both solvers agree", "which side is nearer")))
 
 
 def _from_study(report: Report, question: str, name: str, charts: tuple[str, ...]) -> Answer:
@@ -112,9 +98,10 @@ def _from_study(report: Report, question: str, name: str, charts: tuple[str, ...
     if section.record is None:
         return Answer(question, (), None, (), section)
     conclusion = section.record.conclusion
-    said = [conclusion.answer] if conclusion.answer else _statements(section.record, ("",))[:2]
+    claims = tuple(f"{s.claim}: {s.measured}." for s in conclusion.statements[:CLAIMS])
+    said = (conclusion.answer,) if conclusion.answer else claims
     links = ((f"study-{name}", section.title),)
-    return Answer(question, tuple(said), _chart(section.record, charts), links)
+    return Answer(question, said, _chart(section.record, charts), links)
 
 
 def _chart(record: StudyRecord | None, wanted: tuple[str, ...]) -> Chart | None:
@@ -126,17 +113,6 @@ def _chart(record: StudyRecord | None, wanted: tuple[str, ...]) -> Chart | None:
     return next(iter([*named, *by_name.values()]), None)
 
 
-def _statements(record: StudyRecord | None, beginnings: tuple[str, ...]) -> list[str]:
-    """Claims of a study that begin so, with what was measured."""
-    if record is None:
-        return []
-    return [
-        f"{s.claim}: {s.measured}."
-        for s in record.conclusion.statements
-        if s.claim.startswith(beginnings)
-    ]
-
-
 def _nearer(shared: tuple[SharedReference, ...]) -> list[str]:
     if not shared:
         return []
@@ -144,11 +120,11 @@ def _nearer(shared: tuple[SharedReference, ...]) -> list[str]:
     told = [pair for pair in shared if pair.tells]
     if told:
         worst = max(told, key=lambda pair: pair.difference)
+        errors = " and ".join(f"{WORDS[s]} {_percent(worst.by(s).error)}" for s in Solver)
         sentences.append(
             f"On their finest runs, which are not equally fine, they are furthest apart in "
             f"{worst.name}: {_percent(worst.difference)} of the reference "
-            f"({CELLS} {_percent(worst.cells.error)} and {ELEMENTS} "
-            f"{_percent(worst.elements.error)} from it)."
+            f"({errors} from it)."
         )
     return sentences
 
@@ -178,7 +154,7 @@ def _left_out(report: Report) -> list[str]:
         f"{table.note} (Case {case.name}.)"
         for case in report.cases
         for table in case.tables
-        if table.title == EVERYWHERE
+        if table.name == EVERYWHERE
     ]
 
 

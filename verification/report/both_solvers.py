@@ -2,27 +2,30 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 
 from verification.exhibits.chart import Chart, Look, Panel, curve
 from verification.exhibits.numbers import plain
 from verification.exhibits.table import Table
-from verification.judging.outcome import CaseOutcome, Verdict
+from verification.judging.outcome import CaseOutcome, RunRecord, Verdict
 from verification.running.report_record import Report
+from verification.solver import Method, Solver
 
-CELLS, ELEMENTS = "cells (SAM)", "finite elements"
-SERIES = {CELLS: 0, ELEMENTS: 1}
+WORDS = {Solver.CELLS: "cells (SAM)", Solver.ELEMENTS: "finite elements"}
+SERIES = {Solver.CELLS: 0, Solver.ELEMENTS: 1}
 SAME = 1e-9  # relative, of two values of one reference
 LEAST = 1e-8  # an error is drawn no smaller: the axis is logarithmic
 COVERAGE = 2.0  # standard uncertainties of a reference
 MOST_SHOWN = 8  # where they are furthest apart
-REQUIRED = "required_"  # begins the name of a value that is judged twice on one run
-GROUPS = ("approach", "pressure", "radius")  # by a word of the quantity's name
-OTHERS = "forces, shifts, twists and energies"
-FINENESS = re.compile(r",? ?\d+(x\d+| cells| increments)")  # in the label of a run
-PENALTY = "penalty"  # springs are judged in their own study
+# Quantities that share a chart, and its title; all others share the last.
+GROUPS = {
+    "approach": ("approach",),
+    "pressure": ("peak_pressure", "central_pressure"),
+    "radius": ("contact_radius", "stick_radius"),
+}
+OTHERS = "forces"
+TITLES = {group: group for group in GROUPS} | {OTHERS: "forces, shifts, twists and energies"}
 
 
 @dataclass(frozen=True)
@@ -30,8 +33,7 @@ class Measured:
     """A verdict by one solver, on its finest run."""
 
     case: str
-    solver: str
-    fineness: float
+    run: RunRecord
     verdict: Verdict
 
     @property
@@ -39,6 +41,11 @@ class Measured:
         """|value - reference| / |reference|."""
         reference = self.verdict.reference
         return abs((self.verdict.value or 0.0) - reference) / abs(reference)
+
+    @property
+    def of(self) -> tuple[str, float | None]:
+        """The quantity and the load that it is measured at."""
+        return self.verdict.quantity, self.verdict.at
 
 
 @dataclass(frozen=True)
@@ -48,31 +55,42 @@ class SharedReference:
     cells: Measured
     elements: Measured
 
+    def by(self, solver: Solver) -> Measured:
+        """What one of them measured."""
+        return self.cells if solver is Solver.CELLS else self.elements
+
+    @property
+    def quantity(self) -> str:
+        """In words, with the load that it is measured at."""
+        name, at = self.cells.of
+        return name.replace("_", " ") + ("" if at is None else f" at {at:g}")
+
+    @property
+    def case(self) -> str:
+        """That of the cells, in words."""
+        return self.cells.case.replace("_", " ")
+
     @property
     def name(self) -> str:
         """The quantity, the case of the cells, and which of its problems."""
-        return ", ".join((self._quantity, *self._place))
+        return ", ".join((self.quantity, *self._place))
 
     @property
     def row(self) -> str:
         """The same in a chart of its kind."""
-        rest = " ".join(self._quantity.replace(self.group, "").split())
+        rest = " ".join(self.quantity.replace(self.group, "").split())
         return ", ".join((*([rest] if rest else []), *self._place))
 
     @property
-    def _quantity(self) -> str:
-        return _word(self.cells.verdict).replace("_", " ")
-
-    @property
-    def _place(self) -> list[str]:
-        problem = FINENESS.sub("", self.cells.verdict.run).strip(", ")
-        return [self.cells.case.replace("_", " "), *([problem] if problem else [])]
+    def _place(self) -> tuple[str, ...]:
+        problem = self.cells.run.problem
+        return (self.case, problem) if problem else (self.case,)
 
     @property
     def group(self) -> str:
-        """What kind of quantity it is."""
-        found = (kind for kind in GROUPS if kind in self.cells.verdict.name)
-        return next(found, OTHERS)
+        """The chart that it is shown in."""
+        name, _ = self.cells.of
+        return next((group for group, names in GROUPS.items() if name in names), OTHERS)
 
     @property
     def difference(self) -> float:
@@ -81,9 +99,9 @@ class SharedReference:
         return abs((one.value or 0.0) - (other.value or 0.0)) / abs(one.reference)
 
     @property
-    def reference(self) -> tuple[str, str]:
+    def reference(self) -> tuple[str, float | None, str]:
         """Tells references apart: some are of several cases."""
-        return f"{self.cells.verdict.reference:.9g}", self._quantity
+        return *self.cells.of, f"{self.cells.verdict.reference:.9g}"
 
     @property
     def uncertainty(self) -> float:
@@ -100,29 +118,29 @@ class SharedReference:
 
 def shared_references(report: Report) -> tuple[SharedReference, ...]:
     """Every value that both solvers were judged by, in the order of the cases."""
-    by_solver: dict[str, list[Measured]] = {CELLS: [], ELEMENTS: []}
-    for case in report.cases:
-        for measured in _measured(case):
-            by_solver[measured.solver].append(measured)
-    found: dict[str, SharedReference] = {}
-    for one in by_solver[CELLS]:
-        for other in by_solver[ELEMENTS]:
-            if _alike(one.verdict, other.verdict):
+    measured = [one for case in report.cases for one in _measured(case)]
+    by_elements = [one for one in measured if one.run.solver is Solver.ELEMENTS]
+    found: dict[tuple[object, ...], SharedReference] = {}
+    for one in measured:
+        if one.run.solver is not Solver.CELLS:
+            continue
+        for other in by_elements:
+            if _alike(one, other):
                 pair = SharedReference(one, other)
-                known = found.get(_key(one))
-                if known is None or _fineness(pair) > _fineness(known):
-                    found[_key(one)] = pair
+                key = (one.case, *pair.reference)
+                if key not in found or _fineness(pair) > _fineness(found[key]):
+                    found[key] = pair
     return tuple(found.values())
 
 
 def both_solvers_charts(shared: tuple[SharedReference, ...]) -> tuple[Chart, ...]:
     """Errors of both solvers, a chart per kind of quantity, a row per shared reference."""
-    once: dict[tuple[str, str], SharedReference] = {}
+    once: dict[object, SharedReference] = {}
     for pair in shared:
         once.setdefault(pair.reference, pair)
     return tuple(
         _chart(group, of)
-        for group in (*GROUPS, OTHERS)
+        for group in TITLES
         if (of := [pair for pair in once.values() if pair.group == group])
     )
 
@@ -131,17 +149,16 @@ def _chart(group: str, shared: list[SharedReference]) -> Chart:
     rows = shared[::-1]
     curves = []
     for solver, series in SERIES.items():
-        measured = [pair.cells if solver == CELLS else pair.elements for pair in rows]
-        drawn = [max(one.error, LEAST) for one in measured]
-        curves.append(curve(solver, drawn, range(len(rows)), Look.TILES, series))
+        drawn = [max(pair.by(solver).error, LEAST) for pair in rows]
+        curves.append(curve(WORDS[solver], drawn, range(len(rows)), Look.TILES, series))
     panel = Panel(
         x_label="relative error against the same reference", y_label="", curves=tuple(curves),
         logarithmic=True, y_places=tuple(pair.row for pair in rows),
         height=0.7 + 0.2 * len(rows),
     )  # fmt: skip
     return Chart(
-        name=f"both_solvers_{group.partition(' ')[0].strip(',')}",
-        title=f"Errors of both solvers against the same references: {group}",
+        name=f"both_solvers_{group}",
+        title=f"Errors of both solvers against the same references: {TITLES[group]}",
         caption="One row per reference that both have measured against, each on its finest run of "
         f"this report; further to the left is nearer. Errors below {plain(LEAST)} are drawn there. "
         "Disc: cells; square: finite elements. A number behind “at” is the load over its limit.",
@@ -154,7 +171,7 @@ def furthest_apart(shared: tuple[SharedReference, ...]) -> Table:
     worst = sorted(shared, key=lambda pair: -pair.difference)[:MOST_SHOWN]
     return Table(
         title=f"Where both solvers are furthest apart, {len(worst)} of {len(shared)}",
-        columns=("quantity and case", "difference", f"error, {CELLS}", f"error, {ELEMENTS}",
+        columns=("quantity and case", "difference", *(f"error, {word}" for word in WORDS.values()),
                  "reference known to", "fineness"),
         rows=tuple(
             (
@@ -162,8 +179,8 @@ def furthest_apart(shared: tuple[SharedReference, ...]) -> Table:
                 *(f"{plain(100 * part, 2)} %"
                   for part in (pair.difference, pair.cells.error, pair.elements.error)),
                 f"{plain(100 * COVERAGE * pair.uncertainty, 2)} %",
-                f"{pair.cells.fineness:g} cells a side, {pair.elements.fineness:g} elements per "
-                "radius",
+                f"{pair.cells.run.fineness} cells a side, {pair.elements.run.fineness} elements "
+                "per radius",
             )
             for pair in worst
         ),
@@ -175,37 +192,24 @@ def furthest_apart(shared: tuple[SharedReference, ...]) -> Table:
 
 
 def _measured(case: CaseOutcome) -> Iterator[Measured]:
+    """Quantities with a unit that were compared with a number; of springs there is a study."""
     runs = {run.label: run for run in case.runs}
     for verdict in case.verdicts:
-        run = runs.get(verdict.run)
-        judged = verdict.tolerance_kind != "order" and verdict.error is not None
-        if run is None or not judged or verdict.value is None or verdict.reference == 0:
-            continue
-        if PENALTY in case.name:
-            continue
-        if run.cells is not None:
-            yield Measured(case.name, CELLS, float(run.cells[0]), verdict)
-        elif run.elements_per_radius is not None:
-            yield Measured(case.name, ELEMENTS, float(run.elements_per_radius), verdict)
+        judged = verdict.error is not None and verdict.value is not None and verdict.reference != 0
+        if verdict.quantity and verdict.unit and judged and verdict.tolerance_kind != "order":
+            (label,) = verdict.runs
+            if runs[label].method is not Method.PENALTY:
+                yield Measured(case.name, runs[label], verdict)
 
 
-def _alike(one: Verdict, other: Verdict) -> bool:
-    same = abs(one.reference - other.reference) <= SAME * abs(one.reference)
-    words = _word(one) == _word(other)
-    return same and words and one.unit == other.unit and one.unit != ""
+def _alike(one: Measured, other: Measured) -> bool:
+    known, again = one.verdict.reference, other.verdict.reference
+    same = abs(known - again) <= SAME * abs(known)
+    return same and one.of == other.of and one.verdict.unit == other.verdict.unit
 
 
-def _word(verdict: Verdict) -> str:
-    """The quantity, whatever decides its tolerance and whatever body it is of."""
-    return verdict.name.removeprefix(REQUIRED).split("_of_")[0]
-
-
-def _key(one: Measured) -> str:
-    return f"{one.case} {_word(one.verdict)} {one.verdict.reference:.9g}"
-
-
-def _fineness(pair: SharedReference) -> tuple[float, float, int]:
+def _fineness(pair: SharedReference) -> tuple[int, int, int]:
     """Of both, and by how many of them the value was followed on coarser runs."""
     both = pair.cells, pair.elements
     followed = sum(one.verdict.refined is not None for one in both)
-    return pair.cells.fineness, pair.elements.fineness, followed
+    return pair.cells.run.fineness, pair.elements.run.fineness, followed

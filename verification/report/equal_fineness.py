@@ -12,7 +12,8 @@ from verification.convergence.error_line import by_size, error_line
 from verification.exhibits.numbers import plain
 from verification.exhibits.table import Table
 from verification.judging.outcome import RefinedErrors
-from verification.report.both_solvers import CELLS, ELEMENTS, SharedReference
+from verification.report.both_solvers import WORDS, SharedReference
+from verification.solver import Solver
 
 PER_RADIUS = 64  # the fineness that solvers are compared at
 BEYOND = 2.0  # an error is extrapolated no further than by this factor of refinement
@@ -45,20 +46,20 @@ class Vote:
     elements: TypicalError
 
     @property
-    def nearer(self) -> str:
-        """The solver with the smaller error; a tie where the scatter of single runs or the
+    def nearer(self) -> Solver | None:
+        """The solver with the smaller error; None, a tie, where the scatter of single runs or the
         uncertainty of the reference is larger than what lies between."""
         one, other = self.cells, self.elements
         overlap = one.low <= other.high and other.low <= one.high
         known_to = COVERAGE * self.shared.uncertainty
         if overlap or abs(one.value - other.value) <= known_to:
-            return TIE
-        return CELLS if one.value < other.value else ELEMENTS
+            return None
+        return Solver.CELLS if one.value < other.value else Solver.ELEMENTS
 
 
 def votes(shared: Iterable[SharedReference]) -> tuple[Vote, ...]:
     """Of every reference that both have refined on, each once."""
-    found: dict[tuple[str, str], Vote] = {}
+    found: dict[object, Vote] = {}
     for pair in shared:
         cells, elements = (
             typical_error(one.verdict.refined) for one in (pair.cells, pair.elements)
@@ -111,32 +112,33 @@ def nearer_sentences(cast: tuple[Vote, ...], shared: tuple[SharedReference, ...]
 
 
 def _throughout(cast: tuple[Vote, ...]) -> str:
-    sides = {vote.nearer for vote in cast}
-    if sides == {TIE}:
+    side, *others = {vote.nearer for vote in cast}
+    if others:
+        return "Neither is nearer throughout"
+    if side is None:
         return "Neither is nearer"
-    if len(sides) == 1:
-        return "Finite elements, throughout" if sides == {ELEMENTS} else "Cells (SAM), throughout"
-    return "Neither is nearer throughout"
+    word = WORDS[side]
+    return f"{word[0].upper()}{word[1:]}, throughout"
 
 
 def _counted(cast: tuple[Vote, ...]) -> str:
     """Sides with the number of their values, and the names of those that are no tie."""
     count = Counter(vote.nearer for vote in cast)
     words = {
-        ELEMENTS: f"{ELEMENTS} are nearer to the reference in",
-        CELLS: f"{CELLS} are nearer in",
-        TIE: "tied are",
+        Solver.ELEMENTS: f"{WORDS[Solver.ELEMENTS]} are nearer to the reference in",
+        Solver.CELLS: f"{WORDS[Solver.CELLS]} are nearer in",
+        None: "tied are",
     }
     names = {side: Counter(_of(vote) for vote in cast if vote.nearer == side) for side in words}
     return "; ".join(
-        f"{text} {count[side]}" + ("" if side == TIE else f": {_listed(names[side])}")
+        f"{text} {count[side]}" + ("" if side is None else f": {_listed(names[side])}")
         for side, text in words.items()
         if count[side]
     )
 
 
 def _of(vote: Vote) -> str:
-    return " of ".join(vote.shared.name.split(", ")[:2])
+    return f"{vote.shared.quantity} of {vote.shared.case}"
 
 
 def _listed(names: Counter[str]) -> str:
@@ -145,7 +147,7 @@ def _listed(names: Counter[str]) -> str:
 
 def silences(shared: Iterable[SharedReference]) -> dict[str, Counter[str]]:
     """Why values have no vote, and in which cases how many."""
-    seen: set[tuple[str, str]] = set()
+    seen: set[object] = set()
     found: dict[str, Counter[str]] = {}
     for pair in shared:
         refined = tuple(one.verdict.refined for one in (pair.cells, pair.elements))
@@ -153,7 +155,7 @@ def silences(shared: Iterable[SharedReference]) -> dict[str, Counter[str]]:
         if not reasons and pair.reference in seen:
             reasons = ["the reference votes already"]
         if reasons:
-            found.setdefault(reasons[0], Counter()).update([pair.cells.case.replace("_", " ")])
+            found.setdefault(reasons[0], Counter()).update([pair.case])
         else:
             seen.add(pair.reference)
     return found
@@ -176,9 +178,14 @@ def nearer_table(cast: tuple[Vote, ...], shared: tuple[SharedReference, ...]) ->
     why = "; ".join(f"{reason}: {_cases(cases)}" for reason, cases in silences(shared).items())
     return Table(
         title=f"Errors at {PER_RADIUS} cells or elements per contact radius",
-        columns=("quantity and case", f"error, {CELLS}", f"error, {ELEMENTS}", "nearer"),
+        columns=("quantity and case", *(f"error, {word}" for word in WORDS.values()), "nearer"),
         rows=tuple(
-            (vote.shared.name, _text(vote.cells), _text(vote.elements), vote.nearer)
+            (
+                vote.shared.name,
+                _text(vote.cells),
+                _text(vote.elements),
+                TIE if vote.nearer is None else WORDS[vote.nearer],
+            )
             for vote in cast
         ),
         note="Relative to a reference that neither solver made; read off the line through the "

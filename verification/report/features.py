@@ -5,13 +5,12 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from verification.exhibits.numbers import plain
-from verification.judging.outcome import CaseOutcome, RunRecord, Status, Verdict
+from verification.judging.outcome import CaseOutcome, RunRecord, Status
 from verification.report.sections import study_section
 from verification.running.record import StudyRecord
 from verification.running.report_record import Report
 
 FORCED = "forced_effects"
-PLANNED_RUN, FORCED_RUN = ", as planned", ", all effects on"  # ends of the labels of its runs
 
 
 @dataclass(frozen=True)
@@ -37,13 +36,15 @@ def features(report: Report) -> tuple[Feature, ...]:
 def _planned(report: Report) -> Feature:
     promise = "Simulate only the effects that a scene calls for"
     case = next((case for case in report.cases if case.name == FORCED), None)
-    ratios = () if case is None else _savings(case)
+    pairs = {} if case is None else _pairs(case)
+    ratios = [
+        run.convolutions / plan.convolutions for run, plan in pairs.values() if plan.convolutions
+    ]
     if case is None or not ratios:
         command = f"slipstick verify {FORCED} --level {report.level}"
         return Feature(promise, None, f"not in this report; {command} measures it", "cases")
-    apart = max(
-        (v.error for v in case.verdicts if v.error is not None and _of_a_pair(v)), default=0.0
-    )
+    errors = [verdict.error for verdict in case.verdicts if frozenset(verdict.runs) in pairs]
+    apart = max((error for error in errors if error is not None), default=0.0)
     return Feature(
         promise,
         case.status,
@@ -54,24 +55,14 @@ def _planned(report: Report) -> Feature:
     )
 
 
-def _of_a_pair(verdict: Verdict) -> bool:
-    """Whether it compares a scene as planned with the same one with everything forced on."""
-    return PLANNED_RUN in verdict.run and FORCED_RUN in verdict.run
-
-
-def _savings(case: CaseOutcome) -> tuple[float, ...]:
-    """Convolutions with everything forced on, over those as planned, scene by scene."""
-    runs: dict[str, RunRecord] = {run.label: run for run in case.runs}
-    pairs = (
-        (run, runs.get(label.removesuffix(PLANNED_RUN) + FORCED_RUN))
-        for label, run in runs.items()
-        if label.endswith(PLANNED_RUN)
-    )
-    return tuple(
-        forced.convolutions / planned.convolutions
-        for planned, forced in pairs
-        if forced is not None and planned.convolutions
-    )
+def _pairs(case: CaseOutcome) -> dict[frozenset[str], tuple[RunRecord, RunRecord]]:
+    """Runs with effects forced on, each with the one as planned, by the labels of both."""
+    runs = {run.label: run for run in case.runs}
+    return {
+        frozenset((run.label, run.planned)): (run, runs[run.planned])
+        for run in case.runs
+        if run.planned in runs
+    }
 
 
 def _accurate(report: Report) -> Feature:

@@ -12,9 +12,8 @@ from itertools import product
 
 from verification.judging.order_of_convergence import Followed, Refinement
 from verification.judging.outcome import CaseOutcome
-from verification.judging.run import Run, SectionRun
+from verification.solver import Solver
 
-SURFACE, SECTION = Run.solver, SectionRun.solver
 BY_COUPLING = "friction moves pressures by the coupling alone; the approach, their mean, is judged"
 SCATTERS = "increments move it by less than a part of a cell or element: scatter, of no order"
 NOTHING_TO_REFINE = (
@@ -23,31 +22,31 @@ NOTHING_TO_REFINE = (
 ELSEWHERE = "judged by other cases, or from the standard level on"
 # Not judged at the standard level, but at the full one.
 LATER = {
-    (Followed.ENERGY, SURFACE, Refinement.INCREMENTS): (
+    (Followed.ENERGY, Solver.CELLS, Refinement.INCREMENTS): (
         "up to 64 increments per step it falls faster than by any one order; judged at the full "
         "level, on more of them"
     ),
 }
 REASONS = {
-    (Followed.PRESSURE, SURFACE, Refinement.INCREMENTS): BY_COUPLING,
-    (Followed.PRESSURE, SECTION, Refinement.INCREMENTS): BY_COUPLING,
-    (Followed.PEAK_PRESSURE, SURFACE, Refinement.INCREMENTS): SCATTERS,
-    (Followed.PEAK_PRESSURE, SECTION, Refinement.INCREMENTS): SCATTERS,
-    (Followed.CONTACT_RADIUS, SURFACE, Refinement.INCREMENTS): SCATTERS,
-    (Followed.CONTACT_RADIUS, SECTION, Refinement.MESH): (
+    (Followed.PRESSURE, Solver.CELLS, Refinement.INCREMENTS): BY_COUPLING,
+    (Followed.PRESSURE, Solver.ELEMENTS, Refinement.INCREMENTS): BY_COUPLING,
+    (Followed.PEAK_PRESSURE, Solver.CELLS, Refinement.INCREMENTS): SCATTERS,
+    (Followed.PEAK_PRESSURE, Solver.ELEMENTS, Refinement.INCREMENTS): SCATTERS,
+    (Followed.CONTACT_RADIUS, Solver.CELLS, Refinement.INCREMENTS): SCATTERS,
+    (Followed.CONTACT_RADIUS, Solver.ELEMENTS, Refinement.MESH): (
         "the error is A h + B h², A from reading the edge off the last two pressures and B from "
         "these; on the meshes of fem_hertz neither dominates, as its chart shows"
     ),
-    (Followed.SHIFT, SECTION, Refinement.INCREMENTS): (
+    (Followed.SHIFT, Solver.ELEMENTS, Refinement.INCREMENTS): (
         "bodies that are alike need one increment; of those that couple coupled_history holds the "
         "shift against the other solver on the same increments, and sheared_increments judges the "
         "order of that one"
     ),
-    (Followed.TWIST, SURFACE, Refinement.MESH): (
+    (Followed.TWIST, Solver.CELLS, Refinement.MESH): (
         "the rim of a punch is a staircase of cells; torsion judges the order of its shear"
     ),
-    (Followed.TWIST, SURFACE, Refinement.INCREMENTS): NOTHING_TO_REFINE,
-    (Followed.TWIST, SECTION, Refinement.INCREMENTS): NOTHING_TO_REFINE,
+    (Followed.TWIST, Solver.CELLS, Refinement.INCREMENTS): NOTHING_TO_REFINE,
+    (Followed.TWIST, Solver.ELEMENTS, Refinement.INCREMENTS): NOTHING_TO_REFINE,
 }
 
 
@@ -56,7 +55,7 @@ class NotJudged:
     """A gap in the table of orders."""
 
     of: Followed
-    solver: str
+    solver: Solver
     refined: Refinement
     reason: str
 
@@ -71,6 +70,6 @@ def not_judged(outcomes: Iterable[CaseOutcome]) -> tuple[NotJudged, ...]:
     }
     return tuple(
         NotJudged(*place, (REASONS | LATER).get(place, ELSEWHERE))
-        for place in product(Followed, (SURFACE, SECTION), Refinement)
+        for place in product(Followed, Solver, Refinement)
         if place not in judged
     )

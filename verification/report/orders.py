@@ -7,8 +7,6 @@ from dataclasses import dataclass
 from verification.judging.outcome import CaseOutcome, Verdict
 from verification.running.report_record import Report
 
-BEGINNING = "order of convergence: "  # of what such a verdict means
-
 
 @dataclass(frozen=True)
 class ObservedOrder:
@@ -26,7 +24,8 @@ class ObservedOrder:
     @property
     def detail(self) -> str:
         """What was followed, exactly."""
-        return self.verdict.meaning.removeprefix(BEGINNING)
+        order = self.verdict.order
+        return self.verdict.meaning if order is None else order.meaning or self.verdict.meaning
 
     @property
     def sort_key(self) -> tuple[str, str]:

@@ -8,37 +8,22 @@ from itertools import pairwise
 from math import inf
 
 from verification.exhibits.chart import Chart, Curve, Look, Panel, curve
-from verification.report.both_solvers import CELLS, ELEMENTS, SERIES
+from verification.report.both_solvers import SERIES, WORDS
 from verification.running.report_record import Report
-
-
-@dataclass(frozen=True)
-class DrawnProfile:
-    """A profile over its reference, in the chart of a case.
-
-    case   that has the chart
-    title  of the chart
-    label  of the curve in it
-    """
-
-    case: str
-    title: str
-    label: str
+from verification.solver import Solver
 
 
 @dataclass(frozen=True)
 class SameProfile:
     """One profile by both solvers; the references of both are the same function of r/a.
 
-    cells, elements  where either is drawn
-    edges            r/a where the profile has a kink or a vertical tangent
-    why_same         what a reader must know of two cases that are not one problem; may be empty
+    name      that its curves have in the charts of cases
+    edges     r/a where the profile has a kink or a vertical tangent
+    why_same  what a reader must know of two cases that are not one problem; may be empty
     """
 
     name: str
     title: str
-    cells: DrawnProfile
-    elements: DrawnProfile
     why_same: str = ""
     edges: tuple[float, ...] = (1.0,)
 
@@ -55,24 +40,11 @@ class Drawn:
 
 NEAR = 0.1  # to each side of an edge
 MAGNIFIED, AS_TEXT = 1e3, "10³"
-BY_ELEMENTS = "finite elements"
-COATING = "E1/E2 = 2"
 SAME = (
-    SameProfile(
-        "hertz", "Hertz's pressure",
-        DrawnProfile("hertz_point", "Pressure next to y = 0", "computed"),
-        DrawnProfile("fem_hertz", "Pressure over the radius", BY_ELEMENTS),
-    ),
-    SameProfile(
-        "coated", f"Pressure on a coating of {COATING}, as thick as a_H",
-        DrawnProfile("coated_paraboloid", f"Pressure next to y = 0 under a coating of {COATING}",
-                     "computed"),
-        DrawnProfile("fem_coated", f"Pressure over the radius, {COATING}, h = 1 a_H", BY_ELEMENTS),
-    ),
+    SameProfile("hertz", "Hertz's pressure"),
+    SameProfile("coated", "Pressure on a coating of E1/E2 = 2, as thick as a_H"),
     SameProfile(
         "cattaneo_mindlin", "Cattaneo and Mindlin's shear at 0.9 µW",
-        DrawnProfile("cattaneo_mindlin", "Shear next to y = 0", "0.9 µW"),
-        DrawnProfile("fem_partial_slip", "Shear over the radius, loaded", BY_ELEMENTS),
         " The cells have ν = 0 and the elements ν = 0.3: over µp₀ the closed form is the same.",
         ((1 - 0.9) ** (1 / 3), 1.0),
     ),
@@ -84,30 +56,28 @@ def profiles_together(report: Report) -> tuple[Chart, ...]:
     return tuple(
         _chart(same, cells, elements)
         for same in SAME
-        for cells in _found(report, same.cells)
-        for elements in _found(report, same.elements)
+        for cells in _found(report, same, Solver.CELLS)
+        for elements in _found(report, same, Solver.ELEMENTS)
     )
 
 
-def _found(report: Report, profile: DrawnProfile) -> Iterator[Drawn]:
-    """At most one: titles of a case differ."""
+def _found(report: Report, same: SameProfile, solver: Solver) -> Iterator[Drawn]:
+    """At most one: a profile is drawn once by either solver."""
     for case in report.cases:
         for chart in case.charts:
-            if (case.name, chart.title) == (profile.case, profile.title):
-                yield from _drawn(chart, profile.label)
-
-
-def _drawn(chart: Chart, label: str) -> Iterator[Drawn]:
-    """The curves of a label: references, profiles and differences come in one order."""
-    above, below = (row[0] for row in chart.rows)
-    references = [one for one in above.curves if one.look is Look.REFERENCE]
-    computed = [one for one in above.curves if one.look is Look.COMPUTED]
-    for reference, profile, difference in zip(references, computed, below.curves, strict=True):
-        if profile.label == label:
-            yield Drawn(
-                _right_of_axis(reference), _right_of_axis(profile), _right_of_axis(difference),
-                (above.y_label, below.y_label),
-            )  # fmt: skip
+            panels = [row[0] for row in chart.rows]
+            found = [
+                (one, panel)
+                for panel in panels
+                for one in panel.curves
+                if one.profile == same.name and one.solver is solver
+            ]
+            if found:
+                (reference, above), (computed, _), (difference, below) = found
+                yield Drawn(
+                    _right_of_axis(reference), _right_of_axis(computed),
+                    _right_of_axis(difference), (above.y_label, below.y_label),
+                )  # fmt: skip
 
 
 def _right_of_axis(one: Curve) -> Curve:
@@ -123,7 +93,7 @@ def _part(
 
 
 def _chart(same: SameProfile, cells: Drawn, elements: Drawn) -> Chart:
-    by = {CELLS: cells, ELEMENTS: elements}
+    by = {Solver.CELLS: cells, Solver.ELEMENTS: elements}
     above = Panel(
         x_label="", y_label=cells.y_labels[0], height=2.4,
         curves=(
@@ -164,5 +134,6 @@ def _away_from(edges: tuple[float, ...], one: Curve) -> Iterator[Curve]:
             yield part
 
 
-def _named(one: Curve, solver: str, label: str | None = None) -> Curve:
-    return curve(solver if label is None else label, one.x, one.y, series=SERIES[solver])
+def _named(one: Curve, solver: Solver, label: str | None = None) -> Curve:
+    text = WORDS[solver] if label is None else label
+    return curve(text, one.x, one.y, series=SERIES[solver])

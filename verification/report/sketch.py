@@ -185,6 +185,7 @@ def _labels(sketch: SectionSketch, scale: float, below: float) -> Iterator[str]:
         (SURFACE - 58 + LINE * n, f"its layer {layer.material}", edge)
         for n, layer in enumerate(sketch.indenter.layers, 1)
     ]
+    friction = len(wanted)
     wanted.append((SURFACE, sketch.friction, _x(sketch.contact_radius, scale)))
     top = SURFACE
     for number, (band, layer) in enumerate(
@@ -195,8 +196,8 @@ def _labels(sketch: SectionSketch, scale: float, below: float) -> Iterator[str]:
         top += band
     wanted.append((min((top + SURFACE + below) / 2, SURFACE + below), sketch.body.substrate, x))
     last = -LINE
-    for y, text, start in wanted:
-        place = max(y + 4 - RAISED * (text == sketch.friction), last + LINE)
+    for number, (y, text, start) in enumerate(wanted):
+        place = max(y + 4 - RAISED * (number == friction), last + LINE)
         last = place
         yield _line(start - 6, y, x + 8, place - 4, "leader")
         yield _text(x + 12, place, text, "start")

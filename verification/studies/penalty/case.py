@@ -16,12 +16,12 @@ from verification.judging.ladder import Ladder, meshed
 from verification.judging.observables import APPROACH, PEAK_PRESSURE, PRESSURE_WITHIN
 from verification.judging.pressing_errors import PRESSURE, SHEAR
 from verification.judging.run import Run, SectionRun, per_radius
-from verification.judging.solver import Method
 from verification.problems.hertz import BALL
 from verification.problems.indentation import COATED, FEW, STRONG, WEAK
 from verification.problems.paper_scene import HERTZ
 from verification.running.row import CaseRecord, parameters_of
 from verification.running.rules import RESIDUAL
+from verification.solver import Method
 
 HERTZIAN = "hertz"
 FRICTIONAL = {"weak": WEAK, "strong": STRONG, "coated": COATED}

@@ -13,8 +13,15 @@ from verification.cases.judged_case import CaseToJudge, JudgedCase, lost
 from verification.defects.defect import planted
 from verification.defects.registry import DEFECTS
 from verification.judging.case import Level
-from verification.judging.law_verdicts import IMBALANCE, VIOLATION
-from verification.judging.outcome import CaseOutcome, Status, Verdict
+from verification.judging.outcome import (
+    IMBALANCE,
+    RESIDUAL,
+    SOLVED,
+    VIOLATION,
+    CaseOutcome,
+    Status,
+    Verdict,
+)
 from verification.running.case_store import CaseStore
 
 if TYPE_CHECKING:
@@ -22,8 +29,7 @@ if TYPE_CHECKING:
 
 HEALTHY = ""
 GATE = 1e-2
-RESIDUALS = "largest_residual"
-LAWS = {RESIDUALS: "residual", VIOLATION: "law", IMBALANCE: "law"}
+LAWS = {RESIDUAL: "residual", VIOLATION: "law", IMBALANCE: "law"}
 
 
 class Caught(Description):
@@ -103,7 +109,7 @@ def judged(name: str) -> CaseOutcome:
 def _caught(outcome: CaseOutcome) -> Iterator[Caught]:
     for verdict in outcome.verdicts:
         if verdict.status is Status.FAIL:
-            solved = verdict.name == "solved"
+            solved = verdict.name == SOLVED
             yield Caught(
                 quantity=verdict.name,
                 run=verdict.run,
@@ -114,7 +120,7 @@ def _caught(outcome: CaseOutcome) -> Iterator[Caught]:
 
 
 def _how(verdict: Verdict) -> str:
-    if verdict.name == "solved":
+    if verdict.name == SOLVED:
         return "named error"
     if verdict.name in LAWS:
         return LAWS[verdict.name]
