@@ -52,7 +52,8 @@ def verdict(name: str, value: float, reference: float, run: str = "run") -> Verd
     """A verdict that allows 1 %."""
     error = abs(value - reference) / abs(reference)
     return Verdict(
-        name=name, run=run, meaning="what it is", unit="m", value=value, reference=reference,
+        name=name, run=run, runs=(run,), quantity=name, meaning="what it is", unit="m",
+        value=value, reference=reference,
         reference_kind="closed form", source="somebody", reference_uncertainty=reference * 1e-6,
         error=error, allowed=0.01, scale=abs(reference), scale_name="the reference",
         tolerance_kind="required", because="asked for",
@@ -94,7 +95,7 @@ def case(
                             sketch=sketch()),),
         runs=(run,), findings=(), limits=(text,),
         charts=(chart(f"{name}_chart", text),) if drawn else (),
-        verdicts=tuple(verdict(n, value, reference) for n, (value, reference) in values.items()),
+        verdicts=tuple(verdict(n, *pair, run.label) for n, pair in values.items()),
         tables=(Table(title=text, columns=("a", "b"), rows=((text, text),) * 30, note=text),),
     )  # fmt: skip
 

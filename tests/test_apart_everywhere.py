@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from report_examples import case, report_of, run_record
 
-from verification.cases.apart_everywhere import NOWHERE, TITLE, Apart, apart_everywhere
+from verification.cases.apart_everywhere import NAME, NOWHERE, Apart, apart_everywhere
 from verification.problems.reference import ReferenceKind
 from verification.report.answers import answers
 
@@ -50,5 +50,5 @@ def test_answer_tells_what_the_comparison_does_not_see() -> None:
     compared = verdict.model_copy(update={"reference_kind": ReferenceKind.OTHER_SOLVER})
     report = report_of((one.model_copy(update={"verdicts": (compared,), "tables": (table,)}),))
     said = answers(report)[2].sentences
-    assert table.title == TITLE
+    assert table.name == NAME
     assert any("apart by up to 0.53 µp_H" in sentence for sentence in said)

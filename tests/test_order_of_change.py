@@ -14,6 +14,7 @@ from verification.judging.order_of_convergence import (
 )
 from verification.judging.outcome import Status
 from verification.judging.verdicts import judge_order
+from verification.solver import Solver
 
 SIZES = 0.25 * 2.0 ** -np.arange(6)
 LIMIT = 3.0
@@ -30,7 +31,7 @@ def judged(errors, expected, not_yet=None):
         lambda one, other: abs(one.value - other.value), lambda result: result.size, expected,
         "planted", not_yet,
     )  # fmt: skip
-    runs = tuple(SimpleNamespace(label=label, solver="planted") for label in results)
+    runs = tuple(SimpleNamespace(label=label, solver=Solver.CELLS) for label in results)
     case = Case("planted", "planted", "", runs, (), orders=(order,))
     return judge_order(order, case, results)
 

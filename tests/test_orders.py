@@ -22,12 +22,13 @@ from verification.judging.order_of_convergence import Followed, OrderOfConvergen
 from verification.judging.outcome import Status, Verdict
 from verification.judging.verdicts import judge_order, judge_quantity
 from verification.problems.reference import identity
-from verification.report.order_table import LATER, REASONS, SECTION, SURFACE, not_judged
+from verification.report.order_table import LATER, REASONS, not_judged
+from verification.solver import Solver
 
 SIZES = 0.1 * 2.0 ** (-np.arange(6) / 2)
 NAMED = (Followed.PRESSURE, Followed.PEAK_PRESSURE, Followed.APPROACH, Followed.SHIFT)
 Place = tuple[Followed, str, Refinement]
-PLACES: list[Place] = list(product(Followed, (SURFACE, SECTION), Refinement))
+PLACES: list[Place] = list(product(Followed, Solver, Refinement))
 
 
 @cache
@@ -53,7 +54,7 @@ def judged(errors: np.ndarray, expected: float) -> Verdict:
         for k, error in enumerate(row)
     }
     runs: Any = tuple(
-        SimpleNamespace(label=label, solver=SURFACE, spacing=SIZES[int(label.partition(",")[0])])
+        SimpleNamespace(label=label, solver=Solver.CELLS, spacing=SIZES[int(label.split(",")[0])])
         for label in results
     )
     order = OrderOfConvergence(
@@ -69,9 +70,7 @@ def test_every_order_is_judged_or_has_a_reason_why_not(place: Place) -> None:
     assert (place in judged_at(Level.FULL)) != (place in REASONS)
 
 
-@pytest.mark.parametrize(
-    "place", list(product(NAMED, (SURFACE, SECTION), [Refinement.MESH])), ids=str
-)
+@pytest.mark.parametrize("place", list(product(NAMED, Solver, [Refinement.MESH])), ids=str)
 def test_headline_quantities_are_judged_on_finer_meshes(place: Place) -> None:
     assert place in judged_at(Level.STANDARD)
 
@@ -79,7 +78,7 @@ def test_headline_quantities_are_judged_on_finer_meshes(place: Place) -> None:
 def test_a_judged_order_needs_no_reason() -> None:
     verdict = judged(SIZES, 1.0)
     assert verdict.order is not None
-    place = (Followed.CONTACT_RADIUS, SECTION, Refinement.MESH)
+    place = (Followed.CONTACT_RADIUS, Solver.ELEMENTS, Refinement.MESH)
     assert place in {(gap.of, gap.solver, gap.refined) for gap in not_judged(())}
     order = verdict.order.model_copy(update={"of": place[0], "solver": place[1]})
     outcome: Any = SimpleNamespace(verdicts=(verdict.model_copy(update={"order": order}),))

@@ -22,18 +22,18 @@ from verification.judging.run import Run
 from verification.problems.paper_scene import NU_ZERO
 from verification.problems.reference import closed_form
 from verification.report.answers import answers
-from verification.report.both_solvers import CELLS, ELEMENTS, shared_references
+from verification.report.both_solvers import WORDS, shared_references
 from verification.report.equal_fineness import (
     BEYOND,
     PER_RADIUS,
     TELLING,
-    TIE,
     nearer_table,
     silences,
     typical_error,
     votes,
 )
 from verification.running.report_record import Report
+from verification.solver import Solver
 
 COARSE, FINE = np.geomspace(8, PER_RADIUS, 9), np.geomspace(16, 8 * PER_RADIUS, 11)
 RATHER_SURE = 1e-7
@@ -71,46 +71,48 @@ def of_both(
 @pytest.mark.parametrize(
     ("cells", "elements"), [(FINE, COARSE), (COARSE, FINE), (FINE, FINE), (COARSE, COARSE)]
 )
-@pytest.mark.parametrize(("factor", "nearer"), [(0.2, CELLS), (5.0, ELEMENTS)])
+@pytest.mark.parametrize(("factor", "nearer"), [(0.2, Solver.CELLS), (5.0, Solver.ELEMENTS)])
 def test_finer_runs_buy_no_vote(
-    cells: np.ndarray, elements: np.ndarray, factor: float, nearer: str
+    cells: np.ndarray, elements: np.ndarray, factor: float, nearer: Solver
 ) -> None:
     report = of_both(levels(cells, factor), levels(elements, 1.0))
     (vote,) = votes(shared_references(report))
-    assert vote.nearer == nearer
+    assert vote.nearer is nearer
     assert vote.cells.value == pytest.approx(factor / PER_RADIUS**2)
     answer = answers(report)[2]
-    said = answer.sentences[0]
-    assert said.startswith(f"{nearer[0].upper()}{nearer[1:]}, throughout: at {PER_RADIUS} cells or")
-    assert f"{nearer} are nearer" in said
+    said, word = answer.sentences[0], WORDS[nearer]
+    assert said.startswith(f"{word[0].upper()}{word[1:]}, throughout: at {PER_RADIUS} cells or")
+    assert f"{word} are nearer" in said
     assert answer.table is not None
-    assert [row[-1] for row in answer.table.rows] == [nearer]
+    assert [row[-1] for row in answer.table.rows] == [word]
 
 
-@pytest.mark.parametrize(("scatter", "nearer"), [(1.0, ELEMENTS), (3.0, TIE)])
-def test_scatter_of_single_grids_makes_a_tie(scatter: float, nearer: str) -> None:
+@pytest.mark.parametrize(("scatter", "nearer"), [(1.0, Solver.ELEMENTS), (3.0, None)])
+def test_scatter_of_single_grids_makes_a_tie(scatter: float, nearer: Solver | None) -> None:
     (vote,) = votes(shared_references(of_both(levels(FINE, 2.0, scatter), levels(FINE, 1.0))))
-    assert vote.nearer == nearer
+    assert vote.nearer is nearer
 
 
 def test_scatter_between_runs_of_one_fineness_makes_a_tie_too() -> None:
     smooth = levels(FINE, 2.0)
     halves = {up: tuple(error * up for error in smooth.errors) for up in (0.4, 2.5)}
     rough = RefinedErrors(per_radius=2 * smooth.per_radius, errors=halves[0.4] + halves[2.5])
-    for cells, nearer in ((smooth, ELEMENTS), (rough, TIE)):
+    for cells, nearer in ((smooth, Solver.ELEMENTS), (rough, None)):
         (vote,) = votes(shared_references(of_both(cells, levels(FINE, 1.0))))
-        assert vote.nearer == nearer
+        assert vote.nearer is nearer
 
 
-@pytest.mark.parametrize(("known_to", "nearer"), [(RATHER_SURE, ELEMENTS), (0.005, TIE)])
-def test_reference_that_is_too_uncertain_makes_a_tie(known_to: float, nearer: str) -> None:
+@pytest.mark.parametrize(("known_to", "nearer"), [(RATHER_SURE, Solver.ELEMENTS), (0.005, None)])
+def test_reference_that_is_too_uncertain_makes_a_tie(
+    known_to: float, nearer: Solver | None
+) -> None:
     report = of_both(levels(FINE, 9.0), levels(FINE, 1.0), known_to)
     (vote,) = votes(shared_references(report))
-    assert vote.nearer == nearer
+    assert vote.nearer is nearer
     named = any("furthest apart in approach" in said for said in answers(report)[2].sentences)
     coarse = of_both(levels(COARSE, 9.0), levels(COARSE, 1.0), known_to)
     named |= any("furthest apart in approach" in said for said in answers(coarse)[2].sentences)
-    assert named is (nearer != TIE)
+    assert named is (nearer is not None)
 
 
 @pytest.mark.parametrize(
@@ -204,7 +206,7 @@ def test_reference_that_is_approximate_for_either_solver_does_not_decide(
     one = judged("hertz_point", levels(FINE, 9.0), cells=True, known_to=of_cells)
     other = judged("fem_hertz", levels(FINE, 1.0), cells=False, known_to=of_elements)
     (vote,) = votes(shared_references(report_of((one, other))))
-    assert vote.nearer == TIE
+    assert vote.nearer is None
 
 
 def test_of_runs_as_fine_as_each_other_the_one_with_coarser_ones_votes() -> None:

@@ -37,6 +37,7 @@ from verification.running.record import StudyRecord, dump_study
 from verification.running.report_record import Report
 from verification.running.row import Row
 from verification.running.study import Conclusion, Statement
+from verification.solver import Solver
 from verification.studies.catalogue import STUDIES
 from verification.studies.work_precision.price_rows import Reached
 
@@ -81,7 +82,9 @@ def test_rows_of_both_solvers_have_names_of_their_own_and_a_chart_per_kind() -> 
         for k, (what, reference) in enumerate(values.items()):
             label = f"E1/E2 = {k}, {cells}x{cells}" if cells else f"E1/E2 = {k}"
             runs.append(
-                run_record(cells, None if cells else 64).model_copy(update={"label": label})
+                run_record(cells, None if cells else 64).model_copy(
+                    update={"label": label, "problem": f"E1/E2 = {k}"}
+                )
             )
             word = what.partition(" ")[0]
             verdicts.append(verdict(word, 1.001 * reference, reference, label))
@@ -196,8 +199,8 @@ def test_the_places_where_solvers_are_furthest_apart_come_first() -> None:
     table = furthest_apart(shared_references(report))
     assert table.title in render_page(report)
     assert [row[0] for row in table.rows] == [
-        "radius, hertz point, run",
-        "approach, hertz point, run",
+        "radius, hertz point",
+        "approach, hertz point",
     ]
     assert table.rows[0][1:4] == ("10 %", "5 %", "5 %")
 
@@ -218,8 +221,10 @@ def test_a_solver_against_itself_is_no_comparison_of_solvers() -> None:
 
 def test_promises_lead_the_page_with_figures_or_with_the_command_that_finds_them() -> None:
     planned, forced = (
-        run_record(48, None).model_copy(update={"label": f"ball, {how}", "convolutions": count})
-        for how, count in (("as planned", 20), ("all effects on", 50))
+        run_record(48, None).model_copy(
+            update={"label": how, "convolutions": count, "planned": planned}
+        )
+        for how, count, planned in (("as planned", 20, None), ("all on", 50, "as planned"))
     )
     same = case("forced_effects", {"ball": (1.0, 1.0)}, planned)
     report = report_of((same.model_copy(update={"runs": (planned, forced)}),),
@@ -269,14 +274,16 @@ def test_headline_names_studies_that_are_inconclusive(number: int) -> None:
 def test_observed_orders_stand_in_one_table_with_expectation_and_reason() -> None:
     rate = verdict("order_of_pressure", 1.02, 1.0).model_copy(update={
         "tolerance_kind": "order", "interval": 0.13, "source": "the square-root edge",
-        "order": OrderRecord(of="pressure", solver="cells", refined="mesh", sizes=(), errors=()),
+        "order": OrderRecord(
+            of="pressure", solver=Solver.CELLS, refined="mesh", sizes=(), errors=()
+        ),
     })  # fmt: skip
     one = case("one", {"approach": (1e-6, 1e-6)}, run_record(64, None))
     page = render_page(report_of((one.model_copy(update={"verdicts": (rate,)}),)))
     table = page[page.index("Orders of convergence, with") :].split("</table>")[0]
     (row,) = re.findall(r"<tr><th scope=\"row\">.*</tr>", table)
     cells = [re.sub(r"<[^>]*>", "", cell) for cell in re.findall(r"<t[hd].*?</t[hd]>", row)]
-    assert cells[:5] == ["pressurewhat it is", "cells", "mesh", "1.02 ± 0.13", "1"]
+    assert cells[:5] == ["pressurewhat it is", "semi-analytical", "mesh", "1.02 ± 0.13", "1"]
     assert cells[6:] == ["the square-root edge", "one"]
     gaps = page[page.index("whose order is not judged here") :].split("</table>")[0]
     assert gaps.count("<tr>") > 2  # one order alone leaves others open

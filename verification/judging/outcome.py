@@ -251,6 +251,19 @@ class CaseOutcome(Description):
     gone: tuple[Gone, ...] = ()
     """What was recorded and is not measured any more."""
 
+    @model_validator(mode="after")
+    def _names_runs_that_it_has(self) -> "CaseOutcome":
+        labels = [run.label for run in self.runs]
+        named = [label for verdict in self.verdicts for label in verdict.runs]
+        named += [run.planned for run in self.runs if run.planned is not None]
+        for wrong, problem in (
+            ([label for label in labels if labels.count(label) > 1], "twice"),
+            ([label for label in named if label not in labels], "not at all"),
+        ):
+            if wrong:
+                raise ValueError(f"{self.name}: it has the run {wrong[0]!r} {problem}")
+        return self
+
     def count(self, status: Status) -> int:
         """How many verdicts have this status."""
         return sum(verdict.status is status for verdict in self.verdicts)
