@@ -37,7 +37,7 @@ from verification.running.record import StudyRecord, dump_study
 from verification.running.report_record import Report
 from verification.running.row import Row
 from verification.running.study import Conclusion, Statement
-from verification.solver import Solver
+from verification.solver import Method, Solver
 from verification.studies.catalogue import STUDIES
 from verification.studies.work_precision.price_rows import Reached
 
@@ -108,6 +108,15 @@ def test_values_of_different_references_are_not_compared() -> None:
     one = case("hertz_point", {"approach": (1e-6, 1e-6)}, run_record(64, None))
     other = case("fem_hertz", {"approach": (2e-6, 2e-6)}, run_record(None, 32))
     assert shared_references(report_of((one, other))) == ()
+
+
+def test_springs_are_left_to_their_own_study() -> None:
+    elements = run_record(None, 32)
+    springs = elements.model_copy(update={"method": Method.PENALTY})
+    for run, shared in ((elements, 1), (springs, 0)):
+        one = case("hertz_point", {"approach": (1e-6, 1e-6)}, run_record(64, None))
+        other = case("any_name", {"approach": (1e-6, 1e-6)}, run)
+        assert len(shared_references(report_of((one, other)))) == shared
 
 
 def test_a_study_answers_its_question_in_its_own_words() -> None:

@@ -251,6 +251,15 @@ FORGERIES: dict[str, tuple[Callable[[dict[str, Any]], object], str]] = {
     "kind": (lambda r: first_verdict(r).update(tolerance_kind="none"), "its tolerance is"),
     "counts": (lambda r: r["counts"].update({"pass": 999}), "it counts 999 pass"),
     "case twice": (lambda r: r["cases"].append(r["cases"][0]), "a case twice: one"),
+    "run twice": (
+        lambda r: r["cases"][0]["runs"].append(r["cases"][0]["runs"][0]),
+        "the run 'run' twice",
+    ),
+    "run of a verdict": (lambda r: first_verdict(r).update(runs=["x"]), "the run 'x' not at all"),
+    "run as planned": (
+        lambda r: r["cases"][0]["runs"][0].update(planned="y"),
+        "the run 'y' not at all",
+    ),
     "case cut out": (lambda r: r["cases"].pop(), "it counts 6 pass"),
     "level": (lambda r: r.update(level="deep"), "its level is 'deep'"),
     "version": (lambda r: r.update(schema_version=99), "it is of version 99"),
