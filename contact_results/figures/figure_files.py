@@ -1,7 +1,10 @@
 """The figures a scene calls for."""
 
-from collections.abc import Callable, Sequence
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from matplotlib.figure import Figure
 
@@ -12,38 +15,58 @@ from contact_results.figures.fretting_map import fretting_map
 from contact_results.figures.hysteresis_plot import hysteresis_plot, moved
 from contact_results.figures.loading_plot import loading_plot
 from contact_results.figures.pressure_map import pressure_map
-from contact_results.figures.profile_plot import profile_plot
+from contact_results.figures.profile_plot import profile_plot, slip_plot
 from contact_results.figures.shear_map import shear_map
-from contact_results.figures.shown_steps import sheared
+from contact_results.figures.shown_steps import vectors
 from contact_results.figures.stick_slip_map import stick_slip_map
 from contact_results.figures.style import figure_style, save
-from semi_analytical import Result
+from contact_results.surface import Cells, surface_of
+
+if TYPE_CHECKING:
+    from contact_results.surface import Result
 
 FEWEST_POINTS = 3  # of a curve; with fewer there is only a line
+DIGITS = 9
 
 
 def write_figures(result: Result, cycles: Sequence[FrettingCycle], directory: Path) -> None:
     """Draw what the scene calls for, and the last cycle if there is one; equal results give equal
     bytes on equal libraries."""
     with figure_style():
-        for name, draw in _figures_called_for(result).items():
-            save(draw(result), directory / name)
-        if cycles:
-            save(fretting_map(result, cycles[-1]), directory / file_names.FRETTING_FIGURE)
+        for name, figure in _figures_called_for(result, cycles):
+            save(figure, directory / name)
 
 
-def _figures_called_for(result: Result) -> dict[str, Callable[[Result], Figure]]:
-    figures: dict[str, Callable[[Result], Figure]] = {
-        file_names.PRESSURE_FIGURE: pressure_map,
-        file_names.PROFILE_FIGURE: profile_plot,
-    }
-    if sheared(result.steps):
-        figures[file_names.SHEAR_FIGURE] = shear_map
-        figures[file_names.STICK_SLIP_FIGURE] = stick_slip_map
-    if dissipating(result.steps):
-        figures[file_names.DISSIPATION_FIGURE] = dissipation_map
+def _figures_called_for(
+    result: Result, cycles: Sequence[FrettingCycle]
+) -> Iterator[tuple[str, Figure]]:
+    surface = surface_of(result)
+    yield file_names.PROFILE_FIGURE, profile_plot(result, surface)
+    if isinstance(surface, Cells):
+        yield from _maps(result, surface, cycles)
+    elif (slips := slip_plot(result, surface)) is not None:
+        yield file_names.SLIP_FIGURE, slips
     if len(moved(result.increments)) >= FEWEST_POINTS:
-        figures[file_names.HYSTERESIS_FIGURE] = hysteresis_plot
-    if len({increment.approach for increment in result.increments}) >= FEWEST_POINTS:
-        figures[file_names.LOADING_FIGURE] = loading_plot
-    return figures
+        yield file_names.HYSTERESIS_FIGURE, hysteresis_plot(result)
+    if _different_approaches(result) >= FEWEST_POINTS:
+        yield file_names.LOADING_FIGURE, loading_plot(result)
+
+
+def _maps(
+    result: Result, cells: Cells, cycles: Sequence[FrettingCycle]
+) -> Iterator[tuple[str, Figure]]:
+    yield file_names.PRESSURE_FIGURE, pressure_map(result, cells)
+    if vectors(cells, result.steps, "shear"):
+        yield file_names.SHEAR_FIGURE, shear_map(result, cells)
+        yield file_names.STICK_SLIP_FIGURE, stick_slip_map(result, cells)
+    if dissipating(result.steps, cells):
+        yield file_names.DISSIPATION_FIGURE, dissipation_map(result, cells)
+    if cycles:
+        yield file_names.FRETTING_FIGURE, fretting_map(result, cells, cycles[-1])
+
+
+def _different_approaches(result: Result) -> int:
+    """How many there are, apart from round-off."""
+    approaches = [increment.approach for increment in result.increments]
+    largest = max(map(abs, approaches))
+    return len({round(approach / largest, DIGITS) for approach in approaches})

@@ -1,7 +1,10 @@
 """What the last load cycle does to the surface: slip, dissipation, Ruiz's parameters."""
 
+from __future__ import annotations
+
 from collections.abc import Iterator
 from math import floor, log10
+from typing import TYPE_CHECKING
 
 import numpy as np
 from matplotlib.figure import Figure
@@ -11,14 +14,16 @@ from contact_results.cycles import FrettingCycle
 from contact_results.figures import style
 from contact_results.figures.map_panels import MapFrame, draw_cells, map_axes
 from contact_scene.engineering_units import EngineeringUnit, engineering_unit
-from semi_analytical import Result
+
+if TYPE_CHECKING:
+    from contact_results.surface import Cells, Result
 
 Field = NDArray[np.float64]
 
 
-def fretting_map(result: Result, cycle: FrettingCycle) -> Figure:
+def fretting_map(result: Result, cells: Cells, cycle: FrettingCycle) -> Figure:
     """Maps of one cycle, each with its own scale."""
-    frame = MapFrame.around_contact(result)
+    frame = MapFrame.around_contact(result, cells)
     panels = list(_panels(cycle))
     width, height = frame.figure_size(len(panels))
     columns = 2 if len(panels) == 4 else 3

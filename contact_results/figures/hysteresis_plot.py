@@ -10,15 +10,11 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from contact_results.figures import style
-from contact_results.figures.shown_steps import AT_MOST
-from contact_scene.engineering_units import engineering_unit, quantity
+from contact_results.figures.shown_steps import AT_MOST, on_axis
+from contact_scene.engineering_units import quantity
 
 if TYPE_CHECKING:
-    import fem_reference
-    import semi_analytical
-
-    Increment = semi_analytical.Increment | fem_reference.Increment
-    Result = semi_analytical.Result | fem_reference.Result
+    from contact_results.surface import Increment, Result
 
 Values = NDArray[np.float64]
 
@@ -35,11 +31,9 @@ def hysteresis_plot(result: Result) -> Figure:
     path = [i for i in result.increments if i.tangential_shift is not None]
     force = np.array([i.tangential_force for i in path])
     direction = _direction(force)
-    T = force @ direction
-    omega = np.array([i.tangential_shift for i in path]) @ direction
-    force_unit = engineering_unit(float(np.max(np.abs(T))), "N")
-    shift_unit = engineering_unit(float(np.max(np.abs(omega))), "m")
-    x, y = omega / shift_unit.size, T / force_unit.size
+    shift = np.array([i.tangential_shift for i in path])
+    x, along = on_axis("tangential_shift", shift @ direction, _along(direction))
+    y, upward = on_axis("tangential_force", force @ direction, _along(direction))
 
     figure = style.new_figure(5.2, 4.0)
     ax = figure.subplots()
@@ -52,8 +46,8 @@ def hysteresis_plot(result: Result) -> Figure:
     if len(ends) <= AT_MOST:
         _number(ax, x[ends], y[ends], [path[n].step for n in ends])
     ax.margins(0.08)
-    ax.set_xlabel(f"tangential shift {_along(direction)} ({shift_unit.name})")
-    ax.set_ylabel(f"tangential force {_along(direction)} ({force_unit.name})")
+    ax.set_xlabel(along)
+    ax.set_ylabel(upward)
     energy = path[-1].dissipated_energy
     if energy is not None:
         ax.plot([], [], " ", label=f"dissipated in all: {quantity(energy, 'J')}")

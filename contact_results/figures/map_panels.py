@@ -1,16 +1,21 @@
 """Panels with the surface seen from above, all with the same scales and cut to the contact."""
 
+from __future__ import annotations
+
 import math
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from matplotlib.figure import FigureBase
 from numpy.typing import NDArray
 
 from contact_scene.engineering_units import EngineeringUnit, engineering_unit
-from semi_analytical import Result
-from semi_analytical.grid import SurfaceGrid
+
+if TYPE_CHECKING:
+    from contact_results.surface import Cells, Result
+
+Field = NDArray[np.float64]
 
 PANEL = 2.4  # longer side in inches
 NARROWEST = 1.0
@@ -22,26 +27,25 @@ MARGIN = 1.15  # of the contact's extent, so that its edge is seen against the o
 class MapFrame:
     """What all panels of a figure share: the cells, the part that is shown, the unit of length."""
 
-    grid: SurfaceGrid
+    cells: Cells
     shown: tuple[float, float]
     unit: EngineeringUnit
 
     @classmethod
-    def around_contact(cls, result: Result) -> "MapFrame":
+    def around_contact(cls, result: Result, cells: Cells) -> MapFrame:
         """The frame that shows every cell that any step has in contact."""
         touched = np.any([step.in_contact for step in result.steps], axis=0)
-        grid = result.grid
         shown = (
-            _half_extent(grid.x, touched.any(axis=1), grid.spacing[0]),
-            _half_extent(grid.y, touched.any(axis=0), grid.spacing[1]),
+            _half_extent(cells.x, touched.any(axis=1)),
+            _half_extent(cells.y, touched.any(axis=0)),
         )
-        return cls(grid, shown, engineering_unit(max(shown), "m"))
+        return cls(cells, shown, engineering_unit(max(shown), "m"))
 
     @property
     def extent(self) -> tuple[float, float, float, float]:
         """Outer edges of the cells, in the unit of the axes."""
-        Lx, Ly = (length / self.unit.size for length in self.grid.window)
-        return -Lx / 2, Lx / 2, -Ly / 2, Ly / 2
+        x, y = (_edge(centres) / self.unit.size for centres in (self.cells.x, self.cells.y))
+        return -x, x, -y, y
 
     def figure_size(self, panels: int, blocks: int = 1) -> tuple[float, float]:
         """Sides in inches that give every panel its place, and a colour bar at the right.
@@ -54,9 +58,15 @@ class MapFrame:
         return columns * (width + 0.2) + 1.3, rows * (height + 0.55) + 0.2
 
 
-def _half_extent(centres: NDArray[np.float64], touched: NDArray[np.bool_], cell: float) -> float:
-    reach = np.max(np.abs(centres[touched]), initial=0.0) + cell / 2
-    return float(min(MARGIN * reach, np.max(centres) + cell / 2))
+def _edge(centres: Field) -> float:
+    """Of the window, half a cell beyond the last centre."""
+    return float(centres[-1] + (centres[1] - centres[0]) / 2)
+
+
+def _half_extent(centres: Field, touched: NDArray[np.bool_]) -> float:
+    edge = _edge(centres)
+    reach = np.max(np.abs(centres[touched]), initial=0.0) + edge - centres[-1]
+    return float(min(MARGIN * reach, edge))
 
 
 def map_axes(figure: FigureBase, frame: MapFrame, count: int) -> list[Any]:
@@ -89,5 +99,5 @@ def draw_cells(ax: Any, frame: MapFrame, values: NDArray[Any], **colours: Any) -
 def outline(ax: Any, frame: MapFrame, inside: NDArray[np.bool_], colour: str) -> None:
     """The border of a set of cells, if it has one."""
     if inside.any() and not inside.all():
-        x, y = frame.grid.x / frame.unit.size, frame.grid.y / frame.unit.size
+        x, y = frame.cells.x / frame.unit.size, frame.cells.y / frame.unit.size
         ax.contour(x, y, inside.T.astype(float), levels=[0.5], colors=[colour], linewidths=0.8)

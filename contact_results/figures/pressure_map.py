@@ -1,5 +1,9 @@
 """The pressure on the surface."""
 
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
 import numpy as np
 from matplotlib.figure import Figure
 
@@ -7,12 +11,14 @@ from contact_results.figures import style
 from contact_results.figures.map_panels import MapFrame, draw_cells, map_axes
 from contact_results.figures.shown_steps import normal_load, runs_of_equal, selected, span
 from contact_scene.engineering_units import engineering_unit
-from semi_analytical import Result
+
+if TYPE_CHECKING:
+    from contact_results.surface import Cells, Result
 
 
-def pressure_map(result: Result) -> Figure:
+def pressure_map(result: Result, cells: Cells) -> Figure:
     """Pressure at the end of the loading steps; neighbours of equal pressure share a panel."""
-    frame = MapFrame.around_contact(result)
+    frame = MapFrame.around_contact(result, cells)
     groups = runs_of_equal(selected(result.steps), lambda step: step.pressure)
     peak = max(step.peak_pressure for step in result.steps)
     unit = engineering_unit(peak, "Pa")

@@ -1,74 +1,139 @@
-"""Pressure and shear along y = 0."""
+"""Pressure, shear and slip on the line through the axis."""
 
-from typing import Any
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from matplotlib.figure import Figure
 
 from contact_results.figures import style
-from contact_results.figures.map_panels import MapFrame
-from contact_results.figures.shown_steps import (
-    runs_of_equal,
-    selected,
-    shear_of,
-    sheared,
-    span,
-)
-from contact_results.surface import surface_of
+from contact_results.figures.shown_steps import SAME, runs_of_equal, selected, span, vectors
+from contact_results.path_error import friction_limit
 from contact_scene.engineering_units import EngineeringUnit, engineering_unit
-from semi_analytical import Result
+
+if TYPE_CHECKING:
+    from contact_results.surface import Field, Increment, Result, Surface
+
+MARGIN = 1.15  # of the contact's extent, so that its edge is seen against the outside
 
 
-def profile_plot(result: Result) -> Figure:
-    """Pressure, and where there is friction shear, at the end of the loading steps."""
-    with_shear = bool(sheared(result.steps))
-    frame = MapFrame.around_contact(result)
-    figure = style.new_figure(6.0, 5.6 if with_shear else 3.2)
-    axes = figure.subplots(2 if with_shear else 1, 1, sharex=True, squeeze=False)[:, 0]
-    _draw_pressure(axes[0], result, frame.unit)
-    if with_shear:
-        _draw_shear(axes[1], result, frame.unit)
-    axes[-1].set_xlabel(f"x at y = 0 ({frame.unit.name})")
-    axes[-1].set_xlim(-frame.shown[0] / frame.unit.size, frame.shown[0] / frame.unit.size)
+@dataclass(frozen=True, eq=False)
+class Component:
+    """One component of shear or slip on the line at the end of some loading steps.
+
+    name   what an axis says
+    steps  those shown
+    lines  values (n,) by the number of the step
+    unit   for the axis
+    """
+
+    name: str
+    steps: Sequence[Increment]
+    lines: dict[int, Field]
+    unit: EngineeringUnit
+
+
+def profile_plot(result: Result, surface: Surface) -> Figure:
+    """Pressure, and where there is any shear, at the end of the loading steps."""
+    shears = _components(surface, result.steps, ("shear", "q", "Pa"))
+    figure = style.new_figure(6.0, 3.2 + 2.4 * len(shears))
+    axes = figure.subplots(1 + len(shears), 1, sharex=True, squeeze=False)[:, 0]
+    length = _line_axis(axes[-1], result, surface)
+    x = surface.line.places / length.size
+    _draw_pressure(axes[0], x, result, surface)
+    for ax, shear in zip(axes[1:], shears, strict=True):
+        _draw_bound(ax, x, result, surface, shear)
+        _draw_component(ax, x, shear)
     return figure
 
 
-def _draw_pressure(ax: Any, result: Result, length: EngineeringUnit) -> None:
-    unit = engineering_unit(max(step.peak_pressure for step in result.steps), "Pa")
-    groups = runs_of_equal(selected(result.steps), lambda step: step.pressure)
+def slip_plot(result: Result, surface: Surface) -> Figure | None:
+    """Slip since the start of the history at the end of the loading steps; None without any."""
+    slips = _components(surface, result.steps, ("slip", "s", "m"))
+    if not slips:
+        return None
+    figure = style.new_figure(6.0, 0.8 + 2.4 * len(slips))
+    axes = figure.subplots(len(slips), 1, sharex=True, squeeze=False)[:, 0]
+    length = _line_axis(axes[-1], result, surface)
+    for ax, slip in zip(axes, slips, strict=True):
+        _draw_component(ax, surface.line.places / length.size, slip)
+    return figure
+
+
+def _components(
+    surface: Surface, steps: Sequence[Increment], named: tuple[str, str, str]
+) -> list[Component]:
+    """Those along and across the line that are more than round-off.
+
+    named  the field, its symbol and its unit
+    """
+    name, symbol, unit = named
+    shown = selected(vectors(surface, steps, name))
+    lines = {step.step: surface.vector_along(vector) for step, vector in shown}
+    sizes = [np.max(np.abs(vector), axis=1) for vector in lines.values()]
+    largest = np.max([(0.0, 0.0), *sizes], axis=0).tolist()
+    return [
+        Component(
+            f"{name} ${symbol}_{{{surface.line.components[k]}}}$",
+            [step for step, _ in shown],
+            {step: vector[k] for step, vector in lines.items()},
+            engineering_unit(largest[k], unit),
+        )
+        for k in (0, 1)
+        if largest[k] > SAME * max(largest)
+    ]
+
+
+def _draw_component(ax: Any, x: Field, shown: Component) -> None:
+    groups = runs_of_equal(shown.steps, lambda step: shown.lines[step.step])
     for number, group in enumerate(groups):
-        pressure = surface_of(result).along(group[0].pressure) / unit.size
-        ax.plot(result.grid.x / length.size, pressure, label=span(group), **_line(number))
+        values = shown.lines[group[0].step] / shown.unit.size
+        ax.plot(x, values, label=span(group), **style.line(number))
+    ax.axhline(0.0, color="black", linewidth=0.5)
+    ax.set_ylabel(f"{shown.name} ({shown.unit.name})")
+    style.legend_beside(ax)
+
+
+def _draw_pressure(ax: Any, x: Field, result: Result, surface: Surface) -> None:
+    unit = engineering_unit(max(step.peak_pressure for step in result.steps), "Pa")
+    groups = runs_of_equal(selected(result.steps), lambda step: _pressure(step, surface))
+    for number, group in enumerate(groups):
+        pressure = surface.along(_pressure(group[0], surface)) / unit.size
+        ax.plot(x, pressure, label=span(group), **style.line(number))
     ax.set_ylim(bottom=0.0)
     ax.set_ylabel(f"pressure p ({unit.name})")
-    _legend(ax)
+    style.legend_beside(ax)
 
 
-def _draw_shear(ax: Any, result: Result, length: EngineeringUnit) -> None:
-    x = result.grid.x / length.size
-    steps = selected(sheared(result.steps))
-    # The larger component on this line: the load may act along y.
-    k = int(np.argmax([max(np.max(np.abs(shear_of(step)[k])) for step in steps) for k in (0, 1)]))
-    unit = engineering_unit(max(float(np.max(np.abs(shear_of(step)[k]))) for step in steps), "Pa")
-    mu = result.scene.friction.coefficient if result.scene.friction else None
-    if isinstance(mu, float):
-        for number, group in enumerate(runs_of_equal(steps, lambda step: step.pressure)):
-            bound = mu * surface_of(result).along(group[0].pressure) / unit.size
-            ax.fill_between(x, -bound, bound, color=style.GREY, alpha=0.12, linewidth=0)
-            label = "± µp" if number == 0 else None
-            ax.plot(x, bound, color=style.GREY, linewidth=0.8, label=label)
-            ax.plot(x, -bound, color=style.GREY, linewidth=0.8)
-    for number, step in enumerate(steps):
-        shear = surface_of(result).along(shear_of(step)[k]) / unit.size
-        ax.plot(x, shear, label=span([step]), **_line(number))
-    ax.axhline(0.0, color="black", linewidth=0.5)
-    ax.set_ylabel(f"shear $q_{'xy'[k]}$ ({unit.name})")
-    _legend(ax)
+def _draw_bound(ax: Any, x: Field, result: Result, surface: Surface, shear: Component) -> None:
+    """± µp in grey."""
+    groups = runs_of_equal(shear.steps, lambda step: _pressure(step, surface))
+    for number, group in enumerate(groups):
+        limit = friction_limit(result.scene, _pressure(group[0], surface))
+        bound = surface.along(limit) / shear.unit.size
+        ax.fill_between(x, -bound, bound, color=style.GREY, alpha=0.12, linewidth=0)
+        label = "± µp" if number == 0 else None
+        ax.plot(x, bound, color=style.GREY, linewidth=0.8, label=label)
+        ax.plot(x, -bound, color=style.GREY, linewidth=0.8)
 
 
-def _line(number: int) -> dict[str, Any]:
-    return {"color": style.LINE_COLOURS[number], "linestyle": style.LINE_STYLES[number]}
+def _line_axis(ax: Any, result: Result, surface: Surface) -> EngineeringUnit:
+    """Label the line and cut it to the contact; returns the unit of length."""
+    places = surface.line.places
+    touched = [surface.along(_pressure(step, surface)) > 0 for step in result.steps]
+    inside = np.flatnonzero(np.any(touched, axis=0))
+    ends = [max(inside[0] - 1, 0), min(inside[-1] + 1, len(places) - 1)]
+    reach = float(min(MARGIN * np.max(np.abs(places[ends])), np.max(places)))
+    length = engineering_unit(reach, "m")
+    ax.set_xlabel(f"{surface.line.label} ({length.name})")
+    ax.set_xlim(-reach / length.size if places[0] < 0 else 0.0, reach / length.size)
+    return length
 
 
-def _legend(ax: Any) -> None:
-    ax.legend(loc="center left", bbox_to_anchor=(1.01, 0.5), handlelength=2.6)
+def _pressure(step: Increment, surface: Surface) -> Field:
+    pressure = surface.scalar(step, "pressure")
+    assert pressure is not None
+    return pressure

@@ -1,18 +1,24 @@
-"""Which loading steps a figure shows, and what it calls them."""
+"""Which loading steps a figure shows, and what it calls them and their values."""
+
+from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from typing import TypeVar
+from typing import TYPE_CHECKING, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
+from contact_results.surface import Surface
 from contact_scene.engineering_units import engineering_unit, quantity
-from semi_analytical import Increment
+from contact_scene.increment import SCALARS
+
+if TYPE_CHECKING:
+    from contact_results.surface import Increment
 
 AT_MOST = 6
 SAME = 1e-6  # relative to the largest value: what no eye tells apart in a figure
 
-Field = Callable[[Increment], NDArray[np.float64]]
+Field = NDArray[np.float64]
 Step = TypeVar("Step")
 
 
@@ -24,7 +30,9 @@ def selected(steps: Sequence[Step]) -> list[Step]:
     return [steps[position] for position in positions]
 
 
-def runs_of_equal(steps: Sequence[Increment], field: Field) -> list[list[Increment]]:
+def runs_of_equal(
+    steps: Sequence[Increment], field: Callable[[Increment], Field]
+) -> list[list[Increment]]:
     """Neighbouring steps grouped while the field looks the same, e.g. pressure at constant load."""
     groups: list[list[Increment]] = []
     for step in steps:
@@ -35,14 +43,18 @@ def runs_of_equal(steps: Sequence[Increment], field: Field) -> list[list[Increme
     return groups
 
 
-def shear_of(step: Increment) -> NDArray[np.float64]:
-    """The shear (2, nx, ny), zero where the scene calls for none."""
-    return np.zeros((2, *step.pressure.shape)) if step.shear is None else step.shear
+def vectors(
+    surface: Surface, steps: Sequence[Increment], name: str
+) -> list[tuple[Increment, Field]]:
+    """The steps that end with shear or slip somewhere, with its x and y components (2, …)."""
+    found = ((step, surface.vector(step, name)) for step in steps)
+    return [(step, vector) for step, vector in found if vector is not None and np.any(vector)]
 
 
-def sheared(steps: Sequence[Increment]) -> list[Increment]:
-    """The steps that end with shear somewhere."""
-    return [step for step in steps if np.any(shear_of(step))]
+def on_axis(name: str, values: Field, which: str = "") -> tuple[Field, str]:
+    """The values of a scalar in a readable unit, and what an axis says of them."""
+    unit = engineering_unit(float(np.max(np.abs(values))), SCALARS[name].unit)
+    return values / unit.size, f"{name.replace('_', ' ')} {which} ({unit.name})".replace("  ", " ")
 
 
 def span(group: Sequence[Increment]) -> str:
@@ -74,6 +86,6 @@ def _typeset(number: str) -> str:
     return number.replace("-", "−")
 
 
-def _looks_same(one: NDArray[np.float64], other: NDArray[np.float64]) -> bool:
+def _looks_same(one: Field, other: Field) -> bool:
     largest = float(np.max(np.abs(one)))
     return bool(np.max(np.abs(one - other)) <= SAME * largest)

@@ -1,5 +1,9 @@
 """Where the bodies stick and where they slip."""
 
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
 import numpy as np
 from matplotlib.colors import ListedColormap
 from matplotlib.figure import Figure
@@ -8,7 +12,9 @@ from matplotlib.patches import Patch
 from contact_results.figures import style
 from contact_results.figures.map_panels import MapFrame, draw_cells, map_axes
 from contact_results.figures.shown_steps import selected, span, tangential_load
-from semi_analytical import Result
+
+if TYPE_CHECKING:
+    from contact_results.surface import Cells, Result
 
 ZONES = (
     ("no contact", style.OUTSIDE_COLOUR),
@@ -17,9 +23,9 @@ ZONES = (
 )
 
 
-def stick_slip_map(result: Result) -> Figure:
+def stick_slip_map(result: Result, cells: Cells) -> Figure:
     """Zones of stick and slip at the end of the loading steps."""
-    frame = MapFrame.around_contact(result)
+    frame = MapFrame.around_contact(result, cells)
     steps = selected([step for step in result.steps if step.in_stick is not None])
     width, height = frame.figure_size(len(steps))
     figure = style.new_figure(width - 0.6, height + 0.3)  # a legend below, no colour bar

@@ -2,17 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
-from contact_results.cycles import FrettingCycle, fretting_cycles
+from contact_results.cycles import fretting_cycles
 from contact_results.files.cycle_table import write_cycles
 from contact_results.files.field_file import write_fields
 from contact_results.files.increment_table import write_increments
 from contact_results.files.profile_table import write_profiles
 from contact_results.files.summary_file import write_summary
-from contact_results.surface import Cells, surface_of
+from contact_results.surface import surface_of
 from contact_scene.path_error import PathError
 
 if TYPE_CHECKING:
@@ -38,15 +37,6 @@ def write_result(
     write_cycles(cycles, surface_of(result), directory)
     write_fields(result, cycles, directory)
     if with_figures:
-        _draw(result, cycles, directory)
-
-
-def _draw(result: Any, cycles: Sequence[FrettingCycle], directory: Path) -> None:
-    if isinstance(surface_of(result), Cells):
         from contact_results.figures.figure_files import write_figures
 
         write_figures(result, cycles, directory)
-    else:
-        from contact_results.section.figure_files import write_section_figures
-
-        write_section_figures(result, directory)
