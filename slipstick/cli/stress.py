@@ -137,6 +137,8 @@ def _below(
     try:
         return stress_on_cells(state, indenter=indenter, depths=depths, volume=volume)
     except ValueError as error:
+        if depths is None:
+            raise
         raise typer.BadParameter(f"--depths: {error}") from None
 
 
