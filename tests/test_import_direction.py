@@ -102,6 +102,12 @@ ORDERS = {
         *("left_out", "contacts", "sides", "differences", "stress", "line", "charts", "tables"),
         "statements",
     ),
+    "verification.studies.sliding": (
+        *("contacts", "path", "friction_laws", "runs", "law_run", "full_slip", "estimate"),
+        *("selection", "verdicts", "charts", "traction_charts", "gross_sliding"),
+        "coated_tractions",
+    ),
+    "verification.studies.seeded_defects": ("runs", "findings", "statements", "tables", "study"),
     "verification.studies.stability": (
         *("cell", "record", "loading", "pose", "solvers", "judged", "views"),
         *("verdicts", "charts", "tables", "study"),

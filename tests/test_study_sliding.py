@@ -10,21 +10,23 @@ from verification.exhibits.chart import Curve, Look
 from verification.judging.case import Level
 from verification.judging.outcome import Status
 from verification.report import drawing
+from verification.running.row import CaseRecord
 from verification.running.study import Settings
-from verification.studies.gross_sliding import study, verdicts
-from verification.studies.gross_sliding.estimate import Estimate, Evidence, estimate
-from verification.studies.gross_sliding.full_slip import FullSlip, full_slip
-from verification.studies.gross_sliding.verdicts import Variant
-from verification.studies.sliding_runs.contacts import AlikeContact, CoatedContact
-from verification.studies.sliding_runs.friction_laws import (
+from verification.studies.sliding import gross_sliding as study
+from verification.studies.sliding import verdicts
+from verification.studies.sliding.contacts import AlikeContact, CoatedContact
+from verification.studies.sliding.estimate import Estimate, Evidence, estimate
+from verification.studies.sliding.friction_laws import (
     FixedPressure,
     FrictionLaw,
     at_rest,
     shifted,
 )
-from verification.studies.sliding_runs.law_run import LawRun
-from verification.studies.sliding_runs.path import SlidingPath, SlidingPoint
-from verification.studies.sliding_runs.runs import ShiftRun, Steps
+from verification.studies.sliding.full_slip import FullSlip, full_slip
+from verification.studies.sliding.law_run import LawRun
+from verification.studies.sliding.path import PRESSING, SlidingPath, SlidingPoint, record_of
+from verification.studies.sliding.runs import ShiftRun, Steps
+from verification.studies.sliding.verdicts import Variant
 
 PER_RADIUS = 1 / 50
 
@@ -52,10 +54,14 @@ def cattaneo(
                 residual=1e-9,
             )
         )  # fmt: skip
-    return SlidingPath(
-        points=tuple(points), cell_over_radius=cell, increments=increments, halvings=0,
-        convolutions=1, seconds=0.0,
-    )  # fmt: skip
+    return SlidingPath(points=tuple(points), cell_over_radius=cell)
+
+
+def kept(path: SlidingPath) -> CaseRecord:
+    """As a run leaves it."""
+    rows = [point.row(PRESSING + (n > 0)) for n, point in enumerate(path.points)]
+    run = AlikeContact(0.0)
+    return record_of(run, rows, path.cell_over_radius, {"increments": len(rows)}, 0.0)
 
 
 def _status(sticking: int, force: float) -> ContactStatus:
@@ -151,7 +157,7 @@ def test_identity_and_direction_are_judged_in_every_increment() -> None:
     turned = changed(path, 10, slip_angle=5.0)
     assert verdicts.slip_opposes_shear({"a": turned}).outcome is Status.FAIL
     loose = changed(path, 10, residual=1e-6)
-    assert verdicts.converged([path, loose]).outcome is Status.FAIL
+    assert verdicts.all_converged([kept(path), kept(loose)]).outcome is Status.FAIL
 
 
 def test_null_test_fails_if_identical_bodies_slide_early() -> None:
@@ -201,6 +207,22 @@ def test_finding_names_the_variants_near_the_papers_number() -> None:
     assert "frozen" in verdicts.paper_number(found(0.975), [capped]).measured
 
 
+@pytest.mark.parametrize("vanishing", [1.0, 0.9])
+def test_a_path_comes_back_from_its_record(vanishing: float) -> None:
+    path = cattaneo(vanishing)
+    record = CaseRecord.model_validate_json(kept(path).model_dump_json())
+    assert SlidingPath.of(record) == path
+
+
+def test_a_residual_of_the_pressing_counts_too() -> None:
+    pressing = cattaneo().points[0].model_copy(update={"residual": 1e-6}).row(PRESSING)
+    record = kept(cattaneo())
+    rows = (pressing, *record.parts)
+    whole = record_of(AlikeContact(0.0), rows, PER_RADIUS, record.counters, 0.0)
+    assert SlidingPath.of(whole) == cattaneo()
+    assert verdicts.all_converged([whole]).outcome is Status.FAIL
+
+
 def test_missing_records_make_the_study_inconclusive_not_wrong() -> None:
     conclusion = study.conclude(Settings(Level.QUICK), {})
     outcomes = {s.outcome for s in conclusion.statements if s.outcome is not None}
@@ -213,7 +235,7 @@ def test_no_two_curves_of_a_panel_look_alike(level: Level) -> None:
     """A reader without colours tells every reading of the law by its dashes, none of which is that
     of the paper's number."""
     settings = Settings(level)
-    records = {case.name: cattaneo(0.97) for case in study.cases(settings)}
+    records = {case.name: kept(cattaneo(0.97)) for case in study.cases(settings)}
     charts = {chart.name: chart for chart in study.conclude(settings, records).charts}
     for name in ("friction_law_variants", "force_against_shift"):
         for (panel,) in charts[name].rows:
@@ -229,15 +251,15 @@ def test_cases_of_a_level_have_names_of_their_own() -> None:
 
 def test_projected_gradients_agree_with_the_product_where_pressure_stays() -> None:
     contact, steps = AlikeContact(0.3), Steps(1, 6, 2)
-    product = ShiftRun(contact, 24, steps).compute()
-    other = LawRun(contact, 24, steps, FrictionLaw.VECTOR).compute()
+    product = SlidingPath.of(ShiftRun(contact, 24, steps).compute())
+    other = SlidingPath.of(LawRun(contact, 24, steps, FrictionLaw.VECTOR).compute())
     assert [p.shift for p in other.points] == pytest.approx([p.shift for p in product.points])
     forces = [p.force for p in product.points]
     assert [p.force for p in other.points] == pytest.approx(forces, abs=1e-6)
 
 
 def test_coated_contact_slides_at_the_limit_with_slip_against_shear() -> None:
-    path = ShiftRun(CoatedContact(2.0), 24, Steps(5, 6, 2)).compute()
+    path = SlidingPath.of(ShiftRun(CoatedContact(2.0), 24, Steps(5, 6, 2)).compute())
     assert verdicts.limit_is_reached({"a": path}).outcome is Status.PASS
     assert verdicts.force_is_mean_cosine({"a": path}).outcome is Status.PASS
     assert verdicts.slip_opposes_shear({"a": path}).outcome is Status.PASS

@@ -13,6 +13,8 @@ from verification.judging.outcome import Status
 from verification.observed.surfaces import surface_violation
 from verification.report.drawing import look_of
 from verification.running.case_store import CaseStore
+from verification.running.row import CaseRecord
+from verification.running.row_files import row_files
 from verification.running.study import Settings
 from verification.studies.stability import solvers, study, verdicts
 from verification.studies.stability.cell import LoadingPath, Solver, StabilityCell, Surface
@@ -169,6 +171,20 @@ def test_contact_that_outgrows_its_window_gets_a_larger_one(
     assert len(solvers.by_superposition(replace(narrow, grid=grid)).increments) == 4
 
 
+def kept(found: dict[str, CellRecord]) -> dict[str, CaseRecord]:
+    """As runs leave them."""
+    cells = {cell.name: cell for cell in study_cells(Level.QUICK, 32)}
+    return {name: record.row(cells[name]) for name, record in found.items()}
+
+
+def test_a_record_comes_back_from_its_row() -> None:
+    bad = CellRecord(verdict=Verdict.REFUSED, reason="GrossSliding: …", tolerance=1e-8)
+    for record in (GOOD, bad):
+        row = CaseRecord.model_validate_json(record.row(ORDINARY).model_dump_json())
+        assert CellRecord.of(row) == record
+        assert row.parameters["surface"] == "ball"
+
+
 def records() -> dict[str, CellRecord]:
     """Good records of all cells of the quick level."""
     found = {}
@@ -186,14 +202,14 @@ def records() -> dict[str, CellRecord]:
 
 
 def outcomes(found: dict[str, CellRecord]) -> list[Status | None]:
-    return [s.outcome for s in study.conclude(Settings(Level.QUICK), found).statements]
+    return [s.outcome for s in study.conclude(Settings(Level.QUICK), kept(found)).statements]
 
 
 EVERYTHING_GOOD = [Status.PASS] * 3 + [None]
 
 
 def test_refusals_are_shown_in_the_words_of_the_solver_alone() -> None:
-    tables = study.conclude(Settings(Level.QUICK), records()).tables
+    tables = study.conclude(Settings(Level.QUICK), kept(records())).tables
     shown = {cell for table in tables for row in table.rows for cell in row}
     assert "refused: it exceeds the friction limit" in shown
     assert not any("GrossSliding" in cell for cell in shown)
@@ -211,7 +227,7 @@ def test_bad_cells_fail_the_statement_of_their_solver_that_names_them(
     bad = GOOD.model_copy(update={"verdict": verdict, "reason": "because"})
     cells = [c for c in study_cells(Level.QUICK, 32) if c.solver is solver]
     names = [cell.name for cell in cells[:2]]
-    conclusion = study.conclude(Settings(Level.QUICK), records() | dict.fromkeys(names, bad))
+    conclusion = study.conclude(Settings(Level.QUICK), kept(records() | dict.fromkeys(names, bad)))
     judged_as = [s.outcome for s in conclusion.statements]
     failing += 4 * list(Solver).index(solver)
     assert judged_as[failing] is Status.FAIL
@@ -228,7 +244,7 @@ def test_answer_is_one_sentence_that_counts_every_cell(verdict: Verdict) -> None
     found = records()
     first = next(name for name, r in found.items() if r.verdict is Verdict.CONVERGED)
     good = sum(r.verdict is Verdict.CONVERGED for r in found.values()) - 1
-    answer = study.conclude(Settings(Level.QUICK), found | {first: bad}).answer
+    answer = study.conclude(Settings(Level.QUICK), kept(found | {first: bad})).answer
     refused, given_up, silent = (
         verdict is kind for kind in (Verdict.REFUSED, Verdict.NOT_CONVERGED, Verdict.SILENT)
     )
@@ -314,9 +330,9 @@ def test_halved_increments_are_marked_at_the_cost() -> None:
 
 
 def test_every_cell_is_a_line_of_the_table() -> None:
-    lines = study.exports(Settings(Level.QUICK), records())["cells.csv"].splitlines()
+    lines = row_files(kept(records()))["rows.csv"].splitlines()
     assert len(lines) == 1 + len(study.cases(Settings(Level.QUICK)))
-    assert lines[0].startswith("cell,friction,push,modulus_ratio")
+    assert lines[0].startswith("case,friction,push,modulus_ratio")
 
 
 def test_verdicts_name_at_most_a_dozen_cells() -> None:

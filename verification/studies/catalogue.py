@@ -6,10 +6,8 @@ from pathlib import Path
 
 from fem_reference import Method
 from verification.running.study import Study
-from verification.studies.coated_tractions import STUDY as COATED_TRACTIONS
 from verification.studies.cross_check import STUDY as CROSS_CHECK
 from verification.studies.error_budget.study import STUDY as ERROR_BUDGET
-from verification.studies.gross_sliding.study import STUDY as GROSS_SLIDING
 from verification.studies.penalty.study import STUDY as PENALTY
 from verification.studies.refinement.domain import domain_study
 from verification.studies.refinement.increments import increments_study
@@ -17,6 +15,8 @@ from verification.studies.refinement.mesh import mesh_study
 from verification.studies.refinement.sampling import sampling_study
 from verification.studies.refinement.window import window_study
 from verification.studies.seeded_defects.study import STUDY as SEEDED_DEFECTS
+from verification.studies.sliding.coated_tractions import STUDY as COATED_TRACTIONS
+from verification.studies.sliding.gross_sliding import STUDY as GROSS_SLIDING
 from verification.studies.stability.study import STUDY as STABILITY
 from verification.studies.work_precision.study import STUDY as WORK_PRECISION
 

@@ -10,15 +10,19 @@ from verification.defects.defect import Defect
 from verification.defects.healthy_contacts import FAMILIES, THIN
 from verification.defects.registry import DEFECTS
 from verification.judging.case import Level
+from verification.running.row import CaseRecord
 from verification.running.study import Records, Settings
-from verification.studies.seeded_defects.defect_run import (
+from verification.studies.seeded_defects.runs import (
+    ERROR,
     GATE,
     HEALTHY,
     Caught,
-    DefectRecord,
     DefectRun,
+    HealthyRun,
+    Sample,
+    caught,
+    samples,
 )
-from verification.studies.seeded_defects.healthy_run import HealthyRecord, HealthyRun, Sample
 
 DRAWS = {
     "hertz": 60,
@@ -94,39 +98,39 @@ def seen(settings: Settings, records: Records, defect: Defect) -> Seen:
         if sick is None or well is None:
             complete = False
             continue
-        before = {(verdict.quantity, verdict.run) for verdict in well.caught}
+        before = {(verdict.quantity, verdict.run) for verdict in caught(well)}
         sightings += [
             Sighting(case, verdict)
-            for verdict in sick.caught
+            for verdict in caught(sick)
             if (verdict.quantity, verdict.run) not in before
         ]
     return Seen(defect, cases, complete, tuple(sightings))
 
 
-def found(records: Records, defect: str, case: str) -> DefectRecord | None:
+def found(records: Records, defect: str, case: str) -> CaseRecord | None:
     """The record of a case under a defect."""
     record = records.get(DefectRun(defect, case).name)
-    return record if isinstance(record, DefectRecord) else None
+    return record if isinstance(record, CaseRecord) else None
 
 
-def healthy(records: Records) -> Mapping[str, list[HealthyRecord]]:
+def healthy(records: Records) -> Mapping[str, list[CaseRecord]]:
     """Records of the healthy contacts, by family."""
-    families: dict[str, list[HealthyRecord]] = {family: [] for family in FAMILIES}
+    families: dict[str, list[CaseRecord]] = {family: [] for family in FAMILIES}
     for run in healthy_runs():
         record = records.get(run.name)
-        if isinstance(record, HealthyRecord):
+        if isinstance(record, CaseRecord):
             families[run.family].append(record)
     return families
 
 
-def all_healthy(records: Records) -> list[HealthyRecord]:
+def all_healthy(records: Records) -> list[CaseRecord]:
     """Records of the healthy contacts of all families."""
     return [record for there in healthy(records).values() for record in there]
 
 
-def derived(records: list[HealthyRecord]) -> list[Sample]:
+def derived(records: list[CaseRecord]) -> list[Sample]:
     """The samples that have an error bar."""
-    return [s for record in records for s in record.samples if s.uncertainty is not None]
+    return [s for record in records for s in samples(record) if s.uncertainty is not None]
 
 
 def covered(sample: Sample) -> bool:
@@ -136,11 +140,12 @@ def covered(sample: Sample) -> bool:
     return sample.error <= sample.uncertainty
 
 
-def caught_by_reference(record: DefectRecord) -> bool:
+def caught_by_reference(record: CaseRecord) -> bool:
     """Whether a reference or an order sees the defect, and not the laws in the fields alone."""
-    return any(not one.by_law for one in record.caught)
+    return any(not one.by_law for one in caught(record))
 
 
-def passes_gate(record: DefectRecord) -> bool:
+def passes_gate(record: CaseRecord) -> bool:
     """Whether a fixed gate of 1 % lets all quantities of the case pass."""
-    return record.largest_error is not None and record.largest_error <= GATE
+    error = record.measures[ERROR]
+    return error is not None and error <= GATE

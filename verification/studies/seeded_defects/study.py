@@ -12,7 +12,7 @@ from verification.running.study import (
 )
 from verification.studies.seeded_defects.findings import defect_runs, healthy_runs, seen
 from verification.studies.seeded_defects.statements import statements
-from verification.studies.seeded_defects.tables import charts, exports, tables
+from verification.studies.seeded_defects.tables import charts, tables
 
 REMARKS = (
     "A defect counts as caught by a verdict that fails under it and passes without it. No verdict "
@@ -55,5 +55,4 @@ STUDY = Study(
     "this one see, does it cry out where nothing is wrong, and do its error bars hold?",
     cases=cases,
     conclude=conclude,
-    exports=exports,
 )

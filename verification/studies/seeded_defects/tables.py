@@ -2,17 +2,14 @@
 
 from __future__ import annotations
 
-import csv
-import io
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Sequence
 
 from verification.defects.outputs import PLANTED
-from verification.defects.registry import DEFECTS
 from verification.exhibits.chart import Chart, Look, Panel, curve
 from verification.exhibits.numbers import plain
 from verification.exhibits.table import Table
-from verification.running.study import Records, Settings
-from verification.studies.seeded_defects.defect_run import GATE
+from verification.running.rules import total
+from verification.running.study import Records
 from verification.studies.seeded_defects.findings import (
     Seen,
     covered,
@@ -20,9 +17,8 @@ from verification.studies.seeded_defects.findings import (
     found,
     healthy,
     passes_gate,
-    seen,
 )
-from verification.studies.seeded_defects.healthy_run import Sample
+from verification.studies.seeded_defects.runs import ERROR, GATE, Sample, caught
 
 
 def tables(records: Records, all_seen: Sequence[Seen]) -> tuple[Table, ...]:
@@ -60,11 +56,12 @@ def _gates(records: Records) -> Table:
             record = found(records, defect.name, case)
             if record is None:
                 continue
-            error = "–" if record.largest_error is None else f"{100 * record.largest_error:.3f} %"
+            largest = record.measures[ERROR]
+            error = "–" if largest is None else f"{100 * largest:.3f} %"
             rows.append((
                 defect.name, case, error, "passes" if passes_gate(record) else "fails",
-                f"{len(record.caught)} of {record.verdicts} fail",
-                ", ".join(sorted({verdict.quantity for verdict in record.caught})) or "–",
+                f"{record.counters['failed']} of {record.counters['verdicts']} fail",
+                ", ".join(sorted({verdict.quantity for verdict in caught(record)})) or "–",
             ))  # fmt: skip
     return Table(
         title="Planted errors under a fixed gate and under the harness",
@@ -84,8 +81,8 @@ def _families(records: Records) -> Table:
         rows.append((
             family,
             str(len(there)),
-            str(sum(record.verdicts for record in there)),
-            str(sum(len(record.failed) for record in there)),
+            str(total(there, "verdicts")),
+            str(total(there, "failed")),
             f"{inside} of {len(samples)}" if samples else "–",
             plain(max(_parts(samples), default=0.0), 2) if samples else "–",
         ))  # fmt: skip
@@ -127,29 +124,3 @@ def charts(records: Records) -> tuple[Chart, ...]:
             rows=((panel,),),
         ),
     )
-
-
-def exports(settings: Settings, records: Records) -> Mapping[str, str]:
-    """`defects.csv`: a line for every failed verdict; `healthy.csv`: one for every sample."""
-    defects = [("defect", "case", "quantity", "run", "how", "error over allowed", "reason")]
-    for defect in DEFECTS.values():
-        for sighting in seen(settings, records, defect).sightings:
-            v = sighting.verdict
-            clearance = "" if v.clearance is None else repr(v.clearance)
-            defects.append(
-                (defect.name, sighting.case, v.quantity, v.run, v.how, clearance, v.reason)
-            )
-    samples = [("family", "quantity", "error", "allowed", "uncertainty")]
-    for family, there in healthy(records).items():
-        for record in there:
-            samples += [
-                (family, s.quantity, repr(s.error), repr(s.allowed), repr(s.uncertainty))
-                for s in record.samples
-            ]
-    return {"defects.csv": _csv(defects), "healthy.csv": _csv(samples)}
-
-
-def _csv(rows: Iterable[tuple[str, ...]]) -> str:
-    text = io.StringIO()
-    csv.writer(text, lineterminator="\n").writerows(rows)
-    return text.getvalue()

@@ -18,6 +18,7 @@ from contact_scene.solver_errors import (
     UnsupportedScene,
 )
 from verification.judging.law_verdicts import OTHER_NORMS
+from verification.running.row import CaseRecord
 from verification.studies.stability.cell import StabilityCell
 from verification.studies.stability.pose import TOLERANCE, pose
 from verification.studies.stability.record import CellRecord, Verdict
@@ -31,15 +32,15 @@ REFUSALS = (GrossSliding, UnsupportedScene, ResourceRefused)
 class StabilityRun:
     """A cell to be solved; whatever the solver says is the record."""
 
-    record_type: ClassVar[type[Description]] = CellRecord
+    record_type: ClassVar[type[Description]] = CaseRecord
     cell: StabilityCell
 
     @property
     def name(self) -> str:
         return self.cell.name
 
-    def compute(self) -> CellRecord:
-        return judged(self.cell)
+    def compute(self) -> CaseRecord:
+        return judged(self.cell).row(self.cell)
 
 
 def judged(cell: StabilityCell) -> CellRecord:

@@ -5,6 +5,12 @@ from __future__ import annotations
 from enum import StrEnum
 
 from contact_scene.description import Description
+from verification.running.row import CaseRecord, parameters_of
+from verification.studies.stability.cell import StabilityCell
+
+MEASURES = ("tolerance", "residual", "observed")
+WORDS = ("verdict", "reason", "way")
+COUNTERS = ("increments", "halvings", "rounds", "iterations", "convolutions")
 
 
 class Verdict(StrEnum):
@@ -48,6 +54,24 @@ class CellRecord(Description):
 
     seconds: float = 0.0
     """Of processor time."""
+
+    def row(self, cell: StabilityCell) -> CaseRecord:
+        """As it is kept."""
+        values = self.model_dump(mode="json")
+        return CaseRecord(
+            parameters=parameters_of(cell),
+            measures={name: values[name] for name in MEASURES},
+            counters={name: values[name] for name in COUNTERS},
+            words={name: values[name] for name in WORDS},
+            seconds=self.seconds,
+        )
+
+    @classmethod
+    def of(cls, row: CaseRecord) -> CellRecord:
+        """Back from its row."""
+        return cls.model_validate(
+            {**row.measures, **row.counters, **row.words, "seconds": row.seconds}
+        )
 
     @property
     def work(self) -> int:

@@ -2,11 +2,8 @@
 
 from __future__ import annotations
 
-import csv
-import io
-from collections.abc import Mapping
-
 from verification.judging.case import Level
+from verification.running.row import found
 from verification.running.study import Conclusion, Records, Settings, Study
 from verification.studies.stability.cell import StabilityCell
 from verification.studies.stability.charts import view_chart
@@ -48,29 +45,16 @@ def cases(settings: Settings) -> tuple[StabilityRun, ...]:
 
 def conclude(settings: Settings, records: Records) -> Conclusion:
     """The verdicts, the tables and the map."""
-    found = _found(settings, records)
-    by_name = {cell.name: record for cell, record in found.items()}
+    here = _found(settings, records)
+    by_name = {cell.name: record for cell, record in here.items()}
     maps = views(settings.level, _cells(settings))
     return Conclusion(
-        statements=statements(found),
-        answer=answer(found),
-        tables=tables(found),
-        charts=tuple(view_chart(view, by_name) for view in maps if view.wide) if found else (),
+        statements=statements(here),
+        answer=answer(here),
+        tables=tables(here),
+        charts=tuple(view_chart(view, by_name) for view in maps if view.wide) if here else (),
         remarks=REMARKS,
     )
-
-
-def exports(settings: Settings, records: Records) -> Mapping[str, str]:
-    """`cells.csv`: all coordinates and results, a line per cell."""
-    found = _found(settings, records)
-    text = io.StringIO()
-    table = csv.writer(text, lineterminator="\n")
-    results = [name for name in CellRecord.model_fields if name != "seconds"]
-    table.writerow(["cell", *StabilityCell().coordinates, *results])
-    for cell, record in found.items():
-        values = record.model_dump(mode="json")
-        table.writerow([cell.name, *cell.coordinates.values(), *(values[name] for name in results)])
-    return {"cells.csv": text.getvalue()}
 
 
 def _cells(settings: Settings) -> int:
@@ -78,8 +62,7 @@ def _cells(settings: Settings) -> int:
 
 
 def _found(settings: Settings, records: Records) -> dict[StabilityCell, CellRecord]:
-    found = {run.cell: records.get(run.name) for run in cases(settings)}
-    return {cell: r for cell, r in found.items() if isinstance(r, CellRecord)}
+    return {run.cell: CellRecord.of(r) for run, r in found(cases(settings), records).items()}
 
 
 STUDY = Study(
@@ -90,5 +73,4 @@ STUDY = Study(
     "either converged, with its residual, or refused, with a reason?",
     cases=cases,
     conclude=conclude,
-    exports=exports,
 )

@@ -74,7 +74,7 @@ def _of_cells(group: list[Item]) -> Table:
                  "way", "rounds", WORK[by_elements]),
         rows=tuple(_row(cell, record) for cell, record in shown),
         note="A cell is named by the coordinates that differ from the ordinary ones; all of them "
-        "are in `cells.csv`, which `slipstick study stability` writes. Rounds: the most that "
+        "are in `rows.csv`, which `slipstick study stability` writes. Rounds: the most that "
         "pressure and shear took to agree in an increment.",
     )  # fmt: skip
 

@@ -17,7 +17,7 @@ from contact_results.quantities import shear_of
 from contact_scene import Scene
 from semi_analytical import SurfaceGrid
 from verification.problems.paper_scene import FRICTION
-from verification.studies.sliding_runs.friction_laws import (
+from verification.studies.sliding.friction_laws import (
     FixedPressure,
     FrictionLaw,
     at_rest,

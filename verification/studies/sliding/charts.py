@@ -7,9 +7,9 @@ from collections.abc import Mapping
 import numpy as np
 
 from verification.exhibits.chart import Chart, Curve, Look, Panel, curve
-from verification.studies.gross_sliding.estimate import Estimate
-from verification.studies.gross_sliding.verdicts import PAPER
-from verification.studies.sliding_runs.path import SlidingPath
+from verification.studies.sliding.estimate import Estimate
+from verification.studies.sliding.path import SlidingPath
+from verification.studies.sliding.verdicts import PAPER
 
 MICROMETRE = 1e-6
 FINE = 60

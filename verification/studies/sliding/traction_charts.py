@@ -3,19 +3,46 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from verification.exhibits.chart import Chart, Curve, Look, Panel, curve
-from verification.studies.sliding_runs.traction_run import Profile, TractionRecord
+from verification.running.row import CaseRecord
+from verification.studies.sliding.selection import FORCES
 
 COLUMNS = 2
 SHOWN = 1.3  # Hertz radii to each side
 
-CurvesOf = Callable[[TractionRecord, bool], tuple[Curve, ...]]
+Field = NDArray[np.float64]
+CurvesOf = Callable[[CaseRecord, bool], tuple[Curve, ...]]
 
 
-def figures(found: Mapping[float, TractionRecord]) -> tuple[Chart, ...]:
+@dataclass(frozen=True)
+class Profile:
+    """Tractions along y = 0: x over a_H, p over p_H, q_x over µp_H; the force over µW."""
+
+    force: float
+    x: Field
+    pressure: Field
+    shear: Field
+
+
+def profiles(record: CaseRecord) -> list[Profile]:
+    """At the end of each loading step."""
+    of_step: dict[object, list[list[float | None]]] = {}
+    for part in record.parts:
+        if "profile" in part.parameters:
+            at = part.number("x_over_aH")
+            of_step.setdefault(part.parameters["profile"], []).append([at, *part.measures.values()])
+    return [
+        Profile(force, *np.array(rows, dtype=float).T)
+        for force, rows in zip((0.0, *FORCES), of_step.values(), strict=True)
+    ]
+
+
+def figures(found: Mapping[float, CaseRecord]) -> tuple[Chart, ...]:
     """Pressure and shear next to y = 0, a panel per ratio of moduli."""
     pressure = Chart(
         name="figure_3_pressure",
@@ -37,7 +64,7 @@ def figures(found: Mapping[float, TractionRecord]) -> tuple[Chart, ...]:
 
 
 def _panels(
-    found: Mapping[float, TractionRecord], label: str, curves_of: CurvesOf
+    found: Mapping[float, CaseRecord], label: str, curves_of: CurvesOf
 ) -> tuple[tuple[Panel, ...], ...]:
     rows = []
     items = list(found.items())
@@ -59,31 +86,27 @@ def _panels(
     return tuple(rows)
 
 
-def _pressures(record: TractionRecord, legend: bool) -> tuple[Curve, ...]:
-    x, shown = _shown(record)
+def _pressures(record: CaseRecord, legend: bool) -> tuple[Curve, ...]:
     return tuple(
-        curve(_label(p) if legend else "", x, np.array(p.pressure)[shown], series=n)
-        for n, p in enumerate(record.profiles)
+        _curve(profile, profile.pressure, n, legend) for n, profile in enumerate(profiles(record))
     )
 
 
-def _shears(record: TractionRecord, legend: bool) -> tuple[Curve, ...]:
-    x, shown = _shown(record)
-    limit = np.array(record.profiles[-1].pressure)[shown]
+def _shears(record: CaseRecord, legend: bool) -> tuple[Curve, ...]:
+    known = profiles(record)
+    shown = np.abs(known[-1].x) <= SHOWN
+    x, limit = known[-1].x[shown], known[-1].pressure[shown]
     return (
         curve("± µp" if legend else "", x, limit, Look.BOUND),
         curve("", x, -limit, Look.BOUND),
-        *(
-            curve(_label(p) if legend else "", x, np.array(p.shear)[shown], series=n)
-            for n, p in enumerate(record.profiles)
-        ),
+        *(_curve(profile, profile.shear, n, legend) for n, profile in enumerate(known)),
     )
 
 
-def _shown(record: TractionRecord) -> tuple[np.ndarray, np.ndarray]:
-    x = np.array(record.x)
-    shown = np.abs(x) <= SHOWN
-    return x[shown], shown
+def _curve(profile: Profile, values: Field, series: int, legend: bool) -> Curve:
+    shown = np.abs(profile.x) <= SHOWN
+    label = _label(profile) if legend else ""
+    return curve(label, profile.x[shown], values[shown], series=series)
 
 
 def _label(profile: Profile) -> str:

@@ -1,4 +1,4 @@
-"""Which cases the gross-sliding study computes."""
+"""Which cases the studies compute."""
 
 from __future__ import annotations
 
@@ -6,13 +6,14 @@ from dataclasses import dataclass, replace
 
 from semi_analytical import Coupling
 from verification.judging.case import Level
+from verification.running.row import found
 from verification.running.study import Records, Settings, StudyCase
-from verification.studies.gross_sliding.estimate import Evidence
-from verification.studies.sliding_runs.contacts import AlikeContact, CoatedContact
-from verification.studies.sliding_runs.friction_laws import FrictionLaw
-from verification.studies.sliding_runs.law_run import LawRun
-from verification.studies.sliding_runs.path import SlidingPath
-from verification.studies.sliding_runs.runs import (
+from verification.studies.sliding.contacts import AlikeContact, CoatedContact
+from verification.studies.sliding.estimate import Evidence
+from verification.studies.sliding.friction_laws import FrictionLaw
+from verification.studies.sliding.law_run import LawRun
+from verification.studies.sliding.path import SlidingPath
+from verification.studies.sliding.runs import (
     ForceRun,
     ShiftRun,
     ShortPath,
@@ -35,10 +36,17 @@ LAW_STEPS = Steps(15, 40, 10)
 SHORT_STEPS = Steps(1, 44, 6)
 FORCE_INCREMENTS = 20
 LARGEST_FORCE = 0.99
+# Forces whose tractions are drawn, T / µW; the paper gives no numbers for its curves.
+FORCES = (0.3, 0.6, 0.9)
+PUSHES = (6, 7, 7)  # increments of each
 OTHER_COUNTS = (80, 20, 10, 5)  # of increments, for directions that freeze
 
 
 VariantRun = LawRun | ShortPathRun | ShiftRun
+ASSUMED = (
+    "Assumed, because the paper does not say: substrate E2 = 210 GPa (from its contact radius and "
+    "peak pressure), ν = 0.3 of coating and substrate, a rigid ball, a paraboloid for the sphere, "
+)
 UNCOUPLED = "coupling left out"
 
 
@@ -61,8 +69,8 @@ class ContactCases:
     def evidence(self, records: Records) -> Evidence | None:
         """Their records; None if one is missing."""
         paths = [path_of(records, run) for run in self.histories]
-        found = [path for path in paths if path is not None]
-        return Evidence(*found) if len(found) == len(paths) else None
+        known = [path for path in paths if path is not None]
+        return Evidence(*known) if len(known) == len(paths) else None
 
 
 def cases_of(ratio: float, settings: Settings) -> ContactCases:
@@ -87,7 +95,7 @@ def cases_of(ratio: float, settings: Settings) -> ContactCases:
         coarse,
         replace(base, steps=steps.halved_tangential()),
         replace(coarse, steps=steps.halved_normal()),
-        ForceRun(contact, cells, steps.normal, FORCE_INCREMENTS, LARGEST_FORCE),
+        ForceRun(contact, cells, steps.normal, (LARGEST_FORCE,), (FORCE_INCREMENTS,)),
         variants,
     )
 
@@ -111,6 +119,13 @@ def null_runs(settings: Settings) -> tuple[ShiftRun, ...]:
     cells = settings.cells or CELLS[settings.level]
     steps = replace(STEPS[settings.level], normal=1)
     return tuple(ShiftRun(alike, cells, steps) for alike in ALIKE)
+
+
+def traction_runs(settings: Settings) -> dict[float, ForceRun]:
+    """The paper's figures 3 and 4, by ratio of moduli."""
+    cells = settings.cells or CELLS[settings.level]
+    normal = STEPS[settings.level].normal
+    return {r: ForceRun(CoatedContact(r), cells, normal, FORCES, PUSHES) for r in RATIOS}
 
 
 def variant_name(run: VariantRun) -> str:
@@ -145,6 +160,5 @@ def variant_group(run: VariantRun) -> str:
 
 
 def path_of(records: Records, run: StudyCase) -> SlidingPath | None:
-    """The record of a run; None if it is missing."""
-    record = records.get(run.name)
-    return record if isinstance(record, SlidingPath) else None
+    """The path of a run; None if its record is missing."""
+    return next(map(SlidingPath.of, found([run], records).values()), None)

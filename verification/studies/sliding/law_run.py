@@ -16,16 +16,22 @@ from semi_analytical import solve
 from semi_analytical.model import ContactModel
 from verification.judging.run import SOLVER_TOLERANCE
 from verification.problems.paper_scene import FRICTION, FRICTION_LIMIT, NORMAL_FORCE
-from verification.studies.sliding_runs.contacts import Contact
-from verification.studies.sliding_runs.friction_laws import (
+from verification.running.row import CaseRecord
+from verification.studies.sliding.contacts import Contact
+from verification.studies.sliding.friction_laws import (
     FixedPressure,
     FrictionLaw,
     Held,
     at_rest,
     shifted,
 )
-from verification.studies.sliding_runs.path import SlidingPath, SlidingPoint, mean_cosine
-from verification.studies.sliding_runs.runs import Steps, shifts_to
+from verification.studies.sliding.path import (
+    PRESSING,
+    SlidingPoint,
+    mean_cosine,
+    record_of,
+)
+from verification.studies.sliding.runs import Steps, shifts_to
 
 SLIDING = 1e-6
 
@@ -34,7 +40,7 @@ SLIDING = 1e-6
 class LawRun:
     """Press with the product's solver, then shift at that pressure under one reading."""
 
-    record_type: ClassVar[type[Description]] = SlidingPath
+    record_type: ClassVar[type[Description]] = CaseRecord
     contact: Contact
     cells: int
     steps: Steps
@@ -44,8 +50,8 @@ class LawRun:
     def name(self) -> str:
         return f"{self.contact.name}-{self.law}-{self.cells}-{self.steps.text}"
 
-    def compute(self) -> SlidingPath:
-        started = time.perf_counter()
+    def compute(self) -> CaseRecord:
+        started = time.process_time()
         grid = self.contact.grid(self.cells)
         scene = self.contact.scene(
             LoadStep(normal_force=NORMAL_FORCE, increments=self.steps.normal)
@@ -58,18 +64,17 @@ class LawRun:
             model.self_compliance,
         )
         state, shift = at_rest(problem, shear_of(pressed)), 0.0
-        points = [_point(problem, state, shift, grid.cell_area)]
+        rows = [_point(problem, state, shift, grid.cell_area).row(PRESSING)]
         for next_shift in shifts_to(self.contact, self.steps):
             state = shifted(problem, self.law, state, next_shift - shift)
             shift = next_shift
-            points.append(_point(problem, state, shift, grid.cell_area))
-        return SlidingPath(
-            points=tuple(points),
-            cell_over_radius=grid.spacing[0] / pressed.contact_radius,
-            increments=len(points),
-            halvings=0,
-            convolutions=int(model.convolutions.count),
-            seconds=time.perf_counter() - started,
+            rows.append(_point(problem, state, shift, grid.cell_area).row(PRESSING + 1))
+        return record_of(
+            self,
+            rows,
+            grid.spacing[0] / pressed.contact_radius,
+            {"increments": len(rows), "convolutions": int(model.convolutions.count)},
+            time.process_time() - started,
         )
 
 

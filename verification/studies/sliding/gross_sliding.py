@@ -8,18 +8,21 @@ from functools import cached_property
 from verification.exhibits.chart import Chart
 from verification.exhibits.numbers import plain
 from verification.exhibits.table import Table
+from verification.running.row import CaseRecord, found
 from verification.running.study import Conclusion, Records, Settings, Study, StudyCase
-from verification.studies.gross_sliding import verdicts
-from verification.studies.gross_sliding.charts import (
+from verification.studies.sliding import verdicts
+from verification.studies.sliding.charts import (
     MICROMETRE,
     force_chart,
     stick_fraction_chart,
     variants_chart,
 )
-from verification.studies.gross_sliding.estimate import Estimate, estimate
-from verification.studies.gross_sliding.full_slip import full_slip
-from verification.studies.gross_sliding.selection import (
+from verification.studies.sliding.estimate import Estimate, estimate
+from verification.studies.sliding.full_slip import full_slip
+from verification.studies.sliding.path import SlidingPath
+from verification.studies.sliding.selection import (
     ALIKE,
+    ASSUMED,
     PAPER_RATIO,
     RATIOS,
     UNCOUPLED,
@@ -33,13 +36,10 @@ from verification.studies.gross_sliding.selection import (
     variant_kind,
     variant_name,
 )
-from verification.studies.gross_sliding.verdicts import Variant, largest_force
-from verification.studies.sliding_runs.path import SlidingPath
+from verification.studies.sliding.verdicts import Variant, largest_force
 
 REMARKS = (
-    "Assumed, because the paper does not say: substrate E2 = 210 GPa (from its contact radius and "
-    "peak pressure), ν = 0.3 of coating and substrate, a rigid ball, a paraboloid for the sphere, "
-    "normal steps uniform in contact radius.",
+    f"{ASSUMED}normal steps uniform in contact radius.",
     "Gross sliding cannot begin below µW as a greatest force: in sustained sliding every particle "
     "slips along the motion, and T = µW. What can happen below µW is that the last cell lets go "
     "while slip directions still differ; that force is T_fs.",
@@ -68,26 +68,26 @@ class _Found:
     @cached_property
     def base(self) -> dict[str, SlidingPath]:
         """Histories under shift control on the finest grid."""
-        found = {name: path_of(self.records, c.base) for name, c in self.contacts.items()}
-        return {name: path for name, path in found.items() if path is not None}
+        known = {name: path_of(self.records, c.base) for name, c in self.contacts.items()}
+        return {name: path for name, path in known.items() if path is not None}
 
     @cached_property
     def null(self) -> dict[str, SlidingPath]:
         """Histories of the identical bodies."""
         runs = zip(ALIKE, null_runs(self.settings), strict=True)
-        found = {f"identical, ν = {a.poisson_ratio:g}": path_of(self.records, r) for a, r in runs}
-        return {name: path for name, path in found.items() if path is not None}
+        known = {f"identical, ν = {a.poisson_ratio:g}": path_of(self.records, r) for a, r in runs}
+        return {name: path for name, path in known.items() if path is not None}
 
     @cached_property
     def estimates(self) -> dict[str, Estimate]:
         evidence = {name: c.evidence(self.records) for name, c in self.contacts.items()}
-        found = {name: estimate(e) for name, e in evidence.items() if e is not None}
-        return {name: e for name, e in found.items() if e is not None}
+        known = {name: estimate(e) for name, e in evidence.items() if e is not None}
+        return {name: e for name, e in known.items() if e is not None}
 
     def variant_runs(self, contact: str) -> dict[VariantRun, SlidingPath]:
         """The variants of a contact that have a record."""
-        found = {run: path_of(self.records, run) for run in self.contacts[contact].variants}
-        return {run: path for run, path in found.items() if path is not None}
+        known = {run: path_of(self.records, run) for run in self.contacts[contact].variants}
+        return {run: path for run, path in known.items() if path is not None}
 
     def variants(self, contact: str) -> tuple[Variant, ...]:
         return tuple(
@@ -99,67 +99,66 @@ class _Found:
         )  # fmt: skip
 
     @cached_property
-    def product(self) -> tuple[SlidingPath, ...]:
+    def product(self) -> tuple[CaseRecord, ...]:
         """All histories that the product's solver made, the short paths left out."""
         runs: list[StudyCase] = [*null_runs(self.settings)]
         for c in self.contacts.values():
             runs += [*c.histories, c.force]
-        found = (path_of(self.records, run) for run in runs)
-        return tuple(path for path in found if path is not None)
+        return tuple(found(runs, self.records).values())
 
 
 def conclude(settings: Settings, records: Records) -> Conclusion:
     """The verdict from the records that there are."""
-    found = _Found(settings, records)
+    here = _Found(settings, records)
     paper = _name(PAPER_RATIO)
-    null = [full_slip(path) for path in found.null.values()]
+    null = [full_slip(path) for path in here.null.values()]
     return Conclusion(
-        answer=verdicts.answer(found.base.get(paper), found.estimates.get(paper)),
+        answer=verdicts.answer(here.base.get(paper), here.estimates.get(paper)),
         statements=(
-            verdicts.limit_is_reached(found.base),
-            verdicts.paper_number(found.estimates.get(paper), found.variants(paper)),
-            verdicts.force_is_mean_cosine(found.base),
-            verdicts.slip_opposes_shear(found.base),
+            verdicts.limit_is_reached(here.base),
+            verdicts.paper_number(here.estimates.get(paper), here.variants(paper)),
+            verdicts.force_is_mean_cosine(here.base),
+            verdicts.slip_opposes_shear(here.base),
             verdicts.null_tests(*(null if len(null) == len(ALIKE) else (None, None))),
             verdicts.uncoupled_sticks(
                 {
                     name: v
-                    for name in found.contacts
-                    for v in found.variants(name)
+                    for name in here.contacts
+                    for v in here.variants(name)
                     if v.kind == UNCOUPLED
                 }
             ),
-            verdicts.refinement_agrees(found.estimates),
-            verdicts.converged(found.product),
+            verdicts.refinement_agrees(here.estimates),
+            verdicts.all_converged(here.product),
         ),
-        tables=(_results(found), _variant_table(found)),
-        charts=_charts(found, paper),
+        tables=(_results(here), _variant_table(here)),
+        charts=_charts(here, paper),
         remarks=REMARKS,
     )
 
 
-def _charts(found: _Found, paper: str) -> tuple[Chart, ...]:
-    if not found.base:
+def _charts(here: _Found, paper: str) -> tuple[Chart, ...]:
+    if not here.base:
         return ()
-    scales = {name: c.base.contact.sliding_scale for name, c in found.contacts.items()}
+    scales = {name: c.base.contact.sliding_scale for name, c in here.contacts.items()}
     scales |= {f"identical, ν = {a.poisson_ratio:g}": a.sliding_scale for a in ALIKE}
     charts = [
-        stick_fraction_chart(found.base | found.null, scales),
-        force_chart(found.base, found.estimates),
+        stick_fraction_chart(here.base | here.null, scales),
+        force_chart(here.base, here.estimates),
     ]
     groups: dict[str, dict[str, SlidingPath]] = {}
-    for run, path in found.variant_runs(paper).items():
+    for run, path in here.variant_runs(paper).items():
         groups.setdefault(variant_group(run), {})[variant_name(run)] = path
-    if groups and paper in found.base:
-        charts.append(variants_chart(found.base[paper], groups))
+    if groups and paper in here.base:
+        charts.append(variants_chart(here.base[paper], groups))
     return tuple(charts)
 
 
-def _results(found: _Found) -> Table:
+def _results(here: _Found) -> Table:
     rows = []
-    for name, path in found.base.items():
-        e = found.estimates.get(name)
-        by_force = path_of(found.records, found.contacts[name].force)
+    for name, path in here.base.items():
+        e = here.estimates.get(name)
+        by_force = path_of(here.records, here.contacts[name].force)
         in_force = full_slip(by_force) if by_force is not None else None
         full = [p for p in path.points if p.full_slip and p.shift > 0]
         rows.append((
@@ -188,7 +187,7 @@ def _parts(e: Estimate) -> tuple[float, ...]:
     return e.full_slip.uncertainty, e.by_cells, e.by_shift_steps, e.by_normal_steps
 
 
-def _variant_table(found: _Found) -> Table:
+def _variant_table(here: _Found) -> Table:
     rows = [
         (
             f"{variant.name}; {contact}",
@@ -196,8 +195,8 @@ def _variant_table(found: _Found) -> Table:
             f"{variant.largest:.4f}",
             "near" if variant.near_paper else "no",
         )
-        for contact in found.contacts
-        for variant in found.variants(contact)
+        for contact in here.contacts
+        for variant in here.variants(contact)
     ]
     return Table(
         title="Other paths and other readings of the friction law",

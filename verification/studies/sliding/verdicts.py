@@ -2,17 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
 from contact_scene.summary import ContactStatus
 from verification.exhibits.numbers import plain
-from verification.judging.outcome import Status
 from verification.judging.run import SOLVER_TOLERANCE
+from verification.running.row import CaseRecord
+from verification.running.rules import converged, judged, total
 from verification.running.study import Statement
-from verification.studies.gross_sliding.estimate import Estimate
-from verification.studies.gross_sliding.full_slip import FullSlip
-from verification.studies.sliding_runs.path import SlidingPath
+from verification.studies.sliding.estimate import Estimate
+from verification.studies.sliding.full_slip import FullSlip
+from verification.studies.sliding.path import SlidingPath
 
 PAPER = 0.76
 # A variant is near the paper's number within this and its own bar: a round figure, and every
@@ -65,7 +66,7 @@ def limit_is_reached(paths: Paths) -> Statement:
     good = all(1 - SHORT_OF_LIMIT <= v <= 1 + ABOVE_LIMIT for v in values.values())
     return Statement(
         claim="physics: T_max → µW",
-        outcome=_judged(bool(values), good and all(sliding)),
+        outcome=judged(good and all(sliding), complete=bool(values)),
         measured=_listed({name: f"{value:.6f} µW" for name, value in values.items()}),
         because="in sustained sliding every slip increment is along the motion, so that "
         f"T = µW (allowed: {SHORT_OF_LIMIT:g} below after three times Mindlin's displacement)",
@@ -82,7 +83,7 @@ def force_is_mean_cosine(paths: Paths) -> Statement:
     ]
     return Statement(
         claim="identity: T = µW⟨cosψ⟩ at full slip",
-        outcome=_judged(bool(worst), max(worst, default=0.0) <= IDENTITY),
+        outcome=judged(max(worst, default=0.0) <= IDENTITY, complete=bool(worst)),
         measured=f"largest difference {plain(max(worst, default=0.0), 2)} in {len(worst)} states",
         because=f"|q| = µp in every cell; allowed {IDENTITY:g}",
     )
@@ -97,25 +98,17 @@ def slip_opposes_shear(paths: Paths) -> Statement:
     worst = max(angles, default=0.0)
     return Statement(
         claim="direction: shear opposes the slip increment",
-        outcome=_judged(bool(angles), worst <= SLIP_ANGLE),
+        outcome=judged(worst <= SLIP_ANGLE, complete=bool(angles)),
         measured=f"{plain(worst, 2)}° root mean square in the worst increment, "
         f"{plain(max(largest, default=0.0), 2)}° in the worst cell",
         because=f"maximum dissipation; allowed {SLIP_ANGLE:g}°, weighted by the work of friction",
     )
 
 
-def converged(paths: Iterable[SlidingPath]) -> Statement:
+def all_converged(records: Sequence[CaseRecord]) -> Statement:
     """Every increment within the solver's tolerance."""
-    paths = tuple(paths)
-    worst = max((path.largest_residual for path in paths), default=0.0)
-    count = sum(path.increments for path in paths)
-    return Statement(
-        claim="every increment converged",
-        outcome=_judged(bool(paths), worst <= SOLVER_TOLERANCE),
-        measured=f"largest residual {plain(worst, 2)} in {count} increments, "
-        f"{sum(path.halvings for path in paths)} of them halved",
-        because=f"allowed {SOLVER_TOLERANCE:g}",
-    )
+    where = f"in {total(records, 'increments')} increments, {total(records, 'halvings')} of them"
+    return converged(records, SOLVER_TOLERANCE, f"{where} halved", asked=1)
 
 
 def null_tests(exact: FullSlip | None, alike: FullSlip | None) -> Statement:
@@ -129,7 +122,7 @@ def null_tests(exact: FullSlip | None, alike: FullSlip | None) -> Statement:
         measured = f"T_fs/µW = {exact.text} for ν = 0, {alike.text} for ν = 0.3"
     return Statement(
         claim="null test: identical bodies stick until µW",
-        outcome=_judged(known, good),
+        outcome=judged(good, complete=known),
         measured=measured,
         because="Cattaneo and Mindlin's solution is exact for ν = 0; for ν = 0.3 it violates the "
         "direction law a little, and the stick area vanishes between 0.987 and 0.9996 µW",
@@ -143,7 +136,7 @@ def uncoupled_sticks(variants: Mapping[str, Variant]) -> Statement:
     good = all(ALIKE_AT_LEAST <= fs.force <= 1 + COVERAGE * fs.uncertainty for fs in known)
     return Statement(
         claim="null test: without coupling coated contacts stick until µW",
-        outcome=_judged(bool(known) and len(known) == len(found), good),
+        outcome=judged(good, complete=bool(known) and len(known) == len(found)),
         measured=_listed({n: "not resolved" if fs is None else f"T_fs/µW = {fs.text}"
                           for n, fs in found.items()}),
         because="the paper attributes its number to the coupling: left out, it must be gone; "
@@ -171,7 +164,7 @@ def refinement_agrees(estimates: Mapping[str, Estimate]) -> Statement:
     bars = {name: f"± {e.uncertainty:.3f}" for name, e in estimates.items()}
     return Statement(
         claim="numerics: cells and steps do not decide the answer",
-        outcome=_judged(bool(away), all(factor > FEWEST_BARS for factor in away.values())),
+        outcome=judged(all(factor > FEWEST_BARS for factor in away.values()), complete=bool(away)),
         measured="bars of T_fs/µW: " + _listed(bars),
         because="halved cells, halved steps in shift and in load; the distance to 0.76 is to be "
         "more than five bars, either way",
@@ -208,12 +201,6 @@ def _confirmed(near: Variant, variants: Iterable[Variant]) -> str:
     text = f"{near.name} (T_fs/µW = {at}, T_max/µW = {near.largest:.3f})"
     finer = [v for v in variants if v.kind == near.kind and v.cells > near.cells]
     return text + (", not confirmed by finer cells" if any(not v.near_paper for v in finer) else "")
-
-
-def _judged(measured: bool, good: bool) -> Status:
-    if not measured:
-        return Status.INCONCLUSIVE
-    return Status.PASS if good else Status.FAIL
 
 
 def _listed(values: Mapping[str, str]) -> str:

@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from math import sqrt
 
-from verification.studies.gross_sliding.full_slip import FullSlip, full_slip
-from verification.studies.sliding_runs.path import SlidingPath
+from verification.studies.sliding.full_slip import FullSlip, full_slip
+from verification.studies.sliding.path import SlidingPath
 
 
 @dataclass(frozen=True)

@@ -26,7 +26,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.interpolate import PchipInterpolator
 
-from verification.studies.sliding_runs.path import SlidingPath, SlidingPoint
+from verification.studies.sliding.path import SlidingPath, SlidingPoint
 
 # The line is fitted to stick areas below this part of the contact area.
 LARGEST_FRACTION = 0.12

@@ -1,0 +1,245 @@
+"""What the harness says of a case of the catalogue under a defect, and of a healthy contact."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import Any, ClassVar
+
+import numpy as np
+
+from contact_scene.description import Description
+from verification.cases.catalogue import case_of, choose
+from verification.cases.judged_case import CaseToJudge, JudgedCase, lost
+from verification.defects.defect import planted
+from verification.defects.healthy_contacts import FAMILIES
+from verification.defects.registry import DEFECTS
+from verification.judging.case import Case, Derived, Level
+from verification.judging.judgement import judge
+from verification.judging.outcome import (
+    IMBALANCE,
+    RESIDUAL,
+    SOLVED,
+    VIOLATION,
+    CaseOutcome,
+    Status,
+    Verdict,
+)
+from verification.judging.run import AnyRun
+from verification.judging.verdicts import expanded_uncertainty
+from verification.running.case_store import CaseStore
+from verification.running.row import CaseRecord, Row, parameters_of
+
+HEALTHY = ""
+GATE = 1e-2
+LAWS = {RESIDUAL: "residual", VIOLATION: "law", IMBALANCE: "law"}
+SEED = 20
+ERROR = "largest_error"
+
+
+@dataclass(frozen=True)
+class Caught:
+    """A verdict that failed.
+
+    how        what it was judged by
+    clearance  error over what is allowed; None where there is no number
+    reason     why a case or a run has no result
+    """
+
+    quantity: str
+    run: str
+    how: str
+    clearance: float | None
+    reason: str = ""
+
+    @property
+    def by_law(self) -> bool:
+        """Whether a law sees it that every result obeys, and no reference."""
+        return self.how in LAWS.values()
+
+    @property
+    def row(self) -> Row:
+        """As it is kept."""
+        return Row(
+            parameters={"quantity": self.quantity, "run": self.run},
+            measures={"clearance": self.clearance},
+            words={"how": self.how, "reason": self.reason},
+        )
+
+
+@dataclass(frozen=True)
+class Sample:
+    """A quantity beside its reference; errors relative to the quantity's scale.
+
+    uncertainty  expanded, U = 2u, before it is capped; None where the tolerance is not derived
+    """
+
+    quantity: str
+    error: float | None
+    allowed: float | None
+    uncertainty: float | None
+
+    @property
+    def row(self) -> Row:
+        """As it is kept."""
+        measures = {"error": self.error, "allowed": self.allowed, "uncertainty": self.uncertainty}
+        return Row(parameters={"quantity": self.quantity}, measures=measures)
+
+
+def caught(record: CaseRecord) -> tuple[Caught, ...]:
+    """The verdicts that failed."""
+    return tuple(
+        Caught(
+            str(row.parameters["quantity"]), str(row.parameters["run"]), row.words["how"],
+            row.measures["clearance"], row.words["reason"],
+        )
+        for row in record.parts
+        if "how" in row.words
+    )  # fmt: skip
+
+
+def samples(record: CaseRecord) -> tuple[Sample, ...]:
+    """The quantities beside their references, of a healthy contact."""
+    return tuple(
+        Sample(str(row.parameters["quantity"]), **row.measures)
+        for row in record.parts
+        if "uncertainty" in row.measures
+    )
+
+
+@dataclass(frozen=True)
+class DefectRun:
+    """A case of the quick catalogue under a defect by its name, or healthy."""
+
+    record_type: ClassVar[type[Description]] = CaseRecord
+    defect: str
+    case: str
+
+    @property
+    def name(self) -> str:
+        """For files."""
+        return f"{self.defect or 'healthy'}--{self.case.replace('_', '-')}"
+
+    def compute(self) -> CaseRecord:
+        """Plant the defect, let the case be judged, and take the defect out again."""
+        started = time.process_time()
+        choose(Level.QUICK)  # what modules compute when they are imported, they compute healthy
+        if self.defect == HEALTHY:
+            outcome = judged(self.case)
+        else:
+            with planted(DEFECTS[self.defect]):
+                outcome = judged(self.case)
+        return record_of(self, outcome, started)
+
+
+@dataclass(frozen=True)
+class HealthyRun:
+    """A contact of a family by the number of its draw, solved on all its grids."""
+
+    record_type: ClassVar[type[Description]] = CaseRecord
+    family: str
+    draw: int
+
+    @property
+    def name(self) -> str:
+        """For files."""
+        return f"{self.family.replace('_', '-')}-{self.draw:03d}"
+
+    def compute(self) -> CaseRecord:
+        """Solve and judge it."""
+        started = time.process_time()
+        number = list(FAMILIES).index(self.family)
+        case = FAMILIES[self.family](np.random.default_rng((SEED, number, self.draw)))
+        results: dict[str, Any] = {}
+
+        def solve(run: AnyRun) -> Any:
+            results[run.label] = run.solve()
+            return results[run.label]
+
+        outcome = judge(case, solve)
+        return record_of(self, outcome, started, tuple(_samples(case, outcome, results)))
+
+
+def record_of(
+    run: DefectRun | HealthyRun,
+    outcome: CaseOutcome,
+    started: float,
+    measured: Sequence[Sample] = (),
+) -> CaseRecord:
+    """Counts of the verdicts, those that failed, and the samples.
+
+    largest_error  of the quantities, relative to their scales: what a fixed gate would look at;
+                   None where one of them has none
+    """
+    failed = tuple(_caught(outcome))
+    return CaseRecord(
+        parameters=parameters_of(run),
+        measures={ERROR: _largest_error(outcome)},
+        counters={
+            "verdicts": len(outcome.verdicts),
+            "failed": len(failed),
+            "inconclusive": outcome.count(Status.INCONCLUSIVE),
+        },
+        parts=(*(one.row for one in failed), *(one.row for one in measured)),
+        seconds=time.process_time() - started,
+    )
+
+
+def judged(name: str) -> CaseOutcome:
+    """The outcome of a case after its way through a file, or why there is none."""
+    case = CaseToJudge(name, Level.QUICK.name)
+    try:
+        with TemporaryDirectory() as directory:
+            store = CaseStore(Path(directory))
+            store.save(case, case.compute())
+            record = store.load(case)
+    except Exception as error:  # whatever it is, it must be named: so does the pool of `verify`
+        return lost(case_of(name, Level.QUICK), f"{type(error).__name__}: {error}")
+    assert isinstance(record, JudgedCase)
+    return record.outcome
+
+
+def _caught(outcome: CaseOutcome) -> Iterator[Caught]:
+    for verdict in outcome.verdicts:
+        if verdict.status is Status.FAIL:
+            yield Caught(
+                verdict.name, verdict.run, _how(verdict), verdict.clearance,
+                verdict.meaning if verdict.name == SOLVED else "",
+            )  # fmt: skip
+
+
+def _how(verdict: Verdict) -> str:
+    if verdict.name == SOLVED:
+        return "named error"
+    if verdict.name in LAWS:
+        return LAWS[verdict.name]
+    if verdict.tolerance_kind == "order":
+        return "order"
+    return f"{verdict.reference_kind}, {verdict.tolerance_kind} tolerance"
+
+
+def _largest_error(outcome: CaseOutcome) -> float | None:
+    errors = [
+        verdict.error
+        for verdict in outcome.verdicts
+        if verdict.tolerance_kind != "order" and verdict.name not in LAWS
+    ]
+    if not errors or any(error is None for error in errors):
+        return None
+    return max(error for error in errors if error is not None)
+
+
+def _samples(case: Case, outcome: CaseOutcome, results: Mapping[str, Any]) -> Iterator[Sample]:
+    verdicts = {verdict.name: verdict for verdict in outcome.verdicts}
+    for quantity in case.quantities:
+        verdict = verdicts.get(quantity.name)
+        if verdict is None:
+            continue
+        uncertainty = None
+        if isinstance(quantity.tolerance, Derived):
+            whole = expanded_uncertainty(quantity, quantity.tolerance, case, results)
+            uncertainty = whole / verdict.scale
+        yield Sample(quantity.name, verdict.error, verdict.allowed, uncertainty)

@@ -1,1 +1,0 @@
-"""The computations of the sliding studies, each a case that runs in a process of its own."""
