@@ -83,7 +83,7 @@ def test_parts_shrink_when_refined() -> None:
     case = PrecisionCase("hertz", Method.SURFACE, 16)
     rows = {n: PrecisionCase("hertz", Method.SURFACE, n).compute() for n in (16, 32, 64)}
     assert budget.contact == case.contact
-    for name in case.problem.errors:
+    for name in case.solved.errors:
         coarse, middle, fine = (value_of(rows[n], name) for n in (16, 32, 64))
         assert abs(middle - fine) < abs(coarse - middle)
 

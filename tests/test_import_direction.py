@@ -95,7 +95,7 @@ ORDERS = {
         *("problems", "laws", "observed", "external_codes"),
         "judging",
         *("running", "regression"),
-        *("cases", "defects", "studies", "peers", "benchmarks"),
+        *("cases", "defects", "peers", "studies", "benchmarks"),
         "report",
     ),
     "verification.cases.both_solvers": (

@@ -24,13 +24,13 @@ from verification.peers.environment import PEERS, Peer, made_environment
 from verification.peers.measure import errors_of, peer_run, request_of
 from verification.problems.layered_scene import coated, film
 from verification.report.prices import price_table
+from verification.running.cold_cache import CACHE, cold_cache
 from verification.running.provenance import provenance
 from verification.running.record import StudyRecord, dump_study
 from verification.running.row import CaseRecord, parameters_of, value_of
 from verification.running.row_files import row_files
 from verification.running.study import Conclusion, Settings
 from verification.studies.work_precision.charts import SERIES
-from verification.studies.work_precision.cold_cache import CACHE, cold_cache
 from verification.studies.work_precision.contacts import CONTACTS
 from verification.studies.work_precision.point import (
     TARGETS,

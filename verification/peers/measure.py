@@ -21,6 +21,7 @@ from typing import Any
 import numpy as np
 
 from contact_results.one_thread import VARIABLES, one_thread
+from semi_analytical import solve
 from verification.closed_forms.hertz import PointContact
 from verification.norms import relative_l2, shear_error
 from verification.peers.environment import (
@@ -31,9 +32,11 @@ from verification.peers.environment import (
     made_environment,
     peers_directory,
 )
+from verification.problems.hertz import BALL
+from verification.problems.paper_scene import HERTZ, hertz_grid
+from verification.problems.sheared import sheared
+from verification.running.cold_cache import timed
 from verification.running.provenance import provenance
-from verification.running.row import value_of
-from verification.studies.work_precision.setting import Method, PrecisionCase
 
 CELLS = (32, 64, 128, 256, 512)
 FRICTION, PART = 0.1, 0.9  # µ, and the tangential force over µW
@@ -110,14 +113,21 @@ def peer_run(
 
 
 def own_run(contact: str, cells: int) -> dict[str, Any]:
-    """Our own method on the same grid and machine."""
-    case = PrecisionCase(contact, Method.SURFACE, cells)
-    found = case.compute()
+    """Our own method on the same grid and machine, its answer in the units of a request."""
+    problem = BALL if contact == "hertz" else sheared("Cattaneo-Mindlin, ν = 0", (PART,))
+    grid = hertz_grid(cells)
+    result, seconds, repeats = timed(lambda: solve(problem.scene, grid, TOLERANCE))
+    end, pressure = result.steps[-1], UNIT.peak_pressure / HERTZ.peak_pressure
+    found = {
+        "pressure": end.pressure * pressure,
+        "approach": end.approach * UNIT.approach / HERTZ.approach,
+        "shear": None if end.shear is None else end.shear * pressure,
+    }
     return {
         "code": "slipstick", "contact": contact, "cells": cells,
-        "iterations": found.counters["convolutions"],
-        "converged": True, "seconds": found.seconds, "repeats": found.repeats,
-        "errors": {name: value_of(found, name) for name in case.problem.errors},
+        "iterations": sum(increment.convolutions for increment in result.increments),
+        "converged": True, "seconds": seconds, "repeats": repeats,
+        "errors": errors_of(contact, request_of(contact, cells), found),
     }  # fmt: skip
 
 

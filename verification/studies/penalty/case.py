@@ -6,14 +6,12 @@ import time
 from dataclasses import dataclass, replace
 from typing import ClassVar
 
-import numpy as np
-
 from contact_scene.description import Description
 from fem_reference import Result
 from verification.cases.fem_indentation import pressed
 from verification.cases.fem_penalty_indentation import by_springs
 from verification.judging.ladder import Ladder, meshed
-from verification.judging.observables import APPROACH, PEAK_PRESSURE, PRESSURE_WITHIN
+from verification.judging.observables import APPROACH, PEAK_PRESSURE, PRESSURE_L2, PRESSURE_WITHIN
 from verification.judging.pressing_errors import PRESSURE, SHEAR
 from verification.judging.run import Run, SectionRun, per_radius
 from verification.problems.hertz import BALL
@@ -116,16 +114,11 @@ class PenaltyCase:
         )
 
     def _of_hertz(self, result: Result) -> dict[str, float]:
-        end = result.steps[-1]
-        r = end.radii
-        exact = HERTZ.pressure(r)
-        missed = np.trapezoid((end.pressure - exact) ** 2 * r, r)
-        norm = np.trapezoid(exact**2 * r, r)
         return {
             "approach": APPROACH.error(BALL)(result),
             "peak": PEAK_PRESSURE.error(BALL)(result),
             "pressure": PRESSURE_WITHIN.error(BALL)(result),
-            "ripple": float(np.sqrt(missed / norm)),
+            "ripple": PRESSURE_L2.error(BALL)(result),
         }
 
     def _of_friction(self, result: Result) -> dict[str, float]:

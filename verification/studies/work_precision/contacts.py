@@ -1,4 +1,4 @@
-"""The contacts of the study: their scenes, how each solver meets them, and the errors they leave.
+"""The contacts of the study: problems whose answer is known, and the errors that are looked at.
 
 Errors are relative to the reference, and signed where the quantity is one number, so that two grids
 can be extrapolated. Fields are judged by one norm for both solvers, edge included where the
@@ -15,27 +15,21 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from contact_results.quantities import shear_of, shift_along_x
-from contact_scene import LoadStep, Scene
-from fem_reference import Result as Section
-from semi_analytical import Result as Surface
 from semi_analytical import SurfaceGrid
 from verification.cases import coated_paraboloid as coated
 from verification.cases.fretting_loop import WINDOW_PER_RADIUS
-from verification.closed_forms.cattaneo_mindlin import PartialSlip
-from verification.judging.observables import APPROACH, PRESSURE_L2
+from verification.cases.loop_observables import ENERGY_PER_CYCLE, LARGEST_SHIFT_ERROR
+from verification.judging.observable import Observable, error_norm
+from verification.judging.observables import APPROACH, PEAK_PRESSURE, PRESSURE_L2, SHEAR, SHIFT
+from verification.judging.pressing_errors import pressure_at, shear_at
 from verification.norms import shear_error
-from verification.observed.end_state import approach, peak_pressure
-from verification.observed.radial_profile import along_radii, outward
-from verification.observed.ring_errors import at_radii
 from verification.problems import paper_scene as paper
-from verification.problems.coated_ball import SOURCE as COATINGS
 from verification.problems.hertz import BALL
 from verification.problems.indentation import COATED
-from verification.problems.loop_history import SOURCE as LOOP_SOURCE
-from verification.problems.loop_history import ExactLoop, loop_energy, loop_steps
-from verification.problems.paper_scene import FRICTION, FRICTION_LIMIT, HERTZ, NU_ZERO
-from verification.problems.sheared import SLIDING_SHIFT
+from verification.problems.loop_history import ExactLoop, fretting_loop
+from verification.problems.paper_scene import NU_ZERO
+from verification.problems.problem import OVER_PEAK, Problem
+from verification.problems.sheared import OVER_LIMIT, SLIDING_SHIFT, sheared
 from verification.studies.work_precision.frozen_route import FrozenHistory
 
 Field = NDArray[np.float64]
@@ -45,119 +39,71 @@ SHEARED = 0.9  # of µW
 LOOPED = ExactLoop(NU_ZERO)
 LARGEST = LOOPED.end.shift
 QUARTER = 3  # increments from T = 0 to the largest
-JUDGED = (0.1, 0.9)  # part of the radius where the tractions of the last contact are judged
+JUDGED = (0.1 - 1e-9, 0.9 + 1e-9)  # part of the radius where the tractions under friction are
 
 
 @dataclass(frozen=True)
 class PreciseContact:
     """A contact with a reference.
 
-    title      for people
-    errors     what is measured, in words: fields, which are judged by a norm, and numbers
-    radius     expected contact radius [length]
-    window     over that radius
-    scene      by the number of increments, where the path decides
-    increments of the step that decides, unless the study varies them; None: one will do
-    surface    errors of the semi-analytical method
-    section    errors of the finite elements
-    source     of the reference
-    turns      shifts at which a tangential motion turns, and its end [length]; empty without one
-    frozen     errors of the usual route along them
+    title       for people
+    errors      what is measured, in words: fields, which are judged by a norm, and numbers
+    observables the same, as what is read off a result of either solver
+    posed       by the number of increments, where the path decides
+    window      over the contact radius
+    increments  of the step that decides, unless the study varies them; None: one will do
+    turns       shifts at which a tangential motion turns, and its end [length]; empty without one
+    frozen      errors of the usual route along them
     """
 
     name: str
     title: str
     errors: Mapping[str, str]
-    radius: float
-    scene: Callable[[int], Scene]
-    surface: Callable[[Surface], Errors]
-    section: Callable[[Section], Errors]
-    source: str
+    observables: tuple[Observable, ...]
+    posed: Callable[[int], Problem]
     window: float = paper.WINDOW_PER_RADIUS
     increments: int | None = None
     turns: tuple[float, ...] = ()
     frozen: Callable[[FrozenHistory], Errors] = lambda history: {}
 
+    @property
+    def problem(self) -> Problem:
+        """In one increment."""
+        return self.posed(1)
+
+    @property
+    def leading(self) -> str:
+        """The error that comes first."""
+        return next(iter(self.errors))
+
+    def meaning(self, quantity: str) -> str:
+        """Of one of the errors, with the contact, for people."""
+        return f"{self.title}: {self.errors[quantity]}"
+
+    def errors_of(self, result: Any) -> Errors:
+        """By either solver."""
+        named = zip(self.errors, self.observables, strict=True)
+        return {name: one.error(self.problem)(result) for name, one in named}
+
     def grid(self, cells: int, window: float | None = None) -> SurfaceGrid:
         """A square grid around the contact."""
-        return paper.square_grid(cells, (window or self.window) / 2 * self.radius)
-
-
-def _hertz(result: Any) -> Errors:
-    return {
-        "peak": peak_pressure(result) / HERTZ.peak_pressure - 1,
-        "approach": approach(result) / HERTZ.approach - 1,
-    }
-
-
-def _hertz_surface(result: Surface) -> Errors:
-    return {"pressure": PRESSURE_L2.error(BALL)(result), **_hertz(result)}
-
-
-def _hertz_section(result: Section) -> Errors:
-    return {"pressure": _norm(result, HERTZ.pressure), **_hertz(result)}
-
-
-def _norm(result: Section, exact: Callable[[Field], Field]) -> float:
-    """Relative L2 error of the pressure over the rings."""
-    end = result.steps[-1]
-    known, r = exact(end.radii), end.radii
-    missed = np.trapezoid((end.pressure - known) ** 2 * r, r)
-    return float(np.sqrt(missed / np.trapezoid(known**2 * r, r)))
-
-
-def _coated_surface(result: Surface) -> Errors:
-    return {
-        "pressure": PRESSURE_L2.error(coated.EXACT)(result),
-        "approach": APPROACH.error(coated.EXACT)(result),
-    }
-
-
-def _coated_section(result: Section) -> Errors:
-    return {
-        "pressure": _norm(result, coated.EXACT.ends[-1].pressure),
-        "approach": APPROACH.error(coated.EXACT)(result),
-    }
+        return paper.square_grid(cells, (window or self.window) / 2 * self.problem.radius)
 
 
 @cache
-def sheared() -> PartialSlip:
-    """The closed form at the end of the shearing."""
-    return paper.partial_slip(NU_ZERO, SHEARED * FRICTION_LIMIT)
+def _pushed(increments: int) -> Problem:
+    problem = sheared("Cattaneo-Mindlin, ν = 0", (SHEARED,))
+    press, push = problem.scene.loading
+    loading = (press, push.model_copy(update={"increments": increments}))
+    return replace(problem, scene=problem.scene.model_copy(update={"loading": loading}))
 
 
-def _cattaneo_surface(result: Surface) -> Errors:
-    end = result.steps[-1]
-    exact = sheared().shear(np.hypot(*result.grid.coordinates()))
-    return {"shear": shear_error(shear_of(end), exact, FRICTION * end.pressure),
-            "shift": _shift(end)}  # fmt: skip
-
-
-def _cattaneo_section(result: Section) -> Errors:
-    end: Any = result.steps[-1]
-    r, limit = end.radii, FRICTION * end.pressure
-    missed = np.trapezoid(np.abs(end.shear_along_load - sheared().shear(r)) * r, r)
-    return {"shear": float(missed / np.trapezoid(limit * r, r)), "shift": _shift(end)}
-
-
-def _cattaneo_frozen(history: FrozenHistory) -> Errors:
+def _pushed_frozen(history: FrozenHistory) -> Errors:
     (end,) = history.turned
-    exact = replace(sheared(), tangential_force=end.force)
+    exact = replace(_pushed(1).ends[-1], tangential_force=end.force)
     r = np.hypot(*history.grid.coordinates())
     return {"shear": shear_error(end.shear, exact.shear(r), history.bound),
             "shift": (end.shift - exact.shift) / SLIDING_SHIFT}  # fmt: skip
-
-
-def _shift(end: Any) -> float:
-    return (shift_along_x(end) - sheared().shift) / SLIDING_SHIFT
-
-
-def _loop(result: Any) -> Errors:
-    exact = LOOPED
-    return {
-        "energy": loop_energy(result) / exact.energy_per_cycle - 1,
-        "shift": exact.largest_shift_error(result) / LARGEST,
-    }
 
 
 def _loop_frozen(history: FrozenHistory) -> Errors:
@@ -174,88 +120,69 @@ def _loop_frozen(history: FrozenHistory) -> Errors:
     }
 
 
-def _judged(key: str) -> tuple[Field, Field]:
-    r, values = np.array(COATED.row["r_over_a"]), np.array(COATED.row[key])
-    inside = (r >= JUDGED[0] - 1e-9) & (r <= JUDGED[1] + 1e-9)
-    return r[inside] * COATED.contact_radius, values[inside]
+def _largest_error(
+    at: Callable[[Any, Field], Field], exact: Callable[[Any], Callable[[Field], Field]], scale: str
+) -> Observable:
+    """Of a traction at the radii of a table, over its scale."""
 
+    def measure(result: Any, step: int, problem: Problem) -> float:
+        answer = problem.ends[step]
+        part = answer.radii / problem.radius
+        r = answer.radii[(part >= JUDGED[0]) & (part <= JUDGED[1])]
+        error = at(result, r) - exact(answer)(r)[:, None]
+        return float(np.max(np.abs(error)) / problem.scale(scale))
 
-def _pressed_surface(result: Surface) -> Errors:
-    end, grid = result.steps[-1], result.grid
-    return _pressed(
-        result,
-        lambda r: along_radii(end.pressure, grid, r),
-        lambda r: along_radii(outward(shear_of(end), grid), grid, r),
-    )
-
-
-def _pressed_section(result: Section) -> Errors:
-    end = result.steps[-1]
-    assert end.shear_radial is not None
-    shear = end.shear_radial
-    return _pressed(
-        result,
-        lambda r: at_radii(end, end.pressure, r)[:, None],
-        lambda r: at_radii(end, shear, r)[:, None],
-    )
-
-
-def _pressed(
-    result: Any, pressure: Callable[[Field], Field], shear: Callable[[Field], Field]
-) -> Errors:
-    unit = HERTZ.peak_pressure
-    r, p = _judged("p_over_pH")
-    _, q = _judged("q_over_mu_pH")
-    return {
-        "shear": float(np.max(np.abs(shear(r) / (COATED.friction * unit) - q[:, None]))),
-        "pressure": float(np.max(np.abs(pressure(r) / unit - p[:, None]))),
-        "approach": approach(result) / COATED.approach - 1,
-    }
-
-
-def _pressing(increments: int) -> Scene:
-    return COATED.problem(increments).scene
-
-
-def _frictional(title: str, *loading: LoadStep) -> Scene:
-    return paper.frictional(title, paper.paraboloid(NU_ZERO), NU_ZERO, *loading)
+    return error_norm("traction", "", measure, scale)
 
 
 HERTZIAN = PreciseContact(
-    "hertz", "Hertz",
+    "hertz",
+    "Hertz",
     {"pressure": "pressure, L2", "peak": "peak pressure", "approach": "approach"},
-    HERTZ.contact_radius, lambda _: BALL.scene, _hertz_surface, _hertz_section,
-    "Hertz 1882",
-)  # fmt: skip
+    (PRESSURE_L2, PEAK_PRESSURE, APPROACH),
+    lambda _: BALL,
+)
 CATTANEO = PreciseContact(
-    "cattaneo", "Cattaneo-Mindlin, ν = 0",
+    "cattaneo",
+    "Cattaneo-Mindlin, ν = 0",
     {"shear": "shear at 0.9 µW, Σ|q - q_exact| / Σµp", "shift": "shift over the sliding shift"},
-    HERTZ.contact_radius,
-    lambda k: _frictional("Cattaneo-Mindlin, ν = 0", paper.tangential_step(SHEARED, k)),
-    _cattaneo_surface, _cattaneo_section, "Cattaneo 1938; Mindlin 1949",
-    turns=(sheared().shift,), frozen=_cattaneo_frozen,
-)  # fmt: skip
+    (SHEAR, SHIFT),
+    _pushed,
+    turns=(_pushed(1).ends[-1].shift,),
+    frozen=_pushed_frozen,
+)
 COATING = PreciseContact(
-    "coated", "Coated, E1/E2 = 2, without friction",
+    "coated",
+    "Coated, E1/E2 = 2, without friction",
     {"pressure": "pressure, L2", "approach": "approach"},
-    coated.EXACT.radius, lambda _: coated.EXACT.scene,
-    _coated_surface, _coated_section, COATINGS,
-)  # fmt: skip
+    (PRESSURE_L2, APPROACH),
+    lambda _: coated.EXACT,
+)
 INDENTATION = PreciseContact(
-    "indentation", "Coated, pressed with friction",
+    "indentation",
+    "Coated, pressed with friction",
     {
         "shear": "shear from 0.1 to 0.9 of the radius, largest, over µp_H",
-        "pressure": "pressure there, largest, over p_H", "approach": "approach",
+        "pressure": "pressure there, largest, over p_H",
+        "approach": "approach",
     },
-    COATED.contact_radius, _pressing, _pressed_surface, _pressed_section, COATED.source,
+    (
+        _largest_error(shear_at, lambda answer: answer.shear, OVER_LIMIT),
+        _largest_error(pressure_at, lambda answer: answer.pressure, OVER_PEAK),
+        APPROACH,
+    ),
+    COATED.problem,
     increments=20,
-)  # fmt: skip
+)
 LOOP = PreciseContact(
-    "loop", "Fretting loop, ν = 0",
+    "loop",
+    "Fretting loop, ν = 0",
     {"energy": "energy of a cycle", "shift": "largest error of the shift"},
-    HERTZ.contact_radius,
-    lambda k: _frictional("Fretting loop, ν = 0", *loop_steps(k)),
-    _loop, _loop, LOOP_SOURCE, window=WINDOW_PER_RADIUS, increments=QUARTER,
-    turns=(LARGEST, -LARGEST, LARGEST), frozen=_loop_frozen,
-)  # fmt: skip
+    (ENERGY_PER_CYCLE, LARGEST_SHIFT_ERROR),
+    lambda quarter: fretting_loop("Fretting loop, ν = 0", NU_ZERO, quarter),
+    window=WINDOW_PER_RADIUS,
+    increments=QUARTER,
+    turns=(LARGEST, -LARGEST, LARGEST),
+    frozen=_loop_frozen,
+)
 CONTACTS = {c.name: c for c in (HERTZIAN, CATTANEO, COATING, INDENTATION, LOOP)}

@@ -205,5 +205,4 @@ def percent(part: float) -> str:
 
 def quantity_title(contact: str, quantity: str) -> str:
     """Of a quantity on a contact, for people."""
-    problem = CONTACTS[contact]
-    return f"{problem.title}: {problem.errors[quantity]}"
+    return CONTACTS[contact].meaning(quantity)

@@ -11,6 +11,7 @@ from verification.exhibits.log_chart import drawable, log_chart, point_curves
 from verification.exhibits.numbers import plain
 from verification.exhibits.table import Table
 from verification.references import load_reference
+from verification.studies.work_precision.contacts import CATTANEO, HERTZIAN
 from verification.studies.work_precision.point import Point, cheapest, dependable, seconds
 
 NAME = "peers"
@@ -18,8 +19,10 @@ OTHERS = "other codes, recorded"
 BESIDE = "semi-analytical, in their turn"  # our own runs of the record
 OURS = "slipstick"
 TOLD = (0.01, 0.001)  # errors that costs are told for
-JUDGED = {"hertz": ("pressure", "Hertz: pressure, L2"), "cattaneo": (
-    "shear", "Cattaneo-Mindlin, ν = 0: shear at 0.9 µW, Σ|q - q_exact| / Σµp")}  # fmt: skip
+# The first quantity of the contacts that they were asked for.
+JUDGED = {
+    c.name: (next(iter(c.errors)), c.meaning(next(iter(c.errors)))) for c in (HERTZIAN, CATTANEO)
+}
 
 Record = Mapping[str, Any]
 Points = Mapping[tuple[str, str], tuple[Point, ...]]

@@ -15,9 +15,9 @@ from fem_reference import solve as solve_section
 from semi_analytical import Result as Surface
 from semi_analytical import SurfaceGrid, solve
 from verification.judging.run import SOLVER_TOLERANCE
+from verification.running.cold_cache import timed
 from verification.running.row import CaseRecord, parameters_of
 from verification.studies.work_precision import counted_work
-from verification.studies.work_precision.cold_cache import timed
 from verification.studies.work_precision.contacts import CONTACTS, PreciseContact
 from verification.studies.work_precision.frozen_route import FrozenHistory, frozen_history
 from verification.studies.work_precision.usual_route import Sampling, solve_sampled
@@ -74,7 +74,7 @@ class PrecisionCase:
         return "-".join(parts).replace(".", "p")
 
     @property
-    def problem(self) -> PreciseContact:
+    def solved(self) -> PreciseContact:
         """What is solved."""
         return CONTACTS[self.contact]
 
@@ -108,7 +108,7 @@ class PrecisionCase:
         if self.by_sections:
             section, *clock = timed(self._section)
             return self._record(
-                self.problem.section(section),
+                self.solved.errors_of(section),
                 counted_work.of_section(section),
                 clock,
                 factorisations=counted_work.factorisations(section),
@@ -116,13 +116,13 @@ class PrecisionCase:
                 unknowns=counted_work.unknowns(section),
                 increments=len(section.increments),
             )
-        components = 1 if self.problem.scene(NO_INCREMENTS).friction is None else 3
+        components = 1 if self.solved.problem.scene.friction is None else 3
         unknowns = components * self.fineness**2
         if self.method is Method.FROZEN:
             history, *clock = timed(self._frozen)
             work = counted_work.transforms(4 * self.fineness**2, 2 * history.convolutions)
             return self._record(
-                self.problem.frozen(history),
+                self.solved.frozen(history),
                 work + self._sampling_operations,
                 clock,
                 convolutions=history.convolutions,
@@ -131,7 +131,7 @@ class PrecisionCase:
             )
         surface, *clock = timed(self._surface)
         return self._record(
-            self.problem.surface(surface),
+            self.solved.errors_of(surface),
             counted_work.of_surface(surface) + self._sampling_operations,
             clock,
             convolutions=counted_work.convolutions(surface),
@@ -158,11 +158,11 @@ class PrecisionCase:
 
     @property
     def _steps(self) -> int:
-        return self.increments or self.problem.increments or NO_INCREMENTS
+        return self.increments or self.solved.increments or NO_INCREMENTS
 
     @property
     def _grid(self) -> SurfaceGrid:
-        return self.problem.grid(self.fineness, self.window or None)
+        return self.solved.grid(self.fineness, self.window or None)
 
     @property
     def _sampling(self) -> Sampling:
@@ -173,11 +173,11 @@ class PrecisionCase:
         """One transform of all samples for every coefficient: one without friction, six with."""
         if not any(self.sampling):
             return 0.0
-        count = 1 if self.problem.scene(NO_INCREMENTS).friction is None else 6
+        count = 1 if self.solved.problem.scene.friction is None else 6
         return counted_work.transforms(self._sampling.count(self.fineness + 1) ** 2, count)
 
     def _surface(self) -> Surface:
-        scene = self.problem.scene(self._steps)
+        scene = self.solved.posed(self._steps).scene
         if self.method is Method.SAMPLED:
             return solve_sampled(scene, self._grid, self.tolerance, self._sampling)[1]
         return solve(scene, self._grid, self.tolerance)
@@ -186,23 +186,23 @@ class PrecisionCase:
         discretisation = FiniteElementDiscretisation(
             elements_per_radius=self.fineness,
             # The edge of the contact lies in the middle of an element on every mesh.
-            contact_radius=self.problem.radius * self.fineness / (self.fineness + 0.5),
+            contact_radius=self.solved.problem.radius * self.fineness / (self.fineness + 0.5),
             tolerance=self.tolerance,
             box=self.box or None,
         )
         if self.penalty:
             discretisation = discretisation.model_copy(update={"penalty": self.penalty})
         by = Enforcement.PENALTY if self.method is Method.PENALTY else Enforcement.COMPLEMENTARITY
-        return solve_section(self.problem.scene(self._steps), discretisation, by)
+        return solve_section(self.solved.posed(self._steps).scene, discretisation, by)
 
     def _frozen(self) -> FrozenHistory:
         """Press at once, then shift with the directions of slip held."""
-        pressing = self.problem.scene(NO_INCREMENTS)
+        pressing = self.solved.problem.scene
         return frozen_history(
             pressing.model_copy(update={"loading": pressing.loading[:1]}),
             self._grid,
             self.tolerance,
             self._sampling,
-            self.problem.turns,
+            self.solved.turns,
             self._steps,
         )

@@ -48,8 +48,8 @@ SHARED = (
     "and the pressing with friction was not run so.",
     "Extrapolation takes two grids with cells of ratio two and the order two, for peak pressure "
     "and approach.",
-    "An error norm of a field means the edge, where pressure is a square root; a finite element "
-    "there is compared ring by ring.",
+    "An error norm of a field means the edge, where pressure is a square root; fields of finite "
+    "elements are taken as they are meant, linear between the rings.",
 )
 BY_THE_CLOCK = (
     "Seconds are CPU seconds of one thread, the median of up to five runs, each with an empty "
@@ -69,7 +69,7 @@ def conclude(settings: Settings, records: Records) -> Conclusion:
     known = found(cases(settings), records)
     everything = _everything(known)
     rows, peers = price_rows(WORK, everything), recorded_peers()
-    leading = [(c.name, next(iter(c.errors))) for c in CONTACTS.values()]
+    leading = [(c.name, c.leading) for c in CONTACTS.values()]
     return Conclusion(
         statements=(
             solved("every setting is solved", len(known), len(cases(settings))),
@@ -90,7 +90,7 @@ def conclude(settings: Settings, records: Records) -> Conclusion:
         remarks=(
             *SHARED,
             *peer_remarks(peers),
-            *(f"Reference, {c.title}: {c.source}." for c in CONTACTS.values()),
+            *(f"Reference, {c.title}: {c.problem.source}." for c in CONTACTS.values()),
         ),
     )
 
