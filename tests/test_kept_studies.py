@@ -1,0 +1,113 @@
+"""Kept records of studies: today's code asks the same, and their statements follow from what they
+show."""
+
+from functools import cache
+from pathlib import Path
+
+import pytest
+
+from verification.cases.both_solvers.contacts import CONTACTS
+from verification.cases.both_solvers.differences import COMPARED
+from verification.exhibits.chart import Chart
+from verification.exhibits.numbers import plain
+from verification.judging.case import Level
+from verification.running.record import StudyRecord
+from verification.running.stored_studies import stored_studies
+from verification.running.study import Conclusion, Records, Settings
+from verification.studies.catalogue import STUDIES
+from verification.studies.stability.cell import StabilityCell
+from verification.studies.stability.record import CellRecord, Verdict
+from verification.studies.stability.study import CELLS
+from verification.studies.stability.views import study_cells
+
+KEPT = {
+    record.name: record
+    for record in stored_studies(Path(__file__).resolve().parents[1] / "reports" / "studies")
+}
+PER_MILLE = 1e3
+
+
+def kept(name: str) -> StudyRecord:
+    return KEPT[name]
+
+
+def kept_chart(study: str, name: str) -> Chart:
+    return next(chart for chart in kept(study).conclusion.charts if chart.name == name)
+
+
+def measured(study: str, claim: str) -> str:
+    """What a kept statement says that it measured."""
+    (told,) = (s for s in kept(study).conclusion.statements if claim in s.claim)
+    return told.measured
+
+
+def ended(cell: StabilityCell) -> CellRecord:
+    """As it should."""
+    end = CellRecord(verdict=Verdict.CONVERGED, tolerance=1e-8, residual=1e-9, increments=1)
+    if cell.posable and cell.push <= 1:
+        return end
+    reason = "it exceeds the friction limit" if cell.posable else "UnsupportedScene"
+    return end.model_copy(update={"verdict": Verdict.REFUSED, "reason": reason})
+
+
+@cache
+def today(name: str) -> Conclusion:
+    """What today's code concludes at that level, from no records but those of the map."""
+    level = Level[kept(name).level.upper()]
+    records: Records = {}
+    if name == "stability":
+        cells = study_cells(level, CELLS[level])
+        records = {cell.name: ended(cell).row(cell) for cell in cells}
+    return STUDIES[name].conclude(Settings(level), records)
+
+
+@pytest.mark.parametrize("name", ["cross-check", "gross-sliding", "stability"])
+def test_a_kept_record_answers_what_is_asked_today(name: str) -> None:
+    assert kept(name).question == STUDIES[name].question
+    claims = [statement.claim for statement in kept(name).conclusion.statements]
+    assert claims == [statement.claim for statement in today(name).statements]
+
+
+@pytest.mark.parametrize("name", ["pressure", "shear"])
+def test_largest_differences_of_both_solvers_are_those_of_the_curves(name: str) -> None:
+    curves = [
+        curve
+        for row in kept_chart("cross-check", f"{name}_differences").rows
+        for panel in row
+        for curve in panel.curves
+    ]
+    worst = max(abs(y) for curve in curves for y in curve.y) / PER_MILLE
+    said = measured("cross-check", f"agree: {name}")
+    assert f"largest difference {plain(worst, 2)} " in said
+    within = sum(max(map(abs, c.y)) <= PER_MILLE * COMPARED[name].required for c in curves)
+    assert f"{within} of {len(curves)} contacts" in said
+    asked = [contact for contact in CONTACTS if contact.friction or name == "pressure"]
+    assert len(curves) == len(asked)
+
+
+def test_largest_forces_are_those_of_the_curves() -> None:
+    ((panel,),) = kept_chart("gross-sliding", "force_against_shift").rows
+    forces = {curve.label: max(curve.y) for curve in panel.curves if "E1/E2" in curve.label}
+    said = ", ".join(f"{name}: {force:.6f} µW" for name, force in forces.items())
+    assert measured("gross-sliding", "T_max") == said
+    assert len(forces) == 4
+
+
+def test_the_kept_map_has_the_cells_of_today_place_by_place() -> None:
+    old, new = kept("stability").conclusion, today("stability")
+    counts = [[row[:2] for row in conclusion.tables[0].rows] for conclusion in (old, new)]
+    assert counts[0] == counts[1]
+    for one, other in zip(old.charts, new.charts, strict=True):
+        ((before,),), ((after,),) = one.rows, other.rows
+        assert (one.name, one.title) == (other.name, other.title)
+        assert (before.x_places, before.y_places) == (after.x_places, after.y_places)
+        assert [note[:2] for note in before.notes] == [note[:2] for note in after.notes]
+
+
+@pytest.mark.parametrize("column", range(2, 6))
+def test_how_cells_ended_is_what_the_map_shows_of_its_solvers(column: int) -> None:
+    rows = kept("stability").conclusion.tables[0].rows
+    said = kept("stability").conclusion.answer
+    counted = sum(int(row[column]) for row in rows)
+    words = ("converged", "were refused", "gave up", "are wrong in silence")
+    assert f"{counted} {words[column - 2]}" in said
