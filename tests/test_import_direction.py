@@ -6,6 +6,7 @@ module has to be placed in its list.
 """
 
 import ast
+import subprocess
 import sys
 from collections.abc import Iterator
 from pathlib import Path
@@ -220,6 +221,20 @@ def violations(root: Path) -> list[str]:
 
 def test_imports_go_one_way() -> None:
     assert violations(ROOT) == []
+
+
+def test_results_bring_in_no_solver_by_themselves() -> None:
+    """Whoever has the results of one solver need not import the other."""
+    ours = sorted(name for name in modules(ROOT) if within(name, "contact_results"))
+    script = f"""
+import importlib, sys
+for name in {ours}:
+    importlib.import_module(name)
+print(*{{"semi_analytical", "fem_reference", "verification"}} & set(sys.modules))"""
+    ran = subprocess.run(
+        [sys.executable, "-c", script], cwd=ROOT, capture_output=True, text=True, check=True
+    )
+    assert ran.stdout.split() == []
 
 
 PLANTED = {

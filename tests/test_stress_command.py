@@ -152,6 +152,31 @@ def test_indenter_has_its_own_stress(place: Path) -> None:
 
 
 @pytest.mark.parametrize(
+    ("solver", "own"), [("semi-analytical", "semi_analytical"), ("fem", "fem_reference")]
+)
+def test_stress_imports_no_other_solver(place: Path, solver: str, own: str) -> None:
+    script = """
+import sys
+from slipstick.cli import main
+try:
+    main()
+finally:
+    print(*{"semi_analytical", "fem_reference", "verification"} & set(sys.modules))"""
+    coarse = (
+        "--set",
+        "semi_analytical.cells=[8,8]",
+        "--set",
+        "fem_reference={elements_per_radius=4}",
+    )
+    asked = ("stress", place / "scene.toml", "-o", place / own, "--solver", solver, "--no-figures")
+    outcome = subprocess.run(
+        [sys.executable, "-c", script, *map(str, asked), *coarse],
+        cwd=ROOT, capture_output=True, text=True, check=True,
+    )  # fmt: skip
+    assert outcome.stdout.splitlines()[-1].split() == [own]
+
+
+@pytest.mark.parametrize(
     ("arguments", "complaint"),
     [
         (["{}/run", "--step", "3"], "no step 3"),

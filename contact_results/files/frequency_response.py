@@ -1,16 +1,20 @@
 """Surface FRF of a body over a range of wavenumbers, and its table `frf.csv`."""
 
+from __future__ import annotations
+
 import csv
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
 from contact_results.directory.atomic_file import atomic_file
-from semi_analytical.frf.stack import Stack
-from semi_analytical.frf.surface import SurfaceScalars, scalars
+
+if TYPE_CHECKING:
+    from semi_analytical.frf.stack import Stack
 
 Array = NDArray[np.float64]
 
@@ -42,8 +46,10 @@ class FrequencyResponse:
     @cached_property
     def columns(self) -> dict[str, Array]:
         """F_ss, F_tt, F_zz and C by name [length^3/force]."""
+        from semi_analytical.frf.surface import scalars
+
         with np.errstate(over="ignore", invalid="ignore"):  # refused by whoever asks for more
-            response: SurfaceScalars = scalars(self.stack, self.alpha)
+            response = scalars(self.stack, self.alpha)
         return dict(
             zip(NAMES, (response.c11, response.csh, response.c22, response.c12), strict=True)
         )
