@@ -209,10 +209,9 @@ def _inside(line: Curve) -> tuple[float, float]:
 
 
 def order_row(fit: Fit) -> Row:
-    """Order and limit of a quantity, in SI."""
+    """Order and limit of a quantity, in SI: in its unit, which stands beside it."""
     last, before = fit.triplets
-    known = fit.observed
-    unit = unit_of_fit(fit)
+    known, expected = fit.observed, fit.expected
     measures = {
         "finest": fit.finest,
         "limit": fit.limit,
@@ -224,11 +223,14 @@ def order_row(fit: Fit) -> Row:
         "triplet_before": before,
     }
     words = {"status": fit.status, "unsettled": fit.unsettled}
-    expected = fit.expected
     return Row(
-        parameters={"quantity": fit.name, "expected": None if expected is None else expected.order},
+        parameters={
+            "quantity": fit.name,
+            "unit": unit_of_fit(fit) or "1",
+            "expected": None if expected is None else expected.order,
+        },
         measures=measures,
-        units=dict.fromkeys(("finest", "limit", "uncertainty"), unit) if unit else {},
+        units=dict.fromkeys(("finest", "limit", "uncertainty"), "its unit"),
         words={name: word for name, word in words.items() if word is not None},
     )
 
