@@ -122,7 +122,7 @@ def test_check_imports_nothing_heavy(scene: Path) -> None:
 def test_a_solver_is_used_without_the_other_and_without_the_harness(
     scene: Path, command: str, solver: SolverName
 ) -> None:
-    options = ["--output", scene.parent / "out", "--no-figures"] if command == "run" else []
+    options = ["--output", scene.parent / "out"] if command == "run" else []
     coarse = ("--set", "semi_analytical.cells=[16,16]", "--set",
               "fem_reference.elements_per_radius=4")  # fmt: skip
     imported = imported_by(command, scene, "--solver", solver, *coarse, *options)
