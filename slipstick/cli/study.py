@@ -181,6 +181,7 @@ def _studied(
             level=settings.level.name.lower(),
             conclusion=study.conclude(settings, records),
             lost=tuple(end.lost for end in ends if end.lost is not None),
+            own_cells=settings.cells is not None,
             provenance=provenance(command, seconds, timed=study.timed(settings, records)),
         )
         files = row_files(records, record.conclusion.rows)

@@ -22,7 +22,6 @@ TITLES = {
 }
 LEVELS = ("quick", "standard", "full")
 PLACES = (Path("reports/studies"), Path("out"))  # where records are looked for
-OWN_CELLS = "--cells"
 
 
 @dataclass(frozen=True)
@@ -68,7 +67,7 @@ def stored_records(
     best: dict[str, StudyRecord] = {}
     for place in places:
         for record in stored_studies(place, left_out):
-            if OWN_CELLS in record.provenance.command or record.name not in TITLES:
+            if record.own_cells or record.name not in TITLES:
                 continue
             if _rank(record, now) >= _rank(best.get(record.name), now):
                 best[record.name] = record

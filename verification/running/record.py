@@ -26,6 +26,8 @@ class StudyRecord(Description):
     """Cases that have no record: the conclusion does without them."""
 
     provenance: Provenance
+    own_cells: bool = False
+    """Whether somebody chose the cells: it is then of no level."""
 
     @model_validator(mode="after")
     def _is_of_this_version(self) -> StudyRecord:
