@@ -190,6 +190,13 @@ def killed_and_resumed(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, 
     return directory / "out", kept
 
 
+def test_record_says_that_its_cells_were_chosen(
+    killed_and_resumed: tuple[Path, dict[str, int]],
+) -> None:
+    (record,) = stored_studies(killed_and_resumed[0].parent)
+    assert record.own_cells
+
+
 def test_killed_study_goes_on_where_it_stopped(
     killed_and_resumed: tuple[Path, dict[str, int]],
 ) -> None:
