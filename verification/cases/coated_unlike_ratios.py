@@ -2,134 +2,90 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from functools import cached_property
-
 import numpy as np
 from numpy.typing import NDArray
 
 from contact_scene import Body, IsotropicMaterial, Layer
 from semi_analytical.frf.stack import Film, HalfSpace, Stack
 from semi_analytical.frf.surface import scalars
-from verification.cases.fem_levels import allowed, because, finest
-from verification.closed_forms.coated_indentation import (
-    LayeredIndentation,
-    LayeredSurface,
-    paraboloid_under,
-)
-from verification.judging.case import Case, Level, Quantity, Required
-from verification.judging.ladder import cells_label
-from verification.judging.refinement import part_of_a_cell
-from verification.judging.run import Run, SectionRun, per_radius
-from verification.observed.end_state import approach, central_pressure, contact_radius
+from verification.cases.fem_levels import because, finest
+from verification.closed_forms.coated_indentation import LayeredSurface, paraboloid_under
+from verification.judging.case import Case, Level
+from verification.judging.declared_case import Within, case, judged
+from verification.judging.ladder import asked, named, on_cells, on_elements, part_of_side
+from verification.judging.observables import APPROACH, CENTRAL_PRESSURE, CONTACT_RADIUS
 from verification.problems import paper_scene as paper
-from verification.problems.layered_scene import pressed, rigid_ball, semi_closed
+from verification.problems.layered_scene import (
+    FREDHOLM,
+    SEMI_CLOSED_ERROR,
+    pressed,
+    rigid_ball,
+)
 from verification.problems.paper_scene import HERTZ
+from verification.problems.problem import Problem
+from verification.problems.reference import ReferenceKind
 
 CELLS = 128
 ASKED = "asked of coated bodies on 128 x 128 cells, as in coated_paraboloid"
 THICKNESS = 0.5 * HERTZ.contact_radius
 MODULUS = 210e9
+ON_CELLS = (
+    Within(APPROACH, 2e-4, ASKED),
+    Within(CONTACT_RADIUS, part_of_side(0.1), "a tenth of a cell"),
+    Within(CENTRAL_PRESSURE, 2e-4, ASKED),
+)
+ON_ELEMENTS = (
+    Within(APPROACH, asked(1e-4, 2), because(2)),
+    Within(CONTACT_RADIUS, 2e-3, "asked of the finite elements at 64 per radius"),
+    Within(CENTRAL_PRESSURE, asked(1e-4, 2), because(2)),
+)
 
 
-@dataclass(frozen=True)
-class UnlikeRatios:
-    """One Young's modulus throughout: only Poisson's ratios tell the layer from its substrate."""
+def unlike_ratios(film: float, substrate: float) -> Problem:
+    """The ball on a layer of one Poisson's ratio on a body of another: one Young's modulus
+    throughout, so that only the ratios tell them apart.
 
-    film: float
-    substrate: float
+    The answer is of constants that are written down here once more: a stack that were made of the
+    scene would share its mistakes.
+    """
+    material, film_material = (
+        IsotropicMaterial(young_modulus=MODULUS, poisson_ratio=ratio) for ratio in (substrate, film)
+    )
+    body = Body(material=material, layers=(Layer(thickness=THICKNESS, material=film_material),))
+    of_film, of_substrate = (MODULUS / (2 * (1 + ratio)) for ratio in (film, substrate))
+    stack = Stack([Film(of_film, film, THICKNESS)], HalfSpace(of_substrate, substrate))
 
-    @property
-    def name(self) -> str:
-        """For labels."""
-        return f"ν = {self.film:g} on ν = {self.substrate:g}"
+    def compliance(k: NDArray[np.float64]) -> NDArray[np.float64]:
+        return scalars(stack, k).c22
 
-    @property
-    def body(self) -> Body:
-        """The coated body of the scene."""
-        return Body(
-            material=_material(self.substrate),
-            layers=(Layer(thickness=THICKNESS, material=_material(self.film)),),
-        )
-
-    @cached_property
-    def exact(self) -> LayeredIndentation:
-        """Of constants that are written down here once more: a stack that were made of the scene
-        would share its mistakes."""
-        film, substrate = _shear_modulus(self.film), _shear_modulus(self.substrate)
-        stack = Stack([Film(film, self.film, THICKNESS)], HalfSpace(substrate, self.substrate))
-
-        def compliance(k: NDArray[np.float64]) -> NDArray[np.float64]:
-            return scalars(stack, k).c22
-
-        surface = LayeredSurface(compliance, 2 * film / (1 - self.film), THICKNESS)
-        return paraboloid_under(paper.NORMAL_FORCE, surface, paper.RADIUS)
-
-    def surface_run(self) -> Run:
-        """On cells."""
-        half_width = paper.WINDOW_PER_RADIUS / 2 * self.exact.contact_radius
-        grid = paper.square_grid(CELLS, half_width)
-        scene = pressed(f"Rigid ball on a coating, {self.name}", rigid_ball(), self.body)
-        return Run(f"{self.name}, {cells_label(CELLS)}", scene, grid, problem=self.name)
-
-    def section_run(self, elements: int) -> SectionRun:
-        """By finite elements."""
-        scene = pressed(
-            f"Rigid ball on a coating, {self.name}, by finite elements", rigid_ball(), self.body
-        )
-        name = f"{self.name}, {elements} elements"
-        return SectionRun(name, scene, per_radius(elements), problem=self.name)
-
-    def quantities(self, elements: int) -> tuple[Quantity, ...]:
-        """What is judged."""
-        cells, mesh = self.surface_run().label, self.section_run(elements).label
-        cell = part_of_a_cell(0.1, CELLS, paper.WINDOW_PER_RADIUS)
-        by_mesh = Required(allowed(1e-4, elements, 2), because(2))
-        by_cells = Required(2e-4, ASKED)
-        exact = self.exact
-        figures = (
-            ("approach", "approach since first touch", "m", approach, exact.approach,
-             by_cells, cells),
-            ("contact_radius", "√(contact area / π), cells at the edge counted in part", "m",
-             contact_radius, exact.contact_radius, Required(cell, "a tenth of a cell"), cells),
-            ("central_pressure", "pressure of the cells around the axis", "Pa",
-             central_pressure, float(exact.pressure(0.0)), by_cells, cells),
-            ("approach", "approach since first touch", "m", approach, exact.approach,
-             by_mesh, mesh),
-            ("contact_radius", "where the pressure ends, from its last two values", "m",
-             contact_radius, exact.contact_radius,
-             Required(2e-3, "asked of the finite elements at 64 per radius"), mesh),
-            ("central_pressure", "pressure on the axis", "Pa", central_pressure,
-             float(exact.pressure(0.0)), by_mesh, mesh),
-        )  # fmt: skip
-        return tuple(
-            Quantity(name, meaning, unit, run, measure, semi_closed(value), tolerance)
-            for name, meaning, unit, measure, value, tolerance, run in figures
-        )
-
-
-PAIRS = (UnlikeRatios(0.1, 0.45), UnlikeRatios(0.45, 0.1))
+    surface = LayeredSurface(compliance, 2 * of_film / (1 - film), THICKNESS)
+    exact = paraboloid_under(paper.NORMAL_FORCE, surface, paper.RADIUS)
+    return Problem(
+        pressed(f"Rigid ball on a coating, ν = {film:g} on ν = {substrate:g}", rigid_ball(), body),
+        (exact,),
+        exact.contact_radius,
+        FREDHOLM,
+        ReferenceKind.SEMI_CLOSED,
+        SEMI_CLOSED_ERROR,
+    )
 
 
 def coated_unlike_ratios(level: Level = Level.QUICK) -> Case:
     """The case, on a finer mesh at higher levels."""
     n = finest(level)
-    return Case(
-        name="coated_unlike_ratios",
-        title="Coatings of another Poisson's ratio",
-        problem=(
-            "The paper's ball, rigid, under 1 kN on a layer of half a Hertz radius that has the "
-            "Young's modulus of its substrate and another Poisson's ratio. The other coated cases "
-            "have one ratio throughout, and would not see the two exchanged."
+    pairs = {
+        f"ν = {film:g} on ν = {substrate:g}": unlike_ratios(film, substrate)
+        for film, substrate in ((0.1, 0.45), (0.45, 0.1))
+    }
+    return case(
+        "coated_unlike_ratios",
+        "Coatings of another Poisson's ratio",
+        "The paper's ball, rigid, under 1 kN on a layer of half a Hertz radius that has the "
+        "Young's modulus of its substrate and another Poisson's ratio. The other coated cases "
+        "have one ratio throughout, and would not see the two exchanged.",
+        *(judged(on_cells(pair, (CELLS,), of=name), ON_CELLS) for name, pair in pairs.items()),
+        *(
+            judged(named(f"{name}, {n} elements", on_elements(pair, (n,), of=name)), ON_ELEMENTS)
+            for name, pair in pairs.items()
         ),
-        runs=tuple(run for pair in PAIRS for run in (pair.surface_run(), pair.section_run(n))),
-        quantities=tuple(quantity for pair in PAIRS for quantity in pair.quantities(n)),
     )
-
-
-def _material(ratio: float) -> IsotropicMaterial:
-    return IsotropicMaterial(young_modulus=MODULUS, poisson_ratio=ratio)
-
-
-def _shear_modulus(ratio: float) -> float:
-    return MODULUS / (2 * (1 + ratio))

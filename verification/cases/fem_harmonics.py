@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from contact_results.quantities import shift_along_x
 from contact_scene import (
     RIGID,
     Body,
@@ -19,14 +21,18 @@ from contact_scene import (
 from fem_reference.contact.harmonics.surface_tractions import tractions_at
 from verification.cases.cattaneo_mindlin import CATTANEO, PARTS
 from verification.cases.fem_harmonics_run import PointsRun
-from verification.cases.fem_levels import allowed, because, finest, label
+from verification.cases.fem_levels import because, finest
 from verification.exhibits.chart import Chart, Look, Panel, curve
-from verification.judging.case import Case, Finding, Level, Quantity, Required
+from verification.judging.case import Case, Level
+from verification.judging.declared_case import Reported, Within, case, judged
+from verification.judging.ladder import Ladder, Rung, asked, ladder, mesh_label, part_of_side
+from verification.judging.observable import error_norm
+from verification.judging.observables import SHIFT, STICK_RADIUS
 from verification.judging.run import per_radius
 from verification.problems import paper_scene as paper
 from verification.problems.paper_scene import FRICTION, HERTZ, STEEL
-from verification.problems.reference import closed_form, exact_zero
-from verification.problems.sheared import SLIDING_SHIFT, SOURCE
+from verification.problems.problem import Problem
+from verification.problems.sheared import OVER_LIMIT, sheared
 
 if TYPE_CHECKING:
     from fem_reference import Increment, Result
@@ -34,142 +40,117 @@ if TYPE_CHECKING:
 Field = NDArray[np.float64]
 
 LIMIT = FRICTION * HERTZ.peak_pressure
-ALIKE = paper.frictional(
-    "Two alike bodies of steel, sheared",
-    paper.paraboloid(STEEL),
-    STEEL,
-    *(paper.tangential_step(part, increments=1) for part in PARTS),
-)
-EXACT = dict(zip(PARTS, CATTANEO.ends[1:], strict=True))
-MINDLIN = {part: paper.partial_slip(STEEL, part * paper.FRICTION_LIMIT) for part in PARTS}
+ALIKE = sheared("Two alike bodies of steel, sheared", PARTS, STEEL)
 
 # Incompressible, so that pressing leaves no shear; it sticks all over.
 RUBBER = IsotropicMaterial(young_modulus=3e6, poisson_ratio=0.5)
 PUNCH, PUNCH_FORCE = 5e-3, 10.0
-BONDED = Scene(
-    title="Disc that sticks to an incompressible body, sheared",
-    indenter=FlatPunch(radius=PUNCH, material=RIGID),
-    body=Body(material=RUBBER),
-    friction=CoulombFriction(coefficient=100.0),
-    loading=(
-        LoadStep(normal_force=PUNCH_FORCE, increments=1),
-        LoadStep(tangential_force=(PUNCH_FORCE, 0.0), increments=1),
-    ),
-)
-BONDED_SHIFT = (2 - 0.5) * PUNCH_FORCE / (8 * RUBBER.shear_modulus * PUNCH)
 
-# At 64 elements per radius, and the order with which they fall: cusps at stick edges, and the
-# infinite shear at the rim of the disc.
-ASKED = {"shift": 3e-4, "shear": 6e-3, "across": 3e-3, "disc": 5e-4}
-CUSP, RIM = 1.5, 1.0
+
+@dataclass(frozen=True)
+class StuckDisc:
+    """The end of the shearing [length]."""
+
+    shift: float = (2 - 0.5) * PUNCH_FORCE / (8 * RUBBER.shear_modulus * PUNCH)
+
+
+BONDED = Problem(
+    Scene(
+        title="Disc that sticks to an incompressible body, sheared",
+        indenter=FlatPunch(radius=PUNCH, material=RIGID),
+        body=Body(material=RUBBER),
+        friction=CoulombFriction(coefficient=100.0),
+        loading=(
+            LoadStep(normal_force=PUNCH_FORCE, increments=1),
+            LoadStep(tangential_force=(PUNCH_FORCE, 0.0), increments=1),
+        ),
+    ),
+    (None, StuckDisc()),
+    PUNCH,
+    "Mindlin 1949: (2 - ν) T / 8 G a",
+)
+CUSP, RIM = 1.5, 1.0  # orders with which errors fall
+
+
+def _shear_error(result: Any, step: int, problem: Problem) -> float:
+    end = result.steps[step]
+    q_x, q_y = shear_at_points(end)
+    off = np.hypot(q_x - problem.ends[step].shear(end.radii)[:, None], q_y)
+    return _integral(end, off) / paper.FRICTION_LIMIT
+
+
+def _shift_over_mindlin(result: Any, step: int, problem: Problem) -> float:
+    return shift_along_x(result.steps[step]) / problem.ends[step].shift - 1
+
+
+SHEAR = error_norm("shear", "∫|q - q_exact| dA / µW{when}", _shear_error, "µW")
+ACROSS = error_norm(
+    "shear_across", "largest |q_y| / µp_H{when}",
+    lambda result, step, _: shear_across(result.steps[step]), OVER_LIMIT,
+)  # fmt: skip
+OVER_MINDLIN = error_norm(
+    "shift_over_mindlin", "shift{when} over Mindlin's, less one, ν = 0.3", _shift_over_mindlin
+)
+STOPS = dict(enumerate(PARTS, 1))
+ROWS = tuple(
+    row
+    for step, part in STOPS.items()
+    for row in (
+        Within(SHIFT.at(step, part, "µW"), asked(3e-4, CUSP), because(CUSP)),
+        Within(SHEAR.at(step, part, "µW"), asked(6e-3, CUSP), because(CUSP)),
+        Within(ACROSS.at(step, part, "µW"), asked(3e-3, 1.0), because(1.0)),
+        Within(
+            STICK_RADIUS.at(step, part, "µW"), part_of_side(1.0),
+            "an element: stick or slip is known ring by ring",
+        ),
+    )
+)  # fmt: skip
+BESIDE_MINDLIN = tuple(
+    row
+    for step, part in STOPS.items()
+    for row in (
+        Reported(
+            ACROSS.at(step, part, "µW, ν = 0.3"),
+            "zero in the closed form, which neglects slip across the load",
+        ),
+        Reported(
+            OVER_MINDLIN.at(step, part, "µW"),
+            "the vector law makes the contact stiffer by parts of a per mille",
+        ),
+    )
+)
+OF_DISC = (Within(replace(SHIFT, over=""), asked(5e-4, RIM), because(RIM), name="shift_of_disc"),)
 
 
 def fem_harmonics(level: Level = Level.QUICK) -> Case:
     """The case, on finer meshes at higher levels."""
-    return fem_harmonics_on(min(finest(level), 64))
-
-
-def fem_harmonics_on(elements: int) -> Case:
-    """The case on meshes of so many elements per contact radius."""
-    mesh = per_radius(elements, 0.99 * HERTZ.contact_radius)
-    exact = PointsRun(f"ν = 0, {label(elements)}", CATTANEO.scene, mesh)
-    alike = PointsRun(f"ν = 0.3, {label(elements)}", ALIKE, mesh)
-    disc = PointsRun(f"disc, {label(elements)}", BONDED, per_radius(elements, PUNCH))
-    return Case(
-        name="fem_harmonics",
-        title="Finite elements: many harmonics",
-        problem=(
-            "Cattaneo and Mindlin's contact by harmonics 0 … 8 of the section, with Coulomb's law "
-            "as a vector law at points of (r, θ): for ν = 0, where the closed form is exact, and "
-            "for ν = 0.3, where it neglects slip across the load. Nothing couples here, so that "
-            "one increment leads to each force. And a disc that sticks all over."
-        ),
-        runs=(exact, alike, disc),
-        quantities=(
-            *(
-                quantity
-                for step, part in enumerate(PARTS, 2)
-                for quantity in _at(step, part, exact.label, elements)
-            ),
-            Quantity(
-                "shift_of_disc", "tangential shift of the disc that sticks all over", "m",
-                disc.label, lambda result: shift_at(result, -1),
-                closed_form(BONDED_SHIFT, "Mindlin 1949: (2 - ν) T / 8 G a"),
-                Required(allowed(ASKED["disc"], elements, RIM), because(RIM)),
-            ),
-        ),
-        findings=tuple(
-            finding
-            for step, part in enumerate(PARTS, 2)
-            for finding in _mindlin(step, part, alike.label)
-        ),
-        charts=lambda results: (_chart(results[exact.label], results[alike.label]),),
+    elements = min(finest(level), 64)
+    exact = _at_points("ν = 0", CATTANEO, elements, 0.99)
+    alike = _at_points("ν = 0.3", ALIKE, elements, 0.99)
+    disc = _at_points("disc", BONDED, elements, 1.0)
+    return case(
+        "fem_harmonics",
+        "Finite elements: many harmonics",
+        "Cattaneo and Mindlin's contact by harmonics 0 … 8 of the section, with Coulomb's law "
+        "as a vector law at points of (r, θ): for ν = 0, where the closed form is exact, and "
+        "for ν = 0.3, where it neglects slip across the load. Nothing couples here, so that "
+        "one increment leads to each force. And a disc that sticks all over.",
+        judged(exact, ROWS),
+        judged(alike, BESIDE_MINDLIN),
+        judged(disc, OF_DISC),
+        charts=(lambda results: _chart(results[exact.levels[0]], results[alike.levels[0]]),),
         limits=(
             "The stick zone is known to an element in radius and, between the angles of the "
             "points, to sectors of 22.5°.",
         ),
-    )  # fmt: skip
+    )
 
 
-def _at(step: int, part: float, run: str, elements: int) -> tuple[Quantity, ...]:
-    exact = EXACT[part]
-
-    def stick_radius(result: Result) -> float:
-        return float(result.steps[step - 1].stick_radius or 0.0)
-
-    def shear_error(result: Result) -> float:
-        end = result.steps[step - 1]
-        q_x, q_y = shear_at_points(end)
-        off = np.hypot(q_x - exact.shear(end.radii)[:, None], q_y)
-        return _integral(end, off) / paper.FRICTION_LIMIT
-
-    return (
-        Quantity(
-            f"shift_at_{part:g}", f"tangential shift at {part:g} µW", "m", run,
-            lambda result: shift_at(result, step - 1),
-            closed_form(exact.shift, SOURCE, SLIDING_SHIFT),
-            Required(allowed(ASKED["shift"], elements, CUSP), because(CUSP)), SLIDING_SHIFT,
-            "the shift at gross sliding", "shift", part,
-        ),
-        Quantity(
-            f"shear_at_{part:g}", f"∫|q - q_exact| dA / µW at {part:g} µW", "", run, shear_error,
-            exact_zero(SOURCE), Required(allowed(ASKED["shear"], elements, CUSP), because(CUSP)),
-            1.0, "µW",
-        ),
-        Quantity(
-            f"shear_across_at_{part:g}", f"largest |q_y| / µp_H at {part:g} µW", "", run,
-            lambda result: shear_across(result.steps[step - 1]), exact_zero(SOURCE),
-            Required(allowed(ASKED["across"], elements, 1.0), because(1.0)), 1.0, "µp_H",
-        ),
-        Quantity(
-            f"stick_radius_at_{part:g}", f"√(stick area / π) at {part:g} µW", "m", run,
-            stick_radius, closed_form(exact.stick_radius, SOURCE, HERTZ.contact_radius),
-            Required(1 / elements, "an element: stick or slip is known ring by ring"),
-            HERTZ.contact_radius, "the contact radius", "stick_radius", part,
-        ),
-    )  # fmt: skip
-
-
-def _mindlin(step: int, part: float, run: str) -> tuple[Finding, ...]:
-    return (
-        Finding(
-            f"shear_across_at_{part:g}", f"largest |q_y| / µp_H at {part:g} µW, ν = 0.3", "", run,
-            lambda result: shear_across(result.steps[step - 1]),
-            "zero in the closed form, which neglects slip across the load",
-        ),
-        Finding(
-            f"shift_over_mindlin_at_{part:g}",
-            f"shift at {part:g} µW over Mindlin's, less one, ν = 0.3", "", run,
-            lambda result: shift_at(result, step - 1) / MINDLIN[part].shift - 1,
-            "the vector law makes the contact stiffer by parts of a per mille",
-        ),
-    )  # fmt: skip
-
-
-def shift_at(result: Result, step: int) -> float:
-    """Tangential shift along x at the end of a step, counted from 0 [length]."""
-    shift = result.steps[step].tangential_shift
-    return 0.0 if shift is None else shift[0]
+def _at_points(of: str, problem: Problem, elements: int, over: float) -> Ladder:
+    mesh = per_radius(elements, over * problem.radius)
+    return ladder(
+        problem, [Rung(PointsRun(mesh_label(elements, of=of), problem.scene, mesh), elements)]
+    )
 
 
 def shear_at_points(increment: Increment) -> tuple[Field, Field]:
@@ -195,18 +176,18 @@ def _integral(increment: Increment, values: Field) -> float:
 
 def _chart(exact: Result, alike: Result) -> Chart:
     """q_x on the line of the load for both Poisson's ratios, and q_y around for the second."""
-    part, step = 0.6, PARTS.index(0.6) + 2
+    step = PARTS.index(0.6) + 1
     x = np.linspace(-1.1, 1.1, 221)
     curves = []
     for series, (name, result) in enumerate((("ν = 0", exact), ("ν = 0.3", alike))):
-        q, _ = tractions_at(result.steps[step - 1], x * HERTZ.contact_radius, 0 * x)
+        q, _ = tractions_at(result.steps[step], x * HERTZ.contact_radius, 0 * x)
         curves.append(curve(name, x, q[0] / LIMIT, series=series))
-    known = EXACT[part].shear(np.abs(x) * HERTZ.contact_radius) / LIMIT
+    known = CATTANEO.ends[step].shear(np.abs(x) * HERTZ.contact_radius) / LIMIT
     across = []
     for series, angle in enumerate((22.5, 45.0, 67.5)):
         r, theta = np.linspace(0, 1.1, 111), np.radians(angle)
         points = HERTZ.contact_radius * r
-        q, _ = tractions_at(alike.steps[step - 1], points * np.cos(theta), points * np.sin(theta))
+        q, _ = tractions_at(alike.steps[step], points * np.cos(theta), points * np.sin(theta))
         across.append(curve(f"θ = {angle:g}°", r, q[1] / LIMIT, series=series))
     return Chart(
         name="fem_harmonics_shear",

@@ -1,8 +1,7 @@
 """Meshes of the finite-element cases, and how their figures follow from the ones asked for."""
 
 from verification.judging.case import Level
-
-ASKED_AT = 64  # elements per radius
+from verification.judging.ladder import ASKED_AT, MIDDLE
 
 # Several meshes below the finest, for the order of convergence; no two are alike at the edge.
 _LEVELS = {
@@ -13,7 +12,6 @@ _LEVELS = {
 # Five meshes per octave, and where in its element the edge of the contact lies on each: all values
 # depend on it, and only their root mean square falls with a power of the element.
 _MANY = tuple(round(ASKED_AT / 2 ** (number / 5)) for number in range(12, -1, -1))
-MIDDLE = 0.5
 PLACES = (0.1, 0.3, MIDDLE, 0.7, 0.9)
 
 
@@ -33,26 +31,9 @@ def finest(level: Level) -> int:
     return _LEVELS[level][-1]
 
 
-def allowed(figure: float, elements: int, order: float) -> float:
-    """What a figure asked for at 64 elements per radius becomes on other meshes."""
-    return figure * (ASKED_AT / elements) ** order
-
-
-def judged_within(elements: int) -> float:
-    """Part of the contact radius where tractions are judged: 0.9, or less on coarse meshes, where
-    the ripple of the last five elements at the edge reaches further in."""
-    return min(0.9, 1 - 5 / elements)
-
-
 def because(order: float) -> str:
-    """The reason that goes with `allowed`."""
+    """The reason that goes with `asked`."""
     return (
         f"asked of the finite elements at {ASKED_AT} per radius; on other meshes what the order "
         f"{order:g} makes of it"
     )
-
-
-def label(elements: int, place: float = MIDDLE) -> str:
-    """Of a run."""
-    aside = "" if place == MIDDLE else f", edge at {place:g}"
-    return f"{elements} elements per radius{aside}"

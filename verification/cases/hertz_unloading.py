@@ -3,39 +3,51 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 from typing import Any
 
-from contact_scene import Body, FiniteElementDiscretisation, LoadStep, Scene
-from semi_analytical import SurfaceGrid
-from verification.cases.fem_levels import allowed as allowed_of_elements
-from verification.cases.fem_levels import because as because_of_elements
+from contact_scene import LoadStep, Scene
+from verification.cases.fem_levels import because
 from verification.closed_forms.hertz import PointContact
-from verification.judging.case import Case, Comparison, Level, Quantity, Required
-from verification.judging.ladder import meshed
-from verification.judging.refinement import part_of_a_cell
-from verification.judging.run import SOLVER_TOLERANCE, Run, SectionRun, per_radius
-from verification.observed.end_state import approach, contact_radius, peak_pressure
+from verification.judging.case import Case, Comparison, Level
+from verification.judging.declared_case import Within, case, judged
+from verification.judging.ladder import (
+    Ladder,
+    Rung,
+    asked,
+    named,
+    on_cells,
+    part_of_side,
+    with_edge_at,
+)
+from verification.judging.observable import number
+from verification.judging.observables import APPROACH, CONTACT_RADIUS, PEAK_PRESSURE
+from verification.judging.run import SOLVER_TOLERANCE, Run
 from verification.problems import paper_scene as paper
-from verification.problems.hertz import SOURCE
+from verification.problems.hertz import BALL
 from verification.problems.layered_scene import coated, film, rigid_ball
 from verification.problems.paper_scene import HERTZ, NORMAL_FORCE, STEEL
-from verification.problems.reference import closed_form
 
 PART = (27.5 / 32.5) ** 3  # about 0.6; of 32 elements the edge is then in the middle of one
 UNLOADED = PointContact.under_load(PART * NORMAL_FORCE, HERTZ.radius, HERTZ.contact_modulus)
 SMALLER = UNLOADED.contact_radius / HERTZ.contact_radius
-ENERGY = 0.4 * UNLOADED.load * UNLOADED.approach
 SIZES = {Level.QUICK: (128, 32), Level.STANDARD: (256, 64), Level.FULL: (512, 128)}
 ASKED = (
-    "asked of hertz_point on 128 x 128 cells; on other cells per radius what the order {:g} makes "
-    "of it"
+    "asked of hertz_point on 128 x 128 cells; on other cells per radius what the order 2 makes of "
+    "it"
 )
+TWICE = "twice what is allowed of the approach"
 DOWN = LoadStep(normal_force=PART * NORMAL_FORCE)
-BALL = Scene(
-    title="Ball on a half-space, pressed and unloaded",
-    indenter=paper.paraboloid(STEEL),
-    body=Body(material=STEEL),
-    loading=(LoadStep(normal_force=NORMAL_FORCE), DOWN),
+# Grids and meshes are laid out for the larger contact.
+PRESSED_AND_UNLOADED = replace(
+    BALL,
+    scene=Scene(
+        title="Ball on a half-space, pressed and unloaded",
+        indenter=paper.paraboloid(STEEL),
+        body=BALL.scene.body,
+        loading=(LoadStep(normal_force=NORMAL_FORCE), DOWN),
+    ),
+    ends=(HERTZ, UNLOADED),
 )
 COATED = {
     way: Scene(
@@ -49,41 +61,71 @@ COATED = {
         "pressed by the smaller force": (DOWN,),
     }.items()
 }
-WORK = "Hertz 1882: W ~ δ^(3/2), so that ∫W dδ is 2/5 of W δ"
+
+
+ENERGY = replace(
+    number("elastic_energy", "energy stored in both bodies"),
+    value=lambda exact: 0.4 * exact.load * exact.approach,
+    source="Hertz 1882: W ~ δ^(3/2), so that ∫W dδ is 2/5 of W δ",
+)
+
+
+def on_smaller(figure: float, order: float) -> Callable[[Rung], float]:
+    """What a figure asked for on 128 x 128 cells, or at 64 elements per radius, becomes on those
+    that the smaller contact is left with."""
+
+    def allowed(rung: Rung) -> float:
+        if isinstance(rung.run, Run):
+            return figure * (128 / (rung.count * SMALLER)) ** order
+        return asked(figure, order)(replace(rung, count=round(rung.count * SMALLER)))
+
+    return allowed
+
+
+def of_radius(rung: Rung) -> float:
+    """As for hertz_point and fem_hertz."""
+    if isinstance(rung.run, Run):
+        return part_of_side(0.1)(rung) / SMALLER
+    return min(2e-3, on_smaller(5e-4, 1)(rung))
+
+
+ON_CELLS = (
+    Within(APPROACH, on_smaller(5e-5, 2), ASKED),
+    Within(CONTACT_RADIUS, of_radius, "a tenth of a cell, as for hertz_point"),
+    Within(PEAK_PRESSURE, on_smaller(1.5e-4, 2), ASKED),
+    Within(ENERGY, on_smaller(1e-4, 2), TWICE),
+)
+ON_ELEMENTS = (
+    Within(APPROACH, on_smaller(1e-4, 2), because(2)),
+    Within(
+        CONTACT_RADIUS, of_radius,
+        "as for fem_hertz: the edge is known to a thirtieth of an element",
+    ),
+    Within(PEAK_PRESSURE, on_smaller(1e-4, 2), because(2)),
+    Within(ENERGY, on_smaller(2e-4, 2), TWICE),
+)  # fmt: skip
 
 
 def hertz_unloading(level: Level = Level.QUICK) -> Case:
     """The case, on finer discretisations at higher levels."""
-    return hertz_unloading_on(*SIZES[level])
-
-
-def hertz_unloading_on(cells: int, elements: int) -> Case:
-    """The case on a square grid of so many cells, and with so many elements per radius."""
-    grid = paper.hertz_grid(cells)
-    mesh = per_radius(elements, meshed(HERTZ.contact_radius, elements))
-    surface = Run(f"{cells}x{cells}", BALL, grid)
-    section = SectionRun(f"{elements} elements per radius", BALL, mesh)
-    back, once = (_coated(way, scene, grid, mesh) for way, scene in COATED.items())
-    return Case(
-        name="hertz_unloading",
-        title="Unloaded without friction",
-        problem=(
-            f"The paper's ball pressed by 1 kN and unloaded to {PART:.3f} kN. Without friction "
-            "the contact is again Hertz's, with approach, radius, pressure and energy of the "
-            "smaller force. A coated body is unloaded likewise, and compared with itself pressed "
-            "by that force at once."
-        ),
-        runs=(surface, section, *back, *once),
-        quantities=(
-            *_quantities(surface.label, _on_cells(cells)),
-            *_quantities(section.label, _on_elements(elements)),
-            _energy(surface.label, _stored, 2 * _on_cells(cells)["approach"][0]),
-            _energy(section.label, _stored, 2 * _on_elements(elements)["approach"][0]),
-        ),
+    cells, elements = SIZES[level]
+    grid = on_cells(PRESSED_AND_UNLOADED, (cells,))
+    mesh = with_edge_at(PRESSED_AND_UNLOADED, (elements,))
+    back, once = (_coated(way, cells, elements) for way in COATED)
+    return case(
+        "hertz_unloading",
+        "Unloaded without friction",
+        f"The paper's ball pressed by 1 kN and unloaded to {PART:.3f} kN. Without friction the "
+        "contact is again Hertz's, with approach, radius, pressure and energy of the smaller "
+        "force. A coated body is unloaded likewise, and compared with itself pressed by that force "
+        "at once.",
+        judged(grid, ON_CELLS),
+        judged(mesh, ON_ELEMENTS),
+        runs=tuple(run for one in (*back, *once) for run in one.runs),
         comparisons=tuple(
             Comparison(
                 "path_independence", "difference of pressure and approach from those of the "
-                "smaller force at once", (one.label, other.label), _difference,
+                "smaller force at once", (one.levels[0], other.levels[0]), _difference,
                 10 * SOLVER_TOLERANCE,
                 "residuals of two solves, which tractions answer a few times over",
                 "without friction a contact has no memory",
@@ -93,66 +135,13 @@ def hertz_unloading_on(cells: int, elements: int) -> Case:
     )  # fmt: skip
 
 
-Allowed = dict[str, tuple[float, str]]
-
-
-def _coated(
-    way: str, scene: Scene, grid: SurfaceGrid, mesh: FiniteElementDiscretisation
-) -> tuple[Run | SectionRun, ...]:
+def _coated(way: str, cells: int, elements: int) -> tuple[Ladder, Ladder]:
     """By both solvers."""
-    return Run(f"coated, {way}", scene, grid), SectionRun(f"coated, {way}, elements", scene, mesh)
-
-
-def _on_cells(cells: int) -> Allowed:
-    """By quantity: what is allowed, and why."""
-    finer = 128 / (cells * SMALLER)
-    return {
-        "peak_pressure": (1.5e-4 * finer**2, ASKED.format(2)),
-        "approach": (5e-5 * finer**2, ASKED.format(2)),
-        "contact_radius": (
-            part_of_a_cell(0.1, cells, paper.WINDOW_PER_RADIUS) / SMALLER,
-            "a tenth of a cell, as for hertz_point",
-        ),
-    }
-
-
-def _on_elements(elements: int) -> Allowed:
-    there = round(elements * SMALLER)
-    return {
-        "peak_pressure": (allowed_of_elements(1e-4, there, 2), because_of_elements(2)),
-        "approach": (allowed_of_elements(1e-4, there, 2), because_of_elements(2)),
-        "contact_radius": (
-            min(2e-3, allowed_of_elements(5e-4, there, 1)),
-            "as for fem_hertz: the edge is known to a thirtieth of an element",
-        ),
-    }
-
-
-def _quantities(run: str, allowed: Allowed) -> tuple[Quantity, ...]:
-    measured = (
-        ("approach", "approach after unloading", "m", approach, UNLOADED.approach),
-        ("contact_radius", "contact radius after unloading", "m", contact_radius,
-         UNLOADED.contact_radius),
-        ("peak_pressure", "largest pressure after unloading", "Pa", peak_pressure,
-         UNLOADED.peak_pressure),
-    )  # fmt: skip
-    return tuple(
-        Quantity(
-            name, meaning, unit, run, measure, closed_form(value, SOURCE), Required(*allowed[name])
-        )
-        for name, meaning, unit, measure, value in measured
+    problem = replace(BALL, scene=COATED[way])
+    return (
+        named(f"coated, {way}", on_cells(problem, (cells,))),
+        named(f"coated, {way}, elements", with_edge_at(problem, (elements,))),
     )
-
-
-def _energy(run: str, measure: Callable[[Any], float], allowed: float) -> Quantity:
-    return Quantity(
-        "elastic_energy", "energy stored in both bodies after unloading", "J", run, measure,
-        closed_form(ENERGY, WORK), Required(allowed, "twice what is allowed of the approach"),
-    )  # fmt: skip
-
-
-def _stored(result: Any) -> float:
-    return float(result.steps[-1].elastic_energy)
 
 
 def _difference(one: Any, other: Any) -> float:

@@ -15,35 +15,24 @@ from contact_scene import (
     Paraboloid,
     Scene,
 )
-from verification.judging.case import Case, Derived, Quantity
+from verification.judging.case import Case
+from verification.judging.declared_case import Refined, Row, case, judged
+from verification.judging.ladder import Rung, ladder, on_cells
+from verification.judging.observables import APPROACH, CONTACT_RADIUS
 from verification.judging.refinement import refinement
-from verification.judging.run import Run
-from verification.observed.end_state import approach, contact_radius
-from verification.problems.reference import Reference
-from verification.problems.shifted_grid import ShiftedGrid
+from verification.problems.problem import Problem
 
 Random = np.random.Generator
 LEVELS = refinement(32, 96)
 NARROWEST, WIDEST = 2.6, 3.6  # window over contact radius
-APPROACH = 1e-4  # cap: the 5e-5 of hertz_point at 128 cells, by its order
-PART_OF_CELL = 0.2  # cap: twice that of hertz_point, whose axis is always a corner of cells
 
 
-def on_grids(
-    name: str,
-    scene: Scene,
-    radius: float,
-    random: Random,
-    quantities: Callable[[tuple[str, ...]], tuple[Quantity, ...]],
-) -> Case:
+def on_grids(name: str, problem: Problem, random: Random, *rows: Row) -> Case:
     """On grids that fall anywhere on the contact, of a window of any size."""
-    width = radius * random.uniform(NARROWEST, WIDEST)
-    runs = tuple(
-        Run(f"{n}x{n}", scene, ShiftedGrid((n, n), (width, width), _anywhere(random)))
-        for n in LEVELS
-    )
-    labels = tuple(run.label for run in runs)
-    return Case(name, name, "", runs, quantities(labels))
+    window = random.uniform(NARROWEST, WIDEST)
+    grids = [on_cells(problem, (n,), window, offsets=(_anywhere(random),)) for n in LEVELS]
+    rungs = [rung for grid in grids for rung in grid.rungs]
+    return case(name, name, "", judged(ladder(problem, rungs), rows))
 
 
 def _anywhere(random: Random) -> tuple[float, float]:
@@ -58,25 +47,18 @@ def pressed(indenter: Paraboloid | Cone | FlatPunch, body: Body, load: float) ->
     )
 
 
-def approach_within(runs: tuple[str, ...], reference: Reference) -> Quantity:
-    """The approach, on the finest of these runs."""
-    return Quantity(
-        "approach", "approach", "m", runs[-1], approach, reference,
-        Derived(runs, 2.0, APPROACH, "order 2, and the cap of hertz_point by that order"),
-    )  # fmt: skip
+def part_of_cell(part: float) -> Callable[[Rung], float]:
+    """A part of a cell, over the radius, for a window of three radii."""
+    return lambda rung: part * 3.0 / rung.count
 
 
-def radius_within(runs: tuple[str, ...], reference: Reference) -> Quantity:
-    """The contact radius, on the finest of these runs."""
-    return Quantity(
-        "contact_radius", "√(contact area / π)", "m", runs[-1], contact_radius, reference,
-        Derived(runs, 1.0, part_of_cell(runs), "order 1: the edge is known to a part of a cell"),
-    )  # fmt: skip
-
-
-def part_of_cell(runs: tuple[str, ...]) -> float:
-    """A part of a cell of the finest grid, over the radius, for a window of three radii."""
-    return PART_OF_CELL * 3.0 / int(runs[-1].partition("x")[0])
+APPROACH_WITHIN = Refined(
+    APPROACH, 2.0, 1e-4, "order 2, and the cap of hertz_point at 128 cells by that order"
+)
+# Twice the part of hertz_point, whose axis is always a corner of cells.
+RADIUS_WITHIN = Refined(
+    CONTACT_RADIUS, 1.0, part_of_cell(0.2), "order 1: the edge is known to a part of a cell"
+)
 
 
 def any_material(random: Random) -> IsotropicMaterial:

@@ -19,8 +19,7 @@ from contact_scene import (
     Paraboloid,
     Scene,
 )
-from verification.cases.fem_levels import allowed, label
-from verification.cases.fem_levels import levels as fem_levels
+from verification.cases.fem_levels import levels
 from verification.closed_forms.cattaneo_mindlin import PartialSlip
 from verification.closed_forms.coated_indentation import paraboloid_under
 from verification.closed_forms.cone import ConeContact
@@ -28,23 +27,27 @@ from verification.closed_forms.flat_punch import FlatPunchContact
 from verification.closed_forms.hertz import PointContact
 from verification.closed_forms.moduli import contact_modulus, tangential_modulus
 from verification.defects.drawn_contact import (
+    APPROACH_WITHIN,
     LEVELS,
+    RADIUS_WITHIN,
     WIDEST,
     Random,
     any_material,
-    approach_within,
     between,
     constants,
     on_grids,
     part_of_cell,
     pressed,
-    radius_within,
 )
-from verification.judging.case import Case, Derived, Level, Quantity, Required
+from verification.judging.case import Case, Level
+from verification.judging.declared_case import Refined, Within, case, judged
+from verification.judging.ladder import Rung, asked, ladder, mesh_label, meshed
+from verification.judging.observables import APPROACH, PEAK_PRESSURE, SHIFT, STICK_RADIUS
 from verification.judging.run import SectionRun, per_radius
-from verification.observed.end_state import approach, peak_pressure, shift, stick_radius
-from verification.problems.layered_scene import semi_closed, surface_of
-from verification.problems.reference import closed_form
+from verification.problems.layered_scene import FREDHOLM, SEMI_CLOSED_ERROR, surface_of
+from verification.problems.problem import Problem
+from verification.problems.reference import ReferenceKind
+from verification.problems.sheared import OVER_SLIDING_SHIFT
 
 SOURCE = "the closed form of the contact"
 RESOLVED = (
@@ -58,10 +61,8 @@ def hertz(random: Random) -> Case:
     radius, load = between(random, 1e-3, 1.0), between(random, 1e-1, 1e4)
     exact = PointContact.under_load(load, radius, contact_modulus(constants(one), constants(other)))
     scene = pressed(Paraboloid(radius=radius, material=one), Body(material=other), load)
-    return on_grids("hertz", scene, exact.contact_radius, random, lambda runs: (
-        approach_within(runs, closed_form(exact.approach, SOURCE)),
-        radius_within(runs, closed_form(exact.contact_radius, SOURCE)),
-    ))  # fmt: skip
+    problem = Problem(scene, (exact,), exact.contact_radius, SOURCE)
+    return on_grids("hertz", problem, random, APPROACH_WITHIN, RADIUS_WITHIN)
 
 
 def cone(random: Random) -> Case:
@@ -70,9 +71,8 @@ def cone(random: Random) -> Case:
     slope, load = radians(random.uniform(0.3, 3.0)), between(random, 1e-1, 1e4)
     exact = ConeContact.under_load(load, slope, contact_modulus(constants(one), constants(other)))
     scene = pressed(Cone(slope_angle=slope, material=one), Body(material=other), load)
-    return on_grids("cone", scene, exact.contact_radius, random, lambda runs: (
-        radius_within(runs, closed_form(exact.contact_radius, SOURCE)),
-    ))  # fmt: skip
+    problem = Problem(scene, (exact,), exact.contact_radius, SOURCE)
+    return on_grids("cone", problem, random, RADIUS_WITHIN)
 
 
 def partial_slip(random: Random) -> Case:
@@ -94,20 +94,13 @@ def partial_slip(random: Random) -> Case:
             LoadStep(tangential_force=(force, 0.0), increments=1),
         ),
     )
-    return on_grids("partial_slip", scene, a, random, lambda runs: (
-        Quantity(
-            "shift", "tangential shift", "m", runs[-1], shift,
-            closed_form(exact.shift, SOURCE, exact.sliding_shift),
-            Derived(runs, 1.5, 1e-3, "order 3/2 of the square-root edges"),
-            exact.sliding_shift, "the shift at gross sliding",
-        ),
-        Quantity(
-            "stick_radius", "√(stick area / π)", "m", runs[-1], stick_radius,
-            closed_form(exact.stick_radius, SOURCE, a),
-            Derived(runs, 1.0, 2 * part_of_cell(runs), "order 1: known to a part of a cell"),
-            a, "the contact radius",
-        ),
-    ))  # fmt: skip
+    return on_grids(
+        "partial_slip",
+        Problem(scene, (None, exact), a, SOURCE, scales={OVER_SLIDING_SHIFT: exact.sliding_shift}),
+        random,
+        Refined(SHIFT, 1.5, 1e-3, "order 3/2 of the square-root edges"),
+        Refined(STICK_RADIUS, 1.0, part_of_cell(0.4), "order 1: known to a part of a cell"),
+    )
 
 
 def coated(random: Random) -> Case:
@@ -132,10 +125,11 @@ def _coated(name: str, random: Random, thickness: tuple[float, float]) -> Case:
     body = Body(material=base, layers=(layer,))
     exact = paraboloid_under(load, surface_of(body), radius)
     scene = pressed(Paraboloid.model_validate({"radius": radius, "material": "rigid"}), body, load)
-    return on_grids(name, scene, exact.contact_radius, random, lambda runs: (
-        approach_within(runs, semi_closed(exact.approach)),
-        radius_within(runs, semi_closed(exact.contact_radius)),
-    ))  # fmt: skip
+    problem = Problem(
+        scene, (exact,), exact.contact_radius, FREDHOLM, ReferenceKind.SEMI_CLOSED,
+        SEMI_CLOSED_ERROR,
+    )  # fmt: skip
+    return on_grids(name, problem, random, APPROACH_WITHIN, RADIUS_WITHIN)
 
 
 def flat_punch(random: Random) -> Case:
@@ -144,12 +138,13 @@ def flat_punch(random: Random) -> Case:
     radius, load = between(random, 1e-4, 1e-2), between(random, 1e-1, 1e4)
     exact = FlatPunchContact(radius, contact_modulus(constants(one), constants(other)), load)
     scene = pressed(FlatPunch(radius=radius, material=one), Body(material=other), load)
-    return on_grids("flat_punch", scene, radius, random, lambda runs: (
-        Quantity(
-            "approach", "approach", "m", runs[-1], approach, closed_form(exact.approach, SOURCE),
-            Required(0.5 * WIDEST / LEVELS[-1], "half a cell: the rim is a staircase of cells"),
-        ),
-    ))  # fmt: skip
+    half_a_cell = 0.5 * WIDEST / LEVELS[-1]
+    return on_grids(
+        "flat_punch",
+        Problem(scene, (exact,), radius, SOURCE),
+        random,
+        Within(APPROACH, half_a_cell, "half a cell: the rim is a staircase of cells"),
+    )
 
 
 def fem_hertz(random: Random) -> Case:
@@ -158,24 +153,15 @@ def fem_hertz(random: Random) -> Case:
     radius, load = between(random, 1e-3, 1.0), between(random, 1e-1, 1e4)
     exact = PointContact.under_load(load, radius, contact_modulus(constants(one), constants(other)))
     scene = pressed(Paraboloid(radius=radius, material=one), Body(material=other), load)
-    meshes = fem_levels(Level.QUICK)
     place = random.uniform(0.3, 0.7)  # of the edge of the contact in its element
-    runs = tuple(
-        SectionRun(label(n), scene, per_radius(n, exact.contact_radius * n / (n + place)))
-        for n in meshes
-    )
-    labels = tuple(run.label for run in runs)
-    cap = allowed(1e-4, meshes[-1], 2)
-    return Case("fem_hertz", "fem_hertz", "", runs, tuple(
-        Quantity(
-            name, name, unit, labels[-1], measure, closed_form(value, SOURCE),
-            Derived(labels, 2.0, cap, "order 2; the cap is the figure of the case fem_hertz"),
-        )
-        for name, unit, measure, value in (
-            ("approach", "m", approach, exact.approach),
-            ("peak_pressure", "Pa", peak_pressure, exact.peak_pressure),
-        )
-    ))  # fmt: skip
+    problem = Problem(scene, (exact,), exact.contact_radius, SOURCE)
+    rungs = []
+    for n in levels(Level.QUICK):
+        mesh = per_radius(n, meshed(problem.radius, n, place))
+        rungs.append(Rung(SectionRun(mesh_label(n), scene, mesh), n))
+    because = "order 2; the cap is the figure of the case fem_hertz"
+    rows = [Refined(what, 2.0, asked(1e-4, 2), because) for what in (APPROACH, PEAK_PRESSURE)]
+    return case("fem_hertz", "fem_hertz", "", judged(ladder(problem, rungs), rows))
 
 
 # Layers that are too thin for the coarser grids.
