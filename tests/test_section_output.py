@@ -15,6 +15,7 @@ from contact_results.cycles import fretting_cycles
 from contact_results.directory.file_names import RUN_FILES, SUMMARY
 from contact_results.files.field_file import FIELDS
 from contact_results.files.result_files import write_result
+from contact_results.surface import surface_of
 from contact_scene import (
     Body,
     CoulombFriction,
@@ -122,6 +123,17 @@ def test_increments_are_all_there(written: tuple[Result, Path]) -> None:
     for row, increment in zip(found, result.increments, strict=True):
         assert float(row["approach"]) == increment.approach
         assert row["torque"] == ("" if increment.torque is None else repr(increment.torque))
+
+
+def test_weights_of_rings_carry_the_loads(written: tuple[Result, Path]) -> None:
+    result, _ = written
+    surface = surface_of(result)
+    for end in result.steps:
+        pressure, shear = surface.scalar(end, "pressure"), surface.vector(end, "shear")
+        assert np.sum(surface.weights * pressure) == pytest.approx(end.normal_force, rel=1e-12)
+        if end.tangential_force is not None and np.any(end.tangential_force):
+            carried = np.sum(surface.weights * shear[0])
+            assert carried == pytest.approx(end.tangential_force[0], rel=1e-12)
 
 
 def test_fields_have_every_increment(written: tuple[Result, Path]) -> None:
