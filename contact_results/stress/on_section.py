@@ -44,7 +44,7 @@ def stress_on_section(state: LoadedBodies, *, indenter: bool = False) -> StressF
         None,
         "radius r" if half else "x along the load",
         ("r", "θ") if half else ("x", "y"),
-        (SHOWN[0] * radius, SHOWN[1] * radius),
+        (SHOWN[0] * radius, min(SHOWN[1] * radius, float(section.depth.max()))),
         LISTED * radius,
         {
             "loaded_radius": radius,
