@@ -14,12 +14,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from contact_results.quantities import named_values, unit_of
-from contact_scene import FrictionMap
+from contact_scene.friction import FRICTIONLESS
 from contact_scene.path_error import DoubledQuantity, PathError
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
     from contact_scene import Scene
     from semi_analytical import Increment, Result
 
@@ -47,19 +45,9 @@ def shear_difference(scene: Scene, one: Increment, other: Increment) -> float | 
     """Σ|q - q_other| / Σµp of the other; None without shear or where nothing can slip [1]."""
     if one.shear is None or other.shear is None:
         return None
-    limit = float(np.sum(friction_limit(scene, other.pressure)))
+    limit = float(np.sum((scene.friction or FRICTIONLESS).limit(other.pressure)))
     difference = one.shear - other.shear
     return float(np.sum(np.hypot(*difference)) / limit) if limit > 0 else None
-
-
-def friction_limit(scene: Scene, pressure: NDArray[np.float64]) -> NDArray[np.float64]:
-    """µp (nx, ny); zero without friction."""
-    if scene.friction is None:
-        return np.zeros_like(pressure)
-    coefficient = scene.friction.coefficient
-    if isinstance(coefficient, FrictionMap):
-        return np.asarray(coefficient.map.values * pressure)
-    return np.asarray(coefficient * pressure)
 
 
 def _shear_error(scene: Scene, end: Increment, fine: Increment) -> float | None:

@@ -6,7 +6,7 @@ from typing import TypedDict
 
 from contact_scene.body import Body
 from contact_scene.discretisation import SurfaceDiscretisation
-from contact_scene.friction import CoulombFriction, FrictionMap
+from contact_scene.friction import CoulombFriction
 from contact_scene.geometry import Indenter
 from contact_scene.load_path import ControlKind, LoadRamp, load_path
 from contact_scene.loading import LoadStep
@@ -90,7 +90,7 @@ def _gross_sliding(parts: Parts) -> Iterator[Problem]:
     ramp is the end of the one before, or no load at all.
     """
     friction, loading = parts.get("friction"), parts.get("loading")
-    if friction is None or not isinstance(friction.coefficient, float):
+    if friction is None:
         return
     if not loading or not loading[0].names_normal:
         return
@@ -98,10 +98,12 @@ def _gross_sliding(parts: Parts) -> Iterator[Problem]:
     for index, ramp in enumerate(load_path(loading)):
         if ControlKind.DISPLACEMENT in (ramp.normal.kind, ramp.tangential.kind):
             continue
-        mu, normal_force = friction.coefficient, ramp.normal.end
-        force, limit = math.hypot(*ramp.tangential.end), mu * normal_force
+        force, limit = math.hypot(*ramp.tangential.end), friction.carried(ramp.normal.end)
+        if limit is None:
+            return
         named = f"tangential force {force:.6g} N"
-        named_limit = f"the friction limit {limit:.6g} N (= {mu:.6g} * {normal_force:.6g} N)"
+        product = f"{friction.uniform:.6g} * {ramp.normal.end:.6g} N"
+        named_limit = f"the friction limit {limit:.6g} N (= {product})"
         if force > limit * (1.0 + _ROUND_OFF):
             yield Problem(
                 _key_of_shear(index, loading[index]),
@@ -173,9 +175,9 @@ def _window_beyond_the_height_map(parts: Parts) -> Iterator[Problem]:
 
 def _cells_unlike_the_friction_map(parts: Parts) -> Iterator[Problem]:
     friction, discretisation = parts.get("friction"), parts.get("semi_analytical")
-    if friction is None or not isinstance(friction.coefficient, FrictionMap):
+    shape = friction.cells if friction is not None else None
+    if shape is None:
         return
-    shape = friction.coefficient.map.shape
     if discretisation is not None and discretisation.cells not in (None, shape):
         yield Problem(
             ("friction", "coefficient", "map"),

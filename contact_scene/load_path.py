@@ -6,7 +6,7 @@ from enum import Enum
 from typing import Generic, TypeVar
 
 from contact_scene.loading import LoadStep
-from contact_scene.solver_errors import GrossSliding
+from contact_scene.solver_errors import motion_undefined
 
 Vector = tuple[float, float]
 Value = TypeVar("Value", float, Vector)
@@ -48,10 +48,7 @@ class Control(Generic[Value]):
         if begin is None:
             begin = reached[0] if by_force else reached[1]
         if begin is None:
-            raise GrossSliding(
-                "the step before reached the friction limit under force control, where the motion "
-                "is undefined; end that step below the limit"
-            )
+            raise motion_undefined()
         value = _between(begin, self.end, fraction)
         return (value, None) if by_force else (None, value)
 

@@ -29,6 +29,14 @@ class GrossSliding(SolverError):
     """The tangential load exceeds what friction can carry under force control."""
 
 
+def motion_undefined() -> GrossSliding:
+    """To be raised for a history that was to go on from where the motion is undefined."""
+    return GrossSliding(
+        "the increment before reached the friction limit under force control, where the motion is "
+        "undefined, so the history cannot go on; prescribe the shift or twist instead"
+    )
+
+
 class ContactAtWindowEdge(SolverError):
     """The contact reached the border of the computed window, so its tractions are cut off."""
 

@@ -11,7 +11,7 @@ from contact_scene import (
     FiniteElementDiscretisation,
     Scene,
 )
-from contact_scene.friction import FrictionMap
+from contact_scene.friction import FRICTIONLESS, CoulombFriction
 from fem_reference.elasticity.compliance import NodalCompliance, composite
 from fem_reference.elasticity.hats import Hats, hats_on
 from fem_reference.elasticity.motion import TORSION, Motion, motion
@@ -74,12 +74,9 @@ class ContactModel:
         return self.scene.indenter.rim is not None
 
     @property
-    def friction_coefficient(self) -> float:
-        """µ; zero without friction."""
-        friction = self.scene.friction
-        if friction is None or isinstance(friction.coefficient, FrictionMap):
-            return 0.0
-        return friction.coefficient
+    def friction(self) -> CoulombFriction:
+        """Between the two bodies, the same everywhere."""
+        return self.scene.friction or FRICTIONLESS
 
     def gap(self, r: Field) -> Field:
         """Undeformed gap at a radius [length], taken where a particle was before any load."""

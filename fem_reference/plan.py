@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 from math import ceil, hypot
 
-from contact_scene import ControlKind, FrictionMap, LoadRamp, Scene
+from contact_scene import ControlKind, LoadRamp, Scene
 from contact_scene.effect import Effect
 from contact_scene.pair import coupling, refuse_contrast
 from fem_reference.effects import effects
@@ -95,9 +95,9 @@ def _path_increments(scene: Scene, ramp: LoadRamp) -> int:
     pressing = ramp.normal.start != ramp.normal.end
     if pressing or not by_force:
         return PATH_INCREMENTS
-    if friction is None or isinstance(friction.coefficient, FrictionMap):
+    limit = friction.carried(ramp.normal.end) if friction is not None else None
+    if limit is None:
         return PATH_INCREMENTS
-    limit = friction.coefficient * ramp.normal.end
     start, end = ramp.tangential.start or (0.0, 0.0), ramp.tangential.end
     change = hypot(end[0] - start[0], end[1] - start[1])
     return max(1, ceil(change / (LARGEST_SHARE * limit) - ROUND_OFF)) if limit > 0 else 1

@@ -52,7 +52,7 @@ class CoupledProblem:
     normal_by_shear          u_z by shear
     shear_by_pressure        u_t by pressure
     gap                      undeformed gap (nx, ny)
-    friction_coefficient     µ, a number or (nx, ny)
+    friction_limit           pressure (nx, ny) -> largest shear (nx, ny)
     target                   u_t - motion of the state before (2, nx, ny)
     self_compliance          tangential displacement of a cell by its own unit shear
     """
@@ -64,7 +64,7 @@ class CoupledProblem:
     normal_by_shear: Callable[[VectorField], Field]
     shear_by_pressure: Callable[[Field], VectorField]
     gap: Field
-    friction_coefficient: float | Field
+    friction_limit: Callable[[Field], Field]
     target: VectorField
     normal_load: NormalLoad
     tangential_load: TangentialLoad
@@ -114,7 +114,7 @@ def solve_coupled(
     iterations, enough = 0, ENOUGH
     history = _Anderson(problem.normal_load)
     for rounds in range(1, MOST_ROUNDS + 1):
-        bound = problem.friction_coefficient * p
+        bound = problem.friction_limit(p)
         at_limit = problem.tangential_load.exhausts(bound)
         if at_limit:
             sheared = _full_slip(problem, bound, motion)

@@ -1,12 +1,13 @@
 """One load increment of bodies whose normal and tangential problems couple."""
 
 from dataclasses import dataclass, replace
+from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
 
 from contact_scene.residuals import worst
-from contact_scene.solver_errors import GrossSliding, NotConverged
+from contact_scene.solver_errors import NotConverged, motion_undefined
 from semi_analytical.alternation import CoupledProblem, CoupledSolution, solve_coupled
 from semi_analytical.box import Box, box_around
 from semi_analytical.contact_area import covered_cells
@@ -54,13 +55,11 @@ def solve_coupled_increment(
     last = before.sheared if before is not None and before.sheared is not None else None
     last = last or untouched(model.grid.cells)
     if last.shift is None:
-        raise GrossSliding(
-            "the increment before reached the friction limit under force control, where the "
-            "shift is undefined, so the history cannot go on; prescribe tangential_shift instead"
-        )
-    mu = model.friction_coefficient
-    if isinstance(mu, float) and tangential.force is not None and normal.force is not None:
-        reaches_limit(tangential.force, mu * normal.force)
+        raise motion_undefined()
+    if tangential.force is not None and normal.force is not None:
+        carried = model.friction.carried(normal.force)
+        if carried is not None:
+            reaches_limit(tangential.force, carried)
     start, iterations = _start(model, before, normal)
     box = box_around((start > 0) | (last.shear[0] != 0), MARGIN)
     whole = Box.whole(model.grid.cells)
@@ -110,7 +109,6 @@ def _problem(
     coupling = model.coupling_operator(box.shape)
     target = surface_target(model, last, tangential)
     rotation = None if tangential.torsion is None else model.rotation[(..., *box.slices)]
-    mu = model.friction_coefficient
     return CoupledProblem(
         normal=pressed,
         precondition_normal=pressed.precondition,
@@ -119,7 +117,7 @@ def _problem(
         normal_by_shear=coupling.normal_by_shear,
         shear_by_pressure=coupling.tangential_by_pressure,
         gap=normal.gap(model)[box.slices],
-        friction_coefficient=mu[box.slices] if isinstance(mu, np.ndarray) else mu,
+        friction_limit=partial(model.friction.limit, where=box.slices),
         target=target[(..., *box.slices)],
         normal_load=normal.on(model, box),
         tangential_load=tangential.on(model.grid.cell_area, rotation),
@@ -169,7 +167,7 @@ class _Trial:
 
     def _sheared(self, p: Field, q: VectorField, u_t: VectorField, u_by_q: VectorField) -> Sheared:
         model, solution = self.model, self.solution
-        bound = model.friction_coefficient * p
+        bound = model.friction.limit(p)
         if solution.at_limit:
             return self._slid(p, bound, u_t)
         shearing = Shearing(

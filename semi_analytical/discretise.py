@@ -8,7 +8,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from contact_scene import (
-    FrictionMap,
     Scene,
     SurfaceDiscretisation,
 )
@@ -42,15 +41,9 @@ def discretise(scene: Scene, asked: SurfaceDiscretisation) -> SurfaceGrid:
     coarse grid under the largest normal load; a friction map gives the cells, a height map
     bounds the window.
     """
-    cells = asked.cells or _mapped_cells(scene) or DEFAULT_CELLS
+    mapped = scene.friction.cells if scene.friction else None
+    cells = asked.cells or mapped or DEFAULT_CELLS
     return SurfaceGrid(cells, asked.window or _fitted_window(scene))
-
-
-def _mapped_cells(scene: Scene) -> tuple[int, int] | None:
-    if scene.friction is None or not isinstance(scene.friction.coefficient, FrictionMap):
-        return None
-    nx, ny = scene.friction.coefficient.map.shape
-    return nx, ny
 
 
 def _fitted_window(scene: Scene) -> tuple[float, float]:

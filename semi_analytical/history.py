@@ -127,7 +127,7 @@ def _increment(model: ContactModel, before: State | None, state: State, place: P
     )
     if sheared is None:
         return pressed
-    bound = model.friction_coefficient * p
+    bound = model.friction.limit(p)
     stuck = stuck_cells(sheared.shear, bound, sheared.in_stick) * cell
     increment = replace(
         pressed,

@@ -6,7 +6,8 @@ from typing import TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from contact_scene import FrictionMap, Scene
+from contact_scene import CoulombFriction, Scene
+from contact_scene.friction import FRICTIONLESS
 from contact_scene.solver_errors import UnsupportedScene
 from semi_analytical.grid import SurfaceGrid
 from semi_analytical.influence.bodies import influence_coefficients
@@ -50,19 +51,15 @@ class ContactModel:
         return cls(scene, grid, scene.indenter.initial_gap(x, y), Convolutions())
 
     @cached_property
-    def friction_coefficient(self) -> float | Field:
-        """µ, one number or (nx, ny); zero without friction."""
-        if self.scene.friction is None:
-            return 0.0
-        coefficient = self.scene.friction.coefficient
-        if not isinstance(coefficient, FrictionMap):
-            return coefficient
-        if coefficient.map.shape != self.grid.cells:
+    def friction(self) -> CoulombFriction:
+        """Between the two bodies; raises UnsupportedScene for a map of other cells."""
+        friction = self.scene.friction or FRICTIONLESS
+        if friction.cells not in (None, self.grid.cells):
             raise UnsupportedScene(
-                f"the friction map has {coefficient.map.shape} values, the grid "
-                f"{self.grid.cells} cells; give one value per cell"
+                f"the friction map has {friction.cells} values, the grid {self.grid.cells} cells; "
+                "give one value per cell"
             )
-        return coefficient.map.values
+        return friction
 
     @cached_property
     def coefficients(self) -> InfluenceCoefficients:

@@ -24,7 +24,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from math import ceil, hypot
 
-from contact_scene import ControlKind, LoadRamp, Scene
+from contact_scene import ControlKind, CoulombFriction, LoadRamp, Scene
 
 # The sine of an angle below this is round-off of a load that goes straight.
 STRAIGHT = 1e-9
@@ -69,12 +69,12 @@ class Bodies:
 
     coupled  whether pressure and shear act on each other
     beta     Dundurs' constant; None if a body has layers
-    friction largest µ, and None where it varies over the surface
+    friction between them
     """
 
     coupled: bool
     beta: float | None
-    friction: float | None
+    friction: CoulombFriction
 
 
 def path_increments(
@@ -198,10 +198,10 @@ class _Way:
         normal, tangential = self.ramp.normal, self.ramp.tangential
         by_force = normal.kind is tangential.kind is ControlKind.FORCE
         known = by_force and normal.start is not None and tangential.start is not None
-        if not known or not bodies.friction or self.ramp.twisting.end != 0:
+        limit = bodies.friction.carried(min(normal.start or normal.end, normal.end))
+        if not known or not limit or self.ramp.twisting.end != 0:
             return 1.0, 1.0
         start, end = self.start, tangential.end
-        limit = bodies.friction * min(normal.start or normal.end, normal.end)
         change = hypot(end[0] - start[0], end[1] - start[1])
         return max(hypot(*start), hypot(*end)) / limit, change / limit
 
@@ -210,13 +210,14 @@ def _pressed_first(bodies: Bodies, accuracy: float) -> tuple[int, str]:
     """The stick edge runs outwards with the contact: what matters is how much of it sticks."""
     layered = bodies.beta is None
     most = (FULL_STICK_LAYERS if layered else FULL_STICK) / accuracy
-    if bodies.friction is None:
+    mu = bodies.friction.uniform
+    if mu is None:
         return _rounded(most), "pressing bodies that couple, with friction that varies"
     if layered:
-        m_squared = LAYERS * bodies.friction
-        why = f"pressing coated bodies, µ = {bodies.friction:.2g}"
+        m_squared = LAYERS * mu
+        why = f"pressing coated bodies, µ = {mu:.2g}"
     else:
-        m_squared = (bodies.friction / abs(bodies.beta or 1.0)) ** 2
+        m_squared = (mu / abs(bodies.beta or 1.0)) ** 2
         why = f"pressing unlike bodies, µ/|β| = {m_squared**0.5:.2g}"
     return _rounded(min((PRESSING_FIRST / accuracy) ** (2 / 3) * m_squared, most)), why
 

@@ -4,9 +4,10 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from enum import StrEnum
 
-from contact_scene import FrictionMap, Scene, effect
+from contact_scene import Scene, effect
 from contact_scene.discretisation import PATH_ACCURACY
 from contact_scene.effect import Effect
+from contact_scene.friction import FRICTIONLESS
 from contact_scene.pair import coupling, dundurs_beta, refuse_contrast
 from semi_analytical.path_increments import Bodies, StepIncrements, path_increments, refined
 
@@ -87,16 +88,9 @@ def plan(scene: Scene, path_accuracy: float = PATH_ACCURACY) -> Plan:
         effect.load_history(len(scene.loading) > 1 and shear),
     )
     acting = Coupling.FULL if coupled else Coupling.NONE
-    bodies = Bodies(coupled, dundurs_beta(scene), _friction(scene))
+    bodies = Bodies(coupled, dundurs_beta(scene), scene.friction or FRICTIONLESS)
     path = path_increments(scene, shear, bodies, path_accuracy)
     return Plan(shear, tilt, torsion, acting, path, effects)
-
-
-def _friction(scene: Scene) -> float | None:
-    """µ where it is one number for the whole surface."""
-    if scene.friction is None or isinstance(scene.friction.coefficient, FrictionMap):
-        return None
-    return scene.friction.coefficient
 
 
 def _tangentially_loaded(scene: Scene) -> bool:

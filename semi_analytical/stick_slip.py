@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from contact_scene.residuals import ShearResiduals
-from contact_scene.solver_errors import GrossSliding, NotConverged
+from contact_scene.solver_errors import NotConverged, motion_undefined
 from contact_scene.summary import ContactStatus
 from semi_analytical.admissible_shear import magnitude
 from semi_analytical.full_slip import (
@@ -46,12 +46,9 @@ def slip_and_stick(
 
     raises  NotConverged; GrossSliding if a force exceeds what friction can carry
     """
-    bound = model.friction_coefficient * pressure
+    bound = model.friction.limit(pressure)
     if last.shift is None:
-        raise GrossSliding(
-            "the increment before reached the friction limit under force control, where the "
-            "shift is undefined, so the history cannot go on; prescribe tangential_shift instead"
-        )
+        raise motion_undefined()
     ended = _without_solving(model, pressure, bound, last, load)
     if ended is not None:
         return ended

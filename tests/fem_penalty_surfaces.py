@@ -5,7 +5,16 @@ from functools import cache
 import numpy as np
 from fem_scenes import elements
 
-from contact_scene import RIGID, Body, IsotropicMaterial, Layer, LoadStep, Paraboloid, Scene
+from contact_scene import (
+    RIGID,
+    Body,
+    CoulombFriction,
+    IsotropicMaterial,
+    Layer,
+    LoadStep,
+    Paraboloid,
+    Scene,
+)
 from fem_reference.contact.penalty.gauss_points import gauss_points
 from fem_reference.contact.penalty.newton import Iterate
 from fem_reference.contact.penalty.spring_contact import PenaltyLaw
@@ -53,7 +62,9 @@ def law_on(surface, factor: float, mu: float, ratio: float = 1.0, per_radius: in
     """The law before any history."""
     element = (1.25 if ratio < 1 else 1.0) / per_radius
     nothing = np.zeros_like(surface.gap)
-    return PenaltyLaw(factor * ratio * MODULUS / element, mu, nothing, nothing[1:])
+    return PenaltyLaw(
+        factor * ratio * MODULUS / element, CoulombFriction(coefficient=mu), nothing, nothing[1:]
+    )
 
 
 def pressed(surface, part: float = 1.0, torque: float | None = None) -> Target:

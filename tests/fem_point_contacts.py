@@ -4,6 +4,7 @@ import numpy as np
 from hankel_responses import Coating
 from ring_responses import half_space, rings
 
+from contact_scene import CoulombFriction
 from fem_reference.contact.harmonics.angular_grid import AngularGrid, axisymmetric_grid, end_grid
 from fem_reference.contact.harmonics.point_compliance import PointCompliance
 from fem_reference.contact.harmonics.point_contact import PointContact
@@ -37,7 +38,7 @@ def contact(
     inner, outer = np.maximum(radii - h, 0.0), np.minimum(radii + h, radii[-1])
     gap = np.array([_mean_gap(*edges, power) for edges in zip(inner, radii, outer, strict=True)])
     compliance = PointCompliance(known, grid, springs)
-    return PointContact(compliance, gap[compliance.ring_of_point], mu)
+    return PointContact(compliance, gap[compliance.ring_of_point], CoulombFriction(coefficient=mu))
 
 
 def _mean_gap(inner, peak, outer, power):
@@ -62,7 +63,7 @@ def pressed(of: PointContact, force: float, increments: int) -> PointState:
     ring = PointContact(
         PointCompliance(compliance.rings, axisymmetric_grid(), compliance.springs),
         of.gap[np.unique(compliance.ring_of_point, return_index=True)[1]],
-        of.friction_coefficient,
+        of.friction,
     )
     state = None
     for k in range(1, increments + 1):

@@ -48,7 +48,7 @@ class DenseContact:
             normal_by_shear=lambda q: (A_zt @ q.ravel()).reshape(SHAPE),
             shear_by_pressure=lambda p: (A_zt.T @ p.ravel()).reshape(2, *SHAPE),
             gap=self.gap,
-            friction_coefficient=self.friction,
+            friction_limit=lambda p: self.friction * p,
             target=self.target,
             normal_load=normal_load,
             tangential_load=tangential_load,

@@ -407,7 +407,7 @@ def test_derivative_is_that_of_the_equations(rng):
     of, (normal, tangential) = few_points(0.3), FIRST["by force"](0.3, 0.6)
     n = len(of.gap)
     problem = turns_module.CoupledProblem(
-        of.compliance, of.gap, 0.3, np.zeros((2, n)), normal, tangential
+        of.compliance, of.gap, of.friction, np.zeros((2, n)), normal, tangential
     )
     equations = Equations(problem)
     tractions = np.concatenate([0.2 * rng.normal(size=2 * n), rng.normal(size=n)])

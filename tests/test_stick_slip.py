@@ -239,7 +239,7 @@ def test_a_history_cannot_go_on_from_the_limit():
     friction = {"map": np.full((CELLS, CELLS), MU)}
     loading = scene(PRESS, push(0.5), friction=friction)
     limit = MU * float(solve(loading, grid(CELLS), TOLERANCE).steps[0].normal_force)
-    with pytest.raises(GrossSliding, match="shift is undefined"):
+    with pytest.raises(GrossSliding, match="motion is undefined"):
         solved(PRESS, {"tangential_force": (limit, 0.0)}, push(0.5), friction=friction)
 
 

@@ -11,8 +11,8 @@ from matplotlib.figure import Figure
 
 from contact_results.figures import style
 from contact_results.figures.shown_steps import SAME, runs_of_equal, selected, span, vectors
-from contact_results.path_error import friction_limit
 from contact_scene.engineering_units import EngineeringUnit, engineering_unit
+from contact_scene.friction import FRICTIONLESS
 
 if TYPE_CHECKING:
     from contact_results.surface import Field, Increment, Result, Surface
@@ -112,7 +112,7 @@ def _draw_bound(ax: Any, x: Field, result: Result, surface: Surface, shear: Comp
     """± µp in grey."""
     groups = runs_of_equal(shear.steps, lambda step: _pressure(step, surface))
     for number, group in enumerate(groups):
-        limit = friction_limit(result.scene, _pressure(group[0], surface))
+        limit = (result.scene.friction or FRICTIONLESS).limit(_pressure(group[0], surface))
         bound = surface.along(limit) / shear.unit.size
         ax.fill_between(x, -bound, bound, color=style.GREY, alpha=0.12, linewidth=0)
         label = "± µp" if number == 0 else None

@@ -31,14 +31,6 @@ def reaches_limit(load: float | None, capacity: float, unit: float = 2 * pi) -> 
     return abs(load) >= capacity * (1 - AT_LIMIT)
 
 
-def motion_undefined() -> GrossSliding:
-    """To be raised for a history that was to go on from where the motion is undefined."""
-    return GrossSliding(
-        "the increment before reached the friction limit under force control, where the motion is "
-        "undefined, so the history cannot go on; prescribe the shift or twist instead"
-    )
-
-
 def contact_status(
     loaded: Mask, stuck: Mask, carried: float | None, capacity: float
 ) -> ContactStatus:

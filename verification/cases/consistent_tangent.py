@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from contact_scene import CoulombFriction
 from fem_reference.contact.penalty.spring_contact import PenaltyLaw
 from verification.judging.case import Check, Required
 from verification.problems.reference import identity
@@ -35,7 +36,12 @@ def _worst() -> float:
 def _error(components: int) -> float:
     random = np.random.default_rng((SEED, components))
     multiplier = random.uniform(-0.2, 0.2, (components, POINTS))
-    law = PenaltyLaw(1.0, 0.4, multiplier, random.uniform(-0.1, 0.1, (components - 1, POINTS)))
+    law = PenaltyLaw(
+        1.0,
+        CoulombFriction(coefficient=0.4),
+        multiplier,
+        random.uniform(-0.1, 0.1, (components - 1, POINTS)),
+    )
     overlap = random.uniform(-1.0, 1.0, (components, POINTS))
     overlap[0] += 0.8
     here = law.response(overlap)

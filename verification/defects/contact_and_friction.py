@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from contact_results import cycles
-from contact_scene import march
+from contact_scene import CoulombFriction, march
 from semi_analytical import (
     energy,
     load_targets,
@@ -28,8 +28,10 @@ from verification.defects.defect import Defect, Patches
 def _friction(patches: Patches) -> None:
     patches.attribute(
         ContactModel,
-        "friction_coefficient",
-        property(lambda self: np.sqrt(2) * self.scene.friction.coefficient),
+        "friction",
+        property(
+            lambda self: CoulombFriction(coefficient=np.sqrt(2) * self.scene.friction.largest)
+        ),
     )
 
 

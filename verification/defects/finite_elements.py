@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from contact_scene import CoulombFriction
 from fem_reference.contact.complementarity import contact_problem, ring_increment, slipping
 from fem_reference.contact.complementarity.ring_state import untouched
 from fem_reference.contact.penalty import law as penalty_law
@@ -110,10 +111,12 @@ def _coupling(patches: Patches, factor: float) -> None:
 
 
 def _friction(patches: Patches) -> None:
-    whole = ContactModel.friction_coefficient.fget  # type: ignore[attr-defined]
-    patches.attribute(
-        ContactModel, "friction_coefficient", property(lambda self: np.sqrt(2) * whole(self))
-    )
+    whole = ContactModel.friction.fget  # type: ignore[attr-defined]
+
+    def rougher(self: ContactModel) -> CoulombFriction:
+        return CoulombFriction(coefficient=np.sqrt(2) * whole(self).largest)
+
+    patches.attribute(ContactModel, "friction", property(rougher))
 
 
 def _forgetful(patches: Patches) -> None:

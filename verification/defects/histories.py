@@ -9,7 +9,8 @@ from typing import Any
 import numpy as np
 
 import fem_reference.energy
-from contact_scene import FrictionMap
+from contact_scene import CoulombFriction
+from contact_scene.friction import FRICTIONLESS
 from semi_analytical import admissible_shear, coupled_increment, history, residuals, stick_slip
 from semi_analytical.model import ContactModel
 from verification.defects.defect import Defect, Patches
@@ -93,12 +94,11 @@ def _loss_with_coupling(patches: Patches) -> None:
 def _map_transposed(patches: Patches) -> None:
     def transposed(self: Any) -> Any:
         friction = self.scene.friction
-        if friction is None:
-            return 0.0
-        mu = friction.coefficient
-        return mu.map.values.T if isinstance(mu, FrictionMap) else mu
+        if friction is None or friction.cells is None:
+            return friction or FRICTIONLESS
+        return CoulombFriction.model_validate({"coefficient": {"map": friction.slope().T}})
 
-    patches.attribute(ContactModel, "friction_coefficient", property(transposed))
+    patches.attribute(ContactModel, "friction", property(transposed))
 
 
 def _stored_by_elements(patches: Patches) -> None:

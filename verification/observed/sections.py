@@ -124,7 +124,7 @@ def _of_pressure(now: _Surface) -> Iterator[float]:
 
 
 def _of_shear(before: _Surface | None, now: _Surface) -> Iterator[float]:
-    friction = now.rings.model.friction_coefficient
+    friction = now.rings.model.friction.largest
     limit = friction * now.pressure
     if not np.any(limit):
         yield float(np.max(np.hypot(*now.shear)) / np.max(now.pressure))

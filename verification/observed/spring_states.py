@@ -79,7 +79,7 @@ class SpringSurface:
             twists=path is Path.TWISTING,
             along=result.plan.direction,
             stiffness=spring_stiffness(result, float(model.radii[2])),
-            friction=model.friction_coefficient,
+            friction=model.friction.largest,
         )
 
     def displaced(self, component: str, p: Field, q: Field | None) -> Field:

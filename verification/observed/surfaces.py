@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from contact_scene import FrictionMap
+from contact_scene.friction import FRICTIONLESS
 from semi_analytical import Increment, Result
 from verification.observed.prescribed import missed
 
@@ -44,11 +44,8 @@ class _Place:
     @classmethod
     def of(cls, result: Result) -> _Place:
         x, y = result.grid.coordinates()
-        friction = result.scene.friction
-        mu = 0.0 if friction is None else friction.coefficient
-        return cls(
-            x, y, result.grid.cell_area, mu.map.values if isinstance(mu, FrictionMap) else mu
-        )
+        friction = result.scene.friction or FRICTIONLESS
+        return cls(x, y, result.grid.cell_area, friction.slope())
 
 
 def _violations(before: Increment | None, now: Increment, place: _Place) -> Iterator[float]:

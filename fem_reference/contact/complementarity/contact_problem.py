@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from contact_scene.friction import CoulombFriction
 from fem_reference.elasticity.hats import Hats
 from fem_reference.model import ContactModel
 from fem_reference.plan import Path
@@ -22,7 +23,7 @@ R, Z = 0, 1
 class Sideways:
     """The one component of shear that a path has: radial, circumferential, or along the load.
 
-    coefficient  µ
+    friction     between the surfaces
     compliance   displacement over the hats per shear (n, n)
     motion       of the indenter's surface over the hats, per unit of its shift or twist; its
                  product with the shear is the force or torque over 2π. None where symmetry
@@ -32,7 +33,7 @@ class Sideways:
     on_axis      whether there can be any on the axis
     """
 
-    coefficient: float
+    friction: CoulombFriction
     compliance: Matrix
     motion: Field | None
     by_pressure: Matrix | None
@@ -49,7 +50,9 @@ class Sideways:
 
     def capacity(self, p: Field) -> float:
         """The largest resultant over 2π that friction carries under a pressure."""
-        return self.coefficient * self.resultant(self.limited(p))
+        carried = self.friction.carried(self.resultant(self.limited(p)))
+        assert carried is not None  # it is the same everywhere
+        return carried
 
 
 @dataclass(frozen=True)
@@ -86,14 +89,16 @@ def contact_problem(model: ContactModel, path: Path) -> ContactProblem:
 
 
 def _sideways(model: ContactModel, hats: Hats, path: Path) -> Sideways | None:
-    mu = model.friction_coefficient
+    friction = model.friction
     if path is Path.PRESSING_WITH_FRICTION:
         pressing = model.compliance(0).matrix
         radial = hats.compliance(pressing[R, :, R])
-        return Sideways(mu, radial, None, hats.compliance(pressing[R, :, Z]), on_axis=False)
+        return Sideways(friction, radial, None, hats.compliance(pressing[R, :, Z]), on_axis=False)
     if path is Path.TWISTING:
         around = hats.compliance(model.torsion().matrix[0, :, 0])
-        return Sideways(mu, around, hats.arms, None, on_axis=False)
+        return Sideways(friction, around, hats.arms, None, on_axis=False)
     if path is Path.SHEARING:
-        return Sideways(mu, hats.compliance(model.along_load()), hats.weights, None, on_axis=True)
+        return Sideways(
+            friction, hats.compliance(model.along_load()), hats.weights, None, on_axis=True
+        )
     return None

@@ -59,8 +59,8 @@ class Complementarity:
     def _with_shear(self, pressed: Increment, state: State, slid: Slid) -> Increment:
         sideways = self.problem.sideways
         assert sideways is not None
-        bound = sideways.coefficient * sideways.limited(state.pressure)
-        in_stick = (state.pressure > 0) & (slid.sides == 0) & (sideways.coefficient > 0)
+        bound = sideways.friction.limit(sideways.limited(state.pressure))
+        in_stick = (state.pressure > 0) & (slid.sides == 0) & (sideways.friction.largest > 0)
         stuck = stick_area(pressed.radii, bound, slid.shear, slid.sides, pressed.contact_radius)
         sheared = replace(
             pressed,

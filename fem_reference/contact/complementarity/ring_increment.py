@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from contact_scene.residuals import Residuals
+from contact_scene.solver_errors import motion_undefined
 from fem_reference.contact.complementarity.contact_problem import ContactProblem, Sideways
 from fem_reference.contact.complementarity.pressing import Pressed, press
 from fem_reference.contact.complementarity.ring_state import Slid, State, untouched
@@ -14,7 +15,7 @@ from fem_reference.contact.complementarity.slipping import at_limit, slid, slip_
 from fem_reference.contact.complementarity.sweeps import alternate
 from fem_reference.contact.complementarity.together import Coupled
 from fem_reference.contact.complementarity.tresca import shear
-from fem_reference.contact.friction_limit import motion_undefined, reaches_limit
+from fem_reference.contact.friction_limit import reaches_limit
 from fem_reference.contact.one_component import target_of
 from fem_reference.contact.zone_edge import refuse_contact_at_edge
 from fem_reference.loads import Loads, NormalTarget
@@ -68,7 +69,7 @@ def _sheared(
     target = target_of(loads)
     if reaches_limit(target.resultant, sideways.capacity(p)):
         return at_limit(sideways, p, target, last), None, 0
-    solved = shear(sideways, sideways.coefficient * p, target, last.offset, last.sides)
+    solved = shear(sideways, sideways.friction.limit(p), target, last.offset, last.sides)
     after, step = slid(sideways, p, solved.shear, solved.motion, solved.sides, last)
     return after, step, solved.steps
 

@@ -28,7 +28,7 @@ def slid(
         offset -= motion * sideways.motion
     step = offset - last.offset
     # Without friction there are no sides, and all that touches slips.
-    slips = sides != 0 if sideways.coefficient > 0 else sideways.limited(p) > 0
+    slips = sides != 0 if sideways.friction.largest > 0 else sideways.limited(p) > 0
     slipped = np.where(slips, step, 0.0)
     assert last.dissipated is not None
     after = Slid(
@@ -51,7 +51,7 @@ def at_limit(sideways: Sideways, p: Field, target: SidewaysTarget, last: Slid) -
     """
     assert target.resultant is not None
     sign = int(np.sign(target.resultant))
-    q = sign * sideways.coefficient * sideways.limited(p)
+    q = sign * sideways.friction.limit(sideways.limited(p))
     loose = sign == 0
     return replace(
         last,
@@ -80,7 +80,7 @@ def slip_residuals(
 
     step  slip increment over the hats; None where it is undefined
     """
-    bound, target = sideways.coefficient * p, target_of(loads)
+    bound, target = sideways.friction.limit(p), target_of(loads)
     direction = missing = None
     if step is not None:
         room = sideways.limited(bound)
@@ -103,6 +103,6 @@ def slip_residuals(
 def _status(sideways: Sideways, p: Field, q: Field, sides: Sides) -> ContactStatus:
     """Of the rings that carry pressure and can carry shear."""
     loaded = sideways.limited(p) > 0
-    stuck = loaded & (sides == 0) & (sideways.coefficient > 0)
+    stuck = loaded & (sides == 0) & (sideways.friction.largest > 0)
     carried = None if sideways.motion is None else sideways.resultant(q)
     return contact_status(loaded, stuck, carried, sideways.capacity(p))

@@ -48,7 +48,7 @@ def alternate(
         pressed = press(problem.normal, opened, problem.weights, target, contact)
         p, contact = pressed.pressure, pressed.sides
         free = before - sideways.by_pressure @ p
-        bound = sideways.coefficient * p
+        bound = sideways.friction.limit(p)
         sheared = shear(sideways, bound, SidewaysTarget(), free, slipping)
         slipping = sheared.sides
         steps += pressed.steps + sheared.steps

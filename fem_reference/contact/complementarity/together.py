@@ -78,7 +78,7 @@ def settle(
 def _within(problem: ContactProblem, p: Field, q: Field) -> Field:
     """Without the round-off beyond the friction limit."""
     assert problem.sideways is not None
-    bound = problem.sideways.coefficient * p
+    bound = problem.sideways.friction.limit(p)
     return np.asarray(np.clip(q, -bound, bound))
 
 
@@ -96,7 +96,7 @@ def _on_sides(
     A, B, C = problem.normal, sideways.by_pressure, sideways.compliance
     ring = np.arange(len(before))
     c, s = ring[touching], ring[touching & (sides == 0) & (ring > 0)]
-    slope = sideways.coefficient * sides[c]
+    slope = sideways.friction.slope() * sides[c]
     # Slipping shear follows the pressure of its ring.
     normal = A[np.ix_(c, c)] + B.T[np.ix_(c, c)] * slope
     shear = B[np.ix_(s, c)] + C[np.ix_(s, c)] * slope
@@ -137,7 +137,7 @@ def _moved(
     noise = ROUND_OFF * (np.abs(A) @ np.abs(p) + np.abs(problem.gap))
     little = ROUND_OFF * np.max(np.abs(p))
     now = np.where(touching, p >= -little, gap < -noise)
-    bound = sideways.coefficient * np.maximum(p, 0.0)
+    bound = sideways.friction.limit(np.maximum(p, 0.0))
     noise = ROUND_OFF * (np.abs(C) @ np.abs(q) + np.abs(B) @ np.abs(p) + np.abs(before))
     then = sides.copy()
     sticks = touching & (sides == 0)

@@ -170,7 +170,7 @@ def _scales(equations: Equations, at: Iterate, softness: float) -> Vector:
     area = float(np.sum(w, where=p > 0))
     mean = float(np.sum(w * np.abs(p))) / area
     share = np.sqrt(area / w)
-    rubbed = max(equations.problem.friction_coefficient, LITTLE_FRICTION) * mean * share
+    rubbed = max(equations.problem.friction.largest, LITTLE_FRICTION) * mean * share
     approach = abs(at.approach)
     return np.concatenate(
         [rubbed, rubbed, mean * share, [max(abs(at.shift), approach), approach, softness]]

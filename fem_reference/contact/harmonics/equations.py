@@ -86,7 +86,7 @@ class Equations:
             by_t[c, :, -3] = self.along[c] / d_t
             by_t[c, :, -1] = -z_t[c] * w / d_t
         radial = np.einsum("cn,cnk->nk", normal, by_t)
-        carrying = np.where(self._carries, self.problem.friction_coefficient, 0.0)
+        carrying = np.where(self._carries, self.problem.friction.slope(), 0.0)
         turned = kept[:, None] * (by_t - normal[:, :, None] * radial)
         turned += normal[:, :, None] * carrying[:, None] * by_z
         jacobian = np.zeros((3 * n + 2, count))
@@ -106,7 +106,7 @@ class Equations:
     def size(self, missed: Vector, at: Iterate) -> float:
         """Of what is left: parts of the load and of what friction carries, added up; infinite where
         no load is prescribed and none is carried."""
-        n, friction = self.n, self.problem.friction_coefficient
+        n, friction = self.n, self.problem.friction.largest
         load = self.pressed or float(np.sum(self.w * np.abs(at.tractions[2 * n :])))
         if not load > 0:
             return np.inf

@@ -5,6 +5,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from contact_scene.friction import CoulombFriction
 from contact_scene.residuals import Residuals
 from fem_reference.contact.harmonics.angular_grid import AngularGrid
 from fem_reference.contact.harmonics.point_compliance import PointCompliance
@@ -24,7 +25,7 @@ class PointContact:
 
     compliance: PointCompliance
     gap: Vector
-    friction_coefficient: float
+    friction: CoulombFriction
 
     def untouched(self) -> PointState:
         """The state before first touch."""
@@ -76,4 +77,4 @@ def point_contact(
     require_memory(COPIES * 8 * unknowns**2)
     compliance = PointCompliance(ring_compliance(model, grid.highest), grid, springs)
     gap = (hats.of(model.gap) / hats.weights)[compliance.ring_of_point]
-    return PointContact(compliance, gap, model.friction_coefficient)
+    return PointContact(compliance, gap, model.friction)

@@ -6,8 +6,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from contact_scene.residuals import Residuals
-from contact_scene.solver_errors import NotConverged
-from fem_reference.contact.friction_limit import motion_undefined, reaches_limit
+from contact_scene.solver_errors import NotConverged, motion_undefined
+from fem_reference.contact.friction_limit import reaches_limit
 from fem_reference.contact.harmonics.continuation import solve_by_continuation
 from fem_reference.contact.harmonics.point_contact import PointContact
 from fem_reference.contact.harmonics.point_state import PointState
@@ -51,7 +51,7 @@ def advance(
         raise motion_undefined()
     target = before.displacement - before.tangential_shift * contact.compliance.e_x
     problem = CoupledProblem(
-        contact.compliance, contact.gap, contact.friction_coefficient, target, normal, tangential
+        contact.compliance, contact.gap, contact.friction, target, normal, tangential
     )
     p, q, motion = before.pressure, before.shear, (before.tangential_shift, before.approach)
     aim, turns, solves = 0.5 * tolerance, 0, 0
@@ -118,7 +118,7 @@ class _Trial:
         """The state that the solution makes."""
         problem, before, solution = self.problem, self.before, self.solution
         p, q, w = solution.pressure, solution.shear, problem.compliance.areas
-        in_stick = (problem.friction_coefficient * p > 0) & ~solution.in_slip
+        in_stick = (problem.friction.limit(p) > 0) & ~solution.in_slip
         slipped = np.where((p > 0) & ~in_stick, self.passed, 0.0)
         energy = None
         if solution.shift is not None and before.dissipated_energy is not None:

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from contact_scene.friction import CoulombFriction
 from contact_scene.solver_errors import NotConverged
 from fem_reference.contact.box_program import (
     BoxProgram,
@@ -39,13 +40,13 @@ class CoupledProblem:
     """An increment on points.
 
     gap                   undeformed gap (points,) [length]
-    friction_coefficient  µ
+    friction              between the surfaces
     target                u_t of the state before less its shift (2, points) [length]
     """
 
     compliance: PointCompliance
     gap: Vector
-    friction_coefficient: float
+    friction: CoulombFriction
     target: Field
     normal: NormalTarget
     tangential: TangentialTarget
@@ -53,7 +54,7 @@ class CoupledProblem:
     def bound(self, pressure: Vector) -> Vector:
         """The longest shear that each point can carry (points,) [force/length^2]."""
         carrying = np.where(self.compliance.carries_shear, pressure, 0.0)
-        return self.friction_coefficient * carrying
+        return self.friction.limit(carrying)
 
 
 @dataclass(frozen=True)

@@ -108,7 +108,7 @@ class PenaltyMethod:
         if np.array_equal(in_stick, state.in_contact):
             return contact_radius
         problem, (p, q) = self.problem, state.springs_alone
-        room = problem.friction * p - np.abs(q)
+        room = problem.friction.limit(p) - np.abs(q)
         area = stick_area(problem.points.radii, room, in_stick, contact_radius, problem.element)
         return sqrt(area / pi)
 

@@ -51,7 +51,7 @@ def defect(
     """
     response = law.response(surface.overlap(at.traction, at.coordinates))
     worth = np.ones(len(at.traction))
-    worth[1:] = 1 / law.friction if law.friction > 0 else 1.0
+    worth[1:] = 1 / (law.friction.largest or 1.0)
     missed = np.sum(surface.weights * np.abs(at.traction - response.traction), axis=1)
     missed += np.where(target.free, np.abs(target.value - surface.resultant(at.traction)), 0.0) / (
         surface.lever

@@ -7,8 +7,8 @@ from math import pi
 import numpy as np
 from numpy.typing import NDArray
 
-from contact_scene.solver_errors import NotConverged
-from fem_reference.contact.friction_limit import motion_undefined, reaches_limit
+from contact_scene.solver_errors import NotConverged, motion_undefined
+from fem_reference.contact.friction_limit import reaches_limit
 from fem_reference.contact.penalty.augmentation import augmented
 from fem_reference.contact.penalty.newton import Iterate, defect, solve_by_newton
 from fem_reference.contact.penalty.problem import PenaltyProblem
@@ -176,7 +176,7 @@ def _at_limit(
     if not reaches_limit(load, capacity):
         return None
     surface, sign = problem.surface, np.sign(load)
-    traction = np.vstack([pressed.traction, sign * problem.friction * pressed.traction])
+    traction = np.vstack([pressed.traction, sign * problem.friction.limit(pressed.traction)])
     motion = np.append(pressed.motion, np.nan if sign else last.motion[1])
     return replace(
         pressed,

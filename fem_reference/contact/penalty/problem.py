@@ -7,6 +7,7 @@ from typing import Self
 import numpy as np
 from numpy.typing import NDArray
 
+from contact_scene.friction import FRICTIONLESS, CoulombFriction
 from contact_scene.pair import contact_modulus
 from fem_reference.contact.one_component import target_of
 from fem_reference.contact.penalty.gauss_points import GaussPoints, gauss_points
@@ -31,7 +32,7 @@ class PenaltyProblem:
     points      radii in [length]
     surface     pressure, and the one component of shear that the path has
     stiffness   ε [force/length^3]
-    friction    µ
+    friction    between the surfaces
     element     length of a contact edge [length]
     reach       outer end of the last edge [length]
     path        which tractions there are
@@ -41,7 +42,7 @@ class PenaltyProblem:
     points: GaussPoints
     surface: ElasticSurface
     stiffness: float
-    friction: float
+    friction: CoulombFriction
     element: float
     reach: float
     path: Path
@@ -66,11 +67,11 @@ class PenaltyProblem:
     def pressing_alone(self) -> Self:
         """The pressure without any shear."""
         surface = self.surface.part(slice(0, 1), np.zeros_like(self.surface.gap))
-        return replace(self, surface=surface, friction=0.0, path=Path.PRESSING)
+        return replace(self, surface=surface, friction=FRICTIONLESS, path=Path.PRESSING)
 
     def capacity(self, pressure: Field) -> float:
         """The largest shear load over 2π that friction carries under a pressure (n,)."""
-        limit = self.friction * pressure
+        limit = self.friction.limit(pressure)
         return float(np.sum(self.surface.weights * self.surface.motion[1] * limit))
 
 
@@ -107,7 +108,7 @@ def penalty_problem(model: ContactModel, path: Path, penalty: Penalty) -> Penalt
         surface=ElasticSurface(points.weights, compliance, np.array(motion), gap),
         # Of the outermost materials: it is them that an overlap as short as an edge presses.
         stiffness=penalty_stiffness(penalty, contact_modulus(model.scene), element),
-        friction=model.friction_coefficient if c > 1 else 0.0,
+        friction=model.friction if c > 1 else FRICTIONLESS,
         element=element,
         reach=float(nodes[-1]),
         path=path,

@@ -9,6 +9,7 @@ from typing import Self
 import numpy as np
 from numpy.typing import NDArray
 
+from contact_scene.friction import CoulombFriction
 from fem_reference.contact.penalty.coulomb_return import coulomb_return
 from fem_reference.contact.penalty.law import penalty_pressure
 
@@ -31,13 +32,13 @@ class PenaltyLaw:
     """Traction by overlap, with what the surfaces remember.
 
     stiffness    ε, the same along the normal and along the surface [force/length^3]
-    friction     µ
+    friction     between the surfaces
     multiplier   λ: pressure and shear that need no overlap (c, n) [force/length^2]
     reference    overlap along the surface at the end of the last increment (c − 1, n) [length]
     """
 
     stiffness: float
-    friction: float
+    friction: CoulombFriction
     multiplier: Field
     reference: Field
 
@@ -54,7 +55,7 @@ class PenaltyLaw:
 
     def tangential_springs(self, overlap: Field, pressure: Field) -> Response:
         """Shear (c − 1, n) at overlaps along the surface (c − 1, n), under a pressure (n,)."""
-        returned = coulomb_return(self.trial_shear(overlap), self.friction * pressure)
+        returned = coulomb_return(self.trial_shear(overlap), self.friction.limit(pressure))
         touching = pressure > 0
         tangent = self.stiffness * returned.by_trial * touching
         return Response(returned.shear, tangent, touching, returned.in_slip & touching)
@@ -63,12 +64,12 @@ class PenaltyLaw:
         """Pressure and shear (c, n) at overlaps (c, n), with the consistent tangent."""
         normal = self.normal_springs(overlap[:1])
         p = normal.traction[0]
-        returned = coulomb_return(self.trial_shear(overlap[1:]), self.friction * p)
+        returned = coulomb_return(self.trial_shear(overlap[1:]), self.friction.limit(p))
         tangent = np.zeros((len(overlap), *overlap.shape))
         tangent[:1, :1] = normal.tangent
         tangent[1:, 1:] = self.stiffness * returned.by_trial * normal.in_contact
         # In slip the limit follows the pressure: here the tangent loses its symmetry.
-        tangent[1:, 0] = self.friction * returned.by_limit * normal.tangent[0]
+        tangent[1:, 0] = self.friction.slope() * returned.by_limit * normal.tangent[0]
         traction = np.concatenate([normal.traction, returned.shear])
         return Response(traction, tangent, normal.in_contact, returned.in_slip & normal.in_contact)
 

@@ -45,11 +45,12 @@ def penalty_residuals(
     by_load = None
     if target.free[1]:
         by_load = _over(float(unbalanced[1]), problem.capacity(law[0]))
+    limit = problem.friction.carried(load) or 0.0
     twisting = problem.path is Path.TWISTING
     return replace(
         pressing,
-        friction_cone=friction_cone(np.abs(law[1]), problem.friction * law[0]),
-        slip_direction=_over(float(np.sum(surface.weights * missed[1])), problem.friction * load),
+        friction_cone=friction_cone(np.abs(law[1]), problem.friction.limit(law[0])),
+        slip_direction=_over(float(np.sum(surface.weights * missed[1])), limit),
         tangential_equilibrium=None if twisting else by_load,
         torque_equilibrium=by_load if twisting else None,
     )

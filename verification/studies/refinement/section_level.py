@@ -93,5 +93,4 @@ def _points(increment: Increment, reach: float) -> tuple[Field, Field]:
 
 
 def _friction(scene: Scene) -> float:
-    coefficient = None if scene.friction is None else scene.friction.coefficient
-    return coefficient if isinstance(coefficient, float) else 0.0
+    return scene.friction.uniform or 0.0 if scene.friction is not None else 0.0

@@ -8,9 +8,9 @@ from typing import ClassVar
 
 import numpy as np
 
-from contact_results.path_error import friction_limit
 from contact_scene import SceneFile
 from contact_scene.description import Description
+from contact_scene.friction import FRICTIONLESS
 from semi_analytical import Result, SurfaceGrid, plan, solve
 from verification.convergence.stored_field import PRESSURE, SHEAR, Field, StoredField
 from verification.running.row import CaseRecord
@@ -60,7 +60,7 @@ class SurfaceLevel:
 def recorded(result: Result, level: SurfaceLevel, seconds: float) -> CaseRecord:
     """What is kept of a result."""
     end = result.steps[-1]
-    limit = friction_limit(result.scene, end.pressure)
+    limit = (result.scene.friction or FRICTIONLESS).limit(end.pressure)
     kept = level.kept or level.cells
     fields = {PRESSURE: _stored(end.pressure[None], end.pressure, kept)}
     if end.shear is not None:

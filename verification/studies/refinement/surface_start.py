@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from contact_scene import FrictionMap, Scene, SceneFile
+from contact_scene import Scene, SceneFile
 from semi_analytical import Plan, SurfaceGrid, UnsupportedScene, discretise, plan
 from verification.studies.refinement.studied_scene import StudiedScene
 from verification.studies.refinement.surface_level import SurfaceLevel
@@ -73,7 +73,7 @@ class SurfaceStart:
 
 def refuse_fixed_cells(scene: Scene) -> None:
     """Raises UnsupportedScene where a friction map fixes the cells."""
-    if scene.friction is not None and isinstance(scene.friction.coefficient, FrictionMap):
+    if scene.friction is not None and scene.friction.cells is not None:
         raise UnsupportedScene("the friction map has one value per cell, which fixes the cells")
 
 
