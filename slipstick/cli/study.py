@@ -184,8 +184,7 @@ def _studied(
             own_cells=settings.cells is not None,
             provenance=provenance(command, seconds, timed=study.timed(settings, records)),
         )
-        files = row_files(records, record.conclusion.rows)
-        write_study(record, {**files, **study.exports(settings, records)}, directory)
+        write_study(record, row_files(records, record.conclusion.rows), directory)
     return record
 
 

@@ -28,13 +28,16 @@ def set_aside_study(directory: Path) -> None:
     set_aside(directory, SET_ASIDE)
 
 
-def write_study(record: StudyRecord, exports: Mapping[str, str], directory: Path) -> None:
+def write_study(record: StudyRecord, rows: Mapping[str, str], directory: Path) -> None:
     """Write everything, each file whole or not at all; the record comes last. What was set aside
-    goes."""
+    goes.
+
+    rows  text by name of the file
+    """
     with stop_signals_held():
         for chart in record.charts:
             _write_figure(chart, directory / FIGURES)
-        texts = {**exports, PAGE: render_study(record), RECORD: dump_study(record)}
+        texts = {**rows, PAGE: render_study(record), RECORD: dump_study(record)}
         for name, text in texts.items():
             with atomic_file(directory / name) as temporary:
                 temporary.write_text(text, encoding="utf-8", newline="\n")

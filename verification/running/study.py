@@ -99,7 +99,6 @@ class Study:
     question  what it is about, for a reader
     cases     what has to be computed
     conclude  from the records that there are, by name of the case: some may be missing
-    exports   more files from the records, text by file name; their rows are written anyway
     timed     what follows from the seconds in the records, which no run repeats; it goes into the
               provenance, so that all else is the same at every run
     """
@@ -109,5 +108,4 @@ class Study:
     question: str
     cases: Callable[[Settings], tuple[StudyCase, ...]]
     conclude: Callable[[Settings, Records], Conclusion]
-    exports: Callable[[Settings, Records], Mapping[str, str]] = lambda settings, records: {}
     timed: Callable[[Settings, Records], Conclusion | None] = lambda settings, records: None

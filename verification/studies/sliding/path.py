@@ -62,12 +62,12 @@ class SlidingPoint(Description):
         values = self.model_dump(mode="json")
         status, cells = values.pop("status"), values.pop("stick_cells")
         measures = {RESIDUAL: values.pop("residual"), **more}
-        parameters = {"step": step, "full_slip": values.pop("full_slip")}
+        whole = int(values.pop("full_slip"))
         return Row(
-            parameters=parameters,
+            parameters={"step": step},
             measures=values | measures,
             units={name: unit for name, unit in UNITS.items() if name in values | measures},
-            counters={"stick_cells": cells},
+            counters={"stick_cells": cells, "full_slip": whole},
             words={"status": status},
         )
 

@@ -9,7 +9,7 @@ from typing import ClassVar
 
 import numpy as np
 
-from contact_results.quantities import shear_of
+from contact_results.quantities import force_along_x, shear_of
 from contact_results.surface import surface_of
 from contact_scene import LoadStep
 from contact_scene.description import Description
@@ -145,13 +145,17 @@ def _history(run: ShiftRun | ForceRun, *loading: LoadStep) -> CaseRecord:
 
 
 def _profiles(result: Result) -> list[Row]:
-    """p/p_H and q_x/µp_H at x/a_H, by number of the loading step that they end."""
+    """T/µW, p/p_H and q_x/µp_H at x/a_H, by number of the loading step that they end."""
     x, p_H = result.grid.x / HERTZ.contact_radius, HERTZ.peak_pressure
     surface = surface_of(result)
     return [
         Row(
             parameters={"profile": number, "x_over_aH": at},
-            measures={"p_over_pH": p, "qx_over_mu_pH": q},
+            measures={
+                "T_over_muW": force_along_x(step) / FRICTION_LIMIT,
+                "p_over_pH": p,
+                "qx_over_mu_pH": q,
+            },
         )
         for number, step in enumerate(result.steps, 1)
         for at, p, q in zip(

@@ -10,7 +10,6 @@ from numpy.typing import NDArray
 
 from verification.exhibits.chart import Chart, Curve, Look, Panel, curve
 from verification.running.row import CaseRecord
-from verification.studies.sliding.selection import FORCES
 
 COLUMNS = 2
 SHOWN = 1.3  # Hertz radii to each side
@@ -34,11 +33,13 @@ def profiles(record: CaseRecord) -> list[Profile]:
     of_step: dict[object, list[list[float | None]]] = {}
     for part in record.parts:
         if "profile" in part.parameters:
-            at = part.number("x_over_aH")
-            of_step.setdefault(part.parameters["profile"], []).append([at, *part.measures.values()])
+            row = [part.number("x_over_aH"), *part.measures.values()]
+            of_step.setdefault(part.parameters["profile"], []).append(row)
     return [
-        Profile(force, *np.array(rows, dtype=float).T)
-        for force, rows in zip((0.0, *FORCES), of_step.values(), strict=True)
+        Profile(float(force[0]), x, pressure, shear)
+        for x, force, pressure, shear in (
+            np.array(rows, dtype=float).T for rows in of_step.values()
+        )
     ]
 
 
