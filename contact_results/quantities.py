@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from contact_scene.increment import SCALARS, State, components, numbers
-from contact_scene.reported import Kind, reported
+from contact_scene.reported import Kind
 from contact_scene.residuals import Residuals
 
 Field = NDArray[np.float64]
@@ -84,7 +84,7 @@ def named_values(increment: State) -> dict[str, float]:
     """The key scalars that an increment has, then its key vectors, components with _x and _y; in
     SI."""
     values = numbers(increment)
-    keys = [name for name, mark in reported(State).items() if mark.key]
+    keys = [name for name, mark in SCALARS.items() if mark.key]
     return {
         part: float(value)
         for name in sorted(keys, key=lambda name: SCALARS[name].kind is Kind.VECTOR)

@@ -19,7 +19,7 @@ from contact_scene.summary import (
     summary_schema,
 )
 
-# The names that scene files' users rely on; they change with the version of the record only.
+# The names that users rely on, in their order; they change with the version of the record only.
 STEP_KEYS = [
     *("normal_force", "approach", "contact_area", "contact_radius", "peak_pressure"),
     *("tangential_force", "tangential_shift", "torque", "twist", "moment", "tilt"),
@@ -30,6 +30,7 @@ STEP_KEYS = [
     *("residuals", "iterations", "convolutions", "factorizations"),
     *("rounds", "sweeps", "halvings", "worst_residual", "status"),
 ]
+GIVEN = ("residuals", "iterations", "convolutions", "halvings", "status")
 RESIDUAL_KEYS = [
     *("complementarity", "penetration", "normal_equilibrium"),
     *("friction_cone", "slip_direction", "tangential_equilibrium"),
@@ -76,9 +77,9 @@ FRETTING = step(
 
 def test_all_keys_are_always_there_and_null_where_off() -> None:
     (record,) = json.loads(dump_summary(run()))["steps"]
-    assert list(record) == STEP_KEYS
+    assert [key for key in record if key in STEP_KEYS] == STEP_KEYS
     assert list(record["residuals"]) == RESIDUAL_KEYS
-    off = [*STEP_KEYS[5:26], *RESIDUAL_KEYS[3:]]
+    off = {*record, *RESIDUAL_KEYS[3:]} - {*STEP_KEYS[:5], *GIVEN}
     assert {(record | record["residuals"])[key] for key in off} == {None}
     assert record["status"] == "frictionless"
 
