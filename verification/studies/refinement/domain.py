@@ -46,7 +46,7 @@ def domain_study(
         steps = count_of(settings) - 1
         boxes = [start.box * span ** (number / steps - 1) for number in range(steps)] + [start.box]
         return tuple(
-            start.level(start.radius / box, _words(box, start), box=box, elements=settings.cells)
+            start.level(start.radius / box, _words(box, start), box=box, fineness=settings.cells)
             for box in boxes
         )
 

@@ -37,7 +37,8 @@ def increments_study(
                 max(1, round(count / COARSER)) * 2**number if cut else count for count, cut in steps
             )
             most = max(count for count, (_, cut) in zip(counts, steps, strict=True) if cut)
-            found.append(start.cut(counts, 1 / most, f"{most} in a step", settings.cells))
+            words = f"{most} in a step"
+            found.append(start.level(1 / most, words, fineness=settings.cells, increments=counts))
         return tuple(found)
 
     refinement = Refinement(

@@ -56,15 +56,16 @@ def _of_cells(scene: StudiedScene) -> Refinement:
     refuse_fixed_cells(start.contents.scene)
 
     def levels(settings: Settings) -> tuple[SurfaceLevel, ...]:
+        finest = start.grid_of(settings.cells).cells
         counts = [
-            tuple(2 * round(count / RATIO**number / 2) for count in start.cells(settings.cells))
+            tuple(2 * round(count / RATIO**number / 2) for count in finest)
             for number in reversed(range(count_of(settings)))
         ]
         if min(counts[0]) < FEWEST_CELLS:
             raise _too_coarse(f"{len(counts)} grids would have {counts[0]} cells", FEWEST_CELLS)
         grids = [SurfaceGrid((nx, ny), start.grid.window) for nx, ny in counts]
         return tuple(
-            start.level(grid, max(grid.spacing), "{} x {} cells".format(*grid.cells))
+            start.level(max(grid.spacing), "{} x {} cells".format(*grid.cells), grid=grid)
             for grid in grids
         )
 
@@ -86,7 +87,7 @@ def _of_elements(scene: StudiedScene, method: Method) -> Refinement:
         if counts[0] < FEWEST_ELEMENTS:
             raise _too_coarse(f"{len(counts)} meshes would have {counts[0]}", FEWEST_ELEMENTS)
         return tuple(
-            start.level(1 / count, f"{count} elements per radius", elements=count)
+            start.level(1 / count, f"{count} elements per radius", fineness=count)
             for count in counts
         )
 

@@ -105,12 +105,11 @@ def sampling_study(
 
 
 def _grid(start: SurfaceStart, settings: Settings) -> SurfaceGrid:
-    cells = settings.cells or CELLS
-    return SurfaceGrid((cells, cells), start.grid.window)
+    return start.grid_of(settings.cells or CELLS)
 
 
 def _exact(start: SurfaceStart, settings: Settings) -> SurfaceLevel:
-    return start.level(_grid(start, settings), 0.0, "exact coefficients")
+    return start.level(0.0, "exact coefficients", grid=_grid(start, settings))
 
 
 def _swept(start: SurfaceStart, name: str, expected: Mapping[str, Expected]) -> Refinement:
@@ -129,7 +128,7 @@ def _swept(start: SurfaceStart, name: str, expected: Mapping[str, Expected]) -> 
                 f"more than {MOST_SAMPLES}; use fewer --cells or fewer levels"
             )
         return tuple(
-            SampledLevel(start.level(grid, 1 / factor, _words(*pair)), *pair)
+            SampledLevel(start.level(1 / factor, _words(*pair), grid=grid), *pair)
             for factor, pair in zip(factors, pairs, strict=True)
         )
 

@@ -72,15 +72,16 @@ class SectionStart:
         size: float,
         level: str,
         *,
-        elements: int | None = None,
+        fineness: int | None = None,
         box: float | None = None,
         increments: tuple[int, ...] | None = None,
     ) -> SectionLevel:
         """A level: what is not given is as the scene's file has it.
 
-        box  size of the section [length]
+        fineness  elements per contact radius
+        box       size of the section [length]
         """
-        count = elements or self.asked.elements_per_radius
+        count = fineness or self.asked.elements_per_radius
         laid_out = self.radius if self._radius_is_known else self.radius * count / (count + 0.5)
         return SectionLevel(
             self.scene,
@@ -93,12 +94,6 @@ class SectionStart:
             size,
             level,
         )
-
-    def cut(
-        self, increments: tuple[int, ...], size: float, level: str, elements: int | None
-    ) -> SectionLevel:
-        """A level of other increments, on so many elements per radius or those of the scene."""
-        return self.level(size, level, increments=increments, elements=elements)
 
     @property
     def _radius_is_known(self) -> bool:

@@ -47,28 +47,26 @@ class SurfaceStart:
         """Of each step: whether increments are needed for accuracy."""
         return tuple(step.path_matters for step in self.plan.path)
 
-    def cells(self, asked: int | None) -> tuple[int, int]:
-        """As asked for along each side, or those of the scene."""
-        return self.grid.cells if asked is None else (asked, asked)
-
-    def cut(
-        self, increments: tuple[int, ...], size: float, level: str, cells: int | None
-    ) -> SurfaceLevel:
-        """A level of other increments, on so many cells along each side or those of the scene."""
-        grid = SurfaceGrid(self.cells(cells), self.grid.window)
-        return self.level(grid, size, level, increments)
+    def grid_of(self, cells: int | None) -> SurfaceGrid:
+        """As many cells along each side, or those of the scene, on its window."""
+        return self.grid if cells is None else SurfaceGrid((cells, cells), self.grid.window)
 
     def level(
         self,
-        grid: SurfaceGrid,
         size: float,
         level: str,
+        *,
+        grid: SurfaceGrid | None = None,
+        fineness: int | None = None,
         increments: tuple[int, ...] | None = None,
         kept: tuple[int, int] | None = None,
     ) -> SurfaceLevel:
-        """A level, in the increments of the plan if none are given."""
-        counts = increments or self.plan.increments
-        return SurfaceLevel(self.scene, grid.cells, grid.window, counts, size, level, kept)
+        """A level: what is not given is as `slipstick run` would have it.
+
+        fineness  cells along each side, where no grid is given
+        """
+        on, counts = grid or self.grid_of(fineness), increments or self.increments
+        return SurfaceLevel(self.scene, on.cells, on.window, counts, size, level, kept)
 
 
 def refuse_fixed_cells(scene: Scene) -> None:

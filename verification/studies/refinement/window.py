@@ -75,11 +75,13 @@ def window_study(
     refuse_fixed_window(start.contents.scene)
 
     def cases(settings: Settings) -> tuple[Window, ...]:
-        own = SurfaceGrid(start.cells(settings.cells), start.grid.window)
+        own = start.grid_of(settings.cells)
         larger = (1 + GROWTH * number for number in range(count_of(settings)))
         grids = [_about_the_centre(own, factor) for factor in (*SMALLER, *larger)]
         return tuple(
-            Window(start.level(grid, own.cells[0] / grid.cells[0], _words(grid), kept=own.cells))
+            Window(
+                start.level(own.cells[0] / grid.cells[0], _words(grid), grid=grid, kept=own.cells)
+            )
             for grid in grids
         )
 

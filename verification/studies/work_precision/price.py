@@ -9,7 +9,7 @@ from itertools import groupby
 
 from verification.exhibits.numbers import EXTRAPOLATED, plain
 from verification.exhibits.table import Table
-from verification.running.row import Row
+from verification.running.row import Row, value_of
 from verification.running.study import Statement
 from verification.studies.work_precision.charts import SERIES, methods_of
 from verification.studies.work_precision.contacts import CONTACTS
@@ -30,12 +30,9 @@ from verification.studies.work_precision.price_rows import (
     Reached,
     at_target,
     by_quantity,
-    cheapest_guess,
     cheapest_row,
     cost_text,
-    dearest,
     is_reached,
-    nearest_row,
     setting_and_cost,
 )
 from verification.studies.work_precision.recorded_peers import OTHERS
@@ -143,14 +140,18 @@ def statements_in(rows: Iterable[Row]) -> tuple[Statement, ...]:
                 measured=_not_reached(prices)
                 if best is None
                 else f"{best.parameters['method']}, {best.words['setting']}: {cost_text(best)}",
-                about=best or nearest_row(prices),
+                about=best or _nearest(prices),
             )
         )
     return tuple(statements)
 
 
+def _nearest(prices: Sequence[Row]) -> Row:
+    return min(prices, key=lambda row: value_of(row, LEAST))
+
+
 def _not_reached(prices: Sequence[Row]) -> str:
-    nearest, further = nearest_row(prices), cheapest_guess(prices)
+    nearest, further = _nearest(prices), cheapest_row(prices, Reached.BEYOND)
     text = (
         f"not reached; the least error is {plain(nearest.measures[LEAST], 2)} "
         f"({nearest.parameters['method']})"
@@ -165,12 +166,13 @@ def answer_in(price: Price, rows: Sequence[Row]) -> str:
     settings = [row for row in best if row is not None]
     if not settings:
         return f"No setting that was tried reaches {percent(ASKED)}."
+    dearest = max(settings, key=lambda row: value_of(row, COST))
     counts = Counter(row.parameters["method"] for row in settings)
     tried = Counter(row.parameters["method"] for row in asked)
     good = Counter(row.parameters["method"] for row in asked if is_reached(row))
     return (
         f"{percent(ASKED)} is reached for {len(settings)} of {len(best)} quantities, in at most "
-        f"{cost_text(dearest(settings))}; cheapest of ours by {price.words}: "
+        f"{cost_text(dearest)}; cheapest of ours by {price.words}: "
         f"{'; '.join(f'{name} for {counts[name]}' for name in SERIES if counts[name])}. "
         "By method, of the quantities that it was tried on: "
         f"{'; '.join(f'{n}: {good[n]} of {tried[n]}' for n in SERIES if tried[n])}."

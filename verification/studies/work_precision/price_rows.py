@@ -57,23 +57,7 @@ def by_quantity(rows: Iterable[Row]) -> Iterator[tuple[str, Sequence[Row]]]:
         yield str(title), tuple(of)
 
 
-def cheapest_row(rows: Iterable[Row]) -> Row | None:
-    """The one that costs least; None where no setting that was tried is accurate enough."""
-    reached = filter(is_reached, rows)
-    return min(reached, key=lambda row: value_of(row, COST), default=None)
-
-
-def nearest_row(rows: Iterable[Row]) -> Row:
-    """The one with the least error."""
-    return min(rows, key=lambda row: value_of(row, LEAST))
-
-
-def cheapest_guess(rows: Iterable[Row]) -> Row | None:
-    """The least cost of what was not tried; None where nothing can be extrapolated."""
-    guessed = [row for row in rows if row.words["reached"] == Reached.BEYOND]
-    return min(guessed, key=lambda row: value_of(row, COST), default=None)
-
-
-def dearest(rows: Iterable[Row]) -> Row:
-    """The one that costs most."""
-    return max(rows, key=lambda row: value_of(row, COST))
+def cheapest_row(rows: Iterable[Row], reached: Reached = Reached.TRIED) -> Row | None:
+    """The one that costs least, of those that reach the accuracy so; None without any."""
+    found = (row for row in rows if row.words["reached"] == reached)
+    return min(found, key=lambda row: value_of(row, COST), default=None)
