@@ -3,7 +3,6 @@
 import os
 import signal
 from dataclasses import dataclass
-from typing import ClassVar
 
 from contact_scene.description import Description
 
@@ -15,7 +14,6 @@ class Number(Description):
 
 @dataclass(frozen=True)
 class Square:
-    record_type: ClassVar[type[Description]] = Number
     of: float
 
     @property

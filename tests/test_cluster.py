@@ -70,7 +70,7 @@ def address() -> Iterator[str]:
 @pytest.mark.slow
 def test_cluster_gives_the_records_and_names_what_is_lost(address: str, tmp_path: Path) -> None:
     cases = (Square(1.0), Refusing(20.0), Square(2.0), Killed(30.0), Square(3.0))
-    store = CaseStore(tmp_path)
+    store = CaseStore(tmp_path, Number)
     ends = run_cases(cases, store, ClusterWorkers(address), lambda end: None)
     values = {end.case.name: end.record.value for end in ends if isinstance(end.record, Number)}
     assert values == {"square-1": 1.0, "square-2": 4.0, "square-3": 9.0}
@@ -87,7 +87,7 @@ def test_workers_of_other_sources_are_refused(
     address: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr("verification.running.case_pool.code_digest", lambda: b"other")
-    (end,) = run_cases([Square(1.0)], CaseStore(tmp_path), ClusterWorkers(address), print)
+    (end,) = run_cases([Square(1.0)], CaseStore(tmp_path, Number), ClusterWorkers(address), print)
     assert end.record is None
     assert end.lost is not None
     assert end.lost.reason == OTHER_CODE

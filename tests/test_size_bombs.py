@@ -15,7 +15,7 @@ import h5py
 import numpy as np
 import pytest
 from report_examples import COATED
-from study_cases import Square
+from study_cases import Number, Square
 
 from contact_results.directory.checkpoint_file import FORMAT, Unusable, unpacked
 from contact_results.directory.file_names import FIELDS
@@ -329,7 +329,7 @@ def test_checkpoint_of_zeros_is_refused_unread(tmp_path: Path, head: bytes) -> N
 
 
 def test_record_of_zeros_is_refused_unread(tmp_path: Path) -> None:
-    store, case = CaseStore(tmp_path), Square(2.0)
+    store, case = CaseStore(tmp_path, Number), Square(2.0)
     store.save(case, case.compute())
     sparse(store.path(case), store.path(case).read_bytes())
     with frugal(), pytest.raises(DamagedRecord, match="larger than any record"):

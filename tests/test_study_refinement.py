@@ -4,14 +4,12 @@ import csv
 import shutil
 from dataclasses import dataclass
 from pathlib import Path
-from typing import ClassVar
 
 import numpy as np
 import pytest
 from scene_texts import RIGID_BALL
 
 from contact_results.quantities import unit_of
-from contact_scene.description import Description
 from fem_reference import Method
 from fem_reference.contact.complementarity import method as complementarity
 from semi_analytical import UnsupportedScene
@@ -103,7 +101,6 @@ def planted(size: float, relative_error: float, bump: float = 0.0) -> CaseRecord
 class PlantedLevel:
     """A level of a study with this error."""
 
-    record_type: ClassVar[type[Description]] = CaseRecord
     size: float
     error: float
 

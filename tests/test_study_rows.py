@@ -4,13 +4,11 @@ import csv
 import io
 from dataclasses import dataclass
 from enum import StrEnum
-from typing import ClassVar
 
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from contact_scene.description import Description
 from verification.judging.outcome import Status
 from verification.running.row import CaseRecord, Row, found, parameters_of
 from verification.running.row_files import row_files
@@ -38,7 +36,6 @@ class Inner:
 
 @dataclass(frozen=True)
 class Asked:
-    record_type: ClassVar[type[Description]] = CaseRecord
     name: str
     how: How = How.WELL
     inner: Inner = Inner(2.0)

@@ -61,7 +61,7 @@ def slipstick(*arguments: str, cwd: Path) -> subprocess.CompletedProcess[str]:
 
 
 def test_record_is_read_back(tmp_path: Path) -> None:
-    store, case = CaseStore(tmp_path), Square(3.0)
+    store, case = CaseStore(tmp_path, Number), Square(3.0)
     assert store.load(case) is None
     store.save(case, Number(value=9.0, process=1))
     assert store.load(case) == Number(value=9.0, process=1)
@@ -82,7 +82,7 @@ def test_record_is_read_back(tmp_path: Path) -> None:
 def test_file_that_is_not_the_record_is_named_and_computed_again(
     damage: Callable[[bytes], bytes], problem: str, tmp_path: Path
 ) -> None:
-    store, case = CaseStore(tmp_path), Square(3.0)
+    store, case = CaseStore(tmp_path, Number), Square(3.0)
     store.save(case, Number(value=9.0, process=1))
     path = store.path(case)
     path.write_bytes(damage(path.read_bytes()))
@@ -96,7 +96,7 @@ def test_file_that_is_not_the_record_is_named_and_computed_again(
 
 
 def test_record_of_other_sources_is_not_taken(tmp_path: Path) -> None:
-    store, case = CaseStore(tmp_path), Square(3.0)
+    store, case = CaseStore(tmp_path, Number), Square(3.0)
     store.save(case, Number(value=9.0, process=1), b"other sources")
     assert store.load(case) is None
     store.save(case, Number(value=9.0, process=2))
@@ -105,7 +105,7 @@ def test_record_of_other_sources_is_not_taken(tmp_path: Path) -> None:
 
 
 def test_fresh_takes_nothing_from_the_store(tmp_path: Path) -> None:
-    store, case = CaseStore(tmp_path), Square(3.0)
+    store, case = CaseStore(tmp_path, Number), Square(3.0)
     store.save(case, Number(value=9.0, process=1))
     (end,) = run_cases([case], store, InThisProcess(), lambda end: None, fresh=True)
     assert not end.stored
@@ -115,7 +115,11 @@ def test_fresh_takes_nothing_from_the_store(tmp_path: Path) -> None:
 @pytest.mark.parametrize("elsewhere", [False, True])
 def test_only_workers_elsewhere_must_have_the_same_sources(elsewhere: bool, tmp_path: Path) -> None:
     """A source that is edited during a run of hours does not stop it; nothing false is stored."""
-    store, case, pool = CaseStore(tmp_path), Square(3.0), InThisProcess(elsewhere, b"edited")
+    store, case, pool = (
+        CaseStore(tmp_path, Number),
+        Square(3.0),
+        InThisProcess(elsewhere, b"edited"),
+    )
     (end,) = run_cases([case], store, pool, lambda end: None)
     assert (end.lost is None) is not elsewhere
     assert (end.record is None) is elsewhere
@@ -134,7 +138,7 @@ def test_failing_and_dying_cases_are_named_and_the_others_finish(tmp_path: Path)
         Square(1.0), Dying(10.0), Square(2.0), Refusing(20.0), Square(3.0), Killed(30.0),
         Square(4.0),
     )  # fmt: skip
-    ends = run_cases(cases, CaseStore(tmp_path), 2, seen.append)
+    ends = run_cases(cases, CaseStore(tmp_path, Number), 2, seen.append)
     assert [end.case for end in ends] == list(cases)
     assert {end.case.name for end in seen} == {case.name for case in cases}
     values = {end.case.name: end.record.value for end in ends if isinstance(end.record, Number)}
@@ -144,7 +148,7 @@ def test_failing_and_dying_cases_are_named_and_the_others_finish(tmp_path: Path)
         "square-10": KILLED, "square-20": "ArithmeticError: no square today", "square-30": KILLED
     }  # fmt: skip
 
-    again = run_cases(cases[:1] + cases[2:3], CaseStore(tmp_path), 2, seen.append)
+    again = run_cases(cases[:1] + cases[2:3], CaseStore(tmp_path, Number), 2, seen.append)
     assert all(end.stored for end in again)
     assert [end.record for end in again] == [ends[0].record, ends[2].record]
 
@@ -163,7 +167,7 @@ def test_a_worker_has_one_thread_whatever_was_asked_for(
 
 
 def test_cases_are_computed_elsewhere(tmp_path: Path) -> None:
-    (end,) = run_cases([Square(5.0)], CaseStore(tmp_path), 1, lambda end: None)
+    (end,) = run_cases([Square(5.0)], CaseStore(tmp_path, Number), 1, lambda end: None)
     assert isinstance(end.record, Number)
     assert end.record.process != os.getpid()
 

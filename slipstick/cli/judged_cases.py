@@ -30,7 +30,7 @@ def judged(
     """
     asked = [CaseToJudge(case.name, level) for case in cases]
     refuse_if_unwritable(directory / CASES)
-    store = CaseStore(directory / CASES)
+    store = CaseStore(directory / CASES, JudgedCase)
     with (
         verify_progress({case.name: len(case.runs) for case in cases}) as observe,
         told_when_stopped(asked, store, fresh=fresh),

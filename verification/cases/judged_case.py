@@ -8,7 +8,7 @@ import time
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, ClassVar
+from typing import TYPE_CHECKING
 
 from contact_scene.description import Description
 from verification.judging.outcome import CaseOutcome
@@ -38,7 +38,6 @@ class CaseToJudge:
     level  by name, in capitals
     """
 
-    record_type: ClassVar[type[Description]] = JudgedCase
     name: str
     level: str
 

@@ -16,6 +16,7 @@ from typing import Any
 from contact_results.directory.atomic_file import atomic_file
 from contact_results.directory.code_digest import code_digest
 from contact_scene.description import Description
+from verification.running.row import CaseRecord
 from verification.running.study import StudyCase
 
 DIGITS = 16
@@ -28,9 +29,10 @@ class DamagedRecord(Exception):
 
 @dataclass(frozen=True)
 class CaseStore:
-    """A directory of records."""
+    """A directory of records of one type."""
 
     directory: Path
+    record_type: type[Description] = CaseRecord
 
     def path(self, case: StudyCase, code: bytes | None = None) -> Path:
         """Where the record of a case is or will be, by the code of this digest or by ours."""
@@ -54,7 +56,7 @@ class CaseStore:
                 raise DamagedRecord(f"{path} is the record of {document['of']}")
             if document["sha256"] != _digest(values):
                 raise DamagedRecord(f"{path} is damaged: its numbers have changed")
-            return case.record_type.model_validate_json(json.dumps(values))
+            return self.record_type.model_validate_json(json.dumps(values))
         except (ValueError, KeyError, TypeError, RecursionError) as error:
             raise DamagedRecord(f"{path} is damaged: no whole record of this version") from error
 

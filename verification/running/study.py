@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from typing import ClassVar, Protocol
+from typing import Protocol
 
 from contact_scene.description import Description
 from verification.exhibits.chart import Chart
@@ -17,20 +17,14 @@ STUDY_VERSION = 1
 
 
 class StudyCase(Protocol):
-    """A frozen dataclass of plain values that says what to compute; it is sent to a worker.
-
-    record_type  what `compute` returns, so that it can be read back from its file; of a study's
-                 cases a `CaseRecord`
-    """
-
-    record_type: ClassVar[type[Description]]
+    """A frozen dataclass of plain values that says what to compute; it is sent to a worker."""
 
     @property
     def name(self) -> str:
         """Names the case within its study: letters, digits and hyphens."""
 
     def compute(self) -> Description:
-        """Do the work; raises what the solvers raise."""
+        """Do the work; raises what the solvers raise. Cases of a study give a `CaseRecord`."""
 
 
 @dataclass(frozen=True)

@@ -4,9 +4,7 @@ from __future__ import annotations
 
 import time
 from dataclasses import dataclass
-from typing import ClassVar
 
-from contact_scene.description import Description
 from verification.cases.both_solvers.charts import difference_chart
 from verification.cases.both_solvers.contacts import CONTACTS, CheckedContact
 from verification.cases.both_solvers.differences import differences
@@ -49,7 +47,6 @@ REMARKS = (
 class CrossCheckRun:
     """A contact by both solvers, each on two finenesses."""
 
-    record_type: ClassVar[type[Description]] = CaseRecord
     sides: Sides
 
     @property

@@ -4,9 +4,7 @@ from __future__ import annotations
 
 import time
 from dataclasses import dataclass, replace
-from typing import ClassVar
 
-from contact_scene.description import Description
 from fem_reference import Result
 from verification.cases.fem_indentation import pressed
 from verification.cases.fem_penalty_indentation import by_springs
@@ -38,7 +36,6 @@ class PenaltyCase:
     box            size of the section in contact radii; None: chosen
     """
 
-    record_type: ClassVar[type[Description]] = CaseRecord
     contact: str
     elements: int
     factor: float = 10.0

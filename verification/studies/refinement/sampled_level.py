@@ -4,9 +4,7 @@ from __future__ import annotations
 
 import time
 from dataclasses import asdict, dataclass
-from typing import ClassVar
 
-from contact_scene.description import Description
 from semi_analytical import Result, plan
 from semi_analytical.history import march
 from semi_analytical.model import ContactModel
@@ -21,7 +19,6 @@ from verification.studies.work_precision.usual_route import SampledModel, Sampli
 class SampledLevel:
     """A level whose influence coefficients come from samples."""
 
-    record_type: ClassVar[type[Description]] = CaseRecord
     solved: SurfaceLevel
     refinement: int
     extension: int

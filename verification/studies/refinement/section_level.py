@@ -4,12 +4,10 @@ from __future__ import annotations
 
 import time
 from dataclasses import dataclass
-from typing import ClassVar
 
 import numpy as np
 
 from contact_scene import Scene
-from contact_scene.description import Description
 from fem_reference import Increment, Method, Result, solve
 from fem_reference.contact.harmonics.surface_tractions import tractions_at
 from verification.convergence.stored_field import PRESSURE, SHEAR, Field, StoredField
@@ -35,7 +33,6 @@ class SectionLevel:
     level     in words
     """
 
-    record_type: ClassVar[type[Description]] = CaseRecord
     scene: StudiedScene
     method: str
     elements: int

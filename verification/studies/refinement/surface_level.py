@@ -4,12 +4,10 @@ from __future__ import annotations
 
 import time
 from dataclasses import dataclass
-from typing import ClassVar
 
 import numpy as np
 
 from contact_scene import SceneFile
-from contact_scene.description import Description
 from contact_scene.friction import FRICTIONLESS
 from semi_analytical import Result, SurfaceGrid, plan, solve
 from verification.convergence.stored_field import PRESSURE, SHEAR, Field, StoredField
@@ -28,7 +26,6 @@ class SurfaceLevel:
            None: all of the window
     """
 
-    record_type: ClassVar[type[Description]] = CaseRecord
     scene: StudiedScene
     cells: tuple[int, int]
     window: tuple[float, float]

@@ -5,9 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import ClassVar
 
-from contact_scene.description import Description
 from contact_scene.solver_errors import SolverError
 from fem_reference import Method
 from semi_analytical import ContactAtWindowEdge, SurfaceGrid
@@ -44,7 +42,6 @@ LIMITS = (
 class Window:
     """The scene on one window."""
 
-    record_type: ClassVar[type[Description]] = CaseRecord
     solved: SurfaceLevel
 
     @property

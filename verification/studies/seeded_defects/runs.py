@@ -7,11 +7,10 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from tempfile import TemporaryDirectory
-from typing import Any, ClassVar
+from typing import Any
 
 import numpy as np
 
-from contact_scene.description import Description
 from verification.cases.catalogue import case_of, choose
 from verification.cases.judged_case import CaseToJudge, JudgedCase, lost
 from verification.defects.defect import planted
@@ -114,7 +113,6 @@ def samples(record: CaseRecord) -> tuple[Sample, ...]:
 class DefectRun:
     """A case of the quick catalogue under a defect by its name, or healthy."""
 
-    record_type: ClassVar[type[Description]] = CaseRecord
     defect: str
     case: str
 
@@ -139,7 +137,6 @@ class DefectRun:
 class HealthyRun:
     """A contact of a family by the number of its draw, solved on all its grids."""
 
-    record_type: ClassVar[type[Description]] = CaseRecord
     family: str
     draw: int
 
@@ -193,7 +190,7 @@ def judged(name: str) -> CaseOutcome:
     case = CaseToJudge(name, Level.QUICK.name)
     try:
         with TemporaryDirectory() as directory:
-            store = CaseStore(Path(directory))
+            store = CaseStore(Path(directory), JudgedCase)
             store.save(case, case.compute())
             record = store.load(case)
     except Exception as error:  # whatever it is, it must be named: so does the pool of `verify`

@@ -4,13 +4,11 @@ from __future__ import annotations
 
 import time
 from dataclasses import dataclass
-from typing import ClassVar
 
 import numpy as np
 
 from contact_results.quantities import shear_of
 from contact_scene import LoadStep
-from contact_scene.description import Description
 from contact_scene.summary import ContactStatus
 from semi_analytical import solve
 from semi_analytical.model import ContactModel
@@ -40,7 +38,6 @@ SLIDING = 1e-6
 class LawRun:
     """Press with the product's solver, then shift at that pressure under one reading."""
 
-    record_type: ClassVar[type[Description]] = CaseRecord
     contact: Contact
     cells: int
     steps: Steps

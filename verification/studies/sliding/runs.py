@@ -5,14 +5,12 @@ from __future__ import annotations
 import time
 from dataclasses import dataclass, replace
 from enum import StrEnum
-from typing import ClassVar
 
 import numpy as np
 
 from contact_results.quantities import force_along_x, shear_of
 from contact_results.surface import surface_of
 from contact_scene import LoadStep
-from contact_scene.description import Description
 from semi_analytical import Coupling, Plan, Result, plan, solve
 from verification.judging.run import SOLVER_TOLERANCE
 from verification.problems.paper_scene import FRICTION, FRICTION_LIMIT, HERTZ, NORMAL_FORCE
@@ -55,7 +53,6 @@ class ShiftRun:
     coupling  None: as the bodies have it
     """
 
-    record_type: ClassVar[type[Description]] = CaseRecord
     contact: Contact
     cells: int
     steps: Steps
@@ -93,7 +90,6 @@ class ForceRun:
     pushes  increments of each of these
     """
 
-    record_type: ClassVar[type[Description]] = CaseRecord
     contact: Contact
     cells: int
     normal: int
@@ -188,7 +184,6 @@ class ShortPath(StrEnum):
 class ShortPathRun:
     """Every shift reached anew from untouched bodies by a short path."""
 
-    record_type: ClassVar[type[Description]] = CaseRecord
     contact: Contact
     cells: int
     path: ShortPath

@@ -4,12 +4,10 @@ from __future__ import annotations
 
 import time
 from dataclasses import dataclass
-from typing import ClassVar
 
 import numpy as np
 
 from contact_scene import SceneError
-from contact_scene.description import Description
 from contact_scene.solver_errors import (
     GrossSliding,
     NotConverged,
@@ -32,7 +30,6 @@ REFUSALS = (GrossSliding, UnsupportedScene, ResourceRefused)
 class StabilityRun:
     """A cell to be solved; whatever the solver says is the record."""
 
-    record_type: ClassVar[type[Description]] = CaseRecord
     cell: StabilityCell
 
     @property

@@ -5,10 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from enum import StrEnum
-from typing import ClassVar
 
 from contact_scene import FiniteElementDiscretisation
-from contact_scene.description import Description
 from fem_reference import Method as Enforcement
 from fem_reference import Result as Section
 from fem_reference import solve as solve_section
@@ -51,7 +49,6 @@ class PrecisionCase:
     box         size of the section in contact radii; 0: chosen
     """
 
-    record_type: ClassVar[type[Description]] = CaseRecord
     contact: str
     method: Method
     fineness: int
