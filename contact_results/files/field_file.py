@@ -70,7 +70,7 @@ def write_fields(result: Result, cycles: Sequence[FrettingCycle], directory: Pat
     (directory / FIELDS).write_bytes(contents.getbuffer())
 
 
-def _write_scalars(group: Any, increments: Sequence[Increment]) -> None:
+def _write_scalars(group: h5py.Group, increments: Sequence[Increment]) -> None:
     """NaN where an increment has none; nothing where none has."""
     for name, meaning in PLACES.items():
         attribute = "index" if name == "increment" else name
@@ -83,7 +83,7 @@ def _write_scalars(group: Any, increments: Sequence[Increment]) -> None:
             _write(group, name, np.array([nothing if v is None else v for v in values]), mark)
 
 
-def _write_field(group: Any, name: str, mark: Reported, parts: Sequence[Any]) -> None:
+def _write_field(group: h5py.Group, name: str, mark: Reported, parts: Sequence[Any]) -> None:
     first = next((part for part in parts if part is not None), None)
     if first is None:
         return
@@ -101,7 +101,7 @@ def _write_field(group: Any, name: str, mark: Reported, parts: Sequence[Any]) ->
             dataset[index] = part
 
 
-def _write_cycle(group: Any, cycle: FrettingCycle) -> None:
+def _write_cycle(group: h5py.Group, cycle: FrettingCycle) -> None:
     group.attrs["start_step"], group.attrs["end_step"] = cycle.cycle.start, cycle.cycle.end
     for name, mark in reported(type(cycle)).items():
         values = getattr(cycle, name)
@@ -109,11 +109,11 @@ def _write_cycle(group: Any, cycle: FrettingCycle) -> None:
             _write(group, name, values, mark, **COMPRESSION)
 
 
-def _write(group: Any, name: str, values: Any, mark: Reported, **how: Any) -> None:
+def _write(group: h5py.Group, name: str, values: Any, mark: Reported, **how: Any) -> None:
     _describe(group.create_dataset(name, data=values, track_times=False, **how), mark)
 
 
-def _describe(dataset: Any, mark: Reported) -> None:
+def _describe(dataset: h5py.Dataset, mark: Reported) -> None:
     """Put unit and meaning next to the numbers."""
     dataset.attrs["unit"] = mark.unit
     dataset.attrs["description"] = mark.meaning
