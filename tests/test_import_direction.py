@@ -69,7 +69,7 @@ ORDERS = {
     ),
     "fem_reference.mesh": ("section_outline", "section_mesh", "gmsh_mesh"),
     "fem_reference.elasticity": (
-        *("far_field", "motion", "weak_form", "elimination_order", "numbering", "assembly"),
+        *("far_field", "motion", "section_basis", "weak_form", "elimination_order", "numbering"),
         *("factored_section", "sources", "stored_compliance", "compliance", "hats"),
     ),
     "fem_reference.contact": (

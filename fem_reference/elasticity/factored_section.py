@@ -1,20 +1,15 @@
 """One body in one harmonic, factored: displacements of the section for forces on its surface."""
 
-from collections.abc import Iterable
-
 import numpy as np
 from numpy.typing import NDArray
+from scipy.sparse import block_array, coo_array, csr_array
 from scipy.sparse.linalg import splu
+from skfem import Basis, condense
 
-from fem_reference.elasticity.assembly import Elements, assembled, with_pressure
 from fem_reference.elasticity.motion import Motion
-from fem_reference.elasticity.numbering import number_unknowns
-from fem_reference.elasticity.weak_form import (
-    dilatation,
-    element_stiffness,
-    section_basis,
-    volume_strain,
-)
+from fem_reference.elasticity.numbering import Dofs, Numbering, number_unknowns
+from fem_reference.elasticity.section_basis import displacement_basis
+from fem_reference.elasticity.weak_form import dilatation, element_stiffness, volume_strain
 from fem_reference.memory import require_memory, required_bytes
 from fem_reference.mesh.section_mesh import SectionMesh
 
@@ -30,7 +25,7 @@ BLOCK = 64
 class FactoredSection:
     """The stiffness of a section in one harmonic, factored once, and solves with it.
 
-    Unknowns are numbered as they are eliminated, those of the contact zone last. Symmetric and
+    Unknowns are ordered as they are eliminated, those of the contact zone last. Symmetric and
     eliminated in that order without pivoting, the last block of the factors is the stiffness of the
     contact zone alone, everything else having followed.
 
@@ -42,47 +37,44 @@ class FactoredSection:
 
     def __init__(self, section: SectionMesh, motion: Motion) -> None:
         self.section, self.motion = section, motion
-        basis = section_basis(section)
-        self.nodes = basis.nodes
-        self.surface = _contact_nodes(section, basis.nodes)
-        expansion = volume_strain(basis, motion.harmonic, motion.components)
-        resistance = dilatation(section)
-        mixed = resistance.mixed & np.any(expansion, axis=(1, 2))
-        self._numbering = number_unknowns(
-            section, motion, basis.nodes, basis.elements, self.surface, mixed
-        )
-        unknowns, count = self._numbering.size, len(motion.components)
-        require_memory(required_bytes(len(mixed), unknowns, count, bool(mixed.any())))
-        stiffness = element_stiffness(basis, section, motion.harmonic, motion.components)
-        blocks = (
-            Elements(stiffness, basis.elements, np.full((len(mixed), 0), -1)),
-            Elements(
-                with_pressure(expansion[mixed], resistance.compliance[mixed]),
-                basis.elements[mixed],
-                self._numbering.pressure[mixed],
-            ),
+        basis = displacement_basis(section)
+        self.nodes = basis.doflocs
+        contact = basis.get_dofs("contact").all()
+        self.surface = contact[np.argsort(self.nodes[0, contact])]
+        mixed = dilatation(section).mixed & motion.changes_volume
+        self._numbering = number_unknowns(section, motion, basis, mixed)
+        unknowns, components = self._numbering.order.size, len(motion.components)
+        require_memory(required_bytes(len(mixed), unknowns, components, bool(mixed.any())))
+        matrix = _assembled(section, motion, basis, self._numbering)
+        if mixed.any():
+            matrix = _with_pressure(matrix, section, motion, basis, self._numbering)
+        prescribed = self._prescribed(basis)
+        inner, loads, far, _ = condense(
+            matrix, np.zeros_like(prescribed), prescribed, I=self._numbering.order
         )
         self._lu = splu(
-            assembled(blocks, self._numbering),
+            inner.T,  # symmetric, and by columns
             permc_spec="NATURAL",
             diag_pivot_thresh=0.0,
             options={"SymmetricMode": True},
         )
-        self._far = self._far_displacement(blocks)
+        far[self._numbering.order] = self._lu.solve(loads)
+        self._far = self._numbering.factor * far[self._numbering.dofs]
 
     def displacement(self, forces: Field, nodes: Indices | slice = EVERYWHERE) -> Field:
         """(c, n, k) displacement of the nodes for (c, m, k) generalised forces on the surface."""
         weights = self.motion.resultant_weights(self.section.radii)
         resultants = np.einsum("cm,cmk->k", weights, forces)
         displacement = self._far[:, nodes, None] * resultants
-        column, factor = self._numbering.column, self._numbering.factor[..., None]
+        numbering, order = self._numbering, self._numbering.order
+        dofs, factor = numbering.dofs, numbering.factor[..., None]
         for start in range(0, forces.shape[2], BLOCK):
             block = forces[..., start : start + BLOCK]
-            loads = np.zeros((self._numbering.size + 1, block.shape[2]))  # last: what is at rest
-            np.add.at(loads, column[:, self.surface], factor[:, self.surface] * block)
-            loads[:-1] = self._lu.solve(loads[:-1])
-            loads[-1] = 0.0
-            displacement[..., start : start + BLOCK] += factor[:, nodes] * loads[column[:, nodes]]
+            loads = np.zeros((numbering.size, block.shape[2]))
+            np.add.at(loads, dofs[:, self.surface], factor[:, self.surface] * block)
+            solved = np.zeros_like(loads)
+            solved[order] = self._lu.solve(loads[order])
+            displacement[..., start : start + BLOCK] += factor[:, nodes] * solved[dofs[:, nodes]]
         return displacement
 
     def compliance(self) -> Field:
@@ -90,35 +82,63 @@ class FactoredSection:
 
         The far field is that of the resultant alone, which leaves a small asymmetry: it is removed.
         """
-        first = self._numbering.contact
-        factor = self._numbering.factor[:, self.surface].ravel()
-        places = np.maximum(self._numbering.column[:, self.surface].ravel() - first, 0)
+        numbering, first = self._numbering, self._numbering.contact
         stiffness = (self._lu.L[first:, first:] @ self._lu.U[first:, first:]).toarray()
+        factor = numbering.factor[:, self.surface].ravel()
+        place = np.zeros(numbering.size, dtype=np.int64)
+        place[numbering.order[first:]] = np.arange(len(stiffness))
+        places = place[numbering.dofs[:, self.surface].ravel()]
         matrix = factor[:, None] * np.linalg.inv(stiffness)[np.ix_(places, places)] * factor
         weights = self.motion.resultant_weights(self.section.radii)
         matrix += np.outer(self._far[:, self.surface], weights)
         return (0.5 * (matrix + matrix.T)).reshape(weights.shape * 2)
 
-    def _far_displacement(self, blocks: Iterable[Elements]) -> Field:
-        """(c, n) displacement of all nodes for a unit resultant of which only the box knows."""
-        field = np.zeros_like(self._numbering.factor)
+    def _prescribed(self, basis: Basis) -> Field:
+        """The degrees of freedom far away for a unit resultant of which only they know."""
+        values = np.zeros(self._numbering.size)
         outline, far_field = self.section.outline, self.motion.far_field
-        if far_field is None or outline.rigid_base:
-            return field
-        r, z = self.nodes
-        box = (r == outline.box) | (z == outline.depth)
-        values = far_field(r[box], z[box], outline.materials[-1])
-        field[:, box] = values[list(self.motion.components)]
-        loads = np.zeros(self._numbering.size + 1)
-        for block in blocks:
-            column, factor = block.unknowns(self._numbering)
-            forces = np.einsum("eij,ej->ei", block.matrix, block.values(field))
-            np.add.at(loads, column, -factor * forces)
-        solution = np.append(self._lu.solve(loads[:-1]), 0.0)
-        return field + self._numbering.factor * solution[self._numbering.column]
+        if far_field is not None and not outline.rigid_base:
+            far = basis.get_dofs("far").all()
+            r, z = self.nodes[:, far]
+            known = far_field(r, z, outline.materials[-1])
+            factor = self._numbering.factor[:, far]
+            moved = factor * known[list(self.motion.components)]
+            values[self._numbering.dofs[:, far][factor != 0.0]] = moved[factor != 0.0]
+        return values
 
 
-def _contact_nodes(section: SectionMesh, nodes: Field) -> Indices:
-    r, z = nodes
-    found = np.flatnonzero((z == 0.0) & (r <= section.outline.zone))
-    return found[np.argsort(r[found])]
+def _assembled(
+    section: SectionMesh, motion: Motion, basis: Basis, numbering: Numbering
+) -> csr_array:
+    """The stiffness between all displacements; explicit zeros stay, for they will be filled."""
+    stiffness = element_stiffness(basis, section, motion.harmonic, motion.components)
+    dofs, factor = _of_elements(basis, numbering)
+    stiffness *= factor[:, None] * factor
+    place = [np.broadcast_to(one, stiffness.shape).ravel() for one in (dofs[:, None], dofs)]
+    size = numbering.dofs.size
+    return coo_array((stiffness.ravel(), tuple(place)), shape=(size, size)).tocsr()
+
+
+def _with_pressure(
+    stiffness: csr_array, section: SectionMesh, motion: Motion, basis: Basis, numbering: Numbering
+) -> csr_array:
+    """Volume strain = p / lambda in the mixed elements, beside the forces of the pressure."""
+    mixed, first = dilatation(section).mixed, numbering.dofs.size
+    volume = volume_strain(basis, motion.harmonic, motion.components)[..., mixed]
+    dofs, factor = (one[:, None, mixed] for one in _of_elements(basis, numbering))
+    rows = np.broadcast_to(numbering.pressure.T - first, volume.shape).ravel()
+    columns = np.broadcast_to(dofs, volume.shape).ravel()
+    shape = (numbering.pressure.size, first)
+    expansion = coo_array(((volume * factor).ravel(), (rows, columns)), shape=shape)
+    softness = np.repeat(dilatation(section).compliance[mixed], 3)
+    itself = coo_array((-softness, (np.arange(softness.size),) * 2))
+    return block_array([[stiffness, expansion.T], [expansion, itself]], format="csr")
+
+
+def _of_elements(basis: Basis, numbering: Numbering) -> tuple[Dofs, Field]:
+    """(9 c, e) degrees of freedom of the elements, component by component, and their factors."""
+    shape = (-1, basis.nelems)
+    return (
+        numbering.dofs[:, basis.element_dofs].reshape(shape),
+        numbering.factor[:, basis.element_dofs].reshape(shape),
+    )

@@ -7,16 +7,24 @@ does not ripple and the matrix stays symmetric.
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
+from skfem import Basis, BilinearForm, ElementLineP1, ElementLineP2, LinearForm, MeshLine
 
 Field = NDArray[np.float64]
 Matrix = NDArray[np.float64]
 
-# Gauss points on an element: exact for the products below, and for smooth gaps to round-off.
-POINTS = 6
+# Order of the integrals: exact for the products below, and for smooth gaps to round-off.
+ORDER = 11
 SAME = 1e-9
+
+
+@BilinearForm  # type: ignore[untyped-decorator]
+def product(hat: Any, trace: Any, w: Any) -> Any:
+    """φ ψ r."""
+    return hat * trace * w.x[0]
 
 
 @dataclass(frozen=True)
@@ -44,13 +52,7 @@ class Hats:
 
     def of(self, function: Callable[[Field], Field]) -> Field:
         """∫ f φ r dr of a function of the radius."""
-        r, weight = _gauss_points(self.radii)
-        values = function(r) * r * weight
-        left, right = _hats_at_points()
-        integrals = np.zeros_like(self.radii)
-        integrals[:-1] += values @ left
-        integrals[1:] += values @ right
-        return integrals
+        return _integrals(_hat_basis(self.radii), function)
 
 
 def hats_on(nodes: Field, reach: float = np.inf) -> Hats:
@@ -59,39 +61,21 @@ def hats_on(nodes: Field, reach: float = np.inf) -> Hats:
     At the last corner half a hat is left: no traction reaches further.
     """
     corners = nodes[::2]
-    count = int(np.count_nonzero(corners <= reach * (1 + SAME)))
-    radii = corners[:count]
-    r, weight = _gauss_points(radii)
-    left, right = _hats_at_points()
-    products = np.zeros((len(nodes), count))
-    arms = np.zeros(count)
-    for element in range(count - 1):
-        measure = r[element] * weight[element]
-        for corner, hat in ((element, left), (element + 1, right)):
-            products[2 * element : 2 * element + 3, corner] += _quadratic() @ (measure * hat)
-            arms[corner] += np.sum(measure * r[element] * hat)
+    radii = corners[corners <= reach * (1 + SAME)]
+    hats = _hat_basis(radii)
+    traces = hats.with_element(ElementLineP2())
+    outwards = np.argsort(traces.doflocs[0])
+    products = np.zeros((len(nodes), len(radii)))
+    products[: traces.N] = product.assemble(hats, traces).toarray()[outwards]
     # Quadratics add up to one.
-    return Hats(radii, products, products.sum(axis=0), arms)
+    return Hats(radii, products, products.sum(axis=0), _integrals(hats, lambda r: r))
 
 
-def _unit_gauss() -> tuple[Field, Field]:
-    x, w = np.polynomial.legendre.leggauss(POINTS)
-    return 0.5 * (1 + x), 0.5 * w
+def _hat_basis(radii: Field) -> Basis:
+    return Basis(MeshLine(radii), ElementLineP1(), intorder=ORDER)
 
 
-def _gauss_points(radii: Field) -> tuple[Field, Field]:
-    """Radii and weights (elements, points)."""
-    x, w = _unit_gauss()
-    width = np.diff(radii)[:, None]
-    return radii[:-1, None] + width * x, width * w
-
-
-def _hats_at_points() -> tuple[Field, Field]:
-    x, _ = _unit_gauss()
-    return 1 - x, x
-
-
-def _quadratic() -> Matrix:
-    """Inner corner, midside, outer corner at the points (3, points)."""
-    x, _ = _unit_gauss()
-    return np.array([(1 - x) * (1 - 2 * x), 4 * x * (1 - x), x * (2 * x - 1)])
+def _integrals(hats: Basis, function: Callable[[Field], Field]) -> Field:
+    """∫ f φ r dr of every hat."""
+    load = LinearForm(lambda hat, w: function(np.asarray(w.x[0])) * hat * w.x[0])
+    return np.asarray(load.assemble(hats))

@@ -34,6 +34,11 @@ class Motion:
     lever: int
     far_field: FarField | None
 
+    @property
+    def changes_volume(self) -> bool:
+        """Whether it can; torsion cannot."""
+        return self.harmonic > 0 or self.components != TORSION.components
+
     def resultant_weights(self, radii: NDArray[np.float64]) -> NDArray[np.float64]:
         """(c, m) factors of the generalised nodal forces in the resultant: W, T or M_z."""
         return np.multiply.outer(np.asarray(self.resultant), radii**self.lever)

@@ -1,81 +1,67 @@
-"""Unknowns of a section in one harmonic, numbered in the order of elimination."""
+"""Degrees of freedom of a section in one harmonic, and the order in which they are eliminated."""
 
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
+from skfem import Basis
 
 from fem_reference.elasticity.elimination_order import elimination_keys
 from fem_reference.elasticity.motion import Motion
 from fem_reference.mesh.section_mesh import SectionMesh
 
 Indices = NDArray[np.int64]
+Dofs = NDArray[np.int32]
 
 
 @dataclass(frozen=True, eq=False)
 class Numbering:
-    """A displacement is a factor times an unknown; what is prescribed has the factor 0, column -1.
+    """A displacement is a factor times a degree of freedom: on the axis components share one.
 
-    column    (c, n) unknown of every displacement
+    dofs      (c, n) degree of freedom of every displacement
     factor    (c, n)
-    pressure  (e, 3) unknowns of an element's pressure, -1 where it has none
-    contact   first of the unknowns of the contact zone, which come last
-    size      number of unknowns
+    pressure  (m, 3) those of the elements whose pressure is unknown; they come after all others
+    order     (u,) the unknown ones as they are eliminated: those of the contact zone last
+    contact   how many come before these
+    size      number of degrees of freedom, prescribed ones included
     """
 
-    column: Indices
+    dofs: Dofs
     factor: NDArray[np.float64]
     pressure: Indices
+    order: Indices
     contact: int
     size: int
 
 
 def number_unknowns(
-    section: SectionMesh,
-    motion: Motion,
-    nodes: NDArray[np.float64],
-    elements: Indices,
-    surface: Indices,
-    mixed: NDArray[np.bool_],
+    section: SectionMesh, motion: Motion, basis: Basis, mixed: NDArray[np.bool_]
 ) -> Numbering:
     """Number what can move.
 
-    nodes, elements  (2, n) positions, (e, 9) nodes of the elements
-    surface          nodes of the contact zone
-    mixed            (e,) elements whose pressure is unknown
+    basis  of one component
+    mixed  (e,) elements whose pressure is unknown
     """
-    factor = _factors(section, motion, nodes)
-    # Displacements on the axis share one unknown: that of the first component that moves.
+    components, axis = len(motion.components), basis.get_dofs("axis").all()
+    surface, far = basis.get_dofs("contact").all(), basis.get_dofs("far").all()
+    factor = np.ones((components, basis.N))
+    factor[:, axis] = np.asarray(motion.on_axis)[:, None]
+    dofs = np.arange(factor.size, dtype=np.int32).reshape(factor.shape)
+    dofs[:, axis] = dofs[np.argmax(factor[:, axis] != 0.0, axis=0), axis]
     moving = factor != 0.0
-    axis = nodes[0] == 0.0
-    owners = np.argwhere((moving & ~(axis & (np.cumsum(moving, axis=0) > 1))).T)
+    moving[:, far] = False
+    free = np.flatnonzero(moving & (dofs == np.arange(dofs.size).reshape(dofs.shape)))
+    pressure = factor.size + np.arange(3 * np.count_nonzero(mixed)).reshape(-1, 3)
 
+    elements = basis.element_dofs.T
     keys = elimination_keys(section.points, section.quads, elements)
     keys[1, surface] = keys.max() + 1
-    rank = np.empty(nodes.shape[1], dtype=np.int64)
+    rank = np.empty(basis.N, dtype=np.int64)
     rank[np.lexsort(keys)] = np.arange(rank.size)
     # A pressure is held by the displacements around it alone: it follows them, save for those of
     # the contact zone, which are not to be eliminated with the rest.
     inside = np.where(np.isin(elements, surface), -1, rank[elements]).max(axis=1)
-    places = np.concatenate([2 * rank[owners[:, 0]], np.repeat(2 * inside[mixed] + 1, 3)])
-    number = np.empty(places.size, dtype=np.int64)
-    number[np.argsort(places, kind="stable")] = np.arange(places.size)
-
-    column = np.full(factor.shape, -1)
-    column[owners[:, 1], owners[:, 0]] = number[: len(owners)]
-    column[:, axis] = np.where(moving[:, axis], column[:, axis].max(axis=0), -1)
-    pressure = np.full((mixed.size, 3), -1)
-    pressure[mixed] = number[len(owners) :].reshape(-1, 3)
-    on_surface = column[:, surface]
-    contact = int(on_surface[on_surface >= 0].min())
-    return Numbering(column, factor, pressure, contact, number.size)
-
-
-def _factors(
-    section: SectionMesh, motion: Motion, nodes: NDArray[np.float64]
-) -> NDArray[np.float64]:
-    r, z = nodes
-    factor = np.ones((len(motion.components), r.size))
-    factor[:, r == 0.0] = np.asarray(motion.on_axis)[:, None]
-    factor[:, (r == section.outline.box) | (z == section.outline.depth)] = 0.0
-    return factor
+    places = np.concatenate([2 * rank[free % basis.N], np.repeat(2 * inside[mixed] + 1, 3)])
+    order = np.concatenate([free, pressure.ravel()])[np.argsort(places, kind="stable")]
+    contact = order.size - int(np.sum(np.isin(free % basis.N, surface)))
+    return Numbering(dofs, factor, pressure, order, contact, factor.size + pressure.size)

@@ -1,4 +1,4 @@
-"""Stiffness of a section for one angular harmonic.
+"""The weak form of elasticity in a section, for one angular harmonic.
 
 A load that goes as cos n theta (r and z components) and sin n theta (theta) moves the body in the
 same way, so the angle is integrated out and n enters the strains as a number:
@@ -7,117 +7,113 @@ same way, so the angle is integrated out and n enters the strains as a number:
     e_tt = (u_r + n u_t)/r    g_rt = u_t,r - (u_t + n u_r)/r
     e_zz = u_z,z              g_tz = u_t,z - n u_z/r
 
-Energies carry the weight r alone; the factors 2 pi and pi of the angle belong to the resultants.
+Forms are of one component of each displacement, `w.trial` and `w.test`, in the harmonic `w.n`, and
+integrate over r dr dz (see `section_basis`). All of a vector element at once would take the
+products with the components that are zero as well: three times the time.
 """
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from skfem import Basis, ElementQuad2, MeshQuad
+from skfem import Basis, BilinearForm
 
+from fem_reference.elasticity.section_basis import pressure_basis
 from fem_reference.mesh.section_mesh import SectionMesh
 
+Field = NDArray[np.float64]
 Components = tuple[int, ...]
 """Which of u_r (0), u_theta (1) and u_z (2) take part."""
-
-RADIAL_AND_NORMAL: Components = (0, 2)
-TORSION: Components = (1,)
-ALL_THREE: Components = (0, 1, 2)
 
 STIFFEST = 1e4
 """Largest lambda / mu of an element whose pressure is no unknown."""
 
-# Strains in the order rr, tt, zz, rz, rt, tz; axes: strain, component, (u/r, u_,r, u_,z).
-_FIXED = np.zeros((6, 3, 3))
-_FIXED[0, 0, 1] = _FIXED[1, 0, 0] = _FIXED[2, 2, 2] = 1.0
-_FIXED[3, 0, 2] = _FIXED[3, 2, 1] = 1.0
-_FIXED[4, 1, 1] = _FIXED[5, 1, 2] = 1.0
-_FIXED[4, 1, 0] = -1.0
-_PER_HARMONIC = np.zeros((6, 3, 3))
-_PER_HARMONIC[1, 1, 0] = 1.0
-_PER_HARMONIC[4, 0, 0] = _PER_HARMONIC[5, 2, 0] = -1.0
-_SHEAR_ENERGY = np.diag([2.0, 2.0, 2.0, 1.0, 1.0, 1.0])
+NORMAL, SHEAR = ("rr", "tt", "zz"), ("rz", "rt", "tz")
 
 
-@dataclass(frozen=True, eq=False)
-class SectionBasis:
-    """Biquadratic shape functions on a section, at the Gauss points.
-
-    nodes     (2, n) positions (r, z) of the nodes
-    elements  (e, 9) nodes of an element
-    shapes    (e, 27, q) u/r, u_,r, u_,z (first nine, second nine, ...) of the shape functions
-    linear    (e, 3, q) linear functions of r and z, for the pressure
-    weights   (e, q) of the integral of r dr dz
-    """
-
-    nodes: NDArray[np.float64]
-    elements: NDArray[np.int64]
-    shapes: NDArray[np.float64]
-    linear: NDArray[np.float64]
-    weights: NDArray[np.float64]
+def strains(u: Any, component: int, n: int) -> dict[str, Field]:
+    """The strains that one component of a displacement has a part in."""
+    over_r, along_r, along_z = u.grad
+    found = (
+        {"rr": along_r, "tt": over_r, "rz": along_z},
+        {"rt": along_r - over_r, "tz": along_z},
+        {"zz": along_z, "rz": along_r},
+    )[component]
+    if n > 0:
+        name, sign = (("rt", -n), ("tt", n), ("tz", -n))[component]
+        found[name] = sign * over_r
+    return found
 
 
-def section_basis(section: SectionMesh) -> SectionBasis:
-    """Shape functions at 3 x 3 Gauss points, which integrate every energy below exactly."""
-    basis = Basis(MeshQuad(section.points, section.quads), ElementQuad2(), intorder=5)
-    r, z = np.asarray(basis.global_coordinates())
-    fields = [field[0] for field in basis.basis]
-    shapes = np.stack(
-        [np.stack([np.broadcast_to(f, r.shape) / r, f.grad[0], f.grad[1]]) for f in fields]
-    )
-    middle = section.points[:, section.quads].mean(axis=1)[..., None]
-    size = np.ptp(section.points[:, section.quads], axis=1)[..., None]
-    linear = np.stack([np.ones_like(r), (r - middle[0]) / size[0], (z - middle[1]) / size[1]])
-    return SectionBasis(
-        np.asarray(basis.doflocs),
-        np.asarray(basis.element_dofs.T, dtype=np.int64),
-        np.ascontiguousarray(shapes.transpose(2, 1, 0, 3).reshape(r.shape[0], 27, -1)),
-        np.ascontiguousarray(linear.transpose(1, 0, 2)),
-        basis.dx * r,
-    )
+@BilinearForm  # type: ignore[untyped-decorator]
+def distortion(u: Any, v: Any, w: Any) -> Any:
+    """2 mu e : e, the energy without the resistance to a change of volume."""
+    e, f = strains(u, w.trial, w.n), strains(v, w.test, w.n)
+    normal = sum(e[k] * f[k] for k in NORMAL if k in e and k in f)
+    return w.mu * (2.0 * normal + sum(e[k] * f[k] for k in SHEAR if k in e and k in f))
 
 
-def strain_operator(harmonic: int) -> NDArray[np.float64]:
-    """(6, 3, 3) strains by component and by (u/r, u_,r, u_,z): linear in the harmonic."""
-    return _FIXED + harmonic * _PER_HARMONIC
+@BilinearForm  # type: ignore[untyped-decorator]
+def expansion(u: Any, q: Any, w: Any) -> Any:
+    """q tr e, the work of a pressure."""
+    e = strains(u, w.trial, w.n)
+    return q * sum(e[k] for k in NORMAL if k in e)
+
+
+@BilinearForm  # type: ignore[untyped-decorator]
+def product(p: Any, q: Any, _: Any) -> Any:
+    """p q."""
+    return p * q
 
 
 def element_stiffness(
-    basis: SectionBasis, section: SectionMesh, harmonic: int, components: Components
-) -> NDArray[np.float64]:
-    """(e, 9 c, 9 c) stiffness of every element, component by component.
+    basis: Basis, section: SectionMesh, harmonic: int, components: Components
+) -> Field:
+    """(9 c, 9 c, e) stiffness of every element, component by component.
 
     The volume strain is projected onto functions linear in an element (Q2-P1), in every material:
     that keeps nearly incompressible layers from locking, and is exact for quadratic displacements.
     Where `dilatation` says so, the resistance to it is left out: there the pressure is an unknown.
     """
-    c, e = len(components), basis.elements.shape[0]
-    strain = strain_operator(harmonic)[:, components, :]
-    pairs = (basis.shapes * basis.weights[:, None, :]) @ basis.shapes.transpose(0, 2, 1)
-    pairs = pairs.reshape(e, 3, 9, 3, 9)
-    coefficients = np.einsum("sci,st,tdj->cidj", strain, _SHEAR_ENERGY, strain)
-    stiffness = np.zeros((e, c, 9, c, 9))
-    for k, i, m, j in np.argwhere(coefficients):
-        stiffness[:, k, :, m, :] += coefficients[k, i, m, j] * pairs[:, i, :, j, :]
-    stiffness *= shear_moduli(section)[:, None, None, None, None]
-
-    expansion = volume_strain(basis, harmonic, components)
-    volumetric = expansion.transpose(0, 2, 1) @ expansion
-    resistance = dilatation(section).resistance[:, None, None]
-    return stiffness.reshape(e, 9 * c, 9 * c) + resistance * volumetric
+    c = len(components)
+    stiffness = np.empty((c, 9, c, 9, basis.nelems))
+    by_volume = volume_strain(basis, harmonic, components).reshape(c, 9, 3, -1)
+    mu, resistance = shear_moduli(section)[:, None], dilatation(section).resistance
+    for k, trial in enumerate(components):
+        for m, test in enumerate(components[: k + 1]):
+            block = _local(distortion, basis, basis, n=harmonic, trial=trial, test=test, mu=mu)
+            block += np.einsum("ipe,jpe->ije", resistance * by_volume[k], by_volume[m])
+            stiffness[k, :, m] = block
+            stiffness[m, :, k] = block.transpose(1, 0, 2)
+    return stiffness.reshape(9 * c, 9 * c, -1)
 
 
-def volume_strain(
-    basis: SectionBasis, harmonic: int, components: Components
-) -> NDArray[np.float64]:
-    """(e, 3, 9 c) projections of the volume strain onto three orthonormal linear functions."""
-    trace = strain_operator(harmonic)[:3, components, :].sum(axis=0)
-    weighted = basis.linear * basis.weights[:, None, :]
-    moments = (weighted @ basis.shapes.transpose(0, 2, 1)).reshape(-1, 3, 3, 9)
-    expansion = np.einsum("ci,epin->epcn", trace, moments).reshape(moments.shape[0], 3, -1)
-    gram = np.linalg.cholesky(weighted @ basis.linear.transpose(0, 2, 1))
-    return np.linalg.solve(gram, expansion)
+def volume_strain(basis: Basis, harmonic: int, components: Components) -> Field:
+    """(9 c, 3, e) projections of the volume strain onto linear functions, orthonormal in every
+    element."""
+    pressure = pressure_basis(basis)
+    moments = [_local(expansion, basis, pressure, n=harmonic, trial=k) for k in components]
+    return _orthonormal(pressure, np.concatenate(moments).T).T
+
+
+def volume_strain_at(basis: Basis, points: Basis, strain: Field) -> Field:
+    """(e, q) the volume strain of projections (3, e), at the points of another basis."""
+    linear = np.stack([np.asarray(field[0]) for field in pressure_basis(points).basis])
+    functions = _orthonormal(pressure_basis(basis), linear.transpose(1, 0, 2))
+    return np.einsum("pe,epq->eq", strain, functions)
+
+
+def _orthonormal(pressure: Basis, linear: Field) -> Field:
+    """(e, 3, ...) what linear functions become that are made orthonormal in their element."""
+    gram = _local(product, pressure, pressure).transpose(2, 0, 1)
+    return np.asarray(np.linalg.solve(np.linalg.cholesky(gram), linear))
+
+
+def _local(form: BilinearForm, of: Basis, on: Basis, **parameters: Any) -> Field:
+    """(trial functions, test functions, e) of every element."""
+    found = form.elemental(of, on, **parameters).data
+    return np.asarray(found.reshape(of.Nbfun, on.Nbfun, -1))
 
 
 @dataclass(frozen=True, eq=False)
@@ -129,9 +125,9 @@ class Dilatation:
     compliance   (e,) 1 / lambda where the pressure is an unknown, else 0
     """
 
-    resistance: NDArray[np.float64]
+    resistance: Field
     mixed: NDArray[np.bool_]
-    compliance: NDArray[np.float64]
+    compliance: Field
 
 
 def dilatation(section: SectionMesh) -> Dilatation:
@@ -147,6 +143,6 @@ def dilatation(section: SectionMesh) -> Dilatation:
     )
 
 
-def shear_moduli(section: SectionMesh) -> NDArray[np.float64]:
+def shear_moduli(section: SectionMesh) -> Field:
     """(e,) mu of every element."""
     return np.array([m.shear_modulus for m in section.outline.materials])[section.layer]

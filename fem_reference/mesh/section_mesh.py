@@ -34,6 +34,18 @@ class SectionMesh:
                 f"section of {whole:.9g}: the mesh has holes or overlaps"
             )
 
+    @property
+    def mesh(self) -> MeshQuad:
+        """For scikit-fem, its boundaries named: axis, contact zone, and far what is at rest or has
+        the displacements of a half-space."""
+        outline = self.outline
+        boundaries = {
+            "axis": lambda x: x[0] == 0.0,
+            "contact": lambda x: (x[1] == 0.0) & (x[0] <= outline.zone),
+            "far": lambda x: (x[0] == outline.box) | (x[1] == outline.depth),
+        }
+        return MeshQuad(self.points, self.quads).with_boundaries(boundaries)
+
     @cached_property
     def areas(self) -> NDArray[np.float64]:
         """(e,) area of every element."""
@@ -58,7 +70,7 @@ class SectionMesh:
 
     def refined(self) -> "SectionMesh":
         """Every element cut into four: the displacements of this mesh exist on that one too."""
-        mesh = MeshQuad(self.points, self.quads).refined()
+        mesh = self.mesh.refined()
         finer = replace(self.outline, size=self.outline.size / 2.0)
         return SectionMesh(np.asarray(mesh.p), np.asarray(mesh.t), finer)
 

@@ -13,15 +13,17 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from skfem import Basis, ElementQuad2, MeshQuad
+from skfem import Basis, ElementQuad2
 
 from fem_reference.elasticity.motion import Motion
+from fem_reference.elasticity.section_basis import displacement_basis
 from fem_reference.elasticity.weak_form import (
-    SectionBasis,
+    NORMAL,
     dilatation,
     shear_moduli,
-    strain_operator,
+    strains,
     volume_strain,
+    volume_strain_at,
 )
 from fem_reference.mesh.section_mesh import SectionMesh
 from fem_reference.scales import Scales
@@ -30,8 +32,9 @@ from fem_reference.stress.section_field import Amplitude
 Field = NDArray[np.float64]
 Indices = NDArray[np.int64]
 
-# CONVENTIONS at theta = 0: rr, tt, zz, tz, rz, rt; from the order of `strain_operator`.
-ORDER = (0, 1, 2, 5, 3, 4)
+ORDER = ("rr", "tt", "zz", "tz", "rz", "rt")
+"""As in CONVENTIONS at theta = 0."""
+
 GAUSS = 0.5 + np.array([-0.5, 0.5]) / np.sqrt(3.0)
 
 
@@ -39,50 +42,58 @@ GAUSS = 0.5 + np.array([-0.5, 0.5]) / np.sqrt(3.0)
 class Recovery:
     """From the 2 x 2 points of the elements to points at the nodes, one for each material there.
 
-    shapes         shape functions at the 2 x 2 points, as in `SectionBasis.shapes` (e, 3, 9, 4)
-    linear         orthonormal linear functions there (e, 3, 4)
-    extrapolation  (9, 4) from these points to the nodes of an element
-    cells          (e, 9) points
-    node           (n,) node of every point
-    material       (n,)
-    share          (n,) how many elements meet at a point
+    section, basis  whose displacements are given
+    at              the same basis at the 2 x 2 points
+    extrapolation   (9, 4) from these points to the nodes of an element
+    cells           (e, 9) points
+    node            (n,) node of every point
+    material        (n,)
+    share           (n,) how many elements meet at a point
     """
 
-    shapes: Field
-    linear: Field
+    section: SectionMesh
+    basis: Basis
+    at: Basis
     extrapolation: Field
     cells: Indices
     node: Indices
     material: Indices
     share: Field
 
+    def amplitude(self, of: Motion, u: Field, scales: Scales) -> Amplitude:
+        """Fields of one motion from the displacement of the nodes (c, nodes)."""
+        strain = dict.fromkeys(ORDER, np.zeros_like(self.at.dx))
+        for component, values in zip(of.components, u, strict=True):
+            found = strains(self.at.interpolate(values), component, of.harmonic)
+            strain |= {name: strain[name] + part for name, part in found.items()}
+        # The volume strain resists as its projection onto linear functions does.
+        expansion = volume_strain(self.basis, of.harmonic, of.components)
+        local = u[:, self.basis.element_dofs].reshape(len(expansion), -1)
+        volume = volume_strain_at(self.basis, self.at, np.einsum("ipe,ie->pe", expansion, local))
+        pressing = dilatation(self.section).resistance[:, None] * volume
+        mu = shear_moduli(self.section)[:, None]
+        total = np.zeros((6, len(self.node)))
+        for row, name in zip(total, ORDER, strict=True):
+            stress = 2.0 * mu * strain[name] + pressing if name in NORMAL else mu * strain[name]
+            np.add.at(row, self.cells.ravel(), (stress @ self.extrapolation.T).ravel())
+        displacement = np.zeros((3, len(self.node)))
+        displacement[list(of.components)] = u[:, self.node] * scales.length
+        return Amplitude(of, displacement, total / self.share * scales.modulus)
 
-def recovery_of(section: SectionMesh, basis: SectionBasis) -> Recovery:
+
+def recovery_of(section: SectionMesh) -> Recovery:
     """What recovers the stress on a section; the same for all its motions."""
     xi, eta = (part.ravel() for part in np.meshgrid(GAUSS, GAUSS, indexing="ij"))
-    element = ElementQuad2()
-    at = Basis(
-        MeshQuad(section.points, section.quads),
-        element,
-        quadrature=(np.stack([xi, eta]), np.full(4, 0.25)),
-    )
-    r, z = np.asarray(at.global_coordinates())
-    fields = [field[0] for field in at.basis]
-    shapes = np.stack(
-        [np.stack([np.broadcast_to(f, r.shape) / r, f.grad[0], f.grad[1]]) for f in fields]
-    )
-    middle = section.points[:, section.quads].mean(axis=1)[..., None]
-    size = np.ptp(section.points[:, section.quads], axis=1)[..., None]
-    linear = np.stack([np.ones_like(r), (r - middle[0]) / size[0], (z - middle[1]) / size[1]])
-    weighted = basis.linear * basis.weights[:, None, :]
-    gram = np.linalg.cholesky(weighted @ basis.linear.transpose(0, 2, 1))
+    basis = displacement_basis(section)
+    at = displacement_basis(section, (np.stack([xi, eta]), np.full(4, 0.25)))
     count = len(section.outline.materials)
-    key = basis.elements * count + section.layer[:, None]
+    key = basis.element_dofs.T * count + section.layer[:, None]
     unique, cells, share = np.unique(key, return_inverse=True, return_counts=True)
     return Recovery(
-        shapes.transpose(2, 1, 0, 3),
-        np.linalg.solve(gram, linear.transpose(1, 0, 2)),
-        _extrapolation(np.asarray(element.doflocs, dtype=float)),
+        section,
+        basis,
+        at,
+        _extrapolation(np.asarray(ElementQuad2().doflocs, dtype=float)),
         cells.reshape(key.shape),
         unique // count,
         unique % count,
@@ -95,33 +106,3 @@ def _extrapolation(nodes: Field) -> Field:
     low, high = GAUSS
     along = [np.stack([(high - c) / (high - low), (c - low) / (high - low)], -1) for c in nodes.T]
     return np.einsum("na,nb->nab", *along).reshape(len(nodes), 4)
-
-
-def recovered_amplitude(
-    section: SectionMesh,
-    basis: SectionBasis,
-    recovery: Recovery,
-    of: Motion,
-    u: Field,
-    scales: Scales,
-) -> Amplitude:
-    """Fields of one motion from the displacement of the nodes (c, nodes)."""
-    local = u[:, basis.elements]
-    gradients = np.einsum("ednq,cen->cdeq", recovery.shapes, local)
-    strain = np.einsum(
-        "scd,cdeq->seq", strain_operator(of.harmonic)[:, of.components, :], gradients
-    )
-    stress = np.array([2.0, 2.0, 2.0, 1.0, 1.0, 1.0])[:, None, None] * strain
-    stress *= shear_moduli(section)[:, None]
-    # The volume strain resists as its projection onto linear functions does.
-    expansion = volume_strain(basis, of.harmonic, of.components)
-    flat = local.transpose(1, 0, 2).reshape(len(basis.elements), -1, 1)
-    volume = np.einsum("ep,epq->eq", (expansion @ flat)[..., 0], recovery.linear)
-    stress[:3] += dilatation(section).resistance[:, None] * volume
-    at_nodes = stress @ recovery.extrapolation.T
-    total = np.zeros((6, len(recovery.node)))
-    for component, values in zip(total, at_nodes[list(ORDER)], strict=True):
-        np.add.at(component, recovery.cells.ravel(), values.ravel())
-    displacement = np.zeros((3, len(recovery.node)))
-    displacement[list(of.components)] = u[:, recovery.node] * scales.length
-    return Amplitude(of, displacement, total / recovery.share * scales.modulus)

@@ -10,11 +10,11 @@ from numpy.typing import NDArray
 from contact_scene import Body, FiniteElementDiscretisation, IsotropicMaterial
 from contact_scene.solver_errors import UnsupportedScene
 from fem_reference.elasticity.factored_section import FactoredSection
-from fem_reference.elasticity.weak_form import dilatation, section_basis
+from fem_reference.elasticity.weak_form import dilatation
 from fem_reference.mesh.section_mesh import SectionMesh, section_mesh
 from fem_reference.mesh.section_outline import CONTACT_ZONE
 from fem_reference.scales import Scales
-from fem_reference.stress.recovery import recovered_amplitude, recovery_of
+from fem_reference.stress.recovery import recovery_of
 from fem_reference.stress.section_field import SectionField
 from fem_reference.stress.surface_tractions import SurfaceTractions
 
@@ -61,8 +61,7 @@ def subsurface(
     zone = max(CONTACT_ZONE, tractions.reach / length)
     section = _section(scales.dimensionless(body), discretisation, zone)
     _refuse_incompressible(section)
-    basis = section_basis(section)
-    recovery = recovery_of(section, basis)
+    recovery = recovery_of(section)
     found = tractions.amplitudes()
     largest = max(float(np.max(np.abs(t))) for _, t in found)
     parts = []
@@ -71,8 +70,8 @@ def subsurface(
             sign = np.where(np.array(of.components) == 2, 1.0, -1.0 if upper else 1.0)
             forces = _forces(section, tractions.radii / length, sign[:, None] * amplitude / modulus)
             u = FactoredSection(section, of).displacement(forces[..., None])[..., 0]
-            parts.append(recovered_amplitude(section, basis, recovery, of, u, scales))
-    points = _points(body, section, basis.nodes[:, recovery.node], length)
+            parts.append(recovery.amplitude(of, u, scales))
+    points = _points(body, section, recovery.basis.doflocs[:, recovery.node], length)
     return SectionField(points, recovery.material, recovery.cells, tuple(parts))
 
 

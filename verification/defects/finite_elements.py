@@ -12,8 +12,7 @@ from fem_reference.contact.complementarity import contact_problem, ring_incremen
 from fem_reference.contact.complementarity.ring_state import untouched
 from fem_reference.contact.penalty import law as penalty_law
 from fem_reference.contact.penalty.spring_contact import PenaltyLaw
-from fem_reference.elasticity import compliance, hats
-from fem_reference.elasticity import weak_form as elasticity
+from fem_reference.elasticity import compliance, hats, section_basis, weak_form
 from fem_reference.elasticity.factored_section import FactoredSection
 from fem_reference.model import ContactModel
 from verification.defects.defect import Defect, Patches
@@ -27,16 +26,16 @@ def _weight_of_element(patches: Patches) -> None:
     """The radius in the weight of an energy is that of the element's middle."""
 
     def wrap(whole: Any) -> Any:
-        def basis(section: Any) -> Any:
-            right = whole(section)
+        def basis(section: Any, *more: Any) -> Any:
+            right = whole(section, *more)
             corners = section.points[0, section.quads]
-            middle, size = corners.mean(axis=0), np.ptp(corners, axis=0)
-            r = middle[:, None] + size[:, None] * right.linear[:, 1]
-            return replace(right, weights=right.weights / r * middle[:, None])
+            r = np.asarray(right.global_coordinates())[0]
+            right.dx = right.dx / r * corners.mean(axis=0)[:, None]
+            return right
 
         return basis
 
-    patches.function(elasticity, "section_basis", wrap)
+    patches.function(section_basis, "displacement_basis", wrap)
 
 
 def _resultant_weight(patches: Patches) -> None:
@@ -65,21 +64,18 @@ def _circumferential_shear(patches: Patches) -> None:
 
 def _hoop_strain(patches: Patches) -> None:
     def wrap(whole: Any) -> Any:
-        def strains(harmonic: int) -> Any:
-            operator = whole(harmonic).copy()
-            operator[1, 1, 0] = 0.0
-            return operator
+        def strains(u: Any, component: int, n: int) -> Any:
+            right = whole(u, component, n)
+            return {k: e for k, e in right.items() if (component, k) != (1, "tt")}
 
         return strains
 
-    patches.function(elasticity, "strain_operator", wrap)
+    patches.function(weak_form, "strains", wrap)
 
 
 def _no_far_field(patches: Patches) -> None:
     patches.attribute(
-        FactoredSection,
-        "_far_displacement",
-        lambda self, blocks: np.zeros_like(self._numbering.factor),
+        FactoredSection, "_prescribed", lambda self, basis: np.zeros(self._numbering.size)
     )
 
 
