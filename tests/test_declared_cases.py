@@ -1,0 +1,167 @@
+"""Cases that are declared by rows: an observable of a problem, judged on the rungs of a ladder."""
+
+from types import SimpleNamespace
+from typing import Any
+
+import numpy as np
+import pytest
+
+from verification.judging.case import Derived, Required
+from verification.judging.declared_case import Falls, Refined, Reported, Within, case, judged
+from verification.judging.ladder import (
+    MIDDLE,
+    asked,
+    named,
+    on_cells,
+    on_elements,
+    on_springs,
+    part_of_side,
+    with_edge_at,
+)
+from verification.judging.observable import Observable
+from verification.judging.observables import (
+    APPROACH,
+    CENTRAL_PRESSURE,
+    CONTACT_RADIUS,
+    ENERGY,
+    PEAK_PRESSURE,
+    PRESSURE_L2,
+    SHIFT,
+    STICK_RADIUS,
+    WORK,
+)
+from verification.problems.hertz import BALL
+from verification.problems.paper_scene import HERTZ, hertz_grid
+from verification.problems.problem import Problem
+from verification.problems.sheared import sheared
+from verification.solver import Method
+
+CELLS = (32, 64, 128)
+SHEARED = sheared("sheared", (0.3, 0.9))
+
+
+def answered(problem: Problem, times: float = 1.0) -> Any:
+    """A result by cells that has the exact numbers of a problem, or these so many times."""
+    names = ("approach", "peak_pressure", "contact_radius", "stick_radius", "dissipated_energy")
+    steps = []
+    for exact in problem.ends:
+        known = {name: times * getattr(exact, name) for name in names if hasattr(exact, name)}
+        shift = (times * getattr(exact, "shift", 0.0), 0.0)
+        steps.append(SimpleNamespace(**known, tangential_shift=shift))
+    return SimpleNamespace(steps=steps)
+
+
+@pytest.mark.parametrize("what", [APPROACH, PEAK_PRESSURE, CONTACT_RADIUS], ids=lambda o: o.name)
+def test_the_exact_answer_has_no_error_and_another_has_its_part(what: Observable) -> None:
+    error = what.error(BALL)
+    assert error(answered(BALL)) == 0
+    assert error(answered(BALL, 1.01)) == pytest.approx(0.01)
+
+
+@pytest.mark.parametrize("what", [SHIFT, STICK_RADIUS, WORK], ids=lambda o: o.name)
+def test_errors_of_a_history_are_over_one_scale_at_every_stop(what: Observable) -> None:
+    for step, part in enumerate((0.3, 0.9), 1):
+        at = what.at(step, part, "µW")
+        value, scale = at.reference(SHEARED).value, SHEARED.scale(at.over)
+        assert at.error(SHEARED)(answered(SHEARED)) == 0
+        assert at.error(SHEARED)(answered(SHEARED, 1.01)) == pytest.approx(0.01 * value / scale)
+
+
+def test_the_mean_over_stops_is_the_root_mean_square_of_their_errors() -> None:
+    result = answered(SHEARED, 1.02)
+    single = [SHIFT.at(k, 0.1 * k, "µW").error(SHEARED)(result) for k in (1, 2)]
+    mean = SHIFT.over_stops("two stops").error(SHEARED)(result)
+    assert mean == pytest.approx(np.sqrt(np.mean(np.square(single))))
+
+
+def test_a_verdict_is_named_after_what_and_where_and_an_order_after_what() -> None:
+    at = ENERGY.at(2, 0.9, "µW")
+    rows = (Within(at, 0.1, "why"), Falls(at, 1.0, "why"))
+    made = judged(on_cells(SHEARED, CELLS), rows)
+    assert [q.name for q in made.quantities] == ["energy_at_0.9"]
+    assert [order.name for order in made.orders] == ["order_of_energy"]
+    assert made.quantities[0].reference.source == "Mindlin and Deresiewicz 1953"
+    assert made.quantities[0].reference.value == SHEARED.ends[2].dissipated_energy
+
+
+def test_the_pressure_is_judged_by_one_norm_on_cells_and_on_rings() -> None:
+    """Times 1.01 it errs by 1 %, sampled finely; a band at the edge counts by its area."""
+    grid = hertz_grid(400)
+    r = np.hypot(*grid.coordinates())
+    radii = np.linspace(0, 1.5 * BALL.radius, 4000)
+
+    def wrong(r: np.ndarray) -> np.ndarray:
+        return np.asarray(HERTZ.pressure(r) * (1 + 0.1 * (r > 0.9 * BALL.radius)))
+
+    cells = SimpleNamespace(grid=grid, steps=[SimpleNamespace(pressure=wrong(r))])
+    rings = SimpleNamespace(steps=[SimpleNamespace(pressure=wrong(radii), radii=radii)])
+    errors = [PRESSURE_L2.error(BALL)(result) for result in (cells, rings)]
+    # ∫ p² dA beyond 0.9 a over all of it: (1 - 0.81)²
+    assert errors == pytest.approx([0.1 * 0.19] * 2, rel=0.02)
+
+
+def test_a_row_is_judged_on_the_finest_rung_or_on_those_it_names() -> None:
+    grids = on_cells(BALL, CELLS)
+    made = judged(
+        grids,
+        (
+            Within(APPROACH, 0.1, "why"),
+            Within(PEAK_PRESSURE, {32: 0.3, 64: 0.2, 256: 0.1}, "why", name="required"),
+            Within(CONTACT_RADIUS, part_of_side(0.5), "why", each=True),
+            Refined(CENTRAL_PRESSURE, 2.0, 0.4, "why"),
+            Reported(APPROACH, "remark"),
+        ),
+    )
+    asked_of = {
+        (q.name, q.run): q.tolerance.allowed
+        for q in made.quantities
+        if isinstance(q.tolerance, Required)
+    }
+    radius = {("contact_radius", f"{n}x{n}"): pytest.approx(0.5 * 3 / n) for n in CELLS}
+    assert asked_of == {
+        ("approach", "128x128"): 0.1, ("required", "32x32"): 0.3, ("required", "64x64"): 0.2,
+        **radius,
+    }  # fmt: skip
+    (derived,) = (q.tolerance for q in made.quantities if isinstance(q.tolerance, Derived))
+    assert (derived.levels, derived.cap) == (grids.levels, 0.4)
+    assert [finding.run for finding in made.findings] == ["128x128"]
+
+
+def test_values_are_judged_with_the_edge_nearest_to_the_middle_of_an_element() -> None:
+    studied = tuple((n, place) for n in (8, 16) for place in (0.1, 0.4, 0.9))
+    meshes = with_edge_at(BALL, (), studied)
+    assert meshes.judged.run.label == "16 elements per radius, edge at 0.4"
+    assert [rung.count for rung in meshes.followed] == [8] * 3 + [16] * 3
+    both = with_edge_at(BALL, (8, 32), ((8, MIDDLE), (16, 0.1)))
+    assert both.judged.run.label == "32 elements per radius"
+    assert len(both.runs) == 3
+    assert both.levels == ("8 elements per radius", "16 elements per radius, edge at 0.1")
+
+
+def test_a_figure_follows_the_mesh_by_its_order_and_a_part_of_a_side_the_side() -> None:
+    coarse, fine = on_elements(BALL, (32, 64)).rungs
+    assert asked(1e-4, 2)(fine) == 1e-4
+    assert asked(1e-4, 2)(coarse) == 4e-4
+    assert part_of_side(0.1)(coarse) == 0.1 / 32
+    assert part_of_side(0.1)(on_cells(BALL, (60,), window=2.0).judged) == pytest.approx(0.1 / 30)
+
+
+def test_what_is_measured_is_said_in_the_words_of_each_discretisation() -> None:
+    meshes = on_elements(BALL, (16,))
+    springs = on_springs(meshes, "springs", penalty=20.0)
+    assert springs.judged.run.method is Method.PENALTY  # type: ignore[union-attr]
+    ladders = (on_cells(BALL, (32,)), meshes, springs)
+    said = [PEAK_PRESSURE.said(one.judged.words) for one in ladders]
+    assert [text.rpartition("any ")[2] for text in said] == ["cell", "ring", "Gauss point"]
+    for what in (APPROACH, CONTACT_RADIUS, PRESSURE_L2, SHIFT, STICK_RADIUS, CENTRAL_PRESSURE):
+        assert not any("{" in what.said(one.judged.words) for one in ladders)
+
+
+def test_runs_that_parts_share_are_solved_once() -> None:
+    grids = on_cells(BALL, CELLS)
+    again = judged(on_cells(BALL, CELLS[1:]), (Within(APPROACH, 0.1, "why"),))
+    made = case("name", "title", "problem", judged(grids, ()), again, runs=grids.runs)
+    assert [run.label for run in made.runs] == ["32x32", "64x64", "128x128"]
+    assert [q.run for q in made.quantities] == ["128x128"]
+    renamed = named("judged", grids)
+    assert renamed.levels == ("32x32", "64x64", "judged")
