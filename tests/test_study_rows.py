@@ -50,7 +50,7 @@ def test_a_record_comes_back_from_its_file(record: CaseRecord) -> None:
 @given(st.dictionaries(names, rows, min_size=1))
 def test_every_number_of_every_row_is_written(records: dict[str, CaseRecord]) -> None:
     lines = list(csv.DictReader(io.StringIO(row_files(records)["rows.csv"])))
-    assert [line["case"] for line in lines] == list(records)
+    assert [line["case name"] for line in lines] == list(records)
     for line, record in zip(lines, records.values(), strict=True):
         for name, value in record.measures.items():
             assert line[f"{name} [1]"] == ("" if value is None else str(value))
@@ -63,8 +63,12 @@ def test_every_number_of_every_row_is_written(records: dict[str, CaseRecord]) ->
 def test_units_stand_in_the_head_and_parts_in_a_file_of_their_own() -> None:
     part = Row(parameters={"step": 1}, measures={"shift": 2e-6}, units={"shift": "m"})
     files = row_files({"one": CaseRecord(parts=(part, part), seconds=0.5, repeats=3)})
-    assert files["parts.csv"].splitlines() == ["case,step,shift [m]", "one,1,2e-06", "one,1,2e-06"]
-    assert files["seconds.csv"].splitlines() == ["case,seconds,repeats", "one,0.5,3"]
+    assert files["parts.csv"].splitlines() == [
+        "case name,step,shift [m]",
+        "one,1,2e-06",
+        "one,1,2e-06",
+    ]
+    assert files["seconds.csv"].splitlines() == ["case name,seconds,repeats", "one,0.5,3"]
     assert "parts.csv" not in row_files({"one": CaseRecord()})
 
 

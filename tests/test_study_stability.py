@@ -332,7 +332,7 @@ def test_halved_increments_are_marked_at_the_cost() -> None:
 def test_every_cell_is_a_line_of_the_table() -> None:
     lines = row_files(kept(records()))["rows.csv"].splitlines()
     assert len(lines) == 1 + len(study.cases(Settings(Level.QUICK)))
-    assert lines[0].startswith("case,friction,push,modulus_ratio")
+    assert lines[0].startswith("case name,friction,push,modulus_ratio")
 
 
 def test_verdicts_name_at_most_a_dozen_cells() -> None:

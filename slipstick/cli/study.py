@@ -160,6 +160,7 @@ def _studied(
     from verification.running.case_store import CaseStore
     from verification.running.provenance import provenance
     from verification.running.record import StudyRecord
+    from verification.running.row import CaseRecord
     from verification.running.row_files import row_files
 
     refuse_if_unwritable(directory)
@@ -172,8 +173,8 @@ def _studied(
             told_when_stopped(cases, store),
         ):
             ends = run_cases(cases, store, workers, observe)
-        records = {end.case.name: end.record for end in ends if end.record is not None}
-        seconds = {name: getattr(record, "seconds", 0.0) for name, record in records.items()}
+        records = {end.case.name: end.record for end in ends if isinstance(end.record, CaseRecord)}
+        seconds = {name: record.seconds for name, record in records.items()}
         record = StudyRecord(
             name=study.name,
             title=study.title,

@@ -78,10 +78,9 @@ class Named(Protocol):
 C = TypeVar("C", bound=Named)
 
 
-def found(cases: Iterable[C], records: Mapping[str, Description]) -> dict[C, CaseRecord]:
+def found(cases: Iterable[C], records: Mapping[str, CaseRecord]) -> dict[C, CaseRecord]:
     """The records that there are, by case, in the order of the cases."""
-    known = ((case, records.get(case.name)) for case in cases)
-    return {case: record for case, record in known if isinstance(record, CaseRecord)}
+    return {case: records[case.name] for case in cases if case.name in records}
 
 
 def rows_of(cases: Iterable[C], known: Mapping[C, CaseRecord]) -> list[CaseRecord]:

@@ -6,32 +6,32 @@ import csv
 import io
 from collections.abc import Iterable, Mapping, Sequence
 
-from contact_scene.description import Description
 from verification.running.row import CaseRecord, Row
 
 ROWS, PARTS, FINDINGS, SECONDS = "rows.csv", "parts.csv", "findings.csv", "seconds.csv"
 
+CASE = "case name"  # a column that no parameter can have: fields of cases have no space
+
 Cells = Mapping[str, object]
 
 
-def row_files(records: Mapping[str, Description], findings: Sequence[Row] = ()) -> dict[str, str]:
+def row_files(records: Mapping[str, CaseRecord], findings: Sequence[Row] = ()) -> dict[str, str]:
     """By file name: `rows.csv`, one line for every case; `parts.csv`, one for every part of one;
     `findings.csv`, one for every row of a conclusion; `seconds.csv` with what the clock said.
     Without those that would be empty."""
-    known = {name: r for name, r in records.items() if isinstance(r, CaseRecord)}
-    clock = [(name, record.seconds, record.repeats) for name, record in known.items()]
+    clock = [(name, record.seconds, record.repeats) for name, record in records.items()]
     files: dict[str, Sequence[Cells]] = {
-        ROWS: _named(known.items()),
-        PARTS: _named((name, part) for name, record in known.items() for part in record.parts),
+        ROWS: _named(records.items()),
+        PARTS: _named((name, part) for name, record in records.items() for part in record.parts),
         FINDINGS: [_cells(row) for row in findings],
-        SECONDS: [dict(zip(("case", "seconds", "repeats"), line, strict=True)) for line in clock],
+        SECONDS: [dict(zip((CASE, "seconds", "repeats"), line, strict=True)) for line in clock],
     }
     return {name: _text(lines) for name, lines in files.items() if lines}
 
 
 def _named(rows: Iterable[tuple[str, Row]]) -> list[Cells]:
     """By name of the case that they are of."""
-    return [{"case": name, **_cells(row)} for name, row in rows]
+    return [{CASE: name, **_cells(row)} for name, row in rows]
 
 
 def _cells(row: Row) -> Cells:

@@ -11,7 +11,7 @@ from verification.exhibits.chart import Chart
 from verification.exhibits.table import Table
 from verification.judging.case import Level
 from verification.judging.outcome import Status
-from verification.running.row import Row
+from verification.running.row import CaseRecord, Row
 
 STUDY_VERSION = 1
 
@@ -82,7 +82,7 @@ class Conclusion(Description):
         return any(statement.outcome is Status.FAIL for statement in self.statements)
 
 
-Records = Mapping[str, Description]
+Records = Mapping[str, CaseRecord]
 
 
 @dataclass(frozen=True)
