@@ -96,11 +96,9 @@ def test_wrong_far_field_is_seen(
     scene_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """A tenth too little: what is left falls with the first power, and is ten times as much."""
-    right = FactoredSection._far_displacement
+    right = FactoredSection._prescribed
     monkeypatch.setenv("SLIPSTICK_CACHE_DIR", str(tmp_path / "planted"))
-    monkeypatch.setattr(
-        FactoredSection, "_far_displacement", lambda self, blocks: 0.9 * right(self, blocks)
-    )
+    monkeypatch.setattr(FactoredSection, "_prescribed", lambda *given: 0.9 * right(*given))
     found = of_domain(scene_file)
     assert found[CHOSEN] is Status.FAIL
     assert found[APPROACH] is Status.FAIL
