@@ -2,7 +2,7 @@
 
 import math
 from abc import abstractmethod
-from typing import Annotated, Any, ClassVar, Literal
+from typing import Annotated, Any, Literal
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -24,11 +24,6 @@ class ShapedBody(Body):
     it leaves out they do not assume: a class with a gap of its own inherits nothing that another
     shape says.
     """
-
-    # The gap rises with this power k of the distance from first touch: while the load grows, the
-    # approach goes with a^k and the normal force with a^(k+1), a the contact radius. None where the
-    # contact does not grow, or nobody knows how.
-    gap_exponent: ClassVar[int | None] = None
 
     @classmethod
     def __pydantic_init_subclass__(cls, **kwargs: Any) -> None:
@@ -62,6 +57,13 @@ class ShapedBody(Body):
         where it is known everywhere."""
         return None
 
+    @property
+    def gap_exponent(self) -> float | None:
+        """The gap rises with this power k of the distance from first touch: while the load grows,
+        the approach goes with a^k and the normal force with a^(k+1), a the contact radius. None
+        where the contact does not grow, or nobody knows how."""
+        return None
+
     # Good to an order of magnitude, for layouts. As powers of the radius, so that the last digit of
     # a root is not decided here.
 
@@ -83,7 +85,10 @@ _SAID = {"gap_exponent", "is_of_revolution", "rim", "extent", "contact_at", "con
 class SmoothTip(ShapedBody):
     """A shape with two radii of curvature where it touches first (Johnson 1985, section 4.2)."""
 
-    gap_exponent: ClassVar[int | None] = 2
+    @property
+    def gap_exponent(self) -> float:
+        """Of a parabola."""
+        return 2
 
     @property
     @abstractmethod
@@ -173,11 +178,14 @@ class Ellipsoid(SmoothTip):
 class Cone(ShapedBody):
     """A cone, r tan(slope)."""
 
-    gap_exponent: ClassVar[int | None] = 1
-
     shape: Literal["cone"] = "cone"
     slope_angle: SlopeAngle
     """Angle between the flank and the contact plane."""
+
+    @property
+    def gap_exponent(self) -> float:
+        """Of a straight flank."""
+        return 1
 
     @property
     def is_of_revolution(self) -> bool:
@@ -228,15 +236,17 @@ class FlatPunch(ShapedBody):
 class HeightMap(ShapedBody):
     """A measured or made-up surface: heights above the plane, on a grid about the origin."""
 
-    # Of the bumps that it touches with.
-    gap_exponent: ClassVar[int | None] = 2
-
     shape: Literal["height_map"] = "height_map"
     file: FileKey
     """A `.npy` file with heights [length], index [i, j] = (x_i, y_j); the lowest touches first."""
 
     spacing: PairOfSpacings
     """Distance of neighbouring heights along x and y [length]; one number for both."""
+
+    @property
+    def gap_exponent(self) -> float:
+        """Of the bumps that it touches with."""
+        return 2
 
     @property
     def extent(self) -> Pair:

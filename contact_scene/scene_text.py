@@ -1,6 +1,9 @@
 """A scene in the words and units of a person."""
 
 from collections.abc import Iterator
+from typing import get_args
+
+from pydantic.fields import FieldInfo
 
 from contact_scene import (
     Body,
@@ -12,6 +15,7 @@ from contact_scene import (
     SurfaceDiscretisation,
 )
 from contact_scene.engineering_units import engineering_unit, quantity
+from contact_scene.quantity import Quantity
 
 MOST_STEPS_SHOWN = 12
 
@@ -31,19 +35,26 @@ def describe(scene: Scene, discretisation: SurfaceDiscretisation) -> Iterator[Li
 
 def shape_text(indenter: Body) -> str:
     """The shape with its parameters, whatever these are."""
-    own = [name for name in type(indenter).model_fields if name not in ("material", "layers")]
-    texts = [_value(name, getattr(indenter, name)) for name in own]
-    named = zip(own, texts, strict=True)
-    parts = [text if name == "shape" else f"{name} {text}" for name, text in named]
+    fields = type(indenter).model_fields.items()
+    own = {name: field for name, field in fields if name not in ("material", "layers")}
+    texts = {name: _value(getattr(indenter, name), _unit(own[name])) for name in own}
+    parts = [text if name == "shape" else f"{name} {text}" for name, text in texts.items()]
     return ", ".join(parts).replace("_", " ")
 
 
-def _value(name: str, value: object) -> str:
+def _unit(field: FieldInfo) -> str:
+    """SI unit of a quantity, or of both of a pair; empty for a pure number and what is none."""
+    both = next(iter(get_args(field.annotation)), None)
+    marks = (*field.metadata, *getattr(both, "__metadata__", ()))
+    return next((mark.kind.si for mark in marks if isinstance(mark, Quantity)), "")
+
+
+def _value(value: object, unit: str) -> str:
     if isinstance(value, tuple):
-        return " x ".join(_value(name, part) for part in value)
+        return " x ".join(_value(part, unit) for part in value)
     if not isinstance(value, float):
         return str(value)
-    return f"{value:.6g} rad" if name.endswith("angle") else quantity(value, "m", 6)
+    return quantity(value, "m", 6) if unit == "m" else f"{value:.6g} {unit}".rstrip()
 
 
 def _body(body: Body) -> str:
@@ -116,6 +127,6 @@ def _vector(vector: tuple[float, float], unit: str) -> str:
 def _discretisation(discretisation: SurfaceDiscretisation) -> Iterator[Line]:
     cells, window = discretisation.cells, discretisation.window
     yield "cells", "chosen" if cells is None else f"{cells[0]} x {cells[1]}"
-    yield "window", "chosen" if window is None else _value("window", window)
+    yield "window", "chosen" if window is None else _value(window, "m")
     yield "tolerance", f"{discretisation.tolerance:.3g}"
     yield "path accuracy", f"{discretisation.path_accuracy:.3g}"

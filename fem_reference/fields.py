@@ -84,10 +84,10 @@ class Increment(ReportedIncrement):
     path: str | None = None
 
     def __post_init__(self) -> None:
-        super().__post_init__()
         stuck = None if self.stick_radius is None else pi * self.stick_radius**2
         object.__setattr__(self, "contact_area", pi * self.contact_radius**2)
         object.__setattr__(self, "stick_area", stuck)
+        super().__post_init__()
 
     @property
     def in_contact(self) -> Mask:

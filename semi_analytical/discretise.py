@@ -147,7 +147,7 @@ def _guessed_semi_axes(scene: Scene, load: NormalTarget) -> tuple[float, float]:
     return _root(powers[0], exponent), _root(powers[1], exponent)
 
 
-def _root(power: float, exponent: int) -> float:
+def _root(power: float, exponent: float) -> float:
     if exponent == 3:
         return float(np.cbrt(power))
     return sqrt(power) if exponent == 2 else power ** (1 / exponent)

@@ -73,10 +73,10 @@ class Increment(ReportedIncrement):
     dissipation_before: Field | None = None
 
     def __post_init__(self) -> None:
-        super().__post_init__()
         stuck = None if self.stick_area is None else float(np.sqrt(self.stick_area / np.pi))
         object.__setattr__(self, "contact_radius", float(np.sqrt(self.contact_area / np.pi)))
         object.__setattr__(self, "stick_radius", stuck)
+        super().__post_init__()
 
     @property
     def in_contact(self) -> Annotated[Mask, Reported("", "Whether the cell carries pressure.", F)]:

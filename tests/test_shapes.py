@@ -1,7 +1,7 @@
 """What a shape says of itself is true, and what it does not say no solver assumes."""
 
 import re
-from typing import Any, get_args
+from typing import Any, Literal, get_args
 
 import numpy as np
 import pytest
@@ -15,7 +15,7 @@ from strategies import SHAPED
 import contact_scene
 from contact_scene import RIGID, Paraboloid, Scene, SurfaceDiscretisation
 from contact_scene.geometry import SHAPES, Gap, Indenter, ShapedBody
-from contact_scene.quantity import PositiveLength
+from contact_scene.quantity import FrictionCoefficient, PositiveLength, SlopeAngle
 from contact_scene.scene_text import shape_text
 from contact_scene.solver_errors import SolverError, UnsupportedScene
 from fem_reference import plan as plan_of_elements
@@ -77,6 +77,19 @@ def test_every_shape_is_registered_everywhere() -> None:
     for name, shape in SHAPES.items():
         assert shape.model_fields["shape"].default == name
         assert getattr(contact_scene, shape.__name__) is shape
+
+
+class Washer(Barrel):
+    """With sizes of every kind."""
+
+    shape: Literal["washer"] = "washer"
+    steepness: FrictionCoefficient
+    half_opening: SlopeAngle
+
+
+def test_a_shape_is_told_with_the_unit_of_each_size_whatever_its_name() -> None:
+    told = shape_text(Washer(material=RIGID, radii=(1e-3, 2.0), steepness=4, half_opening=0.5))
+    assert told == "radii 1 mm x 2 m, washer, steepness 4, half opening 0.5 rad"
 
 
 @given(ALL, st.floats(1e-9, 1e3))

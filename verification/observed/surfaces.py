@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from contact_scene.friction import FRICTIONLESS
+from contact_scene.friction import FRICTIONLESS, CoulombFriction
 from semi_analytical import Increment, Result
 from verification.observed.prescribed import missed
 
@@ -33,19 +33,18 @@ def surface_violation(result: Result) -> float:
 class _Place:
     """Where the fields are.
 
-    friction  µ, a number or (nx, ny)
+    friction  its law
     """
 
     x: Field
     y: Field
     cell_area: float
-    friction: float | Field
+    friction: CoulombFriction
 
     @classmethod
     def of(cls, result: Result) -> _Place:
         x, y = result.grid.coordinates()
-        friction = result.scene.friction or FRICTIONLESS
-        return cls(x, y, result.grid.cell_area, friction.slope())
+        return cls(x, y, result.grid.cell_area, result.scene.friction or FRICTIONLESS)
 
 
 def _violations(before: Increment | None, now: Increment, place: _Place) -> Iterator[float]:
@@ -58,7 +57,7 @@ def _violations(before: Increment | None, now: Increment, place: _Place) -> Iter
     yield float(np.sum(p * np.abs(open_gap)) / (np.sum(p) * scale))
     yield float(abs(np.sum(p) * place.cell_area / now.normal_force - 1))
     yield from _moments(now, place)
-    limit = place.friction * p
+    limit = place.friction.limit(p)
     if now.shear is None:
         return
     q = now.shear
@@ -88,7 +87,7 @@ def _moments(now: Increment, place: _Place) -> Iterator[float]:
     if now.moment is not None:
         carried = np.array([np.sum(p * place.y), np.sum(p * place.x)]) * place.cell_area
         yield float(np.hypot(*(carried - now.moment)) / (np.sum(p * arm) * place.cell_area))
-    limit = place.friction * p
+    limit = place.friction.limit(p)
     if now.torque is not None and now.shear is not None and np.any(limit):
         turned = np.sum(now.shear[1] * place.x - now.shear[0] * place.y) * place.cell_area
         yield float(abs(turned - now.torque) / (np.sum(limit * arm) * place.cell_area))

@@ -10,16 +10,13 @@ import math
 
 from contact_scene import (
     Body,
-    Cone,
     CoulombFriction,
-    Ellipsoid,
-    FlatPunch,
     IsotropicMaterial,
     LoadStep,
     Paraboloid,
     Scene,
-    Sphere,
 )
+from contact_scene.geometry import Indenter
 from semi_analytical.grid import SurfaceGrid
 from verification.closed_forms.cattaneo_mindlin import PartialSlip
 from verification.closed_forms.hertz import PointContact
@@ -36,8 +33,6 @@ NU_ZERO = IsotropicMaterial(young_modulus=2 * CONTACT_MODULUS, poisson_ratio=0.0
 
 HERTZ = PointContact.under_load(NORMAL_FORCE, RADIUS, CONTACT_MODULUS)
 WINDOW_PER_RADIUS = 3.0
-
-Indenter = Sphere | Paraboloid | Ellipsoid | Cone | FlatPunch
 
 
 def square_grid(cells: int, half_width: float) -> SurfaceGrid:

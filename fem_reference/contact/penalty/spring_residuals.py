@@ -45,7 +45,8 @@ def penalty_residuals(
     by_load = None
     if target.free[1]:
         by_load = _over(float(unbalanced[1]), problem.capacity(law[0]))
-    limit = problem.friction.carried(load) or 0.0
+    limit = problem.friction.carried(load)
+    assert limit is not None  # friction is the same everywhere
     twisting = problem.path is Path.TWISTING
     return replace(
         pressing,
