@@ -54,15 +54,16 @@ def _half_space_radius(scene: Scene, ramp: LoadRamp) -> float:
         return indenter.rim
     if ramp.normal.kind is ControlKind.FORCE:
         modulus = 1 / (_softness(scene.body) + _softness(indenter))
-        power, root = indenter.contact_under(end, modulus), (exponent or 0) + 1
+        power, more = indenter.contact_under(end, modulus), 1
     else:
-        power, root = indenter.contact_at(end), exponent or 0
-    if power is None:
+        power, more = indenter.contact_at(end), 0
+    if power is None or exponent is None:
         raise UnsupportedScene(
             f"how large the contact will be is not known beforehand of this indenter "
             f"({shape_text(indenter)}); give contact_radius in [fem_reference]"
         )
-    return sqrt(power[0]) if root == 2 else power[0] ** (1 / root)
+    degree = exponent + more
+    return sqrt(power[0]) if degree == 2 else power[0] ** (1 / degree)
 
 
 def _softness(body: Body) -> float:

@@ -130,7 +130,7 @@ def _guessed_semi_axes(scene: Scene, load: NormalTarget) -> tuple[float, float]:
 
     raises  UnsupportedScene for a shape that says nothing of it
     """
-    indenter, exponent = scene.indenter, scene.indenter.gap_exponent or 0
+    indenter, exponent = scene.indenter, scene.indenter.gap_exponent
     if indenter.rim is not None:
         return indenter.rim, indenter.rim
     if load.approach is not None:
@@ -138,13 +138,13 @@ def _guessed_semi_axes(scene: Scene, load: NormalTarget) -> tuple[float, float]:
     else:
         assert load.force is not None
         powers = indenter.contact_under(load.force, contact_modulus(scene))
-        exponent += 1
-    if powers is None:
+    if powers is None or exponent is None:
         raise UnsupportedScene(
             f"how far the contact will reach is not known beforehand of this indenter "
             f"({shape_text(indenter)}); give a window in [semi_analytical]"
         )
-    return _root(powers[0], exponent), _root(powers[1], exponent)
+    degree = exponent if load.approach is not None else exponent + 1
+    return _root(powers[0], degree), _root(powers[1], degree)
 
 
 def _root(power: float, exponent: float) -> float:

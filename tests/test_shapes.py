@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike
 from strategies import SHAPED
 
 import contact_scene
-from contact_scene import RIGID, Paraboloid, Scene, SurfaceDiscretisation
+from contact_scene import RIGID, LoadStep, Paraboloid, Scene, SurfaceDiscretisation
 from contact_scene.geometry import SHAPES, Gap, Indenter, ShapedBody
 from contact_scene.quantity import FrictionCoefficient, PositiveLength, SlopeAngle
 from contact_scene.scene_text import shape_text
@@ -55,6 +55,18 @@ class Dome(Barrel):
     def initial_gap(self, x: ArrayLike, y: ArrayLike) -> Gap:
         """Of the fourth order."""
         return np.asarray((np.square(x) + np.square(y)) ** 2 / self.radii[0] ** 3)
+
+
+class Vague(Dome):
+    """Says how far it touches, and not by which power."""
+
+    def contact_at(self, approach: float) -> tuple[float, float]:
+        """Some power of the reach."""
+        return approach, approach
+
+    def contact_under(self, force: float, modulus: float) -> tuple[float, float]:
+        """Some power of the reach."""
+        return force / modulus, force / modulus
 
 
 NEW = (
@@ -193,6 +205,16 @@ def test_a_shape_of_revolution_that_says_no_more_is_meshed_where_its_radius_is_g
         solve_by_elements(on(dome), elements(4))
     found = solve_by_elements(on(dome), elements(8, contact_radius=3 * A)).increments[-1]
     assert 0 < found.contact_radius < 3 * A
+
+
+@pytest.mark.parametrize("load", [PRESS, {"approach": 1e-6}], ids=["force", "approach"])
+def test_a_reach_to_a_power_that_is_not_said_is_not_known(load) -> None:
+    shape = Vague(material=steel(), radii=(0.1 * RADIUS, RADIUS))
+    asked = on(shape, loading=(LoadStep(**load),))
+    with pytest.raises(UnsupportedScene, match="give contact_radius"):
+        solve_by_elements(asked, elements(4))
+    with pytest.raises(UnsupportedScene, match="give a window"):
+        solve_discretised(asked, SurfaceDiscretisation(cells=(16, 16)))
 
 
 def test_a_rigid_new_shape_is_no_exception() -> None:
