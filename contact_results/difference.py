@@ -6,14 +6,17 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from contact_scene.residuals import worst
+
 if TYPE_CHECKING:
     from semi_analytical import Increment, Result
 
 
 def largest_difference(one: Result, other: Result) -> float:
-    """At the ends of all steps: Σ|Δp|/Σp, Σ|Δq|/Σp, and approach and shift over the approach."""
+    """At the ends of all steps: Σ|Δp|/Σp, Σ|Δq|/Σp, and approach and shift over the approach;
+    NaN wins."""
     ends = zip(one.steps, other.steps, strict=True)
-    return max(_difference(a, b) for a, b in ends)
+    return worst(*(_difference(a, b) for a, b in ends))
 
 
 def _difference(one: Increment, other: Increment) -> float:
@@ -23,7 +26,7 @@ def _difference(one: Increment, other: Increment) -> float:
     shifts = [
         np.zeros(2) if e.tangential_shift is None else e.tangential_shift for e in (one, other)
     ]
-    return max(
+    return worst(
         float(np.sum(np.abs(one.pressure - other.pressure)) / total),
         float(np.sum(np.abs(shears[0] - shears[1])) / total),
         abs(one.approach / other.approach - 1),
