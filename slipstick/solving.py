@@ -93,6 +93,8 @@ def solve(
 
     Raises
     ------
+    TypeError
+        It is no scene.
     ValueError
         There is no such solver, or the discretisation is of another.
     SolverError
@@ -119,6 +121,10 @@ def save(result: Result, directory: str | PathLike[str], *, figures: bool = True
 def _asked(
     scene: Scene | SceneFile, solver: str, discretisation: Discretisation | None
 ) -> tuple[Solver, Scene, Discretisation]:
+    if not isinstance(scene, Scene | SceneFile):
+        raise TypeError(
+            f"got a {type(scene).__name__}, expected a Scene; load_scene reads one from a file"
+        )
     names = [name.value for name in SolverName]
     if solver not in names:
         raise ValueError(f"there is no solver {solver!r}; expected one of {', '.join(names)}")

@@ -132,6 +132,9 @@ def test_a_wrong_name_or_discretisation_is_told_with_what_was_expected() -> None
         slipstick.solve(SCENE, "fea")
     with pytest.raises(ValueError, match="takes a FiniteElementDiscretisation, got Surface"):
         slipstick.solve(SCENE, "fem", COARSE["semi-analytical"])
+    for ask in (slipstick.solve, slipstick.plan):
+        with pytest.raises(TypeError, match="got a str, expected a Scene; load_scene reads one"):
+            ask("scenes/hertz.toml")  # type: ignore[call-overload]
 
 
 def test_what_is_no_run_is_refused_by_name(tmp_path: Path) -> None:
@@ -142,10 +145,15 @@ def test_what_is_no_run_is_refused_by_name(tmp_path: Path) -> None:
     (tmp_path / "result.h5").write_bytes(b"something else")
     with pytest.raises(ValueError, match=r"is not the result.h5 of a run"):
         slipstick.load(tmp_path)
-    with h5py.File(tmp_path / "result.h5", "w") as file:
-        file["scene"] = "{}"
-    with pytest.raises(ValueError, match=r"is not the result.h5 of a run"):
-        slipstick.load(tmp_path)
+    for scene, reason in (("{}", "indenter"), (SCENE.model_dump_json(), "it has no increments")):
+        with h5py.File(tmp_path / "result.h5", "w") as file:
+            file["scene"] = scene
+        with pytest.raises(ValueError, match=rf"(?s)is not the result.h5 of a run.*{reason}"):
+            slipstick.load(tmp_path)
+    for foreign in (b"", b"[]", b"\xff"):
+        (tmp_path / "summary.json").write_bytes(foreign)
+        with pytest.raises(ValueError, match=r"summary.json is not the summary.json of a run"):
+            slipstick.load(tmp_path)
     with pytest.raises(KeyError, match="no 'shaer'"):
         stored(tmp_path)["shaer"]
 

@@ -83,10 +83,15 @@ def load(directory: str | PathLike[str]) -> StoredRun:
     for path in (summary, fields):
         if not path.is_file():
             raise FileNotFoundError(f"{directory} is no run: it has no {path.name}")
-    record = load_summary(summary.read_text(encoding="utf-8"))
+    try:
+        record = load_summary(summary.read_text(encoding="utf-8"))
+    except ValueError as error:
+        raise ValueError(f"{summary} is not the {SUMMARY} of a run: {error}") from None
     try:
         with h5py.File(fields) as file:
             scene = Scene.model_validate_json(text(file["scene"]))
+            if "increments" not in file:
+                raise ValueError("it has no increments")
         groups = (StoredGroup(fields, group) for group in ("/", "increments", "last_cycle"))
         return StoredRun(record, scene, *groups)
     except MISREAD as error:
