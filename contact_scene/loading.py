@@ -73,18 +73,3 @@ class LoadStep(Description):
     def names_normal(self) -> bool:
         """Whether the step changes the normal load."""
         return self._names("normal_force", "approach")
-
-    @property
-    def names_tangential(self) -> bool:
-        """Whether the step changes the tangential load."""
-        return self._names("tangential_force", "tangential_shift")
-
-    @property
-    def names_torsion(self) -> bool:
-        """Whether the step changes the torque or the twist."""
-        return self._names("torque", "twist")
-
-    @property
-    def names_tilting(self) -> bool:
-        """Whether the step changes the moment or the tilt."""
-        return self._names("moment", "tilt")

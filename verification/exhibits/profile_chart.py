@@ -1,6 +1,6 @@
 """Profiles along y = 0 with the closed form in grey, and a strip of their difference below."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -106,8 +106,3 @@ def profile_chart(
     return Chart(
         name=labels.name, title=labels.title, caption=labels.caption, rows=((above,), (below,))
     )
-
-
-def exact_on(section: Section, of: Callable[[Field], Field]) -> Field:
-    """A closed form of the distance from the axis, on the section."""
-    return np.asarray(of(section.r))

@@ -15,8 +15,3 @@ def refinement(coarsest: int, finest: int) -> tuple[int, ...]:
         counts.append(cells)
         number += 1
     return tuple(reversed(counts))
-
-
-def part_of_a_cell(part: float, cells: int, window_per_radius: float) -> float:
-    """A part of the cell side over the contact radius, for windows of this many radii."""
-    return part * window_per_radius / cells

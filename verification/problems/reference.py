@@ -42,8 +42,3 @@ def closed_form(value: float, source: str, scale: float | None = None) -> Refere
 def identity(value: float, source: str) -> Reference:
     """A value that follows from the equations themselves."""
     return Reference(value, ReferenceKind.IDENTITY, source)
-
-
-def exact_zero(source: str) -> Reference:
-    """The reference of an error norm: a closed form leaves no error."""
-    return Reference(0.0, ReferenceKind.CLOSED_FORM, source)

@@ -18,8 +18,6 @@ from fem_reference.model import ContactModel
 from fem_reference.plan import Path
 
 Field = NDArray[np.float64]
-Matrix = NDArray[np.float64]
-Blocks = tuple[Matrix, Matrix]
 
 # A corner this much beyond a rim, relatively, is at it.
 SAME = 1e-9
