@@ -66,10 +66,10 @@ class LoadStep(Description):
             raise refusal("the step names no load", f"at least one of {keys}")
         return self
 
-    def _names(self, *keys: str) -> bool:
-        return any(getattr(self, key) is not None for key in keys)
+    def _names(self, key: str) -> bool:
+        return getattr(self, key) is not None
 
     @property
     def names_normal(self) -> bool:
         """Whether the step changes the normal load."""
-        return self._names("normal_force", "approach")
+        return self._names("normal_force") or self._names("approach")

@@ -4,7 +4,6 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 from contact_scene import LoadRamp
 from contact_scene.march import Place, Reached, marked_increments
@@ -21,8 +20,6 @@ from semi_analytical.pressing import NormalTarget
 from semi_analytical.sheared import Sheared, untouched
 from semi_analytical.shearing import TangentialTarget
 
-Vector = NDArray[np.float64]
-VectorField = NDArray[np.float64]
 Advance = Callable[
     [ContactModel, State | None, NormalTarget, TangentialTarget | None, float], State
 ]

@@ -29,7 +29,6 @@ from semi_analytical.shearing import Shearing, TangentialTarget, shear
 
 Field = NDArray[np.float64]
 VectorField = NDArray[np.float64]
-Vector = NDArray[np.float64]
 
 MOST_ATTEMPTS = 3
 SLIDING = 1e-6

@@ -25,7 +25,6 @@ NU = 0.3
 # A ball of radius 1 on a half-space of modulus 1 under this force: Hertz radius 1, approach 1.
 MODULUS = 1 / (1 - NU**2)
 LOAD = 4 / 3 * MODULUS
-ORDER = "zrt"
 
 
 @cache

@@ -8,6 +8,7 @@ from verification.convergence.observed_order import (
     ObservedOrder,
     RefinedValue,
     refined_value,
+    triplets_agree,
 )
 
 SIZES = 0.25 * 2.0 ** -np.arange(6)
@@ -45,7 +46,7 @@ def test_levels_may_come_in_any_order() -> None:
 def test_the_next_term_does_not_hide_the_order(order: float, sizes: np.ndarray) -> None:
     fit = refined(TERM * sizes**order + TERM * sizes**2, order, sizes)
     assert known(fit).agrees_with(order, allowance=0.2)
-    assert fit.is_asymptotic
+    assert triplets_agree(fit.triplets)
 
 
 def test_order_outside_its_interval_is_another_one() -> None:
@@ -72,7 +73,7 @@ def test_a_planted_floor_is_seen(sizes: np.ndarray) -> None:
     """Errors that stop falling at nine times the finest: no order is confirmed."""
     error = np.maximum(TERM * sizes**2, 9 * TERM * sizes[-1] ** 2)
     fit = refined(error, 2.0, sizes)
-    assert not fit.is_asymptotic
+    assert not triplets_agree(fit.triplets)
     assert fit.observed is None or not fit.observed.agrees_with(2.0)
 
 
@@ -82,7 +83,7 @@ def test_planted_noise_is_seen(rng: np.random.Generator) -> None:
     for _ in range(200):
         fit = refined(TERM * SIZES * (1 + 0.5 * rng.standard_normal(6)), 1.0)
         narrow = fit.observed is not None and fit.observed.agrees_with(1.0) is not None
-        judged.append(narrow and fit.is_asymptotic)
+        judged.append(narrow and triplets_agree(fit.triplets))
     assert np.mean(judged) < 0.05
 
 

@@ -21,6 +21,7 @@ from contact_scenes import (
 )
 from fem_scenes import elements
 
+from contact_results.quantities import shift_along_x
 from contact_scene import Body, IsotropicMaterial, Layer, Paraboloid, Scene
 from contact_scene.solver_errors import GrossSliding, NotConverged
 from contact_scene.summary import ContactStatus
@@ -45,11 +46,6 @@ def penalised(asked: Scene, per_radius: int = 16, **more) -> Result:
 
 def end(asked: Scene, per_radius: int = 16, **more) -> Increment:
     return penalised(asked, per_radius, **more).increments[-1]
-
-
-def shift_along_x(increment: Increment) -> float:
-    assert increment.tangential_shift is not None
-    return increment.tangential_shift[0]
 
 
 def test_error_falls_with_the_penalty() -> None:

@@ -20,9 +20,10 @@ from contact_scenes import (
 )
 from fem_scenes import elements, end, solved
 
+from contact_results.quantities import shift_along_x
 from contact_scene.solver_errors import GrossSliding
 from contact_scene.summary import ContactStatus
-from fem_reference import Increment, solve
+from fem_reference import solve
 from verification.closed_forms.cattaneo_mindlin import PartialSlip
 from verification.closed_forms.moduli import tangential_modulus
 from verification.closed_forms.tangential_history import TangentialHistory
@@ -43,11 +44,6 @@ def loaded(*parts: float) -> TangentialHistory:
     for part in parts:
         history = history.loaded_to(part * LIMIT)
     return history
-
-
-def shift_along_x(increment: Increment) -> float:
-    assert increment.tangential_shift is not None
-    return increment.tangential_shift[0]
 
 
 @pytest.mark.parametrize("part", [0.3, 0.6, 0.9])

@@ -11,7 +11,6 @@ from verification.cases.catalogue import CASES, case_of
 from verification.judging.case import Level
 
 ROOT = Path(__file__).resolve().parents[1]
-LOADED = "import sys; print(*(name for name in sys.modules))"
 # What a command has loaded when its first case goes to a worker.
 AT_WORK = """
 from slipstick.cli.application import main

@@ -14,7 +14,6 @@ from scipy.fft import next_fast_len
 from semi_analytical.stress.components import FIELDS, TRACTIONS, parity
 
 Field = NDArray[np.float64]
-Spectrum = NDArray[np.complex128]
 # Coefficients (FIELDS, TRACTIONS, nx, ny) to fields.
 Convolution = Callable[[Field], Field]
 

@@ -74,11 +74,6 @@ class RefinedValue:
     limit: float
     uncertainty: float
 
-    @property
-    def is_asymptotic(self) -> bool:
-        """Whether two different triplets give the same order."""
-        return triplets_agree(self.triplets)
-
 
 def triplets_agree(orders: Triplets) -> bool:
     """Whether both orders exist and are the same."""

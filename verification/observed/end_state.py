@@ -6,8 +6,6 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 
-from contact_results.quantities import force_along_x, shift_along_x
-
 if TYPE_CHECKING:
     import fem_reference
     import semi_analytical
@@ -52,16 +50,3 @@ def stick_radius(result: Result, step: int = -1) -> float:
     """
     radius = result.steps[step].stick_radius
     return float("nan") if radius is None else float(radius)
-
-
-def shift(result: semi_analytical.Result, step: int = -1) -> float:
-    """Tangential shift along x [length].
-
-    step  index of the loading step
-    """
-    return shift_along_x(result.steps[step])
-
-
-def tangential_force(result: semi_analytical.Result) -> float:
-    """Tangential force along x [force]."""
-    return force_along_x(result.steps[-1])

@@ -7,7 +7,6 @@ it is reported beside them.
 from dataclasses import replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 from contact_scene.residuals import Residuals
 from fem_reference.contact.penalty.newton import Iterate
@@ -16,8 +15,6 @@ from fem_reference.contact.penalty.spring_contact import Response
 from fem_reference.contact.penalty.surface import Target
 from fem_reference.plan import Path
 from fem_reference.residuals import friction_cone
-
-Field = NDArray[np.float64]
 
 
 def penalty_residuals(
