@@ -63,7 +63,7 @@ class Solver(Protocol[S, Told]):
 
 
 def marked_increments(
-    scene: Scene, counts: Sequence[int], solver: Solver[S, Told], since: Standing | None = None
+    scene: Scene, counts: Sequence[int], solver: Solver[S, Told], since: Standing | None
 ) -> Iterator[tuple[Told, Mark[S]]]:
     """Increments of the scene's load path, each with the mark from which the march can go on.
 

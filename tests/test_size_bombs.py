@@ -83,10 +83,10 @@ def slipstick(*arguments: object) -> Ended:
     return Ended(process.returncode, words, float(seconds), int(memory))
 
 
-def sparse(path: Path, content: bytes, size: int = 100_000 * MEGABYTE) -> None:
+def sparse(path: Path, content: bytes) -> None:
     """A file that begins so and goes on with zeros which the disk does not hold."""
     path.write_bytes(content)
-    os.truncate(path, size)
+    os.truncate(path, 100_000 * MEGABYTE)
 
 
 SCENE_BOMBS: dict[str, tuple[Callable[[Path], object], str]] = {

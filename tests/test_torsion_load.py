@@ -24,10 +24,10 @@ def load_of(target):
     return ShearMoments(ROTATION, float(target[2]), total=target[:2])
 
 
-def discs(bound, rng, inside=1.0):
+def discs(bound, rng):
     """A shear within the discs."""
     angle = 2 * np.pi * rng.random(SHAPE)
-    return inside * rng.random(SHAPE) * bound * np.stack([np.cos(angle), np.sin(angle)])
+    return rng.random(SHAPE) * bound * np.stack([np.cos(angle), np.sin(angle)])
 
 
 @st.composite

@@ -75,7 +75,7 @@ def natural_range(stack: Stack) -> tuple[float, float]:
 
 
 def frequency_response(
-    stack: Stack, between: tuple[float, float], points: int | None = None
+    stack: Stack, between: tuple[float, float], points: int | None
 ) -> FrequencyResponse:
     """The response at logarithmically spaced wavenumbers.
 

@@ -31,7 +31,7 @@ def write_summary(
     result: Result,
     cycles: Sequence[FrettingCycle],
     directory: Path,
-    path_errors: tuple[PathError, ...] | None = None,
+    path_errors: tuple[PathError, ...] | None,
 ) -> None:
     """Write the summary; equal results give equal bytes."""
     text = dump_summary(summary_of(result, cycles, path_errors))

@@ -25,7 +25,7 @@ def write_stress(
     found: Sequence[Extreme],
     directory: Path,
     *,
-    with_figures: bool = True,
+    with_figures: bool,
 ) -> None:
     """Write tables, meshes, figures and summary of the `body` or the `indenter`."""
     body = state.indenter if which == "indenter" else state.body

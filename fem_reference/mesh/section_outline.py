@@ -55,7 +55,7 @@ class SectionOutline:
 
 
 def section_outline(
-    body: Body, elements_per_radius: int, box: float | None = None, zone: float = CONTACT_ZONE
+    body: Body, elements_per_radius: int, box: float | None, zone: float
 ) -> SectionOutline:
     """The outline for a body whose unit of length is the contact radius.
 

@@ -100,7 +100,7 @@ class Origin(Description):
         return commit_text(self.commit, changed=self.changed)
 
 
-def commit_text(commit: str | None, *, changed: bool = False) -> str:
+def commit_text(commit: str | None, *, changed: bool) -> str:
     """A commit in a sentence."""
     text = "an unknown commit" if commit is None else commit[:SHORT_COMMIT]
     return f"{text} with changes" if changed else text

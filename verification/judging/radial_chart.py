@@ -25,7 +25,7 @@ def radial_chart(
     increment: Increment,
     traction: Field,
     exact: tuple[Field, Field],
-    profile: str = "",
+    profile: str,
 ) -> Chart:
     """A traction over the radius with what it should be in grey, and their difference below.
 

@@ -100,13 +100,9 @@ CONTRASTS = (1e-6, 4.0, 1e6)
 DEPTHS = (1e-8, 1e-4, 1e-2, 1.0, 30.0, 316.0, 1e4)
 
 
-def digit_losses(
-    contrasts: tuple[float, ...] = CONTRASTS,
-    depths: tuple[float, ...] = DEPTHS,
-    poisson_ratios: tuple[float, float] = (0.3, 0.25),
-) -> list[DigitLoss]:
+def digit_losses(contrasts: tuple[float, ...], depths: tuple[float, ...]) -> list[DigitLoss]:
     """Errors of every classical form for one layer of unit thickness on a half-space."""
-    nu1, nu2 = poisson_ratios
+    nu1, nu2 = 0.3, 0.25
     base = HalfSpace(1.0, nu2)
     losses = []
     for contrast in contrasts:

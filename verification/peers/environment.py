@@ -70,9 +70,7 @@ def peers_directory() -> Path:
     return Path(user) / "slipstick" / FOLDER
 
 
-def made_environment(
-    directory: Path, peers: Sequence[Peer] = PEERS, run: Run = subprocess.run
-) -> Installed:
+def made_environment(directory: Path, run: Run = subprocess.run) -> Installed:
     """The environment in a directory, made or completed.
 
     run  as `subprocess.run`
@@ -81,7 +79,7 @@ def made_environment(
     if not python.exists():
         run([sys.executable, "-m", "venv", str(directory)], check=True)
     missing = {}
-    for peer in peers:
+    for peer in PEERS:
         reason = _installed(python, peer, run)
         if reason:
             missing[peer.distribution] = reason

@@ -68,6 +68,6 @@ def exact_contact(*bodies: Body) -> LayeredIndentation:
     return paraboloid_under(paper.NORMAL_FORCE, surface_of(*bodies), paper.RADIUS)
 
 
-def semi_closed(value: float, source: str = FREDHOLM) -> Reference:
+def semi_closed(value: float) -> Reference:
     """A number of the semi-closed solution."""
-    return Reference(value, ReferenceKind.SEMI_CLOSED, source, SEMI_CLOSED_ERROR * abs(value))
+    return Reference(value, ReferenceKind.SEMI_CLOSED, FREDHOLM, SEMI_CLOSED_ERROR * abs(value))

@@ -37,7 +37,7 @@ def penalty_stiffness(penalty: Penalty, contact_modulus: float, edge_length: flo
     return penalty.factor * contact_modulus / edge_length
 
 
-def penalty_pressure(gap: Field, stiffness: float, multiplier: Field | float = 0.0) -> Field:
+def penalty_pressure(gap: Field, stiffness: float, multiplier: Field) -> Field:
     """p = ⟨λ − ε g⟩, never tensile (Wriggers 2006, Computational Contact Mechanics, ch. 6).
 
     gap         g, negative where the surfaces overlap [length]
