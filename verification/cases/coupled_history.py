@@ -11,6 +11,7 @@ import numpy as np
 import semi_analytical
 from contact_results.quantities import shear_of, shift_along_x
 from contact_scene import LoadStep
+from contact_scene.residuals import worst
 from verification.cases.coupled_contacts import BACK, BARE, FILM, PRESSED, PUSHED
 from verification.cases.turned import difference_after_quarter, difference_of_motion
 from verification.judging.case import Case, Comparison, Finding, Level, Quantity, Required
@@ -130,10 +131,12 @@ class LedByMotion:
         led = self._led(result)
         if led is None:
             return math.inf
-        return max(
-            float(np.sum(np.abs(field(a) - field(b))) / np.sum(b.pressure))
-            for a, b in zip(led.increments, result.increments, strict=True)
-            for field in (_pressure, shear_of)
+        return worst(
+            *(
+                float(np.sum(np.abs(field(a) - field(b))) / np.sum(b.pressure))
+                for a, b in zip(led.increments, result.increments, strict=True)
+                for field in (_pressure, shear_of)
+            )
         )
 
     def violation(self, result: semi_analytical.Result) -> float:
@@ -142,7 +145,7 @@ class LedByMotion:
         if led is None:
             return math.inf
         violation, imbalance = observed(led)
-        return max(violation, imbalance or 0.0)
+        return worst(violation, imbalance or 0.0)
 
     def iterations(self, result: semi_analytical.Result) -> float:
         """Of all its increments."""

@@ -129,4 +129,4 @@ def _shifted_difference(beside: Result, centred: Result) -> float:
         return float(worst)
     shear = np.roll(other.shear, MOVED, axis=(1, 2))
     limit = paper.FRICTION * other.peak_pressure
-    return float(max(worst, np.max(np.abs(one.shear - shear)) / limit))
+    return float(np.maximum(worst, np.max(np.abs(one.shear - shear)) / limit))

@@ -30,7 +30,7 @@ def _between(result: Any, step: int, problem: Problem) -> float:
     part = end.radii / problem.radius
     away = (part > JUDGED[0]) & (part < JUDGED[1])
     exact = problem.ends[step].pressure(end.radii[away])
-    return float(max(abs(end.pressure[away] / exact - 1)))
+    return float(abs(end.pressure[away] / exact - 1).max())
 
 
 PRESSURE_BETWEEN = error_norm(

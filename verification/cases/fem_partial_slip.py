@@ -69,7 +69,7 @@ def _shear_error(result: Any, _: int, problem: Problem) -> float:
         r = increment.radii
         smooth = away_from_edges(r, within, edges, problem.radius)
         error = np.abs(increment.shear_along_load - exact.shear(r))[smooth]
-        worst = max(worst, float(np.max(error, initial=0.0)))
+        worst = float(np.maximum(worst, np.max(error, initial=0.0)))
     return worst / problem.scale(OVER_LIMIT)
 
 

@@ -7,6 +7,7 @@ from dataclasses import replace
 from typing import Any
 
 from contact_scene import LoadStep, Scene
+from contact_scene.residuals import worst
 from verification.cases.fem_levels import because
 from verification.closed_forms.hertz import PointContact
 from verification.judging.case import Case, Comparison, Level
@@ -148,4 +149,4 @@ def _difference(one: Any, other: Any) -> float:
     """Of the ends of two histories: Σ|Δp|/Σp, and approach."""
     a, b = one.steps[-1], other.steps[-1]
     pressure = abs(a.pressure - b.pressure).sum() / b.pressure.sum()
-    return max(float(pressure), abs(a.approach / b.approach - 1))
+    return worst(float(pressure), abs(a.approach / b.approach - 1))

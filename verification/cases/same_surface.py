@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from contact_results.difference import largest_difference
 from contact_results.quantities import shear_of
 from contact_scene import RIGID, Body, CoulombFriction, HeightMap, LoadStep, Scene
+from contact_scene.residuals import worst
 from semi_analytical import SurfaceGrid
 from verification.cases.turned import difference_after_quarter, turned
 from verification.judging.case import Case, Comparison, Level
@@ -156,12 +157,15 @@ def _patchy(grid: SurfaceGrid) -> Field:
 
 def _mirrored_difference(one: Result, other: Result) -> float:
     """Σ|Δp|/Σp and Σ|Δq|/Σp in any increment, once the second is mirrored at x = 0."""
-    return max(
-        max(
-            float(np.sum(np.abs(a.pressure - b.pressure[::-1])) / np.sum(b.pressure)),
-            float(np.sum(np.abs(shear_of(a) - _mirrored(shear_of(b)))) / np.sum(b.pressure)),
+    return worst(
+        *(
+            float(np.sum(np.abs(found - mirrored)) / np.sum(b.pressure))
+            for a, b in zip(one.increments, other.increments, strict=True)
+            for found, mirrored in (
+                (a.pressure, b.pressure[::-1]),
+                (shear_of(a), _mirrored(shear_of(b))),
+            )
         )
-        for a, b in zip(one.increments, other.increments, strict=True)
     )
 
 
@@ -170,7 +174,8 @@ def _mirrored(vector: Field) -> Field:
 
 
 def _difference_of_scalars(one: Result, other: Result) -> float:
-    return max(abs(a / b - 1) for a, b in zip(_scalars(one), _scalars(other), strict=True))
+    pairs = zip(_scalars(one), _scalars(other), strict=True)
+    return worst(*(abs(a / b - 1) for a, b in pairs))
 
 
 def _scalars(result: Result) -> tuple[float, float, float]:

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from contact_results.quantities import shear_of
 from contact_scene import LoadStep
+from contact_scene.residuals import worst
 
 if TYPE_CHECKING:
     from semi_analytical import Increment, Result
@@ -35,7 +36,7 @@ def difference_after_quarter(one: Result, other: Result) -> float:
     """How far the second result, turned by a right angle, is from the first in any increment:
     Σ|Δp|/Σp, Σ|Δq|/Σp, and shift over approach. The grid is square and turns into itself."""
     pairs = zip(one.increments, other.increments, strict=True)
-    return max(_quarter_difference(a, b) for a, b in pairs)
+    return worst(*(_quarter_difference(a, b) for a, b in pairs))
 
 
 def difference_of_motion(degrees: float) -> Callable[[Result, Result], float]:
@@ -51,7 +52,7 @@ def difference_of_motion(degrees: float) -> Callable[[Result, Result], float]:
             np.array([i.dissipated_energy for i in result.increments], dtype=float)
             for result in (one, other)
         )
-        return float(max(shift, np.max(np.abs(lost - energy)) / np.max(energy)))
+        return worst(shift, np.max(np.abs(lost - energy)) / np.max(energy))
 
     return difference
 
@@ -70,7 +71,7 @@ def _quarter_difference(one: Increment, other: Increment) -> float:
     if one.tangential_shift is not None and other.tangential_shift is not None:
         x, y = other.tangential_shift
         apart = float(np.hypot(*(one.tangential_shift - np.array([-y, x])))) / one.approach
-    return max(
+    return worst(
         float(np.sum(np.abs(one.pressure - _quarter(other.pressure))) / total),
         float(np.sum(np.abs(shear_of(one) - shear)) / total),
         apart,

@@ -5,6 +5,7 @@ from __future__ import annotations
 import time
 from dataclasses import dataclass, replace
 
+from contact_scene.residuals import worst
 from fem_reference import Result
 from verification.cases.fem_indentation import pressed
 from verification.cases.fem_penalty_indentation import by_springs
@@ -99,7 +100,7 @@ class PenaltyCase:
                 **errors,
                 "overlap": (end.overlap or 0.0) / end.approach,
                 "systems_per_increment": systems / len(result.increments),
-                RESIDUAL: max(i.residuals.worst for i in result.increments),
+                RESIDUAL: worst(*(i.residuals.worst for i in result.increments)),
             },
             counters={
                 "increments": len(result.increments),
