@@ -159,6 +159,12 @@ def test_units_change_no_bit() -> None:
     np.testing.assert_array_equal(other.displacement(), length * one.displacement())
 
 
+def test_pressure_on_the_axis_alone_is_a_small_contact() -> None:
+    peak = np.where(RINGS == 0, P0, 0.0)
+    field = subsurface(Body(material=STEEL), SurfaceTractions(RINGS, peak), elements(8))
+    assert np.min(field.stress()[ZZ]) == pytest.approx(-P0, rel=0.05)
+
+
 def test_the_indenter_carries_the_shear_reversed() -> None:
     lower = subsurface(COATED, OUTWARD, elements(8))
     turned = replace(OUTWARD, shear_radial=-OUTWARD.shear_radial)  # type: ignore[operator]

@@ -43,9 +43,10 @@ class SurfaceTractions:
 
     @property
     def loaded_radius(self) -> float:
-        """Of the last ring with pressure [length]."""
+        """Of the last ring with pressure, or of the next one if that is the axis [length]."""
         loaded = self.pressure.reshape(len(self.radii), -1).max(axis=1) > 0
-        return float(self.radii[np.flatnonzero(loaded)[-1]])
+        last = np.flatnonzero(loaded)[-1]
+        return float(self.radii[last] or self.radii[last + 1])
 
     @property
     def reach(self) -> float:
