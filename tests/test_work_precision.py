@@ -107,6 +107,11 @@ def test_the_cheapest_is_on_the_pareto_line(all_points: list[Point], target: flo
         }
 
 
+def test_a_setting_whose_error_is_no_number_makes_none_dependable() -> None:
+    points = [Point("a", "", "", n, e, n, n) for n, e in ((16, 1e-3), (32, np.nan), (64, 1e-4))]
+    assert [p.fineness for p in dependable(points) if p.error <= 1] == [64]
+
+
 @given(points)
 def test_a_finer_setting_of_a_curve_is_never_less_dependable(all_points: list[Point]) -> None:
     steady = dependable(all_points)

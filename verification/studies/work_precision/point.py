@@ -6,6 +6,8 @@ from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, replace
 from math import log
 
+from contact_scene.residuals import worst
+
 TARGETS = (0.1, 0.01, 0.001, 0.0001)
 FEWEST_LEVELS = 3  # of a curve, for its order to be seen
 LEAST_ORDER = 0.4  # below it an error does not fall, it stalls
@@ -49,16 +51,16 @@ def operations(point: Point) -> float:
 
 def dependable(points: Iterable[Point]) -> tuple[Point, ...]:
     """The points with errors that no finer setting of their curve exceeds: a coarse one whose error
-    happens to change sign does not count as accurate."""
+    happens to change sign does not count as accurate, nor one whose finer is no number."""
     found: list[Point] = []
     curves: dict[tuple[str, str], list[Point]] = {}
     for point in points:
         curves.setdefault((point.method, point.curve), []).append(point)
     for curve in curves.values():
-        worst = 0.0
+        largest = 0.0
         for point in sorted(curve, key=lambda p: -p.fineness):
-            worst = max(worst, point.error)
-            found.append(replace(point, error=worst))
+            largest = worst(largest, point.error)
+            found.append(replace(point, error=largest))
     return tuple(found)
 
 
