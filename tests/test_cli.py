@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from command import slipstick
 from synthetic_result import synthetic_result
 
 import semi_analytical
@@ -77,14 +78,6 @@ def solver(monkeypatch: pytest.MonkeyPatch) -> Callable[[Exception | None], None
         monkeypatch.setattr(semi_analytical, "solve_discretised", solve)
 
     return replace_by
-
-
-def slipstick(*arguments: object) -> int:
-    """Run the command in this process; its exit code."""
-    with pytest.raises(SystemExit) as leaving:
-        main([str(argument) for argument in arguments])
-    code = leaving.value.code
-    return 0 if code is None else int(code)
 
 
 def imported_by(*arguments: object) -> set[str]:

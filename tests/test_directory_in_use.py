@@ -9,12 +9,12 @@ import time
 from pathlib import Path
 
 import pytest
+from command import slipstick
 
 from contact_results.directory import sole_use
 from contact_results.directory.refusal import OutputRefused
 from contact_results.directory.run_directory import run_directory
 from contact_results.directory.sole_use import in_sole_use
-from slipstick.cli import main
 
 ROOT = Path(__file__).resolve().parents[1]
 SCENE = """
@@ -38,13 +38,6 @@ with in_sole_use(Path(sys.argv[1])):
     print("held", flush=True)
     time.sleep(100)
 """
-
-
-def slipstick(*arguments: object) -> int:
-    """Run the command in this process; its exit code."""
-    with pytest.raises(SystemExit) as leaving:
-        main([str(argument) for argument in arguments])
-    return int(leaving.value.code or 0)
 
 
 def entered(target: Path) -> bool:

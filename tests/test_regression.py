@@ -7,8 +7,8 @@ from pathlib import Path
 from xml.etree import ElementTree
 
 import pytest
+from command import slipstick
 
-from slipstick.cli import main
 from verification.cases.catalogue import CASES, choose
 from verification.cases.hertz_point import hertz_on
 from verification.judging.case import Level
@@ -473,12 +473,6 @@ def test_summary_stays_short_however_much_changed(healthy: CaseOutcome) -> None:
 
 
 # ---- commands ----------------------------------------------------------------------------------
-
-
-def slipstick(*arguments: object) -> int:
-    with pytest.raises(SystemExit) as leaving:
-        main([str(argument) for argument in arguments])
-    return int(leaving.value.code or 0)
 
 
 @pytest.mark.parametrize("level", [level.name.lower() for level in Level])

@@ -11,10 +11,10 @@ from typing import Any
 from xml.etree import ElementTree
 
 import pytest
+from command import slipstick
 from report_examples import case, made_by, report_of, run_record, study
 
 from contact_results.directory.directory_lock import acquire, release
-from slipstick.cli import main
 from slipstick.cli.errors import ExitCode, exit_code
 from verification.cases.judged_case import CaseToJudge, JudgedCase
 from verification.judging.change import ChangeKind
@@ -55,12 +55,6 @@ def a_case(name: str, error: float = 0.002) -> CaseOutcome:
 
 def three_cases() -> Report:
     return report_of(tuple(a_case(name) for name in ("one", "three", "two")))
-
-
-def slipstick(*arguments: object) -> int:
-    with pytest.raises(SystemExit) as leaving:
-        main([str(argument) for argument in arguments])
-    return int(leaving.value.code or 0)
 
 
 @pytest.fixture

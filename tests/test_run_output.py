@@ -1,6 +1,5 @@
 """The files of a run: what they hold, and that equal results give equal bytes."""
 
-import csv
 import json
 import os
 import subprocess
@@ -12,6 +11,7 @@ from typing import Any
 import h5py
 import numpy as np
 import pytest
+from command import rows
 from synthetic_result import CONVOLUTIONS, ITERATIONS, MU, WORST_RESIDUAL, synthetic_result
 
 from contact_results.directory.file_names import RUN_FILES, SUMMARY
@@ -35,11 +35,6 @@ def frictionless(tmp_path_factory: pytest.TempPathFactory) -> Path:
     directory = tmp_path_factory.mktemp("frictionless")
     write_result(synthetic_result(friction=False), directory)
     return directory
-
-
-def rows(path: Path) -> list[dict[str, str]]:
-    with open(path, newline="", encoding="utf-8") as file:
-        return list(csv.DictReader(file))
 
 
 def test_equal_results_give_equal_bytes(written: tuple[Result, Path], tmp_path: Path) -> None:

@@ -1,6 +1,5 @@
 """The files of a result on a section, and the commands that write and read them."""
 
-import csv
 import json
 from pathlib import Path
 
@@ -9,6 +8,7 @@ import jsonschema
 import meshio
 import numpy as np
 import pytest
+from command import rows, slipstick
 from fem_scenes import solved
 
 from contact_results.cycles import fretting_cycles
@@ -27,7 +27,6 @@ from contact_scene import (
 )
 from contact_scene.summary import load_summary, summary_schema
 from fem_reference import Result, solve
-from slipstick.cli.application import main
 from verification.problems.layered_scene import coated, exact_contact, film
 
 STEEL = IsotropicMaterial(young_modulus=210e9, poisson_ratio=0.3)
@@ -61,11 +60,6 @@ def written(
     directory = tmp_path_factory.mktemp("written")
     write_result(result, directory)
     return result, directory
-
-
-def rows(path: Path) -> list[dict[str, str]]:
-    with open(path, newline="", encoding="utf-8") as file:
-        return list(csv.DictReader(file))
 
 
 def test_every_file_has_a_known_name(written: tuple[Result, Path]) -> None:
@@ -209,13 +203,6 @@ def place(tmp_path_factory: pytest.TempPathFactory) -> Path:
         asked = ("-o", directory / solver, "--solver", solver, "--no-figures")
         assert slipstick("run", directory / "scene.toml", *asked) == 0
     return directory
-
-
-def slipstick(*arguments: object) -> object:
-    """The exit code of the command."""
-    with pytest.raises(SystemExit) as left:
-        main([str(argument) for argument in arguments])
-    return left.value.code
 
 
 @pytest.mark.parametrize(

@@ -1,6 +1,5 @@
 """`slipstick stress` from end to end: from a scene, from a run, and what it refuses."""
 
-import csv
 import json
 import subprocess
 import sys
@@ -9,6 +8,7 @@ from pathlib import Path
 import meshio
 import numpy as np
 import pytest
+from command import rows
 
 ROOT = Path(__file__).resolve().parents[1]
 
@@ -55,11 +55,6 @@ def place(tmp_path_factory: pytest.TempPathFactory) -> Path:
         outcome = slipstick(*arguments)
         assert outcome.returncode == 0, outcome.stderr
     return directory
-
-
-def rows(path: Path) -> list[dict[str, str]]:
-    with open(path, newline="", encoding="utf-8") as file:
-        return list(csv.DictReader(file))
 
 
 def test_every_file_is_written(place: Path) -> None:

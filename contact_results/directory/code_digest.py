@@ -5,9 +5,10 @@ from __future__ import annotations
 import hashlib
 import platform
 from functools import cache
-from importlib.metadata import PackageNotFoundError, version
 from importlib.util import find_spec
 from pathlib import Path
+
+from contact_results.directory.machine import version_of
 
 SOLVERS = ("contact_scene", "semi_analytical", "fem_reference")
 PACKAGES = (*SOLVERS, "contact_results", "verification")
@@ -20,7 +21,7 @@ def code_digest(packages: tuple[str, ...] = PACKAGES) -> bytes:
     and the libraries. Recorded baselines judge no case and do not count."""
     digest = hashlib.sha256(platform.python_version().encode())
     for library in LIBRARIES:
-        digest.update(f"{library} {_version(library)}\n".encode())
+        digest.update(f"{library} {version_of(library)}\n".encode())
     for package in packages:
         spec = find_spec(package)
         assert spec is not None
@@ -36,10 +37,3 @@ def code_digest(packages: tuple[str, ...] = PACKAGES) -> bytes:
 def solve_identity(*asked: object) -> str:
     """Digest of what a solver is asked for, by what it says of itself, and of the solvers."""
     return hashlib.sha256(repr(asked).encode() + code_digest(SOLVERS)).hexdigest()
-
-
-def _version(distribution: str) -> str | None:
-    try:
-        return version(distribution)
-    except PackageNotFoundError:
-        return None

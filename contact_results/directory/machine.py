@@ -9,12 +9,12 @@ LIBRARIES = ("numpy", "scipy", "scikit-fem", "gmsh", "meshio", "h5py", "matplotl
 
 def program_version() -> str:
     """The installed version, or what says that there is none."""
-    return _version("slipstick") or "(not installed)"
+    return version_of("slipstick") or "(not installed)"
 
 
 def library_versions() -> dict[str, str | None]:
     """Versions of the libraries that numbers or files may depend on."""
-    return {name: _version(name) for name in LIBRARIES}
+    return {name: version_of(name) for name in LIBRARIES}
 
 
 def machine() -> dict[str, str | int | None]:
@@ -28,7 +28,8 @@ def machine() -> dict[str, str | int | None]:
     }
 
 
-def _version(distribution: str) -> str | None:
+def version_of(distribution: str) -> str | None:
+    """The installed version of a distribution; None where it is not installed."""
     try:
         return version(distribution)
     except PackageNotFoundError:

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import shlex
-from enum import StrEnum
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from slipstick.cli.errors import ExitCode
+from slipstick.cli.level_name import LevelName
 from slipstick.cli.scene_options import SetOption
 from slipstick.cli.scheduler_option import SchedulerOption, workers_at
 from slipstick.solvers.names import SolverName
@@ -21,14 +21,6 @@ if TYPE_CHECKING:
 
 LEAST_CELLS = 16
 LEAST_LEVELS, MOST_LEVELS = 4, 10
-
-
-class LevelName(StrEnum):
-    """How much is computed."""
-
-    QUICK = "quick"
-    STANDARD = "standard"
-    FULL = "full"
 
 
 def study(

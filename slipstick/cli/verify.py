@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from enum import StrEnum
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from slipstick.cli.errors import ExitCode
+from slipstick.cli.level_name import LevelName
 from slipstick.cli.scheduler_option import SchedulerOption, workers_at
 
 if TYPE_CHECKING:
@@ -18,14 +18,6 @@ if TYPE_CHECKING:
 
 
 MOST_WARNINGS = 20
-
-
-class LevelName(StrEnum):
-    """How much is computed."""
-
-    QUICK = "quick"
-    STANDARD = "standard"
-    FULL = "full"
 
 
 def verify(

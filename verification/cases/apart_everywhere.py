@@ -68,7 +68,7 @@ def apart_everywhere(lines: Sequence[Apart], what: str, over: str, x_name: str) 
         columns=("load", f"largest difference of {what} over {over}, compared", "left out",
                  f"at x / {x_name}", "left out, since it is"),
         rows=tuple(_row(line) for line in lines),
-        note=f"Left out of the comparison of {what} is what lies {_listed(list(worst.left_out))}. "
+        note=f"Left out of the comparison of {what} is what lies {listed(list(worst.left_out))}. "
         f"There both are apart by up to {plain(value, 2)} {over}: {why}, at x = {plain(at, 2)} "
         f"{x_name}, at {worst.load}; places are {plain(side, 2)} {x_name} apart.",
     )  # fmt: skip
@@ -81,5 +81,6 @@ def _row(line: Apart) -> tuple[str, ...]:
     return line.load, compared, plain(value, 2), place, why
 
 
-def _listed(parts: list[str]) -> str:
+def listed(parts: list[str]) -> str:
+    """With commas, and a word before the last."""
     return parts[0] if len(parts) == 1 else f"{', '.join(parts[:-1])} and {parts[-1]}"

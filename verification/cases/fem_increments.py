@@ -19,7 +19,8 @@ from verification.judging.order_of_convergence import (
     Refinement,
 )
 from verification.judging.run import SectionRun, per_radius
-from verification.observed.end_state import approach, contact_radius
+from verification.observed.changes import approach_change, energy_change, increment_size
+from verification.observed.end_state import contact_radius
 from verification.observed.ring_errors import at_radii
 
 if TYPE_CHECKING:
@@ -112,20 +113,9 @@ def _orders_of_energy(levels: tuple[str, ...]) -> tuple[OrderOfChange, ...]:
     )  # fmt: skip
 
 
-def approach_change(coarse: Result, fine: Result) -> float:
-    """Change of the approach relative to the finer path."""
-    return abs(approach(coarse) / approach(fine) - 1)
-
-
 def radius_change(coarse: Result, fine: Result) -> float:
     """Change of the contact radius relative to the finer path."""
     return abs(contact_radius(coarse) / contact_radius(fine) - 1)
-
-
-def energy_change(coarse: Result, fine: Result) -> float:
-    """Change of the dissipated energy relative to the finer path."""
-    before, after = (result.steps[-1].dissipated_energy or 0.0 for result in (coarse, fine))
-    return abs(before / after - 1)
 
 
 def shear_change(coarse: Result, fine: Result) -> float:
@@ -137,11 +127,6 @@ def shear_change(coarse: Result, fine: Result) -> float:
     difference = np.abs(one.shear_radial - at_radii(other, other.shear_radial, r))
     limit = ONE.friction * at_radii(other, other.pressure, r)
     return float(np.trapezoid(difference * r, r) / np.trapezoid(limit * r, r))
-
-
-def increment_size(result: Result) -> float:
-    """Part of the contact radius that an increment adds."""
-    return 1 / len(result.increments)
 
 
 def _label(increments: int) -> str:

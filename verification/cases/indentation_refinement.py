@@ -16,6 +16,7 @@ from verification.exhibits.convergence_chart import convergence_chart
 from verification.judging.case import Case, Comparison, Level
 from verification.judging.order_of_convergence import Followed, OrderOfChange, Refinement
 from verification.judging.run import Run
+from verification.observed.changes import approach_change, increment_size
 from verification.observed.end_state import approach
 from verification.problems import paper_scene as paper
 from verification.problems.indentation import Indentation
@@ -141,25 +142,9 @@ def shear_change(coarse: Result, fine: Result) -> float:
     return float(size.mean() / (ONE.friction * fine.steps[-1].pressure.mean()))
 
 
-def approach_change(coarse: Result, fine: Result) -> float:
-    """Change of the approach relative to the finer."""
-    return abs(approach(coarse) / approach(fine) - 1)
-
-
-def energy_change(coarse: Result, fine: Result) -> float:
-    """Change of the dissipated energy relative to the finer."""
-    before, after = (result.steps[-1].dissipated_energy or 0.0 for result in (coarse, fine))
-    return abs(before / after - 1)
-
-
 def cell_side(result: Result) -> float:
     """Cell side over the contact radius of the reference."""
     return result.grid.spacing[0] / ONE.contact_radius
-
-
-def increment_size(result: Result) -> float:
-    """Part of the contact radius that an increment adds."""
-    return 1 / len(result.increments)
 
 
 def _run(cells: int, increments: int) -> Run:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from semi_analytical.frf.stack import Stack
 from verification.cases.layered_reference import COEFFICIENT_SOURCE
 from verification.exhibits.chart import Chart, Look, Panel, curve
-from verification.exhibits.numbers import plain
+from verification.exhibits.numbers import percent
 from verification.exhibits.table import Table
 from verification.judging.case import Case, Check, Level, Required
 from verification.laws.sampling_route import SamplingErrors, sampling_errors
@@ -81,8 +81,8 @@ def _tables(results: Mapping[str, Result]) -> tuple[Table, ...]:
         (
             f"refinement {r}, extension {e}",
             str((CELLS * r * e) ** 2),
-            *(_percent(of(_at(r, e))) for of in MEASURES.values()),
-            _percent(_at(r, e).far),
+            *(percent(of(_at(r, e))) for of in MEASURES.values()),
+            percent(_at(r, e).far),
         )
         for r, e in settings
     )
@@ -97,10 +97,6 @@ def _tables(results: Mapping[str, Result]) -> tuple[Table, ...]:
             "bounds.",
         ),
     )  # fmt: skip
-
-
-def _percent(error: float) -> str:
-    return f"{plain(100 * error, 2)} %"
 
 
 def _charts(results: Mapping[str, Result]) -> tuple[Chart, ...]:

@@ -10,18 +10,14 @@ import numpy as np
 
 from contact_results.quantities import shear_of, shift_along_x
 from contact_scene import LoadStep
-from verification.cases.indentation_refinement import (
-    LOST,
-    ONE,
-    approach_change,
-    energy_change,
-)
+from verification.cases.indentation_refinement import LOST, ONE
 from verification.convergence.observed_order import ORDER_OFF
 from verification.exhibits.chart import Chart
 from verification.exhibits.convergence_chart import convergence_chart
 from verification.judging.case import Case, Comparison, Level
 from verification.judging.order_of_convergence import Followed, OrderOfChange, Refinement
 from verification.judging.run import Run
+from verification.observed.changes import approach_change, energy_change
 from verification.problems import paper_scene as paper
 from verification.problems.reference import ReferenceKind
 

@@ -27,6 +27,11 @@ def plain(value: float | None, digits: int = 3) -> str:
     return f"{mantissa}e{int(exponent)}" if e else mantissa
 
 
+def percent(part: float) -> str:
+    """A part of something, in hundredths."""
+    return f"{plain(100 * part, 2)} %"
+
+
 NOT_REACHED = "–"
 
 

@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 
 from verification.cases.apart_everywhere import NAME as EVERYWHERE
 from verification.exhibits.chart import Chart
-from verification.exhibits.numbers import plain
+from verification.exhibits.numbers import percent, plain
 from verification.exhibits.table import Table
 from verification.judging.outcome import CaseOutcome, Verdict
 from verification.judging.verdict_text import clearance_text
@@ -120,10 +120,10 @@ def _nearer(shared: tuple[SharedReference, ...]) -> list[str]:
     told = [pair for pair in shared if pair.tells]
     if told:
         worst = max(told, key=lambda pair: pair.difference)
-        errors = " and ".join(f"{WORDS[s]} {_percent(worst.by(s).error)}" for s in Solver)
+        errors = " and ".join(f"{WORDS[s]} {percent(worst.by(s).error)}" for s in Solver)
         sentences.append(
             f"On their finest runs, which are not equally fine, they are furthest apart in "
-            f"{worst.name}: {_percent(worst.difference)} of the reference "
+            f"{worst.name}: {percent(worst.difference)} of the reference "
             f"({errors} from it)."
         )
     return sentences
@@ -156,7 +156,3 @@ def _left_out(report: Report) -> list[str]:
         for table in case.tables
         if table.name == EVERYWHERE
     ]
-
-
-def _percent(value: float) -> str:
-    return f"{plain(100 * value, 2)} %"

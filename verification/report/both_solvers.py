@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from verification.exhibits.chart import Chart, Look, Panel, curve
-from verification.exhibits.numbers import plain
+from verification.exhibits.numbers import percent, plain
 from verification.exhibits.table import Table
 from verification.judging.outcome import CaseOutcome, RunRecord, Verdict
 from verification.running.report_record import Report
@@ -176,9 +176,9 @@ def furthest_apart(shared: tuple[SharedReference, ...]) -> Table:
         rows=tuple(
             (
                 pair.name,
-                *(f"{plain(100 * part, 2)} %"
+                *(percent(part)
                   for part in (pair.difference, pair.cells.error, pair.elements.error)),
-                f"{plain(100 * COVERAGE * pair.uncertainty, 2)} %",
+                percent(COVERAGE * pair.uncertainty),
                 f"{pair.cells.run.fineness} cells a side, {pair.elements.run.fineness} elements "
                 "per radius",
             )

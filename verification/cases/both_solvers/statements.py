@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from verification.cases.apart_everywhere import listed
 from verification.cases.both_solvers.contacts import CONTACTS, CheckedContact
 from verification.cases.both_solvers.differences import (
     COMPARED,
@@ -20,7 +21,7 @@ from verification.cases.both_solvers.sides import (
     judged_radii,
     kept_edges,
 )
-from verification.exhibits.numbers import plain
+from verification.exhibits.numbers import percent, plain
 from verification.judging.outcome import Status
 from verification.judging.run import SOLVER_TOLERANCE
 from verification.running.row import Row
@@ -52,8 +53,8 @@ def answer(apart: Apart, fineness: str) -> str:
     """
     worst = {name: _worst_contact(name, apart) for name in COMPARED}
     parts = [
-        f"{_percent(one.value)}{_of(COMPARED[name])} in {name} ({contact.name}; their own errors "
-        f"leave ± {_percent(COVERAGE * one.joint)})"
+        f"{percent(one.value)}{_of(COMPARED[name])} in {name} ({contact.name}; their own errors "
+        f"leave ± {percent(COVERAGE * one.joint)})"
         for name, found in worst.items()
         if found is not None
         for contact, one in [found]
@@ -68,7 +69,7 @@ def answer(apart: Apart, fineness: str) -> str:
     )
     apart_text = (
         f"On {len(apart)} contacts, compared up to 0.9 a, away from the axis and from the kinks of "
-        f"the shear, they are at most {_listed(parts)} apart, {asked}."
+        f"the shear, they are at most {listed(parts)} apart, {asked}."
     )
     known = [text for name in COMPARED if (text := _to_reference(name, apart))]
     if not known:
@@ -88,8 +89,8 @@ def _to_reference(name: str, apart: Apart) -> str:
     cells, elements = (max(error[side] for error in errors) for side in (0, 1))
     nearer = sum(one.nearer == CELLS for one in known)
     return (
-        f"{name} on {len(known)} contacts, {CELLS} at most {_percent(cells)} off and {ELEMENTS} "
-        f"{_percent(elements)} ({CELLS} nearer on {nearer}, {ELEMENTS} on {len(known) - nearer})"
+        f"{name} on {len(known)} contacts, {CELLS} at most {percent(cells)} off and {ELEMENTS} "
+        f"{percent(elements)} ({CELLS} nearer on {nearer}, {ELEMENTS} on {len(known) - nearer})"
     )
 
 
@@ -164,7 +165,7 @@ def _explained(apart: Apart) -> Statement:
 def _kept(found: Found) -> Statement:
     turned = {contact: kept_edges(record)[:-1] for contact, record in found.items()}
     named = [
-        f"{contact.name}: at {_listed([f'{edge:.3f}' for edge in edges])} a"
+        f"{contact.name}: at {listed([f'{edge:.3f}' for edge in edges])} a"
         for contact, edges in turned.items()
         if edges
     ]
@@ -220,12 +221,3 @@ def _worst(statuses: list[Status]) -> Status:
         if status in statuses:
             return status
     return Status.PASS if statuses else Status.INCONCLUSIVE
-
-
-def _percent(value: float) -> str:
-    return f"{plain(100 * value, 2)} %"
-
-
-def _listed(parts: list[str]) -> str:
-    """With commas, and a word before the last."""
-    return parts[0] if len(parts) == 1 else f"{', '.join(parts[:-1])} and {parts[-1]}"

@@ -8,7 +8,7 @@ from pathlib import Path
 
 from fem_reference import Method
 from semi_analytical import SurfaceGrid
-from verification.exhibits.numbers import plain
+from verification.exhibits.numbers import percent, plain
 from verification.running.row import CaseRecord, Row, found, value_of
 from verification.running.rules import judged
 from verification.running.study import (
@@ -164,9 +164,7 @@ def _answer(extended: Sequence[Row], grid: SurfaceGrid) -> str:
     first = extended[0]
     period = int(first.number("value") or 0)
     left = {page.label(name): first.measures[name] for name in quantities(first)}
-    parts = ", ".join(
-        f"{plain(100 * error, 2)} % of the {name}" for name, error in left.items() if error
-    )
+    parts = ", ".join(f"{percent(error)} of the {name}" for name, error in left.items() if error)
     cells = "{} x {} cells".format(*grid.cells)
     return (
         f"On {cells}, {_words(HELD, period)} leave {parts}; exact coefficients have neither factor."

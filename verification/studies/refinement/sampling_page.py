@@ -7,7 +7,7 @@ from collections.abc import Iterable, Mapping, Sequence
 
 from verification.exhibits.chart import Chart, Panel
 from verification.exhibits.log_chart import point_curves
-from verification.exhibits.numbers import plain
+from verification.exhibits.numbers import percent
 from verification.exhibits.table import Table
 from verification.running.row import CaseRecord, Row, value_of
 from verification.running.row_views import Text, points, row_table
@@ -95,4 +95,4 @@ def error_table(sweeps: Iterable[Sequence[Row]]) -> Table:
 
 
 def _percent(name: str) -> Text:
-    return lambda row: f"{plain(100 * value_of(row, name), 2)} %"
+    return lambda row: percent(value_of(row, name))
