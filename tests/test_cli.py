@@ -110,6 +110,10 @@ def test_check_imports_nothing_heavy(scene: Path) -> None:
     assert not imported_by("check", scene) & set(HEAVY)
 
 
+def test_a_mistake_is_told_without_the_harness() -> None:
+    assert not imported_by("check", "absent.toml") & {*HEAVY, "verification"}
+
+
 @pytest.mark.parametrize("solver", SolverName)
 @pytest.mark.parametrize("command", ["plan", "run"])
 def test_a_solver_is_used_without_the_other_and_without_the_harness(

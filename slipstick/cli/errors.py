@@ -23,11 +23,10 @@ DISK_FULL = {errno.ENOSPC, errno.EDQUOT, errno.EFBIG}
 
 def exit_code(error: Exception) -> ExitCode:
     """The exit code that stands for this kind of failure."""
-    from contact_results.directory.refusal import OutputRefused
+    from contact_results.directory.refusal import Refused
     from contact_scene import SceneError
-    from verification.regression.refusal import BaselineRefused
 
-    if isinstance(error, SceneError | OutputRefused | BaselineRefused):
+    if isinstance(error, SceneError | Refused):
         return ExitCode.INVALID
     if isinstance(error, MemoryError):
         return ExitCode.RESOURCES_REFUSED
