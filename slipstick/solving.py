@@ -112,7 +112,7 @@ def save(result: Result, directory: str | PathLike[str], *, figures: bool = True
     OutputRefused where other files are in the way.
     """
     from contact_results.directory.run_directory import run_directory
-    from contact_results.files.result_files import write_result
+    from contact_results.result_files import write_result
 
     with run_directory(Path(directory)) as staging:
         write_result(result, staging, with_figures=figures)

@@ -15,7 +15,7 @@ import pytest
 from contact_scenes import APPROACH, LIMIT, LOAD, MU, PRESS, A, grid, paraboloid, push, slide
 
 from contact_results.cycles import _half_diameter, fretting_cycles
-from contact_results.files.result_files import write_result
+from contact_results.result_files import write_result
 from contact_scene import RIGID, Body, LoadStep
 from contact_scene.cycles import load_cycles
 from contact_scene.load_path import load_path

@@ -12,7 +12,7 @@ import pytest
 import fem_reference
 import semi_analytical
 import slipstick
-from contact_results.files.result_files import write_result
+from contact_results.result_files import write_result
 from contact_results.surface import surface_of
 from contact_scene import read_scene_file
 from contact_scene.increment import SCALARS

@@ -90,6 +90,11 @@ ORDERS = {
         *("spring_contact", "step", "newton", "springs", "spring_state", "augmentation"),
         *("spring_residuals", "passes", "method"),
     ),
+    "contact_results": (
+        *("one_thread", "difference", "directory", "quantities", "surface", "cycles", "path_error"),
+        *("files", "stress", "figures", "result_files", "stress_files"),
+    ),
+    "slipstick": ("solvers", "path_errors", "solving", "stored_run", "cli", "__main__"),
     # Its floors: what judges stands on what is known, what is shown on what was judged.
     "verification": (
         *("closed_forms", "references", "baselines", "norms", "solver", "convergence", "exhibits"),
@@ -253,6 +258,8 @@ PLANTED = {
     "fem_reference/elasticity/hats.py": "from fem_reference.model import ContactModel",
     "fem_reference/meshes.py": "import numpy as np",
     "contact_results/files.py": "from verification.norms import relative_l2",
+    "contact_results/stress/points.py": "from contact_results.figures import stress_plot",
+    "slipstick/solving.py": "from slipstick.cli import terminal",
     "verification/judging/case.py": "from verification.cases import catalogue",
     "verification/running/study.py": "def draw():\n    from verification.report import page",
     "verification/report/page.py": "from slipstick.cli import terminal",

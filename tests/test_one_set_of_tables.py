@@ -13,8 +13,8 @@ import pytest
 import fem_reference
 import semi_analytical
 from contact_results.directory.file_names import FIELDS, INCREMENTS, SUMMARY
-from contact_results.files.result_files import write_result
 from contact_results.quantities import named_values, unit_of
+from contact_results.result_files import write_result
 from contact_scene import (
     Body,
     CoulombFriction,

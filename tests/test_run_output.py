@@ -15,7 +15,7 @@ from command import rows
 from synthetic_result import CONVOLUTIONS, ITERATIONS, MU, WORST_RESIDUAL, synthetic_result
 
 from contact_results.directory.file_names import RUN_FILES, SUMMARY
-from contact_results.files.result_files import write_result
+from contact_results.result_files import write_result
 from contact_scene.engineering_units import quantity
 from contact_scene.summary import load_summary, summary_schema
 from semi_analytical.fields import Result
@@ -42,7 +42,7 @@ def test_equal_results_give_equal_bytes(written: tuple[Result, Path], tmp_path: 
     script = (
         "import sys; from pathlib import Path\n"
         "from synthetic_result import synthetic_result\n"
-        "from contact_results.files.result_files import write_result\n"
+        "from contact_results.result_files import write_result\n"
         "write_result(synthetic_result(), Path(sys.argv[1]))"
     )
     (tmp_path / "matplotlibrc").write_text(

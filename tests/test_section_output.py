@@ -14,7 +14,7 @@ from fem_scenes import solved
 from contact_results.cycles import fretting_cycles
 from contact_results.directory.file_names import RUN_FILES, SUMMARY
 from contact_results.files.field_file import FIELDS
-from contact_results.files.result_files import write_result
+from contact_results.result_files import write_result
 from contact_results.surface import surface_of
 from contact_scene import (
     Body,

@@ -99,7 +99,7 @@ def run(
             with stopwatch.phase("path error"):
                 errors = _path_errors(result, doubled)
         with stopwatch.phase("write"):
-            from contact_results.files.result_files import write_result
+            from contact_results.result_files import write_result
 
             write_result(
                 result,

@@ -74,7 +74,7 @@ def stress(
     if not source.is_dir():
         _refuse_beside_fem(solver.is_fem, asked, volume)
     from contact_results.stress.extremes import extremes
-    from contact_results.stress.stress_files import write_stress
+    from contact_results.stress_files import write_stress
 
     state = _state(source, step, solver, overrides or [])
     which, body = ("indenter", state.indenter) if indenter else ("body", state.body)
