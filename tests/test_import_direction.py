@@ -57,6 +57,7 @@ ORDER = (
     "history",
     "surface_tension",
     "discretise",
+    "resolution",
     "solve",
 )
 

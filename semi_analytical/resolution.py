@@ -1,0 +1,102 @@
+"""What the cells resolve of a result: contact, stick zone, layers and heights, counted in cells.
+
+Residuals do not see it: a contact of one cell fulfils its equations as well as one of a thousand.
+"""
+
+from dataclasses import dataclass
+from math import pi
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import ndimage
+
+from contact_scene import HeightMap
+from semi_analytical.fields import Increment, Result
+
+Field = NDArray[np.float64]
+Mask = NDArray[np.bool_]
+
+SQUARE = np.ones((3, 3), dtype=bool)  # cells that touch at a corner are of one patch
+
+
+@dataclass(frozen=True)
+class Resolution:
+    """Lengths at the end of a loading step, in cells; None for what is not there.
+
+    contact  smaller semi-axis of the contact; of several patches the mean, weighted by their loads.
+             At most 1 where no cell has four neighbours in contact: so few cells carry the load of
+             however small a contact; 0 without contact
+    stick    the same of the stick zone, 0 where nothing sticks; None without shear
+    annulus  width of what slips around it, `contact` − `stick`; None where nothing slips
+    layer    thickness of the thinnest layer
+    wave     of a height map, the mean wavelength of the heights about the contact
+    """
+
+    contact: float
+    stick: float | None = None
+    annulus: float | None = None
+    layer: float | None = None
+    wave: float | None = None
+
+
+def resolution(result: Result) -> tuple[Resolution, ...]:
+    """What is resolved at the end of every loading step."""
+    return tuple(_at(result, end) for end in result.steps)
+
+
+def _at(result: Result, end: Increment) -> Resolution:
+    grid, load = result.grid, end.pressure
+    contact = _semi_axis(end.in_contact, load, end.contact_area / grid.cell_area)
+    stick = annulus = None
+    if end.in_stick is not None and end.stick_area is not None:
+        stick = _semi_axis(end.in_stick, load, end.stick_area / grid.cell_area)
+        if np.any(end.in_contact & ~end.in_stick):
+            annulus = max(contact - stick, 0.0)
+    return Resolution(contact, stick, annulus, _layer(result), _wave(result, end.in_contact))
+
+
+def _semi_axis(marked: Mask, load: Field, area: float) -> float:
+    """The smaller semi-axis of the patches that are marked.
+
+    load  what they carry, by cell
+    area  of all of them, with sub-cell accuracy
+    A patch counts as the ellipse of its area and of the ratio of its second moments.
+    """
+    patches, number = ndimage.label(marked, SQUARE)
+    if number == 0:
+        return 0.0
+    i, j = np.nonzero(marked)
+    of = patches[i, j] - 1
+    count = np.bincount(of)
+    x, y = (at - (np.bincount(of, at) / count)[of] for at in (i, j))
+    # A cell is itself 1/12 wide.
+    xx, yy = (np.bincount(of, at**2) / count + 1 / 12 for at in (x, y))
+    mean, apart = (xx + yy) / 2, np.hypot((xx - yy) / 2, np.bincount(of, x * y) / count)
+    flattening = np.sqrt((mean - apart) / (mean + apart))
+    axes = np.sqrt(count * area / np.sum(count) / pi * flattening)
+    inner = np.bincount(of, ndimage.binary_erosion(marked)[i, j]) > 0
+    axes = np.where(inner, axes, np.minimum(axes, 1))
+    return float(np.average(axes, weights=np.bincount(of, load[i, j])))
+
+
+def _layer(result: Result) -> float | None:
+    layers = (*result.scene.body.layers, *result.scene.indenter.layers)
+    cell = max(result.grid.spacing)
+    return min((layer.thickness / cell for layer in layers), default=None)
+
+
+def _wave(result: Result, touched: Mask) -> float | None:
+    """2π √(m₂/m₄), m₂ and m₄ the mean squares of slope and curvature of the heights in the
+    rectangle about the contact (Longuet-Higgins 1957): of a sine its wavelength."""
+    indenter = result.scene.indenter
+    if not isinstance(indenter, HeightMap) or not np.any(touched):
+        return None
+    gap = indenter.initial_gap(*result.grid.coordinates())
+    about = ndimage.find_objects(touched.astype(int))[0]
+    # Not gradients of gradients, which do not see a wave of two cells.
+    bends = [ndimage.correlate1d(gap, [1.0, -2.0, 1.0], axis)[about] for axis in (0, 1)]
+    slopes = [np.gradient(gap, axis=axis) for axis in (0, 1)]
+    twist = np.gradient(slopes[0], axis=1)[about]
+    m_2 = np.mean(np.square([slope[about] for slope in slopes]))
+    m_4 = np.mean(np.square([*bends, twist, twist]))
+    return 2 * pi * float(np.sqrt(m_2 / m_4 / 2)) if m_4 > 0 else None
