@@ -50,7 +50,8 @@ class FiniteElementDiscretisation(Description):
 
     contact_radius: PositiveLength | None = None
     """Largest contact radius of the history, which the other numbers refer to [length]; absent:
-    estimated. It lays out the mesh and does not decide the answer."""
+    estimated. It lays out the mesh and does not decide the answer: a contact beyond it is refused,
+    and one below two thirds of it is solved again on a mesh of its own."""
 
     box: BoxSize | None = None
     """Outer radius and depth of the section, in contact radii; absent: chosen, 100 and more where

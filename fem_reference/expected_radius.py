@@ -1,6 +1,6 @@
 """How large the contact will be: what the fine elements of the mesh are laid out for.
 
-It decides the mesh and not the answer: a contact that outgrows the mesh is noticed.
+It decides the mesh and not the answer: a contact that does not fit the mesh is noticed.
 """
 
 from math import sqrt
@@ -25,6 +25,12 @@ COARSE = 8
 GROWTH, TOO_SMALL = 1.5, 0.5
 MOST_TRIALS = 30
 COARSE_TOLERANCE = 1e-8
+
+
+def meshed_radius(scene: Scene, asked: float | None) -> float:
+    """What the mesh is laid out for: a rim, where a ring of nodes must lie; else the contact radius
+    that is asked for or, if that is None, expected [length]."""
+    return scene.indenter.rim or asked or expected_radius(scene)
 
 
 def expected_radius(scene: Scene) -> float:

@@ -7,7 +7,7 @@ from typing import Any
 from contact_scene import FiniteElementDiscretisation, Scene
 from contact_scene.solver_errors import ContactAtZoneEdge
 from contact_scene.standing import Keeper, Mark, Standing
-from fem_reference.expected_radius import expected_radius
+from fem_reference.expected_radius import meshed_radius
 from fem_reference.fields import Increment, Method, Result
 from fem_reference.history import Method as Solver
 from fem_reference.history import marked
@@ -18,6 +18,8 @@ Progress = Callable[[Increment], None]
 
 GROWTH = 1.2
 MOST_ENLARGEMENTS = 8
+# A mesh for a contact so many times as large as the one that was found spends its elements beside.
+TOO_LARGE = 1.5
 
 
 def solve(
@@ -39,7 +41,7 @@ def solve(
         How contact and friction are enforced.
     progress
         Called with each increment once it has converged; again from the first one where the
-        contact has outgrown the mesh and a larger one is taken.
+        contact does not fit the mesh and another one is taken.
     keeper
         Of this very solve: what it has kept is not computed again.
 
@@ -55,26 +57,29 @@ def solve(
         An increment stopped above the tolerance; `last_state` holds the last good one.
     """
     decided = plan(scene)
-    radii = [discretisation.contact_radius or expected_radius(scene)]
-    if discretisation.contact_radius is None:
-        for _ in range(MOST_ENLARGEMENTS - 1):
-            radii.append(GROWTH * radii[-1])
     last = keeper.last() if keeper else None
-    if last and last.extent in radii:  # the smaller ones have been outgrown
-        radii = radii[radii.index(last.extent) :]
-    for radius in radii:
+    asked = discretisation.contact_radius
+    radius = last.extent if last else meshed_radius(scene, asked)
+    enlargements = 0
+    while True:
         model = ContactModel.of(scene, discretisation, radius)
-        since = last if last and last.extent == radius else None
-        if since:
-            model.settled.update(since.settled)
+        if last:
+            model.settled.update(last.settled)
         solver = _solver(model, decided, discretisation, method)
-        history = marked(scene, decided, solver, discretisation.tolerance, since)
+        history = marked(scene, decided, solver, discretisation.tolerance, last)
         try:
-            increments = tuple(_told(model, radius, history, since, progress, keeper))
-            return Result(scene, discretisation, model.sections, decided, increments, method)
-        except ContactAtZoneEdge as error:
-            grown = error
-    raise grown
+            increments = tuple(_told(model, radius, history, last, progress, keeper))
+        except ContactAtZoneEdge:
+            if radius == asked or enlargements == MOST_ENLARGEMENTS:
+                raise
+            enlargements += 1
+            radius *= GROWTH
+        else:
+            reached = max(increment.contact_radius for increment in increments)
+            if not 0 < TOO_LARGE * reached < radius:
+                return Result(scene, discretisation, model.sections, decided, increments, method)
+            radius = reached
+        last = None
 
 
 def _solver(

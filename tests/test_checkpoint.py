@@ -51,7 +51,7 @@ TILTED = (
     LoadStep(tangential_force=(20.0, 0.0), increments=2),
 )
 SURFACE = SurfaceDiscretisation(cells=(24, 24))
-SECTION = FiniteElementDiscretisation(elements_per_radius=4, contact_radius=3e-4)
+SECTION = FiniteElementDiscretisation(elements_per_radius=4, contact_radius=2e-4)
 Solve = Callable[[Keeper | None], Any]
 
 

@@ -20,7 +20,7 @@ from contact_scenes import (
 from fem_scenes import elements, end, solved
 
 from contact_scene import Body, IsotropicMaterial, Layer, LoadStep, Paraboloid, Scene
-from fem_reference import ContactAtZoneEdge, solve
+from fem_reference import ContactAtZoneEdge, Method, solve
 from fem_reference.expected_radius import expected_radius
 from verification.closed_forms.cone import ConeContact
 from verification.closed_forms.flat_punch import FlatPunchContact
@@ -121,11 +121,26 @@ def test_gap_is_taken_where_a_particle_was() -> None:
 def test_contact_that_outgrows_its_mesh_gets_a_larger_one(monkeypatch) -> None:
     whole = end(SMOOTH)
     monkeypatch.setattr(
-        sys.modules["fem_reference.solve"], "expected_radius", lambda scene: 0.6 * A
+        sys.modules["fem_reference.solve"], "meshed_radius", lambda scene, asked: 0.6 * A
     )
     found = end(SMOOTH)
     assert found.radii[-1] > A
     assert found.approach == pytest.approx(whole.approach, rel=1e-3)
+
+
+@pytest.mark.parametrize("method", Method)
+@pytest.mark.parametrize("times", [2.5, 25.0, 250.0])
+@pytest.mark.parametrize("shape", ["paraboloid", "cone", "flat punch"])
+def test_contact_radius_that_is_too_large_does_not_decide_the_answer(
+    shape: str, times: float, method: Method
+) -> None:
+    asked = scene(PRESS, friction=None, indenter=INDENTERS[shape])
+    own = solve(asked, elements(32), method).increments[-1]
+    large = elements(32, contact_radius=times * own.contact_radius)
+    found = solve(asked, large, method).increments[-1]
+    assert found.approach == pytest.approx(own.approach, rel=1e-3)
+    assert found.contact_radius == pytest.approx(own.contact_radius, rel=5e-3)
+    assert found.contact_radius / (found.radii[-1] - found.radii[0]) > 0.6
 
 
 def test_contact_beyond_the_zone_asked_for_is_refused() -> None:

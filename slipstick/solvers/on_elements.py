@@ -10,7 +10,7 @@ from contact_scene import FiniteElementDiscretisation, Scene, SceneFile
 from contact_scene.engineering_units import quantity
 from contact_scene.standing import Keeper
 from fem_reference import Method, Path, Plan, Result
-from fem_reference.expected_radius import expected_radius
+from fem_reference.expected_radius import meshed_radius
 from fem_reference.memory import required_bytes
 from fem_reference.mesh.section_mesh import SectionMesh
 from fem_reference.model import ContactModel
@@ -51,7 +51,7 @@ class OnElements:
 
     def work(self, scene: Scene, fineness: FiniteElementDiscretisation, plan: Plan) -> Pairs:
         """Mesh, tolerance, increments, factorisations and memory."""
-        radius = fineness.contact_radius or expected_radius(scene)
+        radius = meshed_radius(scene, fineness.contact_radius)
         sections = ContactModel.of(scene, fineness, radius).sections
         chosen = "" if fineness.contact_radius else ", estimated without friction"
         yield "method", _method_text(self.method, fineness)

@@ -9,7 +9,7 @@ from math import hypot
 from fem_reference import Path, Plan, Result, plan
 from fem_reference.contact.harmonics.angular_grid import end_grid, mid_grid
 from fem_reference.contact.harmonics.method import harmonic_method
-from fem_reference.expected_radius import expected_radius
+from fem_reference.expected_radius import meshed_radius
 from fem_reference.fields import Increment
 from fem_reference.history import march
 from fem_reference.model import ContactModel
@@ -31,7 +31,7 @@ class PointsRun(SectionRun):
         """The solution; raises what `fem_reference.solve` raises."""
         scene, discretisation = self.scene, self.discretisation
         decided = _with_vector_law(plan(scene))
-        radius = discretisation.contact_radius or expected_radius(scene)
+        radius = meshed_radius(scene, discretisation.contact_radius)
         model = ContactModel.of(scene, discretisation, radius)
         own, between = (
             march(
