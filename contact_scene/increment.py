@@ -6,7 +6,7 @@ declared here and given where an increment is made; no other place lists them.
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import Annotated, TypeAlias
+from typing import Annotated, Any, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
@@ -203,9 +203,18 @@ class ReportedIncrement(Cost, State):
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "worst_residual", self.residuals.worst)
+        for name in SCALARS:
+            object.__setattr__(self, name, _unsigned_zero(getattr(self, name)))
 
 
 SCALARS: Mapping[str, Reported] = {**reported(State), **reported(Cost)}
+
+
+def _unsigned_zero(value: Any) -> Any:
+    """The number or vector; a zero has no sign, which says nothing here and would be printed."""
+    if isinstance(value, tuple):
+        return tuple(map(_unsigned_zero, value))
+    return value if value is None or isinstance(value, int) else value + 0.0
 
 
 def components(name: str) -> tuple[str, ...]:

@@ -3,6 +3,8 @@
 from collections.abc import Iterable, Iterator
 from typing import Protocol
 
+import numpy as np
+
 from contact_scene.body import Body, Layer
 from contact_scene.material import IsotropicMaterial
 from contact_scene.scene import Scene
@@ -32,10 +34,9 @@ def beyond_linear_theory(scene: Scene, ends: Iterable[StepEnd]) -> tuple[str, ..
         for step, end in enumerate(ends, start=1)
         for strain, where in _strains(scene, end)
     ]
-    worst = max(found, default=(0.0, "", 0))
-    if worst[0] <= SMALL_STRAIN:
+    if all(strain <= SMALL_STRAIN for strain, *_ in found):
         return ()
-    strain, where, step = worst
+    strain, where, step = found[int(np.argmax([strain for strain, *_ in found]))]
     return (
         f"strains of about {strain:.2g} in {where} at the end of step {step}: the theory is of "
         "small strains, and wrong by about as much",
@@ -44,7 +45,7 @@ def beyond_linear_theory(scene: Scene, ends: Iterable[StepEnd]) -> tuple[str, ..
 
 def _strains(scene: Scene, end: StepEnd) -> Iterator[tuple[float, str]]:
     """Strains by order of magnitude, and where they are; none without contact."""
-    if not (end.contact_area > 0 and end.normal_force > 0):
+    if end.contact_area <= 0 or end.normal_force <= 0:
         return
     pressure = end.normal_force / end.contact_area
     bodies = {"the body": scene.body, "the indenter": scene.indenter}

@@ -1,5 +1,6 @@
 """What is measured between two results: a value that is no number is never a small difference."""
 
+from collections.abc import Callable
 from dataclasses import replace
 from functools import cache
 from types import SimpleNamespace
@@ -10,8 +11,16 @@ import pytest
 from contact_scenes import PRESS, grid, push, scene
 
 from contact_results.difference import largest_difference
+from contact_scene.increment import SCALARS
+from contact_scene.linear_theory import beyond_linear_theory
 from semi_analytical import Result, solve
+from slipstick.cli.outcome_text import outcome_columns, solved_in
 from verification.cases import eccentric_ball, hertz_unloading, same_surface, turned
+from verification.cases.apart_everywhere import Apart, apart_everywhere
+from verification.convergence.stored_field import PRESSURE, StoredField
+from verification.judging.outcome import Status
+from verification.running.row import CaseRecord
+from verification.studies.refinement import domain, window
 
 READ: dict[Any, tuple[str, ...]] = {
     largest_difference: ("pressure", "shear", "tangential_shift", "approach"),
@@ -40,3 +49,71 @@ def test_a_value_that_is_no_number_makes_no_small_difference(measure: Any, field
     broken = SimpleNamespace(increments=(*first, lost), steps=(*whole.steps[:-1], lost))
     assert np.isnan(measure(whole, broken))
     assert np.isnan(measure(broken, whole))
+
+
+class End:
+    """The end of a step with some contact, told as `State` is."""
+
+    def __init__(self, value: float) -> None:
+        vars(self).update(dict.fromkeys(SCALARS), normal_force=value, approach=1e-6)
+        self.contact_area, self.contact_radius = 1e-6, 5e-4
+        self.tangential_shift = (value, 1e-6)
+
+
+def level(value: float) -> CaseRecord:
+    """A record whose measures are numbers, as always, and whose pressure may be none."""
+    measures = dict.fromkeys(("approach", "normal_force", "contact_radius"), 1.0)
+    pressure = StoredField.of(np.full((1, 2, 2), 1 + value), 1.0)
+    return CaseRecord(measures=measures, fields={PRESSURE: pressure}, parameters={"size": 1.0})
+
+
+def of_window(values: list[float]) -> str:
+    said = window._unchanged([*map(level, values), level(0.0)], 1.0)
+    assert said.outcome is (Status.FAIL if np.isnan(values).any() else Status.PASS)
+    return said.measured
+
+
+def of_section(values: list[float]) -> str:
+    start = SimpleNamespace(box=1.0, radius=1.0, asked=SimpleNamespace(box=None))
+    said = domain._left({str(n): value for n, value in enumerate(values)}, start)
+    assert said.outcome is (Status.FAIL if np.isnan(values).any() else Status.PASS)
+    return said.measured
+
+
+def of_places(values: list[float]) -> str:
+    places = np.array([0.0, 1.0])
+    lines = [
+        Apart("1 N", places, np.array([value, 0.0]), {"there": places < 1}) for value in values
+    ]
+    return apart_everywhere(lines, "p", "p₀", "a").note
+
+
+def of_residuals(values: list[float]) -> str:
+    increments = [SimpleNamespace(worst_residual=value) for value in values]
+    return str(dict(solved_in(SimpleNamespace(tolerance=1e-8, increments=increments), 1.0)))
+
+
+def of_steps(values: list[float]) -> str:
+    return str(outcome_columns([End(value) for value in values])["tangential\nshift x\nm"])
+
+
+TOLD: dict[str, Callable[[list[float]], str]] = {
+    "changes with the window": of_window,
+    "what a section leaves": of_section,
+    "differences that are left out": of_places,
+    "largest residual": of_residuals,
+    "strains": lambda values: str(beyond_linear_theory(scene(PRESS), map(End, values))),
+    "shifts of steps": of_steps,
+}
+
+
+@pytest.mark.parametrize("place", range(3))
+@pytest.mark.parametrize("tell", TOLD.values(), ids=TOLD)
+def test_of_several_values_the_one_that_is_no_number_is_told(
+    tell: Callable[[list[float]], str], place: int
+) -> None:
+    values = [1e-6, 2e-6, 1e-6]
+    if tell is not of_steps:
+        assert "nan" not in tell(values)
+    values[place] = float("nan")
+    assert "nan" in tell(values)

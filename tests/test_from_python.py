@@ -158,6 +158,34 @@ def test_what_is_no_run_is_refused_by_name(tmp_path: Path) -> None:
         stored(tmp_path)["shaer"]
 
 
+@pytest.mark.parametrize(
+    ("changed", "complaint"),
+    [
+        ({"title": "another"}, "title is another and ball"),
+        ({"loading": SCENE.loading[:2]}, "there are 2 and 4 loading steps"),
+        ({"friction": slipstick.CoulombFriction(coefficient=0.2)}, "tangential_shift differs"),
+    ],
+)
+def test_a_summary_is_not_paired_with_the_fields_of_another_run(
+    changed: dict[str, Any], complaint: str, tmp_path: Path
+) -> None:
+    for name, scene in (("one", SCENE.model_copy(update=changed)), ("other", SCENE)):
+        result = slipstick.solve(scene, discretisation=COARSE["semi-analytical"])
+        slipstick.save(result, tmp_path / name, figures=False)
+    (tmp_path / "other" / "result.h5").replace(tmp_path / "one" / "result.h5")
+    with pytest.raises(ValueError, match=rf"are of different runs: {complaint}"):
+        slipstick.load(tmp_path / "one")
+
+
+@pytest.mark.parametrize("mark", ["unit", "description"])
+def test_values_without_unit_or_meaning_are_refused_by_name(mark: str, tmp_path: Path) -> None:
+    run = stored(tmp_path)
+    with h5py.File(tmp_path / "again" / "result.h5", "a") as file:
+        del file["increments/pressure"].attrs[mark]
+    with pytest.raises(ValueError, match=rf"/increments/pressure has .*{mark} None"):
+        run["pressure"]
+
+
 def stored(directory: Path) -> Any:
     slipstick.save(slipstick.solve(SCENE, discretisation=COARSE["semi-analytical"]),
                    directory / "again", figures=False)  # fmt: skip

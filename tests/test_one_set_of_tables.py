@@ -41,7 +41,7 @@ PRESS = LoadStep(normal_force=1e3)
 PUSH, TURN, LIMIT = (
     LoadStep(tangential_force=(60.0, 0.0), increments=2),
     LoadStep(torque=0.01, increments=2),
-    LoadStep(tangential_force=(100.0, 0.0)),
+    LoadStep(tangential_force=(-100.0, 0.0)),
 )
 TILT = LoadStep(normal_force=1e3, moment=(0.01, 0.02), increments=2)
 MESH = FiniteElementDiscretisation(elements_per_radius=6)
@@ -122,6 +122,18 @@ def test_the_increment_says_what_its_tables_say(written: tuple[Any, Path]) -> No
             assert [row[part] for part in components(name)] == [
                 "" if number is None else repr(number) for number in values
             ], name
+
+
+def test_no_zero_has_a_sign(written: tuple[Any, Path]) -> None:
+    """Not in the increment, and so in no table of it."""
+    result, directory = written
+    given = [
+        v for i in result.increments for name in SCALARS if (v := getattr(i, name)) is not None
+    ]
+    zeros = [part for value in given for part in np.ravel(value) if part == 0]
+    assert zeros
+    assert not np.any(np.signbit(zeros))
+    assert "-0.0" not in {cell for row in table(directory) for cell in row.values()}
 
 
 def test_a_step_takes_its_increments_together(written: tuple[Any, Path]) -> None:

@@ -178,7 +178,9 @@ finally:
         (["{}/out"], "has no result.h5"),
         (["{}/run", "--depths", "-1"], "expected a finite length"),
         (["{}/run", "--depths", "1 kN"], "expected a length"),
-        (["{}/run", "--set", "title=a"], "--set changes a scene"),
+        (["{}/run", "--set", "title=a"], "--set says what to solve"),
+        (["{}/run", "--solver", "fem"], "--solver says what to solve or how, and this is a run"),
+        (["{}/run", "--solver", "semi-analytical"], "leave it out, or give the scene file"),
         (["{}/run", "-o", "{}/scene.toml/out"], "is a file"),
     ],
 )

@@ -9,11 +9,14 @@ from pathlib import Path
 from typing import Any
 
 import h5py
+import numpy as np
 from numpy.typing import NDArray
 
 from contact_results.directory.file_names import FIELDS, SUMMARY
 from contact_results.files.stored_values import MISREAD, text, values
 from contact_scene import Scene
+from contact_scene.increment import SCALARS
+from contact_scene.reported import Kind
 from contact_scene.summary import RunSummary, load_summary
 
 
@@ -45,8 +48,13 @@ class StoredGroup(Mapping[str, StoredValues]):
             raise KeyError(f"{self._path} has no {name!r} in {self._group}: {self._names}")
         with h5py.File(self._path) as file:
             dataset = file[self._group][name]
-            marks = dataset.attrs["unit"], dataset.attrs["description"]
-            return StoredValues(values(dataset), *marks)
+            unit, meaning = (dataset.attrs.get(mark) for mark in ("unit", "description"))
+            if not (isinstance(unit, str) and isinstance(meaning, str)):
+                raise ValueError(
+                    f"{self._path}: {dataset.name} has unit {unit!r} and description {meaning!r}, "
+                    f"expected both in words as in the {FIELDS} of a run"
+                )
+            return StoredValues(values(dataset), unit, meaning)
 
     def __iter__(self) -> Iterator[str]:
         return iter(self._names)
@@ -76,8 +84,8 @@ class StoredRun:
 def load(directory: str | PathLike[str]) -> StoredRun:
     """The run that `slipstick run` or `slipstick.save` has left in a directory.
 
-    Raises FileNotFoundError if there is none, ValueError for files that are no run's, and
-    ResourceRefused for arrays that do not fit into memory.
+    Raises FileNotFoundError if there is none, ValueError for files that are no run's or of two
+    runs, and ResourceRefused for arrays that do not fit into memory.
     """
     summary, fields = Path(directory) / SUMMARY, Path(directory) / FIELDS
     for path in (summary, fields):
@@ -92,7 +100,34 @@ def load(directory: str | PathLike[str]) -> StoredRun:
             scene = Scene.model_validate_json(text(file["scene"]))
             if "increments" not in file:
                 raise ValueError("it has no increments")
+            strange = next(_strange(record, scene, file), None)
         groups = (StoredGroup(fields, group) for group in ("/", "increments", "last_cycle"))
-        return StoredRun(record, scene, *groups)
     except MISREAD as error:
         raise ValueError(f"{fields} is not the {FIELDS} of a run: {error}") from None
+    if strange:
+        raise ValueError(f"{summary} and {fields} are of different runs: {strange}; run again")
+    return StoredRun(record, scene, *groups)
+
+
+def _strange(summary: RunSummary, scene: Scene, file: h5py.File) -> Iterator[str]:
+    """What a summary and fields say differently. They have all scalars at the end of every step in
+    common, to the last bit."""
+    group = file["increments"]
+    marks = dict(file.attrs) | {"title": scene.title}
+    for name in ("title", "solver", "tolerance"):
+        if (one := getattr(summary, name)) != (other := marks[name]):
+            yield f"{name} is {one} and {other}"
+    steps = values(group["step"])
+    ends = np.flatnonzero(np.diff(steps, append=steps[-1] + 1))
+    if len(summary.steps) != len(ends):
+        yield f"there are {len(summary.steps)} and {len(ends)} loading steps"
+        return
+    for name, mark in SCALARS.items():
+        if name not in group or mark.kind not in (Kind.SCALAR, Kind.VECTOR):
+            continue
+        stored = values(group[name])[ends]
+        told = [getattr(step, name) for step in summary.steps]
+        nothing = np.full(stored.shape[1:], np.nan)
+        known = np.array([nothing if value is None else value for value in told])
+        if not np.array_equal(known, stored, equal_nan=True):
+            yield f"{name} differs at the end of loading steps"

@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING, TypeVar
 
+import numpy as np
+
 from contact_results.difference import largest_difference
 from contact_scene.engineering_units import engineering_unit
 from contact_scene.increment import SCALARS, State, components, numbers
@@ -25,7 +27,7 @@ Shown = TypeVar("Shown")
 
 def solved_in(result: Result, seconds: float) -> Iterator[tuple[str, str]]:
     """How well it was solved, and how long that took."""
-    worst = max(increment.worst_residual for increment in result.increments)
+    worst = np.max([increment.worst_residual for increment in result.increments])
     yield "tolerance", f"{result.tolerance:.3g} (largest residual {worst:.1e})"
     yield "increments", f"{len(result.increments)} in {seconds:.2f} s"
 
@@ -47,7 +49,8 @@ def outcome_columns(ends: Sequence[State]) -> dict[str, list[str]]:
     numbered, gap = _shown(list(enumerate(ends, 1)))
     columns = {"step": [str(number) for number, _ in numbered]}
     for name, unit, values in _quantities([end for _, end in numbered]):
-        scale = engineering_unit(max((abs(v) for v in values if v is not None), default=0.0), unit)
+        known = [abs(v) for v in values if v is not None]
+        scale = engineering_unit(float(np.max(known, initial=0.0)), unit)
         texts = ["–" if v is None else f"{v / scale.size:.{DIGITS}g}" for v in values]
         columns[f"{name}\n{scale.name}"] = texts
     if gap is not None:
@@ -81,7 +84,7 @@ def _relative_error(
     quantity: DoubledQuantity | None, name: str, found: Sequence[dict[str, DoubledQuantity]]
 ) -> str:
     """Relative to the largest value of the history; nothing for what is prescribed."""
-    largest = max(abs(step[name].value) for step in found if name in step)
+    largest = np.max([abs(step[name].value) for step in found if name in step])
     if quantity is None or largest == 0 or quantity.error <= NEGLIGIBLE * largest:
         return "–"
     return f"{quantity.error / largest:.1e}"
@@ -107,10 +110,10 @@ def _quantities(steps: Sequence[State]) -> Iterator[tuple[str, str, Values]]:
         first, _, rest = name.partition("_")
         for axis, values in zip(("x", "y"), found, strict=False):
             vector = mark.kind is Kind.VECTOR
-            cut = [_cut(value, NEGLIGIBLE * max(known) if vector else 0.0) for value in values]
+            cut = [_cut(value, NEGLIGIBLE * np.max(known) if vector else 0.0) for value in values]
             if axis == "x" or any(cut):
                 yield f"{first}\n{rest}{f' {axis}' if vector else ''}", mark.unit, cut
 
 
 def _cut(value: float | None, negligible: float) -> float | None:
-    return value if value is None or abs(value) > negligible else 0.0
+    return 0.0 if value is not None and abs(value) <= negligible else value

@@ -6,13 +6,15 @@ import typer
 
 from slipstick.solvers.names import SolverName
 
-SolverOption: TypeAlias = Annotated[
-    SolverName,
-    typer.Option(
-        "--solver",
-        metavar="NAME",
-        help="'semi-analytical', or finite elements, 'fem' with a penalty and "
-        "'fem-complementarity' without one; these read the table fem_reference and ignore "
-        "semi_analytical.",
-    ),
-]
+_OPTION = typer.Option(
+    "--solver",
+    metavar="NAME",
+    help="'semi-analytical', or finite elements, 'fem' with a penalty and "
+    "'fem-complementarity' without one; these read the table fem_reference and ignore "
+    "semi_analytical.",
+    show_default=SolverName.SEMI_ANALYTICAL.value,
+)
+
+SolverOption: TypeAlias = Annotated[SolverName, _OPTION]
+# Where it matters whether one was named.
+AskedSolver: TypeAlias = Annotated[SolverName | None, _OPTION]

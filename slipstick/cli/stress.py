@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from slipstick.cli.scene_options import SetOption
-from slipstick.cli.solver_option import SolverOption
+from slipstick.cli.solver_option import AskedSolver
 from slipstick.solvers.names import SolverName
 
 if TYPE_CHECKING:
@@ -61,22 +61,23 @@ def stress(
         bool, typer.Option("--figures/--no-figures", help="Draw figures, or leave them out.")
     ] = True,
     overrides: SetOption = None,
-    solver: SolverOption = SolverName.SEMI_ANALYTICAL,
+    solver: AskedSolver = None,
 ) -> None:
     """Stress in layers and substrate: maxima, sections, lines, and both sides of interfaces.
 
     Writes stress.json, tables (CSV), the section y = 0 for ParaView (VTU) and figures into DIR.
     """
     _refuse_file_in_the_way(output)
-    if source.is_dir() and overrides:
-        raise typer.BadParameter("--set changes a scene, and this is a run that was solved")
     asked = None if depths is None else [_length(text) for text in depths.split(",")]
-    if not source.is_dir():
-        _refuse_beside_fem(solver.is_fem, asked, volume)
+    chosen = solver or SolverName.SEMI_ANALYTICAL
+    if source.is_dir():
+        _refuse_beside_run({"--set": overrides, "--solver": solver})
+    else:
+        _refuse_beside_fem(chosen.is_fem, asked, volume)
     from contact_results.stress.extremes import extremes
     from contact_results.stress_files import write_stress
 
-    state = _state(source, step, solver, overrides or [])
+    state = _state(source, step, chosen, overrides or [])
     which, body = ("indenter", state.indenter) if indenter else ("body", state.body)
     if not body.deforms:
         raise typer.BadParameter(f"the {which} is rigid: there is no stress in it")
@@ -90,6 +91,15 @@ def _refuse_file_in_the_way(output: Path) -> None:
     for place in (output, *output.parents):
         if place.exists() and not place.is_dir():
             raise typer.BadParameter(f"{place} is a file; --output needs a directory")
+
+
+def _refuse_beside_run(given: dict[str, object]) -> None:
+    for option, value in given.items():
+        if value:
+            raise typer.BadParameter(
+                f"{option} says what to solve or how, and this is a run that was solved: leave it "
+                "out, or give the scene file"
+            )
 
 
 def _refuse_beside_fem(is_fem: bool, depths: list[float] | None, volume: bool) -> None:
@@ -160,10 +170,12 @@ def _length(text: str) -> float:
 
 
 def _print(found: tuple[Extreme, ...], output: Path) -> None:
+    import numpy as np
+
     from contact_scene.engineering_units import engineering_unit, quantity
     from slipstick.cli.terminal import print_table
 
-    unit = engineering_unit(max(abs(e.value) for e in found), "Pa")
+    unit = engineering_unit(float(np.max([abs(e.value) for e in found])), "Pa")
     columns = ("region", "measure", f"largest\n{unit.name}", "x\n", "y\n", "depth\n")
     rows = (
         (

@@ -59,7 +59,7 @@ def apart_everywhere(lines: Sequence[Apart], what: str, over: str, x_name: str) 
     what    what differs, and over: what it is divided by
     x_name  what places are told in
     """
-    worst = max(lines, key=lambda line: line.largest[0])
+    worst = lines[int(np.argmax([line.largest[0] for line in lines]))]
     value, at, why = worst.largest
     side = float(worst.x[1] - worst.x[0])
     return Table(

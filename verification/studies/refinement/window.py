@@ -6,6 +6,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
+import numpy as np
+
 from contact_scene.solver_errors import SolverError
 from fem_reference import Method
 from semi_analytical import ContactAtWindowEdge, SurfaceGrid
@@ -126,7 +128,7 @@ def _words(grid: SurfaceGrid) -> str:
 def _unchanged(solved: Sequence[CaseRecord], tolerance: float) -> Statement:
     *others, largest = solved
     changes = [(d, name) for other in others for name, d in distance(other, largest).items()]
-    worst, name = max(changes)
+    worst, name = changes[int(np.argmax([change for change, _ in changes]))]
     return Statement(
         claim="a window that holds the contact does not matter",
         outcome=judged(worst <= ABOVE_TOLERANCE * tolerance),
@@ -145,7 +147,7 @@ def _chart(solved: Sequence[CaseRecord], tolerance: float) -> Chart:
     lines = []
     for name in changes[0]:
         line = [(x, max(d[name], DRAWN)) for x, d in zip(sizes, changes, strict=True)]
-        lines.append((page.label(name), line if max(y for _, y in line) > DRAWN else ()))
+        lines.append((page.label(name), () if all(y <= DRAWN for _, y in line) else line))
     bound = 2 * (ABOVE_TOLERANCE * tolerance,)
     return log_chart(
         "window_changes",
