@@ -46,7 +46,7 @@ class ContactAtZoneEdge(SolverError):
 
 
 class ContactNotResolved(SolverError):
-    """The contact lies between the cell centres: no cell touches."""
+    """The contact is smaller than the cells: none touches, or only a few carry the load."""
 
 
 class ResourceRefused(SolverError):

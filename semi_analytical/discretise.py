@@ -43,10 +43,15 @@ def discretise(scene: Scene, asked: SurfaceDiscretisation) -> SurfaceGrid:
     """
     mapped = scene.friction.cells if scene.friction else None
     cells = asked.cells or mapped or DEFAULT_CELLS
-    return SurfaceGrid(cells, asked.window or _fitted_window(scene))
+    return SurfaceGrid(cells, asked.window or fitted_window(scene))
 
 
-def _fitted_window(scene: Scene) -> tuple[float, float]:
+def fitted_window(scene: Scene) -> tuple[float, float]:
+    """Sides of a window that just holds the largest contact of the history [length].
+
+    raises  ContactAtWindowEdge where none does; UnsupportedScene for a shape that says nothing of
+            how far its contact will reach
+    """
     if scene.indenter.extent is not None:
         return scene.indenter.extent
     loads = _largest_loads(scene)

@@ -185,9 +185,11 @@ def refuse_unresolved_contact(model: ContactModel, target: NormalTarget) -> None
     if _touches(model, target):
         return
     if target.tilting is None or target.tilting.moment is None:
+        gap = float(np.min(model.gap))
+        least = f"the gap is at least {gap:.4g} m" if gap < np.inf else "nothing of the indenter is"
         raise ContactNotResolved(
-            f"no cell of the window touches: the gap is at least {np.min(model.gap):.4g} m at the "
-            f"cell centres; take more cells or a smaller window"
+            f"no cell of the window touches: {least} at the cell centres; take more cells or a "
+            f"smaller window"
         )
     if np.isfinite(_rim(model.gap)).any():
         raise ContactAtWindowEdge(

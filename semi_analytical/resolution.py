@@ -11,11 +11,15 @@ from numpy.typing import NDArray
 from scipy import ndimage
 
 from contact_scene import HeightMap
+from contact_scene.solver_errors import ContactNotResolved, SolverError
+from semi_analytical.discretise import fitted_window
 from semi_analytical.fields import Increment, Result
 
 Field = NDArray[np.float64]
 Mask = NDArray[np.bool_]
 
+# Cells per contact radius from which peak pressure and approach can be trusted.
+ENOUGH = 8
 SQUARE = np.ones((3, 3), dtype=bool)  # cells that touch at a corner are of one patch
 
 
@@ -45,14 +49,47 @@ def resolution(result: Result) -> tuple[Resolution, ...]:
 
 
 def _at(result: Result, end: Increment) -> Resolution:
-    grid, load = result.grid, end.pressure
-    contact = _semi_axis(end.in_contact, load, end.contact_area / grid.cell_area)
+    grid, load, contact = result.grid, end.pressure, _contact(result, end)
     stick = annulus = None
     if end.in_stick is not None and end.stick_area is not None:
         stick = _semi_axis(end.in_stick, load, end.stick_area / grid.cell_area)
         if np.any(end.in_contact & ~end.in_stick):
             annulus = max(contact - stick, 0.0)
     return Resolution(contact, stick, annulus, _layer(result), _wave(result, end.in_contact))
+
+
+def _contact(result: Result, end: Increment) -> float:
+    return _semi_axis(end.in_contact, end.pressure, end.contact_area / result.grid.cell_area)
+
+
+def refuse_unresolved(result: Result) -> None:
+    """Raise ContactNotResolved if the largest contact of the history has one cell per radius."""
+    end = max(result.steps, key=lambda step: step.contact_area)
+    found = _contact(result, end)
+    if found > 1:
+        return
+    raise ContactNotResolved(
+        f"the contact is smaller than the cells: at its largest, at the end of step {end.step}, "
+        f"{np.count_nonzero(end.in_contact)} of them carry the load, so that its size and pressure "
+        f"are those of the cells; {_remedy(result, found)}"
+    )
+
+
+def _remedy(result: Result, found: float) -> str:
+    """Settings that would resolve the contact."""
+    (nx, ny), (L_x, L_y) = result.grid.cells, result.grid.window
+    more = int(np.ceil(ENOUGH / max(found, 0.5)))
+    cells = f"--set semi_analytical.cells=[{more * nx},{more * ny}]"
+    if isinstance(result.scene.indenter, HeightMap):
+        return f"try {cells}, and heights measured as closely: what is between them is interpolated"
+    try:
+        window = fitted_window(result.scene)
+    except SolverError:
+        window = L_x / more, L_y / more
+    if max(window[0] / L_x, window[1] / L_y) > 0.5:
+        return f"try {cells}"
+    sides = ",".join(f"{1.005 * side:.3g}" for side in window)
+    return f"try --set semi_analytical.window=[{sides}], or leave the window out to have it chosen"
 
 
 def _semi_axis(marked: Mask, load: Field, area: float) -> float:

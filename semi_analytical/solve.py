@@ -13,6 +13,7 @@ from semi_analytical.memory import refuse_if_too_large
 from semi_analytical.model import ContactModel
 from semi_analytical.plan import Plan
 from semi_analytical.plan import plan as plan_of
+from semi_analytical.resolution import refuse_unresolved
 
 Progress = Callable[[Increment], None]
 
@@ -88,7 +89,7 @@ def solve_discretised(
 
     A window that is not given is fitted to the contact, and enlarged if the contact of some
     increment reaches its edge after all; the window of a height map is all of it. Raises what
-    `solve` raises.
+    `solve` raises, and ContactNotResolved where only a few cells carry the load.
     """
     decided = plan_of(scene, discretisation.path_accuracy) if plan is None else plan
     first = discretise(scene, discretisation)
@@ -100,9 +101,13 @@ def solve_discretised(
     last = keeper.last() if keeper else None
     if last and last.extent in grids:  # the smaller ones have been outgrown
         grids = grids[grids.index(last.extent) :]
-    for grid in grids[:-1]:
+    for grid in grids:
         try:
-            return solve(scene, grid, discretisation.tolerance, progress, decided, keeper)
+            result = solve(scene, grid, discretisation.tolerance, progress, decided, keeper)
         except ContactAtWindowEdge:
+            if grid is grids[-1]:
+                raise
             continue
-    return solve(scene, grids[-1], discretisation.tolerance, progress, decided, keeper)
+        break
+    refuse_unresolved(result)
+    return result

@@ -36,9 +36,14 @@ def exit_code(error: Exception) -> ExitCode:
 
 
 def _solver_exit_code(error: Exception) -> ExitCode:
-    from contact_scene.solver_errors import NotConverged, ResourceRefused, SolverError
+    from contact_scene.solver_errors import (
+        ContactNotResolved,
+        NotConverged,
+        ResourceRefused,
+        SolverError,
+    )
 
-    if isinstance(error, NotConverged):
+    if isinstance(error, NotConverged | ContactNotResolved):
         return ExitCode.NOT_CONVERGED
     if isinstance(error, ResourceRefused):
         return ExitCode.RESOURCES_REFUSED
