@@ -2,9 +2,11 @@
 
 import os
 import signal
+import time
 from dataclasses import dataclass
 
 from contact_scene.description import Description
+from verification.running.row import CaseRecord
 
 
 class Number(Description):
@@ -41,3 +43,16 @@ class Killed(Square):
     def compute(self) -> Number:
         os.kill(os.getpid(), signal.SIGKILL)
         raise AssertionError
+
+
+@dataclass(frozen=True)
+class Timed(Square):
+    """Works for so many seconds, and says of so many that it measured them."""
+
+    said: float
+
+    def compute(self) -> CaseRecord:  # type: ignore[override]
+        started = time.process_time()
+        while time.process_time() - started < self.of:
+            pass
+        return CaseRecord(seconds=self.said)

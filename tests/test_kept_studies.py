@@ -57,7 +57,7 @@ def today(name: str) -> Conclusion:
     records: Records = {}
     if name == "stability":
         cells = study_cells(level, CELLS[level])
-        records = {cell.name: ended(cell).row(cell) for cell in cells}
+        records = {cell.name: ended(cell).of_cell(cell) for cell in cells}
     return STUDIES[name].conclude(Settings(level), records)
 
 

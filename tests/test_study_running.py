@@ -13,7 +13,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 import pytest
-from study_cases import Dying, Killed, Number, Refusing, Square
+from study_cases import Dying, Killed, Number, Refusing, Square, Timed
 
 from contact_results.one_thread import VARIABLES
 from slipstick.cli.study import _studied
@@ -24,6 +24,7 @@ from verification.running.case_store import CaseStore, DamagedRecord, content_ha
 from verification.running.local_workers import LocalWorkers
 from verification.running.provenance import provenance
 from verification.running.record import StudyRecord
+from verification.running.row import CaseRecord
 from verification.running.stored_studies import stored_studies
 from verification.running.study import Settings
 from verification.studies.catalogue import STUDIES
@@ -307,3 +308,10 @@ def test_stored_study_that_cannot_be_read_is_named(tmp_path: Path) -> None:
     path.write_text(path.read_text(encoding="utf-8")[:100], encoding="utf-8")
     with pytest.raises(ValueError, match=r"stability.study\.json"):
         stored_studies(tmp_path)
+
+
+@pytest.mark.parametrize("said", [0.0, 9.0])
+def test_seconds_are_the_workers_unless_the_case_measures_them(tmp_path: Path, said: float) -> None:
+    (end,) = run_cases([Timed(0.02, said)], CaseStore(tmp_path), InThisProcess(), lambda end: None)
+    assert isinstance(end.record, CaseRecord)
+    assert end.record.seconds == said if said else 0.02 <= end.record.seconds < 1.0

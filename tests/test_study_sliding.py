@@ -48,10 +48,10 @@ def cattaneo(
         sticking = round(part * np.pi / cell**2)
         points.append(
             SlidingPoint(
-                shift=float(shift), force=float(force), stick_fraction=float(part),
-                stick_cells=sticking, mean_cosine=float(force), full_slip=sticking == 0,
-                status=_status(sticking, force), slip_angle=angle, largest_slip_angle=angle,
-                residual=1e-9,
+                step=PRESSING + bool(points), shift=float(shift), force=float(force),
+                stick_fraction=float(part), stick_cells=sticking, mean_cosine=float(force),
+                full_slip=sticking == 0, status=_status(sticking, force), slip_angle=angle,
+                largest_slip_angle=angle, largest_residual=1e-9,
             )
         )  # fmt: skip
     return SlidingPath(points=tuple(points), cell_over_radius=cell)
@@ -59,9 +59,9 @@ def cattaneo(
 
 def kept(path: SlidingPath) -> CaseRecord:
     """As a run leaves it."""
-    rows = [point.row(PRESSING + (n > 0)) for n, point in enumerate(path.points)]
+    rows = [point.row() for point in path.points]
     run = AlikeContact(0.0)
-    return record_of(run, rows, path.cell_over_radius, {"increments": len(rows)}, 0.0)
+    return record_of(run, rows, path.cell_over_radius, {"increments": len(rows)})
 
 
 def _status(sticking: int, force: float) -> ContactStatus:
@@ -156,7 +156,7 @@ def test_identity_and_direction_are_judged_in_every_increment() -> None:
     assert verdicts.force_is_mean_cosine({"a": off}).outcome is Status.FAIL
     turned = changed(path, 10, slip_angle=5.0)
     assert verdicts.slip_opposes_shear({"a": turned}).outcome is Status.FAIL
-    loose = changed(path, 10, residual=1e-6)
+    loose = changed(path, 10, largest_residual=1e-6)
     assert verdicts.all_converged([kept(path), kept(loose)]).outcome is Status.FAIL
 
 
@@ -215,10 +215,10 @@ def test_a_path_comes_back_from_its_record(vanishing: float) -> None:
 
 
 def test_a_residual_of_the_pressing_counts_too() -> None:
-    pressing = cattaneo().points[0].model_copy(update={"residual": 1e-6}).row(PRESSING)
+    pressing = cattaneo().points[0].model_copy(update={"largest_residual": 1e-6}).row()
     record = kept(cattaneo())
     rows = (pressing, *record.parts)
-    whole = record_of(AlikeContact(0.0), rows, PER_RADIUS, record.counters, 0.0)
+    whole = record_of(AlikeContact(0.0), rows, PER_RADIUS, record.counters)
     assert SlidingPath.of(whole) == cattaneo()
     assert verdicts.all_converged([whole]).outcome is Status.FAIL
 

@@ -174,13 +174,13 @@ def test_contact_that_outgrows_its_window_gets_a_larger_one(
 def kept(found: dict[str, CellRecord]) -> dict[str, CaseRecord]:
     """As runs leave them."""
     cells = {cell.name: cell for cell in study_cells(Level.QUICK, 32)}
-    return {name: record.row(cells[name]) for name, record in found.items()}
+    return {name: record.of_cell(cells[name]) for name, record in found.items()}
 
 
 def test_a_record_comes_back_from_its_row() -> None:
     bad = CellRecord(verdict=Verdict.REFUSED, reason="GrossSliding: …", tolerance=1e-8)
     for record in (GOOD, bad):
-        row = CaseRecord.model_validate_json(record.row(ORDINARY).model_dump_json())
+        row = CaseRecord.model_validate_json(record.of_cell(ORDINARY).model_dump_json())
         assert CellRecord.of(row) == record
         assert row.parameters["surface"] == "ball"
 

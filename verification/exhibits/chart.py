@@ -87,3 +87,9 @@ def curve(
 
 def _rounded(values: Iterable[float]) -> tuple[float, ...]:
     return tuple(float(f"{value:.{DIGITS}g}") for value in values)
+
+
+def stacked(name: str, title: str, caption: str, *rows: Panel | tuple[Panel, ...]) -> Chart:
+    """Panels above each other; what shares a row stands side by side."""
+    beside = tuple(row if isinstance(row, tuple) else (row,) for row in rows)
+    return Chart(name=name, title=title, caption=caption, rows=beside)

@@ -6,6 +6,7 @@ The processes are workers of this machine, or those of a cluster that is there a
 
 from __future__ import annotations
 
+import time
 from collections.abc import Callable, Iterable
 from concurrent.futures import Future, as_completed
 from concurrent.futures.process import BrokenProcessPool
@@ -16,6 +17,7 @@ from contact_results.directory.code_digest import code_digest
 from contact_scene.description import Description
 from verification.running.case_store import CaseStore, DamagedRecord
 from verification.running.local_workers import LocalWorkers
+from verification.running.row import CaseRecord
 from verification.running.study import LostCase, StudyCase
 
 KILLED = "its worker was killed, by somebody or for lack of memory"
@@ -142,9 +144,12 @@ def _answer(case: StudyCase) -> Answer:
 
     An error is sent home as text: one that cannot be rebuilt there would look like a dead worker.
     """
-    code = code_digest()  # before the sources are used
+    code, started = code_digest(), time.process_time()  # before the sources are used
     try:
-        return Answer(case.compute(), code)
+        record = case.compute()
+        if isinstance(record, CaseRecord) and not record.seconds:  # else it has measured them
+            record = record.model_copy(update={"seconds": time.process_time() - started})
+        return Answer(record, code)
     except Exception as error:
         return Answer(_reason(error), code)
 

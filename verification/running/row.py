@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from dataclasses import fields, is_dataclass
 from enum import Enum
-from typing import Any, Protocol, TypeVar
+from typing import Any, ClassVar, Protocol, Self, TypeVar
 
 from pydantic import Field
 
@@ -62,10 +62,41 @@ class CaseRecord(Row):
     """Fields that other cases are compared with."""
 
     seconds: float = 0.0
-    """CPU time; with `repeats`, all that differs between equal runs."""
+    """CPU time, of the worker's whole work where the case measures none; with `repeats`, all that
+    differs between equal runs."""
 
     repeats: int = 1
     """Solves of which `seconds` is the median."""
+
+
+class TypedRow(Description):
+    """A row whose names and types are known. Of its fields texts and members of enumerations are
+    kept as words, whole numbers and what is true or not as counters, other numbers as measures."""
+
+    PARAMETERS: ClassVar[tuple[str, ...]] = ()
+    """Fields that say what it is of."""
+
+    UNITS: ClassVar[Mapping[str, str]] = {}
+
+    def row(self) -> Row:
+        """As it is kept."""
+        values = self.model_dump(mode="json")
+        parameters = {name: values.pop(name) for name in self.PARAMETERS}
+        words = {name: value for name, value in values.items() if isinstance(value, str)}
+        counters = {name: int(value) for name, value in values.items() if isinstance(value, int)}
+        return Row(
+            parameters=parameters,
+            measures={n: v for n, v in values.items() if n not in words and n not in counters},
+            units={name: unit for name, unit in self.UNITS.items() if name in values},
+            counters=counters,
+            words=words,
+        )
+
+    @classmethod
+    def of(cls, row: Row) -> Self:
+        """Back from its row."""
+        known: dict[str, Any] = {**row.parameters, **row.measures, **row.counters, **row.words}
+        return cls.model_validate({name: known[name] for name in cls.model_fields})
 
 
 class Named(Protocol):

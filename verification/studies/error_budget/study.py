@@ -7,9 +7,9 @@ from collections.abc import Iterable, Sequence
 
 from verification.exhibits.chart import Chart, Look, curve
 from verification.exhibits.log_chart import log_chart
-from verification.exhibits.table import Table
+from verification.exhibits.table import Table, table_of
 from verification.running.row import Row, found, value_of
-from verification.running.row_views import Text, number, row_table
+from verification.running.row_views import Text, number
 from verification.running.rules import judged, solved
 from verification.running.study import Conclusion, Records, Settings, Statement, Study
 from verification.studies.error_budget.budget import (
@@ -127,7 +127,7 @@ def chart(budget: Budget, parts: Sequence[Row]) -> Chart:
 
 def _table(budget: Budget, settings: Settings, parts: Sequence[Row]) -> Table:
     columns: dict[str, Text] = {"quantity": lambda row: str(row.parameters["meaning"])}
-    return row_table(
+    return table_of(
         f"{budget.case}: parts of the error, {budget.base(settings.level).text}",
         columns | {name: number(name) for name in parts[0].measures},
         parts,

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import time
 from dataclasses import dataclass, replace
 
 from contact_scene.residuals import worst
@@ -88,9 +87,7 @@ class PenaltyCase:
         by_springs        increments that springs in series solved
         systems           linear systems of all increments
         """
-        started = time.process_time()
         result = self._run.solve()
-        seconds = time.process_time() - started
         end = result.steps[-1]
         errors = self._of_hertz(result) if self.contact == HERTZIAN else self._of_friction(result)
         systems = sum(i.iterations for i in result.increments)
@@ -108,7 +105,6 @@ class PenaltyCase:
                 "by_springs": round(by_springs(result)),
                 "systems": systems,
             },
-            seconds=seconds,
         )
 
     def _of_hertz(self, result: Result) -> dict[str, float]:

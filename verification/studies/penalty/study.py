@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from verification.exhibits.table import Table
+from verification.exhibits.table import Table, table_of
 from verification.running.row import found, rows_of
-from verification.running.row_views import Text, number, row_table
+from verification.running.row_views import Text, number
 from verification.running.rules import RESIDUAL
 from verification.running.study import Conclusion, Records, Settings, Study
 from verification.studies.penalty.case import FRICTIONAL, PenaltyCase
@@ -68,7 +68,7 @@ def _with_friction(settings: Settings, known: Found) -> Table:
         "by springs": lambda r: f"{r.counters['by_springs']} of {r.counters['increments']}",
         "largest residual": number(RESIDUAL),
     }
-    return row_table(
+    return table_of(
         f"Pressing with friction, {ELEMENTS[settings.level]} elements per radius",
         columns,
         rows,
@@ -86,7 +86,7 @@ def _meshes(settings: Settings, known: Found) -> Table:
         "p / p_H": number("pressure"),
         "overlap / approach": number("overlap"),
     }
-    return row_table(
+    return table_of(
         f"Hertz at c = {DEFAULT:g} on three meshes",
         columns,
         rows_of(cases, known),

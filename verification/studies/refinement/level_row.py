@@ -38,7 +38,6 @@ def level_row(
     result: Any,
     fields: Mapping[str, StoredField],
     work: Mapping[str, int],
-    seconds: float,
 ) -> CaseRecord:
     """What is kept of a result."""
     values = named_values(result.steps[-1])
@@ -49,7 +48,6 @@ def level_row(
         units={name: unit_of(name) for name in values},
         counters={INCREMENTS: sum(level.increments), **work},
         fields=dict(fields),
-        seconds=seconds,
     )
 
 

@@ -14,10 +14,10 @@ from verification.convergence.observed_order import (
 from verification.convergence.stored_field import PRESSURE, SHEAR
 from verification.exhibits.chart import Chart, Curve, Look, Panel, curve
 from verification.exhibits.numbers import plain, value_text
-from verification.exhibits.table import Table
+from verification.exhibits.table import Table, table_of
 from verification.judging.outcome import Status
 from verification.running.row import CaseRecord, Row
-from verification.running.row_views import Text, number, row_table
+from verification.running.row_views import Text, number
 from verification.running.rules import RESIDUAL
 from verification.running.study import Statement
 from verification.studies.refinement.fit import (
@@ -135,7 +135,7 @@ def level_table(records: Sequence[CaseRecord], names: Sequence[str]) -> Table:
         "largest residual": number(RESIDUAL),
         **{kind: _count(kind) for kind in work_of(records[-1])},
     }
-    return row_table("Levels", columns, rows)
+    return table_of("Levels", columns, rows)
 
 
 def _with_unit(name: str) -> Text:

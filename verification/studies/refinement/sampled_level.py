@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import time
 from dataclasses import asdict, dataclass
 
 from semi_analytical import Result, plan
@@ -30,7 +29,6 @@ class SampledLevel:
     def compute(self) -> CaseRecord:
         """Solve; raises what `semi_analytical.solve` raises. The one part of the record has the
         errors of the coefficients, by the names of `SamplingErrors`."""
-        started = time.process_time()
         contents, grid = self.solved.scene.read(), self.solved.grid
         scene, tolerance = contents.scene, contents.semi_analytical.tolerance
         how = Sampling(self.refinement, self.extension)
@@ -39,7 +37,7 @@ class SampledLevel:
         result = Result(scene, grid, tolerance, cut, tuple(march(model, cut, tolerance)))
         sampled, exact = model.coefficients, ContactModel.of(scene, grid).coefficients
         errors = errors_between((sampled.zz, sampled.zx), (exact.zz, exact.zx))
-        found = recorded(result, self.solved, time.process_time() - started)
+        found = recorded(result, self.solved)
         nx, ny = (how.count(len(row)) for row in (exact.zz, exact.zz.T))
         factors: dict[str, Value] = {"refinement": self.refinement, "extension": self.extension}
         coefficients: dict[str, float | None] = asdict(errors)

@@ -8,9 +8,9 @@ from collections.abc import Iterable, Mapping, Sequence
 from verification.exhibits.chart import Chart, Panel
 from verification.exhibits.log_chart import point_curves
 from verification.exhibits.numbers import percent
-from verification.exhibits.table import Table
+from verification.exhibits.table import Table, table_of
 from verification.running.row import CaseRecord, Row, value_of
-from verification.running.row_views import Text, points, row_table
+from verification.running.row_views import Text, points
 from verification.studies.refinement import page
 from verification.studies.refinement.fit import distance
 
@@ -84,7 +84,7 @@ def error_table(sweeps: Iterable[Sequence[Row]]) -> Table:
         **{words: _percent(name) for name, words in COEFFICIENTS.items()},
         **{page.label(name): _percent(name) for name in quantities(rows[0])},
     }
-    return row_table(
+    return table_of(
         "Distance from exact coefficients",
         columns,
         rows,

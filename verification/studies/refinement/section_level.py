@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import time
 from dataclasses import dataclass
 
 import numpy as np
@@ -49,7 +48,6 @@ class SectionLevel:
 
     def compute(self) -> CaseRecord:
         """Solve; raises what `fem_reference.solve` raises."""
-        started = time.process_time()
         contents = self.scene.read()
         chosen = {
             "elements_per_radius": self.elements,
@@ -59,16 +57,16 @@ class SectionLevel:
         discretisation = contents.fem_reference.model_copy(update=chosen)
         scene = cut_into(contents.scene, self.increments)
         result = solve(scene, discretisation, Method(self.method))
-        return recorded(result, self, time.process_time() - started)
+        return recorded(result, self)
 
 
-def recorded(result: Result, level: SectionLevel, seconds: float) -> CaseRecord:
+def recorded(result: Result, level: SectionLevel) -> CaseRecord:
     """What is kept of a result."""
     work = {
         "displacements": counted_work.unknowns(result),
         "linear systems": counted_work.systems(result),
     }
-    return level_row(level, result, _fields(result, level.reach), work, seconds)
+    return level_row(level, result, _fields(result, level.reach), work)
 
 
 def _fields(result: Result, reach: float) -> dict[str, StoredField]:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import time
 from dataclasses import dataclass
 
 import numpy as np
@@ -44,9 +43,8 @@ class SurfaceLevel:
         return SurfaceGrid(self.cells, self.window)
 
     def compute(self) -> CaseRecord:
-        started = time.process_time()
         result = self.solve(self.scene.read())
-        return recorded(result, self, time.process_time() - started)
+        return recorded(result, self)
 
     def solve(self, contents: SceneFile) -> Result:
         """The solution; raises what `semi_analytical.solve` raises."""
@@ -54,7 +52,7 @@ class SurfaceLevel:
         return solve(contents.scene, self.grid, contents.semi_analytical.tolerance, plan=cut)
 
 
-def recorded(result: Result, level: SurfaceLevel, seconds: float) -> CaseRecord:
+def recorded(result: Result, level: SurfaceLevel) -> CaseRecord:
     """What is kept of a result."""
     end = result.steps[-1]
     limit = (result.scene.friction or FRICTIONLESS).limit(end.pressure)
@@ -63,7 +61,7 @@ def recorded(result: Result, level: SurfaceLevel, seconds: float) -> CaseRecord:
     if end.shear is not None:
         fields[SHEAR] = _stored(end.shear, limit, kept)
     work = {"convolutions": sum(increment.convolutions for increment in result.increments)}
-    return level_row(level, result, fields, work, seconds)
+    return level_row(level, result, fields, work)
 
 
 def _stored(field: Field, scale: Field, kept: tuple[int, int]) -> StoredField:

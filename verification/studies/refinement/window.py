@@ -14,8 +14,8 @@ from semi_analytical import ContactAtWindowEdge, SurfaceGrid
 from verification.exhibits.chart import Chart, Look, curve
 from verification.exhibits.log_chart import log_chart, point_curves
 from verification.exhibits.numbers import plain
+from verification.exhibits.table import table_of
 from verification.running.row import CaseRecord, Row, found
-from verification.running.row_views import row_table
 from verification.running.rules import converged, judged
 from verification.running.study import Conclusion, Records, Settings, Statement, Study
 from verification.studies.refinement import page
@@ -89,7 +89,7 @@ def window_study(
         refused = [record for record in known if _error(record)]
         solved = [record for record in known if not _error(record)]
         said = [_refused(known)]
-        tables = [row_table(REFUSALS, {"window": _level, "error": _error}, refused)]
+        tables = [table_of(REFUSALS, {"window": _level, "error": _error}, refused)]
         if solved:
             on = f"on {len(solved)} levels"
             said.append(converged(solved, start.tolerance, on))

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import time
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -123,14 +122,13 @@ class DefectRun:
 
     def compute(self) -> CaseRecord:
         """Plant the defect, let the case be judged, and take the defect out again."""
-        started = time.process_time()
         choose(Level.QUICK)  # what modules compute when they are imported, they compute healthy
         if self.defect == HEALTHY:
             outcome = judged(self.case)
         else:
             with planted(DEFECTS[self.defect]):
                 outcome = judged(self.case)
-        return record_of(self, outcome, started)
+        return record_of(self, outcome)
 
 
 @dataclass(frozen=True)
@@ -147,7 +145,6 @@ class HealthyRun:
 
     def compute(self) -> CaseRecord:
         """Solve and judge it."""
-        started = time.process_time()
         number = list(FAMILIES).index(self.family)
         case = FAMILIES[self.family](np.random.default_rng((SEED, number, self.draw)))
         results: dict[str, Any] = {}
@@ -157,13 +154,12 @@ class HealthyRun:
             return results[run.label]
 
         outcome = judge(case, solve)
-        return record_of(self, outcome, started, tuple(_samples(case, outcome, results)))
+        return record_of(self, outcome, tuple(_samples(case, outcome, results)))
 
 
 def record_of(
     run: DefectRun | HealthyRun,
     outcome: CaseOutcome,
-    started: float,
     measured: Sequence[Sample] = (),
 ) -> CaseRecord:
     """Counts of the verdicts, those that failed, and the samples.
@@ -181,7 +177,6 @@ def record_of(
             "inconclusive": outcome.count(Status.INCONCLUSIVE),
         },
         parts=(*(one.row for one in failed), *(one.row for one in measured)),
-        seconds=time.process_time() - started,
     )
 
 

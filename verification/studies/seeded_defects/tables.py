@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 
 from verification.defects.outputs import PLANTED
-from verification.exhibits.chart import Chart, Look, Panel, curve
+from verification.exhibits.chart import Chart, Look, Panel, curve, stacked
 from verification.exhibits.numbers import plain
-from verification.exhibits.table import Table
+from verification.exhibits.table import Table, table_of
 from verification.running.rules import total
 from verification.running.study import Records
 from verification.studies.seeded_defects.findings import (
     Seen,
+    Sighting,
     covered,
     derived,
     found,
@@ -27,73 +28,79 @@ def tables(records: Records, all_seen: Sequence[Seen]) -> tuple[Table, ...]:
 
 
 def _defects(all_seen: Sequence[Seen]) -> Table:
-    rows = []
-    for one in all_seen:
-        best = one.best
-        if best is None:
-            how = ("–", "–", "–", "missed" if one.complete else "not judged")
-        else:
-            verdict = best.verdict
-            units = "–" if verdict.clearance is None else plain(verdict.clearance, 2)
-            how = (f"{best.case}/{verdict.quantity}", verdict.how, units, _votes(one))
-        rows.append((one.defect.name, one.defect.broken, *how))
-    return Table(
-        title="Seeded defects",
-        columns=("defect", "what is broken", "caught by", "how", "error / allowed", "cases"),
-        rows=tuple(rows),
-        note="The verdict that misses by most; an error in units of what is allowed.",
+    def of_best(text: Callable[[Sighting], str]) -> Callable[[Seen], str]:
+        return lambda one: "–" if one.best is None else text(one.best)
+
+    def clearance(best: Sighting) -> str:
+        return "–" if best.verdict.clearance is None else plain(best.verdict.clearance, 2)
+
+    return table_of(
+        "Seeded defects",
+        {
+            "defect": lambda one: one.defect.name,
+            "what is broken": lambda one: one.defect.broken,
+            "caught by": of_best(lambda best: f"{best.case}/{best.verdict.quantity}"),
+            "how": of_best(lambda best: best.verdict.how),
+            "error / allowed": of_best(clearance),
+            "cases": _votes,
+        },
+        all_seen,
+        "The verdict that misses by most; an error in units of what is allowed.",
     )
 
 
 def _votes(one: Seen) -> str:
+    if one.best is None:
+        return "missed" if one.complete else "not judged"
     return f"{len(one.by)} of {len(one.cases)}"
 
 
 def _gates(records: Records) -> Table:
-    rows = []
-    for defect in PLANTED:
-        for case in defect.cases:
-            record = found(records, defect.name, case)
-            if record is None:
-                continue
-            largest = record.measures[ERROR]
-            error = "–" if largest is None else f"{100 * largest:.3f} %"
-            rows.append((
-                defect.name, case, error, "passes" if passes_gate(record) else "fails",
-                f"{record.counters['failed']} of {record.counters['verdicts']} fail",
-                ", ".join(sorted({verdict.quantity for verdict in caught(record)})) or "–",
-            ))  # fmt: skip
-    return Table(
-        title="Planted errors under a fixed gate and under the harness",
-        columns=(
-            "error", "case", "largest error", f"gate of {100 * GATE:g} %", "harness", "verdicts",
-        ),
-        rows=tuple(rows),
-        note="The largest error of any quantity of the case, relative to its scale.",
-    )  # fmt: skip
+    pairs = [
+        (defect.name, case, record)
+        for defect in PLANTED
+        for case in defect.cases
+        if (record := found(records, defect.name, case)) is not None
+    ]
+    return table_of(
+        "Planted errors under a fixed gate and under the harness",
+        {
+            "error": lambda of: of[0],
+            "case": lambda of: of[1],
+            "largest error": lambda of: _percent(of[2].measures[ERROR]),
+            f"gate of {100 * GATE:g} %": lambda of: "passes" if passes_gate(of[2]) else "fails",
+            "harness": lambda of: "{failed} of {verdicts} fail".format(**of[2].counters),
+            "verdicts": lambda of: ", ".join(sorted({v.quantity for v in caught(of[2])})) or "–",
+        },
+        pairs,
+        "The largest error of any quantity of the case, relative to its scale.",
+    )
+
+
+def _percent(error: float | None) -> str:
+    return "–" if error is None else f"{100 * error:.3f} %"
 
 
 def _families(records: Records) -> Table:
-    rows = []
-    for family, there in healthy(records).items():
-        samples = derived(there)
-        inside = sum(map(covered, samples))
-        rows.append((
-            family,
-            str(len(there)),
-            str(total(there, "verdicts")),
-            str(total(there, "failed")),
-            f"{inside} of {len(samples)}" if samples else "–",
-            plain(max(_parts(samples), default=0.0), 2) if samples else "–",
-        ))  # fmt: skip
-    return Table(
-        title="Healthy contacts",
-        columns=(
-            "family", "contacts", "verdicts", "false alarms", "within U", "largest error / U",
-        ),
-        rows=tuple(rows),
-        note="Tolerances of flat punches are not derived: their rim is a staircase of cells.",
-    )  # fmt: skip
+    families = healthy(records)
+    bars = {family: derived(there) for family, there in families.items()}
+    return table_of(
+        "Healthy contacts",
+        {
+            "family": str,
+            "contacts": lambda of: str(len(families[of])),
+            "verdicts": lambda of: str(total(families[of], "verdicts")),
+            "false alarms": lambda of: str(total(families[of], "failed")),
+            "within U": lambda of: (
+                f"{sum(map(covered, bars[of]))} of {len(bars[of])}" if bars[of] else "–"
+            ),
+            "largest error / U": lambda of: (
+                plain(max(_parts(bars[of]), default=0.0), 2) if bars[of] else "–"
+            ),
+        },
+        families,
+        "Tolerances of flat punches are not derived: their rim is a staircase of cells.",
+    )
 
 
 def _parts(samples: Iterable[Sample]) -> list[float]:
@@ -116,11 +123,11 @@ def charts(records: Records) -> tuple[Chart, ...]:
         x_label="error / U", y_label="share of samples below", curves=(*curves, bound), height=2.2
     )
     return (
-        Chart(
-            name="error_bars",
-            title="True errors in units of their error bars",
-            caption="Share of the healthy samples whose true error is below a part of U = 2u. "
+        stacked(
+            "error_bars",
+            "True errors in units of their error bars",
+            "Share of the healthy samples whose true error is below a part of U = 2u. "
             "What lies right of 1 is not covered.",
-            rows=((panel,),),
+            panel,
         ),
     )

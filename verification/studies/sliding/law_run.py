@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import time
 from dataclasses import dataclass
 
 import numpy as np
@@ -14,7 +13,7 @@ from semi_analytical import solve
 from semi_analytical.model import ContactModel
 from verification.judging.run import SOLVER_TOLERANCE
 from verification.problems.paper_scene import FRICTION, FRICTION_LIMIT, NORMAL_FORCE
-from verification.running.row import CaseRecord
+from verification.running.row import CaseRecord, Row
 from verification.studies.sliding.contacts import Contact
 from verification.studies.sliding.friction_laws import (
     FixedPressure,
@@ -48,7 +47,6 @@ class LawRun:
         return f"{self.contact.name}-{self.law}-{self.cells}-{self.steps.text}"
 
     def compute(self) -> CaseRecord:
-        started = time.process_time()
         grid = self.contact.grid(self.cells)
         scene = self.contact.scene(
             LoadStep(normal_force=NORMAL_FORCE, increments=self.steps.normal)
@@ -61,25 +59,25 @@ class LawRun:
             model.self_compliance,
         )
         state, shift = at_rest(problem, shear_of(pressed)), 0.0
-        rows = [_point(problem, state, shift, grid.cell_area).row(PRESSING)]
+        rows = [_point(problem, state, shift, grid.cell_area, PRESSING)]
         for next_shift in shifts_to(self.contact, self.steps):
             state = shifted(problem, self.law, state, next_shift - shift)
             shift = next_shift
-            rows.append(_point(problem, state, shift, grid.cell_area).row(PRESSING + 1))
+            rows.append(_point(problem, state, shift, grid.cell_area, PRESSING + 1))
         return record_of(
             self,
             rows,
             grid.spacing[0] / pressed.contact_radius,
             {"increments": len(rows), "convolutions": int(model.convolutions.count)},
-            time.process_time() - started,
         )
 
 
-def _point(problem: FixedPressure, state: Held, shift: float, cell_area: float) -> SlidingPoint:
+def _point(problem: FixedPressure, state: Held, shift: float, cell_area: float, step: int) -> Row:
     contact = np.count_nonzero(problem.bound)
     force = float(np.sum(state.shear[0])) * cell_area / FRICTION_LIMIT
     sticking = int(np.count_nonzero(state.in_stick))
     return SlidingPoint(
+        step=step,
         shift=shift,
         force=force,
         stick_fraction=sticking / contact,
@@ -87,8 +85,8 @@ def _point(problem: FixedPressure, state: Held, shift: float, cell_area: float) 
         mean_cosine=mean_cosine(problem.bound, state.shear),
         full_slip=sticking == 0,
         status=_status(sticking, force),
-        residual=state.residual,
-    )
+        largest_residual=state.residual,
+    ).row()
 
 
 def _status(sticking: int, force: float) -> ContactStatus:

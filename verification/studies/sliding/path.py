@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
-from typing import TYPE_CHECKING, Any
+from collections.abc import Iterable, Mapping, Sequence
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,7 +12,7 @@ from contact_results.quantities import shear_of
 from contact_scene.description import Description
 from contact_scene.summary import ContactStatus
 from verification.problems.paper_scene import FRICTION, FRICTION_LIMIT
-from verification.running.row import CaseRecord, Row, parameters_of
+from verification.running.row import CaseRecord, Row, TypedRow, parameters_of
 from verification.running.rules import RESIDUAL
 
 if TYPE_CHECKING:
@@ -23,14 +23,18 @@ Field = NDArray[np.float64]
 # Slip below this part of the largest has no direction worth measuring.
 LEAST_SLIP = 1e-3
 PRESSING = 1  # the loading step that comes before the path
-UNITS = {
-    "shift": "m", "slip_angle": "deg", "largest_slip_angle": "deg", "normal_force": "N",
-    "approach": "m", "contact_radius": "m", "peak_pressure": "Pa",
-}  # fmt: skip
 
 
-class SlidingPoint(Description):
+class SlidingPoint(TypedRow):
     """The contact at one shift."""
+
+    PARAMETERS = ("step",)
+    UNITS: ClassVar[Mapping[str, str]] = {
+        "shift": "m", "slip_angle": "deg", "largest_slip_angle": "deg",
+    }  # fmt: skip
+
+    step: int
+    """Number of the loading step."""
 
     shift: float
     """Of the indenter along x [length]."""
@@ -54,31 +58,21 @@ class SlidingPoint(Description):
     largest_slip_angle: float | None = None
     """The largest such angle of a cell that slips by more than 1e-3 of the largest slip."""
 
-    residual: float
-    """Largest residual of the increment."""
+    largest_residual: float
+    """Of the increment; as a measure, RESIDUAL."""
 
-    def row(self, step: int, **more: float) -> Row:
-        """As it is kept, with more measures of the loading step's increment."""
-        values = self.model_dump(mode="json")
-        status, cells = values.pop("status"), values.pop("stick_cells")
-        measures = {RESIDUAL: values.pop("residual"), **more}
-        whole = int(values.pop("full_slip"))
-        return Row(
-            parameters={"step": step},
-            measures=values | measures,
-            units={name: unit for name, unit in UNITS.items() if name in values | measures},
-            counters={"stick_cells": cells, "full_slip": whole},
-            words={"status": status},
-        )
 
-    @classmethod
-    def of(cls, row: Row) -> SlidingPoint:
-        """Back from its row."""
-        known: dict[str, Any] = {
-            **row.parameters, **row.measures, **row.counters, **row.words,
-            "residual": row.measures[RESIDUAL],
-        }  # fmt: skip
-        return cls.model_validate({name: known[name] for name in cls.model_fields})
+class SolvedPoint(SlidingPoint):
+    """The same where the product's solver found the pressure, too."""
+
+    UNITS: ClassVar[Mapping[str, str]] = {**SlidingPoint.UNITS,
+        "normal_force": "N", "approach": "m", "contact_radius": "m", "peak_pressure": "Pa",
+    }  # fmt: skip
+
+    normal_force: float
+    approach: float
+    contact_radius: float
+    peak_pressure: float
 
 
 class SlidingPath(Description):
@@ -111,10 +105,9 @@ def record_of(
     parts: Iterable[Row],
     cell_over_radius: float,
     counters: dict[str, int],
-    seconds: float,
     **measures: float,
 ) -> CaseRecord:
-    """What a run leaves: the ends of its increments, and their cost."""
+    """What a run leaves: the ends of its increments, and what they took."""
     rows = tuple(parts)
     residuals = [row.measures[RESIDUAL] for row in rows if RESIDUAL in row.measures]
     known = [np.nan if residual is None else residual for residual in residuals]
@@ -127,7 +120,6 @@ def record_of(
         },
         counters=counters,
         parts=rows,
-        seconds=seconds,
     )
 
 
@@ -157,7 +149,8 @@ def row_of(increment: Increment, before: Increment | None, step: int | None = No
     assert increment.tangential_shift is not None
     assert increment.tangential_force is not None
     angles = _slip_angles(increment, before)
-    point = SlidingPoint(
+    return SolvedPoint(
+        step=step or increment.step,
         shift=float(increment.tangential_shift[0]),
         force=float(increment.tangential_force[0]) / FRICTION_LIMIT,
         stick_fraction=increment.stick_area / increment.contact_area,
@@ -167,15 +160,12 @@ def row_of(increment: Increment, before: Increment | None, step: int | None = No
         status=increment.status,
         slip_angle=angles[0],
         largest_slip_angle=angles[1],
-        residual=increment.residuals.worst,
-    )
-    return point.row(
-        step or increment.step,
+        largest_residual=increment.residuals.worst,
         normal_force=increment.normal_force,
         approach=increment.approach,
         contact_radius=increment.contact_radius,
         peak_pressure=increment.peak_pressure,
-    )
+    ).row()
 
 
 def _slip_angles(

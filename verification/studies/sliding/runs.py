@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import time
 from dataclasses import dataclass, replace
 from enum import StrEnum
 
@@ -121,7 +120,6 @@ def _history(run: ShiftRun | ForceRun, *loading: LoadStep) -> CaseRecord:
 
     self_equilibrium  |Σq| / Σ|q| after the normal loading; zero without shear
     """
-    started = time.process_time()
     scene, grid = run.contact.scene(*loading), run.contact.grid(run.cells)
     result = solve(scene, grid, SOLVER_TOLERANCE, plan=run.planned(plan(scene)))
     done = result.increments
@@ -135,7 +133,6 @@ def _history(run: ShiftRun | ForceRun, *loading: LoadStep) -> CaseRecord:
         ],
         grid.spacing[0] / done[-1].contact_radius,
         counted(done),
-        time.process_time() - started,
         self_equilibrium=float(abs(q.sum(axis=(1, 2))).max() / total) if total else 0.0,
     )
 
@@ -194,7 +191,6 @@ class ShortPathRun:
         return f"{self.contact.name}-{self.path}-{self.cells}-{self.steps.text}"
 
     def compute(self) -> CaseRecord:
-        started = time.process_time()
         results = [
             self._solved(shift) for shift in shifts_to(self.contact, self.steps, SHORT_REACH)
         ]
@@ -205,7 +201,6 @@ class ShortPathRun:
             [row_of(end, before, step=2) for before, end in ends if end is not None],
             last.grid.spacing[0] / last.increments[-1].contact_radius,
             counted([one for result in results for one in result.increments]),
-            time.process_time() - started,
         )
 
     def _solved(self, shift: float) -> Result:

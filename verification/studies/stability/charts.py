@@ -5,10 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from typing import Any
 
-from verification.exhibits.chart import Chart, Curve, Look, Panel, curve
+from verification.exhibits.chart import Chart, Curve, Look, Panel, curve, stacked
 from verification.exhibits.numbers import plain
 from verification.judging.law_verdicts import OTHER_NORMS
-from verification.studies.stability.cell import StabilityCell
 from verification.studies.stability.record import CellRecord, Verdict
 from verification.studies.stability.verdicts import WORK
 from verification.studies.stability.views import View
@@ -60,30 +59,29 @@ def view_chart(view: View, found: Found) -> Chart:
     notes = []
     for i, x in enumerate(x_values):
         for j, y in enumerate(y_values):
-            records = _records(view.at(x, y), found)
+            records = [found[cell.name] for cell in view.at(x, y) if cell.name in found]
             if records:
                 places[max(map(class_of, records))].append((i, j))
                 notes.append((float(i), float(j), _cost(records)))
-    return Chart(
-        name=f"stability_{view.name.replace('-', '_')}",
-        title=view.title,
-        caption="Colour and shape: the worst residual of the cells at a place beside what "
+    return stacked(
+        f"stability_{view.name.replace('-', '_')}",
+        view.title,
+        "Colour and shape: the worst residual of the cells at a place beside what "
         f"is allowed, or how they ended ({'; '.join(_legend())}). Allowed is the tolerance, and of "
         f"what the fields alone show {OTHER_NORMS:g} times that. Number: the most "
         f"{WORK[view.by_elements]} that one of them took"
         f"{' (steps of Newton or of the active set)' if view.by_elements else ''}, with "
         f"{HALVED} where increments were halved.",
-        rows=((Panel(
-            x_label=NAMES[view.x], y_label=NAMES[view.y],
+        Panel(
+            x_label=NAMES[view.x],
+            y_label=NAMES[view.y],
             curves=tuple(_tiles(n, where) for n, where in places.items() if where),
             height=HEIGHT_OF_AXES + HEIGHT_PER_ROW * len(y_values),
-            notes=tuple(notes), x_places=_texts(x_values), y_places=_texts(y_values),
-        ),),),
-    )  # fmt: skip
-
-
-def _records(cells: Iterable[StabilityCell], found: Found) -> list[CellRecord]:
-    return [found[cell.name] for cell in cells if cell.name in found]
+            notes=tuple(notes),
+            x_places=_texts(x_values),
+            y_places=_texts(y_values),
+        ),
+    )
 
 
 def _tiles(number: int, where: list[tuple[int, int]]) -> Curve:

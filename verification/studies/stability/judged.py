@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import time
 from dataclasses import dataclass
 
 import numpy as np
@@ -37,23 +36,22 @@ class StabilityRun:
         return self.cell.name
 
     def compute(self) -> CaseRecord:
-        return judged(self.cell).row(self.cell)
+        return judged(self.cell).of_cell(self.cell)
 
 
 def judged(cell: StabilityCell) -> CellRecord:
     """Solve a cell and say what became of it; never raises for a solver's sake."""
-    started = time.process_time()
     try:
         posed = pose(cell)
     except SceneError as error:
-        return _without_answer(Verdict.REFUSED, error, TOLERANCE, started)
+        return _without_answer(Verdict.REFUSED, error, TOLERANCE)
     tolerance = posed.tolerance
     try:
         solved = SOLVERS[cell.solver](posed)
     except REFUSALS as error:
-        return _without_answer(Verdict.REFUSED, error, tolerance, started)
+        return _without_answer(Verdict.REFUSED, error, tolerance)
     except SolverError as error:
-        return _without_answer(Verdict.NOT_CONVERGED, error, tolerance, started)
+        return _without_answer(Verdict.NOT_CONVERGED, error, tolerance)
     increments, seen = solved.increments, solved.observed
     # Here a residual that is no number wins.
     residual = float(np.max([increment.residuals.worst for increment in increments]))
@@ -70,7 +68,6 @@ def judged(cell: StabilityCell) -> CellRecord:
         way=solved.way,
         iterations=sum(increment.iterations for increment in increments),
         convolutions=solved.convolutions,
-        seconds=time.process_time() - started,
     )
 
 
@@ -79,13 +76,10 @@ def _finite(value: float) -> float | None:
     return value if np.isfinite(value) else None
 
 
-def _without_answer(
-    verdict: Verdict, error: Exception, tolerance: float, started: float
-) -> CellRecord:
+def _without_answer(verdict: Verdict, error: Exception, tolerance: float) -> CellRecord:
     return CellRecord(
         verdict=verdict,
         reason=f"{type(error).__name__}: {error}",
         tolerance=tolerance,
         residual=_finite(error.residual) if isinstance(error, NotConverged) else None,
-        seconds=time.process_time() - started,
     )

@@ -4,13 +4,8 @@ from __future__ import annotations
 
 from enum import StrEnum
 
-from contact_scene.description import Description
-from verification.running.row import CaseRecord, parameters_of
+from verification.running.row import CaseRecord, TypedRow, parameters_of
 from verification.studies.stability.cell import StabilityCell
-
-MEASURES = ("tolerance", "residual", "observed")
-WORDS = ("verdict", "reason", "way")
-COUNTERS = ("increments", "halvings", "rounds", "iterations", "convolutions")
 
 
 class Verdict(StrEnum):
@@ -22,7 +17,7 @@ class Verdict(StrEnum):
     SILENT = "silent"  # an answer that breaks the equations, given as if it were good
 
 
-class CellRecord(Description):
+class CellRecord(TypedRow):
     """Verdict, residuals and cost of one cell."""
 
     verdict: Verdict
@@ -52,26 +47,9 @@ class CellRecord(Description):
     convolutions: int = 0
     """None with finite elements."""
 
-    seconds: float = 0.0
-    """Of processor time."""
-
-    def row(self, cell: StabilityCell) -> CaseRecord:
+    def of_cell(self, cell: StabilityCell) -> CaseRecord:
         """As it is kept."""
-        values = self.model_dump(mode="json")
-        return CaseRecord(
-            parameters=parameters_of(cell),
-            measures={name: values[name] for name in MEASURES},
-            counters={name: values[name] for name in COUNTERS},
-            words={name: values[name] for name in WORDS},
-            seconds=self.seconds,
-        )
-
-    @classmethod
-    def of(cls, row: CaseRecord) -> CellRecord:
-        """Back from its row."""
-        return cls.model_validate(
-            {**row.measures, **row.counters, **row.words, "seconds": row.seconds}
-        )
+        return CaseRecord(**dict(self.row()) | {"parameters": parameters_of(cell)})
 
     @property
     def work(self) -> int:

@@ -2,27 +2,22 @@
 
 from __future__ import annotations
 
-from collections import Counter
-from collections.abc import Mapping
+from collections.abc import Iterable
 
 from verification.exhibits.numbers import plain
-from verification.exhibits.table import Table
-from verification.studies.stability.cell import Solver, StabilityCell
+from verification.exhibits.table import Table, table_of
+from verification.studies.stability.cell import Solver
 from verification.studies.stability.charts import class_of
 from verification.studies.stability.record import CellRecord, Verdict
-from verification.studies.stability.verdicts import NAMES, WORK
-
-Found = Mapping[StabilityCell, CellRecord]
-Item = tuple[StabilityCell, CellRecord]
+from verification.studies.stability.verdicts import NAMES, WORK, Found, Item, ended, of_solver
 
 MOST_ROWS = 60  # of good cells; the others have all of theirs
-NOT_SOLVED = (Verdict.NOT_CONVERGED, Verdict.SILENT)
 
 
 def tables(found: Found) -> tuple[Table, ...]:
     """The solvers, what did not converge, and the cells of either kind of solver."""
     groups = [[i for i in found.items() if i[0].solver.by_elements is kind] for kind in WORK]
-    bad = [item for item in found.items() if item[1].verdict in NOT_SOLVED]
+    bad = [*ended(found, Verdict.NOT_CONVERGED, Verdict.SILENT).items()]
     return (
         _of_solvers(found),
         *([_of_bad(bad)] if bad else []),
@@ -31,32 +26,34 @@ def tables(found: Found) -> tuple[Table, ...]:
 
 
 def _of_solvers(found: Found) -> Table:
-    rows = []
-    for solver in Solver:
-        records = [record for cell, record in found.items() if cell.solver is solver]
-        counts = Counter(record.verdict for record in records)
-        solved = [r for r in records if r.verdict is Verdict.CONVERGED]
-        rows.append((
-            NAMES[solver], str(len(records)), *(str(counts[verdict]) for verdict in Verdict),
-            _number(max((r.residual or 0.0 for r in solved), default=None)),
-            _number(max((r.observed or 0.0 for r in solved), default=None)),
-            str(sum(r.increments for r in solved)), str(sum(r.work for r in solved)),
-        ))  # fmt: skip
-    return Table(
-        title="The solvers",
-        columns=("solver", "cells", *Verdict, "largest residual", "from the fields",
-                 "increments", "work"),
-        rows=tuple(rows),
-        note="Work: convolutions of the semi-analytical solver, linear systems of the finite "
-        "elements.",
-    )  # fmt: skip
+    cells = {solver: of_solver(found, solver) for solver in Solver}
+    solved = {solver: [*ended(of, Verdict.CONVERGED).values()] for solver, of in cells.items()}
+    return table_of(
+        "The solvers",
+        {
+            "solver": lambda s: NAMES[s],
+            "cells": lambda s: str(len(cells[s])),
+            **{v: lambda s, v=v: str(len(ended(cells[s], v))) for v in Verdict},  # type: ignore[misc]
+            "largest residual": lambda s: _largest(r.residual for r in solved[s]),
+            "from the fields": lambda s: _largest(r.observed for r in solved[s]),
+            "increments": lambda s: str(sum(r.increments for r in solved[s])),
+            "work": lambda s: str(sum(r.work for r in solved[s])),
+        },
+        Solver,
+        "Work: convolutions of the semi-analytical solver, linear systems of the finite elements.",
+    )
 
 
 def _of_bad(bad: list[Item]) -> Table:
-    return Table(
-        title=f"Not solved: all of these {len(bad)} cells",
-        columns=("cell", "verdict", "worst residual", "reason"),
-        rows=tuple((c.name, r.verdict, _number(r.worst), r.reason or "–") for c, r in bad),
+    return table_of(
+        f"Not solved: all of these {len(bad)} cells",
+        {
+            "cell": lambda i: i[0].name,
+            "verdict": lambda i: i[1].verdict,
+            "worst residual": lambda i: _number(i[1].worst),
+            "reason": lambda i: i[1].reason or "–",
+        },
+        bad,
     )
 
 
@@ -64,19 +61,26 @@ def _of_cells(group: list[Item]) -> Table:
     """The worst classes first, of one those that halved increments, then the dearest."""
     by_elements = group[0][0].solver.by_elements
     solver = "finite elements" if by_elements else "the semi-analytical solver"
-    ranked = sorted(group, key=_hardness)
-    shown = [item for n, item in enumerate(ranked) if n < MOST_ROWS]
-    all_of_them = f"The cells of {solver}"
+    shown = sorted(group, key=_hardness)[:MOST_ROWS]
     some = f"The {len(shown)} hardest of {len(group)} cells of {solver}"
-    return Table(
-        title=all_of_them if len(shown) == len(group) else some,
-        columns=("cell", "verdict", "worst residual", "from the fields", "increments", "halved",
-                 "way", "rounds", WORK[by_elements]),
-        rows=tuple(_row(cell, record) for cell, record in shown),
-        note="A cell is named by the coordinates that differ from the ordinary ones; all of them "
+    return table_of(
+        f"The cells of {solver}" if len(shown) == len(group) else some,
+        {
+            "cell": lambda i: i[0].name,
+            "verdict": lambda i: _outcome(i[1]),
+            "worst residual": lambda i: _number(i[1].residual),
+            "from the fields": lambda i: _number(i[1].observed),
+            "increments": lambda i: str(i[1].increments),
+            "halved": lambda i: str(i[1].halvings),
+            "way": lambda i: i[1].way or "–",
+            "rounds": lambda i: str(i[1].rounds),
+            WORK[by_elements]: lambda i: str(i[1].work),
+        },
+        shown,
+        "A cell is named by the coordinates that differ from the ordinary ones; all of them "
         "are in `rows.csv`, which `slipstick study stability` writes. Rounds: the most that "
         "pressure and shear took to agree in an increment.",
-    )  # fmt: skip
+    )
 
 
 def _hardness(item: Item) -> tuple[int, int, int]:
@@ -92,18 +96,8 @@ def _outcome(record: CellRecord) -> str:
     return f"{record.verdict}: {reason}" if reason else str(record.verdict)
 
 
-def _row(cell: StabilityCell, record: CellRecord) -> tuple[str, ...]:
-    return (
-        cell.name,
-        _outcome(record),
-        _number(record.residual),
-        _number(record.observed),
-        str(record.increments),
-        str(record.halvings),
-        record.way or "–",
-        str(record.rounds),
-        str(record.work),
-    )
+def _largest(values: Iterable[float | None]) -> str:
+    return _number(max((value or 0.0 for value in values), default=None))
 
 
 def _number(value: float | None) -> str:

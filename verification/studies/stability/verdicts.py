@@ -3,17 +3,18 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 
 import numpy as np
 
 from verification.exhibits.numbers import plain
-from verification.judging.outcome import Status
+from verification.running.rules import judged
 from verification.running.study import Statement
 from verification.studies.stability.cell import Solver, StabilityCell
 from verification.studies.stability.record import CellRecord, Verdict
 
 Found = Mapping[StabilityCell, CellRecord]
+Item = tuple[StabilityCell, CellRecord]
 
 MOST_NAMED = 12
 MOST_WAYS = 4
@@ -31,10 +32,20 @@ def statements(found: Found) -> tuple[Statement, ...]:
     """All there is to say, solver by solver."""
     told: list[Statement] = []
     for solver in Solver:
-        cells = {cell: record for cell, record in found.items() if cell.solver is solver}
+        cells = of_solver(found, solver)
         about = (nothing_silent, nearly_everything_converges, refusals_are_due, cost)
         told += (_of(solver, state(cells)) for state in about)
     return tuple(told)
+
+
+def of_solver(found: Found, solver: Solver) -> Found:
+    """The cells that it was asked to solve."""
+    return {cell: record for cell, record in found.items() if cell.solver is solver}
+
+
+def ended(found: Found, *so: Verdict) -> Found:
+    """The cells that ended in one of these ways."""
+    return {cell: record for cell, record in found.items() if record.verdict in so}
 
 
 def answer(found: Found) -> str:
@@ -42,29 +53,30 @@ def answer(found: Found) -> str:
     if not found:
         return ""
     ends = Counter(record.verdict for record in found.values())
-    solved = [r for r in found.values() if r.verdict is Verdict.CONVERGED]
-    worst = max((r.worst or 0.0 for r in solved), default=0.0)
     refused = {cell: r.reason for cell, r in found.items() if r.verdict is Verdict.REFUSED}
     due = sum(bool(_reason(cell)) and _reason(cell) in said for cell, said in refused.items())
-    of_solver = Counter(NAMES[cell.solver] for cell in found)
+    asked = Counter(NAMES[cell.solver] for cell in found)
     return (
-        f"Of {len(found)} cells ({_counted(of_solver)}) {len(solved)} converged, with "
-        f"residuals of {plain(worst, 2)} at most, and {len(refused)} were refused, {due} of these "
+        f"Of {len(found)} cells ({'; '.join(f'{name}: {n}' for name, n in asked.items())}) "
+        f"{ends[Verdict.CONVERGED]} converged, with "
+        f"residuals of {_worst(found)} at most, and {len(refused)} were refused, {due} of these "
         "for a force above µW or because a section cannot pose them; "
         f"{ends[Verdict.NOT_CONVERGED]} gave up and {ends[Verdict.SILENT]} are wrong in silence."
     )
 
 
-def _counted(of_solver: Counter[str]) -> str:
-    return "; ".join(f"{name}: {count}" for name, count in of_solver.items())
+def _worst(found: Found) -> str:
+    """The largest residual of the cells that converged."""
+    solved = ended(found, Verdict.CONVERGED).values()
+    return plain(max((r.worst or 0.0 for r in solved), default=0.0), 2)
 
 
 def nothing_silent(found: Found) -> Statement:
     """No answer that breaks the equations is given as if it were good."""
-    silent = _named(found, Verdict.SILENT)
+    silent = ended(found, Verdict.SILENT)
     return Statement(
         claim="no cell is wrong in silence",
-        outcome=_judged(found, not silent),
+        outcome=judged(not silent, complete=bool(found)),
         measured=f"{len(silent)} of {len(found)} cells{_list(silent)}",
         because="residuals of the solver within its tolerance, and the laws of contact and "
         "friction found again in what it returns",
@@ -73,14 +85,13 @@ def nothing_silent(found: Found) -> Statement:
 
 def nearly_everything_converges(found: Found) -> Statement:
     """Nearly every cell that has a solution gets one."""
-    given_up = _named(found, Verdict.NOT_CONVERGED)
-    solved = [r for r in found.values() if r.verdict is Verdict.CONVERGED]
-    worst = max((r.worst or 0.0 for r in solved), default=0.0)
+    given_up, solved = ended(found, Verdict.NOT_CONVERGED), ended(found, Verdict.CONVERGED)
     asked = len(solved) + len(given_up)
+    enough = bool(solved) and len(solved) >= LEAST_SHARE * asked
     return Statement(
         claim=f"at least {LEAST_SHARE:.0%} of the cells that are not refused converge",
-        outcome=_judged(found, bool(solved) and len(solved) >= LEAST_SHARE * asked),
-        measured=f"{len(solved)} of {asked} converged, largest residual {plain(worst, 2)}; "
+        outcome=judged(enough, complete=bool(found)),
+        measured=f"{len(solved)} of {asked} converged, largest residual {_worst(found)}; "
         f"{len(given_up)} not converged{_list(given_up)}",
         because="a solver that gives up says so, with its residual; every such cell has a row",
     )
@@ -90,18 +101,18 @@ def refusals_are_due(found: Found) -> Statement:
     """Refused is what asks for more than µW, and what a solver cannot pose; nothing else."""
     refused = {cell: r.reason for cell, r in found.items() if r.verdict is Verdict.REFUSED}
     due = {cell: _reason(cell) for cell in found if _reason(cell)}
-    wrong = sorted(
-        cell.name
-        for cell in refused.keys() | due.keys()
+    wrong = [
+        cell
+        for cell in sorted(refused.keys() | due.keys(), key=lambda cell: cell.name)
         if cell not in due or due[cell] not in refused.get(cell, "")
-    )
+    ]
     beyond = sum(reason == BEYOND for reason in due.values())
     unposable = len(due) - beyond
     return Statement(
         claim="refused is a force above µW"
         + (", and what is not of revolution" if unposable else "")
         + "; nothing else",
-        outcome=_judged(found, not wrong),
+        outcome=judged(not wrong, complete=bool(found)),
         measured=f"{len(refused)} refused, {beyond} ask for more than µW"
         + (f", {unposable} are not of revolution" if unposable else "")
         + _list(wrong),
@@ -112,7 +123,7 @@ def refusals_are_due(found: Found) -> Statement:
 
 def cost(found: Found) -> Statement:
     """What the cells took: a finding."""
-    solved = [r for r in found.values() if r.verdict is Verdict.CONVERGED]
+    solved = ended(found, Verdict.CONVERGED).values()
     if not solved:
         return Statement(claim="cost", outcome=None, measured="no cell converged")
     by_elements = next(iter(found)).solver.by_elements
@@ -143,18 +154,10 @@ def _of(solver: Solver, statement: Statement) -> Statement:
     return statement.model_copy(update={"claim": f"{NAMES[solver]}: {statement.claim}"})
 
 
-def _named(found: Found, verdict: Verdict) -> list[str]:
-    return [cell.name for cell, record in found.items() if record.verdict is verdict]
-
-
-def _list(names: list[str]) -> str:
+def _list(cells: Iterable[StabilityCell]) -> str:
+    """Their names, the first of them."""
+    names = [cell.name for cell in cells]
     if not names:
         return ""
     more = f" and {len(names) - MOST_NAMED} more" if len(names) > MOST_NAMED else ""
     return ": " + ", ".join(names[:MOST_NAMED]) + more
-
-
-def _judged(found: Found, good: bool) -> Status:
-    if not found:
-        return Status.INCONCLUSIVE
-    return Status.PASS if good else Status.FAIL
