@@ -85,3 +85,17 @@ class CoulombFriction(Description):
 
 
 FRICTIONLESS = CoulombFriction(coefficient=0.0)
+
+
+def sliding_friction(shear: Field, before: Field, after: Field) -> Field:
+    """Friction along the way that surfaces slip in an increment, as the shear (c, …)
+    [force/length^2]: along the shear at the end, as large as the mean of the limits at both ends.
+
+    Exact where the pressure stays, and where tractions and slip grow in proportion.
+
+    shear          at the end, its components first (c, …)
+    before, after  friction limits at start and end (…)
+    """
+    size = np.abs(np.hypot.reduce(shear, axis=0))
+    direction = np.divide(shear, size, out=np.zeros_like(shear), where=size > 0)
+    return np.asarray(0.5 * (before + after) * direction)

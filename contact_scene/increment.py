@@ -102,6 +102,14 @@ class State:
             key=True,
         ),
     ] = None
+    dissipation_uncertainty: Annotated[
+        float | None,
+        Reported(
+            "J",
+            "By how much finite increments leave the dissipated energy uncertain: the changes of "
+            "friction along all slip, in steps whose path matters; null where it is undefined.",
+        ),
+    ] = None
     elastic_energy: Annotated[
         float | None,
         Reported(

@@ -10,10 +10,14 @@ from semi_analytical.model import ContactModel
 from semi_analytical.sheared import rigid, untouched
 
 
-def balanced(model: ContactModel, before: State | None, after: State) -> State:
+def balanced(
+    model: ContactModel, before: State | None, after: State, *, path_matters: bool = True
+) -> State:
     """The state `after` an increment with its energies; `before` is None at the start.
 
     Needs no convolution: states know their displacements.
+
+    path_matters  whether `after` depends on how finely its step is cut
     """
     end = configuration(model, after)
     if before is None:
@@ -21,7 +25,9 @@ def balanced(model: ContactModel, before: State | None, after: State) -> State:
     else:
         spent, start = before.energy, configuration(model, before)
     dissipated = 0.0 if after.sheared is None else after.sheared.dissipated_energy
-    energy = after_increment(spent, start, end, dissipated, model.grid.cell_area)
+    energy = after_increment(
+        spent, start, end, dissipated, model.grid.cell_area, path_matters=path_matters
+    )
     return replace(after, energy=energy)
 
 
@@ -44,6 +50,7 @@ def configuration(model: ContactModel, state: State) -> Configuration:
         normal_displacement=pressing.displacement,
         gap=model.gap + pressing.displacement - pressing.closure(model),
         shear=sheared.shear,
+        friction_limit=sheared.limit,
         tangential_displacement=sheared.displacement,
         slipped=slipped,
         forces=np.array([normal, *sheared.force, *moments]),

@@ -7,12 +7,24 @@ and with p g = 0, it follows that
 
     input work = ΔE + dissipation + unresolved work
     input work      Σ ½ (f₀ + f₁)(ω₁ - ω₀), forces and moments f over their conjugate motions ω
-    dissipation     -Σ q₁·(s₁ - s₀) Δ, by the friction at the end, which is how slip was solved for
-    unresolved work  ½ Σ (p₁ g₀ - p₀ g₁) Δ + ½ Σ (q₁ - q₀)·(s₁ - s₀) Δ
+    dissipation     -Σ f·(s₁ - s₀) Δ, with f along q₁ and as large as ½ µ(p₀ + p₁)
+    unresolved work  ½ Σ (p₁ g₀ - p₀ g₁) Δ + Σ (f - ½ (q₀ + q₁))·(s₁ - s₀) Δ
+
+Friction while slipping is at its limit, which follows the pressure: hence the mean of both limits,
+along the shear at the end, for which slip was solved. Where the pressure stays, or all grows in
+proportion, that is exact; friction q₁ at the end would charge a first contact for twice its slip.
 
 The unresolved work is the error of taking the loads (first sum, where gaps close or open) and the
-friction (second sum) as straight lines or constants over the increment. It vanishes with the
-increments; what remains beside it measures how well the equations were solved.
+shear (second sum) as straight lines over the increment. It vanishes with the increments; what
+remains beside it measures how well the equations were solved.
+
+Where the path matters, slip and the friction along it are known no better than to what they change
+by in an increment: the dissipation is uncertain by
+
+    Σ over increments of Σ |q₁ - q₀| |s₁ - s₀| Δ,
+
+twice the half change of friction along all slip. Measured on first pressing, loops, unloading and
+turning loads, 4 to 64 increments: the true error is .005 to .66 of that.
 """
 
 from __future__ import annotations
@@ -21,6 +33,8 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
+
+from contact_scene.friction import sliding_friction
 
 Field = NDArray[np.float64]
 VectorField = NDArray[np.float64]
@@ -34,6 +48,7 @@ class Configuration:
     pressure, normal_displacement       p and u_z (nx, ny)
     gap                                 g (nx, ny); not finite at most where p is always zero
     shear, tangential_displacement      q and u (2, nx, ny)
+    friction_limit                      µp (nx, ny)
     slipped                             u less the rigid motion (2, nx, ny): it changes by the slip
     forces, motions                     f and ω in one order; motions None where undefined
     """
@@ -42,6 +57,7 @@ class Configuration:
     normal_displacement: Field
     gap: Field
     shear: VectorField
+    friction_limit: Field
     tangential_displacement: VectorField
     slipped: VectorField | None
     forces: Vector
@@ -59,6 +75,7 @@ class Configuration:
             normal_displacement=nothing[0],
             gap=gap,
             shear=nothing,
+            friction_limit=nothing[0],
             tangential_displacement=nothing,
             slipped=nothing,
             forces=np.zeros(pairs),
@@ -72,9 +89,10 @@ class Energy:
 
     elastic     stored in both bodies
     input_work  of the forces and moments; None once a motion is undefined (at the friction limit
-                under force control), as are the two that follow
+                under force control), as are the three that follow
     dissipated  by slip
     unresolved  what finite increments leave open
+    uncertain   by how much finite increments leave `dissipated` uncertain
     largest     largest magnitude that any of them has had: the scale of the balance
     """
 
@@ -82,6 +100,7 @@ class Energy:
     input_work: float | None = 0.0
     dissipated: float | None = 0.0
     unresolved: float | None = 0.0
+    uncertain: float | None = 0.0
     largest: float = 0.0
 
     def imbalance(self, before: Energy) -> float | None:
@@ -107,20 +126,29 @@ def after_increment(
     after: Configuration,
     dissipated: float | None,
     cell_area: float,
+    *,
+    path_matters: bool,
 ) -> Energy:
     """The energies at the end of an increment.
 
     spent       those at its start
     dissipated  since the start of the history, None where undefined [force length]
+    path_matters  whether the end depends on how finely the loading step is cut
     """
     elastic = elastic_energy(after, cell_area)
-    work = _work(before, after)
-    if spent.input_work is None or spent.unresolved is None or work is None or dissipated is None:
-        return Energy(elastic, None, None, None, max(spent.largest, elastic))
-    unresolved = spent.unresolved + unresolved_work(before, after, cell_area)
-    work += spent.input_work
+    work, worked, unresolved = _work(before, after), spent.input_work, spent.unresolved
+    uncertain = spent.uncertain
+    if (
+        work is None or dissipated is None or worked is None or unresolved is None
+        or uncertain is None
+    ):  # fmt: skip
+        return Energy(elastic, None, None, None, None, max(spent.largest, elastic))
+    work += worked
+    unresolved += unresolved_work(before, after, cell_area)
+    if path_matters:
+        uncertain += friction_changed(before, after, cell_area)
     sizes = (abs(term) for term in (elastic, work, dissipated, unresolved))
-    return Energy(elastic, work, dissipated, unresolved, max(spent.largest, *sizes))
+    return Energy(elastic, work, dissipated, unresolved, uncertain, max(spent.largest, *sizes))
 
 
 def elastic_energy(state: Configuration, cell_area: float) -> float:
@@ -131,7 +159,7 @@ def elastic_energy(state: Configuration, cell_area: float) -> float:
 
 
 def unresolved_work(before: Configuration, after: Configuration, cell_area: float) -> float:
-    """½ Σ (p₁ g₀ - p₀ g₁) Δ + ½ Σ (q₁ - q₀)·(s₁ - s₀) Δ [force length].
+    """½ Σ (p₁ g₀ - p₀ g₁) Δ + Σ (f - ½ (q₀ + q₁))·(s₁ - s₀) Δ [force length].
 
     Only where contact begins or ends: a gap that is left in a lasting contact is no gap but a
     residual, and belongs to the imbalance.
@@ -142,8 +170,18 @@ def unresolved_work(before: Configuration, after: Configuration, cell_area: floa
     begins, ends = (p0 == 0) & (p1 > 0), (p0 > 0) & (p1 == 0)
     closing = float(np.sum(p1[begins] * before.gap[begins]))
     opening = float(np.sum(p0[ends] * after.gap[ends]))
-    turning = np.sum((after.shear - before.shear) * (after.slipped - before.slipped))
-    return 0.5 * (closing - opening + float(turning)) * cell_area
+    friction = sliding_friction(after.shear, before.friction_limit, after.friction_limit)
+    missed = friction - 0.5 * (before.shear + after.shear)
+    sliding = float(np.sum(missed * (after.slipped - before.slipped)))
+    return (0.5 * (closing - opening) + sliding) * cell_area
+
+
+def friction_changed(before: Configuration, after: Configuration, cell_area: float) -> float:
+    """Σ |q₁ - q₀| |s₁ - s₀| Δ [force length]."""
+    assert before.slipped is not None
+    assert after.slipped is not None
+    changed, slipped = after.shear - before.shear, after.slipped - before.slipped
+    return float(np.sum(np.hypot(*changed) * np.hypot(*slipped))) * cell_area
 
 
 def _work(before: Configuration, after: Configuration) -> float | None:

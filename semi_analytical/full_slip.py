@@ -66,6 +66,7 @@ def at_limit(model: ContactModel, bound: Field, last: Sheared, load: TangentialT
     return replace(
         last,
         shear=q,
+        limit=bound,
         displacement=model.tangential_operator(model.grid.cells)(q),
         shift=None,
         in_stick=np.zeros_like(bound, dtype=bool),
@@ -99,6 +100,7 @@ def unresisted(
     after = replace(
         last,
         shear=nothing,
+        limit=nothing[0],
         displacement=displacement,
         shift=motion[:2],
         in_stick=np.zeros_like(last.in_stick),

@@ -87,7 +87,8 @@ class _Solver:
             tangential = tangential_target(ramp, start, fraction, self.plan.torsion)
         after = self.increment(self.model, before, normal, tangential, self.tolerance)
         residuals_of(self.model, after).require(self.tolerance, "the increment", after.iterations)
-        return balanced(self.model, before, after)
+        matters = self.plan.path[ramp.step - 1].path_matters
+        return balanced(self.model, before, after, path_matters=matters)
 
     def report(self, reached: Reached[State], last: Increment | None) -> Increment:
         """The state, with what the increment has changed and cost."""
@@ -139,6 +140,7 @@ def _increment(model: ContactModel, before: State | None, state: State, place: P
         # Both areas are fitted on their own; where all sticks they may cross by their errors.
         stick_area=min(stuck, pressed.contact_area),
         dissipated_energy=sheared.dissipated_energy,
+        dissipation_uncertainty=state.energy.uncertain,
     )
     return _traced(increment, before, sheared)
 

@@ -21,6 +21,7 @@ Vector = NDArray[np.float64]
 class Sheared:
     """The tangential part of a state, all fields on the whole window.
 
+    limit              friction limit µp (nx, ny) [force/length^2]
     displacement       u_t by the shear; less the motion it remembers where particles met
     shift              of the indenter; None at the friction limit under force control
     twist, torque      of the indenter; None where nothing twists
@@ -31,6 +32,7 @@ class Sheared:
     """
 
     shear: VectorField
+    limit: Field
     displacement: VectorField
     shift: Vector | None
     slip: VectorField
@@ -57,6 +59,7 @@ def untouched(cells: tuple[int, int]) -> Sheared:
     nothing = np.zeros((2, *cells))
     return Sheared(
         shear=nothing,
+        limit=nothing[0],
         displacement=nothing,
         shift=np.zeros(2),
         slip=nothing,

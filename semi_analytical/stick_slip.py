@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
+from contact_scene.friction import sliding_friction
 from contact_scene.residuals import ShearResiduals
 from contact_scene.solver_errors import NotConverged, motion_undefined
 from contact_scene.summary import ContactStatus
@@ -83,7 +84,7 @@ def _without_solving(
         )
     moved = last.shear, last.shift, last.displacement
     if load.torsion is None and not any(np.any(a) for a in (load.force, *moved)):
-        return replace(last, in_stick=bound > 0, iterations=0)
+        return replace(last, limit=bound, in_stick=bound > 0, iterations=0)
     if not reaches_limit(load.force, float(np.sum(bound)) * model.grid.cell_area):
         return None
     if np.any(bound):
@@ -139,12 +140,13 @@ def advanced(
     backward = q[0] * passed[0] + q[1] * passed[1] < 0
     in_stick = (bound > 0) & (~solution.in_slip | backward)
     slipped = np.where((pressure > 0) & ~in_stick, passed, 0.0)
-    lost = q[0] * slipped[0] + q[1] * slipped[1]
+    lost = np.sum(sliding_friction(q, last.limit, bound) * slipped, axis=0)
     force = np.sum(q, axis=(1, 2)) * cell
     assert last.dissipated_energy is not None
     twist, torque = torsion_reached(model, load, solution.motion, q)
     after = Sheared(
         shear=q,
+        limit=bound,
         displacement=solution.displacement,
         shift=solution.motion[:2],
         slip=last.slip - slipped,

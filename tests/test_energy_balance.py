@@ -190,14 +190,54 @@ def test_what_increments_leave_open_vanishes_with_their_square(work):
 
 
 def test_with_friction_under_a_growing_load_it_vanishes_too():
-    """First order: friction at the end of an increment is not that of its middle."""
+    """Of nearly second order: friction along slip is the mean of both ends."""
     left = [
         abs(solve(coupled_scenes.scene(coupled_scenes.press(increments=n)), GRID, 1e-9)
             .increments[-1].unresolved_work)
         for n in (2, 6, 18)
     ]  # fmt: skip
     for coarse, fine in pairwise(left):
-        assert fine < coarse / 2.5
+        assert fine < coarse / 6
+
+
+def test_tractions_and_slip_that_grow_in_proportion_lose_the_same_in_any_increments():
+    """Below a flat punch: half of what friction at the end would take along all slip."""
+    described, wide = (
+        punch({**PRESS, "increments": 1}), punch({**PRESS, "increments": 5})
+    )  # fmt: skip
+    one, five = (solve(each, grid(24, 1.2), TOLERANCE).increments[-1] for each in (described, wide))
+    at_the_end = -float(np.sum(one.shear * one.slip)) * grid(24, 1.2).cell_area
+    assert one.dissipated_energy == pytest.approx(0.5 * at_the_end, rel=1e-6)
+    assert one.dissipated_energy == pytest.approx(five.dissipated_energy, rel=1e-6)
+    assert one.dissipation_uncertainty == 0.0
+
+
+TURNS_ROUND = [push(0.7 * np.cos(t), 0.7 * np.sin(t)) for t in np.linspace(0, 1.5 * np.pi, 7)[1:]]
+UNCERTAIN = {
+    "pressing": lambda n: coupled_scenes.scene(
+        coupled_scenes.press(increments=n), body=bulk(), friction=0.3
+    ),
+    "pressing and pushing": lambda n: contact_scenes.scene({**PRESS, **push(0.6), "increments": n}),
+    "turning": lambda n: contact_scenes.scene(
+        PRESS, push(0.7), *({**step, "increments": n} for step in TURNS_ROUND)
+    ),
+    "unloading": lambda n: coupled_scenes.scene(
+        coupled_scenes.press(increments=n), {"normal_force": 0.4 * LOAD, "increments": n}
+    ),
+}
+
+
+@pytest.mark.parametrize("described", UNCERTAIN.values(), ids=UNCERTAIN)
+def test_what_finite_increments_leave_uncertain_covers_what_they_miss(described):
+    few, many = (solve(described(n), grid(24), 1e-7).increments[-1] for n in (6, 48))
+    missed = abs(few.dissipated_energy - many.dissipated_energy)
+    assert 0.05 * few.dissipation_uncertainty < missed < few.dissipation_uncertainty
+    assert many.dissipation_uncertainty < 0.3 * few.dissipation_uncertainty
+
+
+def test_where_the_path_does_not_matter_the_energy_lost_is_not_uncertain():
+    loop = contact_scenes.scene(PRESS, push(0.9), push(-0.9), push(0.9))
+    assert solve(loop, GRID, TOLERANCE).increments[-1].dissipation_uncertainty == 0.0
 
 
 def test_energies_scale_with_modulus_and_volume():
@@ -254,7 +294,8 @@ def test_at_the_limit_under_force_control_work_and_slip_are_undefined():
     end = solve(contact_scenes.scene(PRESS, push(1.0)), GRID, TOLERANCE).increments[-1]
     assert end.status is ContactStatus.GROSS_SLIDING
     assert end.elastic_energy > 0
-    undefined = "input_work unresolved_work energy_imbalance dissipated_energy dissipation"
+    undefined = "input_work unresolved_work energy_imbalance dissipated_energy dissipation "
+    undefined += "dissipation_uncertainty"
     for name in (*undefined.split(), "slip_distance", "slip_increment", "dissipation_increment"):
         assert getattr(end, name) is None, name
 

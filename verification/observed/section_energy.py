@@ -26,6 +26,7 @@ class EnergeticState:
     weights     area of the points [length^2]
     stored      in the bodies, and in springs that obey no other law [force length]
     undeformed  gap before any load [length]
+    limit       of friction [force/length^2]
     gap         what the motion of the indenter leaves between the surfaces [length]
     passed      motion of the body's particles past the indenter's since the start [length]; None
                 where undefined
@@ -39,6 +40,7 @@ class EnergeticState:
     pressure: Field
     gap: Field
     shear: Field
+    limit: Field
     passed: Field | None
     slip: Field | None = None
 
@@ -73,7 +75,10 @@ def _missing(
     slipped = passed
     if after.slip is not None:
         slipped = after.slip if start.slip is None else after.slip - start.slip
-    own = -float(np.sum(w * q[1] * slipped))
+    # Along the shear, which slip opposes, and as large as the mean of the limits.
+    size = np.abs(np.hypot.reduce(q[1], axis=0))
+    along = np.divide(q[1], size, out=np.zeros_like(q[1]), where=size > 0)
+    own = -0.5 * float(np.sum(w * (start.limit + after.limit) * along * slipped))
     closing = 0.5 * w * (p[1] * start.gap - p[0] * after.gap)
     if after.slip is None:
         # What gap is left in a lasting contact is missing.
@@ -89,5 +94,6 @@ def _at_rest(state: EnergeticState) -> EnergeticState:
     """Before first touch, on the points of a state."""
     nothing, still = np.zeros_like(state.pressure), np.zeros_like(state.shear)
     return EnergeticState(
-        state.told, state.weights, 0.0, state.undeformed, nothing, state.undeformed, still, still,
+        state.told, state.weights, 0.0, state.undeformed, nothing, state.undeformed, still, nothing,
+        still,
     )  # fmt: skip

@@ -108,7 +108,7 @@ class _Surface:
         """What the first law is about."""
         return EnergeticState(
             self.told, self.rings.weights, self.stored, self.rings.undeformed, self.pressure,
-            self.gap, self.shear, self.passed,
+            self.gap, self.shear, self.rings.model.friction.largest * self.pressure, self.passed,
         )  # fmt: skip
 
 

@@ -144,6 +144,6 @@ class SpringState:
             passed = slip = np.zeros_like(p)
         return EnergeticState(
             self.told, surface.weights, stored, surface.gap, p, -self.overlap, q[None],
-            None if passed is None else -passed[None],
+            surface.friction * p, None if passed is None else -passed[None],
             None if slip is None else slip[None],
         )  # fmt: skip

@@ -18,6 +18,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from contact_scene.friction import FRICTIONLESS
 from semi_analytical import Coupling, Increment, Result
 from verification.observed.unseen import has_grown
 
@@ -39,6 +40,7 @@ class _State:
     """An increment as its energy sees it.
 
     u        displacements (3, nx, ny), zero where nothing presses [length]
+    limit    of friction (nx, ny)
     forces   W, T_x, T_y, M_x, M_y, M_z; motions theirs
     """
 
@@ -46,13 +48,14 @@ class _State:
     u: Field
     gap: Field
     slip: Field
+    limit: Field
     forces: Field
     motions: Field
 
     @classmethod
     def at_rest(cls, gap: Field) -> _State:
         nothing = np.zeros((3, *gap.shape))
-        return cls(nothing, nothing, gap, nothing[:2], np.zeros(6), np.zeros(6))
+        return cls(nothing, nothing, gap, nothing[:2], nothing[0], np.zeros(6), np.zeros(6))
 
     @classmethod
     def of(cls, now: Increment, result: Result, undeformed: Field) -> _State:
@@ -74,6 +77,7 @@ class _State:
             u=u * touching,
             gap=now.gap,
             slip=s,
+            limit=(result.scene.friction or FRICTIONLESS).limit(p),
             forces=forces * result.grid.cell_area,
             motions=np.array([now.approach, *shift, *tilt, twist]),
         )
@@ -113,25 +117,29 @@ def _missing(
     grown: bool,
 ) -> Iterator[float]:
     """What is missing of the first law, and what is told otherwise [force length]."""
-    q, slipped = after.tractions[:2], after.slip - state.slip
+    slipped = after.slip - state.slip
     forces, motions = 0.5 * (state.forces + after.forces), after.motions - state.motions
     last = (0.0, 0.0, 0.0) if before is None else _told(before)
     told = tuple(end - start for end, start in zip(_told(now), last, strict=True))
     work = float(np.sum(forces * motions))
-    dissipated = -float(np.sum(q * slipped)) * cell
+    # Slip opposes the shear (`surfaces`), so that friction takes its limit times the way.
+    friction = 0.5 * (state.limit + after.limit)
+    dissipated = float(np.sum(friction * np.hypot(*slipped))) * cell
     stored = now.elastic_energy - (0.0 if before is None else before.elastic_energy)
     shrunk = np.any(state.tractions[:2] * (after.tractions[2] == 0))
-    unresolved = told[2] if grown or shrunk else _unresolved(state, after, slipped) * cell
+    unresolved = (
+        told[2] if grown or shrunk else _unresolved(state, after, slipped) * cell - dissipated
+    )
     yield abs(work - stored - dissipated - unresolved)
     yield from (abs(a - b) for a, b in zip((work, dissipated, unresolved), told, strict=True))
 
 
 def _unresolved(state: _State, after: _State, slipped: Field) -> float:
     """What the finite increment leaves open: loads are taken as straight lines where gaps close
-    or open, and friction as constant (see `semi_analytical.energy`)."""
+    or open, and so is the shear (see `semi_analytical.energy`); with what is dissipated."""
     p0, p1 = state.tractions[2], after.tractions[2]
     begins, ends = (p0 == 0) & (p1 > 0), (p0 > 0) & (p1 == 0)
     closing = float(np.sum(p1[begins] * state.gap[begins]))
     opening = float(np.sum(p0[ends] * after.gap[ends]))
-    turning = float(np.sum((after.tractions - state.tractions)[:2] * slipped))
-    return 0.5 * (closing - opening + turning)
+    sheared = float(np.sum((after.tractions + state.tractions)[:2] * slipped))
+    return 0.5 * (closing - opening - sheared)

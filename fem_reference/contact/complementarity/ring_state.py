@@ -19,6 +19,7 @@ class Slid:
     """The shear part of a state.
 
     shear             q (n,), its component as of the problem's `Sideways`
+    limit             of friction (n,)
     offset            displacement of the surfaces past each other, less the indenter's motion, over
                       the hats (n,): what the next slip is counted from, touching or not
     motion            shift or twist of the indenter; None at the friction limit under force control
@@ -29,6 +30,7 @@ class Slid:
     """
 
     shear: Field
+    limit: Field
     offset: Field
     motion: float | None
     sides: Sides
@@ -42,7 +44,7 @@ def untouched(rings: int) -> Slid:
     """Before first touch."""
     nothing = np.zeros(rings)
     sides = np.zeros(rings, dtype=np.int8)
-    return Slid(nothing, nothing, 0.0, sides, nothing, 0.0, 0.0, ContactStatus.FULL_STICK)
+    return Slid(nothing, nothing, nothing, 0.0, sides, nothing, 0.0, 0.0, ContactStatus.FULL_STICK)
 
 
 @dataclass(frozen=True)

@@ -6,6 +6,7 @@ from math import pi
 import numpy as np
 from numpy.typing import NDArray
 
+from contact_scene.friction import sliding_friction
 from contact_scene.residuals import ShearResiduals
 from contact_scene.summary import ContactStatus
 from fem_reference.contact.box_program import Sides
@@ -31,13 +32,16 @@ def slid(
     slips = sides != 0 if sideways.friction.largest > 0 else sideways.limited(p) > 0
     slipped = np.where(slips, step, 0.0)
     assert last.dissipated is not None
+    limit = sideways.friction.limit(sideways.limited(p))
+    friction = sliding_friction(q[None], last.limit, limit)[0]
     after = Slid(
         shear=q,
+        limit=limit,
         offset=offset,
         motion=motion,
         sides=sides,
         slip=last.slip + slipped,
-        dissipated=last.dissipated - 2 * pi * float(np.sum(q * slipped)),
+        dissipated=last.dissipated - 2 * pi * float(np.sum(friction * slipped)),
         resultant=2 * pi * sideways.resultant(q),
         status=_status(sideways, p, q, sides),
     )
@@ -51,11 +55,13 @@ def at_limit(sideways: Sideways, p: Field, target: SidewaysTarget, last: Slid) -
     """
     assert target.resultant is not None
     sign = int(np.sign(target.resultant))
-    q = sign * sideways.friction.limit(sideways.limited(p))
+    limit = sideways.friction.limit(sideways.limited(p))
+    q = sign * limit
     loose = sign == 0
     return replace(
         last,
         shear=q,
+        limit=limit,
         offset=displaced(sideways, p, q),
         motion=last.motion if loose else None,
         sides=np.where(q != 0, sign, 0).astype(np.int8),

@@ -5,6 +5,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from contact_scene.friction import sliding_friction
 from contact_scene.residuals import Residuals
 from contact_scene.solver_errors import NotConverged, motion_undefined
 from fem_reference.contact.friction_limit import reaches_limit
@@ -122,7 +123,9 @@ class _Trial:
         slipped = np.where((p > 0) & ~in_stick, self.passed, 0.0)
         energy = None
         if solution.shift is not None and before.dissipated_energy is not None:
-            energy = before.dissipated_energy + float(np.sum(w * q * slipped))
+            bounds = problem.bound(before.pressure), problem.bound(p)
+            friction = sliding_friction(q, *bounds)
+            energy = before.dissipated_energy + float(np.sum(w * friction * slipped))
         return PointState(
             compliance=problem.compliance,
             pressure=p,

@@ -7,6 +7,7 @@ from math import pi
 import numpy as np
 from numpy.typing import NDArray
 
+from contact_scene.friction import sliding_friction
 from contact_scene.solver_errors import NotConverged, motion_undefined
 from fem_reference.contact.friction_limit import reaches_limit
 from fem_reference.contact.penalty.augmentation import augmented
@@ -122,7 +123,9 @@ def _advanced(
         grown = np.where(response.in_contact, grown, 0.0)
         assert dissipated is not None
         slip = slip - grown
-        dissipated += 2 * pi * float(np.sum(surface.weights * traction[1] * grown))
+        bounds = (problem.friction.limit(state[NORMAL]) for state in (last.traction, traction))
+        friction = sliding_friction(traction[1:], *bounds)[0]
+        dissipated += 2 * pi * float(np.sum(surface.weights * friction * grown))
     first = passes[0]
     return PenaltyState(
         loads=loads,
