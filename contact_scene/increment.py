@@ -133,6 +133,7 @@ class State:
             "Part of the input work that is neither stored nor dissipated because increments are "
             "finite. It vanishes with them: input_work - unresolved_work is the better value of "
             "the work.",
+            physical=False,
         ),
     ] = None
     energy_imbalance: Annotated[
@@ -142,18 +143,27 @@ class State:
             "What is missing of input_work = elastic_energy + dissipated_energy + unresolved_work "
             "over an increment, relative to the largest of them so far; of a step the largest.",
             Kind.LARGEST,
+            physical=False,
         ),
     ] = None
     largest_dissipation_increment: Annotated[
         float | None,
-        Reported("J/m^2", "Largest energy per area dissipated within an increment.", Kind.LARGEST),
+        Reported(
+            "J/m^2",
+            "Largest energy per area dissipated within an increment.",
+            Kind.LARGEST,
+            physical=False,
+        ),
     ] = None
     largest_slip_increment: Annotated[
-        float | None, Reported("m", "Largest slip within an increment.", Kind.LARGEST)
+        float | None,
+        Reported("m", "Largest slip within an increment.", Kind.LARGEST, physical=False),
     ] = None
     overlap: Annotated[
         float | None,
-        Reported("m", "Largest overlap that a penalty leaves; null without a penalty."),
+        Reported(
+            "m", "Largest overlap that a penalty leaves; null without a penalty.", physical=False
+        ),
     ] = None
 
 

@@ -22,14 +22,16 @@ class Kind(Enum):
 class Reported:
     """Annotates a value that is reported.
 
-    unit  in SI; empty if dimensionless
-    key   whether it is among those that a person looks at first
+    unit      in SI; empty if dimensionless
+    key       whether it is among those that a person looks at first
+    physical  whether it belongs to the contact, and has an error; what the numerics did has none
     """
 
     unit: str
     meaning: str
     kind: Kind = Kind.SCALAR
     key: bool = False
+    physical: bool = True
 
     def __get_pydantic_json_schema__(self, schema: Any, handler: Any) -> dict[str, Any]:
         """The mark as part of a JSON Schema."""

@@ -13,6 +13,7 @@ from contact_scene.description import Description
 from contact_scene.increment import Cost, State
 from contact_scene.path_error import PathError
 from contact_scene.reported import Reported
+from contact_scene.stated_error import Companion, StatedError
 
 SUMMARY_VERSION = 1
 
@@ -93,6 +94,10 @@ class StepSummary(Cost, _Closed, State):
     status: ContactStatus
     """How the contact carries its tangential load."""
 
+    errors: dict[str, StatedError] | None = None
+    """How far each scalar may be from the exact answer, by its name; null where errors were left
+    out. Counts and what the numerics did have none."""
+
 
 class EffectSummary(Description):
     """One effect that a solver takes into account or not."""
@@ -136,6 +141,9 @@ class RunSummary(Description):
 
     remarks: tuple[str, ...] = ()
     """What to bear in mind of these results: a theory that has come to its end."""
+
+    companions: tuple[Companion, ...] | None = None
+    """The coarser solves that the errors come from; null where errors were left out."""
 
     path_errors: tuple[PathError, ...] | None = None
     """What finite increments cost, one entry for every step; null where it was not asked for."""

@@ -1,4 +1,5 @@
-"""Imports go one way: scene <- solvers <- results <- verification <- command (CONTRIBUTING.md).
+"""Imports go one way: scene <- solvers <- results <- errors <- verification <- command
+(CONTRIBUTING.md).
 
 `ORDERS` holds the reading order of a package: a module imports only from entries above its own. An
 entry that is a package stands for all its modules, which may have an order of their own. A new
@@ -94,6 +95,9 @@ ORDERS = {
     "contact_results": (
         *("one_thread", "difference", "directory", "quantities", "surface", "cycles", "path_error"),
         *("files", "stress", "figures", "result_files", "stress_files"),
+    ),
+    "contact_errors": (
+        *("values", "rules", "estimate", "prescribed", "half_the_cells", "on_cells"),
     ),
     "slipstick": ("solvers", "path_errors", "solving", "stored_run", "cli", "__main__"),
     # Its floors: what judges stands on what is known, what is shown on what was judged.

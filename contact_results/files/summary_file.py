@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from itertools import groupby
+from collections.abc import Mapping, Sequence
+from itertools import groupby, repeat
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -14,6 +14,7 @@ from contact_scene.increment import SCALARS
 from contact_scene.linear_theory import beyond_linear_theory
 from contact_scene.path_error import PathError
 from contact_scene.reported import Kind
+from contact_scene.stated_error import StatedError, StatedErrors
 from contact_scene.summary import (
     EffectSummary,
     Residuals,
@@ -32,9 +33,10 @@ def write_summary(
     cycles: Sequence[FrettingCycle],
     directory: Path,
     path_errors: tuple[PathError, ...] | None,
+    errors: StatedErrors | None = None,
 ) -> None:
     """Write the summary; equal results give equal bytes."""
-    text = dump_summary(summary_of(result, cycles, path_errors))
+    text = dump_summary(summary_of(result, cycles, path_errors, errors))
     (directory / SUMMARY).write_text(text, encoding="utf-8")
 
 
@@ -42,8 +44,10 @@ def summary_of(
     result: Result,
     cycles: Sequence[FrettingCycle],
     path_errors: tuple[PathError, ...] | None = None,
+    errors: StatedErrors | None = None,
 ) -> RunSummary:
     """The record that all solvers share. What a result does not have is null."""
+    stated = errors.steps if errors else repeat(None)
     closed = {cycle.cycle.end: cycle for cycle in cycles}
     grid = getattr(result, "grid", None)
     increments: Sequence[Increment] = result.increments
@@ -55,18 +59,26 @@ def summary_of(
         window=grid and grid.window,
         effects=tuple(EffectSummary(name=e.name, on=e.on, why=e.why) for e in result.plan.effects),
         steps=tuple(
-            _step_summary(list(within), closed.get(step))
-            for step, within in groupby(increments, lambda increment: increment.step)
+            _step_summary(list(within), closed.get(step), of_step)
+            for (step, within), of_step in zip(
+                groupby(increments, lambda increment: increment.step), stated, strict=False
+            )
         ),
         remarks=beyond_linear_theory(result.scene, result.steps),
+        companions=errors.companions if errors else None,
         path_errors=path_errors,
     )
 
 
-def _step_summary(within: Sequence[Increment], cycle: FrettingCycle | None) -> StepSummary:
+def _step_summary(
+    within: Sequence[Increment],
+    cycle: FrettingCycle | None,
+    errors: Mapping[str, StatedError] | None,
+) -> StepSummary:
     """The increments of a step taken together.
 
-    cycle  the one that the step closes
+    cycle   the one that the step closes
+    errors  of its numbers
     """
     end = within[-1]
     residuals: dict[str, Any] = {
@@ -80,6 +92,7 @@ def _step_summary(within: Sequence[Increment], cycle: FrettingCycle | None) -> S
         **_cycle_keys(cycle),
         residuals=Residuals(**residuals),
         status=end.status,
+        errors=None if errors is None else dict(errors),
     )
 
 

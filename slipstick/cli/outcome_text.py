@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from typing import TYPE_CHECKING, TypeVar
+from collections.abc import Iterator, Mapping, Sequence
+from math import floor, log10
+from typing import TYPE_CHECKING, NamedTuple, TypeVar
 
 import numpy as np
 
@@ -12,6 +13,7 @@ from contact_scene.engineering_units import engineering_unit
 from contact_scene.increment import SCALARS, State, components, numbers
 from contact_scene.path_error import DoubledQuantity, PathError
 from contact_scene.reported import Kind
+from contact_scene.stated_error import ErrorStatus, StatedError, StatedErrors
 
 if TYPE_CHECKING:
     import semi_analytical
@@ -19,10 +21,27 @@ if TYPE_CHECKING:
 
 FIRST, LAST = 10, 10  # of a long history, the steps that are shown
 DIGITS = 5
+ERROR_DIGITS = 2
+MOST_DECIMALS = 12
 NEGLIGIBLE = 1e-9  # of the largest value of a vector: round-off, shown as nothing
 
-Values = list[float | None]
+Errors = Mapping[str, StatedError]
 Shown = TypeVar("Shown")
+
+
+class Uncertainty(NamedTuple):
+    """A stated error of one number; no size where nothing can be said."""
+
+    size: float | None
+    converged: bool
+
+
+class _Column(NamedTuple):
+    """Values of one number in all steps, with their errors."""
+
+    heading: str
+    unit: str
+    entries: list[tuple[float | None, Uncertainty | None]]
 
 
 def solved_in(result: Result, seconds: float) -> Iterator[tuple[str, str]]:
@@ -30,6 +49,15 @@ def solved_in(result: Result, seconds: float) -> Iterator[tuple[str, str]]:
     worst = np.max([increment.worst_residual for increment in result.increments])
     yield "tolerance", f"{result.tolerance:.3g} (largest residual {worst:.1e})"
     yield "increments", f"{len(result.increments)} in {seconds:.2f} s"
+
+
+def how_stated(stated: StatedErrors, seconds: float) -> Iterator[tuple[str, str]]:
+    """Where the errors come from."""
+    made = " and ".join(companion.differs for companion in stated.companions)
+    yield "errors", f"from {made}, in {seconds:.2f} s"
+    for companion in stated.companions:
+        if companion.refused:
+            yield "", f"no answer with {companion.differs}: {companion.refused}"
 
 
 def saving(
@@ -41,22 +69,43 @@ def saving(
     yield "difference", f"{largest_difference(planned, forced):.1e} of pressure and approach"
 
 
-def outcome_columns(ends: Sequence[State]) -> dict[str, list[str]]:
+def outcome_columns(
+    ends: Sequence[State], errors: Sequence[Errors] | None = None
+) -> dict[str, list[str]]:
     """Headings and texts, one per loading step; effects that are off have no column.
 
     Of a long history the beginning and the end, with an ellipsis between them.
+
+    errors  of the numbers of every step, to be shown beside them; a question mark where one has not
+            converged
     """
-    numbered, gap = _shown(list(enumerate(ends, 1)))
+    stated: Sequence[Errors] = errors if errors is not None else [{}] * len(ends)
+    numbered, gap = _shown(list(enumerate(zip(ends, stated, strict=True), 1)))
     columns = {"step": [str(number) for number, _ in numbered]}
-    for name, unit, values in _quantities([end for _, end in numbered]):
-        known = [abs(v) for v in values if v is not None]
-        scale = engineering_unit(float(np.max(known, initial=0.0)), unit)
-        texts = ["–" if v is None else f"{v / scale.size:.{DIGITS}g}" for v in values]
-        columns[f"{name}\n{scale.name}"] = texts
+    for column in _columns([end for _, end in numbered]):
+        sizes = [abs(value) for value, _ in column.entries if value is not None]
+        scale = engineering_unit(float(np.max(sizes, initial=0.0)), column.unit)
+        texts = [_entry_text(value, error, scale.size) for value, error in column.entries]
+        columns[f"{column.heading}\n{scale.name}"] = texts
     if gap is not None:
         for texts in columns.values():
             texts.insert(gap, "…")
     return columns
+
+
+def _entry_text(value: float | None, error: Uncertainty | None, unit: float) -> str:
+    if value is None:
+        return "–"
+    if error is None:
+        return f"{value / unit:.{DIGITS}g}"
+    doubt = "" if error.converged else " ?"
+    if error.size is None:
+        return f"{value / unit:.{DIGITS}g}{doubt}"
+    number, size = value / unit, error.size / unit
+    # Two digits of the error, and the number as far (JCGM 100:2008, 7.2.6).
+    decimals = ERROR_DIGITS - 1 - floor(log10(size)) if size else DIGITS
+    decimals = max(0, min(decimals, MOST_DECIMALS))
+    return f"{number:.{decimals}f} ± {size:.{decimals}f}{doubt}"
 
 
 def path_error_columns(errors: Sequence[PathError]) -> dict[str, list[str]]:
@@ -97,10 +146,10 @@ def _shown(steps: Sequence[Shown]) -> tuple[list[Shown], int | None]:
     return [*steps[:FIRST], *steps[-LAST:]], FIRST
 
 
-def _quantities(steps: Sequence[State]) -> Iterator[tuple[str, str, Values]]:
-    """Name, unit and values of every key quantity that the steps have; the y component of a vector
+def _columns(steps: Sequence[tuple[State, Errors]]) -> Iterator[_Column]:
+    """A column for every key quantity that the steps have, and for the y component of a vector
     where there is one, without its round-off."""
-    rows = [numbers(step) for step in steps]
+    rows = [numbers(step) for step, _ in steps]
     for name, mark in SCALARS.items():
         parts = components(name)
         found = [[row[part] for row in rows] for part in parts]
@@ -108,11 +157,23 @@ def _quantities(steps: Sequence[State]) -> Iterator[tuple[str, str, Values]]:
         if not mark.key or not known:
             continue
         first, _, rest = name.partition("_")
-        for axis, values in zip(("x", "y"), found, strict=False):
+        for axis, values in zip("xy", found, strict=False):
             vector = mark.kind is Kind.VECTOR
             cut = [_cut(value, NEGLIGIBLE * np.max(known) if vector else 0.0) for value in values]
             if axis == "x" or any(cut):
-                yield f"{first}\n{rest}{f' {axis}' if vector else ''}", mark.unit, cut
+                heading = f"{first}\n{rest}{f' {axis}' if vector else ''}"
+                errors = [_uncertainty(of_step.get(name), axis) for _, of_step in steps]
+                yield _Column(heading, mark.unit, list(zip(cut, errors, strict=True)))
+
+
+def _uncertainty(stated: StatedError | None, axis: str) -> Uncertainty | None:
+    """Of the component of a number; None where it has none to show."""
+    if stated is None or stated.status is ErrorStatus.EXACT:
+        return None
+    size = stated.error
+    if isinstance(size, tuple):
+        size = size["xy".index(axis)]
+    return Uncertainty(size, stated.status is ErrorStatus.ESTIMATED)
 
 
 def _cut(value: float | None, negligible: float) -> float | None:

@@ -51,6 +51,14 @@ def solve_progress(increments: Sequence[int]) -> Iterator[Observer]:
         yield observe
 
 
+@contextmanager
+def companion_progress() -> Iterator[Observer]:
+    """The same for solves of which nobody knows beforehand how many there are."""
+    console = Console(stderr=True, highlight=False, soft_wrap=True)
+    with console.status("coarser solves for the errors"):
+        yield lambda increment: None
+
+
 class _Log:
     """One line at the end of every step, and in long steps one from time to time."""
 

@@ -13,6 +13,7 @@ if TYPE_CHECKING:
     from contact_results.surface import Result
     from contact_scene.path_error import PathError
     from contact_scene.standing import Keeper
+    from contact_scene.stated_error import StatedErrors
     from slipstick.solvers.solver import Solver
 
 
@@ -45,6 +46,14 @@ def run(
             help="Compute the stress at the surface at the ends of load cycles, for Ruiz's F2.",
         ),
     ] = False,
+    error: Annotated[
+        bool,
+        typer.Option(
+            "--error/--no-error",
+            help="State an error for every number, by coarser solves beside the run; or leave "
+            "them out.",
+        ),
+    ] = True,
     path_error: Annotated[
         bool,
         typer.Option(
@@ -94,10 +103,13 @@ def run(
             decided = _with_all_effects(decided)
         with stopwatch.phase("solve"), solve_progress(decided.increments) as observe:
             result = chosen.solve(contents.scene, fineness, decided, observe, keeper)
-        errors = None
+        by_doubling = stated = None
         if path_error:
             with stopwatch.phase("path error"):
-                errors = _path_errors(result, doubled)
+                by_doubling = _path_errors(result, doubled)
+        if error:
+            with stopwatch.phase("error"):
+                stated = _stated_errors(chosen, result, surface_stress)
         with stopwatch.phase("write"):
             from contact_results.result_files import write_result
 
@@ -106,10 +118,13 @@ def run(
                 staging,
                 with_figures=figures,
                 surface_stress=surface_stress,
-                path_errors=errors,
+                path_errors=by_doubling,
+                errors=stated,
             )
         write_timing(stopwatch, staging)
-    _print_outcome(chosen, result, errors, stopwatch.wall_seconds["solve"])
+    _print_outcome(chosen, result, stated, by_doubling, stopwatch.wall_seconds)
+    if not error:
+        typer.echo("  no errors: --no-error left them out")
     typer.echo(f"results in {output}")
     if all_effects:
         _print_saving(result)
@@ -131,19 +146,38 @@ def _path_errors(result: Any, keeper: "Keeper") -> "tuple[PathError, ...]":
         return path_errors(result, observe, keeper)
 
 
+def _stated_errors(
+    solver: "Solver", result: "Result", surface_stress: bool
+) -> "StatedErrors | None":
+    from slipstick.cli.progress import companion_progress
+
+    with companion_progress() as observe:
+        return solver.errors(result, surface_stress=surface_stress, progress=observe)
+
+
 def _print_outcome(
-    solver: "Solver", result: "Result", errors: "tuple[PathError, ...] | None", seconds: float
+    solver: "Solver",
+    result: "Result",
+    stated: "StatedErrors | None",
+    by_doubling: "tuple[PathError, ...] | None",
+    seconds: dict[str, float],
 ) -> None:
     from contact_scene.linear_theory import beyond_linear_theory
-    from slipstick.cli.outcome_text import outcome_columns, path_error_columns, solved_in
+    from slipstick.cli.outcome_text import (
+        how_stated,
+        outcome_columns,
+        path_error_columns,
+        solved_in,
+    )
     from slipstick.cli.terminal import print_pairs, print_table, tell
 
-    print_pairs([*solver.layout(result), *solved_in(result, seconds)])
-    columns = outcome_columns(result.steps)
+    stated_in = () if stated is None else how_stated(stated, seconds["error"])
+    print_pairs([*solver.layout(result), *solved_in(result, seconds["solve"]), *stated_in])
+    columns = outcome_columns(result.steps, stated.steps if stated else None)
     print_table(columns, zip(*columns.values(), strict=True), numbers=True)
-    if errors is not None:
+    if by_doubling is not None:
         typer.echo("  errors by finite increments, estimated by doubling them:")
-        columns = path_error_columns(errors)
+        columns = path_error_columns(by_doubling)
         print_table(columns, zip(*columns.values(), strict=True), numbers=True)
     for remark in beyond_linear_theory(result.scene, result.steps):
         tell(f"warning: {remark}")

@@ -8,6 +8,7 @@ import semi_analytical
 from contact_scene import Scene, SceneFile, SurfaceDiscretisation
 from contact_scene.engineering_units import engineering_unit
 from contact_scene.standing import Keeper
+from contact_scene.stated_error import StatedErrors
 from semi_analytical import Plan, Result, SurfaceGrid
 from semi_analytical.memory import estimated_bytes
 from slipstick.solvers.solver import MOST_STEPS_SHOWN, Pairs, Progress, increments_text
@@ -34,6 +35,13 @@ class OnCells:
         keeper: Keeper | None = None,
     ) -> Result:
         return semi_analytical.solve_discretised(scene, fineness, progress, plan, keeper)
+
+    def errors(
+        self, result: Result, *, surface_stress: bool = False, progress: Progress | None = None
+    ) -> StatedErrors:
+        from contact_errors.on_cells import stated_errors
+
+        return stated_errors(result, surface_stress=surface_stress, progress=progress)
 
     def work(self, scene: Scene, fineness: SurfaceDiscretisation, plan: Plan) -> Pairs:
         """Grid, tolerance, increments and memory; what the scene left open says so."""

@@ -9,6 +9,7 @@ import fem_reference
 from contact_scene import FiniteElementDiscretisation, Scene, SceneFile
 from contact_scene.engineering_units import quantity
 from contact_scene.standing import Keeper
+from contact_scene.stated_error import StatedErrors
 from fem_reference import Method, Path, Plan, Result
 from fem_reference.expected_radius import meshed_radius
 from fem_reference.memory import required_bytes
@@ -48,6 +49,11 @@ class OnElements:
         keeper: Keeper | None = None,
     ) -> Result:
         return fem_reference.solve(scene, fineness, self.method, progress, keeper)
+
+    def errors(
+        self, result: Result, *, surface_stress: bool = False, progress: Progress | None = None
+    ) -> StatedErrors | None:
+        return None
 
     def work(self, scene: Scene, fineness: FiniteElementDiscretisation, plan: Plan) -> Pairs:
         """Mesh, tolerance, increments, factorisations and memory."""

@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     )
     from contact_scene.increment import ReportedIncrement
     from contact_scene.standing import Keeper
+    from contact_scene.stated_error import StatedErrors
 
     Discretisation: TypeAlias = SurfaceDiscretisation | FiniteElementDiscretisation
 
@@ -45,6 +46,15 @@ class Solver(Protocol):
         keeper: Keeper | None = None,
     ) -> Result:
         """The result of a plan; raises a SolverError."""
+
+    def errors(
+        self, result: Any, *, surface_stress: bool = False, progress: Progress | None = None
+    ) -> StatedErrors | None:
+        """How far off the numbers of a result may be, by companion solves; None where no rules for
+        them are known.
+
+        surface_stress  also of what takes the stress at the surface
+        """
 
     def work(self, scene: Scene, fineness: Any, plan: Any) -> Pairs:
         """How fine a solve would be and what it would take, in words."""

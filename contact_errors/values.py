@@ -1,0 +1,65 @@
+"""The numbers of a result that have an error: scalars of its steps and of the cycles they close."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING, TypeAlias
+
+import numpy as np
+from numpy.typing import NDArray
+
+from contact_scene.increment import SCALARS, State
+from contact_scene.reported import reported
+
+if TYPE_CHECKING:
+    from contact_results.cycles import FrettingCycle
+    from contact_results.surface import Result
+
+# A scalar is (1,), a vector (2,).
+Values: TypeAlias = Mapping[str, NDArray[np.float64]]
+
+PHYSICAL = tuple(name for name, mark in reported(State).items() if mark.physical)
+OF_CYCLES = ("energy_per_cycle", "slip_amplitude", "ruiz_f1", "ruiz_f2")
+
+
+def values_of(result: Result, cycles: Sequence[FrettingCycle]) -> tuple[Values, ...]:
+    """Of every step what is defined at its end, by the names of the summary."""
+    closed = {cycle.cycle.end: _of_cycle(cycle) for cycle in cycles}
+    return tuple(
+        {
+            name: np.atleast_1d(np.asarray(value, dtype=float))
+            for name, value in (
+                {name: getattr(end, name) for name in PHYSICAL} | closed.get(end.step, {})
+            ).items()
+            if value is not None
+        }
+        for end in result.steps
+    )
+
+
+def _of_cycle(cycle: FrettingCycle) -> dict[str, float | None]:
+    f2 = cycle.ruiz_f2
+    return {
+        "energy_per_cycle": cycle.dissipated_energy,
+        "slip_amplitude": float(np.max(cycle.slip_amplitude)),
+        "ruiz_f1": float(np.max(cycle.ruiz_f1)),
+        "ruiz_f2": None if f2 is None else float(np.max(f2)),
+    }
+
+
+def scale(name: str, values: Values) -> float:
+    """Size of the contact in the unit of a number: what a residual is relative to; zero for what
+    has none."""
+    sizes = {key: float(np.max(np.abs(value))) for key, value in values.items()}
+    length, force = sizes["approach"], sizes["normal_force"]
+    radius = sizes["contact_radius"]
+    by_unit = {
+        "m": length,
+        "m^2": sizes["contact_area"],
+        "N": force,
+        "N m": force * radius,
+        "rad": length / radius if radius else 0.0,
+        "Pa": sizes["peak_pressure"],
+        "J": force * length,
+    }
+    return by_unit.get(SCALARS[name].unit, 0.0) if name in SCALARS else 0.0
