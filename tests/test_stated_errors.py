@@ -1,0 +1,191 @@
+"""Every number of a run has an error, and the error is of the size of what is wrong."""
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+from command import slipstick
+from contact_scenes import APPROACH, LOAD, MU, NU, YOUNG, A, grid, hertz, scene, steel
+
+from contact_errors import estimate
+from contact_errors.half_the_cells import recut
+from contact_errors.on_cells import stated_errors
+from contact_errors.rules import RULES, Rule
+from contact_errors.values import OF_CYCLES, PHYSICAL
+from contact_scene import Cone, Scene
+from contact_scene.stated_error import ErrorStatus, StatedError
+from semi_analytical import SurfaceGrid, plan, solve
+from verification.closed_forms.cattaneo_mindlin import PartialSlip
+from verification.closed_forms.moduli import tangential_modulus
+
+FRETTING = """
+[indenter]
+shape = "sphere"
+radius = "18 mm"
+material = { young_modulus = "420 GPa", poisson_ratio = 0.3 }
+[body]
+material = { young_modulus = "420 GPa", poisson_ratio = 0.3 }
+[friction]
+coefficient = 0.1
+[[loading]]
+normal_force = "1 kN"
+[[loading]]
+tangential_force = ["90 N", 0]
+[[loading]]
+tangential_force = ["-90 N", 0]
+[[loading]]
+tangential_force = ["90 N", 0]
+[semi_analytical]
+cells = [32, 32]
+window = ["1.2 mm", "1.2 mm"]
+"""
+
+
+def errors_of(of: Scene, on: SurfaceGrid) -> tuple[dict[str, StatedError], ...]:
+    return tuple(map(dict, stated_errors(solve(of, on, 1e-8)).steps))
+
+
+def size(error: StatedError) -> float:
+    assert error.error is not None
+    return float(np.max(error.error))
+
+
+@pytest.mark.parametrize("order", [0.5, 1.0, 2.0])
+def test_an_error_that_falls_as_a_power_is_found_exactly(order: float) -> None:
+    rule = Rule(order, envelope=0.0, weight=0.0, factor=1.0)
+    f, coarse = (np.array([2.0 + 0.3 * h**order]) for h in (0.1, 0.2))
+    found = estimate.by_cells(rule, np.abs(f - coarse), 2.0, np.zeros(1))
+    assert found == pytest.approx(f - 2.0)
+
+
+def test_a_worked_example_of_a_stated_error() -> None:
+    # f = 10.0 on fine and 10.6 on wide cells; order 2, scatter 0.1, weight 1/2, factor 1.1:
+    # d = 0.6/3 = 0.2; √((0.5·0.01 + 0.04)/1.5) = 0.1732; times 1.1 = 0.1905
+    rule = Rule(2, 0.25, 0.5, 1.1, path_factor=2.0, path_scatter=0.1)
+    cells = estimate.by_cells(rule, np.array([0.6]), 2.0, np.array([0.1]))
+    assert cells == pytest.approx(0.19053, abs=1e-5)
+    # 0.05 less with half the increments: 2 √(0.05² + 0.01²) = 0.10198
+    increments = estimate.by_increments(rule, np.array([0.05]), np.array([0.1]))
+    assert increments == pytest.approx(0.10198, abs=1e-5)
+    error = estimate.stated({"cells": cells, "increments": increments}, converged=True)
+    assert error.error == pytest.approx(0.29251, abs=1e-5)
+
+
+@pytest.mark.parametrize("cells", [16, 23, 48, 64])
+def test_the_error_of_hertz_covers_what_is_wrong(cells: int) -> None:
+    result = solve(scene({"normal_force": 1e3}), grid(cells), 1e-8)
+    (errors,) = stated_errors(result).steps
+    (end,) = result.steps
+    exact = {
+        "approach": APPROACH,
+        "contact_radius": A,
+        "peak_pressure": hertz().peak_pressure,
+        "contact_area": np.pi * A**2,
+    }
+    for name, value in exact.items():
+        wrong = abs(getattr(end, name) - value)
+        assert wrong <= size(errors[name]), name
+        assert size(errors[name]) < 0.1 * value
+
+
+def test_what_the_load_prescribes_is_exact() -> None:
+    by_force, by_shift = errors_of(
+        scene({"normal_force": 1e3}, {"tangential_shift": (1e-7, 0.0)}), grid(16)
+    )
+    assert by_force["normal_force"].status is ErrorStatus.EXACT
+    assert by_force["approach"].status is ErrorStatus.ESTIMATED
+    assert by_shift["tangential_shift"].status is ErrorStatus.EXACT
+    assert by_shift["tangential_force"].status is ErrorStatus.ESTIMATED
+
+
+def test_all_numbers_of_the_contact_have_a_rule() -> None:
+    assert set(RULES) == {*PHYSICAL, *OF_CYCLES}
+
+
+def test_a_contact_of_less_than_three_cells_has_not_converged() -> None:
+    (errors,) = errors_of(scene({"normal_force": 1e3}), SurfaceGrid((16, 16), (8 * A, 8 * A)))
+    assert errors["normal_force"].status is ErrorStatus.EXACT
+    assert {errors[name].status for name in ("approach", "peak_pressure", "contact_radius")} == {
+        ErrorStatus.NOT_CONVERGED
+    }
+
+
+def test_nobody_states_the_error_of_what_is_infinite() -> None:
+    cone = scene({"normal_force": 1.0}, indenter=Cone(slope_angle=0.05, material=steel()))
+    (errors,) = errors_of(cone, grid(16, radius=1e-5))
+    assert errors["peak_pressure"].error is None
+
+
+def test_a_companion_without_answer_leaves_no_number_with_an_error(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    from contact_errors import half_the_cells
+    from contact_scene.solver_errors import NotConverged
+
+    def fails(*_: object) -> None:
+        raise NotConverged("the increment", 3, 1e-3, 1e-8)
+
+    result = solve(scene({"normal_force": 1e3}), grid(16), 1e-8)
+    monkeypatch.setattr(half_the_cells, "solve", fails)
+    stated = stated_errors(result)
+    assert {e.error for e in stated.steps[0].values() if e.status is not ErrorStatus.EXACT} == {
+        None
+    }
+    assert "did not converge" in (stated.companions[0].refused or "")
+
+
+def test_few_increments_are_doubled_where_many_are_halved() -> None:
+    steps = scene(
+        {"normal_force": 1e3, "increments": 3},
+        {"tangential_force": (50.0, 0.0), "normal_force": 500.0, "increments": 9},
+        friction=0.3,
+    )
+    decided = plan(steps)
+    assert [step.path_matters for step in decided.path] == [False, True]
+    assert recut(decided).increments == (3, 4)
+    assert recut(decided.cut_into((3, 2))).increments == (3, 4)
+
+
+@pytest.mark.parametrize("cells", [20, 32])
+def test_the_error_of_partial_slip_covers_what_is_wrong(cells: int) -> None:
+    pushed = scene({"normal_force": 1e3}, {"tangential_force": (60.0, 0.0)})
+    result = solve(pushed, grid(cells), 1e-8)
+    _, errors = stated_errors(result).steps
+    _, end = result.steps
+    assert end.stick_radius is not None
+    assert end.tangential_shift is not None
+    exact = PartialSlip(LOAD, A, MU, tangential_modulus((YOUNG, NU), (YOUNG, NU)), 60.0)
+    assert abs(end.stick_radius - exact.stick_radius) <= size(errors["stick_radius"])
+    assert abs(end.tangential_shift[0] - exact.shift) <= size(errors["tangential_shift"])
+
+
+def test_a_run_writes_the_errors_and_counts_their_solves_apart(tmp_path: Path) -> None:
+    path = tmp_path / "scene.toml"
+    path.write_text(FRETTING, encoding="utf-8")
+    runs = []
+    for option in ("--error", "--no-error"):
+        out = tmp_path / option
+        assert slipstick("run", path, "-o", out, "--no-figures", option) == 0
+        runs.append(json.loads((out / "summary.json").read_text(encoding="utf-8")))
+    with_errors, without = runs
+    assert {step.pop("errors") is None for step in without["steps"]} == {True}
+    assert without.pop("companions") is None
+    assert len(with_errors.pop("companions")) == 1
+    for step in with_errors["steps"]:
+        errors = step.pop("errors")
+        numbers = [name for name in (*PHYSICAL, *OF_CYCLES) if step[name] is not None]
+        assert sorted(errors) == sorted(numbers)
+    assert with_errors == without
+
+
+def test_the_table_shows_what_is_wrong_beside_the_number(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path = tmp_path / "scene.toml"
+    path.write_text(FRETTING, encoding="utf-8")
+    assert slipstick("run", path, "-o", tmp_path / "out", "--no-figures") == 0
+    assert " ± " in capsys.readouterr().out
+    wide = "semi_analytical.window=[8e-3, 8e-3]"
+    slipstick("run", path, "-o", tmp_path / "out", "--no-figures", "--no-error", "--set", wide)
+    assert "--no-error left them out" in capsys.readouterr().out
