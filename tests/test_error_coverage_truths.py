@@ -1,0 +1,120 @@
+"""Scenes that judge stated errors: solvers come closer to what is known as they refine."""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from collections.abc import Iterator
+from functools import cache
+from typing import Any
+
+import pytest
+
+import fem_reference
+import semi_analytical
+from verification.studies.error_coverage.branches import Reached, along
+from verification.studies.error_coverage.families import FAMILIES, JUDGING, TRAINING, drawn
+from verification.studies.error_coverage.known_scene import (
+    CELLS,
+    CYCLE,
+    ENERGY,
+    MISES,
+    STRESSES,
+    TENSION,
+    KnownScene,
+    Truth,
+)
+from verification.studies.error_coverage.stress_maxima import stress_maxima
+
+# Their largest stresses take seconds to know.
+UNSTRESSED = [family for family in FAMILIES if family != "coated-stress"]
+COARSE, FINE = 16, 48  # cells along a side
+FEW, MANY = 6, 18  # elements per contact radius
+# The largest error falls at least by that while cells become a third as large: smooth quantities
+# fall by nine on average, the area's radius by four, and each depends on where borders cut cells.
+FALLS = 1.5
+SMALL = 1e-3  # what may be luck on the coarse grid
+EDGE_FALLS = 1.3  # tension at the edge of the contact, order one half
+
+
+@cache
+def scene(family: str, number: int) -> KnownScene:
+    return drawn(family, JUDGING, number)
+
+
+def solved(known: KnownScene, fine: bool) -> Any:
+    asked = known.fineness.asked
+    if known.fineness.solver != CELLS:
+        asked = asked.model_copy(update={"elements_per_radius": MANY if fine else FEW})
+        return fem_reference.solve(known.scene, asked, fem_reference.Method.COMPLEMENTARITY)
+    cells = FINE if fine else COARSE
+    asked = asked.model_copy(update={"cells": (cells, cells + 1)})
+    return semi_analytical.solve_discretised(known.scene, asked)
+
+
+def errors(known: KnownScene, fine: bool, *, stress: bool) -> Iterator[tuple[Truth, float]]:
+    """Relative to the truth."""
+    result = solved(known, fine)
+    for truth in known.truths:
+        if (truth.quantity in STRESSES) is stress:
+            found = (
+                stress_maxima(result, truth.step)[truth.quantity]
+                if stress
+                else truth.read(result.steps)
+            )
+            assert found is not None
+            yield truth, abs(found / truth.reference.value - 1)
+
+
+def worst(family: str, *, fine: bool, stress: bool, draws: int) -> dict[str, float]:
+    """Largest error of every kind."""
+    found: dict[str, float] = defaultdict(float)
+    for number in range(draws):
+        for truth, error in errors(scene(family, number), fine, stress=stress):
+            found[truth.kind] = max(found[truth.kind], error)
+    return found
+
+
+@pytest.mark.parametrize("family", UNSTRESSED)
+def test_errors_fall_towards_the_truth(family: str) -> None:
+    draws = 1 if family.startswith("sections") else 2
+    coarse, fine = (worst(family, fine=fine, stress=False, draws=draws) for fine in (False, True))
+    assert {k: e for k, e in fine.items() if e > max(SMALL, coarse[k] / FALLS)} == {}
+
+
+@pytest.mark.parametrize("family", ["hertz", "cattaneo", "sliding"])
+def test_stresses_rise_to_the_truth(family: str) -> None:
+    coarse, fine = (worst(family, fine=fine, stress=True, draws=1) for fine in (False, True))
+    assert fine[TENSION] <= coarse[TENSION] / EDGE_FALLS
+    assert fine[MISES] <= coarse[MISES] / FALLS
+
+
+def test_drawn_scenes_are_the_same_at_every_call_and_other_for_training() -> None:
+    for family in ("hertz", "cattaneo", "coated"):
+        assert drawn(family, JUDGING, 0) == scene(family, 0)
+        assert drawn(family, TRAINING, 0).scene != scene(family, 0).scene
+
+
+def test_a_loop_closes_where_it_began() -> None:
+    """A spring with friction: motion and energy of the first loading are powers of the force."""
+    states = list(
+        along(lambda force: Reached(force**2, 1 - force, force**3), (0.8, 0.1, -0.8, 0.8))
+    )
+    assert [state.motion for state in states] == pytest.approx([0.64, 0.395, -0.64, 0.64])
+    assert [state.stick_radius for state in states] == pytest.approx([0.2, 0.65, 0.2, 0.2])
+    lost = 0.8**3
+    assert [state.energy for state in states] == pytest.approx(
+        [lost, lost + 2 * 0.35**3, 3 * lost, 5 * lost]
+    )
+
+
+@pytest.mark.parametrize("family", ["twisted", "coated-twisted"])
+def test_energy_of_a_loop_is_its_area(family: str) -> None:
+    """To and fro by Masing's rule: the loop takes four times the first loading."""
+    for number in range(20):
+        known = drawn(family, JUDGING, number)
+        if known.loops:
+            values = {(t.step, t.quantity): t.reference.value for t in known.truths}
+            last = max(step for step, _ in values)
+            assert values[last, CYCLE] == pytest.approx(4 * values[2, ENERGY])
+            return
+    raise AssertionError("no loop was drawn")

@@ -1,0 +1,126 @@
+"""Loading to and fro from the curve of first loading (Masing's rule), and the energy of it.
+
+At constant pressure of uncoupled bodies a branch after a reversal is the curve of first loading
+with force and motion doubled, where slip keeps its direction up to its sign (Mindlin and
+Deresiewicz 1953; Jäger 1998).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.polynomial import Chebyshev
+from scipy.optimize import brentq
+
+from contact_scene import Body, CoulombFriction, LoadStep, Scene
+from contact_scene.geometry import Indenter
+from verification.problems.reference import Reference, ReferenceKind
+from verification.studies.error_coverage.known_scene import CYCLE, ENERGY, STICK, Truth, known
+
+NODES = 20
+INTERPOLATED = 1e-5  # relative error of what goes through `Twisting`
+
+
+class Reached(NamedTuple):
+    """State at a force: motion that goes with it, stick radius, energy lost since zero."""
+
+    motion: float
+    stick_radius: float
+    energy: float
+
+
+FirstLoading = Callable[[float], Reached]
+
+
+def along(virgin: FirstLoading, forces: Sequence[float]) -> Iterator[Reached]:
+    """States at these forces: they rise, fall at most to the negative of the largest, and may then
+    rise to it again."""
+    last, turned, rising = 0.0, 0.0, True
+    base = reached = Reached(0.0, 0.0, 0.0)
+    for force in forces:
+        if (force > last) != rising:
+            turned, rising = last, not rising
+            base = reached
+        if turned == 0.0:
+            reached = virgin(force)
+        elif rising:  # the loop is closed where it began
+            half = virgin(force)
+            reached = half._replace(energy=base.energy + 2 * half.energy)
+        else:
+            half = virgin((turned - force) / 2)
+            reached = Reached(
+                base.motion - 2 * half.motion, half.stick_radius, base.energy + 2 * half.energy
+            )
+        last = force
+        yield reached
+
+
+@dataclass(frozen=True)
+class Twisting:
+    """First loading by a torque, by the radius of the stick disc.
+
+    torque, twist   as functions of it, falling to zero at the contact radius
+    energy          lost, M φ - 2 ∫ φ dM: a quarter of the loop between M and -M
+    """
+
+    torque: Chebyshev
+    twist: Chebyshev
+    energy: Chebyshev
+
+    @classmethod
+    def of(
+        cls, state: Callable[[float], tuple[float, float]], smallest: float, contact_radius: float
+    ) -> Twisting:
+        """Interpolated between states (torque, twist) at stick radii from the smallest on."""
+        domain = [smallest, contact_radius]
+        stops = Chebyshev.basis(NODES, domain=domain).roots()
+        torque, twist = (
+            Chebyshev.fit(stops, values, NODES - 1, domain=domain)
+            for values in np.transpose([state(float(c)) for c in stops])
+        )
+        # from the contact radius, where all is zero, inwards
+        area = (twist * torque.deriv()).integ(lbnd=contact_radius)
+        return cls(torque, twist, torque * twist - 2 * area)
+
+    def __call__(self, torque: float) -> Reached:
+        ends = self.torque.domain
+        c = float(brentq(lambda c: self.torque(c) - torque, *ends, xtol=1e-14 * ends[1]))
+        return Reached(float(self.twist(c)), c, float(self.energy(c)))
+
+
+def ends(
+    virgin: FirstLoading, forces: Sequence[float], motion: str, source: str, uncertainty: float
+) -> Iterator[Truth]:
+    """What is known at the ends of the steps through these forces, which follow one that presses.
+
+    motion       that goes with the force
+    uncertainty  relative
+    """
+    states = list(along(virgin, forces))
+    for step, state in enumerate(states, start=2):
+        values = {motion: state.motion, STICK: state.stick_radius, ENERGY: state.energy}
+        yield from known(step, source, {k: v for k, v in values.items() if v == v}, uncertainty)
+    if forces[-1] == forces[0]:
+        lost = states[-1].energy - states[0].energy
+        if lost == lost:
+            reference = Reference(lost, ReferenceKind.CLOSED_FORM, source, uncertainty * lost)
+            yield Truth(len(states) + 1, CYCLE, reference, since=2)
+
+
+def led(
+    indenter: Indenter, body: Body, mu: float, load: float, name: str, loads: Sequence[float]
+) -> Scene:
+    """Pressed with friction, and led through forces along x or torques, the key of a step."""
+    steps: list[dict[str, Any]] = [
+        {name: (value, 0.0) if name == "tangential_force" else value} for value in loads
+    ]
+    return Scene(
+        title=f"{type(indenter).__name__} led by {name}",
+        indenter=indenter,
+        body=body,
+        friction=CoulombFriction(coefficient=mu),
+        loading=(LoadStep(normal_force=load), *(LoadStep(**step) for step in steps)),
+    )
