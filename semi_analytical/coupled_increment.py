@@ -13,7 +13,7 @@ from semi_analytical.box import Box, box_around
 from semi_analytical.contact_area import covered_cells
 from semi_analytical.full_slip import (
     at_limit,
-    reaches_limit,
+    force_reaches_limit,
     refuse_excessive_torque,
     unresisted,
 )
@@ -59,7 +59,7 @@ def solve_coupled_increment(
     if tangential.force is not None and normal.force is not None:
         carried = model.friction.carried(normal.force)
         if carried is not None:
-            reaches_limit(tangential.force, carried)
+            force_reaches_limit(tangential.force, carried)
     start, iterations = _start(model, before, normal)
     box = box_around((start > 0) | (last.shear[0] != 0), MARGIN)
     whole = Box.whole(model.grid.cells)
@@ -189,7 +189,7 @@ class _Trial:
         if load.torsion is not None and load.torsion.torque is not None:
             refuse_excessive_torque(model, bound, load)
         elif load.force is not None:
-            reaches_limit(load.force, float(np.sum(bound)) * model.grid.cell_area)
+            force_reaches_limit(load.force, float(np.sum(bound)) * model.grid.cell_area)
             if np.any(bound):
                 return replace(at_limit(model, bound, last, load), displacement=u_t)
         return unresisted(model, p, u_t, last, load, self.solution.motion)

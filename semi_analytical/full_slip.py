@@ -19,7 +19,7 @@ VectorField = NDArray[np.float64]
 Vector = NDArray[np.float64]
 
 
-def reaches_limit(force: Vector, limit: float) -> bool:
+def force_reaches_limit(force: Vector, limit: float) -> bool:
     """Whether a force is at the friction limit; GrossSliding if it is beyond."""
     magnitude = float(np.hypot(*force))
     if magnitude > limit * (1 + AT_LIMIT):

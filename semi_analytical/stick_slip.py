@@ -12,7 +12,7 @@ from contact_scene.summary import ContactStatus
 from semi_analytical.admissible_shear import magnitude
 from semi_analytical.full_slip import (
     at_limit,
-    reaches_limit,
+    force_reaches_limit,
     refuse_excessive_torque,
     unresisted,
 )
@@ -85,7 +85,7 @@ def _without_solving(
     moved = last.shear, last.shift, last.displacement
     if load.torsion is None and not any(np.any(a) for a in (load.force, *moved)):
         return replace(last, limit=bound, in_stick=bound > 0, iterations=0)
-    if not reaches_limit(load.force, float(np.sum(bound)) * model.grid.cell_area):
+    if not force_reaches_limit(load.force, float(np.sum(bound)) * model.grid.cell_area):
         return None
     if np.any(bound):
         return at_limit(model, bound, last, load)
