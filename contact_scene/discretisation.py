@@ -19,6 +19,9 @@ BoxSize = Annotated[
 PenaltyFactor = Annotated[
     float, Quantity(PURE_NUMBER, "a number from 0.01 to 1e4", at_least=0.01, at_most=1e4)
 ]
+Overlap = Annotated[
+    float, Quantity(PURE_NUMBER, "a number from 1e-8 to 1", at_least=1e-8, at_most=1.0)
+]
 PathAccuracy = Annotated[
     float, Quantity(PURE_NUMBER, "a number from 1e-4 to 1", at_least=1e-4, at_most=1.0)
 ]
@@ -66,8 +69,13 @@ class FiniteElementDiscretisation(Description):
     penalty: PenaltyFactor = 10.0
     """Stiffness of the penalty method against overlap and slip, in contact moduli per element."""
 
-    augmentations: Augmentations = 1
-    """How often the penalty method corrects its tractions in an increment."""
+    augmentations: Augmentations = 100
+    """How often the penalty method may correct its tractions in an increment; none leaves springs
+    alone."""
+
+    overlap: Overlap = 1e-3
+    """Overlap that the penalty method may leave, relative to what the bodies move: it corrects its
+    tractions until less is left, and is refused where more is left in the end."""
 
     tolerance: Tolerance = 1e-8
     """Bound of every dimensionless residual at the end of an increment."""

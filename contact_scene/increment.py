@@ -195,6 +195,14 @@ class Cost:
         Count | None,
         Reported("", "Passes through pressure and shear of finite elements.", Kind.COUNTER),
     ] = None
+    augmentations: Annotated[
+        Count | None,
+        Reported(
+            "",
+            "Corrections of the tractions of a penalty; null without a penalty.",
+            Kind.COUNTER,
+        ),
+    ] = None
     halvings: Annotated[
         Count, Reported("", "How often an increment was cut in two to converge.", Kind.COUNTER)
     ] = 0

@@ -49,6 +49,21 @@ class ContactNotResolved(SolverError):
     """The contact is smaller than the cells: none touches, or only a few carry the load."""
 
 
+class SurfacesOverlap(SolverError):
+    """The springs of a penalty leave more overlap than is allowed; smaller increments do not help.
+
+    overlap  what is left, relative to what the bodies move
+    """
+
+    def __init__(self, overlap: float, augmentations: int, allowed: float) -> None:
+        times = f"{augmentations} augmentation{'s' if augmentations != 1 else ''}"
+        super().__init__(
+            f"the surfaces overlap by {overlap:.1e} of the approach after {times}, allowed "
+            f"{allowed:.1e}; give a larger penalty or more augmentations"
+        )
+        self.overlap = overlap
+
+
 class ResourceRefused(SolverError):
     """The solve would need more memory than this machine has available."""
 

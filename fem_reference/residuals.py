@@ -15,6 +15,13 @@ Field = NDArray[np.float64]
 LEAST_SLIP = 1e-3
 
 
+def over(part: float, whole: float) -> float:
+    """Their ratio; zero where there is no part, infinite where the whole vanishes alone."""
+    if not part:
+        return 0.0
+    return part / whole if whole else float("inf")
+
+
 def complementarity(p: Field, gap: Field, weights: Field, approach: float) -> float:
     """Σ|g| p / (approach Σ w p), g the integral of the gap over a hat and w of the hat."""
     return float(np.sum(np.abs(gap) * p) / (np.sum(weights * p) * abs(approach)))

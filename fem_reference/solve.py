@@ -53,6 +53,8 @@ def solve(
         The contact reaches the end of the zone that `discretisation.contact_radius` asks for.
     GrossSliding
         A tangential force or torque exceeds the friction limit.
+    SurfacesOverlap
+        A penalty leaves more overlap than `discretisation.overlap` allows.
     NotConverged
         An increment stopped above the tolerance; `last_state` holds the last good one.
     """
@@ -90,10 +92,12 @@ def _solver(
 ) -> Solver[Any]:
     """The method on a model; imported only where it is used."""
     if method is Method.PENALTY:
-        from fem_reference.contact.penalty.law import Penalty
+        from fem_reference.contact.augmentation import Penalty
         from fem_reference.contact.penalty.method import penalty_method
 
-        penalty = Penalty(discretisation.penalty, discretisation.augmentations)
+        penalty = Penalty(
+            discretisation.penalty, discretisation.augmentations, discretisation.overlap
+        )
         return penalty_method(model, decided, penalty, discretisation.harmonics)
     if decided.path is Path.HARMONICS:
         from fem_reference.contact.harmonics.angular_grid import end_grid

@@ -6,6 +6,7 @@ from fem_scenes import elements, solved
 from hankel_responses import Coating
 from ring_responses import half_space, rings
 
+from contact_results.quantities import shift_along_x
 from contact_scene import (
     RIGID,
     Body,
@@ -17,7 +18,7 @@ from contact_scene import (
     Paraboloid,
     Scene,
 )
-from contact_scene.solver_errors import ResourceRefused, UnsupportedScene
+from contact_scene.solver_errors import ResourceRefused, SurfacesOverlap, UnsupportedScene
 from fem_reference import Method, solve
 from fem_reference.contact.complementarity.method import complementarity_method
 from fem_reference.contact.harmonics.angular_grid import end_grid
@@ -192,8 +193,37 @@ def test_load_that_turns_is_refused_by_name():
         solved(sheared((0.5, 0.0), (0.3, 0.3)), 8, **FEW)
 
 
+def test_penalty_does_not_decide_the_answer():
+    """On a soft incompressible film springs alone overlap by 7 % of the approach."""
+    film = Layer(
+        thickness=0.15e-3, material=IsotropicMaterial(young_modulus=2.1e9, poisson_ratio=0.4999)
+    )
+    scene = Scene(
+        indenter=Paraboloid(radius=0.01, material=RIGID),
+        body=Body(material=STEEL, layers=(film,)),
+        friction=CoulombFriction(coefficient=0.5),
+        loading=[
+            LoadStep(normal_force=100.0, increments=2),
+            LoadStep(tangential_force=(20.0, 0.0), increments=2),
+        ],
+    )
+    exact = solved(scene, 8, **FEW).steps[-1]
+    alone = elements(8, augmentations=0, overlap=1.0, **FEW)
+    assert solve(scene, alone, Method.PENALTY).steps[-1].overlap > 0.05 * exact.approach
+    for factor in (1.0, 10.0):
+        result = solve(scene, elements(8, penalty=factor, **FEW), Method.PENALTY)
+        assert all(i.overlap <= 1e-3 * i.approach for i in result.increments)
+        assert result.increments[0].augmentations > 0
+        end = result.steps[-1]
+        assert end.approach == pytest.approx(exact.approach, rel=3e-4)
+        assert end.peak_pressure == pytest.approx(exact.peak_pressure, rel=1e-3)
+        assert shift_along_x(end) == pytest.approx(shift_along_x(exact), rel=1e-3)
+    with pytest.raises(SurfacesOverlap, match="after 1 augmentation, allowed"):
+        solve(scene, elements(8, augmentations=1, **FEW), Method.PENALTY)
+
+
 def test_penalty_is_springs_between_the_surfaces(result):
-    by_penalty = elements(8, penalty=100.0, augmentations=0, **FEW)
+    by_penalty = elements(8, penalty=100.0, augmentations=0, overlap=1.0, **FEW)
     soft = solve(along_x(), by_penalty, method=Method.PENALTY)
     end, exact = soft.steps[-1], result.steps[-1]
     assert end.path == "springs"

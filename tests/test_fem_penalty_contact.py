@@ -23,7 +23,7 @@ from fem_scenes import elements
 
 from contact_results.quantities import shift_along_x
 from contact_scene import Body, IsotropicMaterial, Layer, Paraboloid, Scene
-from contact_scene.solver_errors import GrossSliding, NotConverged
+from contact_scene.solver_errors import GrossSliding, NotConverged, SurfacesOverlap
 from contact_scene.summary import ContactStatus
 from fem_reference import ContactAtZoneEdge, Increment, Method, Result, solve
 from fem_reference.contact.penalty import passes
@@ -41,6 +41,9 @@ G = steel().shear_modulus
 
 
 def penalised(asked: Scene, per_radius: int = 16, **more) -> Result:
+    """With a number of augmentations, whatever they leave."""
+    if "augmentations" in more:
+        more = {"overlap": 1.0, **more}
     return solve(asked, elements(per_radius, **more), method=Method.PENALTY)
 
 
@@ -64,6 +67,26 @@ def test_augmentation_removes_the_error_of_the_penalty(factor: float) -> None:
     assert found.peak_pressure == pytest.approx(HERTZ.peak_pressure, rel=1e-4)
     assert found.approach == pytest.approx(HERTZ.approach, rel=6e-5)
     assert found.contact_radius == pytest.approx(A, rel=4e-3)
+
+
+@pytest.mark.parametrize("factor", [0.1, 1.0])
+def test_penalty_does_not_decide_the_answer(factor: float) -> None:
+    """Soft springs are corrected until they leave hardly any overlap."""
+    asked = scene(PRESS, friction=None)
+    found = end(asked, 32, penalty=factor)
+    assert found.augmentations > 1
+    assert found.overlap < 1e-3 * found.approach
+    assert found.approach == pytest.approx(HERTZ.approach, rel=2e-4)
+    assert found.peak_pressure == pytest.approx(HERTZ.peak_pressure, rel=5e-4)
+    # Springs that overlap by a part of the approach enlarge the contact by as much at most.
+    assert found.contact_radius == pytest.approx(A, rel=passes.AT_EDGE)
+
+
+@pytest.mark.parametrize("augmentations", [0, 1])
+def test_springs_that_leave_overlap_are_refused(augmentations: int) -> None:
+    asked = scene({**PRESS, "increments": 2}, friction=None)
+    with pytest.raises(SurfacesOverlap, match=r"larger penalty or more augmentations"):
+        solve(asked, elements(penalty=0.1, augmentations=augmentations), method=Method.PENALTY)
 
 
 def test_overlap_is_reported() -> None:
@@ -324,7 +347,7 @@ def test_harmonics_take_springs() -> None:
     )
     mesh = {"per_radius": 8, "harmonics": 4, "contact_radius": 0.9 * A}
     exact = solve(asked, elements(**mesh)).increments[-1]
-    soft, stiff = (end(asked, **mesh, penalty=c) for c in (30.0, 300.0))
+    soft, stiff = (end(asked, **mesh, penalty=c, augmentations=0) for c in (30.0, 300.0))
     assert {soft.path, stiff.path} == {"springs"}
     error = [found.approach / exact.approach - 1 for found in (soft, stiff)]
     assert error[0] == pytest.approx(10 * error[1], rel=0.1)

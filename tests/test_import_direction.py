@@ -76,7 +76,7 @@ ORDERS = {
     ),
     "fem_reference.contact": (
         *("box_program", "ring_edge", "friction_limit", "one_component", "zone_edge"),
-        *("complementarity", "harmonics", "penalty"),
+        *("augmentation", "complementarity", "harmonics", "penalty"),
     ),
     "fem_reference.contact.complementarity": (
         *("contact_problem", "pressing", "tresca", "ring_state", "slipping"),
@@ -89,7 +89,7 @@ ORDERS = {
     ),
     "fem_reference.contact.penalty": (
         *("gauss_points", "coulomb_return", "law", "surface", "fitted_edge", "problem"),
-        *("spring_contact", "step", "newton", "springs", "spring_state", "augmentation"),
+        *("spring_contact", "step", "newton", "springs", "spring_state"),
         *("spring_residuals", "passes", "method"),
     ),
     "contact_results": (

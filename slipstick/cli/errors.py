@@ -41,9 +41,10 @@ def _solver_exit_code(error: Exception) -> ExitCode:
         NotConverged,
         ResourceRefused,
         SolverError,
+        SurfacesOverlap,
     )
 
-    if isinstance(error, NotConverged | ContactNotResolved):
+    if isinstance(error, NotConverged | ContactNotResolved | SurfacesOverlap):
         return ExitCode.NOT_CONVERGED
     if isinstance(error, ResourceRefused):
         return ExitCode.RESOURCES_REFUSED

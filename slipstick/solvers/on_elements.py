@@ -88,7 +88,7 @@ def _method_text(method: Method, asked: FiniteElementDiscretisation) -> str:
         return "finite elements, complementarity: no penalty"
     return (
         f"finite elements, penalty of {asked.penalty:g} contact moduli per element, "
-        f"{asked.augmentations} augmentation{'s' if asked.augmentations != 1 else ''}"
+        f"augmented until {asked.overlap:g} of the approach is left as overlap"
     )
 
 

@@ -82,7 +82,11 @@ def penalised(elements: int, factor: float, augmentations: int) -> Ladder:
     words = "springs alone" if augmentations == 0 else "one augmentation"
     meshes = with_edge_at(BALL, (elements,))
     return on_springs(
-        meshes, f"c = {factor:g}, {words}", penalty=factor, augmentations=augmentations
+        meshes,
+        f"c = {factor:g}, {words}",
+        penalty=factor,
+        augmentations=augmentations,
+        overlap=1.0,
     )
 
 

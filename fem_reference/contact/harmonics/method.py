@@ -9,9 +9,10 @@ from functools import cached_property
 import numpy as np
 
 from contact_scene.march import Place
+from fem_reference.contact.augmentation import Penalty
 from fem_reference.contact.harmonics.angular_grid import AngularGrid, axisymmetric_grid, end_grid
 from fem_reference.contact.harmonics.point_contact import PointContact, point_contact
-from fem_reference.contact.harmonics.point_increment import advance
+from fem_reference.contact.harmonics.point_increment import SPRINGS_ALONE, advance
 from fem_reference.contact.harmonics.point_state import PointState
 from fem_reference.contact.harmonics.reported import reported
 from fem_reference.contact.zone_edge import refuse_contact_at_edge
@@ -29,13 +30,15 @@ def harmonic_method(
     plan: Plan,
     around: AngularGrid | None = None,
     springs: tuple[float, float] = (0.0, 0.0),
+    penalty: Penalty = SPRINGS_ALONE,
 ) -> "HarmonicMethod":
     """The method for a scene whose plan says Path.HARMONICS.
 
     around   points on the half circle, from the direction of the load on; None: end_grid(8)
     springs  normal and tangential, 1/penalty [length^3/force]; zero: the law of contact itself
+    penalty  how often springs are corrected, where there are any
     """
-    return HarmonicMethod(model, plan.direction, around or end_grid(HIGHEST), springs)
+    return HarmonicMethod(model, plan.direction, around or end_grid(HIGHEST), springs, penalty)
 
 
 @dataclass(frozen=True)
@@ -49,11 +52,12 @@ class HarmonicMethod:
     direction: tuple[float, float]
     around: AngularGrid
     springs: tuple[float, float]
+    penalty: Penalty
 
     def advance(self, before: PointState | None, loads: Loads, tolerance: float) -> PointState:
         """The state at the end of an increment.
 
-        raises  NotConverged, GrossSliding, ContactAtZoneEdge
+        raises  NotConverged, SurfacesOverlap, GrossSliding, ContactAtZoneEdge
         """
         tangential = loads.tangential or STILL
         is_lifted = before is not None and before.compliance.grid.highest > 0
@@ -63,7 +67,7 @@ class HarmonicMethod:
                 before = contact.lifted(before)
         else:
             contact, tangential = self._on_rings, STILL
-        state = advance(contact, before, loads.normal, tangential, tolerance)
+        state = advance(contact, before, loads.normal, tangential, tolerance, self.penalty)
         self._refuse_contact_at_edge(state)
         return state
 

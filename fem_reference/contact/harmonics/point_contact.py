@@ -46,6 +46,7 @@ class PointContact:
             tangential_shift=0.0,
             dissipated_energy=0.0,
             residuals=Residuals(0.0, 0.0),
+            carried=np.zeros((3, len(nothing))),
             turns=0,
             solves=0,
         )
@@ -62,6 +63,7 @@ class PointContact:
             gap=state.gap[ring],
             slip=state.slip[:, ring],
             in_stick=state.in_stick[ring],
+            carried=state.carried[:, ring],
         )
 
 

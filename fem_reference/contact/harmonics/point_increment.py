@@ -8,10 +8,11 @@ from numpy.typing import NDArray
 from contact_scene.friction import sliding_friction
 from contact_scene.residuals import Residuals
 from contact_scene.solver_errors import NotConverged, motion_undefined
+from fem_reference.contact.augmentation import Penalty, augmented
 from fem_reference.contact.friction_limit import reaches_limit
 from fem_reference.contact.harmonics.continuation import solve_by_continuation
 from fem_reference.contact.harmonics.point_contact import PointContact
-from fem_reference.contact.harmonics.point_state import PointState
+from fem_reference.contact.harmonics.point_state import ROUND_OFF, PointState, length, longest
 from fem_reference.contact.harmonics.root import Start, solve_by_newton
 from fem_reference.contact.harmonics.turns import (
     CoupledProblem,
@@ -31,8 +32,7 @@ Field = NDArray[np.float64]
 Vector = NDArray[np.float64]
 
 MOST_ATTEMPTS = 4
-# Of the approach: tangential displacements below are round-off of bodies that do not couple.
-ROUND_OFF = 1e-6
+SPRINGS_ALONE = Penalty(augmentations=0, overlap=np.inf)
 
 
 def advance(
@@ -41,27 +41,59 @@ def advance(
     normal: NormalTarget,
     tangential: TangentialTarget,
     tolerance: float,
+    penalty: Penalty = SPRINGS_ALONE,
 ) -> PointState:
     """The state at the end of an increment; all its residuals are at most the tolerance.
 
-    Judged by displacements computed afresh from the final tractions, harmonic by harmonic.
-    raises  NotConverged, GrossSliding
+    penalty  how often springs are corrected, where there are any
+    raises   NotConverged, SurfacesOverlap, GrossSliding
     """
     before = before or contact.untouched()
     if before.tangential_shift is None:
         raise motion_undefined()
-    target = before.displacement - before.tangential_shift * contact.compliance.e_x
-    problem = CoupledProblem(
-        contact.compliance, contact.gap, contact.friction, target, normal, tangential
-    )
-    p, q, motion = before.pressure, before.shear, (before.tangential_shift, before.approach)
+    loads = normal, tangential
+    carried = np.concatenate([before.shear, before.pressure[None]])
+    if not (any(contact.compliance.springs) and penalty.augmentations):
+        carried = np.zeros_like(carried)
+    first = _reached(contact, before, before, carried, loads, tolerance)
+    if not any(contact.compliance.springs):
+        return first
+
+    def again(last: PointState) -> PointState:
+        carried = np.concatenate([last.shear, last.pressure[None]])
+        state = _reached(contact, before, last, carried, loads, tolerance)
+        turns, solves = last.turns + state.turns, last.solves + state.solves
+        return replace(state, turns=turns, solves=solves, augmentations=last.augmentations + 1)
+
+    return augmented(first, again, lambda state: state.left, penalty, 0)[-1]
+
+
+def _reached(
+    contact: PointContact,
+    before: PointState,
+    start: PointState,
+    carried: Field,
+    loads: tuple[NormalTarget, TangentialTarget],
+    tolerance: float,
+) -> PointState:
+    """The state that springs lead to beside tractions (3, points) that need none.
+
+    Judged by displacements computed afresh from the final tractions, harmonic by harmonic.
+    raises  NotConverged, GrossSliding
+    """
+    compliance, (normal, tangential) = contact.compliance, loads
+    (across, along), shift = compliance.springs, before.tangential_shift or 0.0
+    target = before.displacement + along * carried[:2] - shift * compliance.e_x
+    gap = contact.gap - across * carried[2]
+    problem = CoupledProblem(compliance, gap, contact.friction, target, normal, tangential)
+    p, q, motion = start.pressure, start.shear, (start.tangential_shift or shift, start.approach)
     aim, turns, solves = 0.5 * tolerance, 0, 0
     for _ in range(MOST_ATTEMPTS):
         solution = _solved(problem, p, q, motion, aim)
         turns, solves = turns + solution.turns, solves + solution.solves
-        limit = float(np.sum(contact.compliance.areas * problem.bound(solution.pressure)))
+        limit = float(np.sum(compliance.areas * problem.bound(solution.pressure)))
         reaches_limit(tangential.force, limit, unit=1.0)
-        state = _Trial.of(problem, before, solution).state(turns, solves)
+        state = _Trial.of(problem, before, carried, solution).state(turns, solves)
         if state.residuals.worst <= tolerance:
             return state
         p, q, aim = solution.pressure, solution.shear, 0.1 * aim
@@ -93,27 +125,32 @@ def _solved(
 class _Trial:
     """A solution with what follows from it.
 
-    displacement, gap  u_t and g at the points [length]
+    carried            as of the state
+    displacement, gap  u_t and g at the points, with the strain of springs [length]
     passed             how far the indenter's particles moved past the body's in the increment,
                        (2, points): that way they pull these along
     """
 
     problem: CoupledProblem
     before: PointState
+    carried: Field
     solution: CoupledSolution
     displacement: Field
     gap: Vector
     passed: Field
 
     @classmethod
-    def of(cls, problem: CoupledProblem, before: PointState, solution: CoupledSolution) -> "_Trial":
+    def of(
+        cls, problem: CoupledProblem, before: PointState, carried: Field, solution: CoupledSolution
+    ) -> "_Trial":
         compliance, shift = problem.compliance, solution.shift
         u_t, u_z = compliance.displacement(solution.pressure, solution.shear)
         passed = np.zeros_like(u_t)
         if shift is not None:
             passed = shift * compliance.e_x + problem.target - u_t
         gap = problem.gap + u_z - solution.approach
-        return cls(problem, before, solution, u_t, gap, passed)
+        u_t = u_t - compliance.springs[1] * carried[:2]
+        return cls(problem, before, carried, solution, u_t, gap, passed)
 
     def state(self, turns: int, solves: int) -> PointState:
         """The state that the solution makes."""
@@ -141,6 +178,7 @@ class _Trial:
             tangential_shift=solution.shift,
             dissipated_energy=energy,
             residuals=self._residuals(),
+            carried=self.carried,
             turns=turns,
             solves=solves,
         )
@@ -153,7 +191,7 @@ class _Trial:
         limit = np.sum(w * bound)
         # What shear alone does: where all sticks from the start, all together moves nothing.
         by_shear, _ = problem.compliance.displacement(np.zeros_like(p), q)
-        lengths = _longest(by_shear), _longest(self.before.displacement), ROUND_OFF * approach
+        lengths = longest(by_shear), longest(self.before.displacement), ROUND_OFF * approach
         moved = float(np.max(lengths))
         slid = solution.shift is not None
         return Residuals(
@@ -162,7 +200,7 @@ class _Trial:
             normal_equilibrium=(
                 None if normal is None else float(abs(np.sum(w * p) - normal) / normal)
             ),
-            friction_cone=friction_cone(_length(q), bound),
+            friction_cone=friction_cone(length(q), bound),
             slip_direction=slip_direction(q, bound, self.passed, w, moved) if slid else None,
             tangential_equilibrium=(
                 None
@@ -178,15 +216,7 @@ def slip_direction(q: Field, bound: Vector, passed: Field, areas: Vector, moved:
 
     moved  largest displacement: the scale where slip nearly vanishes and has no direction
     """
-    work = areas * bound * _length(passed)
+    work = areas * bound * length(passed)
     missing = np.sum(work - areas * np.sum(q * passed, axis=0))
     scale = np.maximum(np.sum(work), LEAST_SLIP * moved * np.sum(areas * bound))
     return 0.0 if scale == 0 else float(missing / scale)
-
-
-def _length(vectors: Field) -> Vector:
-    return np.asarray(np.sqrt(vectors[0] ** 2 + vectors[1] ** 2))
-
-
-def _longest(vectors: Field) -> float:
-    return float(np.max(_length(vectors)))

@@ -57,7 +57,8 @@ def reported(state: PointState, direction: tuple[float, float], place: Place) ->
         tangential_force=_along(direction, state.tangential_force),
         tangential_shift=None if shift is None else _along(direction, shift),
         dissipated_energy=state.dissipated_energy,
-        overlap=float(compliance.springs[0] * np.max(p)) if any(compliance.springs) else None,
+        overlap=state.overlap if any(compliance.springs) else None,
+        augmentations=state.augmentations if any(compliance.springs) else None,
         path="springs" if any(compliance.springs) else None,
     )
 

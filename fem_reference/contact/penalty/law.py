@@ -1,31 +1,11 @@
 """The normal half of the penalty model: pressure grows with the overlap of the surfaces."""
 
-from dataclasses import dataclass
-
 import numpy as np
 from numpy.typing import NDArray
 
+from fem_reference.contact.augmentation import Penalty
+
 Field = NDArray[np.float64]
-
-
-@dataclass(frozen=True)
-class Penalty:
-    """How stiffly overlap is resisted, and how often the law is corrected for it.
-
-    factor         c, stiffness ε = c E* / h with E* the contact modulus of the outermost
-                   materials and h the length of a contact edge [1]
-    augmentations  Uzawa updates of the multipliers in each increment; with none the pressure is
-                   that of springs of stiffness ε between the surfaces
-    """
-
-    factor: float = 10.0
-    augmentations: int = 1
-
-    def __post_init__(self) -> None:
-        if not 0 < self.factor < np.inf:
-            raise ValueError(f"the penalty factor must be positive, not {self.factor}; try 10")
-        if self.augmentations < 0:
-            raise ValueError(f"augmentations cannot be negative, as {self.augmentations} is")
 
 
 def penalty_stiffness(penalty: Penalty, contact_modulus: float, edge_length: float) -> float:

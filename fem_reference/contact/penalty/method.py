@@ -13,10 +13,11 @@ from numpy.typing import NDArray
 from contact_scene.march import Place
 from contact_scene.pair import contact_modulus
 from contact_scene.summary import ContactStatus
+from fem_reference.contact.augmentation import Penalty
 from fem_reference.contact.friction_limit import contact_status
 from fem_reference.contact.one_component import with_shear
 from fem_reference.contact.penalty.fitted_edge import edge_radius, stick_area
-from fem_reference.contact.penalty.law import Penalty, penalty_stiffness
+from fem_reference.contact.penalty.law import penalty_stiffness
 from fem_reference.contact.penalty.passes import advance
 from fem_reference.contact.penalty.problem import PenaltyProblem, penalty_problem
 from fem_reference.contact.penalty.spring_state import PenaltyState
@@ -35,7 +36,7 @@ def penalty_method(
     """The method on a model.
 
     On many harmonics it is springs in series with the exact law, between rings instead of Gauss
-    points; they take no augmentation.
+    points.
 
     harmonics  the highest one, for Path.HARMONICS
     """
@@ -46,7 +47,7 @@ def penalty_method(
 
     radii = model.hats.radii
     spring = 1 / penalty_stiffness(penalty, contact_modulus(model.scene), radii[1] - radii[0])
-    return harmonic_method(model, plan, end_grid(harmonics), (spring, spring))
+    return harmonic_method(model, plan, end_grid(harmonics), (spring, spring), penalty)
 
 
 @dataclass(frozen=True)
@@ -59,7 +60,7 @@ class PenaltyMethod:
 
     def advance(self, before: PenaltyState | None, loads: Loads, tolerance: float) -> PenaltyState:
         """The state at the end of an increment; raises what `passes.advance` raises."""
-        return advance(self.problem, self.penalty.augmentations, before, loads, tolerance)
+        return advance(self.problem, self.penalty, before, loads, tolerance)
 
     def increment(self, state: PenaltyState, place: Place) -> Increment:
         """The state as it is reported."""
@@ -79,6 +80,7 @@ class PenaltyMethod:
             residuals=state.residuals,
             iterations=state.iterations,
             sweeps=state.sweeps,
+            augmentations=state.augmentations,
             path=state.solution.value,
         )
         return pressed if state.slip is None else self._with_shear(pressed, state, state.slip)
@@ -95,7 +97,7 @@ class PenaltyMethod:
 
     def _contact_radius(self, state: PenaltyState) -> float:
         """Where the pressure ends: at the rim of a flat punch if its last point carries any."""
-        problem, p = self.problem, state.springs_alone[0]
+        problem, p = self.problem, state.edges[0]
         touching = np.flatnonzero(p > 0)
         if len(touching) == 0:
             return 0.0
@@ -107,7 +109,7 @@ class PenaltyMethod:
         in_stick = state.in_contact & ~state.in_slip
         if np.array_equal(in_stick, state.in_contact):
             return contact_radius
-        problem, (p, q) = self.problem, state.springs_alone
+        problem, (p, q) = self.problem, state.edges
         room = problem.friction.limit(p) - np.abs(q)
         area = stick_area(problem.points.radii, room, in_stick, contact_radius, problem.element)
         return sqrt(area / pi)

@@ -9,8 +9,8 @@ from numpy.typing import NDArray
 
 from contact_scene.friction import sliding_friction
 from contact_scene.solver_errors import NotConverged, motion_undefined
+from fem_reference.contact.augmentation import Penalty, augmented
 from fem_reference.contact.friction_limit import reaches_limit
-from fem_reference.contact.penalty.augmentation import augmented
 from fem_reference.contact.penalty.newton import Iterate, defect, solve_by_newton
 from fem_reference.contact.penalty.problem import PenaltyProblem
 from fem_reference.contact.penalty.spring_contact import PenaltyLaw
@@ -20,23 +20,33 @@ from fem_reference.contact.penalty.springs import NORMAL, solve_by_springs
 from fem_reference.contact.penalty.surface import ElasticSurface, Target
 from fem_reference.contact.zone_edge import refuse_contact_at_edge
 from fem_reference.loads import Loads
+from fem_reference.mesh.section_outline import CONTACT_ZONE
+from fem_reference.residuals import over
 
 Field = NDArray[np.float64]
 
+# Springs stiff enough need one update to be as good as the mesh. The multiplier of the pressure
+# starts from zero in every increment, so that no ripples pile up from one to the next; that of the
+# shear, which remembers, goes on from the last one.
+FEWEST_UPDATES = 1
+# Overlap over approach up to which springs do not move the edge of the contact visibly.
+AT_EDGE = 1e-2
+# Of the approach: shorter tangential motions are round-off of bodies that do not couple.
+ROUND_OFF = 1e-6
 # Part of the tolerance that passes are solved to, so that the residuals meet it.
 ENOUGH = 0.1
 
 
 def advance(
     problem: PenaltyProblem,
-    augmentations: int,
+    penalty: Penalty,
     before: PenaltyState | None,
     loads: Loads,
     tolerance: float,
 ) -> PenaltyState:
     """The state at the end of an increment.
 
-    raises  NotConverged, GrossSliding, ContactAtZoneEdge
+    raises  NotConverged, SurfacesOverlap, GrossSliding, ContactAtZoneEdge
     """
     last = before or untouched(problem.surface.gap)
     if np.isnan(last.motion).any():
@@ -44,8 +54,8 @@ def advance(
     solver = _Passes(problem.surface, problem.target(loads), ENOUGH * tolerance, tolerance)
     limit = None
     if problem.driven and solver.target.free[1]:
-        limit = _at_limit(problem, augmentations, last, loads, solver)
-    state = limit or _advanced(problem, augmentations, last, loads, solver)
+        limit = _at_limit(problem, penalty, last, loads, solver)
+    state = limit or _advanced(problem, penalty, last, loads, solver)
     at_edge = problem.open_end and state.traction[0, -1] > 0
     refuse_contact_at_edge(at_edge, problem.points.radii[-1])
     state.residuals.require(tolerance, "the increment", state.iterations)
@@ -103,16 +113,21 @@ class _Passes:
 
 def _advanced(
     problem: PenaltyProblem,
-    augmentations: int,
+    penalty: Penalty,
     last: PenaltyState,
     loads: Loads,
     solver: _Passes,
 ) -> PenaltyState:
     """The state below the friction limit."""
-    law = _law(problem, last)
-    passes, law = augmented(solver.solve, law, solver.starts(law, last), augmentations)
-    reached = passes[-1]
-    surface = problem.surface
+    surface, law = problem.surface, _law(problem, last)
+    passes = augmented(
+        _Pass(law, solver.solve(law, solver.starts(law, last))),
+        lambda one: one.followed(solver),
+        lambda one: max(one.left(surface)) * one.fineness(problem) ** 2,
+        penalty,
+        FEWEST_UPDATES,
+    )
+    law, reached = passes[-1].law, passes[-1].reached
     overlap = surface.overlap(reached.traction, reached.coordinates)
     response = law.response(overlap)
     # What the law gives is reported: it obeys friction exactly, and the load to the tolerance.
@@ -126,7 +141,8 @@ def _advanced(
         bounds = (problem.friction.limit(state[NORMAL]) for state in (last.traction, traction))
         friction = sliding_friction(traction[1:], *bounds)[0]
         dissipated += 2 * pi * float(np.sum(surface.weights * friction * grown))
-    first = passes[0]
+    first = passes[0].reached
+    edges = next((one for one in passes if one.left(surface)[0] <= AT_EDGE), passes[-1])
     return PenaltyState(
         loads=loads,
         traction=traction,
@@ -137,12 +153,47 @@ def _advanced(
         slip=slip,
         dissipated=dissipated,
         first_pass=first,
+        edges=edges.reached.traction,
+        augmentations=len(passes) - 1,
         change=_change(last.first_pass, first),
         residuals=penalty_residuals(problem, solver.target, reached, response),
-        solution=Solution.SPRINGS if any(one.sweeps for one in passes) else Solution.NEWTON,
-        iterations=sum(one.iterations for one in passes),
-        sweeps=sum(one.sweeps for one in passes),
+        solution=Solution.SPRINGS if any(one.reached.sweeps for one in passes) else Solution.NEWTON,
+        iterations=sum(one.reached.iterations for one in passes),
+        sweeps=sum(one.reached.sweeps for one in passes),
     )
+
+
+@dataclass(frozen=True)
+class _Pass:
+    """What was reached by a law."""
+
+    law: PenaltyLaw
+    reached: Iterate
+
+    def followed(self, solver: _Passes) -> "_Pass":
+        """The pass whose multipliers are the tractions of this one."""
+        law = self.law.carrying(self.reached.traction)
+        return _Pass(law, solver.solve(law, [self.reached]))
+
+    def left(self, surface: ElasticSurface) -> tuple[float, float]:
+        """Largest overlap over approach; and the strain of springs along the surface over what the
+        surfaces have moved there, both as means weighted with the shear."""
+        traction, approach = self.reached.traction, abs(float(self.reached.coordinates[0]))
+        sprung = np.abs(traction - self.law.multiplier) / self.law.stiffness
+        across = over(float(np.max(sprung[0], where=traction[0] > 0, initial=0.0)), approach)
+        if len(traction) == 1:
+            return across, 0.0
+        worked = surface.weights * np.abs(traction[1:])
+        moved = worked * np.abs(surface.displacement(traction)[1:])
+        scale = float(np.sum(moved)) + ROUND_OFF * approach * float(np.sum(worked))
+        return across, over(float(np.sum(worked * sprung[1:])), scale)
+
+    def fineness(self, problem: PenaltyProblem) -> float:
+        """Part of the mesh's contact zone that touches, at most 1: the error that elements make is
+        inverse to its square, and overlap need not be smaller than that."""
+        touching = np.flatnonzero(self.reached.traction[0] > 0)
+        reached = problem.points.radii[touching[-1]] if len(touching) else problem.reach
+        return min(1.0, CONTACT_ZONE * float(reached) / problem.reach)
 
 
 def _law(problem: PenaltyProblem, last: PenaltyState) -> PenaltyLaw:
@@ -160,7 +211,7 @@ def _change(before: Iterate | None, after: Iterate) -> tuple[Field, Field] | Non
 
 def _at_limit(
     problem: PenaltyProblem,
-    augmentations: int,
+    penalty: Penalty,
     last: PenaltyState,
     loads: Loads,
     solver: _Passes,
@@ -173,7 +224,7 @@ def _at_limit(
     """
     alone = problem.pressing_alone()
     pressing = replace(solver, surface=alone.surface, target=solver.target.part(NORMAL))
-    pressed = _advanced(alone, augmentations, last.pressing_alone(), loads, pressing)
+    pressed = _advanced(alone, penalty, last.pressing_alone(), loads, pressing)
     load = float(solver.target.value[1])
     capacity = problem.capacity(pressed.traction[0])
     if not reaches_limit(load, capacity):
@@ -191,5 +242,6 @@ def _at_limit(
         slip=last.slip,
         dissipated=None if sign else last.dissipated,
         first_pass=Iterate(traction, motion),
+        edges=traction,
         change=None,
     )

@@ -9,9 +9,10 @@ from numpy.typing import NDArray
 
 from contact_scene.friction import FRICTIONLESS, CoulombFriction
 from contact_scene.pair import contact_modulus
+from fem_reference.contact.augmentation import Penalty
 from fem_reference.contact.one_component import target_of
 from fem_reference.contact.penalty.gauss_points import GaussPoints, gauss_points
-from fem_reference.contact.penalty.law import Penalty, penalty_stiffness
+from fem_reference.contact.penalty.law import penalty_stiffness
 from fem_reference.contact.penalty.surface import ElasticSurface, Target
 from fem_reference.loads import Loads
 from fem_reference.model import ContactModel

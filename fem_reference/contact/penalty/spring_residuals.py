@@ -14,7 +14,7 @@ from fem_reference.contact.penalty.problem import PenaltyProblem
 from fem_reference.contact.penalty.spring_contact import Response
 from fem_reference.contact.penalty.surface import Target
 from fem_reference.plan import Path
-from fem_reference.residuals import friction_cone
+from fem_reference.residuals import friction_cone, over
 
 
 def penalty_residuals(
@@ -33,27 +33,22 @@ def penalty_residuals(
     approach = abs(float(at.coordinates[0]))
     unbalanced = np.abs(surface.resultant(law) - target.value)
     pressing = Residuals(
-        complementarity=_over(float(np.sum(surface.weights * missed[0])), load),
-        penetration=_over(float(np.max(missed[0])) / problem.stiffness, approach),
-        normal_equilibrium=_over(float(unbalanced[0]), load) if target.free[0] else None,
+        complementarity=over(float(np.sum(surface.weights * missed[0])), load),
+        penetration=over(float(np.max(missed[0])) / problem.stiffness, approach),
+        normal_equilibrium=over(float(unbalanced[0]), load) if target.free[0] else None,
     )
     if len(law) == 1:
         return pressing
     by_load = None
     if target.free[1]:
-        by_load = _over(float(unbalanced[1]), problem.capacity(law[0]))
+        by_load = over(float(unbalanced[1]), problem.capacity(law[0]))
     limit = problem.friction.carried(load)
     assert limit is not None  # friction is the same everywhere
     twisting = problem.path is Path.TWISTING
     return replace(
         pressing,
         friction_cone=friction_cone(np.abs(law[1]), problem.friction.limit(law[0])),
-        slip_direction=_over(float(np.sum(surface.weights * missed[1])), limit),
+        slip_direction=over(float(np.sum(surface.weights * missed[1])), limit),
         tangential_equilibrium=None if twisting else by_load,
         torque_equilibrium=by_load if twisting else None,
     )
-
-
-def _over(part: float, whole: float) -> float:
-    """Their ratio; zero where there is nothing of either."""
-    return part / whole if part or whole else 0.0

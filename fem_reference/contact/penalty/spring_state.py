@@ -37,6 +37,9 @@ class PenaltyState(Led):
     slip         along the surface, accumulated in contact (n,); None without shear
     dissipated   energy since the start [force length]; None where the motion is undefined
     first_pass   before any augmentation, where the next increment starts; None before first touch
+    edges        (c, n) tractions by which the edges of contact and stick are found: of the first
+                 pass that does not move them, as later ones ripple there
+    augmentations  updates of the multipliers
     change       of the first pass since the increment before: tractions and coordinates; None
                  where there was none
     solution     by springs if any of the passes was
@@ -53,21 +56,18 @@ class PenaltyState(Led):
     slip: Field | None
     dissipated: float | None
     first_pass: Iterate | None
+    edges: Field
     change: tuple[Field, Field] | None
     residuals: Residuals
     solution: Solution
     iterations: int
     sweeps: int
+    augmentations: int
 
     @property
     def in_contact(self) -> Mask:
         """Points that carry pressure (n,)."""
         return np.asarray(self.traction[0] > 0)
-
-    @property
-    def springs_alone(self) -> Field:
-        """Tractions before any augmentation (c, n): without its ripple at edges."""
-        return self.traction if self.first_pass is None else self.first_pass.traction
 
     @property
     def normal_force(self) -> float:
@@ -102,6 +102,7 @@ class PenaltyState(Led):
             motion=self.motion[:1],
             slip=None,
             first_pass=first,
+            edges=self.edges[:1],
             change=None if change is None else (change[0][:1], change[1][:1]),
         )
 
@@ -123,6 +124,8 @@ def untouched(gap: Field) -> PenaltyState:
         slip=np.zeros(points) if components > 1 else None,
         dissipated=0.0,
         first_pass=None,
+        edges=nothing,
+        augmentations=0,
         change=None,
         residuals=Residuals(0.0, 0.0),
         solution=Solution.SPRINGS,

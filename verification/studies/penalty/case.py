@@ -72,7 +72,12 @@ class PenaltyCase:
         else:
             run = self._pressed.judged.run
         assert isinstance(run, SectionRun)
-        penalty = {"penalty": self.factor, "augmentations": self.augmentations, "box": self.box}
+        penalty = {
+            "penalty": self.factor,
+            "augmentations": self.augmentations,
+            "overlap": 1.0,
+            "box": self.box,
+        }
         discretisation = run.discretisation.model_copy(update=penalty)
         return replace(run, discretisation=discretisation, method=Method.PENALTY)
 
