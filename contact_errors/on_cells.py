@@ -13,7 +13,7 @@ from contact_errors import estimate
 from contact_errors.half_the_cells import Progress, on_wide_cells, recut
 from contact_errors.prescribed import prescribed
 from contact_errors.rules import Lengthscale, Rule, rules_for
-from contact_errors.values import Values, scale, values_of
+from contact_errors.values import Values, charged_by_increments, scale, values_of
 from contact_results.cycles import fretting_cycles
 from contact_scene.stated_error import EXACT, Part, StatedError, StatedErrors
 from semi_analytical import Result
@@ -40,7 +40,8 @@ def stated_errors(
     def values(of: Result) -> tuple[Values, ...]:
         return values_of(of, fretting_cycles(of, surface_stress=surface_stress))
 
-    fine = values(result)
+    cycles = fretting_cycles(result, surface_stress=surface_stress)
+    fine = values_of(result, cycles)
     wide, half_the_cells = on_wide_cells(result, result.plan, "half the cells", progress)
     if wide is None:
         exact = map(prescribed, result.scene.load_path())
@@ -52,7 +53,8 @@ def stated_errors(
         differs = "half the cells, other increments"
         other, made = on_wide_cells(result, recut_plan, differs, progress)
         companions.append(made)
-        path = _Path(estimate.differences(coarse, values(other)) if other else None)
+        change = estimate.differences(coarse, values(other)) if other else None
+        path = _Path(change, charged_by_increments(result, cycles))
     ratio = wide.grid.spacing[0] / result.grid.spacing[0]
     levels = _Levels(result, fine, estimate.differences(fine, coarse), ratio, path)
     return StatedErrors(tuple(levels.errors()), tuple(companions))
@@ -60,9 +62,14 @@ def stated_errors(
 
 @dataclass(frozen=True)
 class _Path:
-    """What other increments change; None where they gave no result."""
+    """What increments cost.
+
+    change   by other increments, of every step; None where they gave no result
+    charged  what the increments of the run tell themselves
+    """
 
     change: Sequence[Values] | None
+    charged: Sequence[Mapping[str, float]]
 
 
 @dataclass(frozen=True)
@@ -122,11 +129,14 @@ class _Levels:
         apart = estimate.contradicts(change, largest, unsolved)
         if path_matters:
             assert self.path is not None
-            if self.path.change is None or name not in self.path.change[k]:
+            if name in self.path.charged[k]:
+                parts["increments"] = np.array([self.path.charged[k][name]])
+            elif self.path.change is None or name not in self.path.change[k]:
                 return estimate.UNKNOWN
-            by_path = self.path.change[k][name]
-            parts["increments"] = estimate.by_increments(rule, by_path, scatter)
-            apart = apart or estimate.contradicts(by_path, largest, unsolved)
+            else:
+                by_path = self.path.change[k][name]
+                parts["increments"] = estimate.by_increments(rule, by_path, scatter)
+                apart = apart or estimate.contradicts(by_path, largest, unsolved)
         return estimate.stated(parts, _resolved(rule.lengthscale, cells) and not apart)
 
 

@@ -37,6 +37,23 @@ def values_of(result: Result, cycles: Sequence[FrettingCycle]) -> tuple[Values, 
     )
 
 
+def charged_by_increments(
+    result: Result, cycles: Sequence[FrettingCycle]
+) -> tuple[Mapping[str, float], ...]:
+    """Of every step by how much increments leave its energies uncertain, so far as increments tell
+    that themselves [force length]."""
+    uncertain = [end.dissipation_uncertainty for end in result.steps]
+    starts = {cycle.cycle.end: cycle.cycle.start for cycle in cycles}
+    found = []
+    for step, after in enumerate(uncertain, start=1):
+        known = {} if after is None else {"dissipated_energy": after}
+        before = uncertain[starts[step] - 1] if step in starts else None
+        if after is not None and before is not None:
+            known["energy_per_cycle"] = after - before
+        found.append(known)
+    return tuple(found)
+
+
 def _of_cycle(cycle: FrettingCycle) -> dict[str, float | None]:
     f2 = cycle.ruiz_f2
     return {

@@ -108,6 +108,7 @@ class State:
             "J",
             "By how much finite increments leave the dissipated energy uncertain: the changes of "
             "friction along all slip, in steps whose path matters; null where it is undefined.",
+            physical=False,
         ),
     ] = None
     elastic_energy: Annotated[
