@@ -17,7 +17,7 @@ Field = NDArray[np.float64]
 def accounted(
     scene: Scene, plan: Plan, before: Increment | None, increment: Increment
 ) -> Increment:
-    """The increment with its input work and elastic energy.
+    """The increment with its input work, its elastic energy, and how uncertain the energy lost is.
 
     before  the increment before it in the history
     """
@@ -25,6 +25,7 @@ def accounted(
         increment,
         input_work=input_work(before, increment),
         elastic_energy=elastic_energy(scene, plan, increment),
+        dissipation_uncertainty=dissipation_uncertainty(plan, before, increment),
     )
 
 
@@ -38,6 +39,42 @@ def input_work(before: Increment | None, increment: Increment) -> float | None:
     if worked is None or motions is None or place is None:
         return None
     return worked + float(np.sum(0.5 * (forces + now) * (place - motions)))
+
+
+def dissipation_uncertainty(
+    plan: Plan, before: Increment | None, increment: Increment
+) -> float | None:
+    """Σ ∫ |q₁ - q₀| |s₁ - s₀| dA over the increments of steps whose path matters, by the
+    trapezoidal rule [force length]: the slip times the change of friction along it. None where the
+    dissipated energy is."""
+    if increment.dissipated_energy is None:
+        return None
+    known = 0.0 if before is None else before.dissipation_uncertainty or 0.0
+    if not plan.path_matters[increment.step - 1]:
+        return known
+    changed, slipped = (_changed(name, before, increment) for name in ("shear", "slip"))
+    density = (changed * slipped).T
+    if increment.angles is None:
+        around = 2 * pi * density
+    else:
+        around = np.asarray(2 * np.trapezoid(density, increment.angles, axis=0))
+    return known + float(np.trapezoid(around * increment.radii, increment.radii))
+
+
+COMPONENTS = ("radial", "circumferential", "along_load")
+
+
+def _changed(name: str, before: Increment | None, increment: Increment) -> Field:
+    """Length of the change of a vector (rings,), or (rings, angles) where that has angles."""
+    changes = []
+    for component in COMPONENTS:
+        now = getattr(increment, f"{name}_{component}")
+        last = getattr(before, f"{name}_{component}", None)
+        if now is not None:
+            # What did not depend on the angle so far is the same at all of them.
+            start = np.zeros_like(now) if last is None else last
+            changes.append(now - (start[:, None] if start.ndim < now.ndim else start))
+    return np.asarray(np.hypot.reduce(np.abs(changes), axis=0))
 
 
 def elastic_energy(scene: Scene, plan: Plan, increment: Increment) -> float | None:

@@ -22,15 +22,17 @@ LARGEST_SHARE = 0.05
 class Plan:
     """What is computed for a scene. What is off costs nothing downstream.
 
-    path        which tractions are solved for
-    direction   unit vector of the tangential load, (1, 0) if there is none
-    increments  how many increments each loading step takes
-    effects     every effect with its reason, as shown to people
+    path          which tractions are solved for
+    direction     unit vector of the tangential load, (1, 0) if there is none
+    increments    how many increments each loading step takes
+    path_matters  whether the end of each step depends on how finely it is cut
+    effects       every effect with its reason, as shown to people
     """
 
     path: Path
     direction: tuple[float, float]
     increments: tuple[int, ...]
+    path_matters: tuple[bool, ...]
     effects: tuple[Effect, ...]
 
 
@@ -47,10 +49,12 @@ def plan(scene: Scene) -> Plan:
     couples, why = coupling(scene)
     refuse_loads(scene, loaded, twisted, friction and couples)
     path = _path(friction, loaded, twisted, couples)
+    matters = _path_matters(ramps, path)
     return Plan(
         path,
         _direction(ramps),
-        _increments(scene, path),
+        _increments(scene, matters),
+        matters,
         effects(scene, path, (friction, loaded, twisted), why),
     )
 
@@ -74,18 +78,24 @@ def _direction(ramps: tuple[LoadRamp, ...]) -> tuple[float, float]:
     return 1.0, 0.0
 
 
-def _increments(scene: Scene, path: Path) -> tuple[int, ...]:
-    """As asked for; else one wherever the end of the step does not depend on its path."""
-    counts = []
+def _path_matters(ramps: tuple[LoadRamp, ...], path: Path) -> tuple[bool, ...]:
+    """Whether the end of each step depends on the path to it."""
+    matters = []
     sheared = path in (Path.PRESSING_WITH_FRICTION, Path.HARMONICS)
-    for ramp in scene.load_path():
+    for ramp in ramps:
         sheared = sheared or any(ramp.tangential.end) or ramp.twisting.end != 0
         pressing = ramp.normal.start != ramp.normal.end
         shearing = path is Path.HARMONICS and ramp.tangential.start != ramp.tangential.end
-        path_matters = path is not Path.PRESSING and sheared and (pressing or shearing)
-        chosen = _path_increments(scene, ramp) if path_matters else 1
-        counts.append(ramp.increments or chosen)
-    return tuple(counts)
+        matters.append(path is not Path.PRESSING and sheared and (pressing or shearing))
+    return tuple(matters)
+
+
+def _increments(scene: Scene, matters: tuple[bool, ...]) -> tuple[int, ...]:
+    """As asked for; else one wherever the end of the step does not depend on its path."""
+    return tuple(
+        ramp.increments or (_path_increments(scene, ramp) if path_matters else 1)
+        for ramp, path_matters in zip(scene.load_path(), matters, strict=True)
+    )
 
 
 def _path_increments(scene: Scene, ramp: LoadRamp) -> int:

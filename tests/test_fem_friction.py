@@ -4,12 +4,13 @@ from math import log
 
 import numpy as np
 import pytest
-from contact_scenes import LOAD, MU, NU, PRESS, RADIUS, RIGID_BALL, YOUNG, A, scene
-from fem_scenes import end, solved
+from contact_scenes import LOAD, MU, NU, PRESS, RADIUS, RIGID_BALL, YOUNG, A, grid, scene
+from fem_scenes import elements, end, solved
 
+import semi_analytical
 from contact_scene import RIGID, FlatPunch, IsotropicMaterial, Scene
 from contact_scene.summary import ContactStatus
-from fem_reference import Increment
+from fem_reference import Increment, Method, solve
 from verification.closed_forms.hertz import PointContact
 from verification.references import load_reference
 
@@ -158,6 +159,19 @@ def test_work_is_stored_or_lost() -> None:
     coarse, fine = missing(20), missing(160)
     assert abs(fine) < 0.02
     assert abs(fine) < 0.1 * abs(coarse)
+
+
+@pytest.mark.parametrize("method", Method)
+@pytest.mark.parametrize("pushed", [False, True], ids=["pressed", "pushed"])
+def test_energy_lost_is_as_uncertain_as_on_cells(method: Method, *, pushed: bool) -> None:
+    aside = [{"tangential_force": (0.7 * MU * LOAD, 0.0), "increments": 2}] if pushed else []
+    described = scene({**PRESS, "increments": 4}, *aside, indenter=RIGID_BALL, body=BODY)
+    found = solve(described, elements(harmonics=4), method).increments[-1]
+    radius = HERTZ.contact_radius
+    on_cells = semi_analytical.solve(described, grid(32, 1.2, radius), 1e-7).steps[-1]
+    assert found.dissipated_energy == pytest.approx(on_cells.dissipated_energy, rel=0.02)
+    uncertain = found.dissipation_uncertainty
+    assert uncertain == pytest.approx(on_cells.dissipation_uncertainty, rel=0.03)
 
 
 def test_many_increments_cost_little() -> None:
