@@ -44,8 +44,7 @@ def inconsistencies(parts: Parts) -> tuple[Problem, ...]:
         *_shear_without_friction(parts),
         *_gross_sliding(parts),
         *_moment_beyond_the_contact(parts),
-        *_window_beyond_the_height_map(parts),
-        *_cells_unlike_the_friction_map(parts),
+        *_window_beyond_a_map(parts),
     )
 
 
@@ -155,35 +154,25 @@ def _arms(indenter: Indenter, ramp: LoadRamp) -> tuple[tuple[float, float], ...]
     return *ends, (x, indenter.extent[0] / 2), (y, indenter.extent[1] / 2)
 
 
-def _window_beyond_the_height_map(parts: Parts) -> Iterator[Problem]:
-    indenter = parts.get("indenter")
+def _window_beyond_a_map(parts: Parts) -> Iterator[Problem]:
+    """A window that is larger than the map of heights or of friction."""
     discretisation = parts.get("semi_analytical")
-    if indenter is None or indenter.extent is None:
-        return
     if discretisation is None or discretisation.window is None:
         return
-    for index, (length, extent) in enumerate(
-        zip(discretisation.window, indenter.extent, strict=True)
-    ):
-        if length > extent * (1.0 + 1e-9):
-            yield Problem(
-                ("semi_analytical", "window", index),
-                f"the window is {length:.6g} m long, the height map only {extent:.6g} m",
-                f"a window of at most {extent:.6g} m along {'xy'[index]}",
-            )
-
-
-def _cells_unlike_the_friction_map(parts: Parts) -> Iterator[Problem]:
-    friction, discretisation = parts.get("friction"), parts.get("semi_analytical")
-    shape = friction.cells if friction is not None else None
-    if shape is None:
-        return
-    if discretisation is not None and discretisation.cells not in (None, shape):
-        yield Problem(
-            ("friction", "coefficient", "map"),
-            f"the map has {shape[0]} x {shape[1]} coefficients",
-            "one for every cell, as many as semi_analytical.cells",
-        )
+    indenter, friction = parts.get("indenter"), parts.get("friction")
+    extents = {
+        "the height map": indenter and indenter.extent,
+        "the friction map": friction and friction.varying and friction.varying.extent,
+    }
+    for name, extent in extents.items():
+        for index, known in enumerate(extent or ()):
+            length = discretisation.window[index]
+            if length > known * (1.0 + 1e-9):
+                yield Problem(
+                    ("semi_analytical", "window", index),
+                    f"the window is {length:.6g} m long, {name} only {known:.6g} m",
+                    f"a window of at most {known:.6g} m along {'xy'[index]}",
+                )
 
 
 def _key_of_shear(index: int, step: LoadStep) -> Path:

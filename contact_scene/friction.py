@@ -9,10 +9,12 @@ from pydantic import Discriminator, Tag, model_validator
 
 from contact_scene.array_file import FileKey
 from contact_scene.description import Description
-from contact_scene.quantity import FrictionCoefficient
+from contact_scene.height_map import PairOfSpacings, interpolate_between
+from contact_scene.quantity import FrictionCoefficient, Length
 from contact_scene.refusal import refusal
 
 Field = NDArray[np.float64]
+Pair = tuple[float, float]
 Where = tuple[slice, slice] | EllipsisType
 
 
@@ -20,7 +22,14 @@ class FrictionMap(Description):
     """Coefficients of friction that vary over the surface."""
 
     map: FileKey
-    """A `.npy` file with one coefficient for every cell of the surface, index [i, j] = (x, y)."""
+    """A `.npy` file with coefficients, index [i, j] = (x_i, y_j); linear in between."""
+
+    spacing: PairOfSpacings
+    """Distance of neighbouring coefficients along x and y [length]; one number for both. A map of
+    128 coefficients over 1.28 mm has 0.01 mm."""
+
+    origin: tuple[Length, Length] = (0.0, 0.0)
+    """Where the middle of the map lies, along x and y from the origin of the contact [length]."""
 
     @model_validator(mode="after")
     def _is_never_negative(self) -> "FrictionMap":
@@ -28,7 +37,36 @@ class FrictionMap(Description):
             raise refusal(
                 f"the map {self.map} holds {self.map.values.min():.6g}", "coefficients not below 0"
             )
+        if min(self.extent) <= 0.0:
+            raise refusal(
+                f"the map {self.map} does not reach the origin of the contact",
+                "an origin nearer to it",
+            )
         return self
+
+    @property
+    def extent(self) -> Pair:
+        """Lengths along x and y about the origin within which the coefficient is known [length]."""
+        L_x, L_y = (
+            count * spacing - 2.0 * abs(middle)
+            for count, spacing, middle in zip(
+                self.map.shape, self.spacing, self.origin, strict=True
+            )
+        )
+        return L_x, L_y
+
+    def on(self, cells: tuple[int, int], spacing: Pair) -> "FrictionMap":
+        """The coefficients at the centres of other cells about the origin of the contact.
+
+        spacing  of the cells [length]
+        Bit for bit the same where the cells are those of the map; ValueError beyond its extent.
+        """
+        x, y = (
+            (np.arange(count) - (count - 1) / 2) * side - middle
+            for count, side, middle in zip(cells, spacing, self.origin, strict=True)
+        )
+        values = interpolate_between(self.map.values, self.spacing, x[:, None], y)
+        return FrictionMap.model_validate({"map": values, "spacing": spacing})
 
 
 def _kind(value: Any) -> str:
@@ -53,9 +91,18 @@ class CoulombFriction(Description):
         return None if isinstance(self.coefficient, FrictionMap) else self.coefficient
 
     @property
-    def cells(self) -> tuple[int, int] | None:
-        """Cells along x and y that have a coefficient of their own; None where it is uniform."""
-        return self.coefficient.map.shape if isinstance(self.coefficient, FrictionMap) else None
+    def varying(self) -> FrictionMap | None:
+        """The map of the coefficient; None where it is the same everywhere."""
+        return self.coefficient if isinstance(self.coefficient, FrictionMap) else None
+
+    def on(self, cells: tuple[int, int], spacing: Pair) -> "CoulombFriction":
+        """The same law with one coefficient for every cell of a grid, where it varies.
+
+        spacing  of the cells [length]
+        """
+        if self.varying is None:
+            return self
+        return CoulombFriction(coefficient=self.varying.on(cells, spacing))
 
     @property
     def largest(self) -> float:

@@ -1,4 +1,4 @@
-"""Smooth interpolation of a map of heights."""
+"""Interpolation of maps: smoothly of heights, within their bounds of other values."""
 
 from typing import Annotated, Any
 
@@ -50,6 +50,19 @@ def interpolate(
     return result
 
 
+def interpolate_between(
+    values: NDArray[np.float64], spacing: tuple[float, float], x: ArrayLike, y: ArrayLike
+) -> NDArray[np.float64]:
+    """As `interpolate`, linearly along x and y: nowhere above or below the neighbouring values,
+    and as far as half a spacing beyond the outermost as these."""
+    x, y = np.broadcast_arrays(np.asarray(x, dtype=float), np.asarray(y, dtype=float))
+    i, s = _locate(x, values.shape[0], spacing[0], "x")
+    j, t = _locate(y, values.shape[1], spacing[1], "y")
+    padded = np.pad(values, 1, mode="edge")
+    before, after = ((1 - t) * padded[k, j] + t * padded[k, j + 1] for k in (i, i + 1))
+    return np.asarray((1 - s) * before + s * after)
+
+
 def _locate(
     coordinate: NDArray[np.float64], count: int, spacing: float, axis: str
 ) -> tuple[NDArray[np.intp], NDArray[np.float64]]:
@@ -62,7 +75,7 @@ def _locate(
     if not np.all(inside):
         farthest, reach = float(np.max(np.abs(coordinate))), 0.5 * count * spacing
         raise ValueError(
-            f"the height map covers |{axis}| <= {reach:g} ({count} heights, {spacing:g} apart), "
+            f"the map covers |{axis}| <= {reach:g} ({count} values, {spacing:g} apart), "
             f"but is asked for |{axis}| = {farthest:g}: "
             f"choose a window of at most {2 * reach:g} along {axis}"
         )

@@ -21,7 +21,7 @@ def refuse_shapes(scene: Scene) -> None:
             f"the indenter is not the same all around ({shape_text(indenter)}), and this solver "
             "takes bodies of revolution; solve it with the semi-analytical solver"
         )
-    if friction is not None and friction.cells is not None:
+    if friction is not None and friction.varying is not None:
         raise UnsupportedScene(
             "friction is given as a map, and this solver takes one coefficient; name one number"
         )

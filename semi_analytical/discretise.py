@@ -7,10 +7,7 @@ from math import sqrt
 import numpy as np
 from numpy.typing import NDArray
 
-from contact_scene import (
-    Scene,
-    SurfaceDiscretisation,
-)
+from contact_scene import FrictionMap, HeightMap, Scene, SurfaceDiscretisation
 from contact_scene.pair import contact_modulus
 from contact_scene.scene_text import shape_text
 from contact_scene.solver_errors import (
@@ -24,10 +21,13 @@ from semi_analytical.model import ContactModel
 from semi_analytical.plan import plan
 from semi_analytical.pressing import NormalTarget, press
 
+Pair = tuple[float, float]
+
 # Peak pressure to about 1e-4 and fields to a few 1e-3 for a smooth contact.
 DEFAULT_CELLS = (128, 128)
 # Window in contact diameters; ten per cent let the bodies part within it.
 MARGIN = 1.1
+ROUND_OFF = 1e-9  # of the number of values of a map in a window
 SCOUT_CELLS = 64
 SCOUT_TOLERANCE = 1e-3
 MOST_ENLARGEMENTS = 40
@@ -38,15 +38,40 @@ def discretise(scene: Scene, asked: SurfaceDiscretisation) -> SurfaceGrid:
     """The grid that was asked for, with what was left open chosen.
 
     A window that is not given is fitted to the largest contact of the history, scouted on a
-    coarse grid under the largest normal load; a friction map gives the cells, a height map
-    bounds the window.
+    coarse grid under the largest normal load, as far as maps of heights and friction reach. Cells
+    that are not given are no wider than the spacing of the maps.
     """
-    mapped = scene.friction.cells if scene.friction else None
-    cells = asked.cells or mapped or DEFAULT_CELLS
-    return SurfaceGrid(cells, asked.window or fitted_window(scene))
+    return _grid(scene, asked, asked.window or _within_maps(scene, fitted_window(scene)))
 
 
-def fitted_window(scene: Scene) -> tuple[float, float]:
+def enlarged(scene: Scene, asked: SurfaceDiscretisation, grid: SurfaceGrid) -> SurfaceGrid:
+    """A grid of a larger window; the same where that is all that the maps of the scene cover."""
+    L_x, L_y = grid.window
+    return _grid(scene, asked, _within_maps(scene, (GROWTH * L_x, GROWTH * L_y)))
+
+
+def _grid(scene: Scene, asked: SurfaceDiscretisation, window: Pair) -> SurfaceGrid:
+    if asked.cells is not None:
+        return SurfaceGrid(asked.cells, window)
+    cells = np.array(DEFAULT_CELLS)
+    for map_ in _maps(scene):
+        points = np.divide(window, map_.spacing)
+        cells = np.maximum(cells, np.ceil(points * (1 - ROUND_OFF)).astype(int))
+    return SurfaceGrid((int(cells[0]), int(cells[1])), window)
+
+
+def _maps(scene: Scene) -> list[HeightMap | FrictionMap]:
+    friction = scene.friction.varying if scene.friction else None
+    maps = (scene.indenter, friction)
+    return [map_ for map_ in maps if isinstance(map_, HeightMap | FrictionMap)]
+
+
+def _within_maps(scene: Scene, window: Pair) -> Pair:
+    L_x, L_y = np.min([window, *(map_.extent for map_ in _maps(scene))], axis=0)
+    return float(L_x), float(L_y)
+
+
+def fitted_window(scene: Scene) -> Pair:
     """Sides of a window that just holds the largest contact of the history [length].
 
     raises  ContactAtWindowEdge where none does; UnsupportedScene for a shape that says nothing of

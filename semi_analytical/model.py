@@ -52,14 +52,13 @@ class ContactModel:
 
     @cached_property
     def friction(self) -> CoulombFriction:
-        """Between the two bodies; raises UnsupportedScene for a map of other cells."""
+        """Between the two bodies, with a coefficient for every cell where it varies; raises
+        UnsupportedScene for a map that does not cover the window."""
         friction = self.scene.friction or FRICTIONLESS
-        if friction.cells not in (None, self.grid.cells):
-            raise UnsupportedScene(
-                f"the friction map has {friction.cells} values, the grid {self.grid.cells} cells; "
-                "give one value per cell"
-            )
-        return friction
+        try:
+            return friction.on(self.grid.cells, self.grid.spacing)
+        except ValueError as error:
+            raise UnsupportedScene(f"of the coefficient of friction {error}") from None
 
     @cached_property
     def coefficients(self) -> InfluenceCoefficients:

@@ -5,7 +5,7 @@ from collections.abc import Callable
 from contact_scene import Scene, SurfaceDiscretisation
 from contact_scene.solver_errors import ContactAtWindowEdge
 from contact_scene.standing import Keeper, Standing
-from semi_analytical.discretise import GROWTH, discretise
+from semi_analytical.discretise import discretise, enlarged
 from semi_analytical.fields import Increment, Result
 from semi_analytical.grid import SurfaceGrid
 from semi_analytical.history import marked
@@ -96,8 +96,7 @@ def solve_discretised(
     grids = [first]
     if discretisation.window is None and scene.indenter.extent is None:
         for _ in range(MOST_ENLARGEMENTS):
-            L_x, L_y = grids[-1].window
-            grids.append(SurfaceGrid(first.cells, (GROWTH * L_x, GROWTH * L_y)))
+            grids.append(enlarged(scene, discretisation, grids[-1]))
     last = keeper.last() if keeper else None
     if last and last.extent in grids:  # the smaller ones have been outgrown
         grids = grids[grids.index(last.extent) :]

@@ -44,11 +44,12 @@ def rough():
 def patchy_friction():
     values = np.random.default_rng(4).uniform(0, 2 * MU, (CELLS, CELLS))
     values[values < 0.3 * MU] = 0
-    return {"map": values}
+    return {"map": values, "spacing": SPACING}
 
 
 def greased_centre():
-    return {"map": np.where(np.hypot(POSITIONS[:, None], POSITIONS) < 0.5 * A, 0.0, MU)}
+    values = np.where(np.hypot(POSITIONS[:, None], POSITIONS) < 0.5 * A, 0.0, MU)
+    return {"map": values, "spacing": SPACING}
 
 
 def layered_ball():

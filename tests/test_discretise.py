@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from contact_scenes import INDENTERS, MU, PRESS, A, bump, push, scene, steel
+from contact_scenes import INDENTERS, MU, PRESS, A, bump, push, scene, slide, steel
 
 from contact_scene import (
     RIGID,
@@ -101,11 +101,54 @@ def test_what_is_asked_for_is_not_changed():
     assert discretise(scene(PRESS), asked) == SurfaceGrid((20, 30), (1e-3, 2e-3))
 
 
-def test_friction_map_gives_the_cells():
-    grid = discretise(
-        scene(PRESS, push(0.2), friction={"map": np.full((40, 24), MU)}), SurfaceDiscretisation()
+def map_of(shape, length, values=MU):
+    return {"map": np.full(shape, values), "spacing": tuple(length / np.array(shape))}
+
+
+@pytest.mark.parametrize("shape", [(40, 24), (300, 24), (512, 300)])
+@pytest.mark.parametrize("window", [2.2 * A, 3 * A])
+def test_chosen_cells_are_as_many_as_usual_and_no_wider_than_the_spacing_of_a_map(shape, window):
+    rough = HeightMap(
+        file=np.zeros(shape), spacing=tuple(4 * A / np.array(shape)), material=steel()
     )
-    assert grid.cells == (40, 24)
+    asked = SurfaceDiscretisation(window=(window, window))
+    for described in (
+        scene(PRESS, push(0.2), friction=map_of(shape, 4 * A)),
+        scene(PRESS, friction=None, indenter=rough),
+    ):
+        cells = np.array(discretise(described, asked).cells)
+        needed = window / (4 * A / np.array(shape))
+        assert np.all(cells >= np.maximum(128, needed * (1 - 1e-9)))
+        assert np.all(cells < np.maximum(129, needed + 1))
+
+
+@pytest.mark.parametrize("shape", [(128, 128), (129, 200), (301, 512)])
+def test_chosen_cells_of_a_map_that_is_fine_enough_are_its_own(shape):
+    rough = HeightMap(file=np.zeros(shape), spacing=(3e-7, 7e-7), material=steel())
+    grid = discretise(scene(PRESS, friction=None, indenter=rough), SurfaceDiscretisation())
+    assert (grid.cells, grid.window) == (shape, rough.extent)
+
+
+@pytest.mark.parametrize("load", [0.125, 1.0, 3.0])
+def test_a_lubricated_patch_has_its_size_whatever_window_the_load_chooses(load):
+    points = (np.arange(64) - 31.5) / 64 * 4 * A
+    inside = np.hypot(points[:, None], points) < 0.4 * A
+    friction = map_of((64, 64), 4 * A, np.where(inside, 0.0, MU))
+    slid = scene({"normal_force": load * 1e3}, slide(100), friction=friction)
+    result = solve_discretised(slid, SurfaceDiscretisation(cells=(96, 96), tolerance=1e-6))
+    end = result.steps[-1]
+    bare = np.hypot(*end.shear) < 0.5 * MU * end.pressure
+    area = np.count_nonzero(bare & end.in_contact) * result.grid.cell_area
+    assert area == pytest.approx(np.pi * (0.4 * A) ** 2, rel=0.1)
+
+
+def test_a_chosen_window_ends_where_the_friction_map_does():
+    small = scene(PRESS, push(0.2), friction=map_of((20, 20), 2.1 * A))
+    assert discretise(small, COARSE).window == pytest.approx((2.1 * A, 2.1 * A))
+    assert solve_discretised(small, COARSE).steps[0].contact_radius == pytest.approx(A, rel=0.05)
+    smaller = scene(PRESS, push(0.2), friction=map_of((20, 20), 1.9 * A))
+    with pytest.raises(ContactAtWindowEdge, match="friction map"):
+        solve_discretised(smaller, COARSE)
 
 
 def test_explicit_window_that_cuts_the_contact_is_refused():

@@ -131,7 +131,7 @@ def test_maps_are_refused_by_name(tmp_path: FilePath) -> None:
     document = scene(PRESS).model_dump()
     with pytest.raises(UnsupportedScene, match="height map"):
         plan(Scene.model_validate({**document, "indenter": rough}))
-    patchy = {"coefficient": {"map": str(tmp_path / "map.npy")}}
+    patchy = {"coefficient": {"map": str(tmp_path / "map.npy"), "spacing": 1e-4}}
     with pytest.raises(UnsupportedScene, match="friction is given as a map"):
         plan(Scene.model_validate({**document, "friction": patchy}))
 

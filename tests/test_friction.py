@@ -5,15 +5,16 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
+from pydantic import ValidationError
 
-from contact_scene import CoulombFriction
+from contact_scene import CoulombFriction, FrictionMap
 from contact_scene.friction import FRICTIONLESS
 
 CELLS = (6, 5)
 PRESSURES = arrays(np.float64, CELLS, elements=st.floats(0.0, 1e9))
 UNIFORM = st.floats(0.0, 2.0).map(lambda mu: CoulombFriction(coefficient=mu))
 MAPPED = arrays(np.float64, CELLS, elements=st.floats(0.0, 2.0)).map(
-    lambda values: CoulombFriction.model_validate({"coefficient": {"map": values}})
+    lambda values: CoulombFriction.model_validate({"coefficient": {"map": values, "spacing": 1.0}})
 )
 BOX = (slice(1, 5), slice(2, 4))
 
@@ -43,6 +44,50 @@ def test_the_slope_is_how_fast_the_limit_grows(friction, p) -> None:
 @given(UNIFORM | MAPPED, PRESSURES)
 def test_what_is_carried_in_all_is_the_sum_of_the_limit_or_not_known(friction, p) -> None:
     carried = friction.carried(float(np.sum(p)))
-    assert (carried is None) == (friction.uniform is None) == (friction.cells == CELLS)
+    assert (carried is None) == (friction.uniform is None) == (friction.varying is not None)
     if carried is not None:
         assert carried == pytest.approx(float(np.sum(friction.limit(p))), rel=1e-12, abs=1e-300)
+
+
+def mapped(values, **placed):
+    return FrictionMap.model_validate({"map": values, "spacing": (0.5, 2.0), **placed})
+
+
+@given(arrays(np.float64, CELLS, elements=st.floats(0.0, 2.0)))
+def test_on_its_own_cells_a_map_is_itself(values) -> None:
+    np.testing.assert_array_equal(mapped(values).on(CELLS, (0.5, 2.0)).map.values, values)
+
+
+@given(
+    arrays(np.float64, CELLS, elements=st.floats(0.0, 2.0)),
+    st.tuples(st.integers(4, 40), st.integers(4, 40)),
+    st.floats(0.1, 1.0),
+)
+def test_between_its_points_a_map_stays_between_its_values(values, cells, share) -> None:
+    spacing = (share * 3.0 / cells[0], share * 10.0 / cells[1])
+    found = mapped(values).on(cells, spacing).map.values
+    assert np.all((found >= values.min() * (1 - 1e-12)) & (found <= values.max() * (1 + 1e-12)))
+
+
+@pytest.mark.parametrize("origin", [(0.0, 0.0), (0.3, -0.9)])
+@pytest.mark.parametrize(("cells", "window"), [((7, 8), (1.0, 2.0)), ((30, 5), (1.9, 4.0))])
+def test_a_coefficient_stays_at_its_place_whatever_window_and_cells(origin, cells, window) -> None:
+    def plane(x, y):
+        return 0.5 + 0.1 * x - 0.03 * y
+
+    x, y = (np.arange(n) - (n - 1) / 2 for n in CELLS)
+    values = plane(0.5 * x[:, None] + origin[0], 2.0 * y + origin[1])
+    spacing = (window[0] / cells[0], window[1] / cells[1])
+    found = mapped(values, origin=origin).on(cells, spacing).map.values
+    x, y = ((np.arange(n) - (n - 1) / 2) * side for n, side in zip(cells, spacing, strict=True))
+    np.testing.assert_allclose(found, plane(x[:, None], y), rtol=1e-12)
+
+
+def test_beyond_its_extent_a_map_says_nothing() -> None:
+    placed = mapped(np.ones(CELLS), origin=(-0.5, 1.0))
+    assert placed.extent == (2.0, 8.0)
+    placed.on((8, 8), (0.25, 1.0))
+    with pytest.raises(ValueError, match="at most"):
+        placed.on((8, 8), (0.25, 1.01 * 1.25))
+    with pytest.raises(ValidationError, match="does not reach the origin"):
+        mapped(np.ones(CELLS), origin=(1.5, 0.0))

@@ -163,7 +163,7 @@ def test_friction_and_force_in_proportion_leave_the_stick_zone(factor):
 
 def test_a_uniform_friction_map_is_one_coefficient():
     one = solve(scene(PRESS, push(0.7)), grid(), TOLERANCE).steps[-1]
-    mapped = {"map": np.full((32, 32), MU)}
+    mapped = {"map": np.full((32, 32), MU), "spacing": 3 * A / 32}
     other = solve(scene(PRESS, push(0.7), friction=mapped), grid(), TOLERANCE).steps[-1]
     np.testing.assert_array_equal(one.shear, other.shear)
 

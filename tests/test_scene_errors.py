@@ -359,13 +359,29 @@ def test_a_window_beyond_the_height_map_is_refused(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize(
     ("array", "words"),
-    [(np.full((256, 256), -0.1), "-0.1"), (np.zeros((255, 256)), "255 x 256 coefficients")],
+    [(np.full((256, 256), -0.1), "-0.1"), (np.zeros((255, 2)), "(255, 2)")],
 )
 def test_a_bad_friction_map_is_refused(tmp_path: Path, array: Any, words: str) -> None:
     np.save(tmp_path / "mu.npy", array)
-    (problem,) = problems(tmp_path, changed(("0.1", '{ map = "mu.npy" }')))
+    (problem,) = problems(tmp_path, changed(("0.1", '{ map = "mu.npy", spacing = 5e-6 }')))
     assert problem.key.startswith("friction.coefficient")
     assert words in problem.message
+
+
+def test_a_friction_map_without_spacing_is_told_what_to_add(tmp_path: Path) -> None:
+    np.save(tmp_path / "mu.npy", np.full((256, 256), 0.1))
+    (problem,) = problems(tmp_path, changed(("0.1", '{ map = "mu.npy" }')))
+    assert problem.key == "friction.coefficient.spacing"
+    assert "missing" in problem.message
+    assert "distance of neighbouring coefficients" in problem.expected
+
+
+def test_a_window_beyond_the_friction_map_is_refused(tmp_path: Path) -> None:
+    np.save(tmp_path / "mu.npy", np.full((256, 128), 0.1))
+    placed = '{ map = "mu.npy", spacing = "5 um", origin = ["10 um", 0] }'
+    found = problems(tmp_path, changed(("0.1", placed)))
+    assert [problem.key for problem in found] == ["semi_analytical.window[2]"]
+    assert "0.00064 m" in found[0].expected
 
 
 @pytest.mark.parametrize(

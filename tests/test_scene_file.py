@@ -145,7 +145,7 @@ def test_files_named_in_a_scene_lie_beside_it(tmp_path: Path) -> None:
     text = f"""
         indenter = {{ shape = "height_map", file = "maps/h.npy", spacing = 1e-6, material="rigid" }}
         body.material = {{ young_modulus = 1e9, poisson_ratio = 0.3 }}
-        friction.coefficient = {{ map = "mu.npy" }}
+        friction.coefficient = {{ map = "mu.npy", spacing = "1 um" }}
         loading = [ {{ approach = "1 nm" }}, {{ tangential_force = [1, 0] }} ]
         semi_analytical.cells = [8, 9]
         semi_analytical.window = [{4e-6!r}, {5e-6!r}]

@@ -52,9 +52,9 @@ def test_punch_between_the_cell_centres_is_refused():
         solve(scene(PRESS, indenter=needle, friction=None), grid(), TOLERANCE)
 
 
-def test_friction_map_of_another_shape_is_refused():
-    friction = {"map": np.full((8, 9), 0.1)}
-    with pytest.raises(UnsupportedScene, match=r"\(8, 9\).*\(32, 32\)"):
+def test_a_friction_map_that_ends_within_the_window_is_refused():
+    friction = {"map": np.full((8, 9), 0.1), "spacing": (2.9 * A / 8, 4 * A / 9)}
+    with pytest.raises(UnsupportedScene, match=r"friction.*\|x\|.*at most"):
         solve(scene(PRESS, push(0.5), friction=friction), grid(), TOLERANCE)
 
 

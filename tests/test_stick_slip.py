@@ -50,10 +50,14 @@ def two_bumps():
     return height_map(np.minimum(one, other) / (2 * RADIUS))
 
 
+def mapped(values):
+    return {"map": values, "spacing": SPACING}
+
+
 def mapped_friction():
     values = np.random.default_rng(4).uniform(0, 2 * MU, (CELLS, CELLS))
     values[values < 0.3 * MU] = 0
-    return {"map": values}
+    return mapped(values)
 
 
 ANGLES = np.linspace(0, 2 * np.pi, 5)
@@ -214,7 +218,7 @@ def test_shift_control_slides_through_to_the_limit():
 
 
 def test_sliding_without_friction_under_shift_control_costs_nothing():
-    nothing = {"map": np.zeros((CELLS, CELLS))}
+    nothing = mapped(np.zeros((CELLS, CELLS)))
     for friction in (0.0, nothing):
         increment = solved(PRESS, slide(1), slide(-1), push(0), friction=friction).steps[-1]
         assert np.all(increment.shear == 0)
@@ -226,7 +230,7 @@ def test_sliding_without_friction_under_shift_control_costs_nothing():
 
 def test_force_beyond_what_a_map_of_friction_carries_is_refused_with_the_limit():
     with pytest.raises(GrossSliding, match=r"step 2.*exceeds the friction limit"):
-        solved(PRESS, push(0.99), friction={"map": np.full((CELLS, CELLS), 0.5 * MU)})
+        solved(PRESS, push(0.99), friction=mapped(np.full((CELLS, CELLS), 0.5 * MU)))
 
 
 def test_unloading_through_the_limit_is_refused_where_it_happens():
@@ -236,7 +240,7 @@ def test_unloading_through_the_limit_is_refused_where_it_happens():
 
 
 def test_a_history_cannot_go_on_from_the_limit():
-    friction = {"map": np.full((CELLS, CELLS), MU)}
+    friction = mapped(np.full((CELLS, CELLS), MU))
     loading = scene(PRESS, push(0.5), friction=friction)
     limit = MU * float(solve(loading, grid(CELLS), TOLERANCE).steps[0].normal_force)
     with pytest.raises(GrossSliding, match="motion is undefined"):

@@ -12,7 +12,6 @@ from scene_texts import RIGID_BALL
 from contact_results.quantities import unit_of
 from fem_reference import Method
 from fem_reference.contact.complementarity import method as complementarity
-from semi_analytical import UnsupportedScene
 from slipstick.cli import main
 from verification.convergence.stored_field import SHEAR, StoredField, at_centres, change
 from verification.judging.case import Level
@@ -238,9 +237,6 @@ def test_what_cannot_be_refined_is_refused(scene_file: Path) -> None:
     study = mesh_study(scene_file, (), None, None)
     with pytest.raises(CannotRefine, match="fewer than 16"):
         study.cases(Settings(Level.QUICK))
-    np.save(scene_file.parent / "mu.npy", np.full((24, 24), 0.1))
-    with pytest.raises(UnsupportedScene, match="fixes the cells"):
-        mesh_study(scene_file, ["friction.coefficient={map='mu.npy'}"], None, None)
 
 
 def test_other_contents_of_the_file_are_other_cases(scene_file: Path) -> None:

@@ -199,6 +199,12 @@ def test_window_of_a_height_map_is_refused(scene_file: Path) -> None:
         window_study(scene_file, (), None)
 
 
+def test_window_of_a_friction_map_is_refused(scene_file: Path) -> None:
+    np.save(scene_file.parent / "mu.npy", np.full((24, 24), 0.1))
+    with pytest.raises(UnsupportedScene, match="bounds the window"):
+        window_study(scene_file, ["friction.coefficient={map='mu.npy', spacing='0.1 mm'}"], None)
+
+
 EXACT = "approach: sampled ever finer and wider it tends to the exact one"
 
 

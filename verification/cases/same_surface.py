@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from contact_results.difference import largest_difference
 from contact_results.quantities import shear_of
-from contact_scene import RIGID, Body, CoulombFriction, HeightMap, LoadStep, Scene
+from contact_scene import RIGID, Body, CoulombFriction, FrictionMap, HeightMap, LoadStep, Scene
 from contact_scene.residuals import worst
 from semi_analytical import SurfaceGrid
 from verification.cases.turned import difference_after_quarter, turned
@@ -49,17 +49,17 @@ def same_surface_on(cells: int) -> Case:
     square = SurfaceGrid((cells, cells), (WINDOW, WINDOW))
     long = SurfaceGrid((cells, cells), (WINDOW, LONGER * WINDOW))
     across = SurfaceGrid((cells, cells), (LONGER * WINDOW, WINDOW))
-    patchy = _patchy(square)
+    patchy, mirrored_patches = _map(_patchy(square), square), _map(_patchy(square)[::-1], square)
     told = Run("told by numbers", _scene("numbers"), square)
     heights = Run("ball as a map of heights", _scene("heights", heights_on=square), square)
     everywhere = Run(
         "the same friction in every cell",
-        _scene("friction", friction=np.full(square.cells, FRICTION)), square,
+        _scene("friction", friction=_map(np.full(square.cells, FRICTION), square)), square,
     )  # fmt: skip
     patches = Run("patchy friction", _scene("patches", friction=patchy), square)
     mirrored = Run(
         "patchy friction mirrored",
-        _scene("mirrored patches", friction=patchy[::-1], degrees=180.0), square,
+        _scene("mirrored patches", friction=mirrored_patches, degrees=180.0), square,
     )  # fmt: skip
     narrow = Run("cells longer along y", _scene("long cells"), long)
     wide = Run("cells longer along x", _scene("wide cells", degrees=90.0), across)
@@ -128,16 +128,15 @@ def _scene(
     what: str,
     *,
     heights_on: SurfaceGrid | None = None,
-    friction: float | Field = FRICTION,
+    friction: float | FrictionMap = FRICTION,
     body: Body | None = None,
     degrees: float = 0.0,
 ) -> Scene:
-    coefficient: Any = friction if isinstance(friction, float) else {"map": friction}
     return Scene(
         title=f"Rigid ball on a coated body, pressed and pushed: {what}",
         indenter=rigid_ball() if heights_on is None else _height_map(heights_on),
         body=body or BODY,
-        friction=CoulombFriction(coefficient=coefficient),
+        friction=CoulombFriction(coefficient=friction),
         loading=turned(LOADING, degrees),
     )
 
@@ -146,6 +145,10 @@ def _height_map(grid: SurfaceGrid) -> HeightMap:
     heights = rigid_ball().initial_gap(*grid.coordinates())
     given: Any = np.asarray(heights)
     return HeightMap(file=given, spacing=grid.spacing, material=RIGID)
+
+
+def _map(coefficients: Field, grid: SurfaceGrid) -> FrictionMap:
+    return FrictionMap.model_validate({"map": coefficients, "spacing": grid.spacing})
 
 
 def _patchy(grid: SurfaceGrid) -> Field:

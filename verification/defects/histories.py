@@ -93,10 +93,11 @@ def _loss_with_coupling(patches: Patches) -> None:
 
 def _map_transposed(patches: Patches) -> None:
     def transposed(self: Any) -> Any:
-        friction = self.scene.friction
-        if friction is None or friction.cells is None:
-            return friction or FRICTIONLESS
-        return CoulombFriction.model_validate({"coefficient": {"map": friction.slope().T}})
+        friction = (self.scene.friction or FRICTIONLESS).on(self.grid.cells, self.grid.spacing)
+        if friction.varying is None:
+            return friction
+        turned = {"map": friction.varying.map.values.T, "spacing": self.grid.spacing}
+        return CoulombFriction.model_validate({"coefficient": turned})
 
     patches.attribute(ContactModel, "friction", property(transposed))
 

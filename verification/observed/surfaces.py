@@ -43,8 +43,9 @@ class _Place:
 
     @classmethod
     def of(cls, result: Result) -> _Place:
-        x, y = result.grid.coordinates()
-        return cls(x, y, result.grid.cell_area, result.scene.friction or FRICTIONLESS)
+        grid, friction = result.grid, result.scene.friction or FRICTIONLESS
+        x, y = grid.coordinates()
+        return cls(x, y, grid.cell_area, friction.on(grid.cells, grid.spacing))
 
 
 def _violations(before: Increment | None, now: Increment, place: _Place) -> Iterator[float]:

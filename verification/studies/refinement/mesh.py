@@ -17,7 +17,7 @@ from verification.studies.refinement.section_level import SectionLevel
 from verification.studies.refinement.section_start import SectionStart
 from verification.studies.refinement.studied_scene import CannotRefine, StudiedScene
 from verification.studies.refinement.surface_level import SurfaceLevel
-from verification.studies.refinement.surface_start import SurfaceStart, refuse_fixed_cells
+from verification.studies.refinement.surface_start import SurfaceStart
 
 # Neighbouring grids are not multiples of each other: how a round contact cuts the cells differs
 # from grid to grid, and only that tells its scatter from the order.
@@ -53,7 +53,6 @@ def mesh_study(
 
 def _of_cells(scene: StudiedScene) -> Refinement:
     start = SurfaceStart.of(scene)
-    refuse_fixed_cells(start.contents.scene)
 
     def levels(settings: Settings) -> tuple[SurfaceLevel, ...]:
         finest = start.grid_of(settings.cells).cells

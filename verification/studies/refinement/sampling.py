@@ -35,7 +35,7 @@ from verification.studies.refinement.sampling_page import (
 )
 from verification.studies.refinement.studied_scene import CannotRefine, StudiedScene
 from verification.studies.refinement.surface_level import SurfaceLevel
-from verification.studies.refinement.surface_start import SurfaceStart, refuse_fixed_cells
+from verification.studies.refinement.surface_start import SurfaceStart
 from verification.studies.work_precision.usual_route import Sampling
 
 CELLS = 32  # samples grow with the square of cells, refinement and extension each
@@ -62,7 +62,6 @@ def sampling_study(
     """
     scene = StudiedScene.of(path, overrides, step)
     start = SurfaceStart.of(scene)
-    refuse_fixed_cells(start.contents.scene)
     by_images = by_period(start.contents.scene, start.couples)
     by_factor = {
         REFINEMENT: _swept(start, REFINEMENT, {}),

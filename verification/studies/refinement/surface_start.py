@@ -69,17 +69,12 @@ class SurfaceStart:
         return SurfaceLevel(self.scene, on.cells, on.window, counts, size, level, kept)
 
 
-def refuse_fixed_cells(scene: Scene) -> None:
-    """Raises UnsupportedScene where a friction map fixes the cells."""
-    if scene.friction is not None and scene.friction.cells is not None:
-        raise UnsupportedScene("the friction map has one value per cell, which fixes the cells")
-
-
 def refuse_fixed_window(scene: Scene) -> None:
-    """Raises UnsupportedScene where a height map or a friction map fixes the window."""
+    """Raises UnsupportedScene where a height map or a friction map bounds the window."""
     if scene.indenter.extent is not None:
         raise UnsupportedScene(
             "the height map says where the indenter ends, which fixes the window: beyond it there "
             "is no gap that could be computed"
         )
-    refuse_fixed_cells(scene)
+    if scene.friction is not None and scene.friction.varying is not None:
+        raise UnsupportedScene("the friction map bounds the window: it says nothing beyond")

@@ -167,19 +167,22 @@ def _mean(friction: float | FrictionMap, cell: StabilityCell, grid: SurfaceGrid)
         return friction
     x, y = grid.coordinates()
     p = np.sqrt(np.maximum(1 - (x**2 + y**2) / cell.length**2, 0.0))
-    return float(SURELY * np.sum(friction.map.values * p) / np.sum(p))
+    coefficients = friction.on(grid.cells, grid.spacing).map.values
+    return float(SURELY * np.sum(coefficients * p) / np.sum(p))
 
 
 def _friction(cell: StabilityCell, grid: SurfaceGrid) -> float | FrictionMap:
     """µ; for patchy and greased surfaces a map of it with the same largest or mean value."""
     if cell.surface is Surface.PATCHY:
         values = np.random.default_rng(SEED).uniform(0, 2 * cell.friction, grid.cells)
-        return _map(np.where(values < BARE * cell.friction, 0.0, values))
+        return _map(np.where(values < BARE * cell.friction, 0.0, values), grid)
     if cell.surface is Surface.GREASED:
         outside = np.hypot(*grid.coordinates()) > GREASE * cell.length
-        return _map(np.where(outside, cell.friction, 0.0))
+        return _map(np.where(outside, cell.friction, 0.0), grid)
     return cell.friction
 
 
-def _map(values: Field) -> FrictionMap:
-    return FrictionMap.model_validate({"map": values})
+def _map(values: Field, grid: SurfaceGrid) -> FrictionMap:
+    """The window's coefficients, and the same again around it: the contact may want a wider one."""
+    values = np.pad(values, [(count, count) for count in grid.cells], mode="symmetric")
+    return FrictionMap.model_validate({"map": values, "spacing": grid.spacing})
