@@ -15,7 +15,7 @@ from verification.running.study import Settings
 from verification.studies.sliding import gross_sliding as study
 from verification.studies.sliding import verdicts
 from verification.studies.sliding.contacts import AlikeContact, CoatedContact
-from verification.studies.sliding.estimate import Estimate, Evidence, estimate
+from verification.studies.sliding.estimate import Estimate, estimate
 from verification.studies.sliding.friction_laws import (
     FixedPressure,
     FrictionLaw,
@@ -131,8 +131,8 @@ def test_zone_that_leaves_as_a_whole_is_bracketed() -> None:
 
 def test_estimate_adds_what_refinement_changed() -> None:
     base = cattaneo(0.97)
-    same = estimate(Evidence(base, base, base, base))
-    other = estimate(Evidence(base, cattaneo(0.95), base, base))
+    same = estimate(base, base, base, base)
+    other = estimate(base, cattaneo(0.95), base, base)
     assert same is not None
     assert other is not None
     assert same.uncertainty == pytest.approx(same.full_slip.uncertainty)

@@ -12,7 +12,8 @@ from verification.convergence.observed_order import (
     TRIPLETS_AGREE,
 )
 from verification.convergence.stored_field import PRESSURE, SHEAR
-from verification.exhibits.chart import Chart, Curve, Look, Panel, curve
+from verification.exhibits.chart import Chart, Curve, Look, Panel, curve, stacked
+from verification.exhibits.log_chart import drawable, point_curves
 from verification.exhibits.numbers import plain, value_text
 from verification.exhibits.table import Table, table_of
 from verification.judging.outcome import Status
@@ -97,23 +98,22 @@ def order_text(fit: Fit) -> str:
 
 def order_table(fits: Sequence[Fit]) -> Table:
     """One row per quantity."""
-    return Table(
-        title="Orders and limits",
-        columns=(
-            "quantity", "finest", "limit", "uncertainty", "left on the finest", "observed order",
-            "by triplets", "expected",
-        ),
-        rows=tuple(
-            (
-                label(fit.name), _in_unit(fit, fit.finest), _in_unit(fit, fit.limit),
-                _in_unit(fit, fit.uncertainty, 2), plain(fit.remaining, 2), order_text(fit),
-                _triplets(fit), f"{fit.expected.order:g}" if fit.expected else "–",
-            )
-            for fit in fits
-        ),
-        note="Left on the finest: relative to the value, for components to the vector, for "
+    return table_of(
+        "Orders and limits",
+        {
+            "quantity": lambda fit: label(fit.name),
+            "finest": lambda fit: _in_unit(fit, fit.finest),
+            "limit": lambda fit: _in_unit(fit, fit.limit),
+            "uncertainty": lambda fit: _in_unit(fit, fit.uncertainty, 2),
+            "left on the finest": lambda fit: plain(fit.remaining, 2),
+            "observed order": order_text,
+            "by triplets": _triplets,
+            "expected": lambda fit: f"{fit.expected.order:g}" if fit.expected else "–",
+        },
+        fits,
+        "Left on the finest: relative to the value, for components to the vector, for "
         "fields to Σp or Σµp.",
-    )  # fmt: skip
+    )
 
 
 def level_table(records: Sequence[CaseRecord], names: Sequence[str]) -> Table:
@@ -158,24 +158,21 @@ def error_chart(name: str, x_label: str, fits: Sequence[Fit], unit: float) -> Ch
     shapes = [fit for fit in fits if unit_of_fit(fit) in ("m", "rad")]
     loads = [fit for fit in fits if fit not in shapes]
     groups = [("motion and radii", shapes), ("tractions, loads, energy", loads)]
-    panels = [(_panel(title, group, unit),) for title, group in groups if group]
-    panels[-1] = (panels[-1][0].model_copy(update={"x_label": x_label}),)
-    return Chart(
-        name=name,
-        title="Errors under refinement",
-        caption="Distance from the limit, relative to it; for pressure and shear the change to "
+    *above, last = (_panel(title, group, unit) for title, group in groups if group)
+    return stacked(
+        name,
+        "Errors under refinement",
+        "Distance from the limit, relative to it; for pressure and shear the change to "
         "the next level over Σp or Σµp. Dashed, with their orders: the slopes that are expected. A "
         "scalar's error on the finest level rests on the extrapolation and is the least certain.",
-        rows=tuple(panels),
+        *above,
+        last.model_copy(update={"x_label": x_label}),
     )
 
 
 def _panel(title: str, fits: Sequence[Fit], unit: float) -> Panel:
-    curves: list[Curve] = []
-    for series, fit in enumerate(fits):
-        points = [(h / unit, e) for h, e in zip(fit.sizes, fit.errors, strict=True) if e > 0]
-        x, y = ([point[k] for point in points] for k in (0, 1))
-        curves.append(curve(label(fit.name), x, y, Look.POINTS, series))
+    lines = [(label(f.name), drawable(zip(f.sizes, f.errors, strict=True))) for f in fits]
+    curves = point_curves((name, [(h / unit, e) for h, e in line]) for name, line in lines)
     orders = sorted({fit.expected.order for fit in fits if fit.expected})
     slopes = _slopes(curves, orders)
     return Panel(

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 
-from verification.exhibits.chart import Chart, Panel
+from verification.exhibits.chart import Chart, Panel, stacked
 from verification.exhibits.log_chart import point_curves
 from verification.exhibits.numbers import percent
 from verification.exhibits.table import Table, table_of
@@ -47,16 +47,14 @@ def error_chart(rows: Sequence[Row], held: str) -> Chart:
     """Errors against the factor."""
     factor = str(rows[0].parameters["factor"])
     names = {name: page.label(name) for name in quantities(rows[-1])}
-    return Chart(
-        name=f"sampling_{factor}",
-        title=f"Sampled response against the {AXES[factor]}",
-        caption=f"Distance from the exact coefficients, relative to the coefficient, and of the "
+    return stacked(
+        f"sampling_{factor}",
+        f"Sampled response against the {AXES[factor]}",
+        f"Distance from the exact coefficients, relative to the coefficient, and of the "
         f"solution from the one by exact coefficients on the same grid; {held}. Where a curve "
         "levels out, the factor that is held decides.",
-        rows=(
-            (_panel("influence coefficients", "", rows, COEFFICIENTS),),
-            (_panel("solution of the scene", AXES[factor], rows, names),),
-        ),
+        _panel("influence coefficients", "", rows, COEFFICIENTS),
+        _panel("solution of the scene", AXES[factor], rows, names),
     )
 
 

@@ -29,7 +29,7 @@ from verification.judging.outcome import (
 from verification.judging.run import AnyRun
 from verification.judging.verdicts import expanded_uncertainty
 from verification.running.case_store import CaseStore
-from verification.running.row import CaseRecord, Row, parameters_of
+from verification.running.row import CaseRecord, TypedRow, parameters_of
 
 HEALTHY = ""
 GATE = 1e-2
@@ -38,74 +38,48 @@ SEED = 20
 ERROR = "largest_error"
 
 
-@dataclass(frozen=True)
-class Caught:
-    """A verdict that failed.
+class Caught(TypedRow):
+    """A verdict that failed."""
 
-    how        what it was judged by
-    clearance  error over what is allowed; None where there is no number
-    reason     why a case or a run has no result
-    """
+    PARAMETERS = ("quantity", "run")
 
     quantity: str
     run: str
     how: str
+    """By what it was judged."""
+
     clearance: float | None
+    """Error over what is allowed; null where there is no number."""
+
     reason: str = ""
+    """Why a case or a run has no result."""
 
     @property
     def by_law(self) -> bool:
         """Whether a law sees it that every result obeys, and no reference."""
         return self.how in LAWS.values()
 
-    @property
-    def row(self) -> Row:
-        """As it is kept."""
-        return Row(
-            parameters={"quantity": self.quantity, "run": self.run},
-            measures={"clearance": self.clearance},
-            words={"how": self.how, "reason": self.reason},
-        )
 
+class Sample(TypedRow):
+    """A quantity beside its reference; errors relative to the quantity's scale."""
 
-@dataclass(frozen=True)
-class Sample:
-    """A quantity beside its reference; errors relative to the quantity's scale.
-
-    uncertainty  expanded, U = 2u, before it is capped; None where the tolerance is not derived
-    """
+    PARAMETERS = ("quantity",)
 
     quantity: str
     error: float | None
     allowed: float | None
     uncertainty: float | None
-
-    @property
-    def row(self) -> Row:
-        """As it is kept."""
-        measures = {"error": self.error, "allowed": self.allowed, "uncertainty": self.uncertainty}
-        return Row(parameters={"quantity": self.quantity}, measures=measures)
+    """Expanded, U = 2u, before it is capped; null where the tolerance is not derived."""
 
 
 def caught(record: CaseRecord) -> tuple[Caught, ...]:
     """The verdicts that failed."""
-    return tuple(
-        Caught(
-            str(row.parameters["quantity"]), str(row.parameters["run"]), row.words["how"],
-            row.measures["clearance"], row.words["reason"],
-        )
-        for row in record.parts
-        if "how" in row.words
-    )  # fmt: skip
+    return tuple(Caught.of(row) for row in record.parts if "how" in row.words)
 
 
 def samples(record: CaseRecord) -> tuple[Sample, ...]:
     """The quantities beside their references, of a healthy contact."""
-    return tuple(
-        Sample(str(row.parameters["quantity"]), **row.measures)
-        for row in record.parts
-        if "uncertainty" in row.measures
-    )
+    return tuple(Sample.of(row) for row in record.parts if "uncertainty" in row.measures)
 
 
 @dataclass(frozen=True)
@@ -176,7 +150,7 @@ def record_of(
             "failed": len(failed),
             "inconclusive": outcome.count(Status.INCONCLUSIVE),
         },
-        parts=(*(one.row for one in failed), *(one.row for one in measured)),
+        parts=tuple(one.row() for one in (*failed, *measured)),
     )
 
 
@@ -198,9 +172,12 @@ def _caught(outcome: CaseOutcome) -> Iterator[Caught]:
     for verdict in outcome.verdicts:
         if verdict.status is Status.FAIL:
             yield Caught(
-                verdict.name, verdict.run, _how(verdict), verdict.clearance,
-                verdict.meaning if verdict.name == SOLVED else "",
-            )  # fmt: skip
+                quantity=verdict.name,
+                run=verdict.run,
+                how=_how(verdict),
+                clearance=verdict.clearance,
+                reason=verdict.meaning if verdict.name == SOLVED else "",
+            )
 
 
 def _how(verdict: Verdict) -> str:
@@ -234,4 +211,9 @@ def _samples(case: Case, outcome: CaseOutcome, results: Mapping[str, Any]) -> It
         if isinstance(quantity.tolerance, Derived):
             whole = expanded_uncertainty(quantity, quantity.tolerance, case, results)
             uncertainty = whole / verdict.scale
-        yield Sample(quantity.name, verdict.error, verdict.allowed, uncertainty)
+        yield Sample(
+            quantity=quantity.name,
+            error=verdict.error,
+            allowed=verdict.allowed,
+            uncertainty=uncertainty,
+        )

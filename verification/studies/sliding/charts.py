@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 
 import numpy as np
 
-from verification.exhibits.chart import Chart, Curve, Look, Panel, curve
+from verification.exhibits.chart import Chart, Curve, Look, Panel, curve, stacked
 from verification.studies.sliding.estimate import Estimate
 from verification.studies.sliding.path import SlidingPath
 from verification.studies.sliding.verdicts import PAPER
@@ -35,15 +35,15 @@ def stick_fraction_chart(paths: Paths, scales: Mapping[str, float]) -> Chart:
         curves=tuple(_unlabelled(by_force)), height=2.2,
     )  # fmt: skip
     right = Panel(x_label="shift / sliding scale", y_label="", curves=tuple(by_shift), height=2.2)
-    return Chart(
-        name="stick_fraction",
-        title="Stick area against force and against shift",
-        caption="Part of the contact that sticks while the indenter is shifted, after a normal "
+    return stacked(
+        "stick_fraction",
+        "Stick area against force and against shift",
+        "Part of the contact that sticks while the indenter is shifted, after a normal "
         "loading that has already made most of the coated contact slip. The jump at the beginning: "
         "where slip would have to turn back, the surfaces stick again. Grey: Cattaneo and Mindlin. "
         "The sliding scale is Mindlin's sliding displacement of the identical bodies, and "
         "for a coating a mean of those of coating and substrate.",
-        rows=((left, right),),
+        (left, right),
     )
 
 
@@ -56,18 +56,16 @@ def force_chart(paths: Paths, estimates: Mapping[str, Estimate]) -> Chart:
         [e.force for e in estimates.values()],
         Look.MARKS,
     )
-    end = max(path.points[-1].shift for path in paths.values()) / MICROMETRE
-    paper = curve("0.76 (paper)", [0, end], [PAPER, PAPER], Look.BOUND)
-    return Chart(
-        name="force_against_shift",
-        title="Tangential force against shift",
-        caption="Force over the friction limit while the shift grows to at least three times "
+    return stacked(
+        "force_against_shift",
+        "Tangential force against shift",
+        "Force over the friction limit while the shift grows to at least three times "
         "Mindlin's sliding displacement. Dots: the stick area vanishes; the force still grows, "
         "towards µW. Thin black dashes: the number the paper gives for E1/E2 = 2.",
-        rows=((Panel(
-            x_label="shift (µm)", y_label="T / µW",
-            curves=(paper, *curves, marks), height=2.4,
-        ),),),
+        Panel(
+            x_label="shift (µm)", y_label="T / µW", curves=(_paper(paths.values()), *curves, marks),
+            height=2.4,
+        ),
     )  # fmt: skip
 
 
@@ -77,25 +75,28 @@ def variants_chart(product: SlidingPath, groups: Mapping[str, Paths]) -> Chart:
     groups  at most five paths each, so that no two curves of a panel look alike
     """
     paths = [product, *(path for group in groups.values() for path in group.values())]
-    end = max(path.points[-1].shift for path in paths) / MICROMETRE
-    paper = curve("0.76 (paper)", [0, end], [PAPER, PAPER], Look.BOUND)
-    rows = []
+    paper, rows = _paper(paths), []
     for number, (title, group) in enumerate(groups.items(), 1):
         drawn = [_force(name, path, n) for n, (name, path) in enumerate(group.items(), 1)]
         x_label = "shift (µm)" if number == len(groups) else ""
         curves = (paper, _force("product", product, 0), *drawn)
-        rows.append((Panel(
-            title=title, x_label=x_label, y_label="T / µW", curves=curves, height=1.7,
-        ),))  # fmt: skip
-    return Chart(
-        name="friction_law_variants",
-        title="Other readings of the friction law and other paths, E1/E2 = 2",
-        caption="Force over the friction limit against shift, one group of readings in each panel; "
+        rows.append(
+            Panel(title=title, x_label=x_label, y_label="T / µW", curves=curves, height=1.7)
+        )
+    return stacked(
+        "friction_law_variants",
+        "Other readings of the friction law and other paths, E1/E2 = 2",
+        "Force over the friction limit against shift, one group of readings in each panel; "
         "the blue solid line is the product's in all of them. Thin black dashes: the paper's 0.76. "
         "Readings that freeze a direction lose part of the friction for good; slip that opposes "
         "its total instead of its increment turns only slowly into the direction of motion.",
-        rows=tuple(rows),
+        *rows,
     )
+
+
+def _paper(paths: Iterable[SlidingPath]) -> Curve:
+    end = max(path.points[-1].shift for path in paths) / MICROMETRE
+    return curve("0.76 (paper)", [0, end], [PAPER, PAPER], Look.BOUND)
 
 
 def _force(label: str, path: SlidingPath, series: int) -> Curve:

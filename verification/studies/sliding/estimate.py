@@ -3,30 +3,10 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import sqrt
+from math import hypot
 
 from verification.studies.sliding.full_slip import FullSlip, full_slip
 from verification.studies.sliding.path import SlidingPath
-
-
-@dataclass(frozen=True)
-class Evidence:
-    """The same history on the finest grid, on cells twice as large, and with halved steps.
-
-    base, coarse  finest grid, and half its cells along each side
-    half_shift    finest grid, steps half as large in shift
-    half_normal   half the cells, normal steps half as large
-    """
-
-    base: SlidingPath
-    coarse: SlidingPath
-    half_shift: SlidingPath
-    half_normal: SlidingPath
-
-    @property
-    def paths(self) -> tuple[SlidingPath, ...]:
-        """All of them."""
-        return self.base, self.coarse, self.half_shift, self.half_normal
 
 
 @dataclass(frozen=True)
@@ -50,12 +30,16 @@ class Estimate:
         return self.full_slip.force
 
     @property
-    def uncertainty(self) -> float:
-        """Root of the sum of squares of all four."""
-        parts = (
+    def parts(self) -> tuple[float, ...]:
+        """Of the bar."""
+        return (
             self.full_slip.uncertainty, self.by_cells, self.by_shift_steps, self.by_normal_steps
         )  # fmt: skip
-        return sqrt(sum(part**2 for part in parts))
+
+    @property
+    def uncertainty(self) -> float:
+        """Root of the sum of squares of all four."""
+        return hypot(*self.parts)
 
     @property
     def text(self) -> str:
@@ -63,14 +47,23 @@ class Estimate:
         return f"{self.force:.3f} ± {max(self.uncertainty, 0.001):.3f}"
 
 
-def estimate(evidence: Evidence) -> Estimate | None:
-    """T_fs of a contact; None if one of the computations does not resolve it."""
-    base, coarse, half_shift, half_normal = (full_slip(path) for path in evidence.paths)
-    if base is None or coarse is None or half_shift is None or half_normal is None:
+def estimate(
+    base: SlidingPath, coarse: SlidingPath, half_shift: SlidingPath, half_normal: SlidingPath
+) -> Estimate | None:
+    """T_fs of a contact; None if one of the computations does not resolve it.
+
+    base, coarse  finest grid, and half its cells along each side
+    half_shift    finest grid, steps half as large in shift
+    half_normal   half the cells, normal steps half as large
+    """
+    found = [full_slip(path) for path in (base, coarse, half_shift, half_normal)]
+    known = [fs for fs in found if fs is not None]
+    if len(known) < len(found):
         return None
+    on_base, on_coarse, by_shift, by_normal = (fs.force for fs in known)
     return Estimate(
-        half_shift,
-        by_cells=abs(base.force - coarse.force),
-        by_shift_steps=abs(half_shift.force - base.force),
-        by_normal_steps=abs(half_normal.force - coarse.force),
+        known[2],
+        by_cells=abs(on_base - on_coarse),
+        by_shift_steps=abs(by_shift - on_base),
+        by_normal_steps=abs(by_normal - on_coarse),
     )

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 
 from verification.exhibits.chart import Chart
 from verification.exhibits.numbers import plain
-from verification.exhibits.table import Table
+from verification.exhibits.table import Table, table_of
 from verification.running.row import CaseRecord, found
 from verification.running.study import Conclusion, Records, Settings, Study, StudyCase
 from verification.studies.sliding import verdicts
@@ -17,7 +18,7 @@ from verification.studies.sliding.charts import (
     stick_fraction_chart,
     variants_chart,
 )
-from verification.studies.sliding.estimate import Estimate, estimate
+from verification.studies.sliding.estimate import Estimate
 from verification.studies.sliding.full_slip import full_slip
 from verification.studies.sliding.path import SlidingPath
 from verification.studies.sliding.selection import (
@@ -31,7 +32,7 @@ from verification.studies.sliding.selection import (
     cases,
     cases_of,
     null_runs,
-    path_of,
+    paths_of,
     variant_group,
     variant_kind,
     variant_name,
@@ -53,6 +54,9 @@ REMARKS = (
     "level for E1/E2 = 2 only.",
 )
 
+# By the name that people see.
+IDENTICAL = {f"identical, ν = {alike.poisson_ratio:g}": alike for alike in ALIKE}
+
 
 @dataclass(frozen=True)
 class _Found:
@@ -68,26 +72,30 @@ class _Found:
     @cached_property
     def base(self) -> dict[str, SlidingPath]:
         """Histories under shift control on the finest grid."""
-        known = {name: path_of(self.records, c.base) for name, c in self.contacts.items()}
-        return {name: path for name, path in known.items() if path is not None}
+        return self._named({name: c.base for name, c in self.contacts.items()})
 
     @cached_property
     def null(self) -> dict[str, SlidingPath]:
         """Histories of the identical bodies."""
-        runs = zip(ALIKE, null_runs(self.settings), strict=True)
-        known = {f"identical, ν = {a.poisson_ratio:g}": path_of(self.records, r) for a, r in runs}
-        return {name: path for name, path in known.items() if path is not None}
+        return self._named(dict(zip(IDENTICAL, null_runs(self.settings), strict=True)))
 
     @cached_property
     def estimates(self) -> dict[str, Estimate]:
-        evidence = {name: c.evidence(self.records) for name, c in self.contacts.items()}
-        known = {name: estimate(e) for name, e in evidence.items() if e is not None}
+        known = {name: c.estimate(self.records) for name, c in self.contacts.items()}
         return {name: e for name, e in known.items() if e is not None}
+
+    @cached_property
+    def by_force(self) -> dict[str, SlidingPath]:
+        """Histories in twenty steps of force."""
+        return self._named({name: c.force for name, c in self.contacts.items()})
+
+    def _named(self, runs: Mapping[str, StudyCase]) -> dict[str, SlidingPath]:
+        paths = paths_of(self.records, runs.values())
+        return {name: paths[run] for name, run in runs.items() if run in paths}
 
     def variant_runs(self, contact: str) -> dict[VariantRun, SlidingPath]:
         """The variants of a contact that have a record."""
-        known = {run: path_of(self.records, run) for run in self.contacts[contact].variants}
-        return {run: path for run, path in known.items() if path is not None}
+        return paths_of(self.records, self.contacts[contact].variants)
 
     def variants(self, contact: str) -> tuple[Variant, ...]:
         return tuple(
@@ -119,7 +127,7 @@ def conclude(settings: Settings, records: Records) -> Conclusion:
             verdicts.paper_number(here.estimates.get(paper), here.variants(paper)),
             verdicts.force_is_mean_cosine(here.base),
             verdicts.slip_opposes_shear(here.base),
-            verdicts.null_tests(*(null if len(null) == len(ALIKE) else (None, None))),
+            verdicts.null_tests(*(null if len(null) == len(IDENTICAL) else (None, None))),
             verdicts.uncoupled_sticks(
                 {
                     name: v
@@ -141,7 +149,7 @@ def _charts(here: _Found, paper: str) -> tuple[Chart, ...]:
     if not here.base:
         return ()
     scales = {name: c.base.contact.sliding_scale for name, c in here.contacts.items()}
-    scales |= {f"identical, ν = {a.poisson_ratio:g}": a.sliding_scale for a in ALIKE}
+    scales |= {name: alike.sliding_scale for name, alike in IDENTICAL.items()}
     charts = [
         stick_fraction_chart(here.base | here.null, scales),
         force_chart(here.base, here.estimates),
@@ -155,54 +163,49 @@ def _charts(here: _Found, paper: str) -> tuple[Chart, ...]:
 
 
 def _results(here: _Found) -> Table:
-    rows = []
-    for name, path in here.base.items():
-        e = here.estimates.get(name)
-        by_force = path_of(here.records, here.contacts[name].force)
-        in_force = full_slip(by_force) if by_force is not None else None
-        full = [p for p in path.points if p.full_slip and p.shift > 0]
-        rows.append((
-            name,
-            e.text if e else "not resolved",
-            ", ".join(plain(v, 2) for v in _parts(e)) if e else "–",
-            in_force.text if in_force else "–",
-            f"{e.full_slip.shift / MICROMETRE:.3f}" if e else "–",
-            f"{largest_force(path):.7f}",
-            f"{full[0].mean_cosine:.4f}" if full else "–",
-        ))  # fmt: skip
-    return Table(
-        title="Where the stick area vanishes, and how far the force still grows",
-        columns=(
-            "contact", "T_fs / µW", "bar from fit, cells, steps of shift and W",
-            "T_fs by force, 20 steps", "shift at T_fs (µm)", "T_max / µW",
-            "⟨cosψ⟩, first without stick",
-        ),
-        rows=tuple(rows),
-        note="T_fs from the halved shift steps on the finest grid. In twenty steps of force the "
+    def resolved(text: Callable[[Estimate], str], without: str = "–") -> Callable[[str], str]:
+        known = here.estimates
+        return lambda name: text(known[name]) if name in known else without
+
+    def in_force(name: str) -> str:
+        found = full_slip(here.by_force[name]) if name in here.by_force else None
+        return found.text if found else "–"
+
+    def without_stick(name: str) -> str:
+        full = (p for p in here.base[name].points if p.full_slip and p.shift > 0)
+        first = next(full, None)
+        return f"{first.mean_cosine:.4f}" if first else "–"
+
+    return table_of(
+        "Where the stick area vanishes, and how far the force still grows",
+        {
+            "contact": str,
+            "T_fs / µW": resolved(lambda e: e.text, "not resolved"),
+            "bar from fit, cells, steps of shift and W": resolved(
+                lambda e: ", ".join(plain(part, 2) for part in e.parts)
+            ),
+            "T_fs by force, 20 steps": in_force,
+            "shift at T_fs (µm)": resolved(lambda e: f"{e.full_slip.shift / MICROMETRE:.3f}"),
+            "T_max / µW": lambda name: f"{largest_force(here.base[name]):.7f}",
+            "⟨cosψ⟩, first without stick": without_stick,
+        },
+        here.base,
+        "T_fs from the halved shift steps on the finest grid. In twenty steps of force the "
         "increments are coarser, and the difference is theirs.",
-    )  # fmt: skip
-
-
-def _parts(e: Estimate) -> tuple[float, ...]:
-    return e.full_slip.uncertainty, e.by_cells, e.by_shift_steps, e.by_normal_steps
+    )
 
 
 def _variant_table(here: _Found) -> Table:
-    rows = [
-        (
-            f"{variant.name}; {contact}",
-            variant.vanishing.text if variant.vanishing else "not resolved",
-            f"{variant.largest:.4f}",
-            "near" if variant.near_paper else "no",
-        )
-        for contact in here.contacts
-        for variant in here.variants(contact)
-    ]
-    return Table(
-        title="Other paths and other readings of the friction law",
-        columns=("variant", "T_fs / µW", "T_max / µW", "near 0.76"),
-        rows=tuple(rows),
-        note=f"T_max up to three times Mindlin's sliding displacement. Near is T_fs within "
+    return table_of(
+        "Other paths and other readings of the friction law",
+        {
+            "variant": lambda of: f"{of[1].name}; {of[0]}",
+            "T_fs / µW": lambda of: of[1].vanishing_text,
+            "T_max / µW": lambda of: f"{of[1].largest:.4f}",
+            "near 0.76": lambda of: "near" if of[1].near_paper else "no",
+        },
+        [(contact, one) for contact in here.contacts for one in here.variants(contact)],
+        f"T_max up to three times Mindlin's sliding displacement. Near is T_fs within "
         f"{verdicts.NEAR:g} and its bar of {verdicts.PAPER:g}, or T_max within {verdicts.NEAR:g} "
         "of it. On the total slip the stick "
         "zone is a spot of a few cells that wanders to the trailing edge and leaves there: where "

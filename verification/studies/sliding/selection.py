@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass, replace
+from itertools import chain
+from typing import TypeVar
 
 from semi_analytical import Coupling
 from verification.judging.case import Level
 from verification.running.row import found
 from verification.running.study import Records, Settings, StudyCase
 from verification.studies.sliding.contacts import AlikeContact, CoatedContact
-from verification.studies.sliding.estimate import Evidence
+from verification.studies.sliding.estimate import Estimate, estimate
 from verification.studies.sliding.friction_laws import FrictionLaw
 from verification.studies.sliding.law_run import LawRun
 from verification.studies.sliding.path import SlidingPath
@@ -43,6 +46,7 @@ OTHER_COUNTS = (80, 20, 10, 5)  # of increments, for directions that freeze
 
 
 VariantRun = LawRun | ShortPathRun | ShiftRun
+R = TypeVar("R", bound=StudyCase)
 ASSUMED = (
     "Assumed, because the paper does not say: substrate E2 = 210 GPa (from its contact radius and "
     "peak pressure), ν = 0.3 of coating and substrate, a rigid ball, a paraboloid for the sphere, "
@@ -66,11 +70,10 @@ class ContactCases:
         """The four that the estimate rests on."""
         return self.base, self.coarse, self.half_shift, self.half_normal
 
-    def evidence(self, records: Records) -> Evidence | None:
-        """Their records; None if one is missing."""
-        paths = [path_of(records, run) for run in self.histories]
-        known = [path for path in paths if path is not None]
-        return Evidence(*known) if len(known) == len(paths) else None
+    def estimate(self, records: Records) -> Estimate | None:
+        """T_fs; None if one of them has no record or does not resolve it."""
+        paths = paths_of(records, self.histories)
+        return estimate(*paths.values()) if len(paths) == len(self.histories) else None
 
 
 def cases_of(ratio: float, settings: Settings) -> ContactCases:
@@ -103,12 +106,11 @@ def cases_of(ratio: float, settings: Settings) -> ContactCases:
 def cases(settings: Settings) -> tuple[StudyCase, ...]:
     """All cases, the long ones first so that no worker is left with one at the end."""
     contacts = [cases_of(ratio, settings) for ratio in RATIOS]
+    long = zip(
+        *((c.half_shift, c.base, c.half_normal, c.coarse, c.force) for c in contacts), strict=True
+    )
     return (
-        *(c.half_shift for c in contacts),
-        *(c.base for c in contacts),
-        *(c.half_normal for c in contacts),
-        *(c.coarse for c in contacts),
-        *(c.force for c in contacts),
+        *chain.from_iterable(long),
         *null_runs(settings),
         *(variant for c in contacts for variant in c.variants),
     )
@@ -159,6 +161,6 @@ def variant_group(run: VariantRun) -> str:
     return "other bounds of the shear"
 
 
-def path_of(records: Records, run: StudyCase) -> SlidingPath | None:
-    """The path of a run; None if its record is missing."""
-    return next(map(SlidingPath.of, found([run], records).values()), None)
+def paths_of(records: Records, runs: Iterable[R]) -> dict[R, SlidingPath]:
+    """The paths of the runs that have a record."""
+    return {run: SlidingPath.of(record) for run, record in found(runs, records).items()}

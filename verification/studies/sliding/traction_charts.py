@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from verification.exhibits.chart import Chart, Curve, Look, Panel, curve
+from verification.exhibits.chart import Chart, Curve, Look, Panel, curve, stacked
 from verification.running.row import CaseRecord
 
 COLUMNS = 2
@@ -45,46 +45,41 @@ def profiles(record: CaseRecord) -> list[Profile]:
 
 def figures(found: Mapping[float, CaseRecord]) -> tuple[Chart, ...]:
     """Pressure and shear next to y = 0, a panel per ratio of moduli."""
-    pressure = Chart(
-        name="figure_3_pressure",
-        title="Figure 3 of the paper: pressure profiles in the plane y = 0",
-        caption="Pressure over the Hertz pressure for E1 = E2 at four tangential forces. The "
-        "force lowers the cusp at the centre and moves a few per cent of the pressure to the "
-        "trailing side.",
-        rows=_panels(found, "p / Hertz pressure", _pressures),
+    return (
+        stacked(
+            "figure_3_pressure",
+            "Figure 3 of the paper: pressure profiles in the plane y = 0",
+            "Pressure over the Hertz pressure for E1 = E2 at four tangential forces. The "
+            "force lowers the cusp at the centre and moves a few per cent of the pressure to the "
+            "trailing side.",
+            *_panels(found, "p / Hertz pressure", _pressures),
+        ),
+        stacked(
+            "figure_4_shear",
+            "Figure 4 of the paper: shear profiles in the plane y = 0",
+            "Shear qₓ over µ times the Hertz pressure at four tangential forces; the thin "
+            "dashed lines are the friction limit ± µp at the largest force. At T = 0 the shear "
+            "pulls outwards on both sides and carries no resultant.",
+            *_panels(found, "qₓ / (µ × Hertz pressure)", _shears),
+        ),
     )
-    shear = Chart(
-        name="figure_4_shear",
-        title="Figure 4 of the paper: shear profiles in the plane y = 0",
-        caption="Shear qₓ over µ times the Hertz pressure at four tangential forces; the thin "
-        "dashed lines are the friction limit ± µp at the largest force. At T = 0 the shear pulls "
-        "outwards on both sides and carries no resultant.",
-        rows=_panels(found, "qₓ / (µ × Hertz pressure)", _shears),
-    )
-    return pressure, shear
 
 
 def _panels(
     found: Mapping[float, CaseRecord], label: str, curves_of: CurvesOf
-) -> tuple[tuple[Panel, ...], ...]:
-    rows = []
-    items = list(found.items())
-    for start in range(0, len(items), COLUMNS):
-        row = []
-        for column, (ratio, record) in enumerate(items[start : start + COLUMNS]):
-            last_row = start + COLUMNS >= len(items)
-            legend = start == 0 and column == min(COLUMNS, len(items)) - 1
-            row.append(
-                Panel(
-                    x_label="x / Hertz radius" if last_row else "",
-                    y_label=label if column == 0 else "",
-                    curves=curves_of(record, legend),
-                    title=f"E1/E2 = {ratio:g}",
-                    height=1.7,
-                )
-            )
-        rows.append(tuple(row))
-    return tuple(rows)
+) -> list[tuple[Panel, ...]]:
+    last_row = len(found) - 1 - (len(found) - 1) % COLUMNS
+    panels = [
+        Panel(
+            x_label="x / Hertz radius" if number >= last_row else "",
+            y_label="" if number % COLUMNS else label,
+            curves=curves_of(record, number == min(COLUMNS, len(found)) - 1),
+            title=f"E1/E2 = {ratio:g}",
+            height=1.7,
+        )
+        for number, (ratio, record) in enumerate(found.items())
+    ]
+    return [tuple(panels[start : start + COLUMNS]) for start in range(0, len(panels), COLUMNS)]
 
 
 def _pressures(record: CaseRecord, legend: bool) -> tuple[Curve, ...]:

@@ -47,6 +47,11 @@ class Variant:
     largest: float
 
     @property
+    def vanishing_text(self) -> str:
+        """Where its stick area vanishes."""
+        return self.vanishing.text if self.vanishing else "not resolved"
+
+    @property
     def near_paper(self) -> bool:
         """Whether one of its two numbers comes near the paper's."""
         fs = self.vanishing
@@ -197,8 +202,7 @@ def paper_number(found: Estimate | None, variants: Iterable[Variant]) -> Stateme
 
 def _confirmed(near: Variant, variants: Iterable[Variant]) -> str:
     """Name and numbers of a variant, and whether finer cells agree."""
-    at = near.vanishing.text if near.vanishing else "not resolved"
-    text = f"{near.name} (T_fs/µW = {at}, T_max/µW = {near.largest:.3f})"
+    text = f"{near.name} (T_fs/µW = {near.vanishing_text}, T_max/µW = {near.largest:.3f})"
     finer = [v for v in variants if v.kind == near.kind and v.cells > near.cells]
     return text + (", not confirmed by finer cells" if any(not v.near_paper for v in finer) else "")
 

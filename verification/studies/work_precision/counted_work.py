@@ -24,10 +24,10 @@ def transforms(values: int, count: float) -> float:
     return count * TRANSFORM * values * log2(values)
 
 
-def of_surface(result: Surface) -> float:
-    """Operations of the convolutions: two transforms of a grid padded to twice the window."""
-    nx, ny = result.grid.cells
-    return transforms(4 * nx * ny, 2 * convolutions(result))
+def of_convolutions(cells: tuple[int, int], count: int) -> float:
+    """Operations of convolutions: two transforms of a grid padded to twice the window."""
+    nx, ny = cells
+    return transforms(4 * nx * ny, 2 * count)
 
 
 def convolutions(result: Surface) -> int:

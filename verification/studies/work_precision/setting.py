@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from enum import StrEnum
 
@@ -102,55 +101,39 @@ class PrecisionCase:
         counted work (see `counted_work`); unknowns are tractions of the surface grid or
         displacements of the section.
         """
+        contact, components = self.solved, 1 if self.solved.problem.scene.friction is None else 3
         if self.by_sections:
-            section, *clock = timed(self._section)
-            return self._record(
-                self.solved.errors_of(section),
-                counted_work.of_section(section),
-                clock,
-                factorisations=counted_work.factorisations(section),
-                systems=counted_work.systems(section),
-                unknowns=counted_work.unknowns(section),
-                increments=len(section.increments),
-            )
-        components = 1 if self.solved.problem.scene.friction is None else 3
-        unknowns = components * self.fineness**2
-        if self.method is Method.FROZEN:
-            history, *clock = timed(self._frozen)
-            work = counted_work.transforms(4 * self.fineness**2, 2 * history.convolutions)
-            return self._record(
-                self.solved.frozen(history),
-                work + self._sampling_operations,
-                clock,
-                convolutions=history.convolutions,
-                unknowns=unknowns,
-                increments=len(history.states),
-            )
-        surface, *clock = timed(self._surface)
-        return self._record(
-            self.solved.errors_of(surface),
-            counted_work.of_surface(surface) + self._sampling_operations,
-            clock,
-            convolutions=counted_work.convolutions(surface),
-            unknowns=unknowns,
-            increments=len(surface.increments),
-        )
-
-    def _record(
-        self,
-        errors: Mapping[str, float],
-        operations: float,
-        clock: Sequence[float],
-        **counters: int,
-    ) -> CaseRecord:
-        seconds, repeats = clock
+            section, seconds, repeats = timed(self._section)
+            errors, operations = contact.errors_of(section), counted_work.of_section(section)
+            counters = {
+                "factorisations": counted_work.factorisations(section),
+                "systems": counted_work.systems(section),
+                "unknowns": counted_work.unknowns(section),
+                "increments": len(section.increments),
+            }
+        else:
+            if self.method is Method.FROZEN:
+                history, seconds, repeats = timed(self._frozen)
+                errors, steps = contact.frozen(history), len(history.states)
+                convolutions = history.convolutions
+            else:
+                surface, seconds, repeats = timed(self._surface)
+                errors, steps = contact.errors_of(surface), len(surface.increments)
+                convolutions = counted_work.convolutions(surface)
+            operations = counted_work.of_convolutions(self._grid.cells, convolutions)
+            operations += self._sampling_operations
+            counters = {
+                "convolutions": convolutions,
+                "unknowns": components * self.fineness**2,
+                "increments": steps,
+            }
         return CaseRecord(
             parameters=parameters_of(self),
             measures={**errors, OPERATIONS: operations},
             counters=counters,
             words={"setting": self.text},
             seconds=seconds,
-            repeats=int(repeats),
+            repeats=repeats,
         )
 
     @property
