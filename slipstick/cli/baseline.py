@@ -7,6 +7,7 @@ from typing import Annotated
 
 import typer
 
+from slipstick.cli.optional import optional
 from slipstick.cli.report_file import read_report
 
 
@@ -20,11 +21,8 @@ def baseline(
     ] = False,
     because: Annotated[
         str,
-        typer.Option(
-            "--because",
-            metavar="TEXT",
-            show_default=False,
-            help="Why these numbers are right; --accept needs it.",
+        optional(
+            "--because", metavar="TEXT", help="Why these numbers are right; --accept needs it."
         ),
     ] = "",
     source: Annotated[
@@ -33,10 +31,9 @@ def baseline(
     ] = Path("reports/quick"),
     directory: Annotated[
         Path | None,
-        typer.Option(
+        optional(
             "--to",
             metavar="DIR",
-            show_default=False,
             help="Folder of the baselines; the one that comes with slipstick if absent.",
         ),
     ] = None,

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from slipstick.cli.errors import ExitCode
+from slipstick.cli.optional import optional
 from slipstick.cli.report_file import read_report
 
 if TYPE_CHECKING:
@@ -22,10 +23,9 @@ def compare(
     ] = Path("reports/quick"),
     baseline: Annotated[
         Path | None,
-        typer.Option(
+        optional(
             "--baseline",
             metavar="PLACE",
-            show_default=False,
             help="A folder of baselines, or the report.json of another report; the baselines that "
             "come with slipstick if absent.",
         ),

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from slipstick.cli.optional import directory, optional
 from slipstick.cli.scene_options import SceneArgument, SetOption
 
 if TYPE_CHECKING:
@@ -59,33 +60,27 @@ def frf(
     scene: SceneArgument,
     at: Annotated[
         list[WaveVector] | None,
-        typer.Option(
+        optional(
             "--at",
             metavar="M,N",
             parser=_wave_vector,
-            show_default=False,
             help="Give the 3x3 matrix at these wavenumbers along x and y, in 1/m, negative ones "
             "too; any number of times.",
         ),
     ] = None,
     between: Annotated[
         Band | None,
-        typer.Option(
+        optional(
             "--range",
             metavar="LOW,HIGH",
             parser=_band,
-            show_default=False,
             help="First and last wavenumber of the table, in 1/m; fitted to the layers if absent.",
         ),
     ] = None,
     points: Annotated[
         int | None,
-        typer.Option(
-            "--points",
-            min=2,
-            max=100_000,
-            show_default=False,
-            help="Rows of the table; eight per decade if absent.",
+        optional(
+            "--points", min=2, max=100_000, help="Rows of the table; eight per decade if absent."
         ),
     ] = None,
     as_json: Annotated[
@@ -93,13 +88,7 @@ def frf(
     ] = False,
     output: Annotated[
         Path | None,
-        typer.Option(
-            "--output",
-            "-o",
-            metavar="DIR",
-            show_default=False,
-            help="Write the table (CSV) and its plot (PNG, SVG) there; made if absent.",
-        ),
+        directory("Write the table (CSV) and its plot (PNG, SVG) there; made if absent."),
     ] = None,
     overrides: SetOption = None,
 ) -> None:

@@ -1,10 +1,10 @@
 """`slipstick run`: from a scene to a directory of results."""
 
-from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from slipstick.cli.optional import FiguresOption, OutputOption
 from slipstick.cli.scene_options import SceneArgument, SetOption
 from slipstick.cli.solver_option import SolverOption
 from slipstick.solvers.names import SolverName
@@ -19,15 +19,10 @@ if TYPE_CHECKING:
 
 def run(
     scene: SceneArgument,
-    output: Annotated[
-        Path,
-        typer.Option("--output", "-o", metavar="DIR", help="Where the results go; made if absent."),
-    ],
+    output: OutputOption,
     overrides: SetOption = None,
     solver: SolverOption = SolverName.SEMI_ANALYTICAL,
-    figures: Annotated[
-        bool, typer.Option("--figures/--no-figures", help="Draw figures, or leave them out.")
-    ] = True,
+    figures: FiguresOption = True,
     overwrite: Annotated[
         bool,
         typer.Option("--overwrite", help="Replace files in DIR that are not of an earlier run."),

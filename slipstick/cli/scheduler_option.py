@@ -6,15 +6,16 @@ from typing import TYPE_CHECKING, Annotated, TypeAlias
 
 import typer
 
+from slipstick.cli.optional import optional
+
 if TYPE_CHECKING:
     from verification.running.case_pool import Workers
 
 SchedulerOption: TypeAlias = Annotated[
     str | None,
-    typer.Option(
+    optional(
         "--scheduler",
         metavar="ADDRESS",
-        show_default=False,
         help="Compute on the workers of the dask cluster at tcp://host:port or tls://host:port, "
         "whatever --workers says.",
     ),

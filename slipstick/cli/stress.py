@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from slipstick.cli.optional import FiguresOption, OutputOption, optional
 from slipstick.cli.scene_options import SetOption
 from slipstick.cli.solver_option import AskedSolver
 from slipstick.solvers.names import SolverName
@@ -27,26 +28,21 @@ def stress(
             show_default=False,
         ),
     ],
-    output: Annotated[
-        Path,
-        typer.Option("--output", "-o", metavar="DIR", help="Where the results go; made if absent."),
-    ],
+    output: OutputOption,
     step: Annotated[
         int | None,
-        typer.Option(
+        optional(
             "--step",
             metavar="N",
             min=1,
-            show_default=False,
             help="Loading step at the end of which the stress is taken; the last if absent.",
         ),
     ] = None,
     depths: Annotated[
         str | None,
-        typer.Option(
+        optional(
             "--depths",
             metavar="Z,Z,...",
-            show_default=False,
             help="Depths such as '0,0.1 mm,0.2 mm'; fitted to contact and layers if absent. Both "
             "sides of every interface are always there.",
         ),
@@ -57,9 +53,7 @@ def stress(
     volume: Annotated[
         bool, typer.Option("--volume", help="Write the whole volume as VTU too, not only y = 0.")
     ] = False,
-    figures: Annotated[
-        bool, typer.Option("--figures/--no-figures", help="Draw figures, or leave them out.")
-    ] = True,
+    figures: FiguresOption = True,
     overrides: SetOption = None,
     solver: AskedSolver = None,
 ) -> None:

@@ -10,6 +10,7 @@ import typer
 
 from slipstick.cli.errors import ExitCode
 from slipstick.cli.level_name import LevelName
+from slipstick.cli.optional import directory, optional
 from slipstick.cli.scene_options import SetOption
 from slipstick.cli.scheduler_option import SchedulerOption, workers_at
 from slipstick.solvers.names import SolverName
@@ -38,49 +39,38 @@ def study(
     overrides: SetOption = None,
     step: Annotated[
         int | None,
-        typer.Option(
+        optional(
             metavar="N",
             min=1,
-            show_default=False,
             help="Loading step of SCENE at whose end quantities are read; the last if absent.",
         ),
     ] = None,
     solver: Annotated[
         SolverName | None,
-        typer.Option(
+        optional(
             "--solver",
             metavar="NAME",
-            show_default=False,
             help="What solves SCENE: 'semi-analytical', or finite elements, 'fem' with a penalty "
             "and 'fem-complementarity' without one; the study's own if absent.",
         ),
     ] = None,
     levels: Annotated[
         int | None,
-        typer.Option(
+        optional(
             metavar="N",
             min=LEAST_LEVELS,
             max=MOST_LEVELS,
-            show_default=False,
             help="Levels of refinement of SCENE; 4, 5 or 6 by --level if absent.",
         ),
     ] = None,
     output: Annotated[
-        Path | None,
-        typer.Option(
-            "--output",
-            "-o",
-            metavar="DIR",
-            show_default=False,
-            help="Where everything goes; out/study-NAME-LEVEL if absent.",
-        ),
+        Path | None, directory("Where everything goes; out/study-NAME-LEVEL if absent.")
     ] = None,
     cells: Annotated[
         int | None,
-        typer.Option(
+        optional(
             metavar="N",
             min=LEAST_CELLS,
-            show_default=False,
             help="Cells of the finest grid along each side, even, or elements of the finest mesh "
             "per contact radius; scene and level decide if absent.",
         ),

@@ -9,6 +9,7 @@ import typer
 
 from slipstick.cli.errors import ExitCode
 from slipstick.cli.level_name import LevelName
+from slipstick.cli.optional import directory, optional
 from slipstick.cli.scheduler_option import SchedulerOption, workers_at
 
 if TYPE_CHECKING:
@@ -30,12 +31,8 @@ def verify(
     ] = LevelName.QUICK,
     output: Annotated[
         Path | None,
-        typer.Option(
-            "--output",
-            "-o",
-            metavar="DIR",
-            show_default=False,
-            help="Where the report goes; reports/LEVEL if absent, with -selection for some cases.",
+        directory(
+            "Where the report goes; reports/LEVEL if absent, with -selection for some cases."
         ),
     ] = None,
     list_cases: Annotated[
@@ -43,11 +40,10 @@ def verify(
     ] = False,
     workers: Annotated[
         int | None,
-        typer.Option(
+        optional(
             "--workers",
             metavar="N",
             min=1,
-            show_default=False,
             help="Cases at a time, each in a process of its own; one per core if absent.",
         ),
     ] = None,
@@ -57,10 +53,9 @@ def verify(
     scheduler: SchedulerOption = None,
     studies: Annotated[
         Path | None,
-        typer.Option(
+        optional(
             "--studies",
             metavar="DIR",
-            show_default=False,
             help="Folder whose studies the report shows; reports/studies and out if absent.",
         ),
     ] = None,
