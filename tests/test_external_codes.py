@@ -18,7 +18,7 @@ from verification.external_codes.calculix_deck import (
     calculix_deck,
 )
 from verification.external_codes.calculix_result import read_normal_force, read_tractions
-from verification.external_codes.coated_scene import FRICTIONLESS, HERTZ_RADIUS, far_displacement
+from verification.external_codes.coated_scene import FRICTIONLESS, HERTZ, far_displacement
 from verification.external_codes.recorded import NAME, Recorded, recorded
 from verification.external_codes.run_calculix import FINENESSES, SCENES, deck_hash
 from verification.judging.outcome import Status
@@ -66,7 +66,7 @@ def test_elements_fill_their_section(scene, body):
     nodes, elements = nodes_and_elements(scene, body)
     area = 0.0
     for element in elements:
-        r, z = np.array([nodes[n] for n in element]).T / HERTZ_RADIUS
+        r, z = np.array([nodes[n] for n in element]).T / HERTZ.contact_radius
         around = [0, 4, 1, 5, 2, 6, 3, 7]  # corner and midside in turn, counterclockwise
         twice = r[around] * np.roll(z[around], -1) - z[around] * np.roll(r[around], -1)
         assert twice.sum() > 0
@@ -82,7 +82,7 @@ def test_elements_of_the_body_do_not_straddle_the_interface():
     nodes, elements = nodes_and_elements(FRICTIONLESS, "BODY")
     found = blocks(calculix_deck(FRICTIONLESS, COARSE))
     coating = {int(n) for row in found["*ELSET, ELSET=COATING"] for n in row}
-    interface = -FRICTIONLESS.thickness * HERTZ_RADIUS
+    interface = -FRICTIONLESS.thickness * HERTZ.contact_radius
     for number, element in enumerate(elements, 1):
         depths = [nodes[n][1] for n in element]
         above = min(depths) >= interface * (1 + 1e-9)
@@ -149,9 +149,9 @@ def frd_line(number, *values):
 
 def frd(pressures):
     """Nodes on the surface from the axis, one below it, and contact stresses at all of them."""
-    nodes = [frd_line(n, n * HERTZ_RADIUS, 0.0, 0.0) for n in range(len(pressures))]
+    nodes = [frd_line(n, n * HERTZ.contact_radius, 0.0, 0.0) for n in range(len(pressures))]
     stresses = [frd_line(n, 0, 0, 0, p, 3e-2 * p, 4e-2 * p) for n, p in enumerate(pressures)]
-    below = frd_line(99, 0.5 * HERTZ_RADIUS, -1.0, 0.0), frd_line(99, 0, 0, 0, 7.0, 0, 0)
+    below = frd_line(99, 0.5 * HERTZ.contact_radius, -1.0, 0.0), frd_line(99, 0, 0, 0, 7.0, 0, 0)
     head = "    2C                             5                                     1"
     contact = " -4  CONTACT     6    1"
     return "\n".join([head, *nodes, below[0], " -3", contact, *stresses, below[1], " -3"])
@@ -164,7 +164,7 @@ def test_force_is_the_last_one_of_the_whole_circle():
 def test_tractions_are_those_of_touched_corner_nodes():
     read = read_tractions(frd([4.0, 3.0, 2.0, 1.0, 0.0]))
     assert read.radii == pytest.approx([0.0, 2.0], abs=1e-5)
-    expected = np.array([4.0, 2.0]) / coated_scene.HERTZ_PRESSURE
+    expected = np.array([4.0, 2.0]) / coated_scene.HERTZ.peak_pressure
     assert read.pressure == pytest.approx(expected, rel=1e-5)
     assert read.shear == pytest.approx(5e-2 * expected, rel=1e-5)
 

@@ -135,13 +135,15 @@ def record(*parts: Caught | Sample) -> CaseRecord:
     return CaseRecord(
         measures={ERROR: 1e-5},
         counters={"verdicts": 3, "failed": failed, "inconclusive": 0},
-        parts=tuple(part.row for part in parts),
+        parts=tuple(part.row() for part in parts),
     )
 
 
 def test_what_failed_and_what_was_measured_come_back_from_their_rows() -> None:
-    by_law = Caught("largest_residual", "", "residual", None, "why")
-    sample = Sample("approach", None, 1e-4, 2e-5)
+    by_law = Caught(
+        quantity="largest_residual", run="", how="residual", clearance=None, reason="why"
+    )
+    sample = Sample(quantity="approach", error=None, allowed=1e-4, uncertainty=2e-5)
     kept = CaseRecord.model_validate_json(record(A_FAILURE, sample, by_law).model_dump_json())
     assert caught(kept) == (A_FAILURE, by_law)
     assert samples(kept) == (sample,)

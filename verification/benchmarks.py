@@ -11,7 +11,7 @@ from collections.abc import Callable, Iterator
 
 import numpy as np
 
-from contact_scene import Body, CoulombFriction, Layer, LoadStep, Scene
+from contact_scene import Body, Layer, LoadStep, Scene
 from semi_analytical import Increment, solve
 from semi_analytical.frf.stack import Stack, stack_of
 from semi_analytical.influence.layered import LayeredCoefficients
@@ -21,6 +21,7 @@ from semi_analytical.normal_load import PressureSum
 from semi_analytical.operator import offsets_for
 from verification.problems import paper_scene as paper
 from verification.problems.layered_scene import coated, film, pressed, rigid_ball
+from verification.problems.paper_scene import pressing
 from verification.running.report_record import Benchmark
 
 COMPONENTS = ("zz", "xx", "yy", "xy", "zx", "zy")
@@ -90,13 +91,7 @@ def coupled_benchmarks() -> Iterator[Benchmark]:
 
 def _pushed(body: Body) -> Scene:
     push = LoadStep(tangential_force=(0.95 * paper.FRICTION_LIMIT, 0.0), increments=20)
-    return Scene(
-        title="benchmark",
-        indenter=rigid_ball(),
-        body=body,
-        friction=CoulombFriction(coefficient=paper.FRICTION),
-        loading=(LoadStep(normal_force=paper.NORMAL_FORCE, increments=15), push),
-    )
+    return pressed("benchmark", rigid_ball(), body, pressing(15), push, friction=paper.FRICTION)
 
 
 def _coefficients(cells: int) -> float:

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from contact_scene import Body, CoulombFriction, FiniteElementDiscretisation, LoadStep, Scene
+from contact_scene import Body, FiniteElementDiscretisation, LoadStep, Scene
 from verification.cases.turned import turned
 from verification.judging.run import SOLVER_TOLERANCE, Run, SectionRun
 from verification.problems import paper_scene as paper
-from verification.problems.layered_scene import SUBSTRATE, coated, film, rigid_ball
-from verification.problems.paper_scene import HERTZ, NORMAL_FORCE
+from verification.problems.layered_scene import SUBSTRATE, coated, film, pressed, rigid_ball
+from verification.problems.paper_scene import HERTZ, NORMAL_FORCE, pressing
 
 MARGIN = 1.2  # half the window over Hertz's radius
 PRESSED, PUSHED, BACK = 1, 2, 3  # loading steps
@@ -33,7 +33,7 @@ class CoupledContact:
         """Pressed, pushed and pulled back."""
         limit = self.friction * NORMAL_FORCE
         return (
-            LoadStep(normal_force=NORMAL_FORCE, increments=PRESSING),
+            pressing(PRESSING),
             LoadStep(tangential_force=(self.part * limit, 0.0), increments=2),
             LoadStep(tangential_force=(-self.part * limit, 0.0), increments=3),
         )
@@ -68,13 +68,8 @@ class CoupledContact:
 
     def scene(self, loading: tuple[LoadStep, ...], way: str) -> Scene:
         """Under a history."""
-        return Scene(
-            title=f"Rigid ball on a body: {self.name}{way}",
-            indenter=rigid_ball(),
-            body=self.body,
-            friction=CoulombFriction(coefficient=self.friction),
-            loading=loading,
-        )
+        title = f"Rigid ball on a body: {self.name}{way}"
+        return pressed(title, rigid_ball(), self.body, *loading, friction=self.friction)
 
 
 BARE = CoupledContact("homogeneous, µ = 0.3", Body(material=SUBSTRATE), 0.3, 2 / 3)

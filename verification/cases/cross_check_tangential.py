@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from contact_results.quantities import shift_along_x
-from contact_scene import CoulombFriction, FiniteElementDiscretisation, LoadStep, Scene
+from contact_scene import FiniteElementDiscretisation
 from verification.cases.apart_everywhere import Apart, apart_everywhere
 from verification.cases.both_solvers.line import Line
 from verification.cases.fem_harmonics_run import PointsRun
@@ -20,8 +20,8 @@ from verification.judging.case import Case, Comparison, Finding, Level
 from verification.judging.ladder import cells_label
 from verification.judging.run import Run
 from verification.problems import paper_scene as paper
-from verification.problems.layered_scene import coated, film, rigid_ball
-from verification.problems.paper_scene import FRICTION, FRICTION_LIMIT, HERTZ
+from verification.problems.layered_scene import coated, film, pressed, rigid_ball
+from verification.problems.paper_scene import FRICTION, HERTZ
 from verification.problems.reference import ReferenceKind
 
 if TYPE_CHECKING:
@@ -35,18 +35,13 @@ PARTS = (0.0, 0.3, 0.6, 0.9)  # of µW, one loading step each
 PRESSING, SHEARING = 20, 6  # increments of a step
 RATIO = 2.0  # E1/E2
 EDGE = 0.82  # contact radius over a_H, about
-SCENE = Scene(
-    title=f"Coated body under a rigid ball, sheared, E1/E2 = {RATIO:g} (paper, figure 4)",
-    indenter=rigid_ball(),
-    body=coated(film(RATIO, 1.0)),
-    friction=CoulombFriction(coefficient=FRICTION),
-    loading=(
-        LoadStep(normal_force=paper.NORMAL_FORCE, increments=PRESSING),
-        *(
-            LoadStep(tangential_force=(part * FRICTION_LIMIT, 0.0), increments=SHEARING)
-            for part in PARTS[1:]
-        ),
-    ),
+SCENE = pressed(
+    f"Coated body under a rigid ball, sheared, E1/E2 = {RATIO:g} (paper, figure 4)",
+    rigid_ball(),
+    coated(film(RATIO, 1.0)),
+    paper.pressing(PRESSING),
+    *(paper.tangential_step(part, SHEARING) for part in PARTS[1:]),
+    friction=FRICTION,
 )
 ASKED = "asked of two solvers that share nothing but the scene"
 HAND = "set by hand: twice what both leave on the coarsest meshes here"

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from contact_scene import RIGID, Body, IsotropicMaterial, LoadStep, Paraboloid, Scene
+from contact_scene import RIGID, Body, IsotropicMaterial, Paraboloid, Scene
 from verification.cases.hertz_point import ASKED
 from verification.judging.case import Case, Level
 from verification.judging.declared_case import Within, case, judged
@@ -29,7 +29,7 @@ ROWS = (Within(APPROACH, 5e-5, ASKED), Within(PEAK_PRESSURE, 1.5e-4, ASKED))
 
 def dissimilar_bodies(level: Level = Level.QUICK) -> Case:
     """The case, the same at every level."""
-    step = LoadStep(normal_force=paper.NORMAL_FORCE)
+    step = paper.pressing()
     scenes = {
         name: Scene(title=name, indenter=ball, body=body, loading=(step,))
         for name, (ball, body) in PAIRS.items()

@@ -7,12 +7,12 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from contact_scene import Body, CoulombFriction, LoadStep, Paraboloid, Scene
+from contact_scene import Body, LoadStep, Paraboloid, Scene
 from verification.judging.case import Case, Comparison, Level, Quantity, Required
 from verification.judging.run import Run
 from verification.problems import paper_scene as paper
-from verification.problems.layered_scene import SUBSTRATE, rigid_ball
-from verification.problems.paper_scene import HERTZ
+from verification.problems.layered_scene import SUBSTRATE, pressed, rigid_ball
+from verification.problems.paper_scene import HERTZ, pressing
 from verification.problems.reference import Reference, ReferenceKind
 
 if TYPE_CHECKING:
@@ -39,15 +39,12 @@ def eccentric_ball_on(cells: int) -> Case:
         moment=(paper.NORMAL_FORCE * e[1], paper.NORMAL_FORCE * e[0]),
         increments=INCREMENTS,
     )
-    centred = LoadStep(normal_force=paper.NORMAL_FORCE, increments=INCREMENTS)
+    centred = pressing(INCREMENTS)
     steel = (paper.paraboloid(paper.STEEL), Body(material=paper.STEEL))
     unlike = (rigid_ball(), Body(material=SUBSTRATE))
 
     def scene(title: str, bodies: tuple[Paraboloid, Body], *steps: LoadStep) -> Scene:
-        return Scene(
-            title=title, indenter=bodies[0], body=bodies[1],
-            friction=CoulombFriction(coefficient=paper.FRICTION), loading=steps,
-        )  # fmt: skip
+        return pressed(title, *bodies, *steps, friction=paper.FRICTION)
 
     roll = tuple(length / paper.RADIUS for length in e)
     led = LoadStep(normal_force=paper.NORMAL_FORCE, tilt=(roll[1], roll[0]), increments=1)

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from contact_results.quantities import shear_of
-from contact_scene import CoulombFriction, LoadStep, Scene
+from contact_scene import LoadStep, Scene
 from verification.external_codes.recorded import Recorded, recorded
 from verification.judging.case import Case, Level, Quantity, Required
 from verification.judging.ladder import cells_label
@@ -21,7 +21,7 @@ from verification.observed.end_state import normal_force
 from verification.observed.radial_profile import along_radii, outward
 from verification.observed.ring_errors import at_radii
 from verification.problems import paper_scene as paper
-from verification.problems.layered_scene import coated, film, rigid_ball
+from verification.problems.layered_scene import coated, film, pressed, rigid_ball
 from verification.problems.paper_scene import HERTZ
 from verification.problems.reference import Reference, ReferenceKind
 
@@ -88,12 +88,12 @@ class Beside:
         row, step = self.of.record, {}
         if self.friction:
             step["increments"] = row["increments"]
-        return Scene(
-            title=f"Rigid ball moved towards a body: {self.name}",
-            indenter=rigid_ball(),
-            body=coated(film(row["modulus_ratio"], row["thickness"])),
-            friction=CoulombFriction(coefficient=self.friction) if self.friction else None,
-            loading=(LoadStep(approach=row["approach"] * HERTZ.approach, **step),),
+        return pressed(
+            f"Rigid ball moved towards a body: {self.name}",
+            rigid_ball(),
+            coated(film(row["modulus_ratio"], row["thickness"])),
+            LoadStep(approach=row["approach"] * HERTZ.approach, **step),
+            friction=self.friction,
         )
 
     @cached_property

@@ -7,14 +7,14 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from contact_results.difference import largest_difference
-from contact_scene import Body, CoulombFriction, LoadStep, Paraboloid, Scene
+from contact_scene import Body, Paraboloid, Scene
 from semi_analytical import SurfaceGrid, all_effects
 from verification.exhibits.table import Table
 from verification.judging.case import Case, Comparison, Level
 from verification.judging.run import SOLVER_TOLERANCE, Run
 from verification.problems import paper_scene as paper
 from verification.problems.layered_scene import SUBSTRATE, coated, film, pressed, rigid_ball
-from verification.problems.paper_scene import HERTZ, STEEL
+from verification.problems.paper_scene import HERTZ, STEEL, pressing
 from verification.problems.reference import ReferenceKind
 
 if TYPE_CHECKING:
@@ -92,17 +92,8 @@ def _savings(results: Mapping[str, Result], pairs: Mapping[str, tuple[Run, Run]]
 
 def _pushed(title: str, indenter: Paraboloid, body: Body) -> Scene:
     """Pressed, pushed to 0.9 µW, and back to -0.9 µW."""
-    return Scene(
-        title=title,
-        indenter=indenter,
-        body=body,
-        friction=CoulombFriction(coefficient=paper.FRICTION),
-        loading=(
-            LoadStep(normal_force=paper.NORMAL_FORCE),
-            paper.tangential_step(0.9, increments=2),
-            paper.tangential_step(-0.9, increments=2),
-        ),
-    )
+    way = (paper.tangential_step(part, increments=2) for part in (0.9, -0.9))
+    return pressed(title, indenter, body, pressing(), *way, friction=paper.FRICTION)
 
 
 _FILM = film(2.0, 1.0)

@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from contact_results.quantities import shear_of
-from contact_scene import Body, CoulombFriction, IsotropicMaterial, LoadStep, Scene
 from semi_analytical import one_way
 from verification.closed_forms.goodman import stick_ratio
 from verification.exhibits.chart import Chart, Look, Panel, curve
@@ -18,8 +17,8 @@ from verification.judging.run import Run
 from verification.observed.end_state import approach, contact_radius, peak_pressure, stick_radius
 from verification.observed.radial_profile import outward
 from verification.problems import paper_scene as paper
-from verification.problems.layered_scene import rigid_ball
-from verification.problems.paper_scene import HERTZ
+from verification.problems.layered_scene import half_space, pressed, rigid_ball
+from verification.problems.paper_scene import HERTZ, pressing
 from verification.problems.reference import ReferenceKind, closed_form, identity
 
 if TYPE_CHECKING:
@@ -69,14 +68,8 @@ def goodman_indentation_on(cells: int, frictions: tuple[float, ...]) -> Case:
 
 
 def _run(friction: float, increments: int, cells: int) -> Run:
-    modulus = paper.CONTACT_MODULUS * (1 - NU**2)
-    scene = Scene(
-        title=f"Rigid ball pressed with friction, µ = {friction:g}, coupled one way",
-        indenter=rigid_ball(),
-        body=Body(material=IsotropicMaterial(young_modulus=modulus, poisson_ratio=NU)),
-        friction=CoulombFriction(coefficient=friction),
-        loading=(LoadStep(normal_force=paper.NORMAL_FORCE, increments=increments),),
-    )
+    title = f"Rigid ball pressed with friction, µ = {friction:g}, coupled one way"
+    scene = pressed(title, rigid_ball(), half_space(NU), pressing(increments), friction=friction)
     grid = paper.square_grid(cells, MARGIN * HERTZ.contact_radius)
     problem = f"µ = {friction:g}"
     label = f"{problem}, {cells} cells, {increments} increments"

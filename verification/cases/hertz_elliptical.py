@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from contact_scene import Ellipsoid, LoadStep
+from contact_scene import Ellipsoid
 from verification.cases.hertz_point import EDGE
 from verification.closed_forms.elliptical_contact import EllipticalContact
 from verification.judging.case import Case, Level
@@ -25,7 +25,7 @@ BARREL = Problem(
         "Barrel on a half-space (radii 90 mm and 18 mm)",
         Ellipsoid(radii=RADII, material=paper.STEEL),
         paper.STEEL,
-        LoadStep(normal_force=paper.NORMAL_FORCE),
+        paper.pressing(),
     ),
     (EXACT,),
     EXACT.semi_axes[0],

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from contact_scene import LoadStep, Sphere
+from contact_scene import Sphere
 from verification.closed_forms.sphere import SphereContact
 from verification.judging.case import Case, Level
 from verification.judging.declared_case import Refined, Reported, case, judged
@@ -23,7 +23,7 @@ ARC = Problem(
         "Ball with its exact arc on a half-space",
         Sphere(radius=paper.RADIUS, material=paper.STEEL),
         paper.STEEL,
-        LoadStep(normal_force=paper.NORMAL_FORCE),
+        paper.pressing(),
     ),
     (EXACT,),
     HERTZ.contact_radius,

@@ -6,7 +6,7 @@ from collections.abc import Callable
 from dataclasses import replace
 from typing import Any
 
-from contact_scene import LoadStep, Scene
+from contact_scene import LoadStep
 from contact_scene.residuals import worst
 from verification.cases.fem_levels import because
 from verification.closed_forms.hertz import PointContact
@@ -26,8 +26,8 @@ from verification.judging.observables import APPROACH, CONTACT_RADIUS, PEAK_PRES
 from verification.judging.run import SOLVER_TOLERANCE, Run
 from verification.problems import paper_scene as paper
 from verification.problems.hertz import BALL
-from verification.problems.layered_scene import coated, film, rigid_ball
-from verification.problems.paper_scene import HERTZ, NORMAL_FORCE, STEEL
+from verification.problems.layered_scene import coated, film, pressed, rigid_ball
+from verification.problems.paper_scene import HERTZ, NORMAL_FORCE, STEEL, pressing
 
 PART = (27.5 / 32.5) ** 3  # about 0.6; of 32 elements the edge is then in the middle of one
 UNLOADED = PointContact.under_load(PART * NORMAL_FORCE, HERTZ.radius, HERTZ.contact_modulus)
@@ -42,23 +42,21 @@ DOWN = LoadStep(normal_force=PART * NORMAL_FORCE)
 # Grids and meshes are laid out for the larger contact.
 PRESSED_AND_UNLOADED = replace(
     BALL,
-    scene=Scene(
-        title="Ball on a half-space, pressed and unloaded",
-        indenter=paper.paraboloid(STEEL),
-        body=BALL.scene.body,
-        loading=(LoadStep(normal_force=NORMAL_FORCE), DOWN),
+    scene=pressed(
+        "Ball on a half-space, pressed and unloaded",
+        paper.paraboloid(STEEL),
+        BALL.scene.body,
+        pressing(),
+        DOWN,
     ),
     ends=(HERTZ, UNLOADED),
 )
 COATED = {
-    way: Scene(
-        title=f"Rigid ball on a coated body, {way}",
-        indenter=rigid_ball(),
-        body=coated(film(2.0, 1.0)),
-        loading=loading,
+    way: pressed(
+        f"Rigid ball on a coated body, {way}", rigid_ball(), coated(film(2.0, 1.0)), *loading
     )
     for way, loading in {
-        "pressed and unloaded": (LoadStep(normal_force=NORMAL_FORCE), DOWN),
+        "pressed and unloaded": (pressing(), DOWN),
         "pressed by the smaller force": (DOWN,),
     }.items()
 }

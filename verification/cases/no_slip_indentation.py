@@ -8,19 +8,14 @@ from typing import TYPE_CHECKING
 
 from contact_scene import (
     RIGID,
-    Body,
-    CoulombFriction,
     FlatPunch,
-    IsotropicMaterial,
-    LoadStep,
-    Scene,
 )
 from verification.judging.case import Case, Comparison, Level
 from verification.judging.run import Run
 from verification.observed.end_state import approach
 from verification.problems import paper_scene as paper
-from verification.problems.layered_scene import rigid_ball
-from verification.problems.paper_scene import HERTZ
+from verification.problems.layered_scene import half_space, pressed, rigid_ball
+from verification.problems.paper_scene import HERTZ, pressing
 from verification.problems.reference import ReferenceKind
 
 if TYPE_CHECKING:
@@ -85,33 +80,19 @@ def _text(nu: float) -> str:
     return f"{nu:g}".replace(".", "_")
 
 
-def _body(nu: float) -> Body:
-    modulus = paper.CONTACT_MODULUS * (1 - nu**2)
-    return Body(material=IsotropicMaterial(young_modulus=modulus, poisson_ratio=nu))
-
-
 def _punch(nu: float, cells: int, friction: float | None) -> Run:
-    scene = Scene(
-        title="Flat punch" + ("" if friction is None else " that does not slip"),
-        indenter=FlatPunch(radius=HERTZ.contact_radius, material=RIGID),
-        body=_body(nu),
-        friction=None if friction is None else CoulombFriction(coefficient=friction),
-        # The radius is fixed and nothing slips: the state does not depend on the way.
-        loading=(LoadStep(normal_force=paper.NORMAL_FORCE, increments=1),),
-    )
+    title = "Flat punch" + ("" if friction is None else " that does not slip")
+    punch = FlatPunch(radius=HERTZ.contact_radius, material=RIGID)
+    # The radius is fixed and nothing slips: the state does not depend on the way.
+    scene = pressed(title, punch, half_space(nu), pressing(1), friction=friction)
     kind = "smooth" if friction is None else "bonded"
     grid = paper.square_grid(cells, WINDOW_PER_RADIUS / 2 * HERTZ.contact_radius)
     return Run(f"{kind} punch, ν = {nu:g}", scene, grid)
 
 
 def _ball(nu: float, cells: int, increments: int) -> Run:
-    scene = Scene(
-        title="Rigid ball that does not slip",
-        indenter=rigid_ball(),
-        body=_body(nu),
-        friction=CoulombFriction(coefficient=FRICTION),
-        loading=(LoadStep(normal_force=paper.NORMAL_FORCE, increments=increments),),
-    )
+    title, body = "Rigid ball that does not slip", half_space(nu)
+    scene = pressed(title, rigid_ball(), body, pressing(increments), friction=FRICTION)
     grid = paper.square_grid(cells, WINDOW_PER_RADIUS / 2 * HERTZ.contact_radius)
     return Run(f"ball, ν = {nu:g}, {increments} increments", scene, grid)
 

@@ -16,7 +16,7 @@ from verification.cases.turned import difference_after_quarter, turned
 from verification.judging.case import Case, Comparison, Level
 from verification.judging.run import SOLVER_TOLERANCE, Run
 from verification.problems.layered_scene import coated, film, rigid_ball
-from verification.problems.paper_scene import HERTZ, NORMAL_FORCE
+from verification.problems.paper_scene import HERTZ, NORMAL_FORCE, pressing
 from verification.problems.reference import ROUNDING, ReferenceKind
 
 if TYPE_CHECKING:
@@ -33,7 +33,7 @@ WINDOW = 2 * MARGIN * HERTZ.contact_radius
 BODY = coated(film(2.0, 1.0))
 HARD = BODY.layers[0].material
 LOADING = (
-    LoadStep(normal_force=NORMAL_FORCE, increments=3),
+    pressing(3),
     LoadStep(tangential_force=(PART * FRICTION * NORMAL_FORCE, 0.0), increments=2),
 )
 NOT_SQUARE = 1.5e-3  # on the quick grid

@@ -117,7 +117,7 @@ def increment_size(result: Result) -> float:
 def _run(increments: int) -> Run:
     force = PART * ONE.friction * paper.NORMAL_FORCE
     loading = (
-        LoadStep(normal_force=paper.NORMAL_FORCE, increments=increments),
+        paper.pressing(increments),
         LoadStep(tangential_force=(force, 0.0), increments=increments),
     )
     scene = ONE.problem(increments).scene.model_copy(update={"loading": loading})

@@ -9,12 +9,10 @@ from numpy.typing import NDArray
 
 from contact_scene import (
     Body,
-    CoulombFriction,
     IsotropicMaterial,
     Layer,
     LoadStep,
     Paraboloid,
-    Scene,
 )
 from verification.closed_forms.coated_torsion import CoatedTorsion, TorsionalSurface, one_layer
 from verification.judging.case import Case, Level
@@ -23,8 +21,8 @@ from verification.judging.ladder import on_cells, part_of_side
 from verification.judging.observables import STICK_RADIUS, TWIST
 from verification.judging.refinement import refinement
 from verification.problems import paper_scene as paper
-from verification.problems.layered_scene import exact_contact
-from verification.problems.paper_scene import FRICTION, HERTZ
+from verification.problems.layered_scene import exact_contact, pressed
+from verification.problems.paper_scene import FRICTION, HERTZ, pressing
 from verification.problems.problem import Problem
 from verification.problems.reference import ReferenceKind
 
@@ -78,21 +76,13 @@ def exact_at(part: float) -> CoatedTorsion:
 def twisted() -> Problem:
     """The coated balls pressed, and twisted with stops."""
     ends = tuple(map(exact_at, PARTS.values()))
-    scene = Scene(
-        title="Coated balls in torsion",
-        indenter=BALL,
-        body=BODY,
-        friction=CoulombFriction(coefficient=FRICTION),
-        loading=(
-            LoadStep(normal_force=paper.NORMAL_FORCE, increments=1),
-            *(LoadStep(torque=end.torque, increments=1) for end in ends),
-        ),
-    )
-    pressed = exact_contact(BODY, BALL)
+    turning = (LoadStep(torque=end.torque, increments=1) for end in ends)
+    scene = pressed("Coated balls in torsion", BALL, BODY, pressing(1), *turning, friction=FRICTION)
+    normal = exact_contact(BODY, BALL)
     return Problem(
         scene,
-        (pressed, *ends),
-        pressed.contact_radius,
+        (normal, *ends),
+        normal.contact_radius,
         "Fredholm equation for Abel's transform of the shear (Lubkin 1951 without layers)",
         ReferenceKind.SEMI_CLOSED,
         SEMI_CLOSED_ERROR,

@@ -14,8 +14,7 @@ from itertools import pairwise
 
 from verification.external_codes.coated_scene import (
     CONTACT_MODULUS,
-    HERTZ_APPROACH,
-    HERTZ_RADIUS,
+    HERTZ,
     POISSON_RATIO,
     RADIUS,
     SUBSTRATE_MODULUS,
@@ -94,11 +93,13 @@ def _mesh(
 ) -> Iterator[str]:
     yield "*NODE, NSET=BODY"
     for (i, j), number in body.nodes.items():
-        yield _numbers(number, body.radii[i] * HERTZ_RADIUS, -depths[j] * HERTZ_RADIUS)
+        yield _numbers(
+            number, body.radii[i] * HERTZ.contact_radius, -depths[j] * HERTZ.contact_radius
+        )
     yield "*NODE, NSET=BALL"
     for (i, j), number in ball.nodes.items():
-        r = ball.radii[i] * HERTZ_RADIUS
-        yield _numbers(number, r, r**2 / (2 * RADIUS) + (2 - j) / 2 * HERTZ_RADIUS)
+        r = ball.radii[i] * HERTZ.contact_radius
+        yield _numbers(number, r, r**2 / (2 * RADIUS) + (2 - j) / 2 * HERTZ.contact_radius)
     yield from ("*ELEMENT, TYPE=CAX8, ELSET=BODY", *body.element_lines())
     yield from ("*ELEMENT, TYPE=CAX8, ELSET=BALL", *ball.element_lines())
     touching = len(ball.elements)
@@ -118,7 +119,7 @@ def _mesh(
 
 
 def _contact(scene: CoatedScene, fineness: Fineness) -> Iterator[str]:
-    spring = fineness.stiffness * CONTACT_MODULUS / HERTZ_RADIUS
+    spring = fineness.stiffness * CONTACT_MODULUS / HERTZ.contact_radius
     yield from ("*SURFACE, NAME=SLAVE", "UPPER, S3", "*SURFACE, NAME=MASTER", "BALL, S1")
     yield from ("*SURFACE INTERACTION, NAME=TOUCH",
                 "*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=LINEAR", _numbers(spring))  # fmt: skip
@@ -137,11 +138,11 @@ def _loading(scene: CoatedScene, body: _Section, depths: Sequence[float]) -> Ite
             yield _numbers(time, time**power)
     yield from ("*STEP, INC=1000", "*STATIC, DIRECT", _numbers(1 / scene.increments, 1.0))
     yield "*BOUNDARY, AMPLITUDE=APPROACH"
-    yield _numbers("BALL", 2, 2, -scene.approach * HERTZ_APPROACH)
+    yield _numbers("BALL", 2, 2, -scene.approach * HERTZ.approach)
     yield "*BOUNDARY, AMPLITUDE=FORCE"
     for (i, j), number in body.nodes.items():
         if i == len(body.radii) - 1 or j == body.rows - 1:
-            at = body.radii[i] * HERTZ_RADIUS, depths[j] * HERTZ_RADIUS
+            at = body.radii[i] * HERTZ.contact_radius, depths[j] * HERTZ.contact_radius
             outward, inward = far_displacement(*at)
             yield _numbers(number, 1, 1, outward)
             yield _numbers(number, 2, 2, -inward)

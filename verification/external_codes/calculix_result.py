@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from verification.external_codes.coated_scene import HERTZ_PRESSURE, HERTZ_RADIUS, NORMAL_FORCE
+from verification.external_codes.coated_scene import HERTZ, NORMAL_FORCE
 
 WEDGE = 180  # wedges of 2°, to which axisymmetric elements are expanded, in the circle
 
@@ -52,7 +52,7 @@ def read_tractions(frd: str) -> Tractions:
     if not touched:
         raise ValueError("no contact stress in the .frd file; did ccx finish?")
     return Tractions(
-        [round(r / HERTZ_RADIUS, 7) for r, _ in touched],
+        [round(r / HERTZ.contact_radius, 7) for r, _ in touched],
         [_digits(stress[_PRESSURE]) for _, stress in touched],
         [_digits(math.hypot(*stress[_SHEAR])) for _, stress in touched],
     )
@@ -63,7 +63,7 @@ _PRESSURE, _SHEAR = 3, slice(4, 6)
 
 def _digits(stress: float) -> float:
     """Over the Hertz pressure, to the digits that the file has."""
-    return float(f"{stress / HERTZ_PRESSURE:.6g}")
+    return float(f"{stress / HERTZ.peak_pressure:.6g}")
 
 
 def _block(frd: str, head: str) -> dict[int, tuple[float, ...]]:

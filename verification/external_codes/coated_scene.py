@@ -11,17 +11,17 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
+from verification.closed_forms.hertz import PointContact
+
 RADIUS = 1800.0
 NORMAL_FORCE = 10.0
 SUBSTRATE_MODULUS = 210e3
 POISSON_RATIO = 0.3
 
 CONTACT_MODULUS = SUBSTRATE_MODULUS / (1 - POISSON_RATIO**2)
-HERTZ_RADIUS = (0.75 * NORMAL_FORCE * RADIUS / CONTACT_MODULUS) ** (1 / 3)
-HERTZ_APPROACH = HERTZ_RADIUS**2 / RADIUS
-HERTZ_PRESSURE = 1.5 * NORMAL_FORCE / (math.pi * HERTZ_RADIUS**2)
+HERTZ = PointContact.under_load(NORMAL_FORCE, RADIUS, CONTACT_MODULUS)
 MOVED_GAP = (  # relative difference of the load that is left
-    (1 - 2 * POISSON_RATIO) * (1 + POISSON_RATIO) * HERTZ_PRESSURE / (2 * SUBSTRATE_MODULUS)
+    (1 - 2 * POISSON_RATIO) * (1 + POISSON_RATIO) * HERTZ.peak_pressure / (2 * SUBSTRATE_MODULUS)
 )
 
 

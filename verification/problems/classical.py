@@ -4,17 +4,17 @@ from __future__ import annotations
 
 from math import pi, radians
 
-from contact_scene import Cone, FlatPunch, LoadStep
+from contact_scene import Cone, FlatPunch
 from verification.closed_forms.cone import ConeContact
 from verification.closed_forms.flat_punch import FlatPunchContact
 from verification.problems import paper_scene as paper
-from verification.problems.paper_scene import CONTACT_MODULUS, NORMAL_FORCE, STEEL
+from verification.problems.paper_scene import CONTACT_MODULUS, NORMAL_FORCE, STEEL, pressing
 from verification.problems.problem import Problem
 
 SLOPE = radians(1.0)  # of the cone's flank
 PUNCH_RADIUS = 0.4e-3
 PUNCH_WINDOW = 2.2  # radii
-PRESS = LoadStep(normal_force=NORMAL_FORCE)
+PRESS = pressing()
 
 UNDER_CONE = ConeContact.under_load(NORMAL_FORCE, SLOPE, CONTACT_MODULUS)
 CONE = Problem(

@@ -22,7 +22,5 @@ def _pressed(title: str, load: LoadStep) -> Problem:
     return hertzian(paper.frictionless(title, ball, paper.STEEL, load))
 
 
-BALL = _pressed(
-    "Ball on a half-space (paper's data, paraboloid)", LoadStep(normal_force=paper.NORMAL_FORCE)
-)
+BALL = _pressed("Ball on a half-space (paper's data, paraboloid)", paper.pressing())
 LED_BALL = _pressed("Ball on a half-space, approach prescribed", LoadStep(approach=HERTZ.approach))

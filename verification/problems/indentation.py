@@ -6,10 +6,9 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from contact_scene import Body, CoulombFriction, IsotropicMaterial, LoadStep, Scene
-from verification.problems import paper_scene as paper
-from verification.problems.layered_scene import coated, film, rigid_ball
-from verification.problems.paper_scene import HERTZ
+from contact_scene import Body
+from verification.problems.layered_scene import coated, film, half_space, pressed, rigid_ball
+from verification.problems.paper_scene import HERTZ, pressing
 from verification.problems.problem import OVER_PEAK, Problem
 from verification.problems.reference import ReferenceKind
 from verification.problems.sheared import OVER_LIMIT
@@ -41,15 +40,9 @@ class Indentation(TabulatedContact):
 
     def problem(self, increments: int) -> Problem:
         """The rigid ball pressed on the body in so many increments."""
-        scene = Scene(
-            title=f"Rigid ball pressed with friction: {self.name}",
-            indenter=rigid_ball(),
-            body=self.body,
-            friction=CoulombFriction(coefficient=self.friction),
-            loading=(LoadStep(normal_force=paper.NORMAL_FORCE, increments=increments),),
-        )
+        title = f"Rigid ball pressed with friction: {self.name}"
         return Problem(
-            scene,
+            pressed(title, rigid_ball(), self.body, pressing(increments), friction=self.friction),
             (self,),
             self.contact_radius,
             self.source,
@@ -64,10 +57,10 @@ class Indentation(TabulatedContact):
 
 def _bare(file_name: str, row: Mapping[str, Any], increments: int) -> Indentation:
     nu = float(row["nu"])
-    modulus = paper.CONTACT_MODULUS * (1 - nu**2)
-    body = Body(material=IsotropicMaterial(young_modulus=modulus, poisson_ratio=nu))
     source = "references/frictional_indentation_homogeneous.json: self-similar (Spence 1975)"
-    return Indentation(row, f"ν = {nu:g}, µ = {row['mu']:g}", file_name, body, source, increments)
+    return Indentation(
+        row, f"ν = {nu:g}, µ = {row['mu']:g}", file_name, half_space(nu), source, increments
+    )
 
 
 _ROWS = load_reference("frictional_indentation_homogeneous")["rows"]

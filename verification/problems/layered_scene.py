@@ -7,7 +7,17 @@ from functools import cache
 import numpy as np
 from numpy.typing import NDArray
 
-from contact_scene import RIGID, Body, IsotropicMaterial, Layer, LoadStep, Paraboloid, Scene
+from contact_scene import (
+    RIGID,
+    Body,
+    CoulombFriction,
+    IsotropicMaterial,
+    Layer,
+    LoadStep,
+    Paraboloid,
+    Scene,
+)
+from contact_scene.geometry import Indenter
 from semi_analytical.frf.stack import stack_of
 from semi_analytical.frf.surface import scalars
 from verification.closed_forms.coated_indentation import (
@@ -16,7 +26,7 @@ from verification.closed_forms.coated_indentation import (
     paraboloid_under,
 )
 from verification.problems import paper_scene as paper
-from verification.problems.paper_scene import HERTZ
+from verification.problems.paper_scene import HERTZ, pressing
 from verification.problems.reference import Reference, ReferenceKind
 
 SUBSTRATE = IsotropicMaterial(young_modulus=210e9, poisson_ratio=0.3)
@@ -43,10 +53,26 @@ def rigid_ball() -> Paraboloid:
     return Paraboloid(radius=paper.RADIUS, material=RIGID)
 
 
-def pressed(title: str, indenter: Paraboloid, body: Body, load: LoadStep | None = None) -> Scene:
-    """Indenter on a body under the paper's force unless another load is given."""
-    step = load or LoadStep(normal_force=paper.NORMAL_FORCE)
-    return Scene(title=title, indenter=indenter, body=body, loading=(step,))
+def half_space(poisson_ratio: float) -> Body:
+    """Of the paper's E* under a rigid indenter."""
+    modulus = paper.CONTACT_MODULUS * (1 - poisson_ratio**2)
+    return Body(material=IsotropicMaterial(young_modulus=modulus, poisson_ratio=poisson_ratio))
+
+
+def pressed(
+    title: str, indenter: Indenter, body: Body, *loading: LoadStep, friction: float | None = None
+) -> Scene:
+    """Indenter on a body under the paper's force unless loads are given.
+
+    friction  µ; None or zero: without
+    """
+    return Scene(
+        title=title,
+        indenter=indenter,
+        body=body,
+        friction=CoulombFriction(coefficient=friction) if friction else None,
+        loading=loading or (pressing(),),
+    )
 
 
 @cache

@@ -62,14 +62,18 @@ def frictional(
 
     Uncoupled bodies: the pressure does not depend on the way there, so one increment will do.
     """
-    press = LoadStep(normal_force=NORMAL_FORCE, increments=1)
     return Scene(
         title=title,
         indenter=indenter,
         body=Body(material=body),
         friction=CoulombFriction(coefficient=FRICTION),
-        loading=(press, *loading),
+        loading=(pressing(1), *loading),
     )
+
+
+def pressing(increments: int | None = None) -> LoadStep:
+    """The paper's force."""
+    return LoadStep(normal_force=NORMAL_FORCE, increments=increments)
 
 
 def tangential_step(part_of_limit: float, increments: int) -> LoadStep:

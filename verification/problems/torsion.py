@@ -97,7 +97,7 @@ STUCK = Problem(
         body=Body(material=STEEL),
         friction=CoulombFriction(coefficient=1.0),
         loading=(
-            LoadStep(normal_force=paper.NORMAL_FORCE, increments=1),
+            paper.pressing(1),
             LoadStep(torque=STUCK_TORQUE, increments=1),
         ),
     ),

@@ -12,7 +12,7 @@ from scipy.ndimage import map_coordinates
 
 import fem_reference
 from contact_results.quantities import shear_of
-from contact_scene import CoulombFriction, FiniteElementDiscretisation, LoadStep, Scene
+from contact_scene import FiniteElementDiscretisation, Scene
 from semi_analytical.grid import SurfaceGrid
 from verification.cases.both_solvers.left_out import EVEN, MARGIN, kept_edges
 from verification.closed_forms.coated_indentation import LayeredIndentation
@@ -20,8 +20,8 @@ from verification.judging.run import SOLVER_TOLERANCE
 from verification.observed.radial_profile import outward
 from verification.problems import paper_scene as paper
 from verification.problems.indentation import COATED, STRONG, WEAK, Indentation
-from verification.problems.layered_scene import coated, exact_contact, film, rigid_ball
-from verification.problems.paper_scene import HERTZ
+from verification.problems.layered_scene import coated, exact_contact, film, pressed, rigid_ball
+from verification.problems.paper_scene import HERTZ, pressing
 
 if TYPE_CHECKING:
     import semi_analytical
@@ -90,13 +90,12 @@ class CheckedContact:
     @property
     def scene(self) -> Scene:
         """What both solvers solve."""
-        mu = self.friction
-        return Scene(
-            title=f"Rigid ball on a coated half-space, {self.name}",
-            indenter=rigid_ball(),
-            body=coated(film(self.modulus_ratio, self.thickness)),
-            friction=CoulombFriction(coefficient=mu) if mu else None,
-            loading=(LoadStep(normal_force=paper.NORMAL_FORCE, increments=INCREMENTS[mu]),),
+        return pressed(
+            f"Rigid ball on a coated half-space, {self.name}",
+            rigid_ball(),
+            coated(film(self.modulus_ratio, self.thickness)),
+            pressing(INCREMENTS[self.friction]),
+            friction=self.friction,
         )
 
     @property

@@ -6,20 +6,25 @@ from dataclasses import dataclass
 
 from contact_scene import (
     Body,
-    CoulombFriction,
     IsotropicMaterial,
     LoadStep,
-    Paraboloid,
     Scene,
 )
 from semi_analytical.grid import SurfaceGrid
-from verification.problems.layered_scene import SUBSTRATE, coated, exact_contact, film, rigid_ball
+from verification.problems.layered_scene import (
+    SUBSTRATE,
+    coated,
+    exact_contact,
+    film,
+    pressed,
+    rigid_ball,
+)
 from verification.problems.paper_scene import (
     CONTACT_MODULUS,
     FRICTION,
     HERTZ,
     NORMAL_FORCE,
-    RADIUS,
+    paraboloid,
     square_grid,
 )
 
@@ -68,13 +73,8 @@ class CoatedContact:
 
     def scene(self, *loading: LoadStep) -> Scene:
         """The scene under these loads."""
-        return Scene(
-            title=f"Rigid ball on a coated half-space, E1/E2 = {self.modulus_ratio:g}",
-            indenter=rigid_ball(),
-            body=self._body,
-            friction=CoulombFriction(coefficient=FRICTION),
-            loading=loading,
-        )
+        title = f"Rigid ball on a coated half-space, E1/E2 = {self.modulus_ratio:g}"
+        return pressed(title, rigid_ball(), self._body, *loading, friction=FRICTION)
 
     def grid(self, cells: int) -> SurfaceGrid:
         """A square grid on a window around the contact."""
@@ -116,13 +116,9 @@ class AlikeContact:
 
     def scene(self, *loading: LoadStep) -> Scene:
         """The scene under these loads."""
-        return Scene(
-            title=f"Two identical bodies, ν = {self.poisson_ratio:g}",
-            indenter=Paraboloid(radius=RADIUS, material=self._material),
-            body=Body(material=self._material),
-            friction=CoulombFriction(coefficient=FRICTION),
-            loading=loading,
-        )
+        title = f"Two identical bodies, ν = {self.poisson_ratio:g}"
+        ball = paraboloid(self._material)
+        return pressed(title, ball, Body(material=self._material), *loading, friction=FRICTION)
 
     def grid(self, cells: int) -> SurfaceGrid:
         """A square grid on a window around the contact."""

@@ -7,12 +7,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from contact_results.quantities import shear_of
-from contact_scene import LoadStep
 from contact_scene.summary import ContactStatus
 from semi_analytical import solve
 from semi_analytical.model import ContactModel
 from verification.judging.run import SOLVER_TOLERANCE
-from verification.problems.paper_scene import FRICTION, FRICTION_LIMIT, NORMAL_FORCE
+from verification.problems.paper_scene import FRICTION, FRICTION_LIMIT, pressing
 from verification.running.row import CaseRecord, Row
 from verification.studies.sliding.contacts import Contact
 from verification.studies.sliding.friction_laws import (
@@ -48,9 +47,7 @@ class LawRun:
 
     def compute(self) -> CaseRecord:
         grid = self.contact.grid(self.cells)
-        scene = self.contact.scene(
-            LoadStep(normal_force=NORMAL_FORCE, increments=self.steps.normal)
-        )
+        scene = self.contact.scene(pressing(self.steps.normal))
         pressed = solve(scene, grid, SOLVER_TOLERANCE).increments[-1]
         model = ContactModel.of(scene, grid)
         problem = FixedPressure.of(

@@ -12,7 +12,13 @@ from contact_results.surface import surface_of
 from contact_scene import LoadStep
 from semi_analytical import Coupling, Plan, Result, plan, solve
 from verification.judging.run import SOLVER_TOLERANCE
-from verification.problems.paper_scene import FRICTION, FRICTION_LIMIT, HERTZ, NORMAL_FORCE
+from verification.problems.paper_scene import (
+    FRICTION,
+    FRICTION_LIMIT,
+    HERTZ,
+    NORMAL_FORCE,
+    pressing,
+)
 from verification.running.row import CaseRecord, Row
 from verification.studies.sliding.contacts import Contact
 from verification.studies.sliding.path import counted, record_of, row_of
@@ -68,7 +74,7 @@ class ShiftRun:
         ends = (FINE_REACH * contact.sliding_scale, contact.beyond_sliding)
         return _history(
             self,
-            LoadStep(normal_force=NORMAL_FORCE, increments=steps.normal),
+            pressing(steps.normal),
             *(
                 LoadStep(tangential_shift=(end, 0.0), increments=count)
                 for end, count in zip(ends, (steps.tangential, steps.beyond), strict=True)
@@ -103,7 +109,7 @@ class ForceRun:
     def compute(self) -> CaseRecord:
         return _history(
             self,
-            LoadStep(normal_force=NORMAL_FORCE, increments=self.normal),
+            pressing(self.normal),
             *(
                 LoadStep(tangential_force=(part * FRICTION_LIMIT, 0.0), increments=count)
                 for part, count in zip(self.parts, self.pushes, strict=True)
@@ -210,7 +216,7 @@ class ShortPathRun:
             ]
         else:
             loading = [
-                LoadStep(normal_force=NORMAL_FORCE, increments=1),
+                pressing(1),
                 LoadStep(tangential_shift=(shift, 0.0), increments=1),
             ]
         return solve(self.contact.scene(*loading), self.contact.grid(self.cells), SOLVER_TOLERANCE)
