@@ -78,7 +78,7 @@ def test_penalty_does_not_decide_the_answer(factor: float) -> None:
     assert found.overlap < 1e-3 * found.approach
     assert found.approach == pytest.approx(HERTZ.approach, rel=2e-4)
     assert found.peak_pressure == pytest.approx(HERTZ.peak_pressure, rel=5e-4)
-    # Springs that overlap by a part of the approach enlarge the contact by as much at most.
+    # Springs that overlap by a part of the approach enlarge the contact by about as much.
     assert found.contact_radius == pytest.approx(A, rel=passes.AT_EDGE)
 
 

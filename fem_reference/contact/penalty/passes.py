@@ -20,7 +20,6 @@ from fem_reference.contact.penalty.springs import NORMAL, solve_by_springs
 from fem_reference.contact.penalty.surface import ElasticSurface, Target
 from fem_reference.contact.zone_edge import refuse_contact_at_edge
 from fem_reference.loads import Loads
-from fem_reference.mesh.section_outline import CONTACT_ZONE
 from fem_reference.residuals import over
 
 Field = NDArray[np.float64]
@@ -29,8 +28,10 @@ Field = NDArray[np.float64]
 # starts from zero in every increment, so that no ripples pile up from one to the next; that of the
 # shear, which remembers, goes on from the last one.
 FEWEST_UPDATES = 1
+# A mesh's zone of equal elements is so much wider than its contact, at most.
+WIDEST_ZONE = 1.25
 # Overlap over approach up to which springs do not move the edge of the contact visibly.
-AT_EDGE = 1e-2
+AT_EDGE = 5e-3
 # Of the approach: shorter tangential motions are round-off of bodies that do not couple.
 ROUND_OFF = 1e-6
 # Part of the tolerance that passes are solved to, so that the residuals meet it.
@@ -193,7 +194,7 @@ class _Pass:
         inverse to its square, and overlap need not be smaller than that."""
         touching = np.flatnonzero(self.reached.traction[0] > 0)
         reached = problem.points.radii[touching[-1]] if len(touching) else problem.reach
-        return min(1.0, CONTACT_ZONE * float(reached) / problem.reach)
+        return min(1.0, WIDEST_ZONE * float(reached) / problem.reach)
 
 
 def _law(problem: PenaltyProblem, last: PenaltyState) -> PenaltyLaw:
