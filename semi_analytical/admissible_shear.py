@@ -19,9 +19,8 @@ Vector = NDArray[np.float64]
 
 # What rounding leaves of a sum of shears, relative to the sum of their magnitudes.
 ROUND_OFF = 1e-14
-# Relative distance from the friction limit at which force control loses the shift. Pressures carry
-# their load to round-off, so the limit is known as well; what would still stick, a thousandth of
-# the contact wide (the cube root), is less than a cell.
+# Relative distance from the friction limit at which force control loses the shift: what would still
+# stick, a thousandth of the contact wide (the cube root), is less than a cell.
 AT_LIMIT = 1e-9
 # What rounding leaves of the multiplier, relative to it; all cells that stick move with it.
 MULTIPLIER_ROUND_OFF = 5e-16

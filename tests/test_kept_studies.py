@@ -16,7 +16,7 @@ from verification.running.stored_studies import stored_studies
 from verification.running.study import Conclusion, Records, Settings
 from verification.studies.catalogue import STUDIES
 from verification.studies.stability.cell import StabilityCell
-from verification.studies.stability.record import CellRecord, Verdict
+from verification.studies.stability.record import CellRecord, Refusal, Verdict
 from verification.studies.stability.study import CELLS
 from verification.studies.stability.views import study_cells
 
@@ -46,8 +46,8 @@ def ended(cell: StabilityCell) -> CellRecord:
     end = CellRecord(verdict=Verdict.CONVERGED, tolerance=1e-8, residual=1e-9, increments=1)
     if cell.posable and cell.push <= 1:
         return end
-    reason = "it exceeds the friction limit" if cell.posable else "UnsupportedScene"
-    return end.model_copy(update={"verdict": Verdict.REFUSED, "reason": reason})
+    kind = Refusal.FORCE if cell.posable else Refusal.POSE
+    return end.model_copy(update={"verdict": Verdict.REFUSED, "refused_for": kind})
 
 
 @cache

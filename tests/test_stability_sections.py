@@ -14,7 +14,7 @@ from verification.observed.sections import section_laws
 from verification.studies.stability.cell import LoadingPath, Solver, StabilityCell, Surface
 from verification.studies.stability.judged import judged
 from verification.studies.stability.pose import TOLERANCE, pose
-from verification.studies.stability.record import Verdict
+from verification.studies.stability.record import Refusal, Verdict
 
 BOTH = [solver for solver in Solver if solver.by_elements]
 ORDINARY = StabilityCell(solver=Solver.COMPLEMENTARITY)
@@ -51,22 +51,22 @@ def test_hard_cell_converges(cell: StabilityCell, solver: Solver) -> None:
 
 @pytest.mark.parametrize("solver", BOTH)
 @pytest.mark.parametrize(
-    ("change", "reason"),
+    ("change", "kind"),
     [
-        ({"push": 1.001}, "exceeds the friction limit"),
-        ({"push": 1.001, "surface": Surface.ALIKE_BALL}, "exceeds the friction limit"),
-        ({"surface": Surface.ROUGH}, "UnsupportedScene"),
-        ({"surface": Surface.GREASED}, "UnsupportedScene"),
-        ({"path": LoadingPath.CIRCLE}, "UnsupportedScene"),
+        ({"push": 1.001}, Refusal.FORCE),
+        ({"push": 1.001, "surface": Surface.ALIKE_BALL}, Refusal.FORCE),
+        ({"surface": Surface.ROUGH}, Refusal.POSE),
+        ({"surface": Surface.GREASED}, Refusal.POSE),
+        ({"path": LoadingPath.CIRCLE}, Refusal.POSE),
     ],
 )
 def test_what_has_no_solution_is_refused_by_name(
-    change: dict[str, Any], reason: str, solver: Solver
+    change: dict[str, Any], kind: Refusal, solver: Solver
 ) -> None:
     record = judged(replace(ORDINARY, **change, solver=solver))
     assert record.verdict is Verdict.REFUSED
-    assert reason in record.reason
-    assert replace(ORDINARY, **change).posable == (reason != "UnsupportedScene")
+    assert record.refused_for is kind
+    assert replace(ORDINARY, **change).posable == (kind is not Refusal.POSE)
 
 
 SOLVED = {

@@ -10,8 +10,7 @@ from contact_scene.summary import ContactStatus
 
 Mask = NDArray[np.bool_]
 
-# A force this close to the friction limit, relatively, is at it. The limit is known as well as the
-# pressure is solved, to the tolerance, and not to round-off as on cells; what would still stick, a
+# A force this close to the friction limit, relatively, is at it: what would still stick, a
 # hundredth of the contact wide (the cube root), is less than an element.
 AT_LIMIT = 1e-6
 

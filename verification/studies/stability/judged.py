@@ -18,7 +18,7 @@ from verification.judging.law_verdicts import OTHER_NORMS
 from verification.running.row import CaseRecord
 from verification.studies.stability.cell import StabilityCell
 from verification.studies.stability.pose import TOLERANCE, pose
-from verification.studies.stability.record import CellRecord, Verdict
+from verification.studies.stability.record import CellRecord, Refusal, Verdict
 from verification.studies.stability.solvers import SOLVERS
 
 # What a scene may be refused for: its load, its meaning, its size.
@@ -79,7 +79,19 @@ def _finite(value: float) -> float | None:
 def _without_answer(verdict: Verdict, error: Exception, tolerance: float) -> CellRecord:
     return CellRecord(
         verdict=verdict,
+        refused_for=_refused_for(error) if verdict is Verdict.REFUSED else Refusal.NONE,
         reason=f"{type(error).__name__}: {error}",
         tolerance=tolerance,
         residual=_finite(error.residual) if isinstance(error, NotConverged) else None,
     )
+
+
+def _refused_for(error: Exception) -> Refusal:
+    """Told by the kind of error, and of a scene by its keys: what is wrong with the force of a cell
+    is its size alone."""
+    if isinstance(error, UnsupportedScene):
+        return Refusal.POSE
+    keys = {problem.path[-1:] for problem in getattr(error, "problems", ())}
+    if isinstance(error, GrossSliding) or keys == {("tangential_force",)}:
+        return Refusal.FORCE
+    return Refusal.OTHER

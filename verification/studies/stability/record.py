@@ -17,10 +17,20 @@ class Verdict(StrEnum):
     SILENT = "silent"  # an answer that breaks the equations, given as if it were good
 
 
+class Refusal(StrEnum):
+    """What a cell is refused for."""
+
+    NONE = ""
+    FORCE = "force"  # above µW
+    POSE = "pose"  # a scene that the solver has no model of
+    OTHER = "other"
+
+
 class CellRecord(TypedRow):
     """Verdict, residuals and cost of one cell."""
 
     verdict: Verdict
+    refused_for: Refusal = Refusal.NONE
     reason: str = ""
     """Name and message of the error; empty where it converged."""
 

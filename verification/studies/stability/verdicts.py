@@ -11,7 +11,7 @@ from verification.exhibits.numbers import plain
 from verification.running.rules import judged
 from verification.running.study import Statement
 from verification.studies.stability.cell import Solver, StabilityCell
-from verification.studies.stability.record import CellRecord, Verdict
+from verification.studies.stability.record import CellRecord, Refusal, Verdict
 
 Found = Mapping[StabilityCell, CellRecord]
 Item = tuple[StabilityCell, CellRecord]
@@ -53,14 +53,13 @@ def answer(found: Found) -> str:
     if not found:
         return ""
     ends = Counter(record.verdict for record in found.values())
-    refused = {cell: r.reason for cell, r in found.items() if r.verdict is Verdict.REFUSED}
-    due = sum(bool(_reason(cell)) and _reason(cell) in said for cell, said in refused.items())
+    refused = ended(found, Verdict.REFUSED)
     asked = Counter(NAMES[cell.solver] for cell in found)
     return (
         f"Of {len(found)} cells ({'; '.join(f'{name}: {n}' for name, n in asked.items())}) "
         f"{ends[Verdict.CONVERGED]} converged, with "
-        f"residuals of {_worst(found)} at most, and {len(refused)} were refused, {due} of these "
-        "for a force above µW or because a section cannot pose them; "
+        f"residuals of {_worst(found)} at most, and {len(refused)} were refused, "
+        f"{len(_duly(refused))} of these for a force above µW or because a section cannot pose them; "
         f"{ends[Verdict.NOT_CONVERGED]} gave up and {ends[Verdict.SILENT]} are wrong in silence."
     )
 
@@ -99,14 +98,10 @@ def nearly_everything_converges(found: Found) -> Statement:
 
 def refusals_are_due(found: Found) -> Statement:
     """Refused is what asks for more than µW, and what a solver cannot pose; nothing else."""
-    refused = {cell: r.reason for cell, r in found.items() if r.verdict is Verdict.REFUSED}
-    due = {cell: _reason(cell) for cell in found if _reason(cell)}
-    wrong = [
-        cell
-        for cell in sorted(refused.keys() | due.keys(), key=lambda cell: cell.name)
-        if cell not in due or due[cell] not in refused.get(cell, "")
-    ]
-    beyond = sum(reason == BEYOND for reason in due.values())
+    refused = ended(found, Verdict.REFUSED)
+    due = {cell: kind for cell in found if (kind := _due(cell))}
+    wrong = sorted((refused.keys() | due) - _duly(refused), key=lambda cell: cell.name)
+    beyond = sum(kind is Refusal.FORCE for kind in due.values())
     unposable = len(due) - beyond
     return Statement(
         claim="refused is a force above µW"
@@ -140,14 +135,16 @@ def cost(found: Found) -> Statement:
     )
 
 
-BEYOND, UNPOSABLE = "exceeds the friction limit", "UnsupportedScene"
-
-
-def _reason(cell: StabilityCell) -> str:
-    """What the refusal of a cell must say; empty if it has a solution."""
+def _due(cell: StabilityCell) -> Refusal:
+    """What a cell has to be refused for; nothing if it has a solution."""
     if not cell.posable:
-        return UNPOSABLE
-    return BEYOND if cell.push > LARGEST_FORCE else ""
+        return Refusal.POSE
+    return Refusal.FORCE if cell.push > LARGEST_FORCE else Refusal.NONE
+
+
+def _duly(refused: Found) -> set[StabilityCell]:
+    """Those that are refused for what they have to be."""
+    return {cell for cell, r in refused.items() if r.refused_for and r.refused_for is _due(cell)}
 
 
 def _of(solver: Solver, statement: Statement) -> Statement:
