@@ -59,7 +59,8 @@ def answer(found: Found) -> str:
         f"Of {len(found)} cells ({'; '.join(f'{name}: {n}' for name, n in asked.items())}) "
         f"{ends[Verdict.CONVERGED]} converged, with "
         f"residuals of {_worst(found)} at most, and {len(refused)} were refused, "
-        f"{len(_duly(refused))} of these for a force above µW or because a section cannot pose them; "
+        f"{len(_duly(refused))} of these for a force above µW or because a section cannot pose "
+        "them; "
         f"{ends[Verdict.NOT_CONVERGED]} gave up and {ends[Verdict.SILENT]} are wrong in silence."
     )
 
