@@ -93,7 +93,16 @@ ORDERS = {
         *("spring_residuals", "passes", "method"),
     ),
     "contact_results": (
-        *("one_thread", "difference", "directory", "quantities", "surface", "cycles", "path_error"),
+        *(
+            "one_thread",
+            "difference",
+            "directory",
+            "quantities",
+            "surface",
+            "remarks",
+            "cycles",
+            "path_error",
+        ),
         *("files", "stress", "figures", "result_files", "stress_files"),
     ),
     "contact_errors": (

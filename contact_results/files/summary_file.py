@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from contact_results.directory.file_names import SUMMARY
+from contact_results.remarks import remarks
 from contact_scene.increment import SCALARS
-from contact_scene.linear_theory import beyond_linear_theory
 from contact_scene.path_error import PathError
 from contact_scene.reported import Kind
 from contact_scene.stated_error import StatedError, StatedErrors
@@ -64,7 +64,7 @@ def summary_of(
                 groupby(increments, lambda increment: increment.step), stated, strict=False
             )
         ),
-        remarks=beyond_linear_theory(result.scene, result.steps),
+        remarks=remarks(result),
         companions=errors.companions if errors else None,
         path_errors=path_errors,
     )

@@ -157,7 +157,7 @@ def _print_outcome(
     by_doubling: "tuple[PathError, ...] | None",
     seconds: dict[str, float],
 ) -> None:
-    from contact_scene.linear_theory import beyond_linear_theory
+    from contact_results.remarks import remarks
     from slipstick.cli.outcome_text import (
         how_stated,
         outcome_columns,
@@ -174,7 +174,7 @@ def _print_outcome(
         typer.echo("  errors by finite increments, estimated by doubling them:")
         columns = path_error_columns(by_doubling)
         print_table(columns, zip(*columns.values(), strict=True), numbers=True)
-    for remark in beyond_linear_theory(result.scene, result.steps):
+    for remark in remarks(result):
         tell(f"warning: {remark}")
 
 

@@ -1,0 +1,71 @@
+"""What to bear in mind of a result: a theory at its end, heights that cells leave out."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING, cast
+
+import numpy as np
+from numpy.typing import NDArray
+
+from contact_scene import HeightMap
+from contact_scene.height_map import interpolate
+from contact_scene.linear_theory import beyond_linear_theory
+from contact_scene.pair import contact_modulus
+
+if TYPE_CHECKING:
+    import semi_analytical
+    from contact_results.surface import Result
+
+Field = NDArray[np.float64]
+
+# Of the peak pressure, below which there is nothing to say of what cells leave out.
+NEGLIGIBLE = 1e-3
+
+
+def remarks(result: Result) -> tuple[str, ...]:
+    """In sentences, for people."""
+    found = beyond_linear_theory(result.scene, result.steps)
+    if not hasattr(result, "grid"):
+        return found
+    return (*found, *_left_out(cast("semi_analytical.Result", result)))
+
+
+def _left_out(result: semi_analytical.Result) -> Iterator[str]:
+    """Heights between cells that are wider than the spacing of their map.
+
+    They are judged by the pressure that would flatten them, E* √(mean square slope) / 2 (Persson
+    2001; a wave of amplitude h and wavenumber k takes E* k h / 2: Johnson 1985, eq. 13.7).
+    """
+    indenter, grid = result.scene.indenter, result.grid
+    if not isinstance(indenter, HeightMap):
+        return
+    if all(np.less_equal(grid.spacing, np.multiply(indenter.spacing, 1 + 1e-9))):
+        return
+    end = max(result.steps, key=lambda step: step.contact_area)
+    cells = grid.coordinates()
+    x, y = (
+        _points(count, spacing, at[end.in_contact])
+        for count, spacing, at in zip(indenter.file.shape, indenter.spacing, cells, strict=True)
+    )
+    if min(len(x), len(y)) < 2:
+        return
+    seen = interpolate(indenter.initial_gap(*cells), grid.spacing, x[:, None], y)
+    lost = indenter.initial_gap(x[:, None], y) - seen
+    # From point to point: over two of them the steepest waves have no slope.
+    slopes = (np.diff(lost, axis=axis) / indenter.spacing[axis] for axis in (0, 1))
+    steepness = float(np.sqrt(sum(np.mean(np.square(slope)) for slope in slopes)))
+    pressure = contact_modulus(result.scene) * steepness / 2
+    if pressure > NEGLIGIBLE * end.peak_pressure:
+        nx, ny = (int(np.ceil(n)) for n in np.divide(grid.window, indenter.spacing))
+        yield (
+            f"the cells are wider than the spacing of the height map: to flatten what they leave "
+            f"out takes a pressure of {pressure / end.peak_pressure:.2g} of the peak; "
+            f"try --set semi_analytical.cells=[{nx},{ny}]"
+        )
+
+
+def _points(count: int, spacing: float, within: Field) -> Field:
+    """Of a map along one axis, between the outermost of some places [length]."""
+    points = (np.arange(count) - (count - 1) / 2) * spacing
+    return np.asarray(points[(points >= np.min(within)) & (points <= np.max(within))])
