@@ -68,7 +68,10 @@ TWIST = Rule(2, 0.15, 4, 3.0, 3.0, 0.3, Lengthscale.SLIP)
 ENERGY = Rule(2, 0.12, 1, 1.15, lengthscale=Lengthscale.ANNULUS)
 # The largest of a field that has its largest slope there.
 EDGE = Rule(1, 0.3, 1, 1.5)
+# Stress at the surface and near it, largest at an edge of the tractions.
 TENSION = Rule(0.5, 0.0, 0, 1.6)
+# Stress inside.
+INTERIOR = Rule(2, 0.0, 0, 1.5)
 
 
 def doubled(rule: Rule) -> Rule:

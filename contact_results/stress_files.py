@@ -16,6 +16,7 @@ from contact_results.stress.tables import (
     write_maxima,
     write_stress_summary,
 )
+from contact_scene.stated_error import StatedError
 
 
 def write_stress(
@@ -26,12 +27,16 @@ def write_stress(
     directory: Path,
     *,
     with_figures: bool,
+    errors: Sequence[StatedError] | None = None,
 ) -> None:
-    """Write tables, meshes, figures and summary of the `body` or the `indenter`."""
+    """Write tables, meshes, figures and summary of the `body` or the `indenter`.
+
+    errors  of what was found; None where they were left out
+    """
     body = state.indenter if which == "indenter" else state.body
     # Last to come and first to go: a directory with a summary is complete.
     (directory / SUMMARY).unlink(missing_ok=True)
-    write_maxima(found, directory)
+    write_maxima(found, errors, directory)
     write_axis(field, body, directory)
     write_interfaces(field, body, directory)
     write_mesh(field.section, directory / SECTION)
@@ -42,4 +47,4 @@ def write_stress(
 
         title = f"{state.title or 'Stress'}: {which}, step {state.step}"
         write_stress_figures(field, body, directory, title)
-    write_stress_summary(state, which, field, found, directory)
+    write_stress_summary(state, which, field, found, errors, directory)

@@ -10,10 +10,14 @@ from contact_scenes import APPROACH, LOAD, MU, NU, YOUNG, A, grid, hertz, scene,
 
 from contact_errors import estimate
 from contact_errors.half_the_cells import recut
+from contact_errors.of_stress import on_wide_cells, stress_errors
 from contact_errors.on_cells import stated_errors
 from contact_errors.rules import RULES, Rule
 from contact_errors.values import OF_CYCLES, PHYSICAL
-from contact_scene import Cone, Scene
+from contact_results.stress.extremes import extremes
+from contact_results.stress.loaded_bodies import LoadedBodies
+from contact_results.stress.on_cells import stress_on_cells
+from contact_scene import Body, Cone, Scene
 from contact_scene.stated_error import ErrorStatus, StatedError
 from semi_analytical import SurfaceGrid, plan, solve
 from verification.closed_forms.cattaneo_mindlin import PartialSlip
@@ -158,6 +162,37 @@ def test_the_error_of_partial_slip_covers_what_is_wrong(cells: int) -> None:
     exact = PartialSlip(LOAD, A, MU, tangential_modulus((YOUNG, NU), (YOUNG, NU)), 60.0)
     assert abs(end.stick_radius - exact.stick_radius) <= size(errors["stick_radius"])
     assert abs(end.tangential_shift[0] - exact.shift) <= size(errors["tangential_shift"])
+
+
+@pytest.mark.parametrize("cells", [24, 33, 48])
+def test_the_error_of_stress_covers_what_is_wrong_at_the_trailing_edge(cells: int) -> None:
+    # Hertz's pressure with the shear of full slip along x; Hamilton (1983), eq. for x = -a.
+    on = grid(cells, contacts=1.5)
+    pressure = hertz().peak_pressure * np.sqrt(
+        np.clip(1 - np.hypot(*on.coordinates()) ** 2 / A**2, 0, None)
+    )
+    mu, body = 0.25, Body(material=steel())
+    shear = np.stack([mu * pressure, 0 * pressure])
+    state = LoadedBodies(
+        "", body, body, 1, {"x": on.x, "y": on.y}, {"pressure": pressure, "shear": shear}, None
+    )
+    field = stress_on_cells(state, depths=[0.0])
+    found = extremes(field.points, body)
+    errors = dict(zip([e.measure for e in found], stress_errors(state, field, found), strict=True))
+    (tension,) = (e.value for e in found if e.measure == "max_principal")
+    exact = hertz().peak_pressure * ((1 - 2 * NU) / 3 + np.pi * mu * (4 + NU) / 8)
+    assert tension < exact
+    assert abs(tension - exact) <= size(errors["max_principal"]) < 10 * abs(tension - exact)
+
+
+def test_wide_cells_carry_the_same_force() -> None:
+    on = SurfaceGrid((9, 12), (3.0, 4.0))
+    pressure = np.random.default_rng(1).random((9, 12))
+    axes = {"x": on.x, "y": on.y}
+    body = Body(material=steel())
+    wide = on_wide_cells(LoadedBodies("", body, body, 1, axes, {"pressure": pressure}, None))
+    assert [len(wide.axes[axis]) for axis in "xy"] == [5, 6]
+    assert 4 * np.sum(wide.tractions["pressure"]) == pytest.approx(np.sum(pressure))
 
 
 def test_a_run_writes_the_errors_and_counts_their_solves_apart(tmp_path: Path) -> None:

@@ -14,6 +14,7 @@ from contact_results.stress.extremes import Extreme, interface_sides, layer_name
 from contact_results.stress.loaded_bodies import LoadedBodies
 from contact_results.stress.points import MEASURES, StressField, StressPoints
 from contact_scene import Body
+from contact_scene.stated_error import StatedError
 
 MAXIMA, AXIS, INTERFACES = "stress_maxima.csv", "stress_axis.csv", "stress_interfaces.csv"
 SUMMARY = "stress.json"
@@ -21,10 +22,16 @@ SUMMARY = "stress.json"
 PLACE = ("x [m]", "y [m]", "depth [m]")
 
 
-def write_maxima(found: Iterable[Extreme], directory: Path) -> None:
-    """Write one row per region and measure."""
-    rows = ((e.region, e.measure, e.value, e.x, e.y, e.depth) for e in found)
-    _write(directory / MAXIMA, ("region", "measure", "value [Pa]", *PLACE), rows)
+def write_maxima(
+    found: Sequence[Extreme], errors: Sequence[StatedError] | None, directory: Path
+) -> None:
+    """Write one row per region and measure; no error where none is known."""
+    sizes = ["" if e.error is None else e.error for e in errors] if errors else [""] * len(found)
+    rows = (
+        (e.region, e.measure, e.value, size, e.x, e.y, e.depth)
+        for e, size in zip(found, sizes, strict=True)
+    )
+    _write(directory / MAXIMA, ("region", "measure", "value [Pa]", "error [Pa]", *PLACE), rows)
 
 
 def write_axis(field: StressField, body: Body, directory: Path) -> None:
@@ -52,9 +59,15 @@ def sides(field: StressField, body: Body) -> Iterator[tuple[int, str, StressPoin
 
 
 def write_stress_summary(
-    state: LoadedBodies, which: str, field: StressField, found: Sequence[Extreme], directory: Path
+    state: LoadedBodies,
+    which: str,
+    field: StressField,
+    found: Sequence[Extreme],
+    errors: Sequence[StatedError] | None,
+    directory: Path,
 ) -> None:
     """Write what was computed and its extremes; the last file of a stress state."""
+    stated = [None] * len(found) if errors is None else [e.model_dump(mode="json") for e in errors]
     record = {
         "title": state.title,
         "body": which,
@@ -62,7 +75,9 @@ def write_stress_summary(
         "peak_pressure": float(np.max(state.tractions["pressure"])),
         **field.how,
         "measures": MEASURES,
-        "maxima": [vars(extreme) for extreme in found],
+        "maxima": [
+            {**vars(extreme), "error": error} for extreme, error in zip(found, stated, strict=True)
+        ],
     }
     text = json.dumps(record, indent=2, allow_nan=False, ensure_ascii=False) + "\n"
     with atomic_file(directory / SUMMARY) as path:

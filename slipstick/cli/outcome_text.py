@@ -85,7 +85,7 @@ def outcome_columns(
     for column in _columns([end for _, end in numbered]):
         sizes = [abs(value) for value, _ in column.entries if value is not None]
         scale = engineering_unit(float(np.max(sizes, initial=0.0)), column.unit)
-        texts = [_entry_text(value, error, scale.size) for value, error in column.entries]
+        texts = [entry_text(value, error, scale.size) for value, error in column.entries]
         columns[f"{column.heading}\n{scale.name}"] = texts
     if gap is not None:
         for texts in columns.values():
@@ -93,7 +93,8 @@ def outcome_columns(
     return columns
 
 
-def _entry_text(value: float | None, error: Uncertainty | None, unit: float) -> str:
+def entry_text(value: float | None, error: Uncertainty | None, unit: float) -> str:
+    """A number in a unit with what is known of its error."""
     if value is None:
         return "–"
     if error is None:
@@ -162,11 +163,11 @@ def _columns(steps: Sequence[tuple[State, Errors]]) -> Iterator[_Column]:
             cut = [_cut(value, NEGLIGIBLE * np.max(known) if vector else 0.0) for value in values]
             if axis == "x" or any(cut):
                 heading = f"{first}\n{rest}{f' {axis}' if vector else ''}"
-                errors = [_uncertainty(of_step.get(name), axis) for _, of_step in steps]
+                errors = [uncertainty(of_step.get(name), axis) for _, of_step in steps]
                 yield _Column(heading, mark.unit, list(zip(cut, errors, strict=True)))
 
 
-def _uncertainty(stated: StatedError | None, axis: str) -> Uncertainty | None:
+def uncertainty(stated: StatedError | None, axis: str = "x") -> Uncertainty | None:
     """Of the component of a number; None where it has none to show."""
     if stated is None or stated.status is ErrorStatus.EXACT:
         return None

@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from contact_results.stress.loaded_bodies import LoadedBodies
     from contact_results.stress.points import StressField
     from contact_results.surface import Result
+    from contact_scene.stated_error import StatedError
 
 
 def stress(
@@ -54,6 +55,12 @@ def stress(
         bool, typer.Option("--volume", help="Write the whole volume as VTU too, not only y = 0.")
     ] = False,
     figures: FiguresOption = True,
+    error: Annotated[
+        bool,
+        typer.Option(
+            "--error/--no-error", help="State an error for every maximum, or leave them out."
+        ),
+    ] = True,
     overrides: SetOption = None,
     solver: AskedSolver = None,
 ) -> None:
@@ -77,8 +84,9 @@ def stress(
         raise typer.BadParameter(f"the {which} is rigid: there is no stress in it")
     field = _below(state, asked, indenter=indenter, volume=volume)
     found = extremes(field.points, body)
-    write_stress(state, which, field, found, output, with_figures=figures)
-    _print(found, output)
+    errors = _errors(state, field, found, indenter) if error else None
+    write_stress(state, which, field, found, output, with_figures=figures, errors=errors)
+    _print(found, errors, output)
 
 
 def _refuse_file_in_the_way(output: Path) -> None:
@@ -146,6 +154,14 @@ def _below(
         raise typer.BadParameter(f"--depths: {error}") from None
 
 
+def _errors(
+    state: LoadedBodies, field: StressField, found: tuple[Extreme, ...], indenter: bool
+) -> tuple[StatedError, ...]:
+    from contact_errors.of_stress import stress_errors
+
+    return stress_errors(state, field, found, indenter=indenter)
+
+
 def _length(text: str) -> float:
     """A plain number in metres, or a number with a unit."""
     from pydantic import TypeAdapter, ValidationError
@@ -163,10 +179,13 @@ def _length(text: str) -> float:
         raise typer.BadParameter(f"--depths: {reason}") from None
 
 
-def _print(found: tuple[Extreme, ...], output: Path) -> None:
+def _print(
+    found: tuple[Extreme, ...], errors: tuple[StatedError, ...] | None, output: Path
+) -> None:
     import numpy as np
 
     from contact_scene.engineering_units import engineering_unit, quantity
+    from slipstick.cli.outcome_text import entry_text, uncertainty
     from slipstick.cli.terminal import print_table
 
     unit = engineering_unit(float(np.max([abs(e.value) for e in found])), "Pa")
@@ -175,10 +194,12 @@ def _print(found: tuple[Extreme, ...], output: Path) -> None:
         (
             e.region,
             e.measure,
-            f"{e.value / unit.size:.5g}",
+            entry_text(e.value, uncertainty(error), unit.size),
             *(quantity(length, "m") for length in (e.x, e.y, e.depth)),
         )
-        for e in found
+        for e, error in zip(found, errors or [None] * len(found), strict=True)
     )
     print_table(columns, rows, numbers=True)
+    if errors is None:
+        typer.echo("  no errors: --no-error left them out")
     typer.echo(f"results in {output}")
