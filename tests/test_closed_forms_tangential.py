@@ -13,13 +13,8 @@ from surface_quadrature import tangential_displacement
 from verification.closed_forms.cattaneo_mindlin import PartialSlip
 from verification.closed_forms.ciavarella_jaeger import superpose
 from verification.closed_forms.cone import ConeContact
-from verification.closed_forms.elliptical_contact import (
-    EllipticalContact,
-    tangential_modulus_ratio,
-)
 from verification.closed_forms.flat_punch import FlatPunchContact
 from verification.closed_forms.hertz import PointContact
-from verification.closed_forms.line_contact import LineContact, LinePartialSlip
 from verification.closed_forms.mindlin_deresiewicz import Branch, FrettingLoop
 from verification.closed_forms.moduli import contact_modulus, tangential_modulus
 from verification.closed_forms.sphere import SphereContact
@@ -133,13 +128,6 @@ def test_stiffness_is_the_slope_of_force_against_shift(ratio):
     rise = cattaneo(ratio + step).shift - cattaneo(ratio - step).shift
     # central difference: rounding 1e-16/1e-8 dominates
     assert 2 * step * LIMIT / rise == pytest.approx(cattaneo(ratio).stiffness, rel=1e-6)
-
-
-@given(ratio=ratios)
-def test_shift_control_finds_the_force_again(ratio):
-    state = cattaneo(ratio)
-    again = PartialSlip.at_shift(LOAD, A, MU, G_STAR, state.shift)
-    assert again.tangential_force == pytest.approx(state.tangential_force, rel=1e-10, abs=1e-300)
 
 
 def test_gross_sliding_is_where_the_whole_contact_slips():
@@ -406,58 +394,6 @@ def test_flat_punch_sticks_until_it_slides():
     assert np.all(state.slip(r) == 0)
 
 
-@pytest.mark.parametrize("radii", [(4.0, 1.5), (1.5, 4.0), (3.0, 3.0)])
-@pytest.mark.parametrize("nu", [0.0, 0.3])
-def test_superposed_stick_ellipse_moves_rigidly(radii, nu):
-    body = (2.1, nu)
-    E = contact_modulus(body)
-
-    def contact(load):
-        return EllipticalContact.under_load(load, radii, E)
-
-    ratio = tangential_modulus_ratio(contact(LOAD).axis_ratio, body)
-    state = superpose(contact, LOAD, 0.6 * LIMIT, MU, ratio)
-    inner, outer = state.stick.semi_axes, state.full.semi_axes
-    assert inner[0] / outer[0] == pytest.approx(0.4 ** (1 / 3))
-    for fx, fy in [(0.0, 0.0), (0.4, 0.5)]:
-        along, across = tangential_displacement(
-            state.shear, (fx * inner[0], fy * inner[1]), [inner, outer], 2.1 / (2 * (1 + nu)), nu
-        )
-        assert along == pytest.approx(state.shift, rel=1e-8)
-        assert across == pytest.approx(0, abs=1e-8 * state.shift)
-
-
-@pytest.mark.parametrize("nu", [0.0, 0.3, 0.5])
-def test_circle_has_the_averaged_tangential_modulus(nu):
-    expected = contact_modulus((2.1, nu), (0.7, 0.1)) / tangential_modulus((2.1, nu), (0.7, 0.1))
-    assert tangential_modulus_ratio(1.0, (2.1, nu), (0.7, 0.1)) == pytest.approx(expected)
-
-
-# --- line contact
-
-
-@pytest.mark.parametrize("ratio", [0.3, 0.75, -0.96, 1.0])
-def test_line_partial_slip(ratio):
-    contact = LineContact.under_load(LOAD, RADIUS, E_STAR)
-    state = LinePartialSlip(contact, MU, ratio * LIMIT)
-    a, c = contact.contact_half_width, state.stick_half_width
-    assert c / a == pytest.approx(np.sqrt(1 - abs(ratio)), abs=1e-15)
-    force = 2 * quad(state.shear, 0, a, points=[c] if c else None, epsabs=1e-12)[0]
-    assert force == pytest.approx(ratio * LIMIT, rel=1e-8)
-    x = a * np.linspace(-1, 1, 81)
-    assert np.all(np.abs(state.shear(x)) <= MU * contact.pressure(x) + 1e-15)
-    assert np.all(state.slip(x) * state.shear(x) <= 0)
-    assert np.all(state.slip(x[np.abs(x) < c]) == 0)
-
-
-def test_line_stick_zone_moves_rigidly():
-    contact = LineContact(RADIUS, E_STAR, 1.0)
-    state = LinePartialSlip(contact, MU, 0.51 * MU * contact.load)
-    for x in (0.0, 0.5):
-        slope = quad(state.shear, -1, 1, weight="cauchy", wvar=x, limit=800)[0]
-        assert slope == pytest.approx(0, abs=1e-5 * MU * contact.peak_pressure)
-
-
 # --- dimension and range
 
 
@@ -483,7 +419,6 @@ def test_partial_slip_is_unit_neutral(ratio, length, stress):
         (lambda: cattaneo(1.0001), "gross sliding"),
         (lambda: cattaneo(float("nan")), "exceeds friction limit"),
         (lambda: replace(VIRGIN, friction_coefficient=0.0), "friction_coefficient is 0.0"),
-        (lambda: PartialSlip.at_shift(LOAD, A, MU, G_STAR, 1.0), "exceeds the shift at gross"),
         (lambda: FrettingLoop(LOAD, A, MU, G_STAR, 1.1 * LIMIT), "gross sliding"),
         (lambda: FrettingLoop(LOAD, A, MU, G_STAR, 0.0), "amplitude is 0.0"),
         (
@@ -499,7 +434,6 @@ def test_partial_slip_is_unit_neutral(ratio, length, stress):
         (lambda: TangentialHistory(cattaneo(0.5)), "without tangential force"),
         (lambda: TangentialHistory(VIRGIN).loaded_to(-1.1 * LIMIT), "gross sliding"),
         (lambda: superpose(CONTACTS["cone"], LOAD, 1.1 * LIMIT, MU, 1.0), "gross sliding"),
-        (lambda: LinePartialSlip(LineContact(1.0, 1.0, 1.0), 0.1, 1.0), "gross sliding"),
     ],
 )
 def test_arguments_outside_the_range_are_refused(attempt, message):

@@ -10,7 +10,7 @@ up to 7.5°, and stick vanishes between 0.987 and 0.9996 µW rather than at µW.
 nu = 0, and with nu = 0.3 in a band of 1–5 %. `slip` is therefore given for nu = 0 only.
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from math import copysign, expm1, log1p, pi
 
 import numpy as np
@@ -46,25 +46,6 @@ class PartialSlip:
             tangential_modulus=self.tangential_modulus,
         )
         require_within_friction_limit(self.tangential_force, self.friction_coefficient, self.load)
-
-    @classmethod
-    def at_shift(
-        cls,
-        load: float,
-        contact_radius: float,
-        friction_coefficient: float,
-        tangential_modulus: float,
-        shift: float,
-    ) -> "PartialSlip":
-        """State under a prescribed shift from zero; ValueError beyond the sliding shift."""
-        free = cls(load, contact_radius, friction_coefficient, tangential_modulus, 0.0)
-        ratio = abs(shift) / free.sliding_shift
-        if not ratio <= 1:
-            raise ValueError(
-                f"shift {shift!r} exceeds the shift at gross sliding {free.sliding_shift!r}"
-            )
-        fraction = 1.0 if ratio == 1 else -expm1(1.5 * log1p(-ratio))
-        return replace(free, tangential_force=copysign(fraction * free.friction_limit, shift))
 
     @property
     def friction_limit(self) -> float:

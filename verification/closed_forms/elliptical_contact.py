@@ -13,7 +13,6 @@ from numpy.typing import ArrayLike, NDArray
 from scipy.optimize import brentq
 from scipy.special import elliprd, elliprf
 
-from verification.closed_forms.moduli import ElasticConstants, contact_modulus
 from verification.closed_forms.validity import require_non_negative, require_positive
 
 
@@ -122,20 +121,3 @@ class EllipticalContact:
         if self.semi_axes[0] == 0:
             return np.asarray(undeformed)
         return np.asarray(undeformed - self.approach + self.surface_displacement(xs, ys))
-
-
-def tangential_modulus_ratio(axis_ratio: float, *bodies: ElasticConstants) -> float:
-    """E*/G* for a tangential force along x on an ellipse with b/a = axis_ratio (Mindlin 1949).
-
-    axis_ratio  semi-axis across the force over the semi-axis along it
-    bodies      (Young's modulus, Poisson's ratio) of each elastic body
-
-    Ratio of tangential to normal displacement for the same elliptical traction distribution, so
-    that shift = µ (E*/G*) [approach(W) - approach(W - T/µ)] (Vermeulen and Johnson 1964). Equals
-    E* times the sum of (2 - nu)/4G on a circle. Valid for T along a principal axis.
-    """
-    require_positive(axis_ratio=axis_ratio)
-    square = axis_ratio**2
-    along = square * elliprd(0, 1, square) / (3 * elliprf(0, 1, square))
-    compliance = sum((1 - nu * along) * 2 * (1 + nu) / E for E, nu in bodies)
-    return float(contact_modulus(*bodies) / 2 * compliance)

@@ -25,15 +25,6 @@ def tangential_modulus(*bodies: ElasticConstants) -> float:
     return 1 / sum((2 - nu) * (1 + nu) / (2 * E) for E, nu in _checked(bodies))
 
 
-def torsional_modulus(*bodies: ElasticConstants) -> float:
-    """Modulus of torsional contact: its reciprocal is the sum of 1/G [force/length²].
-
-    The torsional stiffness of a stuck circular contact is 16/3 times it times a³
-    (Reissner and Sagoci 1944).
-    """
-    return 1 / sum(2 * (1 + nu) / E for E, nu in _checked(bodies))
-
-
 def _checked(bodies: tuple[ElasticConstants, ...]) -> tuple[ElasticConstants, ...]:
     if not bodies:
         raise ValueError("no elastic body given: at least one of the two must be deformable")
