@@ -11,7 +11,7 @@ from verification.cases.both_solvers.differences import COMPARED
 from verification.exhibits.chart import Chart
 from verification.exhibits.numbers import plain
 from verification.judging.case import Level
-from verification.running.record import StudyRecord
+from verification.running.record import StudyRecord, dump_study
 from verification.running.stored_studies import stored_studies
 from verification.running.study import Conclusion, Records, Settings
 from verification.studies.catalogue import STUDIES
@@ -20,10 +20,8 @@ from verification.studies.stability.record import CellRecord, Refusal, Verdict
 from verification.studies.stability.study import CELLS
 from verification.studies.stability.views import study_cells
 
-KEPT = {
-    record.name: record
-    for record in stored_studies(Path(__file__).resolve().parents[1] / "reports" / "studies")
-}
+STUDY_FILES = Path(__file__).resolve().parents[1] / "reports" / "studies"
+KEPT = {record.name: record for record in stored_studies(STUDY_FILES)}
 PER_MILLE = 1e3
 
 
@@ -59,6 +57,12 @@ def today(name: str) -> Conclusion:
         cells = study_cells(level, CELLS[level])
         records = {cell.name: ended(cell).of_cell(cell) for cell in cells}
     return STUDIES[name].conclude(Settings(level), records)
+
+
+@pytest.mark.parametrize("name", sorted(KEPT))
+def test_a_kept_record_is_written_as_it_is_kept(name: str) -> None:
+    """Nothing of it is lost by being read, and nothing is kept that says nothing."""
+    assert dump_study(kept(name)) == (STUDY_FILES / name / "study.json").read_text("utf-8")
 
 
 @pytest.mark.parametrize("name", ["cross-check", "gross-sliding", "stability"])

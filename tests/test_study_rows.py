@@ -2,14 +2,16 @@
 
 import csv
 import io
+import json
 from dataclasses import dataclass
 from enum import StrEnum
 
 import pytest
-from hypothesis import given
+from hypothesis import example, given
 from hypothesis import strategies as st
 
 from verification.judging.outcome import Status
+from verification.running.record import json_text
 from verification.running.row import CaseRecord, Row, found, parameters_of
 from verification.running.row_files import row_files
 from verification.running.rules import RESIDUAL, converged, solved, within
@@ -121,3 +123,24 @@ def test_signs_do_not_matter_to_what_is_allowed_and_what_a_row_lacks_is_not_aske
 def test_what_was_not_solved_fails() -> None:
     assert solved("all", 3, 4).outcome is Status.FAIL
     assert solved("all", 4, 4, "solves").measured == "4 of 4 solves"
+
+
+said = st.text(st.sampled_from('[]{}", \n\\a'), max_size=6)
+anything = st.recursive(
+    st.none() | st.booleans() | st.integers() | said,
+    lambda inner: st.lists(inner, max_size=3) | st.dictionaries(said, inner, max_size=3),
+)
+
+
+@example({"words": ["two  spaces", "a  ]  b", "[\n", "}{"]})
+@given(st.dictionaries(said, anything, max_size=3))
+def test_what_is_written_comes_back_whatever_brackets_its_texts_have(values: dict) -> None:
+    assert json.loads(json_text(values)) == values
+
+
+def test_points_and_measures_take_a_line_each() -> None:
+    text = json_text({"curve": {"x": [1.0, 2.0], "y": [3.0]}, "rows": [{"a": 1, "b": 2}, {}]})
+    assert text.splitlines()[1:-1] == [
+        ' "curve": {', '  "x": [ 1.0, 2.0 ],', '  "y": [ 3.0 ]', " },",
+        ' "rows": [', '  { "a": 1, "b": 2 },', "  {}", " ]",
+    ]  # fmt: skip

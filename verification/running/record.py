@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import json
+import re
+from typing import Any
 
 from pydantic import model_validator
 
@@ -51,6 +53,14 @@ class StudyRecord(Description):
 
 
 def dump_study(record: StudyRecord) -> str:
-    """The record as JSON text, every key present."""
-    values = record.model_dump(mode="json")
-    return json.dumps(values, indent=1, ensure_ascii=False, allow_nan=False) + "\n"
+    """The record as JSON text, without what is as it is where nothing is said of it."""
+    said = record.model_dump(mode="json", exclude_defaults=True)
+    return json_text({"schema_version": record.schema_version} | said)
+
+
+def json_text(values: dict[str, Any]) -> str:
+    """JSON, indented; what holds nothing but numbers and texts, such as the points of a curve or
+    the measures of a row, takes one line."""
+    text = json.dumps(values, indent=1, ensure_ascii=False, allow_nan=False)
+    # No text of JSON has a line's end in it: only the space between values is changed.
+    return re.sub(r"[\[{]\n[^\[\]{}]*[\]}]", lambda m: re.sub(r"\n *", " ", m[0]), text) + "\n"

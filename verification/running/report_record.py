@@ -1,6 +1,5 @@
 """`report.json`: all that a report shows. Only `provenance` differs between two equal runs."""
 
-import json
 from pathlib import Path
 from typing import Any
 
@@ -11,7 +10,7 @@ from verification.judging.case import Level
 from verification.judging.change import GoneCase
 from verification.judging.outcome import CaseOutcome, Status, Verdict
 from verification.running.provenance_record import Benchmark, Provenance
-from verification.running.record import StudyRecord
+from verification.running.record import StudyRecord, json_text
 
 __all__ = ["Benchmark", "Provenance", "Report"]
 
@@ -95,8 +94,7 @@ def _counts_text(counts: dict[Status, int]) -> str:
 
 def dump_report(report: Report) -> str:
     """The report as JSON text, every key present."""
-    record = report.model_dump(mode="json")
-    return json.dumps(record, indent=1, ensure_ascii=False, allow_nan=False) + "\n"
+    return json_text(report.model_dump(mode="json"))
 
 
 def load_report(path: Path) -> Report:
