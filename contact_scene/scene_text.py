@@ -6,8 +6,11 @@ from typing import get_args
 from pydantic.fields import FieldInfo
 
 from contact_scene import (
+    ArrayFile,
     Body,
     CoulombFriction,
+    FiniteElementDiscretisation,
+    HeightMap,
     IsotropicMaterial,
     LoadRamp,
     Rigid,
@@ -22,8 +25,15 @@ MOST_STEPS_SHOWN = 12
 Line = tuple[str, str]
 
 
-def describe(scene: Scene, discretisation: SurfaceDiscretisation) -> Iterator[Line]:
-    """Pairs of a word and what the scene says about it, in the order of the file."""
+def describe(
+    scene: Scene,
+    discretisation: SurfaceDiscretisation,
+    elements: FiniteElementDiscretisation | None = None,
+) -> Iterator[Line]:
+    """Pairs of a word and what the scene says about it, in the order of the file.
+
+    elements  those of its numbers are told that are not what is usual
+    """
     if scene.title:
         yield "title", scene.title
     yield "indenter", f"{shape_text(scene.indenter)}; {_body(scene.indenter)}"
@@ -31,6 +41,8 @@ def describe(scene: Scene, discretisation: SurfaceDiscretisation) -> Iterator[Li
     yield "friction", _friction(scene.friction)
     yield from _loading(scene.load_path())
     yield from _discretisation(discretisation)
+    if elements is not None:
+        yield from _elements(elements)
 
 
 def shape_text(indenter: Body) -> str:
@@ -39,6 +51,8 @@ def shape_text(indenter: Body) -> str:
     own = {name: field for name, field in fields if name not in ("material", "layers")}
     texts = {name: _value(getattr(indenter, name), _unit(own[name])) for name in own}
     parts = [text if name == "shape" else f"{name} {text}" for name, text in texts.items()]
+    if isinstance(indenter, HeightMap):
+        parts.append("heights " + _map(indenter.file, indenter.spacing, "m"))
     return ", ".join(parts).replace("_", " ")
 
 
@@ -78,7 +92,19 @@ def _friction(friction: CoulombFriction | None) -> str:
     if friction is None:
         return "none"
     mu = friction.coefficient
-    return f"Coulomb, µ = {mu:.6g}" if isinstance(mu, float) else f"Coulomb, µ from {mu.map}"
+    if isinstance(mu, float):
+        return f"Coulomb, µ = {mu:.6g}"
+    shift = f", its middle at {_vector(mu.origin, 'm')}" if any(mu.origin) else ""
+    return f"Coulomb, µ from {mu.map}: {_map(mu.map, mu.spacing, '')}{shift}"
+
+
+def _map(file: ArrayFile, spacing: tuple[float, float], unit: str) -> str:
+    """Values, points and size of a map."""
+    (nx, ny), (dx, dy) = file.shape, spacing
+    ends = (float(file.values.min()), float(file.values.max()))
+    values = [quantity(end, unit, 4) if unit else f"{end:.4g}" for end in ends]
+    size = _value((nx * dx, ny * dy), "m")
+    return f"{values[0]} to {values[1]}, {nx} x {ny} values on {size}"
 
 
 def _loading(path: tuple[LoadRamp, ...]) -> Iterator[Line]:
@@ -130,3 +156,10 @@ def _discretisation(discretisation: SurfaceDiscretisation) -> Iterator[Line]:
     yield "window", "chosen" if window is None else _value(window, "m")
     yield "tolerance", f"{discretisation.tolerance:.3g}"
     yield "path accuracy", f"{discretisation.path_accuracy:.3g}"
+
+
+def _elements(given: FiniteElementDiscretisation) -> Iterator[Line]:
+    for name, field in type(given).model_fields.items():
+        value = getattr(given, name)
+        if value != field.default:
+            yield f"elements: {name}".replace("_", " "), _value(value, _unit(field))
