@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 
 from verification.judging.outcome import Status
 from verification.running.record import json_text
-from verification.running.row import CaseRecord, Row, found, parameters_of
+from verification.running.row import CaseRecord, Row, TypedRow, found, parameters_of
 from verification.running.row_files import row_files
 from verification.running.rules import RESIDUAL, converged, solved, within
 
@@ -144,3 +144,17 @@ def test_points_and_measures_take_a_line_each() -> None:
         ' "curve": {', '  "x": [ 1.0, 2.0 ],', '  "y": [ 3.0 ]', " },",
         ' "rows": [', '  { "a": 1, "b": 2 },', "  {}", " ]",
     ]  # fmt: skip
+
+
+class Ended(TypedRow):
+    """With a field that rows of before do not have."""
+
+    residual: float
+    way: str = "none was said"
+
+
+def test_a_row_of_before_a_field_was_there_is_read_with_its_default() -> None:
+    before = Row(measures={"residual": 1e-9})
+    assert Ended.of(before) == Ended(residual=1e-9)
+    with pytest.raises(ValueError, match="residual"):
+        Ended.of(Row(words={"way": "any"}))

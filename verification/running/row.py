@@ -96,7 +96,7 @@ class TypedRow(Description):
     def of(cls, row: Row) -> Self:
         """Back from its row."""
         known: dict[str, Any] = {**row.parameters, **row.measures, **row.counters, **row.words}
-        return cls.model_validate({name: known[name] for name in cls.model_fields})
+        return cls.model_validate({name: known[name] for name in cls.model_fields if name in known})
 
 
 class Named(Protocol):
