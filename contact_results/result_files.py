@@ -41,4 +41,4 @@ def write_result(
     if with_figures:
         from contact_results.figures.figure_files import write_figures
 
-        write_figures(result, cycles, directory)
+        write_figures(result, cycles, directory, errors.steps[-1] if errors else None)

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from command import slipstick
 from contact_scenes import APPROACH, LOAD, MU, NU, YOUNG, A, grid, hertz, scene, steel
+from matplotlib.figure import Figure
 
 from contact_errors import estimate
 from contact_errors.half_the_cells import recut
@@ -14,6 +15,8 @@ from contact_errors.of_stress import on_wide_cells, stress_errors
 from contact_errors.on_cells import stated_errors
 from contact_errors.rules import RULES, Rule
 from contact_errors.values import OF_CYCLES, PHYSICAL
+from contact_results.directory import file_names
+from contact_results.figures.caption import SHOWN, add_caption
 from contact_results.stress.extremes import extremes
 from contact_results.stress.loaded_bodies import LoadedBodies
 from contact_results.stress.on_cells import stress_on_cells
@@ -224,3 +227,14 @@ def test_the_table_shows_what_is_wrong_beside_the_number(
     wide = "semi_analytical.window=[8e-3, 8e-3]"
     slipstick("run", path, "-o", tmp_path / "out", "--no-figures", "--no-error", "--set", wide)
     assert "--no-error left them out" in capsys.readouterr().out
+
+
+def test_every_figure_has_a_caption_with_errors(tmp_path: Path) -> None:
+    drawn = {name for name in vars(file_names) if name.endswith("_FIGURE")}
+    assert {getattr(file_names, name) for name in drawn} == set(SHOWN)
+    result = solve(scene({"normal_force": 1e3}), grid(16), 1e-8)
+    figure = Figure()
+    add_caption(figure, file_names.PRESSURE_FIGURE, result, stated_errors(result).steps[-1])
+    assert figure.get_supxlabel().count(" ± ") == 2
+    add_caption(figure, file_names.PRESSURE_FIGURE, result, None)
+    assert "errors not stated" in figure.get_supxlabel()

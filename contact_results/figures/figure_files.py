@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -10,6 +10,7 @@ from matplotlib.figure import Figure
 
 from contact_results.cycles import FrettingCycle
 from contact_results.directory import file_names
+from contact_results.figures.caption import add_caption
 from contact_results.figures.dissipation_map import dissipating, dissipation_map
 from contact_results.figures.fretting_map import fretting_map
 from contact_results.figures.hysteresis_plot import hysteresis_plot, moved
@@ -21,6 +22,7 @@ from contact_results.figures.shown_steps import vectors
 from contact_results.figures.stick_slip_map import stick_slip_map
 from contact_results.figures.style import figure_style, save
 from contact_results.surface import Cells, surface_of
+from contact_scene.stated_error import StatedError
 
 if TYPE_CHECKING:
     from contact_results.surface import Result
@@ -29,11 +31,20 @@ FEWEST_POINTS = 3  # of a curve; with fewer there is only a line
 DIGITS = 9
 
 
-def write_figures(result: Result, cycles: Sequence[FrettingCycle], directory: Path) -> None:
+def write_figures(
+    result: Result,
+    cycles: Sequence[FrettingCycle],
+    directory: Path,
+    errors: Mapping[str, StatedError] | None = None,
+) -> None:
     """Draw what the scene calls for, and the last cycle if there is one; equal results give equal
-    bytes on equal libraries."""
+    bytes on equal libraries.
+
+    errors  of the last step, for the captions
+    """
     with figure_style():
         for name, figure in _figures_called_for(result, cycles):
+            add_caption(figure, name, result, errors)
             save(figure, directory / name)
 
 

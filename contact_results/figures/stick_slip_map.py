@@ -36,5 +36,5 @@ def stick_slip_map(result: Result, cells: Cells) -> Figure:
         draw_cells(ax, frame, zone, cmap=colours, vmin=0, vmax=len(ZONES) - 1)
         ax.set_title(f"{span([step])}: {tangential_load(step)}")
     patches = [Patch(facecolor=c, edgecolor=style.GREY, label=name) for name, c in ZONES]
-    figure.legend(handles=patches, loc="outside lower center", ncols=len(ZONES))
+    figure.legend(handles=patches, loc="outside upper center", ncols=len(ZONES))
     return figure

@@ -35,6 +35,7 @@ STYLE: Any = {
     "path.simplify": True,
 }
 DOTS_PER_INCH = 150
+CAPTION_SIZE = 7.5
 
 
 @contextmanager

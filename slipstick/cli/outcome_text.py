@@ -3,37 +3,27 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from math import floor, log10
 from typing import TYPE_CHECKING, NamedTuple, TypeVar
 
 import numpy as np
 
 from contact_results.difference import largest_difference
+from contact_results.number_text import Uncertainty, number_text, uncertainty
 from contact_scene.engineering_units import engineering_unit
 from contact_scene.increment import SCALARS, State, components, numbers
 from contact_scene.path_error import DoubledQuantity, PathError
 from contact_scene.reported import Kind
-from contact_scene.stated_error import ErrorStatus, StatedError, StatedErrors
+from contact_scene.stated_error import StatedError, StatedErrors
 
 if TYPE_CHECKING:
     import semi_analytical
     from contact_results.surface import Result
 
 FIRST, LAST = 10, 10  # of a long history, the steps that are shown
-DIGITS = 5
-ERROR_DIGITS = 2
-MOST_DECIMALS = 12
 NEGLIGIBLE = 1e-9  # of the largest value of a vector: round-off, shown as nothing
 
 Errors = Mapping[str, StatedError]
 Shown = TypeVar("Shown")
-
-
-class Uncertainty(NamedTuple):
-    """A stated error of one number; no size where nothing can be said."""
-
-    size: float | None
-    converged: bool
 
 
 class _Column(NamedTuple):
@@ -85,28 +75,12 @@ def outcome_columns(
     for column in _columns([end for _, end in numbered]):
         sizes = [abs(value) for value, _ in column.entries if value is not None]
         scale = engineering_unit(float(np.max(sizes, initial=0.0)), column.unit)
-        texts = [entry_text(value, error, scale.size) for value, error in column.entries]
+        texts = [number_text(value, error, scale.size) for value, error in column.entries]
         columns[f"{column.heading}\n{scale.name}"] = texts
     if gap is not None:
         for texts in columns.values():
             texts.insert(gap, "…")
     return columns
-
-
-def entry_text(value: float | None, error: Uncertainty | None, unit: float) -> str:
-    """A number in a unit with what is known of its error."""
-    if value is None:
-        return "–"
-    if error is None:
-        return f"{value / unit:.{DIGITS}g}"
-    doubt = "" if error.converged else " ?"
-    if error.size is None:
-        return f"{value / unit:.{DIGITS}g}{doubt}"
-    number, size = value / unit, error.size / unit
-    # Two digits of the error, and the number as far (JCGM 100:2008, 7.2.6).
-    decimals = ERROR_DIGITS - 1 - floor(log10(size)) if size else DIGITS
-    decimals = max(0, min(decimals, MOST_DECIMALS))
-    return f"{number:.{decimals}f} ± {size:.{decimals}f}{doubt}"
 
 
 def path_error_columns(errors: Sequence[PathError]) -> dict[str, list[str]]:
@@ -165,16 +139,6 @@ def _columns(steps: Sequence[tuple[State, Errors]]) -> Iterator[_Column]:
                 heading = f"{first}\n{rest}{f' {axis}' if vector else ''}"
                 errors = [uncertainty(of_step.get(name), axis) for _, of_step in steps]
                 yield _Column(heading, mark.unit, list(zip(cut, errors, strict=True)))
-
-
-def uncertainty(stated: StatedError | None, axis: str = "x") -> Uncertainty | None:
-    """Of the component of a number; None where it has none to show."""
-    if stated is None or stated.status is ErrorStatus.EXACT:
-        return None
-    size = stated.error
-    if isinstance(size, tuple):
-        size = size["xy".index(axis)]
-    return Uncertainty(size, stated.status is ErrorStatus.ESTIMATED)
 
 
 def _cut(value: float | None, negligible: float) -> float | None:

@@ -184,8 +184,8 @@ def _print(
 ) -> None:
     import numpy as np
 
+    from contact_results.number_text import number_text, uncertainty
     from contact_scene.engineering_units import engineering_unit, quantity
-    from slipstick.cli.outcome_text import entry_text, uncertainty
     from slipstick.cli.terminal import print_table
 
     unit = engineering_unit(float(np.max([abs(e.value) for e in found])), "Pa")
@@ -194,7 +194,7 @@ def _print(
         (
             e.region,
             e.measure,
-            entry_text(e.value, uncertainty(error), unit.size),
+            number_text(e.value, uncertainty(error), unit.size),
             *(quantity(length, "m") for length in (e.x, e.y, e.depth)),
         )
         for e, error in zip(found, errors or [None] * len(found), strict=True)

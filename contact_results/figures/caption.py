@@ -1,0 +1,64 @@
+"""The numbers that a figure is about, with their errors, in a line below it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from matplotlib.figure import Figure
+
+from contact_results.directory import file_names
+from contact_results.figures import style
+from contact_results.number_text import number_text, uncertainty
+from contact_scene.engineering_units import engineering_unit
+from contact_scene.increment import SCALARS
+from contact_scene.stated_error import StatedError
+
+if TYPE_CHECKING:
+    from contact_results.surface import Result
+
+NARROW = 5.0  # inches; a line of two numbers is as wide
+# The scalars that are read off each figure.
+SHOWN: Mapping[str, tuple[str, ...]] = {
+    file_names.PROFILE_FIGURE: ("peak_pressure", "contact_radius"),
+    file_names.PRESSURE_FIGURE: ("peak_pressure", "contact_radius"),
+    file_names.SHEAR_FIGURE: ("stick_radius",),
+    file_names.STICK_SLIP_FIGURE: ("contact_radius", "stick_radius"),
+    file_names.SLIP_FIGURE: ("stick_radius",),
+    file_names.DISSIPATION_FIGURE: ("dissipated_energy",),
+    file_names.FRETTING_FIGURE: ("dissipated_energy",),
+    file_names.HYSTERESIS_FIGURE: ("tangential_shift", "dissipated_energy"),
+    file_names.LOADING_FIGURE: ("approach", "contact_radius"),
+}
+
+
+def add_caption(
+    figure: Figure, name: str, result: Result, errors: Mapping[str, StatedError] | None
+) -> None:
+    """Write below a figure the numbers at the end of the history that it shows.
+
+    errors  of the last step; None where they were left out
+    """
+    end = result.steps[-1]
+    texts = [
+        _text(scalar, getattr(end, scalar), (errors or {}).get(scalar))
+        for scalar in SHOWN[name]
+        if getattr(end, scalar) is not None
+    ]
+    if texts:
+        unstated = "" if errors is not None else "; errors not stated"
+        between = ",\n" if figure.get_figwidth() < NARROW else ", "
+        text = f"at the end: {between.join(texts)}{unstated}"
+        figure.supxlabel(text, fontsize=style.CAPTION_SIZE, x=0.01, ha="left")
+
+
+def _text(name: str, value: Any, error: StatedError | None) -> str:
+    """Of a vector the larger component."""
+    values = np.atleast_1d(value)
+    k = int(np.argmax(np.abs(values)))
+    unit = engineering_unit(abs(float(values[k])), SCALARS[name].unit)
+    axis = "xy"[k]
+    of_vector = f" {axis}" if len(values) > 1 else ""
+    number = number_text(float(values[k]), uncertainty(error, axis), unit.size)
+    return f"{name.replace('_', ' ')}{of_vector} {number} {unit.name}"

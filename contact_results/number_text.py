@@ -1,0 +1,45 @@
+"""A number as people read it: in a unit that suits it, with as many digits as its error leaves."""
+
+from __future__ import annotations
+
+from math import floor, log10
+from typing import NamedTuple
+
+from contact_scene.stated_error import ErrorStatus, StatedError
+
+DIGITS = 5
+ERROR_DIGITS = 2
+MOST_DECIMALS = 12
+
+
+class Uncertainty(NamedTuple):
+    """A stated error of one number; no size where nothing can be said."""
+
+    size: float | None
+    converged: bool
+
+
+def uncertainty(stated: StatedError | None, axis: str = "x") -> Uncertainty | None:
+    """Of the component of a number; None where it has none to show."""
+    if stated is None or stated.status is ErrorStatus.EXACT:
+        return None
+    size = stated.error
+    if isinstance(size, tuple):
+        size = size["xy".index(axis)]
+    return Uncertainty(size, stated.status is ErrorStatus.ESTIMATED)
+
+
+def number_text(value: float | None, error: Uncertainty | None, unit: float) -> str:
+    """A number in a unit with what is known of its error."""
+    if value is None:
+        return "–"
+    if error is None:
+        return f"{value / unit:.{DIGITS}g}"
+    doubt = "" if error.converged else " ?"
+    if error.size is None:
+        return f"{value / unit:.{DIGITS}g}{doubt}"
+    number, size = value / unit, error.size / unit
+    # Two digits of the error, and the number as far (JCGM 100:2008, 7.2.6).
+    decimals = ERROR_DIGITS - 1 - floor(log10(size)) if size else DIGITS
+    decimals = max(0, min(decimals, MOST_DECIMALS))
+    return f"{number:.{decimals}f} ± {size:.{decimals}f}{doubt}"
