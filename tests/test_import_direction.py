@@ -95,6 +95,7 @@ ORDERS = {
     "contact_results": (
         *(
             "one_thread",
+            "number_text",
             "difference",
             "directory",
             "quantities",
