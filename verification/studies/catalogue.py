@@ -8,6 +8,7 @@ from fem_reference import Method
 from verification.running.study import Study
 from verification.studies.cross_check import STUDY as CROSS_CHECK
 from verification.studies.error_budget.study import STUDY as ERROR_BUDGET
+from verification.studies.error_coverage.study import STUDY as ERROR_COVERAGE
 from verification.studies.penalty.study import STUDY as PENALTY
 from verification.studies.refinement.domain import domain_study
 from verification.studies.refinement.increments import increments_study
@@ -51,6 +52,7 @@ STUDIES: dict[str, Study] = {
         SEEDED_DEFECTS,
         WORK_PRECISION,
         ERROR_BUDGET,
+        ERROR_COVERAGE,
     )
 }
 SCENE_STUDIES: dict[str, SceneStudy] = {

@@ -1,0 +1,135 @@
+"""The verdict on stated errors: what it counts, and that it sees an estimator that is wrong."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any
+
+import numpy as np
+import pytest
+
+from contact_errors import estimate
+from contact_errors.rules import Rule
+from contact_errors.values import Values
+from contact_scene.stated_error import ErrorStatus, StatedError
+from verification.judging.case import Level
+from verification.judging.outcome import Status
+from verification.problems.reference import Reference, ReferenceKind
+from verification.running.row import CaseRecord, Row
+from verification.running.study import Settings
+from verification.studies.error_coverage.case import judged
+from verification.studies.error_coverage.coverage import Coverage, Share
+from verification.studies.error_coverage.known_scene import APPROACH, Truth
+from verification.studies.error_coverage.study import ENOUGH, STUDY, cases, conclude
+
+SETTINGS = Settings(Level.STANDARD)
+
+
+def row(wrong: float, stated: float, status: ErrorStatus = ErrorStatus.ESTIMATED) -> Row:
+    """Of an approach of 2."""
+    truth = Truth(1, APPROACH, Reference(2.0, ReferenceKind.CLOSED_FORM, "test", 1e-9))
+    error = StatedError(error=2 * stated, parts={"cells": 2 * stated}, status=status)
+    return judged(truth, 2.0 * (1 + wrong), error)
+
+
+def worked_example() -> Coverage:
+    """Runs that err by ±h²/100 about 2, on cells of side 0.1, with companions on cells of 0.2.
+
+    Either way d = (0.0004 - 0.0001)/3 = 0.0001; 0.0001 is wrong, and 1.1 times that is stated.
+    """
+    rule = Rule(2, envelope=0.0, weight=0.0, factor=1.1)
+    rows = []
+    for sign in (-1, 1):
+        run, companion = ({APPROACH: np.array([2 + sign * h**2 / 100])} for h in (0.1, 0.2))
+        (change,) = estimate.differences([run], [companion])
+        error = estimate.by_cells(rule, change[APPROACH], 2.0, np.zeros(1))
+        rows.append(row((run[APPROACH][0] - 2) / 2, float(error[0]) / 2))
+    return Coverage.of(APPROACH, rows)
+
+
+def test_the_interval_is_that_of_clopper_and_pearson() -> None:
+    assert Share(95, 100).interval == pytest.approx((0.88717, 0.98357), abs=1e-5)
+    assert Share(10, 10).interval == pytest.approx((0.69150, 1.0), abs=1e-5)
+    assert Share(0, 10).interval == pytest.approx((0.0, 0.30850), abs=1e-5)
+
+
+def test_covered_is_within_and_tight_is_of_the_size() -> None:
+    rows = [row(1e-3, 1.1e-3), row(1e-3, 1.1e-2), row(-1e-3, 0.9e-3), row(1e-3, 1e-3 - 1e-10)]
+    found = Coverage.of(APPROACH, rows)
+    assert (found.covered.count, found.tight.count) == (3, 3)
+
+
+def records(rows: Sequence[Row]) -> Mapping[str, CaseRecord]:
+    (first, *_) = cases(SETTINGS)
+    return {
+        first.name: CaseRecord(
+            parameters={"homogeneous": True, "friction": False, "loop": False, "solver": "fem"},
+            parts=tuple(rows),
+        )
+    }
+
+
+@pytest.mark.parametrize(
+    ("rows", "outcome"),
+    [
+        ([row(1e-3, 2e-3)] * ENOUGH, Status.PASS),
+        ([row(1e-3, 2e-3)] * (ENOUGH - 1), Status.INCONCLUSIVE),
+        ([row(1e-3, 2e-3)] * 94 + [row(1e-3, 5e-4)] * 6, Status.FAIL),
+        ([row(1e-3, 2e-3)] * 79 + [row(1e-3, 2e-2)] * 21, Status.FAIL),
+        (
+            [row(1e-3, 2e-3)] * ENOUGH + [row(1e-3, 5e-4, ErrorStatus.NOT_CONVERGED)] * 50,
+            Status.PASS,
+        ),
+    ],
+    ids=["good", "too few", "too small", "too large", "not converged is counted apart"],
+)
+def test_a_kind_is_judged_by_what_is_demanded(rows: list[Row], outcome: Status) -> None:
+    found = conclude(SETTINGS, records(rows))
+    (statement,) = (s for s in found.statements if s.claim.startswith("approach"))
+    assert statement.outcome is outcome
+
+
+def test_every_case_has_its_own_name() -> None:
+    names = [case.name for case in cases(SETTINGS)]
+    assert len(set(names)) == len(names) >= 300
+    assert STUDY.cases(Settings(Level.QUICK)) == cases(Settings(Level.QUICK))
+
+
+def _half(by_cells: Callable[..., Any]) -> Callable[..., Any]:
+    return lambda *of: by_cells(*of) / 2
+
+
+def _exchanged(differences: Callable[..., Any]) -> Callable[..., Any]:
+    """The run takes the place of its companion."""
+    return lambda values, companion: differences(values, values)
+
+
+def _one_sided(differences: Callable[..., Any]) -> Callable[..., Any]:
+    """What the companion has more than the run counts as nothing."""
+
+    def found(values: Sequence[Values], companion: Sequence[Values]) -> tuple[Values, ...]:
+        return tuple(
+            {name: np.maximum(value - there[name], 0.0) for name, value in here.items()}
+            for here, there in zip(values, companion, strict=True)
+        )
+
+    return found
+
+
+def test_an_estimator_that_is_right_covers_what_is_wrong_and_no_more() -> None:
+    assert worked_example() == Coverage(APPROACH, Share(2, 2), Share(2, 2))
+
+
+@pytest.mark.parametrize(
+    ("of", "planted", "still_covered"),
+    [("by_cells", _half, 0), ("differences", _exchanged, 0), ("differences", _one_sided, 1)],
+    ids=["half as large", "a level exchanged", "one-sided"],
+)
+def test_a_defect_of_the_estimator_is_seen(
+    of: str, planted: Callable[..., Any], still_covered: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(estimate, of, planted(getattr(estimate, of)))
+    found = worked_example()
+    print(f"{planted.__name__}: covered {found.covered.text}, tight {found.tight.text}")
+    assert found.covered == Share(still_covered, 2)
+    assert not found.good

@@ -1,0 +1,90 @@
+"""A drawn scene solved as `slipstick run` solves it, and what is wrong beside what it states."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+import fem_reference
+import semi_analytical
+from contact_errors.on_cells import stated_errors
+from contact_scene.solver_errors import SolverError
+from contact_scene.stated_error import StatedError
+from verification.running.row import CaseRecord, Row, Value, parameters_of
+from verification.studies.error_coverage.families import drawn
+from verification.studies.error_coverage.known_scene import CELLS, STRESSES, KnownScene, Truth
+
+WRONG, STATED, UNCERTAIN = "wrong", "stated", "uncertain"
+
+
+@dataclass(frozen=True)
+class CoverageCase:
+    """A scene by the place where it is drawn."""
+
+    family: str
+    seed: int
+    number: int
+
+    @property
+    def name(self) -> str:
+        return f"{self.family}-{self.seed}-{self.number}"
+
+    def compute(self) -> CaseRecord:
+        """One part for every number that is known."""
+        known = drawn(self.family, self.seed, self.number)
+        started = time.process_time()
+        kind: dict[str, Value] = {
+            "homogeneous": known.homogeneous,
+            "friction": known.scene.friction is not None,
+            "loop": known.loops,
+            "solver": known.fineness.solver,
+        }
+        record = CaseRecord(
+            parameters=parameters_of(self) | kind,
+            measures={"per_radius": known.fineness.per_radius},
+        )
+        try:
+            parts = tuple(_judged(known))
+        except SolverError as error:
+            return record.model_copy(update={"words": {"refused": str(error)}})
+        seconds = time.process_time() - started
+        return record.model_copy(update={"parts": parts, "seconds": seconds})
+
+
+def _judged(known: KnownScene) -> Iterator[Row]:
+    """Rows of what the run gives of the truths; errors over the truth."""
+    steps, errors = _run(known)
+    for truth in known.truths:
+        stated = errors[truth.step - 1].get(truth.quantity) if errors else None
+        found = None if truth.quantity in STRESSES else truth.read(steps)
+        if found is not None:
+            yield judged(truth, found, stated)
+
+
+def judged(truth: Truth, found: float, stated: StatedError | None) -> Row:
+    """A number beside its truth and its error; of a vector the x component."""
+    size = abs(truth.reference.value)
+    error = None if stated is None or stated.error is None else float(np.ravel(stated.error)[0])
+    return Row(
+        parameters={"quantity": truth.quantity, "kind": truth.kind, "step": truth.step},
+        measures={
+            WRONG: abs(found - truth.reference.value) / size,
+            STATED: None if error is None else error / size,
+            UNCERTAIN: truth.reference.uncertainty / size,
+        },
+        words={"status": "not stated" if stated is None else str(stated.status)},
+    )
+
+
+def _run(known: KnownScene) -> tuple[Sequence[Any], Sequence[Mapping[str, StatedError]] | None]:
+    """Ends of the steps, and what is stated of them; None where nothing is."""
+    asked: Any = known.fineness.asked
+    if known.fineness.solver != CELLS:
+        method = fem_reference.Method.COMPLEMENTARITY
+        return fem_reference.solve(known.scene, asked, method).steps, None
+    result = semi_analytical.solve_discretised(known.scene, asked)
+    return result.steps, stated_errors(result).steps

@@ -1,0 +1,195 @@
+"""The study of stated errors: do they hold, and are they of the size of what is wrong?"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from contact_scene.stated_error import ErrorStatus
+from verification.exhibits.chart import Chart, Look
+from verification.exhibits.log_chart import log_chart, point_curves
+from verification.exhibits.table import table_of
+from verification.judging.case import Level
+from verification.running.row import CaseRecord, Row, found
+from verification.running.row_views import points
+from verification.running.rules import judged, solved
+from verification.running.study import Conclusion, Records, Settings, Statement, Study
+from verification.studies.error_coverage.case import STATED, WRONG, CoverageCase
+from verification.studies.error_coverage.coverage import (
+    COVERED,
+    TIMES,
+    Coverage,
+    Share,
+    covers,
+    with_status,
+)
+from verification.studies.error_coverage.families import FAMILIES, JUDGING
+from verification.studies.error_coverage.known_scene import CELLS, KINDS, STRESSES
+
+ENOUGH = 100  # numbers of a kind
+MOST_HOMOGENEOUS, LEAST_FRICTION, LEAST_LOOPS, LEAST_STRESSES = 0.3, 0.4, 60, 60
+LEAST_SCENES = 300
+ESTIMATED, NOT_CONVERGED = str(ErrorStatus.ESTIMATED), str(ErrorStatus.NOT_CONVERGED)
+REMARKS = (
+    "Scenes are drawn: materials, radii, loads, friction, coatings, histories, 4 to 60 cells per "
+    "contact radius, odd and even grids, and, of what is pressed without friction, where the axis "
+    "falls in a cell. The scenes that set the rules were drawn from another seed.",
+    "Covered: what is wrong is no more than stated, but for the uncertainty of the truth. Tight: "
+    f"less than {TIMES:g} times what is wrong is stated. Intervals are Clopper and Pearson's, 95 "
+    "%. Numbers of one scene are not independent of one another, so that intervals are somewhat "
+    "too narrow.",
+    "Numbers whose error has the status 'not converged' are counted apart. Numbers that symmetry "
+    "repeats along a loop are counted once.",
+)
+
+
+def cases(settings: Settings) -> tuple[CoverageCase, ...]:
+    """One scene of every family at the quick level, and above all that judge."""
+    quick = settings.level is Level.QUICK
+    return tuple(
+        CoverageCase(name, JUDGING, number)
+        for name, family in FAMILIES.items()
+        for number in range(1 if quick else family.count)
+    )
+
+
+def conclude(settings: Settings, records: Records) -> Conclusion:
+    """A verdict for every kind of quantity."""
+    asked = cases(settings)
+    known = tuple(found(asked, records).values())
+    parts = {kind: _of_kind(kind, known) for kind in KINDS}
+    shares = {k: Coverage.of(k, e) for k, rows in parts.items() if (e := _estimated(rows))}
+    return Conclusion(
+        answer=_answer(tuple(shares.values())),
+        statements=(
+            solved("every scene is solved", len(known), len(asked), "scenes"),
+            _composed(known, settings.level is not Level.QUICK),
+            *(_statement(coverage) for coverage in shares.values()),
+        ),
+        tables=(
+            table_of(
+                "Stated errors beside what is wrong",
+                {
+                    "quantity": lambda row: str(row.parameters["kind"]).replace("_", " "),
+                    "numbers": lambda row: str(row.counters["numbers"]),
+                    "covered": lambda row: row.words["covered"],
+                    "tight": lambda row: row.words["tight"],
+                    "not converged": lambda row: row.words["not converged"],
+                    "not stated": lambda row: str(row.counters["not stated"]),
+                },
+                [_row(coverage, parts[kind]) for kind, coverage in shares.items()],
+            ),
+        )
+        if shares
+        else (),
+        charts=(_chart(parts),) if shares else (),
+        remarks=REMARKS,
+    )
+
+
+def _of_kind(kind: str, known: Sequence[CaseRecord]) -> list[Row]:
+    return [part for record in known for part in record.parts if part.parameters["kind"] == kind]
+
+
+def _estimated(rows: Sequence[Row]) -> list[Row]:
+    return with_status(rows, ESTIMATED)
+
+
+def _row(coverage: Coverage, rows: Sequence[Row]) -> Row:
+    apart = [r for r in with_status(rows, NOT_CONVERGED) if r.measures[STATED] is not None]
+    held = Share(sum(map(covers, apart)), len(apart)).text if apart else "–"
+    return Row(
+        parameters={"kind": coverage.kind},
+        counters={
+            "numbers": coverage.covered.of,
+            "not stated": len(rows) - coverage.covered.of - len(apart),
+        },
+        words={
+            "covered": coverage.covered.text,
+            "tight": coverage.tight.text,
+            "not converged": f"{len(apart)}, covered {held}" if apart else "0",
+        },
+    )
+
+
+def _statement(coverage: Coverage) -> Statement:
+    covered, tight = coverage.covered, coverage.tight
+    return Statement(
+        claim=f"{coverage.kind.replace('_', ' ')}: covered ≥ {COVERED:g}, tight ≥ "
+        f"{coverage.least_tight:g}",
+        outcome=judged(coverage.good, complete=covered.of >= ENOUGH),
+        measured=f"covered {covered.text}, tight {tight.text}, of {covered.of} numbers",
+        because=f"at least {ENOUGH} numbers decide",
+        about=Row(
+            parameters={"kind": coverage.kind},
+            measures={"covered": covered.part, "tight": tight.part},
+            counters={"numbers": covered.of},
+        ),
+    )
+
+
+def _composed(known: Sequence[CaseRecord], whole: bool) -> Statement:
+    """Whether the scenes are as manifold as they have to be."""
+    count = len(known) or 1
+    homogeneous, friction, loops = (
+        sum(bool(record.parameters[name]) for record in known)
+        for name in ("homogeneous", "friction", "loop")
+    )
+    stresses = sum(part.parameters["kind"] in STRESSES for r in known for part in r.parts)
+    sections = sum(record.parameters["solver"] != CELLS for record in known)
+    good = (
+        homogeneous <= MOST_HOMOGENEOUS * count
+        and friction >= LEAST_FRICTION * count
+        and loops >= LEAST_LOOPS
+        and stresses >= LEAST_STRESSES
+        and len(known) >= LEAST_SCENES
+        and sections > 0
+    )
+    return Statement(
+        claim=f"at least {LEAST_SCENES} scenes, at most {MOST_HOMOGENEOUS:.0%} of them homogeneous "
+        f"and at least {LEAST_FRICTION:.0%} with friction, {LEAST_LOOPS} loops, {LEAST_STRESSES} "
+        "largest stresses, both solvers",
+        outcome=judged(good, complete=whole),
+        measured=f"{len(known)} scenes, {homogeneous / count:.0%} homogeneous, "
+        f"{friction / count:.0%} with friction, {loops} loops, {stresses} largest stresses, "
+        f"{sections} scenes by finite elements",
+    )
+
+
+def _answer(shares: Sequence[Coverage]) -> str:
+    if not shares:
+        return ""
+    worst = min(shares, key=lambda one: one.covered.part)
+    loosest = min(shares, key=lambda one: one.tight.part)
+    return (
+        f"Of {sum(one.covered.of for one in shares)} numbers whose answer is known from elsewhere, "
+        f"stated errors cover {worst.covered.part:.1%} and more of every kind "
+        f"({worst.kind.replace('_', ' ')} least), and are less than {TIMES:g} times what is wrong "
+        f"in {loosest.tight.part:.1%} and more ({loosest.kind.replace('_', ' ')} least)."
+    )
+
+
+def _chart(parts: dict[str, list[Row]]) -> Chart:
+    lines = [
+        (kind.replace("_", " "), points(_estimated(rows), WRONG, STATED))
+        for kind, rows in parts.items()
+    ]
+    diagonal = [(x, x) for x in (1e-6, 1e-1)]
+    return log_chart(
+        "stated_and_wrong",
+        "Stated errors beside what is wrong",
+        "Every number, relative to its truth; above the line it is covered.",
+        "what is wrong",
+        "stated error",
+        [*point_curves(lines), *point_curves([("equal", diagonal)], Look.REFERENCE)],
+        height=4.0,
+    )
+
+
+STUDY = Study(
+    name="error-coverage",
+    title="Whether the errors that runs state hold",
+    question="Every number of a run has a stated error. Over scenes whose answer is known from "
+    "elsewhere, how often is what is wrong within it, and how often is it of that size?",
+    cases=cases,
+    conclude=conclude,
+)
