@@ -57,7 +57,7 @@ def errors(known: KnownScene, fine: bool, *, stress: bool) -> Iterator[tuple[Tru
     for truth in known.truths:
         if (truth.quantity in STRESSES) is stress:
             found = (
-                stress_maxima(result, truth.step)[truth.quantity]
+                stress_maxima(result, truth.step)[truth.quantity][0]
                 if stress
                 else truth.read(result.steps)
             )

@@ -17,6 +17,7 @@ from contact_scene.stated_error import StatedError
 from verification.running.row import CaseRecord, Row, Value, parameters_of
 from verification.studies.error_coverage.families import drawn
 from verification.studies.error_coverage.known_scene import CELLS, STRESSES, KnownScene, Truth
+from verification.studies.error_coverage.stress_maxima import stress_maxima
 
 WRONG, STATED, UNCERTAIN = "wrong", "stated", "uncertain"
 
@@ -56,17 +57,21 @@ class CoverageCase:
 
 
 def _judged(known: KnownScene) -> Iterator[Row]:
-    """Rows of what the run gives of the truths; errors over the truth."""
-    steps, errors = _run(known)
+    """Rows of what the run gives of the truths."""
+    result, errors = _run(known)
+    stressed = {truth.step for truth in known.truths if truth.quantity in STRESSES}
+    stresses = {step: stress_maxima(result, step) for step in sorted(stressed)}
     for truth in known.truths:
-        stated = errors[truth.step - 1].get(truth.quantity) if errors else None
-        found = None if truth.quantity in STRESSES else truth.read(steps)
-        if found is not None:
+        if truth.quantity in STRESSES:
+            found, stated = stresses[truth.step][truth.quantity]
             yield judged(truth, found, stated)
+        elif (found_here := truth.read(result.steps)) is not None:
+            stated_here = errors[truth.step - 1].get(truth.quantity) if errors else None
+            yield judged(truth, found_here, stated_here)
 
 
 def judged(truth: Truth, found: float, stated: StatedError | None) -> Row:
-    """A number beside its truth and its error; of a vector the x component."""
+    """A number beside its truth and its error, over the truth; of a vector the x component."""
     size = abs(truth.reference.value)
     error = None if stated is None or stated.error is None else float(np.ravel(stated.error)[0])
     return Row(
@@ -80,11 +85,11 @@ def judged(truth: Truth, found: float, stated: StatedError | None) -> Row:
     )
 
 
-def _run(known: KnownScene) -> tuple[Sequence[Any], Sequence[Mapping[str, StatedError]] | None]:
-    """Ends of the steps, and what is stated of them; None where nothing is."""
+def _run(known: KnownScene) -> tuple[Any, Sequence[Mapping[str, StatedError]] | None]:
+    """A result and what is stated of the ends of its steps; None where nothing is."""
     asked: Any = known.fineness.asked
     if known.fineness.solver != CELLS:
         method = fem_reference.Method.COMPLEMENTARITY
-        return fem_reference.solve(known.scene, asked, method).steps, None
+        return fem_reference.solve(known.scene, asked, method), None
     result = semi_analytical.solve_discretised(known.scene, asked)
-    return result.steps, stated_errors(result).steps
+    return result, stated_errors(result).steps
