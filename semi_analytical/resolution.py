@@ -28,8 +28,8 @@ class Resolution:
     """Lengths at the end of a loading step, in cells; None for what is not there.
 
     contact  smaller semi-axis of the contact; of several patches the mean, weighted by their loads.
-             At most 1 where no cell has four neighbours in contact: so few cells carry the load of
-             however small a contact; 0 without contact
+             Half of that where no cell has four neighbours in contact: so few cells carry the load
+             of however small a contact; 0 without contact
     stick    the same of the stick zone, 0 where nothing sticks; None without shear
     annulus  width of what slips around it, `contact` − `stick`; None where nothing slips
     layer    thickness of the thinnest layer
@@ -63,10 +63,10 @@ def _contact(result: Result, end: Increment) -> float:
 
 
 def refuse_unresolved(result: Result) -> None:
-    """Raise ContactNotResolved if the largest contact of the history has one cell per radius."""
+    """Raise ContactNotResolved if the largest contact of the history is below a cell per radius."""
     end = max(result.steps, key=lambda step: step.contact_area)
     found = _contact(result, end)
-    if found > 1:
+    if found >= 1:
         return
     raise ContactNotResolved(
         f"the contact is smaller than the cells: at its largest, at the end of step {end.step}, "
@@ -112,7 +112,7 @@ def _semi_axis(marked: Mask, load: Field, area: float) -> float:
     flattening = np.sqrt((mean - apart) / (mean + apart))
     axes = np.sqrt(count * area / np.sum(count) / pi * flattening)
     inner = np.bincount(of, ndimage.binary_erosion(marked)[i, j]) > 0
-    axes = np.where(inner, axes, np.minimum(axes, 1))
+    axes = np.where(inner, axes, axes / 2)
     return float(np.average(axes, weights=np.bincount(of, load[i, j])))
 
 
