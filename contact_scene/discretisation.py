@@ -63,7 +63,7 @@ class FiniteElementDiscretisation(Description):
     mesher: Literal["tensor", "gmsh"] = "tensor"
     """What makes the mesh: a graded grid of rectangles, or gmsh."""
 
-    harmonics: Harmonics = 8
+    harmonics: Harmonics = 12
     """Highest angular harmonic where a tangential load and the pressure act on one another."""
 
     penalty: PenaltyFactor = 10.0

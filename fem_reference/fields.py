@@ -99,12 +99,14 @@ class Increment(ReportedIncrement):
 class Result:
     """All increments of a load history on one mesh, with what was asked for and decided.
 
-    sections  meshes of lower body and indenter; None where rigid
+    sections  meshes of lower body and indenter, in units of `radius`; None where rigid
+    radius    contact radius that the meshes are laid out for [length]
     """
 
     scene: Scene
     discretisation: FiniteElementDiscretisation
     sections: tuple[SectionMesh | None, SectionMesh | None]
+    radius: float
     plan: Plan
     increments: tuple[Increment, ...]
     method: Method = Method.COMPLEMENTARITY

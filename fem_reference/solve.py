@@ -79,7 +79,9 @@ def solve(
         else:
             reached = max(increment.contact_radius for increment in increments)
             if not 0 < TOO_LARGE * reached < radius:
-                return Result(scene, discretisation, model.sections, decided, increments, method)
+                return Result(
+                    scene, discretisation, model.sections, radius, decided, increments, method
+                )
             radius = reached
         last = None
 

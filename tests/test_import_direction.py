@@ -108,7 +108,7 @@ ORDERS = {
     ),
     "contact_errors": (
         *("values", "rules", "estimate", "prescribed", "half_the_cells", "on_cells"),
-        "of_stress",
+        *("element_rules", "on_elements", "of_stress"),
     ),
     "slipstick": ("solvers", "path_errors", "solving", "stored_run", "cli", "__main__"),
     # Its floors: what judges stands on what is known, what is shown on what was judged.

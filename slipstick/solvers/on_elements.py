@@ -52,8 +52,10 @@ class OnElements:
 
     def errors(
         self, result: Result, *, surface_stress: bool = False, progress: Progress | None = None
-    ) -> StatedErrors | None:
-        return None
+    ) -> StatedErrors:
+        from contact_errors.on_elements import stated_errors
+
+        return stated_errors(result, surface_stress=surface_stress, progress=progress)
 
     def work(self, scene: Scene, fineness: FiniteElementDiscretisation, plan: Plan) -> Pairs:
         """Mesh, tolerance, increments, factorisations and memory."""

@@ -69,6 +69,7 @@ BONDED = Problem(
     PUNCH,
     "Mindlin 1949: (2 - ν) T / 8 G a",
 )
+HIGHEST = 8  # harmonic
 CUSP, RIM = 1.5, 1.0  # orders with which errors fall
 
 
@@ -147,7 +148,7 @@ def fem_harmonics(level: Level = Level.QUICK) -> Case:
 
 
 def _at_points(of: str, problem: Problem, elements: int, over: float) -> Ladder:
-    mesh = per_radius(elements, over * problem.radius)
+    mesh = per_radius(elements, over * problem.radius).model_copy(update={"harmonics": HIGHEST})
     return ladder(
         problem, [Rung(PointsRun(mesh_label(elements, of=of), problem.scene, mesh), elements)]
     )

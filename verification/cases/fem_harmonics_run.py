@@ -44,7 +44,7 @@ class PointsRun(SectionRun):
         )
         means = (_with_mean_stick(*pair) for pair in zip(own, between, strict=True))
         increments = tuple(_counted(model, means))
-        return Result(scene, discretisation, model.sections, decided, increments)
+        return Result(scene, discretisation, model.sections, radius, decided, increments)
 
 
 def _with_vector_law(decided: Plan) -> Plan:

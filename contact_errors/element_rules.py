@@ -1,0 +1,104 @@
+"""What is known of the error of each quantity of finite elements, by measurement.
+
+The laws are those of `rules`, with elements in the place of cells. Pressure, approach and shift
+converge with the square of the elements; edges, which are found between the rings, scatter with
+their place in an element.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+
+from contact_errors.rules import FLAT, INFINITE, Lengthscale, Rule, doubled
+from contact_scene.geometry import ShapedBody
+
+PEAK = Rule(2, 0.25, 8, 1.6, path_factor=2.0)
+APPROACH = Rule(2, 0.13, 1, 1.5, path_factor=1.5)
+RADIUS = Rule(2, 0.2, 4, 4.3, path_factor=1.5)
+STICK = Rule(1, 0.06, 2, 3.0, 2.0, 1.0, Lengthscale.STICK)
+SHIFT = Rule(2, 0.1, 1, 5.0, 3.0, 0.3, Lengthscale.SLIP)
+TWIST = Rule(2, 1.8, 4, 1.35, 3.0, 0.3, Lengthscale.SLIP)
+ENERGY = Rule(1.5, 0.27, 8, 1.9, lengthscale=Lengthscale.ANNULUS)
+# The largest of a field that has its largest slope there.
+EDGE = Rule(1, 0.3, 1, 1.5)
+TENSION = Rule(0.5, 0.0, 0, 1.6)
+
+RULES: dict[str, Rule] = {
+    "normal_force": APPROACH,
+    "approach": APPROACH,
+    "contact_area": doubled(RADIUS),
+    "contact_radius": RADIUS,
+    "peak_pressure": PEAK,
+    "tangential_force": SHIFT,
+    "tangential_shift": SHIFT,
+    "torque": TWIST,
+    "twist": TWIST,
+    "stick_area": doubled(STICK),
+    "stick_radius": STICK,
+    "dissipated_energy": ENERGY,
+    "energy_per_cycle": ENERGY,
+    "elastic_energy": replace(APPROACH, envelope=0.26),
+    "input_work": replace(SHIFT, envelope=0.26),
+    "slip_amplitude": EDGE,
+    "ruiz_f1": EDGE,
+    "ruiz_f2": TENSION,
+}
+# Gauss points with quadratic displacements: motions converge faster, edges are fitted.
+AT_GAUSS_POINTS = {
+    "normal_force": Rule(1.5, 0.004, 4, 1.8, path_factor=1.5),
+    "approach": Rule(1.5, 0.004, 4, 1.8, path_factor=1.5),
+    "peak_pressure": Rule(1.5, 0.011, 4, 1.4, path_factor=2.0),
+    "contact_radius": Rule(1, 0.05, 8, 1.35, path_factor=1.5),
+    "contact_area": Rule(1, 0.1, 8, 1.35, path_factor=1.5),
+    "stick_radius": Rule(1, 0.06, 4, 1.7, 2.0, 1.0, Lengthscale.STICK),
+    "stick_area": Rule(1, 0.12, 4, 1.7, 2.0, 1.0, Lengthscale.STICK),
+    "tangential_shift": Rule(2, 0.05, 1, 2.0, 3.0, 0.3, Lengthscale.SLIP),
+    "tangential_force": Rule(2, 0.05, 1, 2.0, 3.0, 0.3, Lengthscale.SLIP),
+    "twist": Rule(2, 0.15, 4, 1.6, 3.0, 0.3, Lengthscale.SLIP),
+    "torque": Rule(2, 0.15, 4, 1.6, 3.0, 0.3, Lengthscale.SLIP),
+    "dissipated_energy": Rule(1.5, 0.05, 4, 1.6, lengthscale=Lengthscale.ANNULUS),
+    "energy_per_cycle": Rule(1.5, 0.05, 4, 1.6, lengthscale=Lengthscale.ANNULUS),
+}
+# A slip annulus below so many elements may be missed altogether: the stick radius is off by one.
+LEAST_ANNULUS = 1.5
+# Where friction acts back on a pressing contact its pressure has a cusp on the axis.
+CUSP = {"peak_pressure": Rule(1, 0.02, 0.5, 2.4, path_factor=2.0)}
+
+# By the section of the size that is chosen, relative; errors fall as the inverse of its square.
+SECTION = 1e-5
+SECTION_OF_MOTION = 3e-5
+MOTIONS = frozenset({"tangential_shift", "tangential_force", "twist", "torque"})
+# Of what overlap over approach does to a quantity.
+PENALTY = 0.4
+PENALTY_OF = {"peak_pressure": 0.6, "contact_radius": 8.0, "contact_area": 16.0}
+PENALTY_OF_CUSP = 10.0
+# Of what half as many harmonics again change.
+HARMONICS = 1.5
+# Sectors, of which each sticks or slips as a whole, leave so much of the contact radius over their
+# number in the stick radius.
+STICK_BY_HARMONIC = 0.2
+
+
+def penalty_of(name: str, cusp: bool) -> float:
+    """Error of a quantity, relative, over overlap over approach.
+
+    cusp  whether friction acts back on the pressure
+    """
+    return PENALTY_OF_CUSP if cusp and name in CUSP else PENALTY_OF.get(name, PENALTY)
+
+
+def rules_of_elements(
+    indenter: ShapedBody, cusp: bool, at_gauss_points: bool
+) -> Mapping[str, Rule]:
+    """The rule of every quantity below an indenter; none of what is infinite in the exact answer.
+
+    cusp             whether friction acts back on the pressure
+    at_gauss_points  whether tractions live there, not at rings
+    """
+    rules = RULES | (AT_GAUSS_POINTS if at_gauss_points else {}) | (CUSP if cusp else {})
+    if indenter.rim is not None:
+        rules = rules | FLAT
+    elif indenter.gap_exponent != 1:
+        return rules
+    return {name: rule for name, rule in rules.items() if name not in INFINITE}

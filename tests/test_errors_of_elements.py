@@ -1,0 +1,118 @@
+"""Stated errors of finite-element results: they hold the closed forms, and say what they are of."""
+
+from dataclasses import replace
+
+import pytest
+from contact_scenes import INDENTERS, LOAD, PRESS, RIGID_BALL, A, hertz, push, scene, steel
+from fem_scenes import elements
+
+import contact_errors.on_elements as on_elements
+from contact_errors.on_elements import stated_errors
+from contact_results.quantities import shift_along_x
+from contact_scene import Body, IsotropicMaterial, Layer, Scene
+from contact_scene.stated_error import ErrorStatus
+from fem_reference import Method, solve
+from verification.closed_forms.cattaneo_mindlin import PartialSlip
+from verification.closed_forms.moduli import tangential_modulus
+
+SMOOTH = scene(PRESS, friction=None)
+LOOSE = steel(0.0)
+FILM = Layer(thickness=A, material=steel())
+COATED = Body(material=steel(young_modulus=0.5 * LOOSE.young_modulus), layers=(FILM,))
+
+
+def error(stated, name, step=0):
+    return stated.steps[step][name].error
+
+
+@pytest.mark.parametrize("method", Method)
+@pytest.mark.parametrize("per_radius", [8, 11, 16, 23, 32])
+def test_errors_hold_the_closed_form(per_radius: int, method: Method) -> None:
+    result, exact = solve(SMOOTH, elements(per_radius), method), hertz()
+    stated, end = stated_errors(result), result.steps[-1]
+    for name in ("approach", "peak_pressure", "contact_radius"):
+        off = abs(getattr(end, name) - getattr(exact, name))
+        assert off <= error(stated, name)
+        if name != "contact_radius":  # its mesh is laid out for the exact one
+            assert error(stated, name) < 10 * off
+        assert stated.steps[0][name].status is ErrorStatus.ESTIMATED
+
+
+@pytest.mark.parametrize("method", Method)
+def test_errors_of_partial_slip_hold_the_closed_form(method: Method) -> None:
+    asked = scene(PRESS, push(0.5), push(0.8), indenter=replace_material(LOOSE), body=LOOSE)
+    result = solve(asked, elements(16), method)
+    stated = stated_errors(result)
+    modulus = tangential_modulus((LOOSE.young_modulus, 0.0), (LOOSE.young_modulus, 0.0))
+    a = hertz(poisson_ratio=0.0).contact_radius
+    for step, part in ((1, 0.5), (2, 0.8)):
+        exact = PartialSlip(LOAD, a, 0.1, modulus, part * 0.1 * LOAD)
+        end = result.steps[step]
+        (shift, _), stick = error(stated, "tangential_shift", step), "stick_radius"
+        assert abs(shift_along_x(end) - exact.shift) <= shift
+        assert abs(end.stick_radius - exact.stick_radius) <= error(stated, stick, step)
+        assert stated.steps[step]["tangential_force"].status is ErrorStatus.EXACT
+
+
+def replace_material(material: IsotropicMaterial):
+    return INDENTERS["paraboloid"].model_copy(update={"material": material})
+
+
+def test_parts_say_what_they_are_of() -> None:
+    asked = Scene(
+        indenter=RIGID_BALL,
+        body=COATED,
+        friction={"coefficient": 0.1},
+        loading=[{**PRESS, "increments": 4}, {**push(0.5), "increments": 4}],
+    )
+    result = solve(asked, elements(8, harmonics=4), Method.PENALTY)
+    stated = stated_errors(result)
+    made = [companion.differs for companion in stated.companions]
+    assert made == [
+        "half the elements",
+        "half the elements, other increments",
+        "half the elements, half as many harmonics again",
+    ]
+    parts = stated.steps[1]["tangential_shift"].parts
+    assert set(parts) == {
+        *("elements", "section", "penalty", "increments", "harmonics", "tolerance"),
+    }
+    assert "harmonics" not in stated.steps[0]["approach"].parts
+    # Sectors that stick or slip as a whole leave more in the stick radius than in the motion.
+    of_stick, of_shift = (stated.steps[1][name] for name in ("stick_radius", "tangential_shift"))
+    share = of_shift.parts["harmonics"][0] / shift_along_x(result.steps[1])
+    assert of_stick.parts["harmonics"] / result.steps[1].stick_radius > share
+
+
+def test_small_sections_and_soft_springs_enlarge_the_error() -> None:
+    usual = elements(16, contact_radius=A)
+    for method, worse, part in (
+        (Method.COMPLEMENTARITY, {"box": 5.0}, "section"),
+        (Method.PENALTY, {"overlap": 1.0, "augmentations": 0}, "penalty"),
+    ):
+        own, other = (
+            stated_errors(solve(SMOOTH, mesh, method)).steps[0]["approach"]
+            for mesh in (usual, usual.model_copy(update=worse))
+        )
+        assert other.parts[part] > 3 * own.parts[part]
+
+
+def test_contact_smaller_than_an_element_has_no_error_to_state() -> None:
+    asked = scene(PRESS, {"normal_force": 1e-6 * LOAD}, friction=None)
+    stated = stated_errors(solve(asked, elements(16)))
+    assert stated.steps[0]["approach"].status is ErrorStatus.ESTIMATED
+    assert stated.steps[1]["approach"].status is ErrorStatus.NOT_CONVERGED
+    assert stated.steps[1]["approach"].error is None
+
+
+def test_an_error_a_tenth_as_large_would_be_seen(monkeypatch: pytest.MonkeyPatch) -> None:
+    rules = on_elements.rules_of_elements
+
+    def tenth(*asked):
+        return {n: replace(r, factor=0.1 * r.factor) for n, r in rules(*asked).items()}
+
+    monkeypatch.setattr(on_elements, "rules_of_elements", tenth)
+    result, exact = solve(SMOOTH, elements(16)), hertz()
+    stated = stated_errors(result)
+    off = abs(result.steps[-1].approach - exact.approach)
+    assert off > error(stated, "approach")
