@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,6 +16,7 @@ from contact_errors.prescribed import prescribed
 from contact_errors.rules import Lengthscale, Rule, rules_for
 from contact_errors.values import Values, charged_by_increments, scale, values_of
 from contact_results.cycles import fretting_cycles
+from contact_results.remarks import left_out
 from contact_scene.stated_error import EXACT, Part, StatedError, StatedErrors
 from semi_analytical import Result
 from semi_analytical.plan import Coupling
@@ -25,6 +27,8 @@ Numbers = NDArray[np.float64]
 # In cells: below them a number has not converged, however small its differences are.
 LEAST = {Lengthscale.CONTACT: 3.0, Lengthscale.STICK: 1.0, Lengthscale.ANNULUS: 0.5}
 LEAST_LAYER, LEAST_WAVE = 1.0, 4.0
+# What stands out of a random surface, in root mean squares: one place in a thousand.
+HIGHEST = 3.0
 # A slip annulus that is narrower scatters no less by its width.
 NARROWEST = 0.5
 
@@ -88,6 +92,11 @@ class _Levels:
     ratio: float
     path: _Path | None
 
+    @cached_property
+    def left_out(self) -> float:
+        """Pressure of the heights between the cells, over the peak."""
+        return left_out(self.result)
+
     def errors(self) -> Iterator[Mapping[str, StatedError]]:
         """Of every step."""
         scene, plan = self.result.scene, self.result.plan
@@ -126,6 +135,8 @@ class _Levels:
             "cells": estimate.by_cells(rule, change, self.ratio, scatter),
             "tolerance": unsolved,
         }
+        if name == "peak_pressure":
+            parts["cells"] = parts["cells"] + HIGHEST * self.left_out * largest
         apart = estimate.contradicts(change, largest, unsolved)
         if path_matters:
             assert self.path is not None

@@ -32,16 +32,28 @@ def remarks(result: Result) -> tuple[str, ...]:
 
 
 def _left_out(result: semi_analytical.Result) -> Iterator[str]:
-    """Heights between cells that are wider than the spacing of their map.
+    share, indenter = left_out(result), result.scene.indenter
+    if share > NEGLIGIBLE and isinstance(indenter, HeightMap):
+        nx, ny = (int(np.ceil(n)) for n in np.divide(result.grid.window, indenter.spacing))
+        yield (
+            f"the cells are wider than the spacing of the height map: to flatten what they leave "
+            f"out takes a pressure of {share:.2g} of the peak (root mean square); "
+            f"try --set semi_analytical.cells=[{nx},{ny}]"
+        )
 
-    They are judged by the pressure that would flatten them, E* √(mean square slope) / 2 (Persson
-    2001; a wave of amplitude h and wavenumber k takes E* k h / 2: Johnson 1985, eq. 13.7).
+
+def left_out(result: semi_analytical.Result) -> float:
+    """Root mean square over the largest contact of the pressure that would flatten the heights
+    between cells wider than the spacing of their map, over the peak pressure; 0 without such.
+
+    E* √(mean square slope) / 2 (Persson 2001; a wave of amplitude h and wavenumber k takes
+    E* k h / 2: Johnson 1985, eq. 13.7), which the peak misses where all of it is flattened.
     """
     indenter, grid = result.scene.indenter, result.grid
     if not isinstance(indenter, HeightMap):
-        return
+        return 0.0
     if all(np.less_equal(grid.spacing, np.multiply(indenter.spacing, 1 + 1e-9))):
-        return
+        return 0.0
     end = max(result.steps, key=lambda step: step.contact_area)
     cells = grid.coordinates()
     x, y = (
@@ -49,20 +61,13 @@ def _left_out(result: semi_analytical.Result) -> Iterator[str]:
         for count, spacing, at in zip(indenter.file.shape, indenter.spacing, cells, strict=True)
     )
     if min(len(x), len(y)) < 2:
-        return
+        return 0.0
     seen = interpolate(indenter.initial_gap(*cells), grid.spacing, x[:, None], y)
     lost = indenter.initial_gap(x[:, None], y) - seen
     # From point to point: over two of them the steepest waves have no slope.
     slopes = (np.diff(lost, axis=axis) / indenter.spacing[axis] for axis in (0, 1))
     steepness = float(np.sqrt(sum(np.mean(np.square(slope)) for slope in slopes)))
-    pressure = contact_modulus(result.scene) * steepness / 2
-    if pressure > NEGLIGIBLE * end.peak_pressure:
-        nx, ny = (int(np.ceil(n)) for n in np.divide(grid.window, indenter.spacing))
-        yield (
-            f"the cells are wider than the spacing of the height map: to flatten what they leave "
-            f"out takes a pressure of {pressure / end.peak_pressure:.2g} of the peak; "
-            f"try --set semi_analytical.cells=[{nx},{ny}]"
-        )
+    return contact_modulus(result.scene) * steepness / 2 / end.peak_pressure
 
 
 def _points(count: int, spacing: float, within: Field) -> Field:

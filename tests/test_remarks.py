@@ -4,8 +4,9 @@ import re
 
 import numpy as np
 import pytest
-from contact_scenes import APPROACH, PRESS, RADIUS, A, scene, steel
+from contact_scenes import APPROACH, PRESS, RADIUS, A, bump, scene, steel
 
+from contact_errors.on_cells import stated_errors
 from contact_results.remarks import remarks
 from contact_scene import HeightMap
 from semi_analytical import SurfaceGrid, solve
@@ -56,3 +57,23 @@ def test_a_smooth_map_may_be_thinned():
 def test_a_shape_without_a_map_leaves_nothing_out():
     result = solve(scene(PRESS, friction=None), SurfaceGrid((16, 16), (3 * A, 3 * A)), 1e-6)
     assert remarks(result) == ()
+
+
+@pytest.mark.parametrize("seed", [0, 1, 2])
+@pytest.mark.parametrize("cells", [64, 96])
+def test_the_stated_error_of_the_peak_covers_what_the_cells_leave_out(seed, cells):
+    spacing = 2.4 * A / POINTS
+    k = 2 * np.pi * np.fft.fftfreq(POINTS, spacing)
+    k = np.hypot(k[:, None], k)
+    spectrum = np.where(k > 2 * np.pi / (0.5 * A), np.maximum(k, 1.0) ** -1.8, 0.0)
+    noise = np.fft.fft2(np.random.default_rng(seed).standard_normal((POINTS, POINTS)))
+    rough = np.real(np.fft.ifft2(noise * spectrum))
+    heights = bump(POINTS, spacing) + 1e-3 * APPROACH * rough / np.std(rough)
+    map_ = HeightMap(file=heights, spacing=spacing, material=steel())
+    thinned, whole = (
+        solve(scene(PRESS, friction=None, indenter=map_), SurfaceGrid((n, n), map_.extent), 1e-6)
+        for n in (cells, POINTS)
+    )
+    found, exact = (result.steps[0].peak_pressure for result in (thinned, whole))
+    stated = stated_errors(thinned).steps[0]["peak_pressure"]
+    assert 0.005 * exact < abs(found - exact) < stated.error < 10 * abs(found - exact)

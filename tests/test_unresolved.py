@@ -4,11 +4,13 @@ import json
 import re
 from pathlib import Path
 
+import numpy as np
 import pytest
 from command import slipstick
 from contact_scenes import INDENTERS, PRESS, RADIUS, YOUNG, A, bump, grid, hertz, scene, steel
 
 from contact_scene import Body, HeightMap, Layer, SurfaceDiscretisation
+from contact_scene.geometry import ShapedBody
 from semi_analytical import ContactNotResolved, SurfaceGrid, solve_discretised
 from semi_analytical.resolution import resolution
 
@@ -93,3 +95,18 @@ def test_the_command_says_so_with_exit_code_3_and_writes_nothing(
     assert slipstick("run", "scenes/hertz.toml", "-o", tmp_path / "out", *coarse) == 3
     assert "--set semi_analytical.window=[0.0008" in capfd.readouterr().err
     assert not (tmp_path / "out").exists()
+
+
+class Quartic(ShapedBody):
+    """Says nothing of how far it touches."""
+
+    def initial_gap(self, x, y):
+        """Of the fourth order."""
+        return np.asarray((np.square(x) + np.square(y)) ** 2 / RADIUS**3)
+
+
+def test_of_a_shape_that_says_nothing_of_itself_the_advice_resolves_more():
+    unknown = scene(PRESS, friction=None).model_copy(update={"indenter": Quartic(material=steel())})
+    with pytest.raises(ContactNotResolved) as refusal:
+        solved(unknown, grid(32, contacts=200))
+    assert resolution(asked(unknown, (32, 32), **advised(refusal)))[0].contact >= 1
