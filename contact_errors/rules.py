@@ -65,7 +65,7 @@ RADIUS = Rule(1.25, 0.2, 2, 1.5, path_factor=1.5)
 STICK = Rule(1.25, 0.25, 4, 2.85, 2.0, 1.0, Lengthscale.STICK)
 SHIFT = Rule(2, 0.06, 2, 1.3, 3.0, 0.3, Lengthscale.SLIP)
 TWIST = Rule(2, 0.15, 4, 3.0, 3.0, 0.3, Lengthscale.SLIP)
-ENERGY = Rule(2, 0.12, 1, 1.15, lengthscale=Lengthscale.ANNULUS)
+ENERGY = Rule(2, 0.12, 1, 1.15, path_scatter=0.0, lengthscale=Lengthscale.ANNULUS)
 # The largest of a field that has its largest slope there.
 EDGE = Rule(1, 0.3, 1, 1.5)
 # Stress at the surface and near it, largest at an edge of the tractions.

@@ -12,6 +12,7 @@ from contact_results.files.increment_table import write_increments
 from contact_results.files.profile_table import write_profiles
 from contact_results.files.summary_file import write_summary
 from contact_results.surface import surface_of
+from contact_scene.accuracy_reached import AccuracyReached
 from contact_scene.path_error import PathError
 from contact_scene.stated_error import StatedErrors
 
@@ -27,13 +28,14 @@ def write_result(
     surface_stress: bool = False,
     path_errors: tuple[PathError, ...] | None = None,
     errors: StatedErrors | None = None,
+    accuracy: AccuracyReached | None = None,
 ) -> None:
     """Write summary, fields, tables and figures into a directory that has none of them.
 
     surface_stress  also compute the stress at the surface that Ruiz's second parameter takes
     """
     cycles = fretting_cycles(result, surface_stress=surface_stress)
-    write_summary(result, cycles, directory, path_errors, errors)
+    write_summary(result, cycles, directory, path_errors, errors, accuracy)
     write_profiles(result, directory)
     write_increments(result, directory)
     write_cycles(cycles, surface_of(result), directory)

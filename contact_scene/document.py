@@ -1,5 +1,7 @@
-"""The whole of a scene file: the scene, and beside it how fine each solver shall be."""
+"""The whole of a scene file: the scene, and beside it how fine each solver shall be,
+or how accurate the answer."""
 
+from contact_scene.accuracy import AccuracyRequest
 from contact_scene.consistency import Parts
 from contact_scene.discretisation import FiniteElementDiscretisation, SurfaceDiscretisation
 from contact_scene.scene import Scene
@@ -13,6 +15,10 @@ class SceneDocument(Scene):
 
     fem_reference: FiniteElementDiscretisation = FiniteElementDiscretisation()
     """How fine the finite-element reference shall be; absent: chosen."""
+
+    accuracy: AccuracyRequest | None = None
+    """How accurate the numbers shall be; it then decides how fine. Absent: as fine as the solvers'
+    tables say."""
 
     def _parts(self) -> Parts:
         return {**super()._parts(), "semi_analytical": self.semi_analytical}

@@ -19,13 +19,14 @@ from contact_scene.units import (
     PRESSURE,
     PURE_NUMBER,
     ROTATION,
+    SHARE,
     Kind,
     UnknownUnit,
 )
 
 # Nothing but "number unit" passes; the unit is a product of at most five simple factors.
 _NUMBER = r"[+-]?(?:[0-9]{1,40}(?:\.[0-9]{0,40})?|\.[0-9]{1,40})(?:[eE][+-]?[0-9]{1,4})?"
-_FACTOR = r"[A-Za-zµμ°]{1,20}(?:(?:\^|\*\*)-?[1-9])?"
+_FACTOR = r"[A-Za-zµμ°%]{1,20}(?:(?:\^|\*\*)-?[1-9])?"
 QUANTITY_PATTERN = rf"^({_NUMBER}) ?({_FACTOR}(?:(?: ?[*/·] ?| ){_FACTOR}){{0,4}})$"
 _QUANTITY = re.compile(QUANTITY_PATTERN)
 _NUMBER_ALONE = re.compile(_NUMBER)
@@ -174,4 +175,8 @@ PoissonRatio = Annotated[
 FrictionCoefficient = Annotated[float, Quantity(PURE_NUMBER, "a number not below 0", at_least=0.0)]
 Tolerance = Annotated[
     float, Quantity(PURE_NUMBER, "a number from 1e-12 to 0.1", at_least=1e-12, at_most=0.1)
+]
+Share = Annotated[
+    float,
+    Quantity(SHARE, "a share above 0 and at most 50 %", above=0.0, at_most=0.5),
 ]

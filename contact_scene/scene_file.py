@@ -7,7 +7,9 @@ from typing import Any, cast
 
 from pydantic import TypeAdapter, ValidationError
 
+from contact_scene.accuracy import AccuracyRequest, accuracy_texts, of_option
 from contact_scene.consistency import Parts, inconsistencies
+from contact_scene.description import Description
 from contact_scene.discretisation import FiniteElementDiscretisation, SurfaceDiscretisation
 from contact_scene.document import SceneDocument
 from contact_scene.mistakes import mistakes
@@ -18,11 +20,13 @@ from contact_scene.source import read_source
 
 @dataclass(frozen=True)
 class SceneFile:
-    """What a scene file says: the scene, and beside it how fine each solver shall be."""
+    """What a scene file says: the scene, and beside it how fine each solver shall be, or how
+    accurate the answer."""
 
     scene: Scene
     semi_analytical: SurfaceDiscretisation
     fem_reference: FiniteElementDiscretisation
+    accuracy: AccuracyRequest | None = None
 
 
 def load_scene(path: str | PathLike[str]) -> Scene:
@@ -43,6 +47,26 @@ def read_scene_file(path: str | PathLike[str], overrides: Iterable[str] = ()) ->
         return _checked(source.document, {"folder": source.file.parent})
 
 
+def read_accuracy(text: str, option: str) -> AccuracyRequest:
+    """The accuracy that a text asks for: "0.1%", "peak_pressure 0.1%, dissipated_energy 1%".
+
+    option  how messages name where the text comes from
+    Raises `SceneError` with every mistake.
+    """
+    document = {"accuracy": accuracy_texts(text, option)}
+    try:
+        asked = _Asked.model_validate(document)
+    except ValidationError as error:
+        raise of_option(SceneError(mistakes(document, error, {})), option) from None
+    return asked.accuracy
+
+
+class _Asked(Description):
+    """The part of a document that an option stands for."""
+
+    accuracy: AccuracyRequest
+
+
 def _checked(document: dict[str, Any], context: dict[str, Any]) -> SceneFile:
     try:
         valid = SceneDocument.model_validate(document, context=context)
@@ -51,7 +75,7 @@ def _checked(document: dict[str, Any], context: dict[str, Any]) -> SceneFile:
         found += inconsistencies(_valid_parts(document, error, context))
         raise SceneError(found) from None
     scene = Scene.model_construct(**{name: getattr(valid, name) for name in Scene.model_fields})
-    return SceneFile(scene, valid.semi_analytical, valid.fem_reference)
+    return SceneFile(scene, valid.semi_analytical, valid.fem_reference, valid.accuracy)
 
 
 def _valid_parts(

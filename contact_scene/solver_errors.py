@@ -68,6 +68,10 @@ class ResourceRefused(SolverError):
     """The solve would need more memory than this machine has available."""
 
 
+class AccuracyOutOfReach(SolverError):
+    """An accuracy was asked for that no grid can meet."""
+
+
 class NotConverged(SolverError):
     """The iteration stopped above its tolerance; nothing of the failed increment is returned.
 

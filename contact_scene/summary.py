@@ -9,6 +9,7 @@ from pydantic import ConfigDict, Field
 from pydantic.dataclasses import dataclass as pydantic_dataclass
 
 from contact_scene import residuals
+from contact_scene.accuracy_reached import AccuracyReached
 from contact_scene.description import Description
 from contact_scene.increment import Cost, State
 from contact_scene.path_error import PathError
@@ -45,7 +46,7 @@ class Residuals(residuals.Residuals):
 
 
 @dataclass(frozen=True, kw_only=True)
-class _Closed:
+class Closed:
     """What the end of a step closes, and how well the state there fulfils its equations."""
 
     cycle_start: Annotated[
@@ -86,7 +87,7 @@ class _Closed:
 
 
 @pydantic_dataclass(frozen=True, kw_only=True, config=STRICT)
-class StepSummary(Cost, _Closed, State):
+class StepSummary(Cost, Closed, State):
     """State at the end of one `[[loading]]` table, and what all its increments have taken.
     Vectors are (x, y), of the indenter relative to the body: positive force gives positive
     shift."""
@@ -144,6 +145,9 @@ class RunSummary(Description):
 
     companions: tuple[Companion, ...] | None = None
     """The coarser solves that the errors come from; null where errors were left out."""
+
+    accuracy: AccuracyReached | None = None
+    """What accuracy was asked for and reached; null where none was asked for."""
 
     path_errors: tuple[PathError, ...] | None = None
     """What finite increments cost, one entry for every step; null where it was not asked for."""

@@ -33,8 +33,8 @@ class Kind:
         factor = self.units.get(unit)
         if factor is not None:
             return float(context.multiply(number, factor))
-        if self.si == "rad":
-            raise UnknownUnit(unit)  # pint counts percent and m/m as angles
+        if self.si in ("1", "rad"):
+            raise UnknownUnit(unit)  # pint counts percent and m/m as angles, and angles as shares
         return _convert_with_pint(number, unit, self.si)
 
 
@@ -62,6 +62,7 @@ PRESSURE = Kind("Pa", '"210 GPa"', _table(Pa="1", kPa="1e3", MPa="1e6", GPa="1e9
 _ANGLES = {"rad": Decimal(1), "mrad": Decimal("1e-3"), "deg": _DEGREE, "°": _DEGREE}
 ANGLE = Kind("rad", '"20 deg"', MappingProxyType(_ANGLES))
 ROTATION = Kind("rad", '"0.1 deg"', MappingProxyType(_ANGLES))
+SHARE = Kind("1", '"0.1 %"', MappingProxyType({"%": Decimal("0.01")}))
 
 
 @cache

@@ -96,11 +96,17 @@ def solve(
     TypeError
         It is no scene.
     ValueError
-        There is no such solver, or the discretisation is of another.
+        There is no such solver, or the discretisation is of another; or the scene file asks for an
+        accuracy, which takes more than one solve.
     SolverError
         As the solver says: UnsupportedScene, NotConverged, GrossSliding, ResourceRefused and others
         in `contact_scene.solver_errors`.
     """
+    if isinstance(scene, SceneFile) and scene.accuracy is not None:
+        raise ValueError(
+            "the scene file asks for an accuracy, by its table [accuracy]: use 'slipstick run', or "
+            "solve(contents.scene) for one solve as fine as the discretisation says"
+        )
     chosen, solved, fineness = _asked(scene, solver, discretisation)
     return chosen.solve(solved, fineness, chosen.plan(solved, fineness), progress)
 

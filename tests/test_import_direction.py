@@ -18,7 +18,7 @@ ROOT = Path(__file__).resolve().parents[1]
 # From the ground up: a package imports those before it, but for what FORBIDDEN says.
 PACKAGES = (
     *("contact_scene", "semi_analytical", "fem_reference", "contact_results"),
-    *("verification", "slipstick"),
+    *("contact_errors", "verification", "slipstick"),
 )
 
 ORDER = (
@@ -109,6 +109,7 @@ ORDERS = {
     "contact_errors": (
         *("values", "rules", "estimate", "prescribed", "half_the_cells", "on_cells"),
         *("element_rules", "on_elements", "of_stress"),
+        *("solve_cost", "ladder", "asked", "climb", "ladder_on_cells"),
     ),
     "slipstick": ("solvers", "path_errors", "solving", "stored_run", "cli", "__main__"),
     # Its floors: what judges stands on what is known, what is shown on what was judged.

@@ -11,6 +11,7 @@ import numpy as np
 
 from contact_results.directory.file_names import SUMMARY
 from contact_results.remarks import remarks
+from contact_scene.accuracy_reached import AccuracyReached
 from contact_scene.increment import SCALARS
 from contact_scene.path_error import PathError
 from contact_scene.reported import Kind
@@ -34,9 +35,10 @@ def write_summary(
     directory: Path,
     path_errors: tuple[PathError, ...] | None,
     errors: StatedErrors | None = None,
+    accuracy: AccuracyReached | None = None,
 ) -> None:
     """Write the summary; equal results give equal bytes."""
-    text = dump_summary(summary_of(result, cycles, path_errors, errors))
+    text = dump_summary(summary_of(result, cycles, path_errors, errors, accuracy))
     (directory / SUMMARY).write_text(text, encoding="utf-8")
 
 
@@ -45,6 +47,7 @@ def summary_of(
     cycles: Sequence[FrettingCycle],
     path_errors: tuple[PathError, ...] | None = None,
     errors: StatedErrors | None = None,
+    accuracy: AccuracyReached | None = None,
 ) -> RunSummary:
     """The record that all solvers share. What a result does not have is null."""
     stated = errors.steps if errors else repeat(None)
@@ -66,6 +69,7 @@ def summary_of(
         ),
         remarks=remarks(result),
         companions=errors.companions if errors else None,
+        accuracy=accuracy,
         path_errors=path_errors,
     )
 

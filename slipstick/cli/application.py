@@ -15,7 +15,7 @@ application = typer.Typer(
     no_args_is_help=True,
     rich_markup_mode="markdown",
     epilog="Exit codes: 0 done; 1 accuracy verdict failed; 2 invalid scene or unwritable output; "
-    "3 not converged or resolved; 4 too little memory or disk; 5 baseline drift; "
+    "3 not converged or resolved; 4 too little memory, disk or time; 5 baseline drift; "
     "70 internal error.",
     context_settings={"help_option_names": ["-h", "--help"]},
 )

@@ -1,7 +1,7 @@
 """How far a solve is: a bar on a terminal, plain lines in a log."""
 
 import time
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 
 from rich.console import Console
@@ -57,6 +57,23 @@ def companion_progress() -> Iterator[Observer]:
     console = Console(stderr=True, highlight=False, soft_wrap=True)
     with console.status("coarser solves for the errors"):
         yield lambda increment: None
+
+
+def tell_round(
+    number: int, asked: Mapping[str, float], reached: Mapping[str, float | None]
+) -> None:
+    """Say after a round how far it is from what was asked, by the quantity that is farthest."""
+    from slipstick.cli.outcome_text import against
+
+    console = Console(stderr=True, highlight=False, soft_wrap=True)
+
+    def shortfall(name: str) -> float:
+        size = reached[name]
+        return float("inf") if size is None else size / asked[name]
+
+    if asked:
+        worst = max(asked, key=shortfall)
+        console.print(f"round {number}: {worst} {against(asked[worst], reached[worst])}")
 
 
 class _Log:

@@ -4,13 +4,16 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from slipstick.cli.optional import FiguresOption, OutputOption
+from slipstick.cli.asked_accuracy import AccuracyOption, asked_accuracy, climb_to
+from slipstick.cli.errors import ExitCode
+from slipstick.cli.optional import FiguresOption, OutputOption, optional
 from slipstick.cli.scene_options import SceneArgument, SetOption
 from slipstick.cli.solver_option import SolverOption
 from slipstick.solvers.names import SolverName
 
 if TYPE_CHECKING:
     from contact_results.surface import Result
+    from contact_scene.accuracy_reached import AccuracyReached
     from contact_scene.path_error import PathError
     from contact_scene.standing import Keeper
     from contact_scene.stated_error import StatedErrors
@@ -49,6 +52,16 @@ def run(
             "them out.",
         ),
     ] = True,
+    accuracy: AccuracyOption = None,
+    most_seconds: Annotated[
+        float | None,
+        optional(
+            "--most-seconds",
+            min=0.0,
+            help="With an accuracy: begin no finer solve that would exceed this time all together; "
+            "the best result is kept, with exit code 4. Absent: as long as it takes.",
+        ),
+    ] = None,
     path_error: Annotated[
         bool,
         typer.Option(
@@ -62,6 +75,10 @@ def run(
     DIR appears whole or not at all. The results of an earlier run in it are replaced once the new
     ones are there; other files in it are left alone. A run that takes longer leaves checkpoints
     beside DIR while it lasts: the same command goes on from there if it was killed.
+
+    With --accuracy, or a table [accuracy] in the scene, the scene is solved on ever finer cells and
+    increments until the errors are as small as asked; cells and increments of the scene are where
+    that begins, not where it ends.
     """
     from contact_results.directory.checkpoint import checkpointed
     from contact_results.directory.code_digest import solve_identity
@@ -74,6 +91,9 @@ def run(
     stopwatch = Stopwatch()
     with stopwatch.phase("read"):
         contents = read_scene_file(scene, overrides or ())
+        request = asked_accuracy(contents, accuracy)
+    if most_seconds is not None and request is None:
+        raise typer.BadParameter("--most-seconds is of --accuracy; leave it or give an accuracy")
     if solver.is_fem:
         _refuse_beside_fem(
             {
@@ -82,6 +102,8 @@ def run(
                 "--path-error": path_error,
             }
         )
+    if request is not None:
+        _refuse_beside_accuracy({"--all-effects": all_effects, "--no-error": not error})
     with stopwatch.phase("import"):
         chosen = solver.solver
         from slipstick.cli.progress import solve_progress
@@ -96,13 +118,20 @@ def run(
         decided = chosen.plan(contents.scene, fineness)
         if all_effects:
             decided = _with_all_effects(decided)
-        with stopwatch.phase("solve"), solve_progress(decided.increments) as observe:
-            result = chosen.solve(contents.scene, fineness, decided, observe, keeper)
-        by_doubling = stated = None
+        stated = reached = None
+        with stopwatch.phase("solve"):
+            if request is not None:
+                climbed = climb_to(request, chosen, contents, output, surface_stress, most_seconds)
+                result, stated = climbed.rung.result, climbed.rung.stated
+                reached = climbed.accuracy
+            else:
+                with solve_progress(decided.increments) as observe:
+                    result = chosen.solve(contents.scene, fineness, decided, observe, keeper)
+        by_doubling = None
         if path_error:
             with stopwatch.phase("path error"):
                 by_doubling = _path_errors(result, doubled)
-        if error:
+        if error and stated is None:
             with stopwatch.phase("error"):
                 stated = _stated_errors(chosen, result, surface_stress)
         with stopwatch.phase("write"):
@@ -115,14 +144,27 @@ def run(
                 surface_stress=surface_stress,
                 path_errors=by_doubling,
                 errors=stated,
+                accuracy=reached,
             )
         write_timing(stopwatch, staging)
-    _print_outcome(chosen, result, stated, by_doubling, stopwatch.wall_seconds)
+    _print_outcome(chosen, result, stated, reached, by_doubling, stopwatch.wall_seconds)
     if not error:
         typer.echo("  no errors: --no-error left them out")
     typer.echo(f"results in {output}")
     if all_effects:
         _print_saving(result)
+    if reached is not None and not reached.met:
+        tell(f"error: the accuracy was not reached: {reached.stopped}; the best result is kept")
+        raise typer.Exit(ExitCode.RESOURCES_REFUSED)
+
+
+def _refuse_beside_accuracy(options: dict[str, bool]) -> None:
+    for option, asked in options.items():
+        if asked:
+            raise typer.BadParameter(
+                f"{option} cannot be met beside an accuracy; leave it or --accuracy (and the table "
+                "[accuracy]) out"
+            )
 
 
 def _refuse_beside_fem(options: dict[str, bool]) -> None:
@@ -154,11 +196,13 @@ def _print_outcome(
     solver: "Solver",
     result: "Result",
     stated: "StatedErrors | None",
+    reached: "AccuracyReached | None",
     by_doubling: "tuple[PathError, ...] | None",
     seconds: dict[str, float],
 ) -> None:
     from contact_results.remarks import remarks
     from slipstick.cli.outcome_text import (
+        how_accurate,
         how_stated,
         outcome_columns,
         path_error_columns,
@@ -166,8 +210,10 @@ def _print_outcome(
     )
     from slipstick.cli.terminal import print_pairs, print_table, tell
 
-    stated_in = () if stated is None else how_stated(stated, seconds["error"])
-    print_pairs([*solver.layout(result), *solved_in(result, seconds["solve"]), *stated_in])
+    stated_in = () if stated is None else how_stated(stated, seconds.get("error"))
+    accurate = () if reached is None else how_accurate(reached)
+    solved = solved_in(result, seconds["solve"])
+    print_pairs([*solver.layout(result), *solved, *stated_in, *accurate])
     columns = outcome_columns(result.steps, stated.steps if stated else None)
     print_table(columns, zip(*columns.values(), strict=True), numbers=True)
     if by_doubling is not None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import TYPE_CHECKING
 
 import semi_analytical
 from contact_scene import Scene, SceneFile, SurfaceDiscretisation
@@ -12,6 +13,9 @@ from contact_scene.stated_error import StatedErrors
 from semi_analytical import Plan, Result, SurfaceGrid
 from semi_analytical.memory import estimated_bytes
 from slipstick.solvers.solver import MOST_STEPS_SHOWN, Pairs, Progress, increments_text
+
+if TYPE_CHECKING:
+    from contact_errors.ladder_on_cells import CellLadder, Keeping, Watching
 
 
 class OnCells:
@@ -42,6 +46,18 @@ class OnCells:
         from contact_errors.on_cells import stated_errors
 
         return stated_errors(result, surface_stress=surface_stress, progress=progress)
+
+    def ladder(
+        self,
+        scene: Scene,
+        fineness: SurfaceDiscretisation,
+        surface_stress: bool = False,
+        keeping: Keeping | None = None,
+        watching: Watching | None = None,
+    ) -> CellLadder:
+        from contact_errors.ladder_on_cells import CellLadder, unkept
+
+        return CellLadder(scene, fineness, surface_stress, keeping or unkept, watching or unkept)
 
     def work(self, scene: Scene, fineness: SurfaceDiscretisation, plan: Plan) -> Pairs:
         """Grid, tolerance, increments and memory; what the scene left open says so."""

@@ -57,6 +57,16 @@ class OnElements:
 
         return stated_errors(result, surface_stress=surface_stress, progress=progress)
 
+    def ladder(
+        self,
+        scene: Scene,
+        fineness: FiniteElementDiscretisation,
+        surface_stress: bool = False,
+        keeping: object = None,
+        watching: object = None,
+    ) -> None:
+        return None
+
     def work(self, scene: Scene, fineness: FiniteElementDiscretisation, plan: Plan) -> Pairs:
         """Mesh, tolerance, increments, factorisations and memory."""
         radius = meshed_radius(scene, fineness.contact_radius)

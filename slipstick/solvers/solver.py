@@ -6,6 +6,7 @@ from collections.abc import Callable, Iterator, Sequence
 from typing import TYPE_CHECKING, Any, Protocol, TypeAlias
 
 if TYPE_CHECKING:
+    from contact_errors.ladder import Ladder
     from contact_results.surface import Result
     from contact_scene import (
         FiniteElementDiscretisation,
@@ -54,6 +55,16 @@ class Solver(Protocol):
         them are known.
 
         surface_stress  also of what takes the stress at the surface
+        """
+
+    def ladder(
+        self, scene: Scene, fineness: Any, surface_stress: bool, keeping: Any, watching: Any
+    ) -> Ladder[Any] | None:
+        """Ever finer solves of a scene, for an accuracy that is asked for; None where there are no
+        rules for its errors.
+
+        keeping   from a fineness to a block that has the keeper of its solve
+        watching  the same for what is told of its increments
         """
 
     def work(self, scene: Scene, fineness: Any, plan: Any) -> Pairs:

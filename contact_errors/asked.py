@@ -1,0 +1,95 @@
+"""What a request for accuracy binds in a scene, and what no grid can meet."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from contact_errors.ladder import SPARE, Rung
+from contact_errors.values import scale
+from contact_scene.accuracy import AccuracyRequest
+from contact_scene.solver_errors import AccuracyOutOfReach
+from contact_scene.stated_error import ErrorStatus
+
+# Of the largest value that its contact could have: a number below is a zero with round-off.
+ROUND_OFF = 1e-7
+# The first rung's error may be so many times what the finer ones will make of it by their order.
+DOUBT = 4.0
+
+PRESCRIBED = "the load prescribes it"
+INFINITE = "it is infinite in the exact answer"
+
+
+@dataclass(frozen=True)
+class Asked:
+    """What is bound.
+
+    shares    largest error of each quantity, relative to its largest value in the history
+    left_out  quantities that are not bound, and why
+    """
+
+    shares: Mapping[str, float]
+    left_out: Mapping[str, str]
+
+
+def asked_of(request: AccuracyRequest, rung: Rung[Any]) -> Asked:
+    """What a request binds, by a first result; raises AccuracyOutOfReach for a quantity that is
+    named and that the scene has not, or not finite."""
+    left_out = {name: why for name in request.shares() if (why := _why_left_out(name, rung))}
+    for name in sorted(request.named):
+        if left_out.get(name, PRESCRIBED) is not PRESCRIBED:
+            raise AccuracyOutOfReach(f"no accuracy of {name} can be had: {left_out[name]}")
+    shares = {name: share for name, share in request.shares().items() if name not in left_out}
+    return Asked(shares, left_out)
+
+
+def refuse_unreachable(asked: Asked, rung: Rung[Any], most_growth: float) -> None:
+    """Raise AccuracyOutOfReach for what not even the finest grid that fits will meet.
+
+    most_growth  of that grid, cells along a side over those of the rung
+    """
+    told = []
+    for name, share in asked.shares.items():
+        sizes = [error.parts for error in rung.errors(name) if error.parts]
+        if not sizes:
+            continue
+        by_cells = max(_largest(parts.get("cells", 0.0)) for parts in sizes) / rung.largest(name)
+        order = rung.rules[name].order
+        reach = SPARE * by_cells / most_growth**order
+        if reach > DOUBT * share:
+            told.append(
+                f"{name} to {_percent(share)}: its error falls with cells to the power {order:g}, "
+                f"and about {_percent(reach)} is all that fits into this machine"
+            )
+    if told:
+        raise AccuracyOutOfReach("no grid can meet " + "; nor ".join(told))
+
+
+def _why_left_out(name: str, rung: Rung[Any]) -> str:
+    """Empty for what is bound."""
+    ends = [
+        (step[name], float(np.max(np.abs(values[name]))))
+        for step, values in zip(rung.stated.steps, rung.values, strict=True)
+        if name in step
+    ]
+    if not ends:
+        without = " without --surface-stress" if name == "ruiz_f2" else ""
+        return "the scene has none" + without
+    if name not in rung.rules:
+        return INFINITE
+    largest_contact = max(scale(name, step) for step in rung.values)
+    found = [error.status for error, size in ends if size > ROUND_OFF * largest_contact]
+    if any(status is not ErrorStatus.EXACT for status in found):
+        return ""
+    return PRESCRIBED if found else "it is zero throughout"
+
+
+def _largest(amount: Any) -> float:
+    return float(max(amount)) if isinstance(amount, tuple) else float(amount)
+
+
+def _percent(share: float) -> str:
+    return f"{100 * share:.2g} %"

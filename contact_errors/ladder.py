@@ -1,0 +1,165 @@
+"""A scene solved ever finer: the rungs, what a ladder is, and how much finer the next rung is."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any, Generic, Protocol, TypeVar
+
+import numpy as np
+
+from contact_errors.estimate import largest_so_far
+from contact_errors.rules import Rule
+from contact_errors.values import Values
+from contact_scene.accuracy_reached import AccuracySettings
+from contact_scene.stated_error import Amount, ErrorStatus, Part, StatedError, StatedErrors
+
+F = TypeVar("F")
+
+# Errors on the next rung are aimed at this part of the request, and have to be below one over
+# `SPARE` of it: whoever stops at the first error below a bound prefers errors that are too small.
+AIM = 0.8
+SPARE = 1.15
+# Of the request, at most so much for the increments.
+HALF = 0.5
+# Cells and increments of the next rung over those of this: an error far away says little.
+FIRST_GROWTH, LATER_GROWTH, LEAST_GROWTH = 8.0, 3.0, 1.15
+# Where a number has not converged nothing follows from its error.
+UNCONVERGED_GROWTH = 2.0
+# Of the request, what the tolerance of the solver may take.
+SOLVED = 0.05
+SPACE: tuple[Part, ...] = ("cells", "elements", "section", "penalty", "harmonics")
+
+
+@dataclass(frozen=True)
+class Rung(Generic[F]):
+    """A result on a ladder.
+
+    fineness  how it was solved
+    stated    the errors of its numbers
+    values    its numbers
+    rules     laws of their errors
+    seconds   that it took with its companions
+    processor_seconds
+              of these, those that the machine worked for it
+    """
+
+    fineness: F
+    result: Any
+    stated: StatedErrors
+    values: Sequence[Values]
+    rules: Mapping[str, Rule]
+    seconds: float
+    processor_seconds: float
+
+    def largest(self, name: str) -> float:
+        """The largest size of a number in the history; 0 where it has none."""
+        return float(np.max(largest_so_far(self.values)[-1].get(name, 0.0)))
+
+    def errors(self, name: str) -> Iterator[StatedError]:
+        """Of a number at the ends of all steps that have it."""
+        return (step[name] for step in self.stated.steps if name in step)
+
+    def reached(self, name: str) -> float | None:
+        """The largest error of a number relative to its largest size; None where one is unknown or
+        has not converged."""
+        found = 0.0
+        for error in self.errors(name):
+            if error.error is None or error.status is ErrorStatus.NOT_CONVERGED:
+                return None
+            found = max(found, _size(error.error))
+        return found / self.largest(name)
+
+    def shortfall(self, shares: Mapping[str, float]) -> float:
+        """The largest error over what was asked of it; infinite where one is not known."""
+        reached = {name: self.reached(name) for name in shares}
+        ratios = [np.inf if r is None else r / shares[name] for name, r in reached.items()]
+        return float(max(ratios, default=0.0))
+
+    def meets(self, shares: Mapping[str, float]) -> bool:
+        """Whether all errors are below the request, with something to spare."""
+        return SPARE * self.shortfall(shares) <= 1
+
+
+@dataclass(frozen=True)
+class Growth:
+    """How much finer: factors of the cells along a side (of elements over the radius), of the
+    increments where they matter, and of the tolerance."""
+
+    cells: float
+    increments: float
+    tolerance: float
+
+    def bounded(self, most: float) -> Growth:
+        """At most so much finer, and a little finer at least."""
+        cells, increments = min(self.cells, most), min(self.increments, most)
+        if max(cells, increments) < LEAST_GROWTH and self.tolerance == 1:
+            cells = LEAST_GROWTH
+        return Growth(cells, increments, self.tolerance)
+
+
+class Ladder(Protocol[F]):
+    """A scene that can be solved ever finer by one solver.
+
+    F  how fine: what the solver takes
+    """
+
+    def first(self) -> F:
+        """The coarsest that says anything."""
+
+    def climbed(self, fineness: F) -> Rung[F]:
+        """The scene solved, with its errors; raises a SolverError."""
+
+    def refined(self, fineness: F, by: Growth) -> F:
+        """Finer by so much, or a little more."""
+
+    def seconds(self, fineness: F, like: Rung[F]) -> float:
+        """How long the processor will work for a rung, by what another has taken."""
+
+    def too_large(self, fineness: F) -> str | None:
+        """Why it does not fit into the memory; None where it does."""
+
+    def most_growth(self, fineness: F) -> float:
+        """How many times as many cells along a side, or elements, would still fit."""
+
+    def settings(self, fineness: F) -> AccuracySettings:
+        """How fine, for the summary."""
+
+
+def growth(rung: Rung[Any], shares: Mapping[str, float]) -> Growth:
+    """How much finer a rung has to be for these errors, relative to the largest of each number."""
+    cells = increments = tolerance = 1.0
+    for name, share in shares.items():
+        rule, largest = rung.rules[name], rung.largest(name)
+        for error in rung.errors(name):
+            if error.status is ErrorStatus.EXACT:
+                continue
+            if error.error is None or error.status is ErrorStatus.NOT_CONVERGED:
+                cells = max(cells, UNCONVERGED_GROWTH)
+                increments = max(increments, UNCONVERGED_GROWTH)
+                continue
+            parts = {part: _size(size) / largest for part, size in error.parts.items()}
+            space = sum(parts.get(part, 0.0) for part in SPACE)
+            path = parts.get("increments", 0.0)
+            by_path, of_space = _path_alone(rule, path, space)
+            of_path = min(path, HALF * AIM * share)
+            left = AIM * share - of_path
+            cells = max(cells, (max(space, of_space) / left) ** (1 / rule.order))
+            increments = max(increments, by_path / of_path if of_path else 1.0)
+            solved = parts.get("tolerance", 0.0)
+            tolerance = min(tolerance, SOLVED * share / solved if solved else 1.0)
+    return Growth(cells, increments, tolerance)
+
+
+def _path_alone(rule: Rule, path: float, space: float) -> tuple[float, float]:
+    """The error by increments without, and at most with nothing but, the scatter by cells that it
+    contains: more increments do not lessen that."""
+    if rule.weight == 0:
+        return path, 0.0
+    per_space = rule.factor * (rule.weight / (rule.weight + 1)) ** 0.5
+    scatter = min(path, rule.path_factor * rule.path_scatter * space / per_space)
+    return (path**2 - scatter**2) ** 0.5, scatter
+
+
+def _size(amount: Amount) -> float:
+    return max(amount) if isinstance(amount, tuple) else amount

@@ -1,0 +1,349 @@
+"""An accuracy that is asked for is met, or it is said why not."""
+
+import json
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+from command import slipstick
+from contact_scenes import (
+    APPROACH,
+    LOAD,
+    MU,
+    NU,
+    PRESS,
+    RIGID_BALL,
+    YOUNG,
+    A,
+    hertz,
+    paraboloid,
+    push,
+    scene,
+    slide,
+    steel,
+)
+from hypothesis import given
+from hypothesis import strategies as st
+
+from contact_errors import ladder_on_cells
+from contact_errors.climb import Climb, climb
+from contact_errors.ladder import AIM, Growth, Rung, growth
+from contact_errors.ladder_on_cells import CellFineness, CellLadder, even_smooth
+from contact_errors.rules import APPROACH as APPROACH_RULE
+from contact_errors.rules import SHIFT, Rule
+from contact_scene import (
+    Body,
+    Cone,
+    FlatPunch,
+    IsotropicMaterial,
+    Layer,
+    Scene,
+    SceneError,
+    SurfaceDiscretisation,
+)
+from contact_scene.scene_file import read_accuracy
+from contact_scene.solver_errors import AccuracyOutOfReach
+from contact_scene.stated_error import ErrorStatus, StatedError, StatedErrors
+from contact_scene.summary import load_summary
+from semi_analytical import solve
+from verification.closed_forms.cattaneo_mindlin import PartialSlip
+from verification.closed_forms.moduli import tangential_modulus
+
+SCENE = """
+[indenter]
+shape = "paraboloid"
+radius = "18 mm"
+material = { young_modulus = "420 GPa", poisson_ratio = 0.3 }
+[body]
+material = { young_modulus = "420 GPa", poisson_ratio = 0.3 }
+[[loading]]
+normal_force = "1 kN"
+"""
+LAYER = Layer(thickness=A, material=IsotropicMaterial(young_modulus=2 * YOUNG, poisson_ratio=NU))
+
+
+def request(text: str):
+    return read_accuracy(text, "--accuracy")
+
+
+def climbed(of: Scene, asked: str, **limits: float) -> Climb[CellFineness]:
+    return climb(CellLadder(of, SurfaceDiscretisation()), request(asked), **limits)
+
+
+@pytest.mark.parametrize(
+    ("text", "shares"),
+    [
+        ("approach 1%", {"approach": 0.01}),
+        ("approach=1 %, dissipated_energy: 2e-3", {"approach": 0.01, "dissipated_energy": 2e-3}),
+    ],
+)
+def test_names_have_their_shares(text: str, shares: dict[str, float]) -> None:
+    assert request(text).shares() == pytest.approx(shares)
+
+
+def test_a_name_counts_more_than_the_share_of_all() -> None:
+    shares = request("1%, approach 0.1%").shares()
+    assert shares["approach"] == 1e-3
+    assert shares["twist"] == 1e-2
+    assert len(shares) == 6
+
+
+@pytest.mark.parametrize(
+    ("text", "told"),
+    [
+        ("peak_presure 1%", "did you mean peak_pressure?"),
+        ("halvings 1%", "unknown key"),
+        ("approach 200%", "at most 50 %"),
+        ("approach 0", "above 0"),
+        ("approach 1 mm", "such as"),
+        ("", "or names such as"),
+        ("1%, 2%", "overall is bound twice"),
+    ],
+)
+def test_what_is_no_accuracy_is_told_as_one_mistake(text: str, told: str) -> None:
+    with pytest.raises(SceneError) as refused:
+        request(text)
+    assert len(refused.value.problems) == 1
+    assert str(refused.value).startswith("--accuracy: ")
+    assert told in str(refused.value)
+
+
+@pytest.mark.parametrize("asked", ["1%", "0.1%"])
+def test_hertz_is_as_accurate_as_was_asked(asked: str) -> None:
+    made = climbed(scene(PRESS), asked)
+    share, (end,) = request(asked).overall, made.rung.result.steps
+    assert made.accuracy.met
+    exact = {
+        "approach": APPROACH,
+        "contact_radius": A,
+        "peak_pressure": hertz().peak_pressure,
+    }
+    assert set(made.accuracy.asked) == set(exact)
+    for name, value in exact.items():
+        assert abs(getattr(end, name) / value - 1) < share, name
+        assert made.accuracy.reached[name] < share
+
+
+def test_partial_slip_is_as_accurate_as_was_asked() -> None:
+    made = climbed(scene(PRESS, push(0.6), push(-0.6), push(0.6)), "1%, dissipated_energy 1%")
+    end = made.rung.result.steps[-1]
+    exact = PartialSlip(LOAD, A, MU, tangential_modulus((YOUNG, NU), (YOUNG, NU)), 60.0)
+    assert made.accuracy.met
+    assert end.tangential_shift[0] == pytest.approx(exact.shift, rel=1e-2)
+    assert {"tangential_shift", "energy_per_cycle"} <= set(made.accuracy.asked)
+    assert set(made.accuracy.left_out) == {"twist"}
+
+
+def test_a_coated_contact_is_as_accurate_as_was_asked() -> None:
+    coated = Scene(
+        indenter=RIGID_BALL,
+        body=Body(material=steel(), layers=(LAYER,)),
+        loading=scene(PRESS).loading,
+    )
+    made = climbed(coated, "1%")
+    (end,) = made.rung.result.steps
+    fine = made.rung.fineness.grid.refined(3)
+    (better,) = solve(coated, fine, 1e-8).steps
+    assert made.accuracy.met
+    for name in made.accuracy.asked:
+        assert getattr(end, name) == pytest.approx(getattr(better, name), rel=1e-2)
+
+
+def test_what_the_load_prescribes_binds_nothing() -> None:
+    led = scene({"approach": APPROACH}, slide(1.0))
+    left_out = climbed(led, "2%").accuracy.left_out
+    assert {name for name, why in left_out.items() if "prescribes" in why} == {
+        "approach",
+        "tangential_shift",
+    }
+
+
+@pytest.mark.parametrize(
+    "indenter",
+    [Cone(slope_angle=0.05, material=steel()), FlatPunch(radius=A, material=steel())],
+    ids=["cone", "punch"],
+)
+def test_what_is_infinite_is_left_out_and_refused_by_name(indenter) -> None:
+    of = scene(PRESS, indenter=indenter, friction=None)
+    assert "infinite" in climbed(of, "10%").accuracy.left_out["peak_pressure"]
+    with pytest.raises(AccuracyOutOfReach, match=r"peak_pressure.*infinite"):
+        climbed(of, "peak_pressure 10%")
+
+
+def test_what_the_scene_has_not_is_refused_by_name() -> None:
+    with pytest.raises(AccuracyOutOfReach, match=r"twist.*none"):
+        climbed(scene(PRESS), "twist 1%")
+    with pytest.raises(AccuracyOutOfReach, match=r"ruiz_f2.*--surface-stress"):
+        climbed(scene(PRESS, push(0.6), push(-0.6), push(0.6)), "ruiz_f2 1%")
+
+
+def test_what_no_grid_can_meet_is_refused_after_the_first_round() -> None:
+    rounds: list[int] = []
+    looped = scene(PRESS, push(0.6), push(-0.6), push(0.6))
+    ladder = CellLadder(looped, SurfaceDiscretisation(), surface_stress=True)
+    with pytest.raises(AccuracyOutOfReach, match=r"ruiz_f2.* 0.5, and about \d.* % is all"):
+        climb(ladder, request("ruiz_f2 1e-6"), None, lambda k, *_: rounds.append(k))
+    assert rounds == []
+
+
+def test_a_limit_of_time_keeps_the_best_result() -> None:
+    made = climbed(scene(PRESS), "0.1%", most_seconds=1e-3)
+    assert not made.accuracy.met
+    assert "--most-seconds" in made.accuracy.stopped
+    assert made.rung.result.grid.cells == made.accuracy.settings.cells == (24, 24)
+
+
+def test_a_limit_of_memory_keeps_the_best_result(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(ladder_on_cells, "available_bytes", lambda: (4 << 20) + 250_000)
+    made = climbed(scene(PRESS), "1%")
+    assert "GiB" in made.accuracy.stopped
+    assert made.rung.result.steps
+
+
+def rung_of(parts: dict[str, float], rule: Rule, status=ErrorStatus.ESTIMATED) -> Rung[None]:
+    """A rung whose approach is 2 and has an error of these parts."""
+    error = StatedError(error=sum(parts.values()), parts=parts, status=status)
+    values = ({"approach": np.array([2.0])},)
+    stated = StatedErrors(({"approach": error},), ())
+    return Rung(None, None, stated, values, {"approach": rule}, 1.0, 1.0)
+
+
+@given(
+    st.floats(0.5, 2.0),
+    st.floats(1e-6, 0.5),
+    st.floats(1e-6, 1e-1),
+)
+def test_cells_grow_until_a_power_law_meets_what_was_asked(
+    order: float, error: float, share: float
+) -> None:
+    rule = replace(APPROACH_RULE, order=order)
+    by = growth(rung_of({"cells": 2 * error}, rule), {"approach": share})
+    left = error / by.cells**order
+    assert left == pytest.approx(min(error, AIM * share))
+    assert by.increments == 1
+
+
+def test_a_worked_example_of_growth() -> None:
+    # Of 2: cells 0.04 = 2 %, increments 0.02 = 1 %; asked 1 %, aim 0.8 %: 0.4 % for either.
+    # The increments contain scatter of at most 3·0.3·(2 %/(1.3 √(2/3))) > 1 %: all of it, so that
+    # only cells grow, by √(2/0.4) = 2.236.
+    by = growth(rung_of({"cells": 0.04, "increments": 0.02}, SHIFT), {"approach": 0.01})
+    assert by.cells == pytest.approx(2.2361, abs=1e-4)
+    assert by.increments == 1
+    # Increments of 4 % and scatter of 1.6957 %: √(16 - 2.8754) = 3.6228 % fall as 1/n.
+    by = growth(rung_of({"cells": 0.04, "increments": 0.08}, SHIFT), {"approach": 0.01})
+    assert by.increments == pytest.approx(3.6228 / 0.4, abs=1e-3)
+
+
+def test_nothing_follows_from_the_error_of_what_has_not_converged() -> None:
+    rung = rung_of({"cells": 1e-9}, SHIFT, ErrorStatus.NOT_CONVERGED)
+    assert not rung.meets({"approach": 0.1})
+    assert growth(rung, {"approach": 0.1}).cells == 2
+
+
+def test_whoever_does_not_meet_a_request_gets_finer() -> None:
+    rung = rung_of({"cells": 2 * 0.0095}, APPROACH_RULE)
+    assert not rung.meets({"approach": 0.01})
+    assert growth(rung, {"approach": 0.01}).bounded(3.0).cells > 1
+    assert Growth(1.0, 1.0, 1.0).bounded(3.0).cells > 1
+
+
+@given(st.floats(1, 16000))
+def test_cells_are_even_and_smooth(least: float) -> None:
+    number = even_smooth(least)
+    assert number % 2 == 0
+    assert least - 1e-6 <= number <= 1.2 * least + 2
+    for prime in (2, 3, 5, 7):
+        while number % prime == 0:
+            number //= prime
+    assert number == 1
+
+
+def written(tmp_path: Path, more: str = "") -> Path:
+    path = tmp_path / "scene.toml"
+    path.write_text(SCENE + more, encoding="utf-8")
+    return path
+
+
+def summary(out: Path):
+    return load_summary((out / "summary.json").read_text(encoding="utf-8"))
+
+
+def test_a_run_meets_the_table_of_its_scene_and_says_so(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path, out = written(tmp_path, "[accuracy]\noverall = '2 %'\n"), tmp_path / "out"
+    assert slipstick("run", path, "-o", out, "--no-figures") == 0
+    accuracy = summary(out).accuracy
+    assert accuracy.met
+    assert accuracy.settings.cells == summary(out).cells
+    shown = capsys.readouterr()
+    assert "approach asked 2 %, reached" in shown.out
+    assert "round 1: contact_radius asked 2 %, reached" in shown.err
+    by_option = tmp_path / "by option"
+    plain = written(tmp_path)
+    assert slipstick("run", plain, "-o", by_option, "--no-figures", "--accuracy", "2%") == 0
+    assert summary(by_option) == summary(out)
+
+
+def test_a_run_that_reaches_less_leaves_with_4_and_its_best_result(tmp_path: Path) -> None:
+    out = tmp_path / "out"
+    asked = ("--accuracy", "0.1%", "--most-seconds", "0")
+    assert slipstick("run", written(tmp_path), "-o", out, "--no-figures", *asked) == 4
+    assert not summary(out).accuracy.met
+    assert json.loads((out / "summary.json").read_text())["accuracy"]["stopped"]
+
+
+@pytest.mark.parametrize(
+    "more",
+    [
+        ("--accuracy", "1%", "--no-error"),
+        ("--accuracy", "1%", "--all-effects"),
+        ("--accuracy", "1%", "--solver", "fem"),
+        ("--accuracy", "contact_radius 1e-9"),
+        ("--accuracy", "nonsense"),
+        ("--most-seconds", "3"),
+    ],
+    ids=" ".join,
+)
+def test_a_run_refuses_what_cannot_be(tmp_path: Path, more: tuple[str, ...]) -> None:
+    assert slipstick("run", written(tmp_path), "-o", tmp_path / "out", *more) == 2
+    assert not (tmp_path / "out").exists()
+
+
+def test_an_empty_table_is_refused(tmp_path: Path) -> None:
+    assert slipstick("check", written(tmp_path, "[accuracy]\n")) == 2
+
+
+def test_a_killed_run_ends_as_if_it_had_not_been(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    path, out, whole = written(tmp_path), tmp_path / "out", tmp_path / "whole"
+    asked = ("--no-figures", "--accuracy", "1%")
+    assert slipstick("run", path, "-o", whole, *asked) == 0
+    solved: list[object] = []
+    estimate = ladder_on_cells.stated_errors
+
+    def killed(*given, **more):
+        solved.append(given)
+        if len(solved) == 2:
+            raise KeyboardInterrupt
+        return estimate(*given, **more)
+
+    monkeypatch.setattr(ladder_on_cells, "stated_errors", killed)
+    with pytest.raises(BaseException):  # noqa: B017, PT011
+        assert slipstick("run", path, "-o", out, *asked) == 0
+    assert not out.exists()
+    monkeypatch.undo()
+    assert slipstick("run", path, "-o", out, *asked) == 0
+    assert summary(out) == summary(whole)
+    assert sorted(p.name for p in tmp_path.iterdir()) == ["out", "scene.toml", "whole"]
+
+
+def test_paraboloids_of_all_sizes_take_the_same_cells() -> None:
+    cells = {
+        climbed(scene({"normal_force": load}, indenter=paraboloid()), "1%").rung.result.grid.cells
+        for load in (1e-3, 1e3)
+    }
+    assert len(cells) == 1
