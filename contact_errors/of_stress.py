@@ -15,7 +15,7 @@ from contact_results.stress.extremes import Extreme, extremes
 from contact_results.stress.loaded_bodies import LoadedBodies
 from contact_results.stress.on_cells import stress_on_cells
 from contact_results.stress.points import StressField
-from contact_scene.stated_error import StatedError
+from contact_scene.stated_error import Part, StatedError
 
 Field = NDArray[np.float64]
 
@@ -28,7 +28,7 @@ def stress_errors(
 ) -> tuple[StatedError, ...]:
     """Errors of the extremes that were found in a field; nothing can be said of those on rings.
 
-    The tractions themselves count as exact: what cells leave wrong in them is far less than what
+    Of the tractions counts what increments leave wrong in them; what cells do is far less than what
     they leave wrong in the stress.
     """
     if state.on_rings:
@@ -39,7 +39,9 @@ def stress_errors(
     there = {(e.region, e.measure): e.value for e in extremes(wide.points, body)}
     x, y = state.axes["x"], state.axes["y"]
     near = NEAR * sqrt((x[1] - x[0]) * (y[1] - y[0]))
-    return tuple(_error(e, there.get((e.region, e.measure)), near) for e in found)
+    return tuple(
+        _error(e, there.get((e.region, e.measure)), near, state.by_increments or 0.0) for e in found
+    )
 
 
 def on_wide_cells(state: LoadedBodies) -> LoadedBodies:
@@ -68,11 +70,13 @@ def _means(field: Field, pad_x: int, pad_y: int) -> Field:
     )
 
 
-def _error(extreme: Extreme, wide: float | None, near: float) -> StatedError:
+def _error(extreme: Extreme, wide: float | None, near: float, by_increments: float) -> StatedError:
     if wide is None:
         return estimate.UNKNOWN
     rule = TENSION if extreme.depth < near else INTERIOR
     change, largest = np.array([abs(extreme.value - wide)]), np.array([abs(extreme.value)])
-    error = estimate.by_cells(rule, change, 2.0, np.zeros(1))
+    parts: dict[Part, Field] = {"cells": estimate.by_cells(rule, change, 2.0, np.zeros(1))}
+    if by_increments:
+        parts["increments"] = by_increments * largest
     apart = estimate.contradicts(change, largest, 0.0)
-    return estimate.stated({"cells": error}, not (apart or extreme.at_window_edge))
+    return estimate.stated(parts, not (apart or extreme.at_window_edge))

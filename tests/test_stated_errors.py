@@ -48,6 +48,12 @@ cells = [32, 32]
 window = ["1.2 mm", "1.2 mm"]
 """
 
+TWENTY = """
+[semi_analytical]
+cells = [20, 20]
+window = ["1.2 mm", "1.2 mm"]
+"""
+
 
 def errors_of(of: Scene, on: SurfaceGrid) -> tuple[dict[str, StatedError], ...]:
     return tuple(map(dict, stated_errors(solve(of, on, 1e-8)).steps))
@@ -238,3 +244,22 @@ def test_every_figure_has_a_caption_with_errors(tmp_path: Path) -> None:
     assert figure.get_supxlabel().count(" ± ") == 2
     add_caption(figure, file_names.PRESSURE_FIGURE, result, None)
     assert "errors not stated" in figure.get_supxlabel()
+
+
+def test_stress_counts_what_increments_leave_wrong_in_the_tractions(tmp_path: Path) -> None:
+    path = tmp_path / "scene.toml"
+    coupled = FRETTING.replace("420 GPa", "210 GPa", 1)
+    path.write_text(coupled.split("[[loading]]\ntangential_force", 1)[0] + TWENTY, encoding="utf-8")
+    common = ("--no-figures", "-o")
+    assert slipstick("run", path, *common, tmp_path / "run") == 0
+    assert slipstick("stress", path, *common, tmp_path / "of_scene") == 0
+    assert slipstick("stress", tmp_path / "run", *common, tmp_path / "of_run") == 0
+    of_scene, of_run = (
+        json.loads((tmp_path / name / "stress.json").read_text(encoding="utf-8"))["maxima"]
+        for name in ("of_scene", "of_run")
+    )
+    assert of_scene == of_run
+    for maximum in of_run:
+        parts = maximum["error"]["parts"]
+        assert 0 < parts["increments"] < 0.1 * maximum["value"]
+        assert maximum["error"]["error"] == pytest.approx(sum(parts.values()))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -12,10 +12,13 @@ import h5py
 import numpy as np
 from numpy.typing import NDArray
 
-from contact_results.directory.file_names import FIELDS
+from contact_results.directory.file_names import FIELDS, SUMMARY
 from contact_results.files.stored_values import MISREAD, refuse_other_shape, text, values
 from contact_results.surface import surface_of
 from contact_scene import Body, FiniteElementDiscretisation
+from contact_scene.increment import State
+from contact_scene.stated_error import ErrorStatus, StatedError, StatedErrors
+from contact_scene.summary import load_summary
 
 if TYPE_CHECKING:
     from contact_results.surface import Result
@@ -40,6 +43,8 @@ class LoadedBodies:
     tractions       pressure and shear on the lower body, those that there are, by name
                     [force/length^2]
     discretisation  of finite elements; None of others
+    by_increments   part of themselves by which increments may leave the tractions wrong; None where
+                    nobody has stated it
     """
 
     title: str
@@ -49,6 +54,7 @@ class LoadedBodies:
     axes: Mapping[str, Field]
     tractions: Mapping[str, Field]
     discretisation: FiniteElementDiscretisation | None
+    by_increments: float | None = None
 
     @property
     def on_rings(self) -> bool:
@@ -56,8 +62,13 @@ class LoadedBodies:
         return "radii" in self.axes
 
 
-def state_of_result(result: Result, step: int | None) -> LoadedBodies:
-    """State at the end of a step, None for the last. Raises NoSuchState."""
+def state_of_result(
+    result: Result, step: int | None, errors: StatedErrors | None = None
+) -> LoadedBodies:
+    """State at the end of a step, None for the last. Raises NoSuchState.
+
+    errors  of the result
+    """
     ends = {end.step: end for end in result.steps}
     end = ends[_existing(step, sorted(ends))]
     surface, scene = surface_of(result), result.scene
@@ -71,11 +82,12 @@ def state_of_result(result: Result, step: int | None) -> LoadedBodies:
         surface.axes,
         {name: field for name, field in tractions.items() if field is not None},
         getattr(result, "discretisation", None),
+        None if errors is None else _by_increments(end, errors.steps[end.step - 1]),
     )
 
 
 def state_of_run(directory: Path, step: int | None) -> LoadedBodies:
-    """The same from the fields that `slipstick run` has written there.
+    """The same from the fields and the summary that `slipstick run` has written there.
 
     Raises NoSuchState, also for a file that is no result, and ResourceRefused.
     """
@@ -84,9 +96,34 @@ def state_of_run(directory: Path, step: int | None) -> LoadedBodies:
         raise NoSuchState(f"{directory} has no {FIELDS}; give the output of a run, or a scene file")
     try:
         with h5py.File(path) as file:
-            return _read(file, step)
+            state = _read(file, step)
     except MISREAD as error:
         raise NoSuchState(f"{path} is not the {FIELDS} of a run: {error}") from None
+    return replace(state, by_increments=_stated_by_increments(directory / SUMMARY, state.step))
+
+
+def _stated_by_increments(path: Path, step: int) -> float | None:
+    """What the summary of a run says; None where there is none that says it."""
+    try:
+        end = load_summary(path.read_text(encoding="utf-8")).steps[step - 1]
+    except (OSError, ValueError, IndexError):
+        return None
+    return None if end.errors is None else _by_increments(end, end.errors)
+
+
+def _by_increments(end: State, errors: Mapping[str, StatedError]) -> float | None:
+    """Stress is linear in the tractions, whose largest change by increments is that of the peak
+    pressure or, with the shear, of the shift."""
+    parts = []
+    for name in ("peak_pressure", "tangential_shift"):
+        value, error = getattr(end, name), errors.get(name)
+        if value is None or error is None or error.status is ErrorStatus.EXACT:
+            continue
+        if error.error is None:
+            return None
+        size = float(np.max(np.abs(value)))
+        parts.append(float(np.max(error.parts.get("increments", 0.0))) / size if size else 0.0)
+    return max(parts, default=0.0)
 
 
 def _read(file: h5py.File, step: int | None) -> LoadedBodies:

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from contact_results.stress.loaded_bodies import LoadedBodies
     from contact_results.stress.points import StressField
     from contact_results.surface import Result
-    from contact_scene.stated_error import StatedError
+    from contact_scene.stated_error import StatedError, StatedErrors
 
 
 def stress(
@@ -78,7 +78,7 @@ def stress(
     from contact_results.stress.extremes import extremes
     from contact_results.stress_files import write_stress
 
-    state = _state(source, step, chosen, overrides or [])
+    state = _state(source, step, chosen, overrides or [], error)
     which, body = ("indenter", state.indenter) if indenter else ("body", state.body)
     if not body.deforms:
         raise typer.BadParameter(f"the {which} is rigid: there is no stress in it")
@@ -86,7 +86,7 @@ def stress(
     found = extremes(field.points, body)
     errors = _errors(state, field, found, indenter) if error else None
     write_stress(state, which, field, found, output, with_figures=figures, errors=errors)
-    _print(found, errors, output)
+    _print(found, errors, state.by_increments, output)
 
 
 def _refuse_file_in_the_way(output: Path) -> None:
@@ -113,28 +113,35 @@ def _refuse_beside_fem(is_fem: bool, depths: list[float] | None, volume: bool) -
 
 
 def _state(
-    source: Path, step: int | None, solver: SolverName, overrides: list[str]
+    source: Path, step: int | None, solver: SolverName, overrides: list[str], error: bool
 ) -> LoadedBodies:
     from contact_results.stress.loaded_bodies import NoSuchState, state_of_result, state_of_run
 
     try:
         if source.is_dir():
             return state_of_run(source, step)
-        return state_of_result(_solved(source, solver, overrides), step)
+        result, errors = _solved(source, solver, overrides, error)
+        return state_of_result(result, step, errors)
     except NoSuchState as error:
         raise typer.BadParameter(str(error)) from None
 
 
-def _solved(scene: Path, solver: SolverName, overrides: list[str]) -> Result:
+def _solved(
+    scene: Path, solver: SolverName, overrides: list[str], error: bool
+) -> tuple[Result, StatedErrors | None]:
     from contact_scene import read_scene_file
-    from slipstick.cli.progress import solve_progress
+    from slipstick.cli.progress import companion_progress, solve_progress
 
     contents = read_scene_file(scene, overrides)
     chosen = solver.solver
     fineness = chosen.fineness(contents)
     decided = chosen.plan(contents.scene, fineness)
     with solve_progress(decided.increments) as observe:
-        return chosen.solve(contents.scene, fineness, decided, observe)
+        result = chosen.solve(contents.scene, fineness, decided, observe)
+    if not error:
+        return result, None
+    with companion_progress() as observe:
+        return result, chosen.errors(result, progress=observe)
 
 
 def _below(
@@ -180,7 +187,10 @@ def _length(text: str) -> float:
 
 
 def _print(
-    found: tuple[Extreme, ...], errors: tuple[StatedError, ...] | None, output: Path
+    found: tuple[Extreme, ...],
+    errors: tuple[StatedError, ...] | None,
+    by_increments: float | None,
+    output: Path,
 ) -> None:
     import numpy as np
 
@@ -202,4 +212,6 @@ def _print(
     print_table(columns, rows, numbers=True)
     if errors is None:
         typer.echo("  no errors: --no-error left them out")
+    elif by_increments is None:
+        typer.echo("  errors by cells alone: the run states none by increments")
     typer.echo(f"results in {output}")
