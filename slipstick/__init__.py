@@ -2,7 +2,8 @@
 
     scene = slipstick.load_scene("scene.toml")     # or slipstick.Scene(...)
     result = slipstick.solve(scene)                # solver="fem": by finite elements
-    slipstick.save(result, "out")                  # summary, tables, fields, figures
+    errors = slipstick.stated_errors(result)       # how far off its numbers may be
+    slipstick.save(result, "out", errors=errors)   # summary, tables, fields, figures
     run = slipstick.load("out")                    # and back, arrays with units and meaning
 
 The names here are all that a script needs; they are imported when they are used. The solvers'
@@ -31,7 +32,7 @@ if TYPE_CHECKING:
         SurfaceDiscretisation,
         load_scene,
     )
-    from slipstick.solving import plan, save, solve
+    from slipstick.solving import plan, save, solve, stated_errors
 
 __all__ = [
     "load_scene",
@@ -51,6 +52,7 @@ __all__ = [
     "FiniteElementDiscretisation",
     "plan",
     "solve",
+    "stated_errors",
     "save",
     "load",
     "StoredRun",
@@ -58,7 +60,7 @@ __all__ = [
 
 HOMES = {
     **dict.fromkeys(__all__, "contact_scene"),
-    **dict.fromkeys(("plan", "solve", "save"), "slipstick.solving"),
+    **dict.fromkeys(("plan", "solve", "stated_errors", "save"), "slipstick.solving"),
     **dict.fromkeys(("load", "StoredRun"), "contact_results.files.stored_run"),
 }
 

@@ -7,13 +7,14 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal, TypeAlias, overload
 
 from contact_scene import Scene, SceneFile
-from slipstick.solvers.names import SolverName
+from slipstick.solvers.names import SolverName, solver_of
 
 if TYPE_CHECKING:
     import fem_reference
     import semi_analytical
     from contact_results.surface import Result
     from contact_scene import FiniteElementDiscretisation, SurfaceDiscretisation
+    from contact_scene.stated_error import StatedErrors
     from slipstick.solvers.solver import Discretisation, Progress, Solver
 
 Cells: TypeAlias = Literal["semi-analytical"]
@@ -111,17 +112,35 @@ def solve(
     return chosen.solve(solved, fineness, chosen.plan(solved, fineness), progress)
 
 
-def save(result: Result, directory: str | PathLike[str], *, figures: bool = True) -> None:
+def stated_errors(result: Result) -> StatedErrors:
+    """How far off the numbers of a result may be, by coarser solves beside it.
+
+    `steps` has of every loading step a table from the name of a scalar to its error, in the unit of
+    the scalar, with its parts and whether it has converged; `companions` says what was solved. A
+    companion that has no answer leaves its errors unknown.
+    """
+    return solver_of(result).errors(result)
+
+
+def save(
+    result: Result,
+    directory: str | PathLike[str],
+    *,
+    figures: bool = True,
+    errors: StatedErrors | None = None,
+) -> None:
     """Write the files that `slipstick run` writes: summary, tables, fields and figures.
 
     The directory appears whole or not at all; an earlier run in it is replaced. Raises
     OutputRefused where other files are in the way.
+
+    errors  of the result, from `stated_errors`; they are left out if absent
     """
     from contact_results.directory.run_directory import run_directory
     from contact_results.result_files import write_result
 
     with run_directory(Path(directory)) as staging:
-        write_result(result, staging, with_figures=figures)
+        write_result(result, staging, with_figures=figures, errors=errors)
 
 
 def _asked(

@@ -3,7 +3,7 @@
 import subprocess
 import sys
 from pathlib import Path
-from typing import Any
+from typing import Any, get_args
 
 import h5py
 import numpy as np
@@ -17,6 +17,7 @@ from contact_results.surface import surface_of
 from contact_scene import read_scene_file
 from contact_scene.increment import SCALARS
 from contact_scene.reported import reported
+from contact_scene.stated_error import Part
 from slipstick.solvers.names import SolverName
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -190,3 +191,18 @@ def stored(directory: Path) -> Any:
     slipstick.save(slipstick.solve(SCENE, discretisation=COARSE["semi-analytical"]),
                    directory / "again", figures=False)  # fmt: skip
     return slipstick.load(directory / "again").increments
+
+
+@pytest.mark.parametrize("solver", SolverName)
+def test_errors_are_stated_by_the_solver_of_the_result_and_saved(
+    solver: SolverName, tmp_path: Path
+) -> None:
+    pressed = SCENE.model_copy(update={"loading": SCENE.loading[:1]})
+    result = slipstick.solve(pressed, solver.value, COARSE[solver])
+    errors = slipstick.stated_errors(result)
+    slipstick.save(result, tmp_path / "out", figures=False, errors=errors)
+    (end,) = slipstick.load(tmp_path / "out").summary.steps
+    assert end.errors is not None
+    assert end.errors == errors.steps[0]
+    assert end.errors["normal_force"].status == "exact"
+    assert end.errors["approach"].parts.keys() <= {*get_args(Part)}

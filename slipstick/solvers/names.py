@@ -6,6 +6,7 @@ from enum import StrEnum
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
+    from contact_results.surface import Result
     from fem_reference import Method
     from slipstick.solvers.solver import Solver
 
@@ -41,3 +42,11 @@ class SolverName(StrEnum):
         from slipstick.solvers.on_elements import OnElements
 
         return OnElements(self.method)
+
+
+def solver_of(result: Result) -> Solver:
+    """The solver that a result is of."""
+    method = getattr(result, "method", None)
+    if method is None:
+        return SolverName.SEMI_ANALYTICAL.solver
+    return next(name for name in SolverName if name.method is method).solver

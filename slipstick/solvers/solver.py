@@ -50,9 +50,8 @@ class Solver(Protocol):
 
     def errors(
         self, result: Any, *, surface_stress: bool = False, progress: Progress | None = None
-    ) -> StatedErrors | None:
-        """How far off the numbers of a result may be, by companion solves; None where no rules for
-        them are known.
+    ) -> StatedErrors:
+        """How far off the numbers of a result may be, by companion solves.
 
         surface_stress  also of what takes the stress at the surface
         """
