@@ -155,11 +155,13 @@ def _cells_per(lengthscale: Lengthscale, cells: Resolution) -> float:
     """Cells on what a quantity is resolved by; fewer than it has where that is a combination."""
     if lengthscale is Lengthscale.STICK:
         return max(cells.stick or 0.0, 1.0)
+    if lengthscale is Lengthscale.FILM:
+        return min(cells.contact, cells.layer or cells.contact)
     if cells.annulus is None:
         return cells.contact
     annulus = max(cells.annulus, NARROWEST)
     if lengthscale is Lengthscale.ANNULUS:
-        return annulus
+        return float(np.sqrt(cells.contact * annulus))
     if lengthscale is Lengthscale.SLIP:
         return cells.contact / np.sqrt(1 + 1 / annulus)
     return cells.contact

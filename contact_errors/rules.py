@@ -26,10 +26,11 @@ from contact_scene.geometry import ShapedBody
 class Lengthscale(Enum):
     """What in a contact a quantity is resolved by, in cells."""
 
-    CONTACT = auto()  # contact radius
+    CONTACT = auto()  # contact radius m
+    FILM = auto()  # contact radius, or the thinnest layer where that is thinner
     STICK = auto()  # stick radius
-    SLIP = auto()  # contact radius m, and width w of the slip annulus: m/√(1 + 1/w)
-    ANNULUS = auto()  # width of the slip annulus alone
+    SLIP = auto()  # contact radius, and width w of the slip annulus: m/√(1 + 1/w)
+    ANNULUS = auto()  # the same two alike: √(m w)
 
 
 @dataclass(frozen=True)
@@ -59,13 +60,13 @@ class Rule:
         return self.envelope * cells**-self.order
 
 
-PEAK = Rule(2, 0.25, 0.5, 1.1, path_factor=2.0)
+PEAK = Rule(2, 0.25, 0.5, 1.2, path_factor=2.0)
 APPROACH = Rule(2, 0.05, 1, 1.65, path_factor=1.5)
-RADIUS = Rule(1.25, 0.2, 2, 1.5, path_factor=1.5)
-STICK = Rule(1.25, 0.25, 4, 2.85, 2.0, 1.0, Lengthscale.STICK)
-SHIFT = Rule(2, 0.06, 2, 1.3, 3.0, 0.3, Lengthscale.SLIP)
-TWIST = Rule(2, 0.15, 4, 3.0, 3.0, 0.3, Lengthscale.SLIP)
-ENERGY = Rule(2, 0.12, 1, 1.15, path_scatter=0.0, lengthscale=Lengthscale.ANNULUS)
+RADIUS = Rule(1.25, 0.22, 4, 1.4, path_factor=1.5, lengthscale=Lengthscale.FILM)
+STICK = Rule(1.25, 0.25, 4, 3.2, 2.0, 1.0, Lengthscale.STICK)
+SHIFT = Rule(2, 0.06, 2, 1.2, 3.0, 0.3, Lengthscale.SLIP)
+TWIST = Rule(2, 0.24, 9, 1.3, 3.0, 0.3, Lengthscale.SLIP)
+ENERGY = Rule(2, 0.5, 2, 1.15, path_scatter=0.0, lengthscale=Lengthscale.ANNULUS)
 # The largest of a field that has its largest slope there.
 EDGE = Rule(1, 0.3, 1, 1.5)
 # Stress at the surface and near it, largest at an edge of the tractions.

@@ -49,17 +49,19 @@ def friction(rng: Rng) -> float:
 
 
 def coated_body(rng: Rng, contact_radius: float, most_layers: int = 1) -> Body:
-    """E1/E2 from 1/10 to 10 and h/a from 0.2 to 3 of every layer."""
-    base = material(rng)
+    """h/a from 0.2 to 3 of every layer, E over that of the base from 1/10 to 10, of several layers
+    from 1/3 to 3: neighbours differ by no more than 10."""
+    base, count = material(rng), int(rng.integers(1, most_layers + 1))
+    most = 10.0 ** (1 / count)
     layers = tuple(
         Layer(
             thickness=contact_radius * logarithmic(rng, 0.2, 3.0),
             material=IsotropicMaterial(
-                young_modulus=base.young_modulus * logarithmic(rng, 0.1, 10.0),
+                young_modulus=base.young_modulus * logarithmic(rng, 1 / most, most),
                 poisson_ratio=float(rng.uniform(0.0, 0.49)),
             ),
         )
-        for _ in range(int(rng.integers(1, most_layers + 1)))
+        for _ in range(count)
     )
     return Body(material=base, layers=layers)
 
