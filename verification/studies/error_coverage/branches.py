@@ -99,13 +99,15 @@ def ends(
     motion       that goes with the force
     uncertainty  relative
     """
-    states = list(along(virgin, forces))
+    states, closed = list(along(virgin, forces)), forces[-1] == forces[0]
     for step, (force, state) in enumerate(zip(forces, states, strict=True), start=2):
         if step > 2 and abs(force) == forces[0]:
             continue  # by symmetry the numbers of the first loading once more
-        values = {motion: state.motion, STICK: state.stick_radius, ENERGY: state.energy}
+        values = {motion: state.motion, STICK: state.stick_radius}
+        if step > 2 or not closed:  # the energy of a closed loop is four times this one
+            values[ENERGY] = state.energy
         yield from known(step, source, {k: v for k, v in values.items() if v == v}, uncertainty)
-    if forces[-1] == forces[0]:
+    if closed:
         lost = states[-1].energy - states[0].energy
         if lost == lost:
             reference = Reference(lost, ReferenceKind.CLOSED_FORM, source, uncertainty * lost)

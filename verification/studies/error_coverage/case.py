@@ -11,7 +11,7 @@ import numpy as np
 
 import fem_reference
 import semi_analytical
-from contact_errors.on_cells import stated_errors
+from contact_errors import on_cells, on_elements
 from contact_scene.solver_errors import SolverError
 from contact_scene.stated_error import StatedError
 from verification.running.row import CaseRecord, Row, Value, parameters_of
@@ -66,7 +66,7 @@ def _judged(known: KnownScene) -> Iterator[Row]:
             found, stated = stresses[truth.step][truth.quantity]
             yield judged(truth, found, stated)
         elif (found_here := truth.read(result.steps)) is not None:
-            stated_here = errors[truth.step - 1].get(truth.quantity) if errors else None
+            stated_here = errors[truth.step - 1].get(truth.quantity)
             yield judged(truth, found_here, stated_here)
 
 
@@ -85,11 +85,12 @@ def judged(truth: Truth, found: float, stated: StatedError | None) -> Row:
     )
 
 
-def _run(known: KnownScene) -> tuple[Any, Sequence[Mapping[str, StatedError]] | None]:
-    """A result and what is stated of the ends of its steps; None where nothing is."""
+def _run(known: KnownScene) -> tuple[Any, Sequence[Mapping[str, StatedError]]]:
+    """A result, and what is stated of the ends of its steps."""
     asked: Any = known.fineness.asked
-    if known.fineness.solver != CELLS:
-        method = fem_reference.Method.COMPLEMENTARITY
-        return fem_reference.solve(known.scene, asked, method), None
-    result = semi_analytical.solve_discretised(known.scene, asked)
-    return result, stated_errors(result).steps
+    if known.fineness.solver == CELLS:
+        result = semi_analytical.solve_discretised(known.scene, asked)
+        return result, on_cells.stated_errors(result).steps
+    method = fem_reference.Method.COMPLEMENTARITY
+    on_sections = fem_reference.solve(known.scene, asked, method)
+    return on_sections, on_elements.stated_errors(on_sections).steps

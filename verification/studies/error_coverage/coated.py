@@ -44,7 +44,7 @@ def pressed(rng: Rng, sections: bool = False, stressed: bool = False) -> KnownSc
     contact = paraboloid(surface_of(*bodies), radius, a)
     fine = drawing.fineness(rng, (a, a), sections, finest=40.0)
     step, sunk = drawing.pressing(rng, contact.load, radius, fine)
-    truths = _pressed(contact, sunk)
+    truths = pressed_truths(contact, sunk)
     if stressed:
         tension, mises = PressedStress(body, contact.pressure, a, contact.load).largest()
         values = {TENSION: tension} | ({} if mises is None else {MISES: mises})
@@ -59,8 +59,7 @@ def twisted(rng: Rng, sections: bool = False) -> KnownScene:
     radius, a = drawing.sizes(rng)
     body, mu = drawing.coated_body(rng, a), drawing.friction(rng)
     ball = drawing.ball_like(body, radius)
-    contact = paraboloid(surface_of(body, Body(material=ball.material, layers=ball.layers)),
-                         radius, a)  # fmt: skip
+    contact = paraboloid(surface_of(body, body), radius, a)
     (film,) = body.layers
     assert isinstance(body.material, IsotropicMaterial)
     outer, base = film.material.shear_modulus, body.material.shear_modulus
@@ -81,11 +80,12 @@ def twisted(rng: Rng, sections: bool = False) -> KnownScene:
     fine = drawing.fineness(rng, (a, a), sections, finest=40.0)
     scene = led(ball, body, mu, contact.load, "torque", torques)
     source = "Fredholm equation for Abel's transform of the shear, to and fro by Masing's rule"
-    truths = (*_pressed(contact), *ends(virgin, torques, TWIST, source, INTERPOLATED))
+    truths = (*pressed_truths(contact), *ends(virgin, torques, TWIST, source, INTERPOLATED))
     return KnownScene(scene, truths, fine)
 
 
-def _pressed(contact: LayeredIndentation, sunk: float = 0.0) -> tuple[Truth, ...]:
+def pressed_truths(contact: LayeredIndentation, sunk: float = 0.0) -> tuple[Truth, ...]:
+    """Of the step that presses; sunk is what a tilt takes from the approach [length]."""
     values = {
         APPROACH: contact.approach - sunk,
         PEAK: _peak(contact),

@@ -9,7 +9,7 @@ from zlib import crc32
 
 import numpy as np
 
-from verification.studies.error_coverage import coated, homogeneous
+from verification.studies.error_coverage import coated, homogeneous, refined
 from verification.studies.error_coverage.drawing import Rng
 from verification.studies.error_coverage.known_scene import KnownScene
 
@@ -29,16 +29,17 @@ class Family:
 
 
 FAMILIES = {
-    "hertz": Family(homogeneous.hertz, 60),
+    "hertz": Family(homogeneous.hertz, 84),
     "shapes": Family(homogeneous.shapes, 8),
     "ellipse": Family(homogeneous.ellipse, 8),
     "cattaneo": Family(homogeneous.cattaneo, 22),
     "sliding": Family(homogeneous.sliding, 6),
     "twisted": Family(homogeneous.twisted, 6),
     "indented": Family(homogeneous.indented, 10),
-    "coated": Family(coated.pressed, 95),
-    "coated-stress": Family(partial(coated.pressed, stressed=True), 45),
-    "coated-twisted": Family(coated.twisted, 85),
+    "coated": Family(coated.pressed, 120),
+    "coated-stress": Family(partial(coated.pressed, stressed=True), 20),
+    "coated-twisted": Family(coated.twisted, 140),
+    "coated-sheared": Family(refined.sheared, 45),
     "sections": Family(partial(homogeneous.hertz, sections=True), 3),
     "sections-cattaneo": Family(partial(homogeneous.cattaneo, sections=True), 4),
     "sections-indented": Family(partial(homogeneous.indented, sections=True), 5),
