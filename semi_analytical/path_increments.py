@@ -7,6 +7,7 @@ uniform in contact radius). Measured on 64 x 64 and 128 x 128 cells against 64 t
 
     pressing for the first time, unlike half-spaces      min(0.9 (m²/n)^(3/2), 1.3/n), m = µ/|β|
         rigid paraboloid, ν = 0 to 0.45, µ = 0.05 to 4
+        other shapes: not below 0.25 m/n; cone, ellipsoid of 1 : 3, ν = 0 and 0.3, µ = 0.05 to 0.5
     the same with layers                                 as above with m² = 9µ, and 2/n
         one layer of 0.1 to 3 contact radii, E1/E2 = 1/4 to 4, ν = 0.3, µ = 0.05 to 1
     pressing and pushing at once, for the first time     2/n
@@ -14,17 +15,23 @@ uniform in contact radius). Measured on 64 x 64 and 128 x 128 cells against 64 t
     pushing sideways under constant normal load          0.4 x min(x, Δx)/n
         unlike bodies, and turning ones that do not couple; x the largest T/µW of the step,
         0.3 to 0.99, Δx its change; with layers as above
+    turning again and again, by w = Σ Δx/x in all        min(0.25 w, 0.9) x Δx/n
+        errors of a step last for half a turn: polygons of 4 to 16 steps, T/µW = 0.3 to 0.9; at
+        the end of any step
     changing the normal load by ΔW later                 0.15 ΔW/W/n, and as above for T;
         0.6 ΔW/W/n for unlike bodies. W down to 1/5 or up to fivefold, with and without T
 
 Beyond what is named here the laws are guesses; `slipstick run --path-error` measures.
 """
 
+from __future__ import annotations
+
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from math import ceil, hypot
+from math import ceil, hypot, sqrt
 
 from contact_scene import ControlKind, CoulombFriction, LoadRamp, Scene
+from contact_scene.geometry import ShapedBody
 
 # The sine of an angle below this is round-off of a load that goes straight.
 STRAIGHT = 1e-9
@@ -36,7 +43,10 @@ FULL_STICK = 1.3
 FULL_STICK_LAYERS = 2.0
 LAYERS = 9.0
 BOTH_AT_ONCE = 2.0
+OTHER_SHAPES = 0.25
 SIDEWAYS = 0.4
+TURNING = 0.25
+TURNED_ROUND = 0.9
 PRESSING_LATER = 0.15
 PRESSING_UNLIKE = 0.6
 
@@ -88,21 +98,28 @@ def path_increments(
     """
     steps = []
     sheared = bodies.coupled
-    last = (0.0, 0.0)
-    for ramp in scene.load_path():
-        # Force and shift are nearly parallel, so that either tells where the other starts.
-        start = ramp.tangential.start or last
-        way = _Way(ramp, start, scene.indenter.rim is not None)
+    ways = _ways(scene)
+    turning = [turn for way in ways if (turn := way.turned(bodies))]
+    turned = sum(turning) if len(turning) > 1 else 0.0
+    for way in ways:
         sheared = sheared or way.ends_sheared
         matters, why = way.matters(bodies.coupled) if shear and sheared else (False, NO_SHEAR)
         count = 1
         if matters:
-            count, why = way.count(bodies, accuracy)
-        if ramp.increments is not None:
-            count, why = ramp.increments, "as the scene asks"
+            count, why = way.count(bodies, accuracy, turned)
+        if way.ramp.increments is not None:
+            count, why = way.ramp.increments, "as the scene asks"
         steps.append(StepIncrements(count, matters, why))
-        last = ramp.tangential.end
     return tuple(steps)
+
+
+def _ways(scene: Scene) -> list[_Way]:
+    # Force and shift are nearly parallel, so that either tells where the other starts.
+    ways: list[_Way] = []
+    for ramp in scene.load_path():
+        last = ways[-1].ramp.tangential.end if ways else (0.0, 0.0)
+        ways.append(_Way(ramp, ramp.tangential.start or last, scene.indenter))
+    return ways
 
 
 NO_SHEAR = "nothing is sheared: the state does not depend on the path"
@@ -113,12 +130,12 @@ class _Way:
     """One loading step.
 
     start  tangential force or shift at its start
-    flat   whether the contact is that of a flat punch
+    shape  of the indenter
     """
 
     ramp: LoadRamp
     start: Vector
-    flat: bool
+    shape: ShapedBody
 
     @property
     def ends_sheared(self) -> bool:
@@ -160,7 +177,7 @@ class _Way:
 
     def matters(self, coupled: bool) -> tuple[bool, str]:
         """Whether the end of the step depends on the path to it, and why not."""
-        if self._first and self.flat:
+        if self._first and self.shape.rim is not None:
             return False, "below a flat punch all tractions grow in proportion"
         if self._growing and not coupled:
             return False, "the normal load grows, and nothing slips"
@@ -168,14 +185,25 @@ class _Way:
             return True, ""
         return False, "the load goes straight and the bodies do not couple"
 
-    def count(self, bodies: Bodies, accuracy: float) -> tuple[int, str]:
-        """Enough for the accuracy, and by which law."""
+    def turned(self, bodies: Bodies) -> float:
+        """Change of the sideways load relative to its largest, where it turns."""
+        x, change = self._parts_of_limit(bodies)
+        return change / x if self._turning and x else 0.0
+
+    def count(self, bodies: Bodies, accuracy: float, turned: float) -> tuple[int, str]:
+        """Enough for the accuracy, and by which law.
+
+        turned  Σ Δx/x of all steps that turn; zero where fewer than two do
+        """
         if self._first and not self._moving:
-            return _pressed_first(bodies, accuracy)
+            return _pressed_first(bodies, accuracy, self.shape)
         if self._first:
             return _first_order(BOTH_AT_ONCE, accuracy, "pressing and pushing at once")
         x, change = self._parts_of_limit(bodies)
         coefficient = SIDEWAYS * x * min(x, change)
+        if self._turning:
+            again = min(TURNING * turned, TURNED_ROUND)
+            coefficient = max(coefficient, again * x * change)
         if self._pressing:
             rate = PRESSING_UNLIKE if bodies.coupled else PRESSING_LATER
             coefficient += rate * self._pressing_change
@@ -206,7 +234,7 @@ class _Way:
         return max(hypot(*start), hypot(*end)) / limit, change / limit
 
 
-def _pressed_first(bodies: Bodies, accuracy: float) -> tuple[int, str]:
+def _pressed_first(bodies: Bodies, accuracy: float, shape: ShapedBody) -> tuple[int, str]:
     """The stick edge runs outwards with the contact: what matters is how much of it sticks."""
     layered = bodies.beta is None
     most = (FULL_STICK_LAYERS if layered else FULL_STICK) / accuracy
@@ -219,7 +247,10 @@ def _pressed_first(bodies: Bodies, accuracy: float) -> tuple[int, str]:
     else:
         m_squared = (mu / abs(bodies.beta or 1.0)) ** 2
         why = f"pressing unlike bodies, µ/|β| = {m_squared**0.5:.2g}"
-    return _rounded(min((PRESSING_FIRST / accuracy) ** (2 / 3) * m_squared, most)), why
+    count = (PRESSING_FIRST / accuracy) ** (2 / 3) * m_squared
+    if shape.gap_exponent != 2 or not shape.is_of_revolution:
+        count = max(count, OTHER_SHAPES * sqrt(m_squared) / accuracy)
+    return _rounded(min(count, most)), why
 
 
 def _first_order(coefficient: float, accuracy: float, why: str) -> tuple[int, str]:

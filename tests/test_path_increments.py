@@ -8,8 +8,8 @@ from coupled_scenes import press as pressed
 from coupled_scenes import scene as coupled_scene
 
 from contact_results.path_error import shear_difference
-from contact_scene import FlatPunch
-from semi_analytical import Result, plan, solve
+from contact_scene import RIGID, Cone, Ellipsoid, FlatPunch
+from semi_analytical import Result, SurfaceGrid, plan, solve
 
 TOLERANCE = 1e-7
 DEFAULT = 1e-2
@@ -69,6 +69,18 @@ def test_many_small_steps_take_about_as_many_increments_as_one_large():
     assert one / 2 <= sum(many) <= 2 * one
 
 
+def polygon(steps, x=0.6):
+    angles = np.linspace(0, 2 * np.pi, steps + 1)
+    return scene(PRESS, *(free(x * np.cos(t), x * np.sin(t)) for t in angles))
+
+
+def test_a_load_that_goes_on_turning_takes_more_for_each_step():
+    """Errors of its steps add up."""
+    round_, once = counts(polygon(8)), counts(scene(PRESS, free(0.6), free(0.4243, 0.4243)))
+    assert round_[2:] == round_[2:3] * 8
+    assert round_[2] > 1.5 * once[2]
+
+
 def test_below_a_flat_punch_one_increment_is_exact():
     punch = FlatPunch(radius=A, material="rigid")
     described = coupled_scene(PRESS, body=bulk(0.3), indenter=punch)
@@ -106,10 +118,12 @@ def test_what_does_not_depend_on_the_path_is_not_refined():
     assert planned.refined().increments == (1, 7, 2 * planned.increments[2])
 
 
-def path_error(described, cells=32) -> float:
+def path_error(described, cells: int | SurfaceGrid = 32, accuracy: float = DEFAULT) -> float:
     """Σ|q - q_exact| / Σµp at the end, from four times the increments, first order taken off."""
-    planned = plan(described)
-    window = grid(cells, contacts=1.15 if described.body.layers == () else 1.3)
+    planned = plan(described, accuracy)
+    window = cells
+    if isinstance(cells, int):
+        window = grid(cells, contacts=1.15 if described.body.layers == () else 1.3)
     found: list[Result] = [
         solve(described, window, TOLERANCE, plan=each) for each in (planned, planned.refined(4))
     ]
@@ -120,6 +134,27 @@ def path_error(described, cells=32) -> float:
 @pytest.mark.parametrize("described", [WEAK, PUSHED, TURNING], ids=["pressed", "pushed", "turning"])
 def test_default_accuracy_is_met(described):
     assert path_error(described) <= DEFAULT
+
+
+OTHERS = {
+    "cone": (Cone(slope_angle=0.02, material=RIGID), 100.0, (1.0e-3, 1.0e-3)),
+    "ellipsoid": (Ellipsoid(radii=(0.018, 0.054), material=RIGID), 1000.0, (1.15e-3, 2.4e-3)),
+}
+
+
+@pytest.mark.parametrize("name", OTHERS)
+def test_default_accuracy_is_met_below_other_shapes(name):
+    indenter, load, window = OTHERS[name]
+    described = coupled_scene({"normal_force": load}, body=bulk(0.3), indenter=indenter)
+    cells = tuple(round(40 * side / window[0]) for side in window)
+    assert path_error(described, SurfaceGrid(cells, window)) <= DEFAULT
+
+
+@pytest.mark.slow
+def test_accuracy_is_met_at_the_end_of_two_turns():
+    once = polygon(8)
+    described = once.model_copy(update={"loading": [*once.loading, *once.loading[2:]]})
+    assert path_error(described, 24, 4 * DEFAULT) <= 4 * DEFAULT
 
 
 MANY = {
