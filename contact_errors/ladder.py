@@ -116,6 +116,9 @@ class Ladder(Protocol[F]):
     def seconds(self, fineness: F, like: Rung[F]) -> float:
         """How long the processor will work for a rung, by what another has taken."""
 
+    def memory(self, fineness: F) -> int:
+        """Largest memory that a rung holds at once [byte]."""
+
     def too_large(self, fineness: F) -> str | None:
         """Why it does not fit into the memory; None where it does."""
 

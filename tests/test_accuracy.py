@@ -2,6 +2,7 @@
 
 import json
 from dataclasses import replace
+from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
@@ -30,8 +31,10 @@ from contact_errors import ladder_on_cells
 from contact_errors.climb import Climb, climb
 from contact_errors.ladder import AIM, Growth, Rung, growth
 from contact_errors.ladder_on_cells import CellFineness, CellLadder, even_smooth
+from contact_errors.price import Prices
 from contact_errors.rules import APPROACH as APPROACH_RULE
 from contact_errors.rules import SHIFT, Rule
+from contact_errors.solve_cost import Solved, Speed, seconds_like
 from contact_scene import (
     Body,
     Cone,
@@ -347,3 +350,46 @@ def test_paraboloids_of_all_sizes_take_the_same_cells() -> None:
         for load in (1e-3, 1e3)
     }
     assert len(cells) == 1
+
+
+def test_the_price_of_less_error_is_more_of_everything() -> None:
+    prices = Prices.of(CellLadder(scene(PRESS, push(0.6)), SurfaceDiscretisation()))
+    found = [prices.of_request(request(share)) for share in ("2%", "0.5%", "0.1%")]
+    for low, high in pairwise(found):
+        assert low.settings.cells < high.settings.cells
+        assert low.seconds < high.seconds
+        assert low.memory < high.memory
+        assert low.rounds <= high.rounds
+    assert all(price.fits for price in found)
+    with pytest.raises(AccuracyOutOfReach, match="contact_radius"):
+        prices.of_request(request("1e-8"))
+
+
+def test_a_price_is_near_what_it_takes() -> None:
+    of = scene(PRESS, push(0.6))
+    price = Prices.of(CellLadder(of, SurfaceDiscretisation())).of_request(request("0.2%"))
+    made = climbed(of, "0.2%")
+    assert price.rounds == pytest.approx(made.accuracy.rounds, abs=1)
+    ratio = np.divide(price.settings.cells, made.accuracy.settings.cells)
+    assert np.all((ratio > 0.6) & (ratio < 1.6))
+
+
+def test_a_worked_example_of_seconds() -> None:
+    # 100 convolutions on 16² cells at 1 ms + 256·4 points of 1 µs: 0.2024 s of 0.5 s; 0.2976 s are
+    # fixed. Four times the cells, half as many increments again: 100·1.5·2 = 300 convolutions at
+    # 1 ms + 4096·6 µs = 7.6728 s.
+    speed = Speed(per_convolution=1e-3, per_point=1e-6)
+    coarse = [Solved((16, 16), 100)]
+    assert speed.seconds((16, 16), 100) == pytest.approx(0.2024)
+    assert seconds_like(coarse, 0.5, 4.0, 1.5, speed) == pytest.approx(0.2976 + 7.6728)
+
+
+def test_plan_prints_prices_and_what_cannot_be_had(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert slipstick("plan", written(tmp_path), "--accuracy", "1%,approach 0.1%,1e-8") == 0
+    shown = capsys.readouterr().out
+    assert "approach 0.1%" in shown
+    assert "MiB" in shown
+    assert "no grid can meet" in shown
+    assert slipstick("plan", written(tmp_path), "--accuracy", "1%", "--solver", "fem") == 2

@@ -109,7 +109,7 @@ ORDERS = {
     "contact_errors": (
         *("values", "rules", "estimate", "prescribed", "half_the_cells", "on_cells"),
         *("element_rules", "on_elements", "of_stress"),
-        *("solve_cost", "ladder", "asked", "climb", "ladder_on_cells"),
+        *("solve_cost", "ladder", "asked", "climb", "price", "ladder_on_cells"),
     ),
     "slipstick": ("solvers", "path_errors", "solving", "stored_run", "cli", "__main__"),
     # Its floors: what judges stands on what is known, what is shown on what was judged.

@@ -12,6 +12,7 @@ from slipstick.cli.optional import optional
 
 if TYPE_CHECKING:
     from contact_errors.climb import Climb
+    from contact_errors.ladder import Ladder
     from contact_results.directory.checkpoint import Checkpoint
     from contact_scene import SceneFile
     from contact_scene.accuracy import AccuracyRequest
@@ -67,12 +68,23 @@ def climb_to(
         with solve_progress(fineness.increments) as observe:
             yield observe
 
-    ladder = solver.ladder(
-        contents.scene, solver.fineness(contents), surface_stress, keeping, watching
-    )
+    ladder = ladder_of(solver, contents, surface_stress, keeping, watching)
+    return climb(ladder, request, most_seconds, tell_round)
+
+
+def ladder_of(
+    solver: "Solver",
+    contents: "SceneFile",
+    surface_stress: bool = False,
+    keeping: Any = None,
+    watching: Any = None,
+) -> "Ladder[Any]":
+    """The ladder of a solver; BadParameter where it has none."""
+    fineness = solver.fineness(contents)
+    ladder = solver.ladder(contents.scene, fineness, surface_stress, keeping, watching)
     if ladder is None:
         raise typer.BadParameter(
-            "--accuracy and the table [accuracy] are not yet for finite elements, whose errors "
-            "have no rules; leave them or --solver out"
+            "--accuracy and the table [accuracy] are not yet for finite elements; leave them or "
+            "--solver out"
         )
-    return climb(ladder, request, most_seconds, tell_round)
+    return ladder

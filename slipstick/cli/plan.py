@@ -1,5 +1,8 @@
 """`slipstick plan`: what a solve would do, before it does it."""
 
+from typing import Annotated
+
+from slipstick.cli.optional import optional
 from slipstick.cli.scene_options import SceneArgument, SetOption
 from slipstick.cli.solver_option import SolverOption
 from slipstick.solvers.names import SolverName
@@ -9,11 +12,21 @@ def plan(
     scene: SceneArgument,
     overrides: SetOption = None,
     solver: SolverOption = SolverName.SEMI_ANALYTICAL,
+    accuracy: Annotated[
+        str | None,
+        optional(
+            "--accuracy",
+            metavar="SHARES",
+            help='Say what each of these would cost, such as "1%,0.1%,0.01%" or "approach 0.1%"; '
+            "solves on a coarse grid. Absent: nothing of it.",
+        ),
+    ] = None,
 ) -> None:
     """Say which effects a scene needs and why, on which grid or mesh, and in how many increments.
 
     Nothing is solved, except on a coarse grid or mesh where the size of the contact is left open; a
-    scene that the solver does not support is refused here as by 'run'.
+    scene that the solver does not support is refused here as by 'run'. With --accuracy, cells,
+    increments, time and memory of 'run --accuracy' follow from one on a coarse grid.
     """
     from contact_scene import read_scene_file
     from slipstick.cli.terminal import print_pairs, print_table
@@ -27,3 +40,7 @@ def plan(
     print_pairs(chosen.work(contents.scene, fineness, decided))
     if reasons := chosen.reasons(decided):
         print_table(("step", "increments", "why"), reasons)
+    if accuracy is not None:
+        from slipstick.cli.prices import print_prices
+
+        print_prices(accuracy, chosen, contents)

@@ -1,0 +1,53 @@
+"""What accuracies cost, as a table."""
+
+from typing import TYPE_CHECKING, Any
+
+from slipstick.solvers.solver import increments_text
+
+if TYPE_CHECKING:
+    from contact_errors.price import Price
+    from contact_scene import SceneFile
+    from slipstick.solvers.solver import Solver
+
+HEADINGS = ("accuracy", "cells", "increments", "rounds", "time", "memory")
+
+
+def print_prices(option: str, solver: "Solver", contents: "SceneFile") -> None:
+    """Print cells, increments, time and memory of every accuracy that an option names, and of those
+    that no grid can meet why not."""
+    from contact_errors.price import Prices
+    from contact_scene.scene_file import read_accuracy
+    from contact_scene.solver_errors import AccuracyOutOfReach
+    from slipstick.cli.asked_accuracy import ladder_of
+    from slipstick.cli.terminal import print_pairs, print_table
+
+    items = option.split(",")
+    requests = [read_accuracy(item, "--accuracy") for item in items]
+    prices = Prices.of(ladder_of(solver, contents))
+    rows, refused = [], []
+    for item, request in zip(items, requests, strict=True):
+        try:
+            rows.append((item.strip(), *_texts(prices.of_request(request))))
+        except AccuracyOutOfReach as error:
+            refused.append((item.strip(), str(error)))
+    if rows:
+        print_table(HEADINGS, rows)
+    if refused:
+        print_pairs(refused)
+
+
+def _texts(found: "Price[Any]") -> tuple[str, ...]:
+    cells = found.settings.cells
+    return (
+        f"{cells[0]} x {cells[1]}" if cells else f"{found.settings.elements_per_radius} per radius",
+        increments_text(found.settings.increments),
+        str(found.rounds),
+        f"about {_time_text(found.seconds)}",
+        f"about {found.memory / 2**20:.0f} MiB" + ("" if found.fits else ", more than there is"),
+    )
+
+
+def _time_text(seconds: float) -> str:
+    if seconds < 120:
+        return f"{seconds:.2g} s"
+    return f"{seconds / 60:.2g} min" if seconds < 7200 else f"{seconds / 3600:.2g} h"
