@@ -16,9 +16,9 @@ from contact_scene.geometry import ShapedBody
 PEAK = Rule(2, 0.25, 8, 1.6, path_factor=2.0)
 APPROACH = Rule(2, 0.13, 1, 1.5, path_factor=1.5)
 RADIUS = Rule(2, 0.2, 4, 4.3, path_factor=1.5)
-STICK = Rule(1, 0.06, 2, 3.0, 2.0, 1.0, Lengthscale.STICK)
+STICK = Rule(1, 0.06, 2, 2.4, 2.0, 1.0, Lengthscale.STICK)
 SHIFT = Rule(2, 0.1, 1, 5.0, 3.0, 0.3, Lengthscale.SLIP)
-TWIST = Rule(2, 1.8, 4, 1.35, 3.0, 0.3, Lengthscale.SLIP)
+TWIST = Rule(2, 1.8, 4, 2.0, 3.0, 0.3, Lengthscale.SLIP)
 ENERGY = Rule(1.5, 0.27, 8, 1.9, lengthscale=Lengthscale.ANNULUS)
 # The largest of a field that has its largest slope there.
 EDGE = Rule(1, 0.3, 1, 1.5)
@@ -49,21 +49,21 @@ AT_GAUSS_POINTS = {
     "normal_force": Rule(1.5, 0.004, 4, 1.8, path_factor=1.5),
     "approach": Rule(1.5, 0.004, 4, 1.8, path_factor=1.5),
     "peak_pressure": Rule(1.5, 0.011, 4, 1.4, path_factor=2.0),
-    "contact_radius": Rule(1, 0.05, 8, 1.35, path_factor=1.5),
-    "contact_area": Rule(1, 0.1, 8, 1.35, path_factor=1.5),
-    "stick_radius": Rule(1, 0.06, 4, 1.7, 2.0, 1.0, Lengthscale.STICK),
-    "stick_area": Rule(1, 0.12, 4, 1.7, 2.0, 1.0, Lengthscale.STICK),
-    "tangential_shift": Rule(2, 0.05, 1, 2.0, 3.0, 0.3, Lengthscale.SLIP),
-    "tangential_force": Rule(2, 0.05, 1, 2.0, 3.0, 0.3, Lengthscale.SLIP),
-    "twist": Rule(2, 0.15, 4, 1.6, 3.0, 0.3, Lengthscale.SLIP),
-    "torque": Rule(2, 0.15, 4, 1.6, 3.0, 0.3, Lengthscale.SLIP),
+    "contact_radius": Rule(1, 0.05, 8, 1.6, path_factor=1.5),
+    "contact_area": Rule(1, 0.1, 8, 1.6, path_factor=1.5),
+    "stick_radius": Rule(1, 0.06, 4, 1.9, 2.0, 1.0, Lengthscale.STICK),
+    "stick_area": Rule(1, 0.12, 4, 1.9, 2.0, 1.0, Lengthscale.STICK),
+    "tangential_shift": Rule(2, 0.05, 1, 1.4, 3.0, 0.3, Lengthscale.SLIP),
+    "tangential_force": Rule(2, 0.05, 1, 1.4, 3.0, 0.3, Lengthscale.SLIP),
+    "twist": Rule(2, 0.15, 4, 1.2, 3.0, 0.3, Lengthscale.SLIP),
+    "torque": Rule(2, 0.15, 4, 1.2, 3.0, 0.3, Lengthscale.SLIP),
     "dissipated_energy": Rule(1.5, 0.05, 4, 1.6, lengthscale=Lengthscale.ANNULUS),
     "energy_per_cycle": Rule(1.5, 0.05, 4, 1.6, lengthscale=Lengthscale.ANNULUS),
 }
 # A slip annulus below so many elements may be missed altogether: the stick radius is off by one.
 LEAST_ANNULUS = 1.5
 # Where friction acts back on a pressing contact its pressure has a cusp on the axis.
-CUSP = {"peak_pressure": Rule(1, 0.02, 0.5, 2.4, path_factor=2.0)}
+CUSP = {"peak_pressure": Rule(1, 0.02, 0.5, 3.0, path_factor=2.0)}
 
 # By the section of the size that is chosen, relative; errors fall as the inverse of its square.
 SECTION = 1e-5

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from math import pi
 
 import numpy as np
 from numpy.typing import NDArray
@@ -199,12 +200,19 @@ class _Levels:
                 return estimate.UNKNOWN
             part = HARMONICS * self.by_harmonics[k][name]
             if rule.lengthscale is Lengthscale.STICK:
-                sectors = self.result.discretisation.harmonics * max(stick or 0.0, 1.0) / contact
-                part = np.hypot(part, STICK_BY_HARMONIC / sectors * largest)
+                part = np.hypot(part, self._by_sectors(name, end))
             parts["harmonics"] = part
         carried = any(end.tangential_force or ()) or bool(end.torque)
         resolved = _resolved(rule.lengthscale, contact, stick, carried)
+        if carried and rule.lengthscale is Lengthscale.ANNULUS and not np.any(largest):
+            resolved = False  # there is slip, and none was seen
         return estimate.stated(parts, resolved and not apart)
+
+    def _by_sectors(self, name: str, end: Increment) -> float:
+        """Error of the stick radius [length] or area [length^2] by sectors."""
+        reach, harmonics = end.contact_radius, self.result.discretisation.harmonics
+        of_radius = STICK_BY_HARMONIC * reach / harmonics
+        return of_radius if name == "stick_radius" else 2 * pi * reach * of_radius
 
     @property
     def _cusp(self) -> bool:

@@ -116,3 +116,13 @@ def test_an_error_a_tenth_as_large_would_be_seen(monkeypatch: pytest.MonkeyPatch
     stated = stated_errors(result)
     off = abs(result.steps[-1].approach - exact.approach)
     assert off > error(stated, "approach")
+
+
+def test_slip_that_no_element_sees_is_not_converged() -> None:
+    """Some slips at the edge under any force; none is seen where its annulus is too narrow."""
+    asked = scene(PRESS, push(0.01), indenter=replace_material(LOOSE), body=LOOSE)
+    result = solve(asked, elements(8))
+    assert result.steps[1].dissipated_energy == 0
+    stated = stated_errors(result)
+    assert stated.steps[0]["dissipated_energy"].status is ErrorStatus.ESTIMATED
+    assert stated.steps[1]["dissipated_energy"].status is ErrorStatus.NOT_CONVERGED
