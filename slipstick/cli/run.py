@@ -57,7 +57,8 @@ def run(
         float | None,
         optional(
             "--most-seconds",
-            min=0.0,
+            metavar="S",
+            min=0,
             help="With an accuracy: begin no finer solve that would exceed this time all together; "
             "the best result is kept, with exit code 4. Absent: as long as it takes.",
         ),
