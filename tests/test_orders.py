@@ -22,7 +22,7 @@ from verification.judging.order_of_convergence import Followed, OrderOfConvergen
 from verification.judging.outcome import Status, Verdict
 from verification.judging.verdicts import judge_order, judge_quantity
 from verification.problems.reference import identity
-from verification.report.order_table import LATER, REASONS, not_judged
+from verification.report.order_table import REASONS, not_judged
 from verification.solver import Solver
 
 SIZES = 0.1 * 2.0 ** (-np.arange(6) / 2)
@@ -66,7 +66,7 @@ def judged(errors: np.ndarray, expected: float) -> Verdict:
 
 @pytest.mark.parametrize("place", PLACES, ids=str)
 def test_every_order_is_judged_or_has_a_reason_why_not(place: Place) -> None:
-    assert (place in judged_at(Level.STANDARD)) != (place in REASONS or place in LATER)
+    assert (place in judged_at(Level.STANDARD)) != (place in REASONS)
     assert (place in judged_at(Level.FULL)) != (place in REASONS)
 
 
@@ -166,7 +166,6 @@ def test_lines_of_a_chart_are_those_that_are_judged(
 ) -> None:
     """Levels, sizes and orders."""
     monkeypatch.setattr(sheared_increments, "CELLS", 16)
-    monkeypatch.setattr(sheared_increments, "ENERGETIC", 2)
     case = case_of()
     results = {run.label: run.solve() for run in case.runs}
     drawn = [

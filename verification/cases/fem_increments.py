@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from itertools import pairwise
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from verification.cases.indentation_refinement import LOST, ONE
+from verification.cases.indentation_refinement import ONE
 from verification.exhibits.chart import Chart
 from verification.exhibits.convergence_chart import convergence_chart
 from verification.judging.case import Case, Level
@@ -19,7 +19,7 @@ from verification.judging.order_of_convergence import (
     Refinement,
 )
 from verification.judging.run import SectionRun, per_radius
-from verification.observed.changes import approach_change, energy_change, increment_size
+from verification.observed.changes import approach_change, increment_size
 from verification.observed.end_state import contact_radius
 from verification.observed.ring_errors import at_radii
 
@@ -36,11 +36,7 @@ SLOWLY = NotYetAsymptotic(
     "elements per radius",
 )
 INCREMENTS = (2, 4, 8, 16, 32)
-# The energy is lost at so many places that fewer elements per increment do it no harm, and it needs
-# more increments until its error is of one order.
-OF_ENERGY = (4, 8, 16, 32, 64, 128)
 APPROACH, RADIUS, SHEAR = "approach", "contact radius", "shear (L1)"
-ENERGY = "dissipated energy"
 EXPECTED = {APPROACH: 2.0, RADIUS: 2.0, SHEAR: 1.5}
 PRESSURES = (
     "slip keeps its direction while the contact grows; what increments miss of the stick zone "
@@ -49,21 +45,18 @@ PRESSURES = (
 
 
 def fem_increments(level: Level = Level.QUICK) -> Case:
-    """The case, with the order of the energy above the quick level."""
-    if level is Level.QUICK:
-        return fem_increments_on(ELEMENTS, INCREMENTS)
-    return fem_increments_on(ELEMENTS, INCREMENTS, OF_ENERGY)
+    """The case, the same at every level."""
+    del level
+    return fem_increments_on(ELEMENTS, INCREMENTS)
 
 
-def fem_increments_on(
-    elements: int, increments: tuple[int, ...], of_energy: tuple[int, ...] = ()
-) -> Case:
-    """The case with these increments; others for the order of the energy, or none."""
-    runs = tuple(_run(elements, count) for count in sorted({*increments, *of_energy}))
-    labels, energetic = (tuple(map(_label, counts)) for counts in (increments, of_energy))
+def fem_increments_on(elements: int, increments: tuple[int, ...]) -> Case:
+    """The case with these increments."""
+    runs = tuple(_run(elements, count) for count in increments)
+    labels = tuple(map(_label, increments))
 
     def charts(results: Mapping[str, Result]) -> tuple[Chart, ...]:
-        return _charts(*([results[label] for label in chosen] for chosen in (labels, energetic)))
+        return _charts([results[label] for label in labels])
 
     return Case(
         name="fem_increments",
@@ -92,23 +85,11 @@ def fem_increments_on(
                 "leaves the friction limit as a square root: O(√h) on bands of width h",
                 SLOWLY,
             ),
-            *_orders_of_energy(energetic),
         ),
         charts=charts,
         limits=(
             "Where an increment moves the stick edge by less than an element, smaller increments "
             "say nothing more: the mesh has to become finer with them.",
-        ),
-    )  # fmt: skip
-
-
-def _orders_of_energy(levels: tuple[str, ...]) -> tuple[OrderOfChange, ...]:
-    if not levels:
-        return ()
-    return (
-        OrderOfChange(
-            "order_of_energy", Followed.ENERGY, Refinement.INCREMENTS,
-            ENERGY, levels, energy_change, increment_size, 1.0, LOST,
         ),
     )  # fmt: skip
 
@@ -141,33 +122,19 @@ def _run(elements: int, increments: int) -> SectionRun:
     )
 
 
-def _charts(results: list[Result], energetic: list[Result]) -> tuple[Chart, ...]:
+def _charts(results: list[Result]) -> tuple[Chart, ...]:
     followed = {APPROACH: approach_change, RADIUS: radius_change, SHEAR: shear_change}
-    charts = [_chart("fem_increments", "Smaller increments, finite elements", results, followed)]
-    if energetic:
-        charts.append(
-            _chart(
-                "fem_increments_energy", "Dissipated energy in smaller increments", energetic,
-                {ENERGY: energy_change},
-            )
-        )  # fmt: skip
-    return tuple(charts)
-
-
-def _chart(
-    name: str, title: str, results: list[Result],
-    followed: Mapping[str, Callable[[Result, Result], float]],
-) -> Chart:  # fmt: skip
     elements = results[0].discretisation.elements_per_radius
-    return convergence_chart(
-        name,
-        title,
+    chart = convergence_chart(
+        "fem_increments",
+        "Smaller increments, finite elements",
         f"Change by twice the increments on {elements:g} elements per contact radius.",
         [increment_size(level) for level in results[:-1]],
         {
             label: [change(*pair) for pair in pairwise(results)]
             for label, change in followed.items()
         },
-        {**EXPECTED, ENERGY: 1.0},
+        EXPECTED,
         "1 / increments",
     )
+    return (chart,)

@@ -45,7 +45,6 @@ ONE = Indentation(
     "self-similar (Spence 1975), to five digits",
 )  # fmt: skip
 FEW, MANY, QUICK_CELLS = 8, 16, 64
-LOST = "an increment's slip is charged with the shear at its end, while the friction limit moves on"
 
 
 def indentation_refinement(level: Level = Level.QUICK) -> Case:
