@@ -25,7 +25,8 @@ class DoubledQuantity(Description):
 
     error: Annotated[float, Field(ge=0)]
     """Estimated error of the value by finite increments: two and a half times the
-    change by doubling them."""
+    change by doubling them; of a stick radius twice the largest change so far and a quarter of a
+    cell."""
 
     extrapolated: float
     """Richardson's value for errors of first order in the increment."""
@@ -44,8 +45,7 @@ class PathError(Description):
     """Increments of the step in the run that is reported."""
 
     doubled_increments: Annotated[int, Field(ge=1)]
-    """Increments of the step in the run it was compared with; the same where the path does not
-    matter."""
+    """Increments of the step in the run it was compared with; the same where nothing is sheared."""
 
     pressure: Annotated[float, Field(ge=0, json_schema_extra={"unit": "1"})]
     """Estimated error of the pressure: 2.5 times the sum of |change| over the sum of p."""

@@ -16,13 +16,13 @@ if TYPE_CHECKING:
 def path_errors(
     result: Result, progress: Progress | None = None, keeper: Keeper | None = None
 ) -> tuple[PathError, ...]:
-    """Errors at the ends of all steps; solves the scene with twice the increments wherever the
-    path matters, and not at all where it matters nowhere. Raises what `solve` raises.
+    """Errors at the ends of all steps; solves the scene with twice the increments in every step.
+    Without shear nothing depends on the path, and nothing is solved. Raises what `solve` raises.
 
     keeper  of that solve
     """
-    refined = result.plan.refined()
-    finer = result
-    if refined != result.plan:
-        finer = solve(result.scene, result.grid, result.tolerance, progress, refined, keeper)
+    if not result.plan.shear:
+        return compared(result, result)
+    plan = result.plan.doubled()
+    finer = solve(result.scene, result.grid, result.tolerance, progress, plan, keeper)
     return compared(result, finer)

@@ -180,7 +180,7 @@ def _path_errors(result: Any, keeper: "Keeper") -> "tuple[PathError, ...]":
     from slipstick.cli.progress import solve_progress
     from slipstick.path_errors import path_errors
 
-    with solve_progress(result.plan.refined().increments) as observe:
+    with solve_progress(result.plan.doubled().increments) as observe:
         return path_errors(result, observe, keeper)
 
 
