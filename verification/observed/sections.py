@@ -24,7 +24,10 @@ Field = NDArray[np.float64]
 
 def section_laws(result: Result) -> tuple[float, float]:
     """The largest violation of a law of contact and friction in any increment, and the largest
-    part of the energy that any cannot account for; infinite if a number is not finite."""
+    part of the energy that any cannot account for; infinite if a number is not finite.
+
+    Raises ValueError where springs on harmonics were augmented: how far they yield is not told.
+    """
     penalty = result.increments[-1].overlap is not None
     if penalty and result.plan.path is not Path.HARMONICS:
         violations, states = observed_springs(result)
@@ -39,6 +42,8 @@ def _largest(found: Sequence[float]) -> float:
 
 
 def _on_rings(result: Result, penalty: bool) -> tuple[list[float], list[EnergeticState]]:
+    if any(increment.augmentations for increment in result.increments):
+        raise ValueError("springs on harmonics were augmented: take augmentations = 0")
     rings = Rings.of(result)
     radii = result.increments[-1].radii
     spring = 1 / spring_stiffness(result, radii[1] - radii[0]) if penalty else 0.0

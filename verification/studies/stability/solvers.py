@@ -79,9 +79,13 @@ def by_superposition(posed: Posed) -> Solved:
 
 def by_elements(posed: Posed, method: Method) -> Solved:
     """With finite elements on a section, on a larger mesh if the contact needs it."""
+    on_harmonics = fem_reference.plan(posed.scene).path is fem_reference.Path.HARMONICS
     discretisation = FiniteElementDiscretisation(
         elements_per_radius=posed.elements,
         harmonics=posed.elements // ELEMENTS_PER_HARMONIC,
+        # Whether a penalty converges is asked here, and not what it leaves.
+        augmentations=0 if on_harmonics else 1,
+        overlap=1.0,
         tolerance=posed.tolerance,
     )
     result = fem_reference.solve(posed.scene, discretisation, method)
