@@ -14,13 +14,15 @@ from contact_errors.rules import INTERIOR, TENSION
 from contact_results.stress.extremes import Extreme, extremes
 from contact_results.stress.loaded_bodies import LoadedBodies
 from contact_results.stress.on_cells import stress_on_cells
-from contact_results.stress.points import StressField
+from contact_results.stress.points import StressField, StressPoints
 from contact_scene.stated_error import Part, StatedError
 
 Field = NDArray[np.float64]
 
 # Cells from the surface within which a stress feels the edges of the tractions.
-NEAR = 4.0
+NEAR = 2.0
+# Of what parabolas find between the points; points are too few for them to be exact.
+BETWEEN = 1.1
 
 
 def stress_errors(
@@ -36,11 +38,21 @@ def stress_errors(
     depths = np.unique(field.points.depth).tolist()
     wide = stress_on_cells(on_wide_cells(state), indenter=indenter, depths=depths)
     body = state.indenter if indenter else state.body
-    there = {(e.region, e.measure): e.value for e in extremes(wide.points, body)}
+    there = {
+        (e.region, e.measure): (e.value, beyond(wide.points, e))
+        for e in extremes(wide.points, body)
+    }
     x, y = state.axes["x"], state.axes["y"]
     near = NEAR * sqrt((x[1] - x[0]) * (y[1] - y[0]))
     return tuple(
-        _error(e, there.get((e.region, e.measure)), near, state.by_increments or 0.0) for e in found
+        _error(
+            e,
+            beyond(field.points, e),
+            there.get((e.region, e.measure)),
+            near,
+            state.by_increments or 0.0,
+        )
+        for e in found
     )
 
 
@@ -70,13 +82,54 @@ def _means(field: Field, pad_x: int, pad_y: int) -> Field:
     )
 
 
-def _error(extreme: Extreme, wide: float | None, near: float, by_increments: float) -> StatedError:
+def beyond(points: StressPoints, extreme: Extreme) -> float:
+    """By how much a stress is larger between the points than at any: by the parabolas through the
+    largest and its neighbours, in depth and along x and y, within one material [force/length^2]."""
+    values = points.measures[extreme.measure]
+    here = (values == extreme.value) & (points.depth == extreme.depth)
+    place = [int(n) for n in np.unravel_index(int(np.argmax(here)), values.shape)]
+    found = 0.0
+    for axis, places in enumerate((points.depth, points.x, points.y)):
+        n = place[axis]
+        if not 0 < n < values.shape[axis] - 1:
+            continue
+        x, f, material = (
+            np.array([field[(*place[:axis], n + step, *place[axis + 1 :])] for step in (-1, 0, 1)])
+            for field in (places, values, points.material)
+        )
+        if np.ptp(material) == 0:
+            found += _above_the_middle(x - x[1], f)
+    return found
+
+
+def _above_the_middle(x: Field, f: Field) -> float:
+    """Of three values the highest of their parabola, above the middle one, which is at zero."""
+    left, right = (f[0] - f[1]) / x[0], (f[2] - f[1]) / x[2]
+    bend = (right - left) / (x[2] - x[0])
+    slope = left - bend * x[0]
+    return float(-(slope**2) / (4 * bend)) if bend < 0 else 0.0
+
+
+def _error(
+    extreme: Extreme,
+    beyond_here: float,
+    wide: tuple[float, float] | None,
+    near: float,
+    by_increments: float,
+) -> StatedError:
     if wide is None:
         return estimate.UNKNOWN
-    rule = TENSION if extreme.depth < near else INTERIOR
-    change, largest = np.array([abs(extreme.value - wide)]), np.array([abs(extreme.value)])
-    parts: dict[Part, Field] = {"cells": estimate.by_cells(rule, change, 2.0, np.zeros(1))}
+    value, beyond_there = wide
+    inside = extreme.depth >= near
+    change = abs(extreme.value - value)
+    cells = np.zeros(1)
+    if inside:
+        change = abs(extreme.value + beyond_here - value - beyond_there)
+        cells = np.array([BETWEEN * beyond_here])
+    differs, largest = np.array([change]), np.array([abs(extreme.value)])
+    rule = INTERIOR if inside else TENSION
+    parts: dict[Part, Field] = {"cells": cells + estimate.by_cells(rule, differs, 2.0, np.zeros(1))}
     if by_increments:
         parts["increments"] = by_increments * largest
-    apart = estimate.contradicts(change, largest, 0.0)
+    apart = estimate.contradicts(differs, largest, 0.0)
     return estimate.stated(parts, not (apart or extreme.at_window_edge))
