@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from contact_errors.ladder import SPARE, Rung
+from contact_errors.ladder import SPACE, SPARE, Rung
 from contact_errors.values import scale
 from contact_scene.accuracy import AccuracyRequest
 from contact_scene.solver_errors import AccuracyOutOfReach
@@ -56,12 +56,13 @@ def refuse_unreachable(asked: Asked, rung: Rung[Any], most_growth: float) -> Non
         sizes = [error.parts for error in rung.errors(name) if error.parts]
         if not sizes:
             continue
-        by_cells = max(_largest(parts.get("cells", 0.0)) for parts in sizes) / rung.largest(name)
+        space = (_largest(parts.get(part, 0.0)) for parts in sizes for part in SPACE)
         order = rung.rules[name].order
-        reach = SPARE * by_cells / most_growth**order
+        reach = SPARE * max(space) / rung.largest(name) / most_growth**order
         if reach > DOUBT * share:
             told.append(
-                f"{name} to {_percent(share)}: its error falls with cells to the power {order:g}, "
+                f"{name} to {_percent(share)}: its error falls as the cells or elements along a "
+                f"side to the power {order:g}, "
                 f"and about {_percent(reach)} is all that fits into this machine"
             )
     if told:

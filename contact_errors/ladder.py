@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from contextlib import AbstractContextManager, nullcontext
+from dataclasses import dataclass, field
+from types import MappingProxyType
 from typing import Any, Generic, Protocol, TypeVar
 
 import numpy as np
@@ -26,9 +28,11 @@ HALF = 0.5
 FIRST_GROWTH, LATER_GROWTH, LEAST_GROWTH = 8.0, 3.0, 1.15
 # Where a number has not converged nothing follows from its error.
 UNCONVERGED_GROWTH = 2.0
-# Of the request, what the tolerance of the solver may take.
-SOLVED = 0.05
-SPACE: tuple[Part, ...] = ("cells", "elements", "section", "penalty", "harmonics")
+SPACE: tuple[Part, ...] = ("cells", "elements")
+# What neither lessens may take so much of the request, each.
+REST: Mapping[Part, float] = MappingProxyType(
+    {"tolerance": 0.05, "section": 0.1, "penalty": 0.1, "harmonics": 0.15}
+)
 
 
 @dataclass(frozen=True)
@@ -83,19 +87,28 @@ class Rung(Generic[F]):
 
 @dataclass(frozen=True)
 class Growth:
-    """How much finer: factors of the cells along a side (of elements over the radius), of the
-    increments where they matter, and of the tolerance."""
+    """How much finer.
+
+    cells       factor of the cells along a side, or of the elements over the radius
+    increments  of the increments, where they matter
+    less        what is to be left of the errors that neither lessens
+    """
 
     cells: float
     increments: float
-    tolerance: float
+    less: Mapping[Part, float] = field(default_factory=dict)
 
     def bounded(self, most: float) -> Growth:
         """At most so much finer, and a little finer at least."""
         cells, increments = min(self.cells, most), min(self.increments, most)
-        if max(cells, increments) < LEAST_GROWTH and self.tolerance == 1:
+        if max(cells, increments) < LEAST_GROWTH and not self.less:
             cells = LEAST_GROWTH
-        return Growth(cells, increments, self.tolerance)
+        return Growth(cells, increments, self.less)
+
+
+def unkept(fineness: object) -> AbstractContextManager[None]:
+    """For who keeps nothing of a solve, or tells nobody of it."""
+    return nullcontext()
 
 
 class Ladder(Protocol[F]):
@@ -131,7 +144,8 @@ class Ladder(Protocol[F]):
 
 def growth(rung: Rung[Any], shares: Mapping[str, float]) -> Growth:
     """How much finer a rung has to be for these errors, relative to the largest of each number."""
-    cells = increments = tolerance = 1.0
+    cells = increments = 1.0
+    less: dict[Part, float] = {}
     for name, share in shares.items():
         rule, largest = rung.rules[name], rung.largest(name)
         for error in rung.errors(name):
@@ -145,13 +159,16 @@ def growth(rung: Rung[Any], shares: Mapping[str, float]) -> Growth:
             space = sum(parts.get(part, 0.0) for part in SPACE)
             path = parts.get("increments", 0.0)
             by_path, of_space = _path_alone(rule, path, space)
+            rest = {part: parts[part] / (REST[part] * share) for part in REST if part in parts}
+            for part, ratio in rest.items():
+                if ratio > 1:
+                    less[part] = min(less.get(part, 1.0), 1 / ratio)
             of_path = min(path, HALF * AIM * share)
-            left = AIM * share - of_path
+            of_rest = sum(min(ratio, 1.0) * REST[part] * share for part, ratio in rest.items())
+            left = AIM * share - of_path - of_rest
             cells = max(cells, (max(space, of_space) / left) ** (1 / rule.order))
             increments = max(increments, by_path / of_path if of_path else 1.0)
-            solved = parts.get("tolerance", 0.0)
-            tolerance = min(tolerance, SOLVED * share / solved if solved else 1.0)
-    return Growth(cells, increments, tolerance)
+    return Growth(cells, increments, less)
 
 
 def _path_alone(rule: Rule, path: float, space: float) -> tuple[float, float]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable
-from contextlib import AbstractContextManager, nullcontext
+from contextlib import AbstractContextManager
 from dataclasses import dataclass, replace
 from math import ceil
 
@@ -12,7 +12,7 @@ import numpy as np
 
 import semi_analytical
 from contact_errors.half_the_cells import Progress
-from contact_errors.ladder import Growth, Rung
+from contact_errors.ladder import Growth, Rung, unkept
 from contact_errors.on_cells import stated_errors
 from contact_errors.rules import rules_for
 from contact_errors.solve_cost import Solved, machine_speed, seconds_like
@@ -51,11 +51,6 @@ class CellFineness:
 # What keeps the solve of a rung while it lasts, and what is told of its increments.
 Keeping = Callable[[CellFineness], AbstractContextManager[Keeper | None]]
 Watching = Callable[[CellFineness], AbstractContextManager[Progress | None]]
-
-
-def unkept(fineness: CellFineness) -> AbstractContextManager[None]:
-    """Keep nothing, and tell nobody."""
-    return nullcontext()
 
 
 @dataclass(frozen=True)
@@ -98,7 +93,7 @@ class CellLadder:
         increments = (
             ceil(by.increments * number) if step.path_matters else number for number, step in path
         )
-        tolerance = max(LEAST_TOLERANCE, fineness.tolerance * by.tolerance)
+        tolerance = max(LEAST_TOLERANCE, fineness.tolerance * by.less.get("tolerance", 1.0))
         return CellFineness(grid, tuple(increments), tolerance)
 
     def seconds(self, fineness: CellFineness, like: Rung[CellFineness]) -> float:

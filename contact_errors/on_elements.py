@@ -35,6 +35,8 @@ from fem_reference.scales import Scales
 Numbers = NDArray[np.float64]
 Progress = Callable[[Increment], None]
 
+# Friction acts back on the pressure, which has a cusp on the axis.
+CUSPED = (Path.PRESSING_WITH_FRICTION, Path.HARMONICS)
 FEWEST_ELEMENTS = 3  # of a companion, over the contact radius
 # Fewer increments than these are doubled where others are halved: halves of them tell nothing.
 FEW_INCREMENTS = 4
@@ -82,6 +84,13 @@ def stated_errors(
         charged=charged_by_increments(result, cycles),
     )
     return StatedErrors(tuple(levels.errors()), companions)
+
+
+def rules_of(result: Result) -> Mapping[str, Rule]:
+    """The laws of the errors of a result."""
+    path = result.plan.path
+    springs = result.method is Method.PENALTY and path is not Path.HARMONICS
+    return rules_of_elements(result.scene.indenter, path in CUSPED, springs)
 
 
 @dataclass(frozen=True)
@@ -150,9 +159,7 @@ class _Levels:
 
     def errors(self) -> Iterator[Mapping[str, StatedError]]:
         """Of every step."""
-        scene, plan = self.result.scene, self.result.plan
-        springs = self.result.method is Method.PENALTY and plan.path is not Path.HARMONICS
-        rules = rules_of_elements(scene.indenter, self._cusp, springs)
+        scene, rules = self.result.scene, rules_of(self.result)
         largest = estimate.largest_so_far(self.values)
         steps = zip(scene.load_path(), self.result.steps, strict=True)
         for k, (ramp, end) in enumerate(steps):
@@ -217,7 +224,7 @@ class _Levels:
     @property
     def _cusp(self) -> bool:
         """Whether friction acts back on the pressure."""
-        return self.result.plan.path in (Path.PRESSING_WITH_FRICTION, Path.HARMONICS)
+        return self.result.plan.path in CUSPED
 
     def _section(self, name: str) -> float:
         """Error of a quantity by the size of the section, relative; see `sufficient_box`."""

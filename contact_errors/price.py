@@ -51,7 +51,7 @@ class Prices(Generic[F]):
     def of(cls, ladder: Ladder[F]) -> Prices[F]:
         """Solves the rungs; raises a SolverError."""
         first = ladder.climbed(ladder.first())
-        second = ladder.climbed(ladder.refined(first.fineness, Growth(APART, 1.0, 1.0)))
+        second = ladder.climbed(ladder.refined(first.fineness, Growth(APART, 1.0)))
         return cls(ladder, first, second)
 
     def of_request(self, request: AccuracyRequest) -> Price[F]:
@@ -72,7 +72,7 @@ class Prices(Generic[F]):
     def _needed(self, shares: Mapping[str, float]) -> Growth:
         """Growth over the first rung by the errors of the second."""
         by = growth(self.second, shares)
-        return Growth(APART * by.cells, by.increments, by.tolerance)
+        return Growth(APART * by.cells, by.increments, by.less)
 
 
 def _rungs(by_first: Growth, needed: Growth) -> Iterator[Growth]:
@@ -86,6 +86,6 @@ def _rungs(by_first: Growth, needed: Growth) -> Iterator[Growth]:
         reached = Growth(
             max(reached.cells, min(needed.cells, LATER_GROWTH * reached.cells)),
             max(reached.increments, min(needed.increments, LATER_GROWTH * reached.increments)),
-            needed.tolerance,
+            needed.less,
         )
         yield reached

@@ -110,6 +110,7 @@ ORDERS = {
         *("values", "rules", "estimate", "prescribed", "half_the_cells", "on_cells"),
         *("element_rules", "on_elements", "of_stress"),
         *("solve_cost", "ladder", "asked", "climb", "price", "ladder_on_cells"),
+        "ladder_on_elements",
     ),
     "slipstick": ("solvers", "path_errors", "solving", "stored_run", "cli", "__main__"),
     # Its floors: what judges stands on what is known, what is shown on what was judged.

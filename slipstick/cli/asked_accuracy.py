@@ -6,13 +6,10 @@ from itertools import count
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, TypeAlias
 
-import typer
-
 from slipstick.cli.optional import optional
 
 if TYPE_CHECKING:
     from contact_errors.climb import Climb
-    from contact_errors.ladder import Ladder
     from contact_results.directory.checkpoint import Checkpoint
     from contact_scene import SceneFile
     from contact_scene.accuracy import AccuracyRequest
@@ -59,7 +56,7 @@ def climb_to(
 
     @contextmanager
     def keeping(fineness: Any) -> "Iterator[Checkpoint]":
-        identity = solve_identity(contents.scene, fineness)
+        identity = solve_identity(contents.scene, fineness, vars(solver))
         with checkpointed(output, identity, tell, f"checkpoint-{next(rounds)}") as keeper:
             yield keeper
 
@@ -68,23 +65,6 @@ def climb_to(
         with solve_progress(fineness.increments) as observe:
             yield observe
 
-    ladder = ladder_of(solver, contents, surface_stress, keeping, watching)
-    return climb(ladder, request, most_seconds, tell_round)
-
-
-def ladder_of(
-    solver: "Solver",
-    contents: "SceneFile",
-    surface_stress: bool = False,
-    keeping: Any = None,
-    watching: Any = None,
-) -> "Ladder[Any]":
-    """The ladder of a solver; BadParameter where it has none."""
     fineness = solver.fineness(contents)
     ladder = solver.ladder(contents.scene, fineness, surface_stress, keeping, watching)
-    if ladder is None:
-        raise typer.BadParameter(
-            "--accuracy and the table [accuracy] are not yet for finite elements; leave them or "
-            "--solver out"
-        )
-    return ladder
+    return climb(ladder, request, most_seconds, tell_round)

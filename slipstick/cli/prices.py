@@ -9,7 +9,7 @@ if TYPE_CHECKING:
     from contact_scene import SceneFile
     from slipstick.solvers.solver import Solver
 
-HEADINGS = ("accuracy", "cells", "increments", "rounds", "time", "memory")
+HEADINGS = ("accuracy", "cells or elements", "increments", "rounds", "time", "memory")
 
 
 def print_prices(option: str, solver: "Solver", contents: "SceneFile") -> None:
@@ -18,12 +18,12 @@ def print_prices(option: str, solver: "Solver", contents: "SceneFile") -> None:
     from contact_errors.price import Prices
     from contact_scene.scene_file import read_accuracy
     from contact_scene.solver_errors import AccuracyOutOfReach
-    from slipstick.cli.asked_accuracy import ladder_of
     from slipstick.cli.terminal import print_pairs, print_table
 
     items = option.split(",")
     requests = [read_accuracy(item, "--accuracy") for item in items]
-    prices = Prices.of(ladder_of(solver, contents))
+    ladder = solver.ladder(contents.scene, solver.fineness(contents), False, None, None)
+    prices = Prices.of(ladder)
     rows, refused = [], []
     for item, request in zip(items, requests, strict=True):
         try:

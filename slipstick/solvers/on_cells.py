@@ -55,7 +55,8 @@ class OnCells:
         keeping: Keeping | None = None,
         watching: Watching | None = None,
     ) -> CellLadder:
-        from contact_errors.ladder_on_cells import CellLadder, unkept
+        from contact_errors.ladder import unkept
+        from contact_errors.ladder_on_cells import CellLadder
 
         return CellLadder(scene, fineness, surface_stress, keeping or unkept, watching or unkept)
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import fem_reference
 from contact_scene import FiniteElementDiscretisation, Scene, SceneFile
@@ -12,14 +13,14 @@ from contact_scene.standing import Keeper
 from contact_scene.stated_error import StatedErrors
 from fem_reference import Method, Path, Plan, Result
 from fem_reference.expected_radius import meshed_radius
-from fem_reference.memory import required_bytes
 from fem_reference.mesh.section_mesh import SectionMesh
 from fem_reference.model import ContactModel
 from slipstick.solvers.solver import Pairs, Progress, increments_text
 
-Meshes = tuple[SectionMesh | None, SectionMesh | None]
+if TYPE_CHECKING:
+    from contact_errors.ladder_on_elements import ElementLadder, Keeping, Watching
 
-NODES_PER_ELEMENT = 4  # biquadratic: about one corner, two midsides and a middle each
+Meshes = tuple[SectionMesh | None, SectionMesh | None]
 
 
 @dataclass(frozen=True)
@@ -62,13 +63,18 @@ class OnElements:
         scene: Scene,
         fineness: FiniteElementDiscretisation,
         surface_stress: bool = False,
-        keeping: object = None,
-        watching: object = None,
-    ) -> None:
-        return None
+        keeping: Keeping | None = None,
+        watching: Watching | None = None,
+    ) -> ElementLadder:
+        from contact_errors.ladder import unkept
+        from contact_errors.ladder_on_elements import ElementLadder
+
+        return ElementLadder(scene, fineness, self.method, keeping or unkept, watching or unkept)
 
     def work(self, scene: Scene, fineness: FiniteElementDiscretisation, plan: Plan) -> Pairs:
         """Mesh, tolerance, increments, factorisations and memory."""
+        from contact_errors.ladder_on_elements import largest_bytes
+
         radius = meshed_radius(scene, fineness.contact_radius)
         sections = ContactModel.of(scene, fineness, radius).sections
         chosen = "" if fineness.contact_radius else ", estimated without friction"
@@ -81,10 +87,7 @@ class OnElements:
         text = "one per body and angular harmonic" if motions > 1 else "one per body"
         factored = f"{motions * len(distinct)}, {text}; no work where the cache has them"
         yield "factorisations", factored
-        largest = max(section.quads.shape[1] for section in distinct)
-        components = 2 if motions == 1 else 3
-        unknowns = NODES_PER_ELEMENT * largest * components
-        needed = required_bytes(largest, unknowns, components, False)
+        needed = largest_bytes(distinct, motions > 1)
         yield "memory", f"about {needed / 2**20:.0f} MiB"
 
     def reasons(self, plan: Plan) -> Sequence[tuple[str, str, str]]:

@@ -58,9 +58,8 @@ class Solver(Protocol):
 
     def ladder(
         self, scene: Scene, fineness: Any, surface_stress: bool, keeping: Any, watching: Any
-    ) -> Ladder[Any] | None:
-        """Ever finer solves of a scene, for an accuracy that is asked for; None where there are no
-        rules for its errors.
+    ) -> Ladder[Any]:
+        """Ever finer solves of a scene, for an accuracy that is asked for.
 
         keeping   from a fineness to a block that has the keeper of its solve
         watching  the same for what is told of its increments
