@@ -98,11 +98,11 @@ def beyond(points: StressPoints, extreme: Extreme) -> float:
             for field in (places, values, points.material)
         )
         if np.ptp(material) == 0:
-            found += _above_the_middle(x - x[1], f)
+            found += above_the_middle(x - x[1], f)
     return found
 
 
-def _above_the_middle(x: Field, f: Field) -> float:
+def above_the_middle(x: Field, f: Field) -> float:
     """Of three values the highest of their parabola, above the middle one, which is at zero."""
     left, right = (f[0] - f[1]) / x[0], (f[2] - f[1]) / x[2]
     bend = (right - left) / (x[2] - x[0])

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 from contact_errors import estimate
+from contact_errors.of_stress import above_the_middle
 from contact_errors.rules import Rule
 from contact_errors.values import Values
 from contact_scene.stated_error import ErrorStatus, StatedError
@@ -133,3 +134,10 @@ def test_a_defect_of_the_estimator_is_seen(
     print(f"{planted.__name__}: covered {found.covered.text}, tight {found.tight.text}")
     assert found.covered == Share(still_covered, 2)
     assert not found.good
+
+
+def test_between_three_points_a_parabola_is_highest_at_its_top() -> None:
+    """f = 5 - 3 (x - 0.2)² by x = -0.7, 0, 1.1: its top is 3·0.04 above the middle point."""
+    x = np.array([-0.7, 0.0, 1.1])
+    assert above_the_middle(x, 5 - 3 * (x - 0.2) ** 2) == pytest.approx(0.12)
+    assert above_the_middle(x, 5 + 3 * x) == 0
