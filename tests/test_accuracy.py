@@ -361,6 +361,13 @@ def test_a_run_refuses_what_cannot_be(tmp_path: Path, more: tuple[str, ...]) -> 
     assert not (tmp_path / "out").exists()
 
 
+def test_check_tells_what_accuracy_is_asked_for(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert slipstick("check", written(tmp_path, "[accuracy]\napproach = '0.5 %'\n")) == 0
+    assert "accuracy  approach 0.5 %" in capsys.readouterr().out
+
+
 def test_an_empty_table_is_refused(tmp_path: Path) -> None:
     assert slipstick("check", written(tmp_path, "[accuracy]\n")) == 2
 

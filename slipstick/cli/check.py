@@ -48,6 +48,11 @@ def check(
 
     typer.echo(f"{scene}: valid")
     print_pairs(describe(contents.scene, contents.semi_analytical, contents.fem_reference))
+    if contents.accuracy is not None:
+        shares = contents.accuracy.shares().items()
+        print_pairs(
+            [("accuracy", ", ".join(f"{name} {100 * share:.3g} %" for name, share in shares))]
+        )
     for remark in remarks:
         tell(f"warning: {remark}")
 
