@@ -29,7 +29,7 @@ class Family:
 
 
 FAMILIES = {
-    "hertz": Family(homogeneous.hertz, 84),
+    "hertz": Family(homogeneous.hertz, 78),
     "shapes": Family(homogeneous.shapes, 8),
     "ellipse": Family(homogeneous.ellipse, 8),
     "cattaneo": Family(homogeneous.cattaneo, 22),
@@ -37,7 +37,7 @@ FAMILIES = {
     "twisted": Family(homogeneous.twisted, 6),
     "indented": Family(homogeneous.indented, 10),
     "coated": Family(coated.pressed, 120),
-    "coated-stress": Family(partial(coated.pressed, stressed=True), 20),
+    "coated-stress": Family(partial(coated.pressed, stressed=True), 26),
     "coated-twisted": Family(coated.twisted, 140),
     "coated-sheared": Family(refined.sheared, 45),
     "sections": Family(partial(homogeneous.hertz, sections=True), 3),
