@@ -4,6 +4,7 @@ from dataclasses import dataclass
 from math import ceil, hypot
 
 from contact_scene import ControlKind, LoadRamp, Scene
+from contact_scene.cycles import loop_increments
 from contact_scene.effect import Effect
 from contact_scene.pair import coupling, refuse_contrast
 from fem_reference.effects import effects
@@ -91,10 +92,13 @@ def _path_matters(ramps: tuple[LoadRamp, ...], path: Path) -> tuple[bool, ...]:
 
 
 def _increments(scene: Scene, matters: tuple[bool, ...]) -> tuple[int, ...]:
-    """As asked for; else one wherever the end of the step does not depend on its path."""
+    """As asked for; else one wherever the end of the step does not depend on its path, but enough
+    for the work of closed cycles."""
+    ramps = scene.load_path()
+    loops = loop_increments(ramps) if scene.friction else (1,) * len(ramps)
     return tuple(
-        ramp.increments or (_path_increments(scene, ramp) if path_matters else 1)
-        for ramp, path_matters in zip(scene.load_path(), matters, strict=True)
+        ramp.increments or max(of_loop, _path_increments(scene, ramp) if path_matters else 1)
+        for ramp, path_matters, of_loop in zip(ramps, matters, loops, strict=True)
     )
 
 

@@ -31,6 +31,7 @@ from dataclasses import dataclass, replace
 from math import ceil, hypot, sqrt
 
 from contact_scene import ControlKind, CoulombFriction, LoadRamp, Scene
+from contact_scene.cycles import loop_increments
 from contact_scene.geometry import ShapedBody
 
 # The sine of an angle below this is round-off of a load that goes straight.
@@ -90,8 +91,8 @@ class Bodies:
 def path_increments(
     scene: Scene, shear: bool, bodies: Bodies, accuracy: float
 ) -> tuple[StepIncrements, ...]:
-    """As the scene asks; else one where the path does not matter, and enough for the accuracy
-    where it does.
+    """As the scene asks; else one where the path does not matter, enough for the accuracy where it
+    does, and enough for the work of closed cycles.
 
     shear     whether shear is solved for at all
     accuracy  error of the shear that increments may leave, Σ|error of q| / Σµp
@@ -101,12 +102,14 @@ def path_increments(
     ways = _ways(scene)
     turning = [turn for way in ways if (turn := way.turned(bodies))]
     turned = sum(turning) if len(turning) > 1 else 0.0
-    for way in ways:
+    for way, of_loop in zip(ways, loop_increments(scene.load_path()), strict=True):
         sheared = sheared or way.ends_sheared
         matters, why = way.matters(bodies.coupled) if shear and sheared else (False, NO_SHEAR)
         count = 1
         if matters:
             count, why = way.count(bodies, accuracy, turned)
+        if shear and of_loop > count:
+            count, why = of_loop, "the work of a closed cycle"
         if way.ramp.increments is not None:
             count, why = way.ramp.increments, "as the scene asks"
         steps.append(StepIncrements(count, matters, why))

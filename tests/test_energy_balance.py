@@ -24,6 +24,8 @@ from coupled_scenes import bulk, coated
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+import slipstick
+from contact_results.cycles import fretting_cycles
 from contact_scene import RIGID, Body, FlatPunch
 from contact_scene.summary import ContactStatus
 from semi_analytical import NotConverged, SurfaceGrid, history, one_way, plan, solve
@@ -324,3 +326,33 @@ def test_the_balance_of_a_wrong_displacement_is_open():
     spoilt = balanced(model, first, replace(state, pressing=wrong))
     assert first.energy.imbalance(NOTHING_YET) <= CLOSES
     assert spoilt.energy.imbalance(first.energy) > 1e-4
+
+
+LOOPS = {
+    "force": ("tangential_force", 90.0),
+    "shift": ("tangential_shift", 1e-6),
+    "shift far beyond gross sliding": ("tangential_shift", 20e-6),
+}
+
+
+@pytest.mark.parametrize("led", LOOPS)
+@pytest.mark.parametrize("solver", ["semi-analytical", "fem-complementarity"])
+def test_work_of_a_closed_cycle_is_what_it_dissipates(led: str, solver: str) -> None:
+    """With the increments that the solver chooses; with one a step the loop is a line."""
+    control, size = LOOPS[led]
+    steps = [{control: (way * size, 0.0)} for way in (1, -1, 1)]
+    loop = contact_scenes.scene({"normal_force": LOAD}, *steps)
+    cells = slipstick.SurfaceDiscretisation(cells=(20, 20))
+    elements = slipstick.FiniteElementDiscretisation(elements_per_radius=8)
+    fineness = cells if solver == "semi-analytical" else elements
+    plan_of = slipstick.plan(loop, solver, fineness)
+    result = slipstick.solve(loop, solver, fineness)
+    (cycle,) = fretting_cycles(result)
+    begin = sum(plan_of.increments[:2]) - 1
+    force, shift = (
+        np.array([getattr(i, name)[0] for i in result.increments[begin:]])
+        for name in ("tangential_force", "tangential_shift")
+    )
+    work = float(np.sum((force[1:] + force[:-1]) / 2 * np.diff(shift)))
+    assert work == pytest.approx(cycle.dissipated_energy, rel=1e-2)
+    assert cycle.input_work in (None, pytest.approx(work, rel=1e-6))
