@@ -14,7 +14,7 @@ from verification.studies.error_coverage.drawing import Rng
 from verification.studies.error_coverage.known_scene import KnownScene
 
 # The scenes that set the rules are not those that judge them.
-TRAINING, JUDGING = 1, 2
+TRAINING, JUDGING = 1, 7
 
 
 @dataclass(frozen=True)
