@@ -15,12 +15,12 @@ from contact_errors.values import Values
 from contact_scene.stated_error import ErrorStatus, StatedError
 from verification.judging.case import Level
 from verification.judging.outcome import Status
+from verification.problems.drawn.known_scene import APPROACH, Truth
 from verification.problems.reference import Reference, ReferenceKind
 from verification.running.row import CaseRecord, Row
 from verification.running.study import Settings
 from verification.studies.error_coverage.case import judged
 from verification.studies.error_coverage.coverage import Coverage, Share
-from verification.studies.error_coverage.known_scene import APPROACH, Truth
 from verification.studies.error_coverage.study import ENOUGH, STUDY, cases, conclude
 
 SETTINGS = Settings(Level.STANDARD)

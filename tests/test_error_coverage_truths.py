@@ -11,9 +11,9 @@ import pytest
 
 import fem_reference
 import semi_analytical
-from verification.studies.error_coverage.branches import Reached, Twisting, along
-from verification.studies.error_coverage.families import FAMILIES, JUDGING, TRAINING, drawn
-from verification.studies.error_coverage.known_scene import (
+from verification.problems.drawn.branches import Reached, Twisting, along
+from verification.problems.drawn.families import FAMILIES, JUDGING, TRAINING, drawn
+from verification.problems.drawn.known_scene import (
     CELLS,
     MISES,
     STRESSES,

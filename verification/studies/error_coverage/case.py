@@ -14,9 +14,9 @@ import semi_analytical
 from contact_errors import on_cells, on_elements
 from contact_scene.solver_errors import SolverError
 from contact_scene.stated_error import StatedError
+from verification.problems.drawn.families import drawn
+from verification.problems.drawn.known_scene import CELLS, STRESSES, KnownScene, Truth
 from verification.running.row import CaseRecord, Row, Value, parameters_of
-from verification.studies.error_coverage.families import drawn
-from verification.studies.error_coverage.known_scene import CELLS, STRESSES, KnownScene, Truth
 from verification.studies.error_coverage.stress_maxima import stress_maxima
 
 WRONG, STATED, UNCERTAIN = "wrong", "stated", "uncertain"

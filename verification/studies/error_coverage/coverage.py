@@ -7,9 +7,9 @@ from dataclasses import dataclass
 
 from scipy.stats import beta
 
+from verification.problems.drawn.known_scene import ENERGY, SHIFT, STICK, TWIST
 from verification.running.row import Row, value_of
 from verification.studies.error_coverage.case import STATED, UNCERTAIN, WRONG
-from verification.studies.error_coverage.known_scene import ENERGY, SHIFT, STICK, TWIST
 
 CONFIDENCE = 0.95
 COVERED = 0.95

@@ -9,6 +9,8 @@ from verification.exhibits.chart import Chart, Look
 from verification.exhibits.log_chart import log_chart, point_curves
 from verification.exhibits.table import table_of
 from verification.judging.case import Level
+from verification.problems.drawn.families import FAMILIES, JUDGING
+from verification.problems.drawn.known_scene import CELLS, KINDS, STRESSES
 from verification.running.row import CaseRecord, Row, found
 from verification.running.row_views import points
 from verification.running.rules import judged, solved
@@ -22,8 +24,6 @@ from verification.studies.error_coverage.coverage import (
     covers,
     with_status,
 )
-from verification.studies.error_coverage.families import FAMILIES, JUDGING
-from verification.studies.error_coverage.known_scene import CELLS, KINDS, STRESSES
 
 ENOUGH = 100  # numbers of a kind
 MOST_HOMOGENEOUS, LEAST_FRICTION, LEAST_LOOPS, LEAST_STRESSES = 0.3, 0.4, 60, 60

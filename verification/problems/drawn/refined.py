@@ -12,18 +12,18 @@ from collections.abc import Iterator
 import semi_analytical
 from contact_scene import SurfaceDiscretisation
 from verification.closed_forms.coated_indentation import paraboloid
-from verification.problems.layered_scene import surface_of
-from verification.problems.reference import Reference, ReferenceKind
-from verification.studies.error_coverage import coated, drawing
-from verification.studies.error_coverage.branches import led
-from verification.studies.error_coverage.drawing import Rng
-from verification.studies.error_coverage.known_scene import (
+from verification.problems.drawn import coated, drawing
+from verification.problems.drawn.branches import led
+from verification.problems.drawn.drawing import Rng
+from verification.problems.drawn.known_scene import (
     CYCLE,
     ENERGY,
     SHIFT,
     KnownScene,
     Truth,
 )
+from verification.problems.layered_scene import surface_of
+from verification.problems.reference import Reference, ReferenceKind
 
 FINEST = 10.0  # cells per radius that are judged
 FINER = (3.5, 4.5)  # times as many, where borders cut cells elsewhere

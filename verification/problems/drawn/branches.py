@@ -17,8 +17,8 @@ from scipy.optimize import brentq
 
 from contact_scene import Body, CoulombFriction, LoadStep, Scene
 from contact_scene.geometry import Indenter
+from verification.problems.drawn.known_scene import CYCLE, ENERGY, STICK, Truth, known
 from verification.problems.reference import Reference, ReferenceKind
-from verification.studies.error_coverage.known_scene import CYCLE, ENERGY, STICK, Truth, known
 
 NODES = 20
 INTERPOLATED = 1e-5  # relative error of what goes through `Twisting`

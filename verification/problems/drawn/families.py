@@ -9,9 +9,9 @@ from zlib import crc32
 
 import numpy as np
 
-from verification.studies.error_coverage import coated, homogeneous, refined
-from verification.studies.error_coverage.drawing import Rng
-from verification.studies.error_coverage.known_scene import KnownScene
+from verification.problems.drawn import coated, homogeneous, refined
+from verification.problems.drawn.drawing import Rng
+from verification.problems.drawn.known_scene import KnownScene
 
 # The scenes that set the rules are not those that judge them.
 TRAINING, JUDGING = 1, 7

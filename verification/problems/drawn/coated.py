@@ -8,12 +8,10 @@ from scipy.optimize import minimize_scalar
 from contact_scene import RIGID, Body, IsotropicMaterial, Paraboloid, Scene
 from verification.closed_forms.coated_indentation import LayeredIndentation, paraboloid
 from verification.closed_forms.coated_torsion import CoatedTorsion, TorsionalSurface, one_layer
-from verification.problems.layered_scene import FREDHOLM, surface_of
-from verification.problems.reference import ReferenceKind
-from verification.studies.error_coverage import drawing
-from verification.studies.error_coverage.branches import INTERPOLATED, Twisting, ends, led
-from verification.studies.error_coverage.drawing import Rng
-from verification.studies.error_coverage.known_scene import (
+from verification.problems.drawn import drawing
+from verification.problems.drawn.branches import INTERPOLATED, Twisting, ends, led
+from verification.problems.drawn.drawing import Rng
+from verification.problems.drawn.known_scene import (
     APPROACH,
     MISES,
     PEAK,
@@ -24,7 +22,9 @@ from verification.studies.error_coverage.known_scene import (
     Truth,
     known,
 )
-from verification.studies.error_coverage.pressed_stress import PressedStress
+from verification.problems.drawn.pressed_stress import PressedStress
+from verification.problems.layered_scene import FREDHOLM, surface_of
+from verification.problems.reference import ReferenceKind
 
 SEMI_CLOSED_ERROR = 1e-9
 STRESS_ERROR = 1e-4  # of the search for the largest

@@ -32,19 +32,16 @@ from verification.closed_forms.sheared_surface import (
 )
 from verification.closed_forms.sphere import SphereContact
 from verification.closed_forms.torsion import TorsionalPartialSlip
-from verification.problems.indentation import NU_ZERO, REFERENCE_ERROR, STRONG, WEAK
-from verification.problems.paper_scene import HERTZ
-from verification.problems.reference import ROUNDING, ReferenceKind
-from verification.studies.error_coverage import drawing
-from verification.studies.error_coverage.branches import (
+from verification.problems.drawn import drawing
+from verification.problems.drawn.branches import (
     INTERPOLATED,
     Reached,
     Twisting,
     ends,
     led,
 )
-from verification.studies.error_coverage.drawing import Rng
-from verification.studies.error_coverage.known_scene import (
+from verification.problems.drawn.drawing import Rng
+from verification.problems.drawn.known_scene import (
     APPROACH,
     MISES,
     PEAK,
@@ -57,7 +54,10 @@ from verification.studies.error_coverage.known_scene import (
     Truth,
     known,
 )
-from verification.studies.error_coverage.pressed_stress import deepest_mises
+from verification.problems.drawn.pressed_stress import deepest_mises
+from verification.problems.indentation import NU_ZERO, REFERENCE_ERROR, STRONG, WEAK
+from verification.problems.paper_scene import HERTZ
+from verification.problems.reference import ROUNDING, ReferenceKind
 
 HERTZIAN, MASING = "Hertz 1882", "Masing's rule on the curve of first loading"
 # Shift over the one at which sliding begins; slip across it turns the shear by less than 1e-3.

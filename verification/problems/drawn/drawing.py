@@ -14,7 +14,7 @@ from contact_scene import (
     Paraboloid,
     SurfaceDiscretisation,
 )
-from verification.studies.error_coverage.known_scene import CELLS, ELEMENTS, Fineness
+from verification.problems.drawn.known_scene import CELLS, ELEMENTS, Fineness
 
 Rng = np.random.Generator
 Array = NDArray[np.float64]

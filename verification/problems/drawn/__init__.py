@@ -1,0 +1,1 @@
+"""Drawn scenes whose answer is known from elsewhere: materials, loads, histories, grids."""
