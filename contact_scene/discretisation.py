@@ -20,7 +20,7 @@ PenaltyFactor = Annotated[
     float, Quantity(PURE_NUMBER, "a number from 0.01 to 1e4", at_least=0.01, at_most=1e4)
 ]
 Overlap = Annotated[
-    float, Quantity(PURE_NUMBER, "a number from 1e-8 to 1", at_least=1e-8, at_most=1.0)
+    float, Quantity(PURE_NUMBER, "a number from 1e-8 to 100", at_least=1e-8, at_most=100.0)
 ]
 PathAccuracy = Annotated[
     float, Quantity(PURE_NUMBER, "a number from 1e-4 to 1", at_least=1e-4, at_most=1.0)

@@ -85,7 +85,7 @@ def by_elements(posed: Posed, method: Method) -> Solved:
         harmonics=posed.elements // ELEMENTS_PER_HARMONIC,
         # Whether a penalty converges is asked here, and not what it leaves.
         augmentations=0 if on_harmonics else 1,
-        overlap=1.0,
+        overlap=100.0,
         tolerance=posed.tolerance,
     )
     result = fem_reference.solve(posed.scene, discretisation, method)
