@@ -238,13 +238,13 @@ def test_promises_lead_the_page_with_figures_or_with_the_command_that_finds_them
     same = case("forced_effects", {"ball": (1.0, 1.0)}, planned)
     report = report_of((same.model_copy(update={"runs": (planned, forced)}),),
                        (study("stability", level="full"),))  # fmt: skip
-    plan, cost, stable = features(report)
+    plan, cost, stable, stated = features(report)
     assert "2.5 to 2.5 times the convolutions" in plan.figures
     assert cost.status is None
     assert "slipstick study work-precision" in cost.figures
     assert stable.status is Status.FAIL
     header = render_page(report).split("</header>")[0]
-    for feature in (plan, cost, stable):
+    for feature in (plan, cost, stable, stated):
         assert f'<a href="#{feature.anchor}">{feature.promise}</a>' in header
         assert feature.figures in header
 
@@ -257,7 +257,7 @@ def test_a_promise_is_told_in_a_line_also_by_a_study_without_an_answer() -> None
     )
     conclusion = record.conclusion.model_copy(update={"statements": claims})
     told = record.model_copy(update={"conclusion": conclusion})
-    (*_, stable) = features(report_of((), (told,)))
+    (*_, stable, _) = features(report_of((), (told,)))
     assert stable.figures == "2 of its 3 judged claims hold (level quick)"
 
 

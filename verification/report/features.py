@@ -29,8 +29,13 @@ class Feature:
 
 
 def features(report: Report) -> tuple[Feature, ...]:
-    """Planning, accuracy and its cost, stability."""
-    return _planned(report), _accurate(report), _stable(report)
+    """Planning, accuracy and its cost, stability, stated errors."""
+    return (
+        _planned(report),
+        _studied(report, "Know what accuracy costs", "work-precision"),
+        _studied(report, "Stay stable in hard cases", "stability"),
+        _studied(report, "State an error for every number, and keep it", "error-coverage"),
+    )
 
 
 def _planned(report: Report) -> Feature:
@@ -63,14 +68,6 @@ def _pairs(case: CaseOutcome) -> dict[frozenset[str], tuple[RunRecord, RunRecord
         for run in case.runs
         if run.planned in runs
     }
-
-
-def _accurate(report: Report) -> Feature:
-    return _studied(report, "Know what accuracy costs", "work-precision")
-
-
-def _stable(report: Report) -> Feature:
-    return _studied(report, "Stay stable in hard cases", "stability")
 
 
 def _studied(report: Report, promise: str, name: str) -> Feature:

@@ -15,6 +15,7 @@ TITLES = {
     "coated-tractions": "Coated contacts: the paper's figures 3 and 4",
     "gross-sliding": "Gross sliding of a coated contact",
     "work-precision": "What accuracy costs",
+    "error-coverage": "Whether stated errors hold",
     "error-budget": "Where the error of the headline cases comes from",
     "penalty": "What a penalty costs",
     "stability": "The stability map",

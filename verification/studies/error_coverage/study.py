@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+import numpy as np
+
 from contact_scene.stated_error import ErrorStatus
 from verification.exhibits.chart import Chart, Look
 from verification.exhibits.log_chart import log_chart, point_curves
@@ -12,7 +14,6 @@ from verification.judging.case import Level
 from verification.problems.drawn.families import FAMILIES, JUDGING
 from verification.problems.drawn.known_scene import CELLS, KINDS, STRESSES
 from verification.running.row import CaseRecord, Row, found
-from verification.running.row_views import points
 from verification.running.rules import judged, solved
 from verification.running.study import Conclusion, Records, Settings, Statement, Study
 from verification.studies.error_coverage.case import STATED, WRONG, CoverageCase
@@ -28,6 +29,7 @@ from verification.studies.error_coverage.coverage import (
 ENOUGH = 100  # numbers of a kind
 MOST_HOMOGENEOUS, LEAST_FRICTION, LEAST_LOOPS, LEAST_STRESSES = 0.3, 0.4, 60, 60
 LEAST_SCENES = 300
+PARTS, LEAST_SHARE = (1e-2, 1e1), 1e-3  # of the diagram
 ESTIMATED, NOT_CONVERGED = str(ErrorStatus.ESTIMATED), str(ErrorStatus.NOT_CONVERGED)
 REMARKS = (
     "Scenes are drawn: materials, radii, loads, friction, coatings, histories, 4 to 60 cells per "
@@ -169,20 +171,34 @@ def _answer(shares: Sequence[Coverage]) -> str:
 
 
 def _chart(parts: dict[str, list[Row]]) -> Chart:
+    """Of each kind the share of numbers that exceed a part of their stated error."""
     lines = [
-        (kind.replace("_", " "), points(_estimated(rows), WRONG, STATED))
+        (kind.replace("_", " "), _exceeding(_estimated(rows)))
         for kind, rows in parts.items()
+        if _estimated(rows)
     ]
-    diagonal = [(x, x) for x in (1e-6, 1e-1)]
+    allowed = [(1.0, LEAST_SHARE), (1.0, 1 - COVERED)]
     return log_chart(
-        "stated_and_wrong",
-        "Stated errors beside what is wrong",
-        "Every number, relative to its truth; above the line it is covered.",
-        "what is wrong",
-        "stated error",
-        [*point_curves(lines), *point_curves([("equal", diagonal)], Look.REFERENCE)],
+        "wrong_over_stated",
+        "What is wrong over what is stated",
+        f"Share of the numbers of a kind beyond a part of their stated error. At 1 are those that "
+        f"it does not cover, to be no more than {1 - COVERED:.0%} (grey); at {1 / TIMES:g} those "
+        "for which it is tight.",
+        "what is wrong / stated error",
+        "share beyond",
+        [*point_curves(lines, Look.COMPUTED), *point_curves([("allowed", allowed)], Look.BOUND)],
         height=4.0,
     )
+
+
+def _exceeding(rows: Sequence[Row]) -> list[tuple[float, float]]:
+    """Places along the error, and the share of rows beyond each."""
+    stated, wrong = (
+        np.array([row.measures[name] for row in rows], float) for name in (STATED, WRONG)
+    )
+    parts = wrong / np.maximum(stated, np.finfo(float).tiny)
+    found = [(x, float(np.mean(parts > x))) for x in np.geomspace(*PARTS, 41)]
+    return [(float(x), share) for x, share in found if share >= LEAST_SHARE]
 
 
 STUDY = Study(
