@@ -33,10 +33,12 @@ FALLS = 1.5
 SMALL = 1e-3  # what may be luck on the coarse grid
 EDGE_FALLS = 1.3  # tension at the edge of the contact, order one half
 
+SEED = 2  # of draws that neither set the rules nor judge them
+
 
 @cache
 def scene(family: str, number: int) -> KnownScene:
-    return drawn(family, JUDGING, number)
+    return drawn(family, SEED, number)
 
 
 def solved(known: KnownScene, fine: bool) -> Any:
@@ -88,8 +90,8 @@ def test_stresses_rise_to_the_truth(family: str) -> None:
 
 def test_drawn_scenes_are_the_same_at_every_call_and_other_for_training() -> None:
     for family in ("hertz", "cattaneo", "coated"):
-        assert drawn(family, JUDGING, 0) == scene(family, 0)
-        assert drawn(family, TRAINING, 0).scene != scene(family, 0).scene
+        assert drawn(family, SEED, 0) == scene(family, 0)
+        assert drawn(family, TRAINING, 0).scene != drawn(family, JUDGING, 0).scene
 
 
 def test_a_loop_closes_where_it_began() -> None:
