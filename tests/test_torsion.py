@@ -51,7 +51,9 @@ def test_a_torque_that_is_reversed_doubles_the_virgin_curve():
     found = [
         step.twist
         for step in solve(
-            scene(PRESS, *(twist(part) for part in (0.8, 0.2, -0.8, 0.8))), grid(32, 1.2), TOLERANCE
+            scene(PRESS, *({**twist(part), "increments": 1} for part in (0.8, 0.2, -0.8, 0.8))),
+            grid(32, 1.2),
+            TOLERANCE,
         ).steps[1:]
     ]
     virgin = [end(PRESS, twist(part), on=grid(32, 1.2)).twist for part in (0.8, 0.3)]
