@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from contact_scene.solver_errors import ContactAtWindowEdge, SolverError
+from contact_scene.solver_errors import ContactAtWindowEdge, ResourceRefused, SolverError
 from contact_scene.stated_error import Companion
 from semi_analytical import Increment, Plan, Result, SurfaceGrid, solve
 
@@ -12,6 +12,9 @@ Progress = Callable[[Increment], None]
 
 # Room that the contact on wide cells may need beside the window of the run.
 WIDER = 1.25
+# Convolutions of a companion, on a quarter of the cells, over those of the run: as dear as the run.
+MOST_CONVOLUTIONS = 4
+A_SECOND = 5_000  # convolutions that nobody waits for
 # Fewer increments than these are doubled where others are halved: halves of them tell nothing.
 FEW_INCREMENTS = 4
 
@@ -24,6 +27,17 @@ def on_wide_cells(
     plan     of the companion
     differs  from the run
     """
+    most = max(MOST_CONVOLUTIONS * sum(i.convolutions for i in result.increments), A_SECOND)
+    spent = 0
+
+    def observe(increment: Increment) -> None:
+        nonlocal spent
+        spent += increment.convolutions
+        if spent > most:
+            raise ResourceRefused(f"it would take more than the run itself, {most} convolutions")
+        if progress is not None:
+            progress(increment)
+
     grids = [_widened(result.grid, 1.0)]
     if result.scene.indenter.extent is None:
         grids.append(_widened(result.grid, WIDER))
@@ -31,17 +45,17 @@ def on_wide_cells(
     for grid in grids:
         asked = Companion(differs=differs, cells=grid.cells, increments=plan.increments)
         try:
-            coarse = solve(result.scene, grid, result.tolerance, progress, plan)
+            coarse = solve(result.scene, grid, result.tolerance, observe, plan)
         except SolverError as error:
             refused = asked.model_copy(update={"refused": str(error)})
             if not isinstance(error, ContactAtWindowEdge):
                 break
         else:
-            spent = {
+            counts = {
                 "iterations": sum(i.iterations for i in coarse.increments),
                 "convolutions": sum(i.convolutions for i in coarse.increments),
             }
-            return coarse, asked.model_copy(update=spent)
+            return coarse, asked.model_copy(update=counts)
     assert refused is not None
     return None, refused
 

@@ -148,6 +148,20 @@ def test_a_companion_without_answer_leaves_no_number_with_an_error(
     assert "did not converge" in (stated.companions[0].refused or "")
 
 
+def test_a_companion_that_takes_more_than_the_run_is_given_up(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    from contact_errors import half_the_cells
+
+    result = solve(scene({"normal_force": 1e3}), grid(16), 1e-8)
+    monkeypatch.setattr(half_the_cells, "A_SECOND", 0)
+    assert stated_errors(result).companions[0].refused is None
+    monkeypatch.setattr(half_the_cells, "MOST_CONVOLUTIONS", 0.1)
+    stated = stated_errors(result)
+    assert "more than the run itself" in (stated.companions[0].refused or "")
+    assert stated.steps[0]["approach"].error is None
+
+
 def test_few_increments_are_doubled_where_many_are_halved() -> None:
     steps = scene(
         {"normal_force": 1e3, "increments": 3},
