@@ -60,6 +60,14 @@ def by_increments(rule: Rule, difference: Numbers, scatter: Numbers) -> Numbers:
     return rule.path_factor * np.hypot(difference, rule.path_scatter * scatter)
 
 
+def unsolved(tolerance: float, largest: Numbers, size: float) -> Numbers:
+    """What residuals of the tolerance leave.
+
+    size  of the contact, in the unit of the number
+    """
+    return np.asarray(PER_TOLERANCE * tolerance * np.maximum(largest, size))
+
+
 def contradicts(difference: Numbers, largest: Numbers, negligible: float | Numbers) -> bool:
     """Whether two levels are too far apart to say anything of a third."""
     return bool(np.any(difference > CONTRADICTION * largest + negligible))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
+from contact_errors.levels import recut
 from contact_scene.solver_errors import ContactAtWindowEdge, ResourceRefused, SolverError
 from contact_scene.stated_error import Companion
 from semi_analytical import Increment, Plan, Result, SurfaceGrid, solve
@@ -12,11 +13,9 @@ Progress = Callable[[Increment], None]
 
 # Room that the contact on wide cells may need beside the window of the run.
 WIDER = 1.25
-# Convolutions of a companion, on a quarter of the cells, over those of the run: as dear as the run.
-MOST_CONVOLUTIONS = 4
-A_SECOND = 5_000  # convolutions that nobody waits for
-# Fewer increments than these are doubled where others are halved: halves of them tell nothing.
-FEW_INCREMENTS = 4
+# Convolutions of a companion, on a quarter of the cells, over those of the run: as dear as the run;
+# and those that it may take however few the run took.
+MOST_CONVOLUTIONS, FEW_CONVOLUTIONS = 4, 200
 
 
 def on_wide_cells(
@@ -27,7 +26,7 @@ def on_wide_cells(
     plan     of the companion
     differs  from the run
     """
-    most = max(MOST_CONVOLUTIONS * sum(i.convolutions for i in result.increments), A_SECOND)
+    most = max(MOST_CONVOLUTIONS * sum(i.convolutions for i in result.increments), FEW_CONVOLUTIONS)
     spent = 0
 
     def observe(increment: Increment) -> None:
@@ -60,13 +59,9 @@ def on_wide_cells(
     return None, refused
 
 
-def recut(plan: Plan) -> Plan:
-    """Half the increments where the path matters, twice as many where these are few."""
-    return plan.cut_into([_recut(s.count) if s.path_matters else s.count for s in plan.path])
-
-
-def _recut(count: int) -> int:
-    return 2 * count if count < FEW_INCREMENTS else count // 2
+def recut_plan(plan: Plan) -> Plan:
+    """Other increments where the path matters."""
+    return plan.cut_into([recut(s.count) if s.path_matters else s.count for s in plan.path])
 
 
 def _widened(grid: SurfaceGrid, room: float) -> SurfaceGrid:

@@ -3,26 +3,27 @@ increments on these."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import accumulate
+from operator import or_
 
 import numpy as np
-from numpy.typing import NDArray
 
 from contact_errors import estimate
-from contact_errors.half_the_cells import Progress, on_wide_cells, recut
+from contact_errors.estimate import Numbers
+from contact_errors.half_the_cells import Progress, on_wide_cells, recut_plan
+from contact_errors.levels import Levels, path_changes
 from contact_errors.prescribed import prescribed
 from contact_errors.rules import Lengthscale, Rule, rules_for
-from contact_errors.values import Values, charged_by_increments, scale, values_of
+from contact_errors.values import Values, charged_by_increments, values_of
 from contact_results.cycles import fretting_cycles
 from contact_results.remarks import left_out
-from contact_scene.stated_error import EXACT, Part, StatedError, StatedErrors
+from contact_scene.stated_error import Part, StatedErrors
 from semi_analytical import Result
 from semi_analytical.plan import Coupling
 from semi_analytical.resolution import Resolution, resolution
-
-Numbers = NDArray[np.float64]
 
 # In cells: below them a number has not converged, however small its differences are.
 LEAST = {Lengthscale.CONTACT: 3.0, Lengthscale.STICK: 1.0, Lengthscale.ANNULUS: 0.5}
@@ -51,132 +52,79 @@ def stated_errors(
         exact = map(prescribed, result.scene.load_path())
         return StatedErrors(tuple(map(estimate.unknown, fine, exact)), (half_the_cells,))
     companions = [half_the_cells]
-    coarse, path = values(wide), None
-    if any(step.path_matters for step in result.plan.path):
-        recut_plan = recut(result.plan)
+    plan, coarse, by_path = result.plan, values(wide), None
+    matters = [step.path_matters for step in plan.path]
+    if any(matters):
         differs = "half the cells, other increments"
-        other, made = on_wide_cells(result, recut_plan, differs, progress)
+        other, made = on_wide_cells(result, recut_plan(plan), differs, progress)
         companions.append(made)
-        change = estimate.differences(coarse, values(other)) if other else None
-        path = _Path(change, charged_by_increments(result, cycles))
-    ratio = wide.grid.spacing[0] / result.grid.spacing[0]
-    levels = _Levels(result, fine, estimate.differences(fine, coarse), ratio, path)
+        if other is not None:
+            by_path = path_changes(coarse, values(other), plan.increments, matters)
+    levels = Levels(
+        scene=result.scene,
+        ground=_Cells(result),
+        rules=rules_for(result.scene.indenter, plan.coupling is not Coupling.NONE),
+        values=fine,
+        change=estimate.differences(fine, coarse),
+        ratio=wide.grid.spacing[0] / result.grid.spacing[0],
+        tolerance=result.tolerance,
+        matters=tuple(accumulate(matters, or_)),
+        by_path=by_path,
+        charged=charged_by_increments(result, cycles),
+    )
     return StatedErrors(tuple(levels.errors()), tuple(companions))
 
 
 @dataclass(frozen=True)
-class _Path:
-    """What increments cost.
-
-    change   by other increments, of every step; None where they gave no result
-    charged  what the increments of the run tell themselves
-    """
-
-    change: Sequence[Values] | None
-    charged: Sequence[Mapping[str, float]]
-
-
-@dataclass(frozen=True)
-class _Levels:
-    """A result beside its companions.
-
-    values  of every step
-    change  |values - those on wide cells|
-    ratio   of the spacings
-    path    None where increments do not matter
-    """
+class _Cells:
+    """See `levels.Ground`."""
 
     result: Result
-    values: Sequence[Values]
-    change: Sequence[Values]
-    ratio: float
-    path: _Path | None
+    part: Part = "cells"
 
     @cached_property
-    def left_out(self) -> float:
+    def _at(self) -> Sequence[Resolution]:
+        return resolution(self.result)
+
+    @cached_property
+    def _left_out(self) -> float:
         """Pressure of the heights between the cells, over the peak."""
         return left_out(self.result)
 
-    def errors(self) -> Iterator[Mapping[str, StatedError]]:
-        """Of every step."""
-        scene, plan = self.result.scene, self.result.plan
-        rules = rules_for(scene.indenter, plan.coupling is not Coupling.NONE)
-        largest = estimate.largest_so_far(self.values)
-        path_matters = False
-        steps = zip(scene.load_path(), plan.path, resolution(self.result), strict=True)
-        for k, (ramp, increments, cells) in enumerate(steps):
-            path_matters = path_matters or increments.path_matters
-            exact = prescribed(ramp)
-            yield {
-                name: EXACT
-                if name in exact
-                else self._error(k, name, rules.get(name), largest[k][name], cells, path_matters)
-                for name in self.values[k]
-            }
+    def carries(self, step: int) -> bool:
+        return self._at[step].contact >= 1
 
-    def _error(
-        self,
-        k: int,
-        name: str,
-        rule: Rule | None,
-        largest: Numbers,
-        cells: Resolution,
-        path_matters: bool,
-    ) -> StatedError:
-        """Of one number at the end of step k."""
-        change = self.change[k].get(name)
-        if rule is None or change is None or cells.contact < 1:
-            return estimate.UNKNOWN
-        count = _cells_per(rule.lengthscale, cells)
-        scatter = largest * rule.scatter(count)
-        solved = estimate.PER_TOLERANCE * self.result.tolerance
-        unsolved = solved * np.maximum(largest, scale(name, self.values[k]))
-        parts: dict[Part, Numbers] = {
-            "cells": estimate.by_cells(rule, change, self.ratio, scatter),
-            "tolerance": unsolved,
-        }
-        if name == "peak_pressure":
-            parts["cells"] = parts["cells"] + HIGHEST * self.left_out * largest
-        apart = estimate.contradicts(change, largest, unsolved)
-        if path_matters:
-            assert self.path is not None
-            if name in self.path.charged[k]:
-                parts["increments"] = np.array([self.path.charged[k][name]])
-            elif self.path.change is None or name not in self.path.change[k]:
-                return estimate.UNKNOWN
-            else:
-                by_path = self.path.change[k][name]
-                parts["increments"] = estimate.by_increments(rule, by_path, scatter)
-                apart = apart or estimate.contradicts(by_path, largest, unsolved)
-        return estimate.stated(parts, _resolved(rule.lengthscale, cells) and not apart)
+    def beside(self, step: int, name: str, rule: Rule, largest: Numbers) -> Mapping[Part, Numbers]:
+        if name != "peak_pressure":
+            return {}
+        return {"cells": HIGHEST * self._left_out * largest}
 
-
-def _cells_per(lengthscale: Lengthscale, cells: Resolution) -> float:
-    """Cells on what a quantity is resolved by; fewer than it has where that is a combination."""
-    if lengthscale is Lengthscale.STICK:
-        return max(cells.stick or 0.0, 1.0)
-    if lengthscale is Lengthscale.FILM:
-        return min(cells.contact, cells.layer or cells.contact)
-    if cells.annulus is None:
+    def per(self, step: int, rule: Rule) -> float:
+        """Fewer than there are where the length scale is a combination."""
+        cells, lengthscale = self._at[step], rule.lengthscale
+        if lengthscale is Lengthscale.STICK:
+            return max(cells.stick or 0.0, 1.0)
+        if lengthscale is Lengthscale.FILM:
+            return min(cells.contact, cells.layer or cells.contact)
+        if cells.annulus is None:
+            return cells.contact
+        annulus = max(cells.annulus, NARROWEST)
+        if lengthscale is Lengthscale.ANNULUS:
+            return float(np.sqrt(cells.contact * annulus))
+        if lengthscale is Lengthscale.SLIP:
+            return float(cells.contact / np.sqrt(1 + 1 / annulus))
         return cells.contact
-    annulus = max(cells.annulus, NARROWEST)
-    if lengthscale is Lengthscale.ANNULUS:
-        return float(np.sqrt(cells.contact * annulus))
-    if lengthscale is Lengthscale.SLIP:
-        return cells.contact / np.sqrt(1 + 1 / annulus)
-    return cells.contact
 
-
-def _resolved(lengthscale: Lengthscale, cells: Resolution) -> bool:
-    """Whether differences between levels mean anything."""
-    if cells.contact < LEAST[Lengthscale.CONTACT]:
-        return False
-    if cells.layer is not None and cells.layer < LEAST_LAYER:
-        return False
-    if cells.wave is not None and cells.wave < LEAST_WAVE:
-        return False
-    if lengthscale is Lengthscale.STICK:
-        return cells.stick is not None and cells.stick >= LEAST[Lengthscale.STICK]
-    if lengthscale in (Lengthscale.SLIP, Lengthscale.ANNULUS):
-        return cells.annulus is None or cells.annulus >= LEAST[Lengthscale.ANNULUS]
-    return True
+    def resolved(self, step: int, rule: Rule, largest: Numbers) -> bool:
+        cells, lengthscale = self._at[step], rule.lengthscale
+        if cells.contact < LEAST[Lengthscale.CONTACT]:
+            return False
+        if cells.layer is not None and cells.layer < LEAST_LAYER:
+            return False
+        if cells.wave is not None and cells.wave < LEAST_WAVE:
+            return False
+        if lengthscale is Lengthscale.STICK:
+            return cells.stick is not None and cells.stick >= LEAST[Lengthscale.STICK]
+        if lengthscale in (Lengthscale.SLIP, Lengthscale.ANNULUS):
+            return cells.annulus is None or cells.annulus >= LEAST[Lengthscale.ANNULUS]
+        return True

@@ -3,12 +3,13 @@ on these and, with harmonics, one with half as many again."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from itertools import accumulate
 from math import pi
+from operator import or_
 
 import numpy as np
-from numpy.typing import NDArray
 
 from contact_errors import estimate
 from contact_errors.element_rules import (
@@ -21,25 +22,24 @@ from contact_errors.element_rules import (
     penalty_of,
     rules_of_elements,
 )
+from contact_errors.estimate import Numbers
+from contact_errors.levels import Levels, path_changes, recut
 from contact_errors.prescribed import prescribed
 from contact_errors.rules import Lengthscale, Rule
-from contact_errors.values import Values, charged_by_increments, scale, values_of
+from contact_errors.values import Values, charged_by_increments, values_of
 from contact_results.cycles import fretting_cycles
 from contact_scene import FiniteElementDiscretisation, Scene
 from contact_scene.solver_errors import SolverError
-from contact_scene.stated_error import EXACT, Companion, Part, StatedError, StatedErrors
+from contact_scene.stated_error import Companion, Part, StatedErrors
 from fem_reference import Increment, Method, Path, Result, solve
 from fem_reference.mesh.section_outline import sufficient_box
 from fem_reference.scales import Scales
 
-Numbers = NDArray[np.float64]
 Progress = Callable[[Increment], None]
 
 # Friction acts back on the pressure, which has a cusp on the axis.
 CUSPED = (Path.PRESSING_WITH_FRICTION, Path.HARMONICS)
 FEWEST_ELEMENTS = 3  # of a companion, over the contact radius
-# Fewer increments than these are doubled where others are halved: halves of them tell nothing.
-FEW_INCREMENTS = 4
 # In elements: below them a number has not converged, however small its differences are.
 LEAST = {Lengthscale.CONTACT: 3.0, Lengthscale.STICK: 1.0, Lengthscale.ANNULUS: 0.5}
 
@@ -71,16 +71,23 @@ def stated_errors(
         exact = map(prescribed, scene.load_path())
         return StatedErrors(tuple(map(estimate.unknown, fine, exact)), companions)
     base = values(coarse)
-    others = [
-        estimate.differences(base, values(other)) if other else None for other, _ in solved[1:]
-    ]
-    levels = _Levels(
-        result=result,
+    others = [other and values(other) for other, _ in solved[1:]]
+    by_path = by_harmonics = None
+    if path_matters and others[0]:
+        plan = result.plan
+        by_path = path_changes(base, others[0], plan.increments, plan.path_matters)
+    if result.plan.path is Path.HARMONICS and others[-1]:
+        by_harmonics = estimate.differences(base, others[-1])
+    levels = Levels(
+        scene=scene,
+        ground=_Elements(result, by_harmonics),
+        rules=rules_of(result),
         values=fine,
         change=estimate.differences(fine, base),
         ratio=result.discretisation.elements_per_radius / mesh.elements_per_radius,
-        by_path=others[0] if path_matters else None,
-        by_harmonics=others[-1] if result.plan.path is Path.HARMONICS else None,
+        tolerance=result.tolerance,
+        matters=tuple(accumulate(result.plan.path_matters, or_)),
+        by_path=by_path,
         charged=charged_by_increments(result, cycles),
     )
     return StatedErrors(tuple(levels.errors()), companions)
@@ -132,99 +139,97 @@ def _recut(result: Result) -> Scene:
     for step, count, matters in zip(
         result.scene.loading, plan.increments, plan.path_matters, strict=True
     ):
-        other = 2 * count if count < FEW_INCREMENTS else count // 2
-        steps.append(step.model_copy(update={"increments": other if matters else count}))
+        steps.append(step.model_copy(update={"increments": recut(count) if matters else count}))
     return result.scene.model_copy(update={"loading": tuple(steps)})
 
 
 @dataclass(frozen=True)
-class _Levels:
-    """A result beside its companions.
+class _Elements:
+    """See `levels.Ground`.
 
-    values        of every step
-    change        |values - those with half the elements|
-    ratio         of the elements
-    by_path       what other increments change, None where they gave no result or do not matter
-    by_harmonics  what more harmonics change, None likewise
-    charged       what the increments of the run tell themselves
+    by_harmonics  what more harmonics change, None where they gave no result or there are none
     """
 
     result: Result
-    values: Sequence[Values]
-    change: Sequence[Values]
-    ratio: float
-    by_path: Sequence[Values] | None
     by_harmonics: Sequence[Values] | None
-    charged: Sequence[Mapping[str, float]]
+    part: Part = "elements"
 
-    def errors(self) -> Iterator[Mapping[str, StatedError]]:
-        """Of every step."""
-        scene, rules = self.result.scene, rules_of(self.result)
-        largest = estimate.largest_so_far(self.values)
-        steps = zip(scene.load_path(), self.result.steps, strict=True)
-        for k, (ramp, end) in enumerate(steps):
-            exact = prescribed(ramp)
-            yield {
-                name: EXACT
-                if name in exact
-                else self._error(k, end, name, rules.get(name), largest[k][name])
-                for name in self.values[k]
-            }
+    def carries(self, step: int) -> bool:
+        return self._contact(step) >= 1
 
-    def _error(
-        self, k: int, end: Increment, name: str, rule: Rule | None, largest: Numbers
-    ) -> StatedError:
-        """Of one number at the end of step k."""
-        change = self.change[k].get(name)
-        contact, stick = self._elements(end)
-        if rule is None or change is None or contact < 1:
-            return estimate.UNKNOWN
-        plan = self.result.plan
-        scatter = largest * rule.scatter(_elements_per(rule.lengthscale, contact, stick))
-        solved = estimate.PER_TOLERANCE * self.result.tolerance
-        unsolved = solved * np.maximum(largest, scale(name, self.values[k]))
-        parts: dict[Part, Numbers] = {
-            "elements": estimate.by_cells(rule, change, self.ratio, scatter)
-            + _missed(rule.lengthscale, contact, stick) * largest,
-            "section": self._section(name) * largest,
-            "tolerance": unsolved,
-        }
-        apart = estimate.contradicts(change, largest, unsolved)
+    def per(self, step: int, rule: Rule) -> float:
+        contact, stick, lengthscale = self._contact(step), self._stick(step), rule.lengthscale
+        if stick is None or lengthscale is Lengthscale.CONTACT:
+            return contact
+        if lengthscale is Lengthscale.STICK:
+            return max(stick, 1.0)
+        annulus = max(contact - stick, LEAST[Lengthscale.ANNULUS])
+        if lengthscale is Lengthscale.ANNULUS:
+            return annulus
+        return contact / float(np.sqrt(1 + 1 / annulus))
+
+    def resolved(self, step: int, rule: Rule, largest: Numbers) -> bool:
+        contact, stick, lengthscale = self._contact(step), self._stick(step), rule.lengthscale
+        if contact < LEAST[Lengthscale.CONTACT]:
+            return False
+        if lengthscale is Lengthscale.STICK:
+            return stick is not None and stick >= LEAST[Lengthscale.STICK]
+        if lengthscale is not Lengthscale.ANNULUS:
+            return True
+        if self._carries_shear(step) and not np.any(largest):
+            return False  # there is slip, and none was seen
+        annulus = 0.0 if stick is None else contact - stick
+        slips = stick is not None and (self._carries_shear(step) or annulus > 0)
+        return not slips or annulus >= LEAST[Lengthscale.ANNULUS]
+
+    def beside(
+        self, step: int, name: str, rule: Rule, largest: Numbers
+    ) -> Mapping[Part, Numbers] | None:
+        end = self.result.steps[step]
+        parts: dict[Part, Numbers] = {"section": self._section(name) * largest}
+        if rule.lengthscale is Lengthscale.STICK:
+            parts["elements"] = self._missed(step) * largest
         if end.overlap is not None and end.approach:
             overlap = end.overlap / abs(end.approach)
-            parts["penalty"] = penalty_of(name, self._cusp) * overlap * largest
-        if any(plan.path_matters[: k + 1]):
-            if name in self.charged[k]:
-                parts["increments"] = np.array([self.charged[k][name]])
-            elif self.by_path is None or name not in self.by_path[k]:
-                return estimate.UNKNOWN
-            else:
-                by_path = self.by_path[k][name]
-                parts["increments"] = estimate.by_increments(rule, by_path, scatter)
-                apart = apart or estimate.contradicts(by_path, largest, unsolved)
+            cusp = self.result.plan.path in CUSPED
+            parts["penalty"] = penalty_of(name, cusp) * overlap * largest
         if end.angles is not None:
-            if self.by_harmonics is None or name not in self.by_harmonics[k]:
-                return estimate.UNKNOWN
-            part = HARMONICS * self.by_harmonics[k][name]
+            if self.by_harmonics is None or name not in self.by_harmonics[step]:
+                return None
+            part = HARMONICS * self.by_harmonics[step][name]
             if rule.lengthscale is Lengthscale.STICK:
                 part = np.hypot(part, self._by_sectors(name, end))
             parts["harmonics"] = part
-        carried = any(end.tangential_force or ()) or bool(end.torque)
-        resolved = _resolved(rule.lengthscale, contact, stick, carried)
-        if carried and rule.lengthscale is Lengthscale.ANNULUS and not np.any(largest):
-            resolved = False  # there is slip, and none was seen
-        return estimate.stated(parts, resolved and not apart)
+        return parts
+
+    def _contact(self, step: int) -> float:
+        """Elements over the contact radius."""
+        return self._per_length * self.result.steps[step].contact_radius
+
+    def _stick(self, step: int) -> float | None:
+        """Elements over the stick radius; None without shear."""
+        radius = self.result.steps[step].stick_radius
+        return None if radius is None else self._per_length * radius
+
+    @property
+    def _per_length(self) -> float:
+        return self.result.discretisation.elements_per_radius / self.result.radius
+
+    def _carries_shear(self, step: int) -> bool:
+        """Whether a tangential force or torque acts: then there is slip, seen or not."""
+        end = self.result.steps[step]
+        return any(end.tangential_force or ()) or bool(end.torque)
+
+    def _missed(self, step: int) -> float:
+        """Part of the stick radius that a slip annulus of less than an element takes, unseen."""
+        contact, stick = self._contact(step), self._stick(step)
+        return 1 / contact if stick is not None and contact - stick < LEAST_ANNULUS else 0.0
 
     def _by_sectors(self, name: str, end: Increment) -> float:
         """Error of the stick radius [length] or area [length^2] by sectors."""
         reach, harmonics = end.contact_radius, self.result.discretisation.harmonics
         of_radius = STICK_BY_HARMONIC * reach / harmonics
         return of_radius if name == "stick_radius" else 2 * pi * reach * of_radius
-
-    @property
-    def _cusp(self) -> bool:
-        """Whether friction acts back on the pressure."""
-        return self.result.plan.path in CUSPED
 
     def _section(self, name: str) -> float:
         """Error of a quantity by the size of the section, relative; see `sufficient_box`."""
@@ -235,42 +240,3 @@ class _Levels:
                 sufficient = sufficient_box(unit.dimensionless(body))
                 enough = max(enough, sufficient / section.outline.box)
         return (SECTION_OF_MOTION if name in MOTIONS else SECTION) * enough**2
-
-    def _elements(self, end: Increment) -> tuple[float, float | None]:
-        """Elements over the contact and the stick radius; None without shear."""
-        per_length = self.result.discretisation.elements_per_radius / self.result.radius
-        stick = None if end.stick_radius is None else per_length * end.stick_radius
-        return per_length * end.contact_radius, stick
-
-
-def _elements_per(lengthscale: Lengthscale, contact: float, stick: float | None) -> float:
-    """Elements on what a quantity is resolved by."""
-    if stick is None or lengthscale is Lengthscale.CONTACT:
-        return contact
-    if lengthscale is Lengthscale.STICK:
-        return max(stick, 1.0)
-    annulus = max(contact - stick, LEAST[Lengthscale.ANNULUS])
-    if lengthscale is Lengthscale.ANNULUS:
-        return annulus
-    return contact / float(np.sqrt(1 + 1 / annulus))
-
-
-def _missed(lengthscale: Lengthscale, contact: float, stick: float | None) -> float:
-    """Part of the stick radius that a slip annulus of less than an element takes, unseen."""
-    narrow = stick is not None and contact - stick < LEAST_ANNULUS
-    return 1 / contact if narrow and lengthscale is Lengthscale.STICK else 0.0
-
-
-def _resolved(lengthscale: Lengthscale, contact: float, stick: float | None, carried: bool) -> bool:
-    """Whether differences between levels mean anything.
-
-    carried  whether a tangential force or torque acts: then there is slip, seen or not
-    """
-    if contact < LEAST[Lengthscale.CONTACT]:
-        return False
-    if lengthscale is Lengthscale.STICK:
-        return stick is not None and stick >= LEAST[Lengthscale.STICK]
-    if lengthscale is Lengthscale.ANNULUS and stick is not None:
-        annulus = contact - stick
-        return not (carried or annulus > 0) or annulus >= LEAST[Lengthscale.ANNULUS]
-    return True

@@ -39,19 +39,33 @@ def values_of(result: Result, cycles: Sequence[FrettingCycle]) -> tuple[Values, 
 
 def charged_by_increments(
     result: Result, cycles: Sequence[FrettingCycle]
-) -> tuple[Mapping[str, float], ...]:
+) -> tuple[Mapping[str, float | None], ...]:
     """Of every step by how much increments leave its energies uncertain, so far as increments tell
-    that themselves [force length]."""
+    that themselves [force length]; None of one that they ought to tell and do not."""
     uncertain = [end.dissipation_uncertainty for end in result.steps]
     starts = {cycle.cycle.end: cycle.cycle.start for cycle in cycles}
     found = []
-    for step, after in enumerate(uncertain, start=1):
-        known = {} if after is None else {"dissipated_energy": after}
-        before = uncertain[starts[step] - 1] if step in starts else None
+    for end, after in zip(result.steps, uncertain, strict=True):
+        known: dict[str, float | None] = {"input_work": _open_work(end)}
+        if after is not None:
+            known["dissipated_energy"] = after
+        before = uncertain[starts[end.step] - 1] if end.step in starts else None
         if after is not None and before is not None:
             known["energy_per_cycle"] = after - before
         found.append(known)
     return tuple(found)
+
+
+def _open_work(end: State) -> float | None:
+    """By how much the sum of trapezoids misses the work of the loads, which is all that is stored
+    and lost [force length]; None where the balance is not known."""
+    lost = 0.0 if end.dissipated_energy is None else end.dissipated_energy
+    left = end.unresolved_work
+    if left is None:
+        if end.input_work is None or end.elastic_energy is None:
+            return None
+        left = end.input_work - end.elastic_energy - lost
+    return abs(left) + (end.dissipation_uncertainty or 0.0)
 
 
 def _of_cycle(cycle: FrettingCycle) -> dict[str, float | None]:

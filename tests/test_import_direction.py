@@ -107,7 +107,7 @@ ORDERS = {
         *("files", "stress", "figures", "result_files", "stress_files"),
     ),
     "contact_errors": (
-        *("values", "rules", "estimate", "prescribed", "half_the_cells", "on_cells"),
+        *("values", "rules", "estimate", "prescribed", "levels", "half_the_cells", "on_cells"),
         *("element_rules", "on_elements", "of_stress"),
         *("solve_cost", "ladder", "asked", "climb", "price", "ladder_on_cells"),
         "ladder_on_elements",

@@ -10,7 +10,8 @@ from contact_scenes import APPROACH, LOAD, MU, NU, YOUNG, A, grid, hertz, scene,
 from matplotlib.figure import Figure
 
 from contact_errors import estimate
-from contact_errors.half_the_cells import recut
+from contact_errors.half_the_cells import recut_plan
+from contact_errors.levels import path_changes, recut
 from contact_errors.of_stress import on_wide_cells, stress_errors
 from contact_errors.on_cells import stated_errors
 from contact_errors.rules import RULES, Rule
@@ -154,12 +155,33 @@ def test_a_companion_that_takes_more_than_the_run_is_given_up(
     from contact_errors import half_the_cells
 
     result = solve(scene({"normal_force": 1e3}), grid(16), 1e-8)
-    monkeypatch.setattr(half_the_cells, "A_SECOND", 0)
+    monkeypatch.setattr(half_the_cells, "FEW_CONVOLUTIONS", 0)
     assert stated_errors(result).companions[0].refused is None
     monkeypatch.setattr(half_the_cells, "MOST_CONVOLUTIONS", 0.1)
     stated = stated_errors(result)
     assert "more than the run itself" in (stated.companions[0].refused or "")
     assert stated.steps[0]["approach"].error is None
+
+
+def test_the_error_of_the_work_covers_what_its_trapezoids_miss() -> None:
+    # Nothing is lost: the work is the energy stored, 2/5 of load times approach (Hertz).
+    result = solve(scene({"normal_force": 1e3, "increments": 2}), grid(24), 1e-8)
+    (errors,) = stated_errors(result).steps
+    end = result.steps[0]
+    assert end.input_work is not None
+    missed = abs(end.input_work - 0.4 * 1e3 * hertz().approach)
+    assert missed > 1e-2 * end.input_work
+    assert missed <= size(errors["input_work"]) <= 2 * missed
+
+
+def test_doubled_increments_tell_half_of_an_error_that_falls_with_their_number() -> None:
+    exact, off = 1.0, 0.2
+    few, many = 2, 8
+    of = {n: {"shift": np.array([exact + off / n])} for n in (few, recut(few), many, recut(many))}
+    (told,) = path_changes([of[few]], [of[recut(few)]], [few], [True])
+    assert told["shift"] == pytest.approx(off / few)
+    (told,) = path_changes([of[many]], [of[recut(many)]], [many], [True])
+    assert told["shift"] == pytest.approx(off / many)
 
 
 def test_few_increments_are_doubled_where_many_are_halved() -> None:
@@ -170,8 +192,8 @@ def test_few_increments_are_doubled_where_many_are_halved() -> None:
     )
     decided = plan(steps)
     assert [step.path_matters for step in decided.path] == [False, True]
-    assert recut(decided).increments == (3, 4)
-    assert recut(decided.cut_into((3, 2))).increments == (3, 4)
+    assert recut_plan(decided).increments == (3, 4)
+    assert recut_plan(decided.cut_into((3, 2))).increments == (3, 4)
 
 
 @pytest.mark.parametrize("cells", [20, 32])
