@@ -26,6 +26,7 @@ ORDER = (
     "frf",
     "influence",
     "operator",
+    "edge",
     "stress",
     "multipliers",
     "admissible_shear",
@@ -64,6 +65,7 @@ ORDER = (
 
 ORDERS = {
     "semi_analytical": ORDER,
+    "semi_analytical.edge": ("means", "quadratic", "fit", "shape"),
     "fem_reference": (
         *("memory", "scales", "mesh", "elasticity", "path", "refusals"),
         *("effects", "plan", "loads", "residuals", "fields", "energy", "model", "history"),

@@ -1,0 +1,69 @@
+"""Weighted quadratic fits to cell means on square windows."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from semi_analytical.edge.quadratic import Quadratic
+
+Field = NDArray[np.float64]
+Indices = NDArray[np.intp]
+
+# Decides only what the data leave open.
+RIDGE = 1e-13
+
+
+@dataclass(frozen=True)
+class Stencil:
+    """Window of (2 reach + 1)² cells with weights exp(-r²/(2 width²)), lengths in cells."""
+
+    reach: int
+    width: float
+
+
+NARROW, WIDE, WIDER = Stencil(3, 1.7), Stencil(5, 2.5), Stencil(6, 3.0)
+
+
+@dataclass(frozen=True)
+class Fits:
+    """Fits about cells, one per cell, all of one shape.
+
+    quadratic  about the centres of the cells
+    rms        weighted root mean square of what the fit leaves of the data
+    count      data that it could use
+    """
+
+    quadratic: Quadratic
+    rms: Field
+    count: Indices
+
+
+def fit_about(data: Field, weight: Field, i: Indices, j: Indices, stencil: Stencil) -> Fits:
+    """Least squares about the cells (i, j), shape (n,).
+
+    data    (nx, ny) cell means
+    weight  (nx, ny) beside that of the stencil; zero where there are none
+    """
+    reach = stencil.reach
+    shift = np.arange(-reach, reach + 1)
+    dx, dy = (grid.ravel().astype(float) for grid in np.meshgrid(shift, shift, indexing="ij"))
+    at = (i[:, None] + dx.astype(int) + reach, j[:, None] + dy.astype(int) + reach)
+    given, believed = (np.pad(field, reach)[at] for field in (data, weight))
+    believed = believed * np.exp(-(dx**2 + dy**2) / (2 * stencil.width**2))
+    columns = (np.ones_like(dx), dx, dy, dx**2 / 2 + 1 / 24, dx * dy, dy**2 / 2 + 1 / 24)
+    basis = np.stack(columns, axis=-1)
+    products = (basis[:, :, None] * basis[:, None, :]).reshape(-1, 36)
+    normal = (believed @ products).reshape(-1, 6, 6)
+    normal += RIDGE * np.eye(6) * (np.trace(normal, axis1=1, axis2=2)[:, None, None] + 1e-30)
+    right = (believed * given) @ basis
+    found = np.linalg.solve(normal, right[..., None])[..., 0]
+    left = given - found @ basis.T
+    total = np.maximum(np.sum(believed, axis=1), 1e-30)
+    return Fits(
+        Quadratic(i.astype(float), j.astype(float), *found.T),
+        np.sqrt(np.sum(believed * left**2, axis=1) / total),
+        np.count_nonzero(believed, axis=1),
+    )

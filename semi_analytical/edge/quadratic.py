@@ -1,0 +1,63 @@
+"""Quadratics about places between the cells, one per place."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from semi_analytical.edge.means import mean_power
+
+Field = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Quadratic:
+    """phi = f + f_x dx + f_y dy + (f_xx dx² + 2 f_xy dx dy + f_yy dy²)/2 about places (x, y), all
+    of one shape; lengths are cells."""
+
+    x: Field
+    y: Field
+    f: Field
+    f_x: Field
+    f_y: Field
+    f_xx: Field
+    f_xy: Field
+    f_yy: Field
+
+    @property
+    def slope(self) -> Field:
+        """|grad phi| there."""
+        return np.hypot(self.f_x, self.f_y)
+
+    def at(self, dx: Field, dy: Field) -> Field:
+        """Values at dx, dy from the places; more axes of dx, dy go in front."""
+        bend = (self.f_xx * dx + 2 * self.f_xy * dy) * dx + self.f_yy * dy * dy
+        return np.asarray(self.f + self.f_x * dx + self.f_y * dy + bend / 2)
+
+    def about(self, x: Field, y: Field) -> Quadratic:
+        """The same functions about other places."""
+        dx, dy = x - self.x, y - self.y
+        return Quadratic(
+            *np.broadcast_arrays(
+                x,
+                y,
+                self.at(dx, dy),
+                self.f_x + self.f_xx * dx + self.f_xy * dy,
+                self.f_y + self.f_xy * dx + self.f_yy * dy,
+                self.f_xx,
+                self.f_xy,
+                self.f_yy,
+            )
+        )
+
+    def cell_mean(self, exponent: float | Field) -> Field:
+        """Mean of phi_+^exponent over the unit cell about every place, by the slope there; 0 gives
+        the covered part."""
+        return mean_power(self.mean, self.f_x, self.f_y, exponent)
+
+    @property
+    def mean(self) -> Field:
+        """Mean of phi over the unit cell about every place."""
+        return np.asarray(self.f + (self.f_xx + self.f_yy) / 24)

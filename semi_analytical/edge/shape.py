@@ -1,0 +1,145 @@
+"""Shape of the edge of a region: phi = p^(1/alpha), fitted to cell means of p inside it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.ndimage import distance_transform_edt
+
+from semi_analytical.edge.fit import Fits, Indices, Stencil, fit_about
+from semi_analytical.edge.means import centre_value
+from semi_analytical.edge.quadratic import Quadratic
+
+Field = NDArray[np.float64]
+Mask = NDArray[np.bool_]
+
+CUT_WEIGHT = 0.2
+LEAST_DATA = 10
+# Largest rms of a fit in the fall of phi over a cell.
+LARGEST_RMS = 0.25
+# Cells inwards of the edge about which a fit may be asked for.
+ASKED = 3.5
+LONGEST_STEP = 1.0
+REFITS = 6
+
+
+@dataclass(frozen=True)
+class EdgeShape:
+    """phi on the cells of a region, ready to be fitted anywhere near its edge.
+
+    means      (nx, ny) cell means of p that it was made of
+    phi        (nx, ny) cell means of phi, where weight > 0
+    weight     (nx, ny) how much a cell is believed
+    exponent   alpha, a number or (nx, ny)
+    stencil    of the fits
+    nearest    (2, nx, ny) indices of the nearest cell of the region
+    """
+
+    means: Field
+    phi: Field
+    weight: Field
+    exponent: float | Field
+    stencil: Stencil
+    nearest: Indices
+
+    def fits(self, i: Indices, j: Indices) -> Fits:
+        """Fits about cells of the region, shape (n,)."""
+        return fit_about(self.phi, self.weight, i, j, self.stencil)
+
+    def about(self, x: Field, y: Field) -> tuple[Quadratic, Mask]:
+        """phi about any places near the edge, shape (n,), and whether to believe it.
+
+        Outside of the region from the fit about its nearest cell: a window centred outside has its
+        data on one side only, which costs two digits.
+        """
+        last = np.array(self.means.shape) - 1
+        i, j = (np.clip(np.rint(at), 0, n).astype(int) for at, n in zip((x, y), last, strict=True))
+        fits = self.fits(*self.nearest[:, i, j])
+        return fits.quadratic.about(x, y), believed(fits)
+
+    def edge_points(self, i: Indices, j: Indices) -> tuple[Quadratic, Mask]:
+        """phi about the points of the edge nearest to cells (n,), and whether to believe it.
+
+        By steps down the slope, with a fit about every place; f is zero up to rounding.
+        """
+        x, y = i.astype(float), j.astype(float)
+        for _ in range(REFITS):
+            here, safe = self.about(x, y)
+            x, y = _downhill(here)
+        on_it = here.about(x, y)
+        for _ in range(REFITS):
+            on_it = here.about(*_downhill(on_it))
+        return on_it, safe & (np.hypot(on_it.x - i, on_it.y - j) < 2.0)
+
+
+def _downhill(here: Quadratic) -> tuple[Field, Field]:
+    """Places where the linear part of phi vanishes, at most a cell away."""
+    squared = np.maximum(here.slope**2, np.finfo(float).tiny)
+    step = here.f / squared
+    step = step * np.minimum(1.0, LONGEST_STEP / np.maximum(np.abs(step) * here.slope, 1e-30))
+    return here.x - step * here.f_x, here.y - step * here.f_y
+
+
+def believed(fits: Fits) -> Mask:
+    """Whether there is enough data, and it is near the fit."""
+    few = fits.count < LEAST_DATA
+    return np.asarray(~few & (fits.rms < LARGEST_RMS * fits.quadratic.slope))
+
+
+def edge_shape(
+    means: Field,
+    region: Mask,
+    stencil: Stencil,
+    *,
+    rings: int = 1,
+    exponent: float | Field = 0.5,
+    trusted: Mask | None = None,
+    rounds: int = 3,
+) -> EdgeShape:
+    """Shape of the edge of a region.
+
+    means     (nx, ny) cell means of p, positive in the region
+    region    (nx, ny) cells with a fit of their own; about others it is that of their nearest
+    stencil   `NARROW` with one ring dropped; `WIDE` with two
+    rings     outermost layers of cells that are no data, by distance to the nearest cell outside:
+              1 where the means are exact or corrected (the cut cells), 2 where they are those of a
+              solver that knows no edge (they carry its error), 0 for all, cut ones at a fifth
+    exponent  alpha of p ~ s^alpha, s the distance from the edge; may vary slowly, (nx, ny)
+    trusted   (nx, ny) cells of the region that may be data; None for all
+    rounds    data of the first are means^(1/alpha), from cells beyond the cut ones; of the others
+              `centre_value` with the slope of the last
+    Raises ValueError where no cell is left to be data.
+    """
+    means = np.where(region, means, 0.0)
+    depth, nearest = _layers(region)
+    usable = region if trusted is None else region & trusted
+    data = usable & (depth >= rings + 0.5)
+    inner = usable & (depth >= max(rings, 1) + 0.5)
+    if not np.any(inner):
+        raise ValueError(
+            f"the region is {np.max(depth):.3g} cells deep, {rings} rings are dropped: no cell is "
+            "left to fit its edge to; take smaller cells"
+        )
+    alpha = np.broadcast_to(exponent, means.shape)
+    band = np.argwhere(usable & (depth < ASKED + 1.5 * stencil.reach)).T
+    phi, weight = means ** (1 / alpha), inner.astype(float)
+    on_band = tuple(band)
+    for _ in range(rounds - 1):
+        quadratic = fit_about(phi, weight, band[0], band[1], stencil).quadratic
+        slopes = quadratic.f_x, quadratic.f_y
+        phi = phi.copy()
+        phi[on_band] = centre_value(means[on_band], *slopes, alpha[on_band])
+        cut = np.abs(quadratic.mean) < (np.abs(slopes[0]) + np.abs(slopes[1])) / 2
+        weight = data.astype(float)
+        weight[on_band] *= np.where(cut, CUT_WEIGHT, 1.0)
+    return EdgeShape(means, phi, weight, exponent, stencil, nearest)
+
+
+def _layers(region: Mask) -> tuple[Field, Indices]:
+    """Distance of every cell of a region from the nearest outside, (nx, ny), beyond the array too;
+    and the nearest cell of the region to every cell, (2, nx, ny)."""
+    depth = distance_transform_edt(np.pad(region, 1))[1:-1, 1:-1]
+    nearest = distance_transform_edt(~region, return_distances=False, return_indices=True)
+    return np.asarray(depth), np.asarray(nearest)

@@ -1,0 +1,153 @@
+"""The edge inside the cells: means of cut-off powers, fits to means, points of the edge."""
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+from scipy.integrate import quad
+from scipy.ndimage import binary_erosion, distance_transform_edt
+
+from semi_analytical.edge.fit import NARROW, WIDE, Stencil, fit_about
+from semi_analytical.edge.means import centre_value, mean_power
+from semi_analytical.edge.shape import EdgeShape, edge_shape
+from tests.cell_means import ellipse_means, elliptic_radius
+
+Field = NDArray[np.float64]
+
+EXPONENTS = (0.0, 0.5, 0.51, 1.5, -0.5)
+# Value and slopes: a corner, an edge, along a side, almost along it, inside, flat, far inside, out.
+PLACES = (
+    (-0.45, 0.7, 0.4),
+    (0.1, -0.7, 0.4),
+    (0.2, 0.0, 1.0),
+    (0.2, 1.0, 2e-4),
+    (2.0, 0.3, -0.1),
+    (0.3, 0.0, 0.0),
+    (9.0, 1.0, -2.0),
+    (-0.6, 0.7, 0.4),
+)
+CELLS = 40
+
+
+@pytest.mark.parametrize("exponent", EXPONENTS)
+@pytest.mark.parametrize("place", PLACES)
+def test_mean_of_a_power_is_its_integral(
+    place: tuple[float, float, float], exponent: float
+) -> None:
+    """With the larger slope substituted s = t² from where the function starts."""
+    f, b, c = place[0], max(np.abs(place[1:])), min(np.abs(place[1:]))
+    t, weight = np.polynomial.legendre.leggauss(12)
+
+    def along(y: float) -> float:
+        top, bottom = (max(f + side * b / 2 + c * y, 0.0) for side in (1, -1))
+        low, high = np.sqrt([bottom, top])
+        s = low + (t + 1) * (high - low) / 2
+        return float((high - low) / b * weight @ s ** (2 * exponent + 1)) if top > bottom else 0.0
+
+    starts = [(side * b / 2 - f) / c for side in (1, -1)] if c else []
+    kinks = [y for y in starts if abs(y) < 0.5]
+    expected = quad(along, -0.5, 0.5, points=kinks)[0] if b else max(f, 0.0) ** exponent
+    found = mean_power(*(np.array(v) for v in place), exponent)
+    assert found == pytest.approx(expected, rel=1e-7, abs=1e-12)
+
+
+@pytest.mark.parametrize("exponent", EXPONENTS[1:-1])
+def test_derivative_of_a_mean_is_the_mean_of_one_power_less(exponent: float) -> None:
+    f, slope_x, slope_y = np.array(PLACES[:5]).T
+    step = 1e-5
+    up, down = (mean_power(f + d, slope_x, slope_y, exponent) for d in (step, -step))
+    expected = exponent * mean_power(f, slope_x, slope_y, exponent - 1)
+    np.testing.assert_allclose((up - down) / (2 * step), expected, rtol=1e-4)
+
+
+@pytest.mark.parametrize("exponent", EXPONENTS[1:-1])
+@pytest.mark.parametrize("size", [1.0, 1e18])
+def test_centre_value_undoes_the_mean(exponent: float, size: float) -> None:
+    f, slope_x, slope_y = size * np.array(PLACES[:-1]).T
+    mean = mean_power(f, slope_x, slope_y, exponent)
+    found = centre_value(mean, slope_x, slope_y, exponent)
+    np.testing.assert_allclose(found, f, rtol=1e-9)
+
+
+@pytest.mark.parametrize("stencil", [NARROW, WIDE])
+def test_a_quadratic_is_found_from_its_cell_means(stencil: Stencil) -> None:
+    x, y = np.meshgrid(np.arange(20.0), np.arange(18.0), indexing="ij")
+    squares = x**2 + 1 / 12, y**2 + 1 / 12
+    means = 3 - 2 * x + 0.5 * y + 0.3 * squares[0] - 0.2 * x * y + 0.7 * squares[1]
+    weight = (y < 12).astype(float)
+    i, j = np.array([9, 2]), np.array([11, 12])  # the last row of the data, and beside them
+    found = fit_about(means, weight, i, j, stencil).quadratic
+    np.testing.assert_allclose(found.f, 3 - 2 * i + 0.5 * j + 0.3 * i**2 - 0.2 * i * j + 0.7 * j**2)
+    np.testing.assert_allclose(found.f_x, -2 + 0.6 * i - 0.2 * j)
+    np.testing.assert_allclose(found.f_y, 0.5 - 0.2 * i + 1.4 * j)
+    for bend, expected in ((found.f_xx, 0.6), (found.f_xy, -0.2), (found.f_yy, 1.4)):
+        np.testing.assert_allclose(bend, expected, rtol=1e-6)
+    np.testing.assert_allclose(
+        found.about(np.array(4.0), np.array(5.0)).f, 3 - 8 + 2.5 + 4.8 - 4 + 17.5
+    )
+
+
+def border(shape: EdgeShape) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+    region = shape.means > 0
+    i, j = np.nonzero(region & ~binary_erosion(region))
+    return i, j
+
+
+# Radii in cells, angle; and the largest error of the radius there, which falls like their square.
+CIRCLE, ELLIPSE = ((13.3, 13.3), 0.0), ((15.0, 9.0), 0.5)
+BOUNDS = {NARROW: 2e-4, WIDE: 3e-5}
+
+
+@pytest.mark.parametrize("exponent", [0.5, 0.51, 1.5])
+@pytest.mark.parametrize(("stencil", "rings"), [(NARROW, 1), (WIDE, 2)])
+@pytest.mark.parametrize(("radii", "angle"), [CIRCLE, ELLIPSE])
+def test_edge_points_are_on_the_edge_that_exact_means_have(
+    radii: tuple[float, float], angle: float, stencil: Stencil, rings: int, exponent: float
+) -> None:
+    centre = (19.37, 19.81)
+    means = ellipse_means(CELLS, radii, centre, angle, exponent)
+    shape = edge_shape(means, means > 0, stencil, rings=rings, exponent=exponent)
+    points, safe = shape.edge_points(*border(shape))
+    assert np.all(safe)
+    assert np.max(np.abs(points.f)) < 1e-12 * np.max(points.slope)
+    error = elliptic_radius(points.x, points.y, radii, centre, angle) - 1
+    assert np.max(np.abs(error)) < (3.0 if exponent > 1 else 1.0) * BOUNDS[stencil]
+
+
+def test_covered_parts_of_cells_add_up_to_the_area() -> None:
+    radii, angle = ELLIPSE
+    means = ellipse_means(CELLS, radii, (19.37, 19.81), angle)
+    shape = edge_shape(means, means > 0, WIDE, rings=2)
+    i, j = np.argwhere((means == 0) | (means > 0)).T
+    near = np.abs(elliptic_radius(i, j, radii, (19.37, 19.81), angle) - 1) < 0.2
+    here, _ = shape.about(i[near].astype(float), j[near].astype(float))
+    inside = np.sum(elliptic_radius(i[~near], j[~near], radii, (19.37, 19.81), angle) < 1)
+    area = inside + np.sum(here.cell_mean(0.0))
+    assert area == pytest.approx(np.pi * radii[0] * radii[1], rel=1e-4)
+
+
+@pytest.mark.parametrize(("stencil", "rings"), [(NARROW, 1), (WIDE, 2)])
+def test_what_is_in_the_dropped_rings_does_not_matter(stencil: Stencil, rings: int) -> None:
+    means = ellipse_means(CELLS, (13.3, 13.3), (19.37, 19.81))
+    wrong = np.where(distance_transform_edt(means > 0) < rings + 0.5, 3.0, 1.0) * means
+    both = [edge_shape(m, means > 0, stencil, rings=rings) for m in (means, wrong)]
+    exact, of_wrong = (shape.edge_points(*border(both[0]))[0] for shape in both)
+    np.testing.assert_allclose(of_wrong.x, exact.x, atol=1e-9)
+    with_them = edge_shape(wrong, means > 0, stencil, rings=rings - 1)
+    assert np.max(np.abs(with_them.edge_points(*border(both[0]))[0].x - exact.x)) > 1e-2
+
+
+def test_untrusted_cells_are_no_data() -> None:
+    """Half of the region: about the other half there is nothing to believe."""
+    means = ellipse_means(CELLS, (13.3, 13.3), (19.37, 19.81))
+    trusted = np.broadcast_to(np.arange(CELLS)[:, None] < 20, means.shape)
+    shape = edge_shape(means, means > 0, NARROW, trusted=trusted)
+    i, j = border(shape)
+    _, safe = shape.edge_points(i, j)
+    assert np.all(safe[i < 16])
+    assert not np.any(safe[i > 24])
+
+
+def test_a_region_without_data_is_refused() -> None:
+    means = ellipse_means(CELLS, (13.3, 1.2), (19.37, 19.81))
+    with pytest.raises(ValueError, match="take smaller cells"):
+        edge_shape(means, means > 0, WIDE, rings=2)
