@@ -19,9 +19,10 @@ from semi_analytical.frf.stack import Stack, stack_of
 from semi_analytical.influence.layered import LayeredCoefficients
 from verification.judging.case import Level
 from verification.judging.outcome import Status
-from verification.peers import measure
-from verification.peers.environment import PEERS, Peer, made_environment
-from verification.peers.measure import errors_of, peer_run, request_of
+from verification.peers.asked import ASKED, UNIT, AskedContact
+from verification.peers.costs import cost_table, exponents
+from verification.peers.environment import OURSELVES, PEERS, Peer, made_environment
+from verification.peers.measure import errors_of, one_run
 from verification.problems.layered_scene import coated, film
 from verification.report.prices import price_table
 from verification.running.cold_cache import CACHE, cold_cache
@@ -348,13 +349,15 @@ def test_sampled_coefficients_tend_to_the_exact_ones() -> None:
 
 def answered(contact: str, cells: int) -> dict[str, Any]:
     """The closed form, as a driver would send it."""
-    request = request_of(contact, cells)
+    asked = ASKED[contact]
+    request = asked.request(cells)
     x = (np.arange(cells) + 0.5) * request["window"] / cells - request["window"] / 2
     r = np.hypot(x[:, None], x[None, :])
-    unit, c = measure.UNIT, (1 - measure.PART) ** (1 / 3)
-    shear = measure.FRICTION * (unit.pressure(r) - c * unit.pressure(r / c))
+    unit, c = UNIT, (1 - asked.part) ** (1 / 3)
+    shear = asked.friction * (unit.pressure(r) - c * unit.pressure(r / c))
     return {
         "version": "1", "iterations": 3, "converged": True, "seconds": 0.1, "repeats": 5,
+        "memory": 1.0,
         "approach": -unit.approach, "pressure": unit.pressure(r).tolist(),
         "shear": [shear.tolist(), np.zeros_like(shear).tolist()],
     }  # fmt: skip
@@ -371,7 +374,7 @@ def driver_that_prints(text: str) -> Callable[..., subprocess.CompletedProcess[s
 @pytest.mark.parametrize("contact", ["hertz", "cattaneo"])
 def test_the_closed_form_has_no_error_as_an_answer(contact: str) -> None:
     run = driver_that_prints(json.dumps(answered(contact, 16)))
-    record = peer_run(Path("python"), PEERS[0], contact, 16, run)
+    record = one_run(Path("python"), PEERS[0], ASKED[contact], 16, run)
     assert "lost" not in record
     limit = {"peak": 0.01}  # no cell is at the centre
     assert all(abs(error) < limit.get(name, 1e-12) for name, error in record["errors"].items())
@@ -388,20 +391,20 @@ def test_the_closed_form_has_no_error_as_an_answer(contact: str) -> None:
     ],
 )
 def test_an_answer_that_is_none_is_reported(text: str, reason: str) -> None:
-    record = peer_run(Path("python"), PEERS[0], "hertz", 16, driver_that_prints(text))
+    record = one_run(Path("python"), PEERS[0], ASKED["hertz"], 16, driver_that_prints(text))
     assert reason in record["lost"]
     assert "errors" not in record
 
 
 def test_a_driver_that_dies_is_reported() -> None:
     missing = Peer("nothing==1", "nothing_of_this_name")
-    record = peer_run(Path(sys.executable), missing, "hertz", 16)
+    record = one_run(Path(sys.executable), missing, ASKED["hertz"], 16)
     assert "nothing_of_this_name_driver" in record["lost"]
 
 
 @pytest.mark.parametrize("peer", PEERS, ids=lambda peer: str(peer.module))
 def test_a_driver_without_its_code_is_reported(peer: Peer) -> None:
-    record = peer_run(Path(sys.executable), peer, "hertz", 16)
+    record = one_run(Path(sys.executable), peer, ASKED["hertz"], 16)
     assert f"No module named '{peer.module}'" in record["lost"]
 
 
@@ -421,7 +424,36 @@ def test_a_peer_that_cannot_be_installed_is_left_out_and_named(tmp_path: Path) -
 
 
 def test_errors_of_a_peer_are_those_of_the_study() -> None:
-    request = request_of("hertz", 16)
+    request = ASKED["hertz"].request(16)
     found = answered("hertz", 16)
     found["pressure"] = (1.01 * np.array(found["pressure"])).tolist()
-    assert errors_of("hertz", request, found)["pressure"] == pytest.approx(0.01)
+    assert errors_of(ASKED["hertz"], request, found)["pressure"] == pytest.approx(0.01)
+
+
+@pytest.mark.parametrize("contact", ASKED.values(), ids=lambda contact: str(contact.name))
+def test_ours_enters_by_the_door_of_the_others(contact: AskedContact) -> None:
+    run = one_run(Path(sys.executable), OURSELVES, contact, 32)
+    assert "lost" not in run, run
+    assert run["seconds"] > 0
+    assert all(abs(error) < 0.05 for error in run["errors"].values())
+    assert bool(run["errors"]) == contact.others
+
+
+def test_costs_grow_by_the_power_that_they_were_made_with() -> None:
+    runs = [
+        {"code": "slipstick", "contact": "hertz", "cells": n, "seconds": 1e-6 * n**2.2,
+         "iterations": 9, "memory": 1.0}
+        for n in (32, 64, 128, 256)
+    ]  # fmt: skip
+    assert exponents({"runs": runs})["hertz"] == pytest.approx(1.1)
+    assert exponents({"runs": runs[:2]}) == {}
+
+
+def test_the_cheapest_other_code_is_the_one_that_ours_is_beside() -> None:
+    def run(code: str, seconds: float, **more: Any) -> dict[str, Any]:
+        return {"code": code, "contact": "hertz", "cells": 64, "seconds": seconds,
+                "iterations": 30, "memory": 2.0, "converged": True, **more}  # fmt: skip
+
+    runs = [run("slipstick", 0.5), run("a", 0.25), run("b", 0.2), run("c", 0.1, converged=False)]
+    (row,) = cost_table({"runs": runs}).rows
+    assert row[-3:] == ("b", "0.2", "2.5")

@@ -36,6 +36,7 @@ COMMANDS: dict[str, LazyCommand] = {
         "verify": "Measure the accuracy against closed forms and write the report.",
         "compare": "Say what changed since the numbers that were accepted, or since a report.",
         "baseline": "List the accepted numbers, or accept those of a report.",
+        "bench": "Measure what the method costs, beside other codes in turn.",
         "study": "Compute a study on a pool of processes and write its page.",
         "report": "Render the report again from recorded results.",
         "schema": "Print the JSON Schema of a scene file, a summary or a report.",

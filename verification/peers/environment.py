@@ -37,6 +37,7 @@ class Peer:
         return f"verification.peers.drivers.{self.module.lower()}_driver"
 
 
+OURSELVES = Peer("slipstick", "slipstick", friction=True)
 PEERS = (
     Peer(
         "aspher==0.1.3.post1", "aspher", friction=True,

@@ -1,4 +1,4 @@
-"""What all drivers share: the gap of a ball, the clock, and the way in and out."""
+"""What all drivers share: the gap of a ball, the clock and the memory, and the way in and out."""
 
 from __future__ import annotations
 
@@ -9,6 +9,7 @@ import sys
 import time
 from collections.abc import Callable, Iterable, Mapping
 from importlib import import_module
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -33,8 +34,8 @@ def gap_of(request: Request) -> NDArray[np.float64]:
 
 
 def answer(solve: Callable[[Request], Answer], *modules: str) -> None:
-    """Read a request, solve it several times, write the answer with the median of CPU seconds;
-    importing the modules is not part of them."""
+    """Read a request, solve it several times, write the answer with the median of CPU seconds and
+    the memory [MB] on top of what the imported modules take, which are not part of the seconds."""
     request = json.load(sys.stdin)
     with os.fdopen(os.dup(sys.stdout.fileno()), "w") as out:
         os.dup2(sys.stderr.fileno(), sys.stdout.fileno())  # whatever the code prints goes there
@@ -47,6 +48,7 @@ def _answered(
     for module in modules:
         import_module(module)
     seconds: list[float] = []
+    before = _memory("VmRSS")
     try:
         while len(seconds) < MOST_REPEATS and sum(seconds) < ENOUGH_SECONDS:
             started = time.process_time()
@@ -54,8 +56,15 @@ def _answered(
             seconds.append(time.process_time() - started)
     except CannotDo as error:
         return {"cannot": str(error)}
+    memory = _memory("VmHWM") - before
     for name in ("pressure", "shear"):
         if found[name] is not None:
             found[name] = np.asarray(found[name], dtype=float).tolist()
-    found |= {"seconds": statistics.median(seconds), "repeats": len(seconds)}
+    found |= {"seconds": statistics.median(seconds), "repeats": len(seconds), "memory": memory}
     return found
+
+
+def _memory(what: str) -> float:
+    """Of this process [MB], as Linux tells it: VmRSS now, VmHWM at most so far."""
+    lines = Path("/proc/self/status").read_text(encoding="ascii").splitlines()
+    return next(int(line.split()[1]) / 1024 for line in lines if line.startswith(f"{what}:"))

@@ -10,6 +10,8 @@ from verification.exhibits.chart import Chart
 from verification.exhibits.log_chart import drawable, log_chart, point_curves
 from verification.exhibits.numbers import plain
 from verification.exhibits.table import Table
+from verification.peers.costs import cost_table, growth
+from verification.peers.environment import OURSELVES
 from verification.references import load_reference
 from verification.studies.work_precision.contacts import CATTANEO, HERTZIAN
 from verification.studies.work_precision.point import Point, cheapest, dependable, seconds
@@ -17,7 +19,7 @@ from verification.studies.work_precision.point import Point, cheapest, dependabl
 NAME = "peers"
 OTHERS = "other codes, recorded"
 BESIDE = "semi-analytical, in their turn"  # our own runs of the record
-OURS = "slipstick"
+OURS = OURSELVES.module
 TOLD = (0.01, 0.001)  # errors that costs are told for
 # The first quantity of the contacts that they were asked for.
 JUDGED = {
@@ -94,10 +96,14 @@ def _ranked(points: Sequence[Point], target: float) -> list[Point]:
     return sorted((p for p in best if p is not None), key=seconds)
 
 
-def peer_table(record: Record) -> Table:
-    """Every run."""
+def peer_tables(record: Record) -> tuple[Table, ...]:
+    """Every run of all codes, and what ours costs beside the cheapest."""
+    return _runs(record), cost_table(record)
+
+
+def _runs(record: Record) -> Table:
     rows = []
-    for run in record["runs"]:
+    for run in (run for run in record["runs"] if run["contact"] in JUDGED):
         words = f"{run['code']} {run.get('version', '')}".strip()
         grid = f"{run['contact']}, {run['cells']} x {run['cells']}"
         if "lost" in run:
@@ -117,7 +123,7 @@ def peer_table(record: Record) -> Table:
 def peer_remarks(record: Record) -> tuple[str, ...]:
     """What the comparison rests on, and who is missing."""
     missing = [f"{name} could not be installed: {why}." for name, why in record["missing"].items()]
-    return (f"Other codes: {record['problem']}.", *missing)
+    return (f"Other codes: {record['problem']}.", growth(record), *missing)
 
 
 def _cells(record: Record) -> str:

@@ -31,7 +31,7 @@ from verification.studies.work_precision.recorded_peers import (
     peer_charts,
     peer_points,
     peer_remarks,
-    peer_table,
+    peer_tables,
     recorded_peers,
 )
 from verification.studies.work_precision.setting import PrecisionCase
@@ -77,7 +77,7 @@ def conclude(settings: Settings, records: Records) -> Conclusion:
             *statements_in(rows),
         ),
         answer=answer_in(WORK, rows),
-        tables=(*tables_in(WORK, rows), peer_table(peers)),
+        tables=(*tables_in(WORK, rows), *peer_tables(peers)),
         charts=(
             *(
                 work_chart(CONTACTS[c], q, everything[c, q])
