@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import replace
 
-from contact_errors.rules import FLAT, INFINITE, Lengthscale, Rule, doubled
+from contact_errors.rules import AT_EDGES, FLAT, INFINITE, Lengthscale, Rule, with_their_likes
 from contact_scene.geometry import ShapedBody
 
 PEAK = Rule(2, 0.25, 8, 1.6, path_factor=2.0)
@@ -20,46 +20,33 @@ STICK = Rule(1, 0.06, 2, 2.4, 2.0, 1.0, Lengthscale.STICK)
 SHIFT = Rule(2, 0.1, 1, 5.0, 3.0, 0.3, Lengthscale.SLIP)
 TWIST = Rule(2, 1.8, 4, 2.0, 3.0, 0.3, Lengthscale.SLIP)
 ENERGY = Rule(1.5, 0.27, 8, 1.9, lengthscale=Lengthscale.ANNULUS)
-# The largest of a field that has its largest slope there.
-EDGE = Rule(1, 0.3, 1, 1.5)
-TENSION = Rule(0.5, 0.0, 0, 1.6)
 
-RULES: dict[str, Rule] = {
-    "normal_force": APPROACH,
-    "approach": APPROACH,
-    "contact_area": doubled(RADIUS),
-    "contact_radius": RADIUS,
-    "peak_pressure": PEAK,
-    "tangential_force": SHIFT,
-    "tangential_shift": SHIFT,
-    "torque": TWIST,
-    "twist": TWIST,
-    "stick_area": doubled(STICK),
-    "stick_radius": STICK,
-    "dissipated_energy": ENERGY,
-    "energy_per_cycle": ENERGY,
-    "elastic_energy": replace(APPROACH, envelope=0.26),
-    "input_work": replace(SHIFT, envelope=0.26),
-    "slip_amplitude": EDGE,
-    "ruiz_f1": EDGE,
-    "ruiz_f2": TENSION,
-}
+RULES = with_their_likes(
+    {
+        "approach": APPROACH,
+        "contact_radius": RADIUS,
+        "peak_pressure": PEAK,
+        "tangential_shift": SHIFT,
+        "twist": TWIST,
+        "stick_radius": STICK,
+        "dissipated_energy": ENERGY,
+        "elastic_energy": replace(APPROACH, envelope=0.26),
+        "input_work": replace(SHIFT, envelope=0.26),
+        **AT_EDGES,
+    }
+)
 # Gauss points with quadratic displacements: motions converge faster, edges are fitted.
-AT_GAUSS_POINTS = {
-    "normal_force": Rule(1.5, 0.004, 4, 1.8, path_factor=1.5),
-    "approach": Rule(1.5, 0.004, 4, 1.8, path_factor=1.5),
-    "peak_pressure": Rule(1.5, 0.011, 4, 1.4, path_factor=2.0),
-    "contact_radius": Rule(1, 0.05, 8, 1.6, path_factor=1.5),
-    "contact_area": Rule(1, 0.1, 8, 1.6, path_factor=1.5),
-    "stick_radius": Rule(1, 0.06, 4, 1.9, 2.0, 1.0, Lengthscale.STICK),
-    "stick_area": Rule(1, 0.12, 4, 1.9, 2.0, 1.0, Lengthscale.STICK),
-    "tangential_shift": Rule(2, 0.05, 1, 1.4, 3.0, 0.3, Lengthscale.SLIP),
-    "tangential_force": Rule(2, 0.05, 1, 1.4, 3.0, 0.3, Lengthscale.SLIP),
-    "twist": Rule(2, 0.15, 4, 1.2, 3.0, 0.3, Lengthscale.SLIP),
-    "torque": Rule(2, 0.15, 4, 1.2, 3.0, 0.3, Lengthscale.SLIP),
-    "dissipated_energy": Rule(1.5, 0.05, 4, 1.6, lengthscale=Lengthscale.ANNULUS),
-    "energy_per_cycle": Rule(1.5, 0.05, 4, 1.6, lengthscale=Lengthscale.ANNULUS),
-}
+AT_GAUSS_POINTS = with_their_likes(
+    {
+        "approach": Rule(1.5, 0.004, 4, 1.8, path_factor=1.5),
+        "peak_pressure": Rule(1.5, 0.011, 4, 1.4, path_factor=2.0),
+        "contact_radius": Rule(1, 0.05, 8, 1.6, path_factor=1.5),
+        "stick_radius": Rule(1, 0.06, 4, 1.9, 2.0, 1.0, Lengthscale.STICK),
+        "tangential_shift": Rule(2, 0.05, 1, 1.4, 3.0, 0.3, Lengthscale.SLIP),
+        "twist": Rule(2, 0.15, 4, 1.2, 3.0, 0.3, Lengthscale.SLIP),
+        "dissipated_energy": Rule(1.5, 0.05, 4, 1.6, lengthscale=Lengthscale.ANNULUS),
+    }
+)
 # A slip annulus below so many elements may be missed altogether: the stick radius is off by one.
 LEAST_ANNULUS = 1.5
 # Where friction acts back on a pressing contact its pressure has a cusp on the axis.

@@ -75,44 +75,52 @@ TENSION = Rule(0.5, 0.0, 0, 1.6)
 INTERIOR = Rule(2, 0.0, 0, 0.6)
 
 
-def doubled(rule: Rule) -> Rule:
-    """Of the square of a quantity."""
-    return replace(rule, envelope=2 * rule.envelope)
+# Of the largest of fields, on cells as on elements.
+AT_EDGES = {"slip_amplitude": EDGE, "ruiz_f1": EDGE, "ruiz_f2": TENSION}
 
-
-RULES: dict[str, Rule] = {
-    "normal_force": replace(APPROACH, envelope=0.1),
-    "approach": APPROACH,
-    "contact_area": doubled(RADIUS),
-    "contact_radius": RADIUS,
-    "peak_pressure": PEAK,
-    "tangential_force": SHIFT,
-    "tangential_shift": SHIFT,
-    "torque": TWIST,
-    "twist": TWIST,
-    "moment": replace(APPROACH, envelope=0.1),
-    "tilt": replace(APPROACH, envelope=0.1),
-    "stick_area": doubled(STICK),
-    "stick_radius": STICK,
-    "dissipated_energy": ENERGY,
-    "energy_per_cycle": ENERGY,
-    "elastic_energy": replace(APPROACH, envelope=0.1),
-    "input_work": replace(SHIFT, envelope=0.12),
-    "slip_amplitude": EDGE,
-    "ruiz_f1": EDGE,
-    "ruiz_f2": TENSION,
+# Numbers that follow the law of another, and the squares of others.
+ALIKE = {
+    "normal_force": "approach",
+    "tangential_force": "tangential_shift",
+    "torque": "twist",
+    "moment": "tilt",
+    "energy_per_cycle": "dissipated_energy",
 }
+SQUARES = {"contact_area": "contact_radius", "stick_area": "stick_radius"}
+
+
+def with_their_likes(rules: Mapping[str, Rule]) -> dict[str, Rule]:
+    """Rules by the number, and of those that follow from them unless they have their own."""
+    alike = {name: rules[of] for name, of in ALIKE.items() if of in rules}
+    squares = {
+        name: replace(rules[of], envelope=2 * rules[of].envelope)
+        for name, of in SQUARES.items()
+        if of in rules
+    }
+    return alike | squares | dict(rules)
+
+
+RULES = with_their_likes(
+    {
+        "normal_force": replace(APPROACH, envelope=0.1),
+        "approach": APPROACH,
+        "contact_radius": RADIUS,
+        "peak_pressure": PEAK,
+        "tangential_shift": SHIFT,
+        "twist": TWIST,
+        "tilt": replace(APPROACH, envelope=0.1),
+        "stick_radius": STICK,
+        "dissipated_energy": ENERGY,
+        "elastic_energy": replace(APPROACH, envelope=0.1),
+        "input_work": replace(SHIFT, envelope=0.12),
+        **AT_EDGES,
+    }
+)
 
 # Where friction acts back on a pressing contact its pressure has a cusp on the axis.
 CUSP = {"peak_pressure": replace(PEAK, order=1, factor=1.65)}
-FLAT = {
-    "approach": Rule(1, 0.2, 8, 1.45, path_factor=1.5),
-    "normal_force": Rule(1, 0.2, 8, 1.45, path_factor=1.5),
-}
-CONE = {
-    "contact_radius": Rule(1.25, 1.0, 4, 1.2, path_factor=1.5),
-    "contact_area": Rule(1.25, 2.0, 4, 1.2, path_factor=1.5),
-}
+FLAT = with_their_likes({"approach": Rule(1, 0.2, 8, 1.45, path_factor=1.5)})
+CONE = with_their_likes({"contact_radius": Rule(1.25, 1.0, 4, 1.2, path_factor=1.5)})
 # Infinite in the exact answer: no number of cells has an error.
 INFINITE = frozenset({"peak_pressure"})
 

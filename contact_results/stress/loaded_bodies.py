@@ -113,9 +113,12 @@ def _stated_by_increments(path: Path, step: int) -> float | None:
 
 def _by_increments(end: State, errors: Mapping[str, StatedError]) -> float | None:
     """Stress is linear in the tractions, whose largest change by increments is that of the peak
-    pressure or, with the shear, of the shift."""
+    pressure or, with the shear, of the shift; of the contact radius, where the peak has no error
+    because it is infinite. None where nobody tells."""
+    peak = errors.get("peak_pressure")
+    of_pressure = "contact_radius" if peak is None or peak.error is None else "peak_pressure"
     parts = []
-    for name in ("peak_pressure", "tangential_shift"):
+    for name in (of_pressure, "approach", "tangential_shift"):
         value, error = getattr(end, name), errors.get(name)
         if value is None or error is None or error.status is ErrorStatus.EXACT:
             continue
