@@ -8,9 +8,10 @@ largest tension within it. Authors who take the whole range for δ get twice the
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import reduce
+from itertools import chain, groupby
 from typing import TYPE_CHECKING, Annotated, Any, TypeVar, cast
 
 import numpy as np
@@ -19,6 +20,7 @@ from numpy.typing import NDArray
 from contact_results.surface import Surface, surface_of
 from contact_scene.cycles import LoadCycle, load_cycles
 from contact_scene.reported import Kind, Reported
+from contact_scene.stored_fields import FieldStore, WithFields
 
 if TYPE_CHECKING:
     from contact_results.surface import Increment, Result
@@ -28,11 +30,11 @@ Vector = NDArray[np.float64]
 Value = TypeVar("Value", float, Field)
 F = Kind.FIELD
 
-PLACES_AT_ONCE = 4096
+MOST_AT_ONCE = 1 << 20  # numbers
 
 
 @dataclass(frozen=True)
-class FrettingCycle:
+class FrettingCycle(WithFields):
     """One closed cycle of loads; fields are scalars of the surface.
 
     cycle            steps between which it lies
@@ -92,33 +94,23 @@ def fretting_cycles(result: Result, *, surface_stress: bool = False) -> tuple[Fr
         from semi_analytical.surface_tension import SurfaceTension
 
         tension = SurfaceTension(cast(Any, result))
-    cycles = []
+    cycles, fields = [], FieldStore()
+    increments: Sequence[Increment] = result.increments
+    steps = [list(within) for _, within in groupby(increments, lambda i: i.step)]
     for cycle in load_cycles(result.scene.load_path()):
-        path = _path(result.increments, cycle)
+        # From the increment at whose end the cycle begins.
+        path = [steps[cycle.start - 1][-1], *chain(*steps[cycle.start : cycle.end])]
         if all(increment.dissipated_energy is not None for increment in path):
             stress = tension.within(path) if tension else None
-            cycles.append(_fretting_cycle(surface, cycle, path, stress))
+            cycles.append(fields.kept(_fretting_cycle(surface, cycle, path, stress)))
     return tuple(cycles)
-
-
-def _path(increments: Sequence[Increment], cycle: LoadCycle) -> list[Increment]:
-    """The increments of a cycle, from the one at whose end it begins."""
-    return [
-        i
-        for i in increments
-        if cycle.start < i.step <= cycle.end
-        or (i.step == cycle.start and i.index == i.increments_in_step)
-    ]
 
 
 def _fretting_cycle(
     surface: Surface, cycle: LoadCycle, path: Sequence[Increment], tension: Field | None
 ) -> FrettingCycle:
     start, end = path[0], path[-1]
-    slips, shears = (
-        [found for i in path if (found := surface.components(i, name)) is not None]
-        for name in ("slip", "shear")
-    )
+    shears = (reduce(np.hypot, shear) for shear in _along(surface, path, "shear"))
     dissipated = _gain(start.dissipated_energy, end.dissipated_energy)
     assert dissipated is not None
     return FrettingCycle(
@@ -126,8 +118,8 @@ def _fretting_cycle(
         input_work=_gain(start.input_work, end.input_work),
         dissipated_energy=dissipated,
         dissipation=_gain(getattr(start, "dissipation", None), getattr(end, "dissipation", None)),
-        slip_amplitude=_slip_amplitude(slips),
-        largest_shear=np.max([reduce(np.hypot, shear) for shear in shears], axis=0),
+        slip_amplitude=_slip_amplitude(lambda: _along(surface, path, "slip")),
+        largest_shear=reduce(np.maximum, shears),
         surface_tension=tension,
     )
 
@@ -137,17 +129,22 @@ def _gain(start: Value | None, end: Value | None) -> Value | None:
     return None if start is None or end is None else end - start
 
 
-def _slip_amplitude(slips: Sequence[Field]) -> Field:
-    """Half the largest distance between any two of the slips, place by place."""
-    moves = np.any([np.any(slip != slips[0], axis=0) for slip in slips], axis=0)
-    amplitude = np.zeros(moves.shape)
-    paths = np.stack([slip[:, moves] for slip in slips])
-    parts = [
-        _half_diameter(paths[..., first : first + PLACES_AT_ONCE])
-        for first in range(0, paths.shape[-1], PLACES_AT_ONCE)
-    ]
-    if parts:
-        amplitude[moves] = np.concatenate(parts)
+def _along(surface: Surface, path: Sequence[Increment], name: str) -> Iterator[Field]:
+    """Components of shear or slip where the increments of a path have them, one after the other."""
+    return (found for i in path if (found := surface.components(i, name)) is not None)
+
+
+def _slip_amplitude(slips: Callable[[], Iterable[Field]]) -> Field:
+    """Half the largest distance between any two of the slips, place by place; of so many places at
+    a time that their slips can be held."""
+    first, count = next(iter(slips())), sum(1 for _ in slips())
+    moves = reduce(np.logical_or, (np.any(slip != first, axis=0) for slip in slips()))
+    amplitude, places = np.zeros(moves.shape), np.flatnonzero(moves)
+    at_once = max(1, MOST_AT_ONCE // (count * len(first)))
+    for begin in range(0, len(places), at_once):
+        some = places[begin : begin + at_once]
+        path = np.stack([slip.reshape(len(slip), -1)[:, some] for slip in slips()])
+        amplitude.flat[some] = _half_diameter(path)
     return amplitude
 
 

@@ -14,6 +14,7 @@ from pydantic import Field, GetPydanticSchema
 
 from contact_scene.reported import Kind, Reported, reported
 from contact_scene.residuals import Residuals
+from contact_scene.stored_fields import WithFields
 
 # Along x and y; two numbers in a file.
 Vector: TypeAlias = Annotated[
@@ -214,7 +215,7 @@ class Cost:
 
 
 @dataclass(frozen=True, kw_only=True)
-class ReportedIncrement(Cost, State):
+class ReportedIncrement(Cost, State, WithFields):
     """The scalars of one increment, and its place in the history.
 
     step, index         loading step and increment within it, both counted from 1

@@ -7,6 +7,7 @@ from typing import Any
 from contact_scene import FiniteElementDiscretisation, Scene
 from contact_scene.solver_errors import ContactAtZoneEdge
 from contact_scene.standing import Keeper, Mark, Standing
+from contact_scene.stored_fields import FieldStore
 from fem_reference.expected_radius import meshed_radius
 from fem_reference.fields import Increment, Method, Result
 from fem_reference.history import Method as Solver
@@ -121,6 +122,7 @@ def _told(
 ) -> Iterator[Increment]:
     """Increments, those of the past first, with the sparse factorisations that fell to them."""
     told: list[Increment] = []
+    fields = FieldStore()
     for increment in since.increments if since else ():
         if progress is not None:
             progress(increment)
@@ -129,7 +131,7 @@ def _told(
     counted = 0
     for increment, mark in history:
         spent, counted = model.factorizations - counted, model.factorizations
-        told.append(replace(increment, factorizations=spent))
+        told.append(fields.kept(replace(increment, factorizations=spent)))
         if keeper is not None:
             keeper.keep(Standing(tuple(told), mark, radius, tuple(sorted(model.settled))))
         if progress is not None:

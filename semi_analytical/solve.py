@@ -5,6 +5,7 @@ from collections.abc import Callable
 from contact_scene import Scene, SurfaceDiscretisation
 from contact_scene.solver_errors import ContactAtWindowEdge
 from contact_scene.standing import Keeper, Standing
+from contact_scene.stored_fields import FieldStore
 from semi_analytical.discretise import discretise, enlarged
 from semi_analytical.fields import Increment, Result
 from semi_analytical.grid import SurfaceGrid
@@ -65,12 +66,12 @@ def solve(
     model = ContactModel.of(scene, grid)
     last = keeper.last() if keeper else None
     since = last if last and last.extent == grid else None
-    increments = [*since.increments] if since else []
+    increments, fields = [*since.increments] if since else [], FieldStore()
     if progress is not None:
         for increment in increments:
             progress(increment)
     for increment, mark in marked(model, decided, tolerance, since):
-        increments.append(increment)
+        increments.append(fields.kept(increment))
         if keeper is not None:
             keeper.keep(Standing(tuple(increments), mark, grid))
         if progress is not None:

@@ -22,18 +22,25 @@ from contact_results.directory.refusal import OutputRefused
 from contact_results.directory.stop_signals import cleaned_up_when_stopped
 from contact_scene.solver_errors import SolverError
 from contact_scene.standing import Standing
+from contact_scene.stored_fields import FieldStore, stored_bytes
 
 # A run of seconds leaves nothing, and one of hours spends a twentieth of them on checkpoints.
 SECONDS_BETWEEN = 5.0
 SHARE = 0.05
+MOST_IN_PART = 16 << 20  # bytes of fields, so that few are in memory at once
 
 
 @dataclass(frozen=True)
 class _Part:
-    """Increments since the part before, and where the solve stands after them."""
+    """Increments since the part before.
+
+    standing  the solve after them, itself without increments; None if they continue in the next
+              part because they are too many for one
+    """
 
     before: int
-    standing: Standing
+    increments: tuple[Any, ...]
+    standing: Standing | None
 
 
 class Checkpoint:
@@ -85,18 +92,26 @@ class Checkpoint:
             if standing.extent != self._extent:  # the grid or mesh was outgrown: all over again
                 self._drop_from(0)
                 self._kept = 0
-            new = standing.increments[self._kept :]
-            part = _Part(self._kept, replace(standing, increments=new))
-            with atomic_file(self._path(self._parts)) as temporary:
-                temporary.write_bytes(packed(part, self._identity))
+            self._write(standing)
         except (OSError, OutputRefused) as error:
             self._say(f"no checkpoint could be written into {self._directory}: {error}")
             self._open = False
             return
-        self._parts += 1
-        self._kept, self._extent = len(standing.increments), standing.extent
         self._written = time.monotonic()
         self._pause = max(self._seconds_between, (self._written - began) / SHARE)
+
+    def _write(self, standing: Standing) -> None:
+        new = standing.increments[self._kept :]
+        self._extent = standing.extent
+        at_once = max(1, MOST_IN_PART // stored_bytes(new[0]))
+        for first in range(0, len(new), at_once):
+            some = new[first : first + at_once]
+            whole = first + at_once >= len(new)
+            part = _Part(self._kept, some, replace(standing, increments=()) if whole else None)
+            with atomic_file(self._path(self._parts)) as temporary:
+                temporary.write_bytes(packed(part, self._identity))
+            self._parts += 1
+            self._kept += len(some)
 
     def remove(self) -> None:
         """The run has ended, and nothing has to be kept."""
@@ -123,19 +138,23 @@ class Checkpoint:
 
     def _standing_of_parts(self) -> Standing | None:
         standing: Standing | None = None
-        while (path := self._path(self._parts)).exists():
+        increments: list[Any] = []
+        fields, number = FieldStore(), 0
+        while (path := self._path(number)).exists():
             try:
                 part = unpacked(path, self._identity)
                 if not isinstance(part, _Part):
                     raise Unusable(f"{path} holds something else")
-                if part.before != (len(standing.increments) if standing else 0):
+                if part.before != len(increments):
                     raise Unusable(f"{path} does not follow the part before it")
             except Unusable as error:
                 self._say(f"{error}; computed again")
                 break
-            past = standing.increments if standing else ()
-            standing = replace(part.standing, increments=past + part.standing.increments)
-            self._parts += 1
+            increments.extend(map(fields.kept, part.increments))
+            number += 1
+            if part.standing is not None:
+                standing = replace(part.standing, increments=tuple(increments))
+                self._parts = number
         return standing
 
     def _settle(self) -> None:

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import io
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -17,7 +18,7 @@ from contact_scene.reported import Kind, Reported, reported
 
 if TYPE_CHECKING:
     from contact_results.cycles import FrettingCycle
-    from contact_results.surface import Increment, Result
+    from contact_results.surface import Increment, Result, Surface
 
 # Level 1 with shuffled bytes is within a tenth of the size of level 9 on these fields, at a
 # fraction of its time.
@@ -42,9 +43,7 @@ def write_fields(result: Result, cycles: Sequence[FrettingCycle], directory: Pat
     at every angle.
     """
     surface = surface_of(result)
-    # Made in memory: the HDF5 library may crash the process when the disk is full.
-    contents = io.BytesIO()
-    with h5py.File(contents, "w") as file:
+    with _fields_file(directory / FIELDS) as file:
         axes = ", ".join(surface.axes)
         file.attrs["description"] = f"slipstick, SI units; fields are [increment, (x, y), {axes}]"
         file.attrs["solver"] = result.solver
@@ -61,13 +60,38 @@ def write_fields(result: Result, cycles: Sequence[FrettingCycle], directory: Pat
         group = file.create_group("increments", track_order=False)
         for name, mark in reported(type(result.increments[0])).items():
             if mark.kind is Kind.FIELD:
-                _write_field(
-                    group, name, mark, [surface.scalar(i, name) for i in result.increments]
-                )
+                _write_field(group, name, mark, surface, result.increments)
         _write_scalars(group, result.increments)
         if cycles:
             _write_cycle(file.create_group("last_cycle", track_order=False), cycles[-1])
-    (directory / FIELDS).write_bytes(contents.getbuffer())
+
+
+class _NeverFull(io.FileIO):
+    """Says that all was written, and keeps the error of what was not: told of a full disk, the
+    HDF5 library may crash the process."""
+
+    full: OSError | None = None
+
+    def write(self, content: Any) -> int:
+        rest = memoryview(content).cast("B")
+        while rest and self.full is None:
+            try:
+                rest = rest[super().write(rest) :]
+            except OSError as error:
+                self.full = error
+        return len(memoryview(content).cast("B"))
+
+
+@contextmanager
+def _fields_file(path: Path) -> Iterator[h5py.File]:
+    """A new HDF5 file; raises the OSError of a full disk."""
+    with _NeverFull(path, "w+") as disk:
+        try:
+            with h5py.File(disk, "w") as file:
+                yield file
+        finally:
+            if disk.full is not None:
+                raise disk.full
 
 
 def _write_scalars(group: h5py.Group, increments: Sequence[Increment]) -> None:
@@ -83,22 +107,26 @@ def _write_scalars(group: h5py.Group, increments: Sequence[Increment]) -> None:
             _write(group, name, np.array([nothing if v is None else v for v in values]), mark)
 
 
-def _write_field(group: h5py.Group, name: str, mark: Reported, parts: Sequence[Any]) -> None:
-    first = next((part for part in parts if part is not None), None)
-    if first is None:
-        return
-    dataset = group.create_dataset(
-        name,
-        shape=(len(parts), *first.shape),
-        chunks=(1, *first.shape),
-        dtype=first.dtype,
-        track_times=False,
-        **COMPRESSION,
-    )
-    _describe(dataset, mark)
-    for index, part in enumerate(parts):
-        if part is not None:
-            dataset[index] = part
+def _write_field(
+    group: h5py.Group, name: str, mark: Reported, surface: Surface, increments: Sequence[Increment]
+) -> None:
+    """One increment after the other; nothing where none has the field."""
+    dataset = None
+    for index, increment in enumerate(increments):
+        field = surface.scalar(increment, name)
+        if field is None:
+            continue
+        if dataset is None:
+            dataset = group.create_dataset(
+                name,
+                shape=(len(increments), *field.shape),
+                chunks=(1, *field.shape),
+                dtype=field.dtype,
+                track_times=False,
+                **COMPRESSION,
+            )
+            _describe(dataset, mark)
+        dataset[index] = field
 
 
 def _write_cycle(group: h5py.Group, cycle: FrettingCycle) -> None:
