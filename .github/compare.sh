@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # Says what changed since the baseline, in the log and on the page of the job.
 # A drift within what the references allow, and a level that nothing is recorded of (5), are warnings;
-# what begins to fail (1), a report of chosen cases, and files that cannot be read (2), are failures.
+# what begins to fail (1), a report of chosen cases, and files that cannot be read (2), are failures, and
+# so is what becomes worse or dearer within them (7): accept it with the reason, or mend it.
 #
 # usage: compare.sh REPORT
 set -euo pipefail

@@ -22,10 +22,24 @@ def machine() -> dict[str, str | int | None]:
     return {
         "system": platform.platform(),
         "processor": _processor_name(),
+        "arithmetic": arithmetic(),
         "cores": os.cpu_count(),
         "python": platform.python_version(),
         "threads": os.environ.get("OMP_NUM_THREADS"),
     }
+
+
+def arithmetic() -> str:
+    """What decides last digits, whatever a processor is called: the core that linear algebra is
+    compiled for, and the vector instructions of elementary functions."""
+    import numpy as np
+    from threadpoolctl import threadpool_info
+
+    cores = {f"{i['internal_api']} {i.get('architecture')}" for i in threadpool_info()
+             if i["user_api"] == "blas"}  # fmt: skip
+    targets = np.lib.introspect.opt_func_info(func_name="^sin$", signature="float64")
+    vectors = {one["current"] for kinds in targets.values() for one in kinds.values()}
+    return ", ".join((*sorted(cores), *sorted(vectors)))
 
 
 def version_of(distribution: str) -> str | None:

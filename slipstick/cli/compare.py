@@ -40,12 +40,15 @@ def compare(
     """Say what changed since the baseline, by how much in units of the tolerance, since which
     commit, and how to see it again.
 
-    Nothing is computed. Exit code 0 if nothing changed, 5 if something did and is within what its
-    reference allows (also: new, gone, not recorded yet, suspiciously better, another count of
-    iterations), 1 if something fails that did not or has moved away from its reference by more than
-    is allowed at all, 2 if the report contradicts itself, or if only chosen cases ran and others
-    are recorded: such a report never stands for a whole one, unless --chosen says that it need not.
-    Last digits and counts are judged only on the processor and with the versions of the baseline.
+    Nothing is computed. Exit code 0 if nothing changed; 5 if something did and is within what
+    its reference allows (also: new, gone, not recorded yet, suspiciously better, cheaper); 7 if
+    within it an error has grown by half and by a twentieth of what is allowed, or a case takes
+    a twentieth more iterations, convolutions or factorisations, or a solver half as long again;
+    1 if something fails that did not or has moved away from its reference by more than is
+    allowed at all; 2 if the report contradicts itself, or if only chosen cases ran and others
+    are recorded: such a report never stands for a whole one, unless --chosen says that it need
+    not. What other processors and versions leave is no change: a hundredth of what is allowed,
+    a millionth of what errors are divided by.
 
     Baselines are recorded by level, and those of the report's level are taken.
     """  # fmt: skip
@@ -76,6 +79,8 @@ def exit_code_of(report: Report) -> ExitCode:
     kinds = {row.kind for row in change_rows(report)}
     if ChangeKind.OUTSIDE in kinds:
         return ExitCode.ACCURACY
+    if any(kind.regresses for kind in kinds):
+        return ExitCode.WORSE
     unknown = kinds or without_baseline(report)
     return ExitCode.BASELINE_DRIFT if unknown else ExitCode.PASS
 
@@ -110,7 +115,8 @@ def _print_changes(report: Report) -> None:
                 for r in rows
             ],
         )
-        names = " ".join(dict.fromkeys(row.case for row in rows))
+        judged = {case.name for case in report.cases}
+        names = " ".join(dict.fromkeys(row.case for row in rows if row.case in judged))
         typer.echo(f"reproduce: slipstick verify {names} --level {report.level}")
     for origin, cases in origins(report):
         typer.echo(f"baseline of {len(cases)} cases: {origin.name}, {origin.date}: {origin.reason}")

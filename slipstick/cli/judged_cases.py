@@ -18,8 +18,9 @@ CASES = "cases"  # of the report's directory: the records of finished cases
 
 def judged(
     cases: tuple[Case, ...], level: str, directory: Path, workers: int | Workers, *, fresh: bool
-) -> tuple[tuple[CaseOutcome, ...], dict[str, float]]:
-    """The outcomes in the order of the cases, and the wall seconds of those that have a record.
+) -> tuple[tuple[CaseOutcome, ...], dict[str, float], dict[str, float]]:
+    """The outcomes in the order of the cases, and of those that have a record the wall seconds and
+    the calibration loops.
 
     level      by name, in capitals
     directory  of the report
@@ -38,10 +39,11 @@ def judged(
         ends = run_cases(asked, store, workers, observe, fresh=fresh)
     outcomes: list[CaseOutcome] = []
     seconds: dict[str, float] = {}
+    loops: dict[str, float] = {}
     for case, end in zip(cases, ends, strict=True):
         if isinstance(end.record, JudgedCase):
             outcomes.append(end.record.outcome)
-            seconds[case.name] = end.record.seconds
+            seconds[case.name], loops[case.name] = end.record.seconds, end.record.loops
         else:
             outcomes.append(lost(case, end.lost.reason if end.lost else "it has no record"))
-    return tuple(outcomes), seconds
+    return tuple(outcomes), seconds, loops

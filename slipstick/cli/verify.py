@@ -125,14 +125,15 @@ def _verified(
             typer.echo(f"error: {error}", err=True)
             raise typer.Exit(ExitCode.INVALID) from None
         set_aside_report(directory)
-        outcomes, seconds = judged(cases, level.name, directory, workers, fresh=fresh)
+        outcomes, seconds, loops = judged(cases, level.name, directory, workers, fresh=fresh)
         command = " ".join(["slipstick verify", *names, f"--level {level}"])
+        made = () if names else _benchmarks()
         measured = Report(
             level=level,
             counts=count(outcomes),
             cases=outcomes,
             omissions=OMISSIONS,
-            provenance=provenance(command, seconds, () if names else _benchmarks()),
+            provenance=provenance(command, seconds, made, loops=loops),
             studies=studies,
             chosen=bool(names),
         )

@@ -11,14 +11,21 @@ class ChangeKind(StrEnum):
     """How a number compares with the recorded one."""
 
     UNCHANGED = "unchanged"
-    NOT_JUDGED = "not judged"
-    """Differs by no more than another processor or other versions explain."""
+    """Also what other processors and versions leave: a hundredth of what is allowed, or a millionth
+    of what errors are divided by; of counts, a twentieth over a case."""
 
     DRIFT = "drift"
     """Differs, and is still within what its reference allows, or has none."""
 
     BETTER = "better"
     """The error has fallen far without a reason on record."""
+
+    WORSE = "worse"
+    """The error has grown by half or more, and by a part of what is allowed that somebody must
+    answer for, though it is still allowed."""
+
+    DEARER = "dearer"
+    """More iterations, convolutions or factorisations for the same, or more seconds."""
 
     OUTSIDE = "outside"
     """Fails, and did not when it was recorded; or has moved away from its reference by more than is
@@ -31,7 +38,12 @@ class ChangeKind(StrEnum):
     @property
     def matters(self) -> bool:
         """Whether the baseline does not describe the number any more."""
-        return self not in (ChangeKind.UNCHANGED, ChangeKind.NOT_JUDGED)
+        return self is not ChangeKind.UNCHANGED
+
+    @property
+    def regresses(self) -> bool:
+        """Whether it must be accepted with a reason before the commit passes."""
+        return self in (ChangeKind.OUTSIDE, ChangeKind.WORSE, ChangeKind.DEARER)
 
 
 class Change(Description):
@@ -54,12 +66,23 @@ class Change(Description):
 
 
 class CounterChange(Description):
-    """A deterministic count of a solve that differs from the recorded one."""
+    """A count of a case's solves that differs from the recorded one."""
 
     name: str
     kind: ChangeKind
     was: int
+    now: int
     remark: str = ""
+
+
+class Slowdown(Description):
+    """A solver that takes longer than when its cases were recorded."""
+
+    solver: str
+    ratio: float
+    """Median over its cases."""
+
+    cases: int
 
 
 class Gone(Description):
@@ -91,8 +114,7 @@ class Origin(Description):
     """Why they were accepted."""
 
     differs: tuple[str, ...] = ()
-    """What is different now, of processor and versions; last digits and counts are judged only
-    where nothing is."""
+    """What is different now, of processor and versions."""
 
     @property
     def name(self) -> str:

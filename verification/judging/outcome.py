@@ -208,8 +208,6 @@ class RunRecord(Description):
     """Sparse factorisations of finite elements."""
 
     largest_residual: float | None
-    changes: tuple[CounterChange, ...] = ()
-    """Counts that differ from the recorded ones."""
 
     @property
     def solver(self) -> Solver:
@@ -247,6 +245,9 @@ class CaseOutcome(Description):
     tables: tuple[Table, ...] = ()
     baseline: Origin | None = None
     """Where the recorded numbers are from; null if there are none of this level."""
+
+    counts: tuple[CounterChange, ...] = ()
+    """Counts of all solves together that differ from the recorded ones."""
 
     gone: tuple[Gone, ...] = ()
     """What was recorded and is not measured any more."""

@@ -75,6 +75,8 @@ class RecordedBy(Description):
     changed: bool
     program_version: str
     processor: str | None
+    """Whose instructions computed; see `machine.arithmetic`."""
+
     python: str | None
     libraries: dict[str, str | None]
 
@@ -87,6 +89,8 @@ class Recording(Description):
     quantities: tuple[RecordedQuantity, ...]
     findings: tuple[RecordedFinding, ...]
     runs: tuple[RecordedRun, ...]
+    loops: float | None = None
+    """CPU time in calibration loops; see `running.calibration`."""
 
 
 class Baseline(Description):
@@ -116,12 +120,14 @@ def recording(case: CaseOutcome, provenance: Provenance, reason: str) -> Recordi
             for f in case.findings
         ),
         runs=tuple(_run(run) for run in case.runs),
+        loops=provenance.loops.get(case.name),
     )
 
 
 def recorded_by(provenance: Provenance, reason: str) -> RecordedBy:
     """The part of a report's provenance that explains its numbers."""
-    processor, python = (provenance.machine.get(fact) for fact in ("processor", "python"))
+    machine = provenance.machine
+    processor, python = machine.get("arithmetic", machine.get("processor")), machine.get("python")
     return RecordedBy(
         reason=reason,
         command=provenance.command,

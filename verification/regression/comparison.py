@@ -16,7 +16,7 @@ from verification.regression.baseline import (
     key_of,
     recorded_by,
 )
-from verification.regression.counters import counter_changes
+from verification.regression.counters import counter_changes, slowdowns
 from verification.regression.number_change import finding_change, quantity_change
 from verification.regression.refusal import BaselineRefused
 
@@ -36,7 +36,15 @@ def compared(report: Report, baselines: Mapping[str, Baseline]) -> Report:
         _compared(case, _recording(baselines.get(case.name), report.level), made_by)
         for case in report.cases
     )
-    return report.model_copy(update={"cases": cases, "gone": tuple(_gone_cases(report, baselines))})
+    levels = {name: _recording(baseline, report.level) for name, baseline in baselines.items()}
+    recordings = {name: one for name, one in levels.items() if one is not None}
+    return report.model_copy(
+        update={
+            "cases": cases,
+            "gone": tuple(_gone_cases(report, baselines)),
+            "slower": tuple(slowdowns(report, recordings)),
+        }
+    )
 
 
 def refuse_if_not_whole(report: Report, baselines: Mapping[str, Baseline]) -> None:
@@ -80,7 +88,6 @@ def _compared(case: CaseOutcome, recorded: Recording | None, made_by: RecordedBy
     )
     quantities = {quantity.key: quantity for quantity in recorded.quantities}
     findings = {finding.key: finding for finding in recorded.findings}
-    runs = {run.label: run for run in recorded.runs}
     verdicts = tuple(
         verdict.model_copy(
             update={"regression": quantity_change(verdict, quantities.get(key_of(verdict)), origin)}
@@ -93,16 +100,12 @@ def _compared(case: CaseOutcome, recorded: Recording | None, made_by: RecordedBy
         )
         for finding in case.findings
     )
-    counted = tuple(
-        run.model_copy(update={"changes": counter_changes(run, runs.get(run.label), origin)})
-        for run in case.runs
-    )
     return case.model_copy(
         update={
             "baseline": origin,
             "verdicts": verdicts,
             "findings": measured,
-            "runs": counted,
+            "counts": tuple(counter_changes(case, recorded)),
             "gone": tuple(_gone(case, recorded)),
         }
     )
@@ -115,7 +118,7 @@ def _without_comparison(case: CaseOutcome) -> CaseOutcome:
             "baseline": None,
             "verdicts": tuple(v.model_copy(update={"regression": nothing}) for v in case.verdicts),
             "findings": tuple(f.model_copy(update={"regression": nothing}) for f in case.findings),
-            "runs": tuple(run.model_copy(update={"changes": ()}) for run in case.runs),
+            "counts": (),
             "gone": (),
         }
     )

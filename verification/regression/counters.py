@@ -1,32 +1,55 @@
-"""Deterministic counts of a solve against the recorded ones."""
+"""What solves cost against what they cost when they were recorded."""
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Mapping
+from statistics import median
 from typing import TYPE_CHECKING
 
-from verification.judging.change import ChangeKind, CounterChange, Origin
+from verification.judging.change import ChangeKind, CounterChange, Slowdown
 from verification.regression.baseline import COUNTERS
 
 if TYPE_CHECKING:
-    from verification.judging.outcome import RunRecord
-    from verification.regression.baseline import RecordedRun
+    from verification.judging.outcome import CaseOutcome
+    from verification.solver import Solver
+    from verification.regression.baseline import Recording
+    from verification.running.report_record import Report
 
-RATIO_ELSEWHERE = 1.25  # of two counts of the same solve on different processors
-
-
-def counter_changes(
-    run: RunRecord, was: RecordedRun | None, origin: Origin
-) -> tuple[CounterChange, ...]:
-    """The counts that differ from the recorded ones; a run that is new has none to compare with."""
-    if was is None:
-        return ()
-    pairs = [(name, getattr(run, name), getattr(was, name)) for name in COUNTERS]
-    return tuple(_change(*pair, origin) for pair in pairs if pair[1] != pair[2])
+# Of a case in all: single solves end an iteration sooner or later on other processors.
+SAME_COUNT = 0.05
+# Seconds of single cases scatter by a third on a busy machine; their median less.
+SLOWER = 1.5
+FEWEST = 3  # cases
+LEAST_LOOPS = 20.0  # of a case whose time means something
 
 
-def _change(name: str, now: int, was: int, origin: Origin) -> CounterChange:
-    ratio = now / was if was else float("inf")
-    near = 1 / RATIO_ELSEWHERE <= ratio <= RATIO_ELSEWHERE
-    kind = ChangeKind.NOT_JUDGED if origin.differs and near else ChangeKind.DRIFT
-    remark = f"{ratio:.3g} times" if was else ""
-    return CounterChange(name=name, kind=kind, was=was, remark=remark)
+def counter_changes(case: CaseOutcome, recorded: Recording) -> Iterator[CounterChange]:
+    """The counts of all solves together that differ from the recorded ones; solves that are new or
+    gone are left out, they are told apart."""
+    then = {run.label: run for run in recorded.runs}
+    both = [(run, then[run.label]) for run in case.runs if run.label in then]
+    for name in COUNTERS:
+        now, was = (sum(getattr(pair[i], name) for pair in both) for i in (0, 1))
+        if abs(now - was) > SAME_COUNT * was:
+            kind = ChangeKind.DEARER if now > was else ChangeKind.DRIFT
+            remark = f"{now / was:.3g} times" if was else ""
+            yield CounterChange(name=name, kind=kind, was=was, now=now, remark=remark)
+
+
+def slowdowns(report: Report, baselines: Mapping[str, Recording]) -> Iterator[Slowdown]:
+    """By solver, the median over the cases that it solves alone of their CPU time over what was
+    recorded, both in calibration loops, where it has grown beyond what a busy machine explains.
+
+    baselines  of the report's level, by case
+    """
+    ratios: dict[Solver, list[float]] = {}
+    for case in report.cases:
+        now, recorded = report.provenance.loops.get(case.name), baselines.get(case.name)
+        solvers = {run.solver for run in case.runs}
+        if now is None or recorded is None or recorded.loops is None or len(solvers) != 1:
+            continue
+        if max(now, recorded.loops) >= LEAST_LOOPS:
+            ratios.setdefault(solvers.pop(), []).append(now / recorded.loops)
+    for solver, found in ratios.items():
+        if len(found) >= FEWEST and median(found) > SLOWER:
+            yield Slowdown(solver=solver, ratio=median(found), cases=len(found))

@@ -7,19 +7,25 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from verification.judging.change import Change, ChangeKind, Origin
-from verification.judging.outcome import Status
+from verification.judging.outcome import FOUND_IN_A_RUN, Status
 from verification.problems.reference import ROUNDING
 
 if TYPE_CHECKING:
     from verification.judging.outcome import FindingRecord, Verdict
     from verification.regression.baseline import RecordedFinding, RecordedQuantity
 
-SAME_DIGITS = 1e-8  # relative; equal bits are the rule on one processor with the same versions
-# Elsewhere solves end at other iterates within their tolerance (1e-8), and what is measured on
-# them may differ by somewhat more.
-SAME_ELSEWHERE = 1e-6  # of what errors are divided by
-PART_OF_TOLERANCE = 0.01  # no change of less than this part of the tolerance matters elsewhere
+SAME_DIGITS = 1e-8  # relative, of what a reference is
+# Processors and versions end solves at other iterates within their tolerance (1e-8), and what is
+# measured on them may differ by somewhat more. Less than that is no change on any machine.
+NOISE = 1e-6  # of what errors are divided by; of a finding, of itself
+NOISE_OF_TOLERANCE = 0.01
 TOLERANCE_KEPT = 0.01  # relative; derived tolerances follow the last digits of small differences
+
+# Worse: an error that has become this many times larger, by at least that part of the tolerance.
+WORSE_BY = 1.5
+WORSE_BY_PART = 0.05
+# How far below its tolerance a solve ends says nothing of its answer.
+ENDS_OF_SOLVES = FOUND_IN_A_RUN
 
 # Suspiciously better: an error that has become this many times smaller, by at least that part of
 # the tolerance.
@@ -37,7 +43,7 @@ def quantity_change(verdict: Verdict, was: RecordedQuantity | None, origin: Orig
     difference = _difference(verdict.value, was.value)
     moved = difference / allowed if allowed > 0 else math.inf
     return Change(
-        kind=_kind(verdict, was, origin, difference, allowed),
+        kind=_kind(verdict, was, difference, allowed),
         was=was.value,
         moved=moved if math.isfinite(moved) else None,
         since=origin.name,
@@ -46,19 +52,16 @@ def quantity_change(verdict: Verdict, was: RecordedQuantity | None, origin: Orig
 
 
 def finding_change(finding: FindingRecord, was: RecordedFinding | None, origin: Origin) -> Change:
-    """How a finding compares with the recorded one; elsewhere nothing says what may differ."""
+    """How a finding compares with the recorded one."""
     if was is None:
         return Change(kind=ChangeKind.NEW, recorded=False, since=origin.name)
-    if _difference(finding.value, was.value) <= _digits(finding.value, was.value):
-        kind = ChangeKind.UNCHANGED
-    else:
-        kind = ChangeKind.NOT_JUDGED if origin.differs else ChangeKind.DRIFT
+    noise = NOISE * max(abs(finding.value or 0.0), abs(was.value or 0.0))
+    same = _difference(finding.value, was.value) <= noise
+    kind = ChangeKind.UNCHANGED if same else ChangeKind.DRIFT
     return Change(kind=kind, was=was.value, since=origin.name)
 
 
-def _kind(
-    verdict: Verdict, was: RecordedQuantity, origin: Origin, difference: float, allowed: float
-) -> ChangeKind:
+def _kind(verdict: Verdict, was: RecordedQuantity, difference: float, allowed: float) -> ChangeKind:
     if verdict.status is Status.FAIL and was.status is not Status.FAIL:
         return ChangeKind.OUTSIDE
     if was.status is Status.FAIL and verdict.status is not Status.FAIL:
@@ -67,12 +70,14 @@ def _kind(
         return ChangeKind.OUTSIDE
     if any(_remarks(verdict, was)):
         return ChangeKind.DRIFT
-    part = PART_OF_TOLERANCE * allowed
-    if difference <= max(_digits(verdict.value, was.value), min(ROUNDING * verdict.scale, part)):
+    if verdict.name in ENDS_OF_SOLVES:
         return ChangeKind.UNCHANGED
-    if origin.differs and difference <= max(SAME_ELSEWHERE * verdict.scale, part):
-        return ChangeKind.NOT_JUDGED
-    return ChangeKind.BETTER if _is_better(verdict, was, allowed) else ChangeKind.DRIFT
+    if _grows(was, verdict, WORSE_BY, WORSE_BY_PART * allowed):
+        return ChangeKind.WORSE
+    if difference <= max(NOISE * verdict.scale, NOISE_OF_TOLERANCE * allowed):
+        return ChangeKind.UNCHANGED
+    better = _grows(verdict, was, BETTER_BY, BETTER_BY_PART * allowed)
+    return ChangeKind.BETTER if better else ChangeKind.DRIFT
 
 
 def _is_farther(verdict: Verdict, was: RecordedQuantity) -> bool:
@@ -88,12 +93,21 @@ def _is_farther(verdict: Verdict, was: RecordedQuantity) -> bool:
     return abs(verdict.value - verdict.reference) > abs(was.value - was.reference)
 
 
-def _is_better(verdict: Verdict, was: RecordedQuantity, allowed: float) -> bool:
-    """Whether the error has fallen so far that somebody should know why."""
-    if verdict.tolerance_kind == "order" or verdict.value is None or was.value is None:
+def _grows(
+    small: Verdict | RecordedQuantity, large: Verdict | RecordedQuantity, by: float, least: float
+) -> bool:
+    """Whether the error of one is so much larger than that of the other that somebody should know
+    why. An order has an interval for that.
+
+    by     times
+    least  at least by as much, in the unit of the value
+    """
+    if small.tolerance_kind == "order" or small.value is None or large.value is None:
         return False
-    error, earlier = abs(verdict.value - verdict.reference), abs(was.value - was.reference)
-    return BETTER_BY * error <= earlier and earlier - error >= BETTER_BY_PART * allowed
+    error, larger = (
+        abs(one.value - one.reference) for one in (small, large) if one.value is not None
+    )
+    return larger >= by * error and larger - error >= least
 
 
 def _remarks(verdict: Verdict, was: RecordedQuantity) -> Iterator[str]:
@@ -117,8 +131,3 @@ def _difference(value: float | None, was: float | None) -> float:
     if value is None or was is None:
         return 0.0 if value is was else math.inf
     return abs(value - was)
-
-
-def _digits(value: float | None, was: float | None) -> float:
-    """The distance at which two numbers agree to the digits that are kept."""
-    return SAME_DIGITS * max(abs(value or 0.0), abs(was or 0.0))

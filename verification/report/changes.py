@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import math
 from collections import Counter
 from collections.abc import Iterator
 from dataclasses import dataclass
 
 from verification.exhibits.numbers import value_text
 from verification.judging.change import Change, ChangeKind, Origin
-from verification.judging.outcome import CaseOutcome, FindingRecord, RunRecord, Verdict
+from verification.judging.outcome import CaseOutcome, FindingRecord, Verdict
 from verification.judging.verdict_text import moved_text
 from verification.running.report_record import Report
 
@@ -18,14 +19,25 @@ CASE, ALL = "case", "all runs"  # in place of a quantity and its run
 RANK = {
     kind: rank
     for rank, kind in enumerate(
-        (ChangeKind.OUTSIDE, ChangeKind.GONE, ChangeKind.DRIFT, ChangeKind.BETTER, ChangeKind.NEW)
+        (
+            ChangeKind.OUTSIDE,
+            ChangeKind.WORSE,
+            ChangeKind.DEARER,
+            ChangeKind.GONE,
+            ChangeKind.DRIFT,
+            ChangeKind.BETTER,
+            ChangeKind.NEW,
+        )
     )
 }
 
 
 @dataclass(frozen=True)
 class ChangeRow:
-    """Something that differs from what is recorded, in words."""
+    """Something that differs from what is recorded, in words.
+
+    size  of the move, in tolerances or parts of a count
+    """
 
     case: str
     name: str
@@ -36,6 +48,7 @@ class ChangeRow:
     moved: str
     since: str
     remark: str
+    size: float = 0.0
 
     @property
     def line(self) -> str:
@@ -49,9 +62,10 @@ class ChangeRow:
 
 
 def change_rows(report: Report) -> list[ChangeRow]:
-    """Every change that the baseline does not describe, the worst first."""
+    """Every change that the baseline does not describe, the worst kind first and in it what moved
+    farthest."""
     rows = [row for row in _all_rows(report) if row.kind.matters]
-    return sorted(rows, key=lambda row: RANK[row.kind])
+    return sorted(rows, key=lambda row: (RANK[row.kind], -row.size))
 
 
 def _all_rows(report: Report) -> Iterator[ChangeRow]:
@@ -62,6 +76,12 @@ def _all_rows(report: Report) -> Iterator[ChangeRow]:
             verdicts = f"{len(case.verdicts)} verdicts"
             yield ChangeRow(case.name, CASE, ALL, ChangeKind.NEW, "–", verdicts, "–", "–", "")
         yield from case_rows(case)
+    for slower in report.slower:
+        yield ChangeRow(
+            f"{slower.cases} cases", "CPU time", f"by {slower.solver}", ChangeKind.DEARER, "1",
+            f"{slower.ratio:.3g}", "–", "–", "median over cases, in calibration loops",
+            slower.ratio - 1,
+        )  # fmt: skip
     for gone in report.gone:
         yield ChangeRow(
             gone.name, CASE, ALL, ChangeKind.GONE, "recorded", "not in the report", "–", gone.since,
@@ -79,8 +99,11 @@ def case_rows(case: CaseOutcome) -> Iterator[ChangeRow]:
         if change is not None:
             now = value_text(number.value, number.unit, DIGITS)
             yield _row(case.name, number.name, number.run, now, number.unit, change, case.baseline)
-    for run in case.runs:
-        yield from _counter_rows(case, run, case.baseline)
+    for count in case.counts:
+        yield ChangeRow(
+            case.name, count.name, ALL, count.kind, str(count.was), str(count.now), "–",
+            case.baseline.name, count.remark, abs(count.now / max(count.was, 1) - 1),
+        )  # fmt: skip
     for gone in case.gone:
         yield ChangeRow(
             case.name, gone.name, gone.run, ChangeKind.GONE,
@@ -127,14 +150,6 @@ def _row(
 ) -> ChangeRow:
     was = value_text(change.was, unit, DIGITS) if change.recorded else "–"
     return ChangeRow(
-        case, name, run, change.kind, was, now, moved_text(change), origin.name, change.remark
-    )
-
-
-def _counter_rows(case: CaseOutcome, run: RunRecord, origin: Origin) -> Iterator[ChangeRow]:
-    for change in run.changes:
-        now = str(getattr(run, change.name))
-        yield ChangeRow(
-            case.name, change.name, run.label, change.kind, str(change.was), now, "–",
-            origin.name, change.remark,
-        )  # fmt: skip
+        case, name, run, change.kind, was, now, moved_text(change), origin.name, change.remark,
+        math.inf if change.moved is None else change.moved,
+    )  # fmt: skip

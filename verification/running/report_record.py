@@ -7,7 +7,7 @@ from pydantic import ValidationError, model_validator
 
 from contact_scene.description import Description
 from verification.judging.case import Level
-from verification.judging.change import GoneCase
+from verification.judging.change import GoneCase, Slowdown
 from verification.judging.outcome import CaseOutcome, Status, Verdict
 from verification.running.provenance_record import Benchmark, Provenance
 from verification.running.record import StudyRecord, json_text
@@ -38,6 +38,9 @@ class Report(Description):
 
     gone: tuple[GoneCase, ...] = ()
     """Recorded cases that a report of all cases does not have any more."""
+
+    slower: tuple[Slowdown, ...] = ()
+    """Solvers that take longer than when their cases were recorded."""
 
     @model_validator(mode="after")
     def _counts_what_it_lists(self) -> "Report":
