@@ -11,9 +11,9 @@ from verification.regression.baseline import COUNTERS
 
 if TYPE_CHECKING:
     from verification.judging.outcome import CaseOutcome
-    from verification.solver import Solver
     from verification.regression.baseline import Recording
     from verification.running.report_record import Report
+    from verification.solver import Solver
 
 # Of a case in all: single solves end an iteration sooner or later on other processors.
 SAME_COUNT = 0.05
