@@ -6,11 +6,9 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
-import numpy as np
-
 from contact_errors.ladder import SPACE, SPARE, Rung
 from contact_errors.values import scale
-from contact_scene.accuracy import AccuracyRequest
+from contact_scene.accuracy import LARGEST_TENSION, AccuracyRequest
 from contact_scene.solver_errors import AccuracyOutOfReach
 from contact_scene.stated_error import ErrorStatus
 
@@ -19,6 +17,10 @@ ROUND_OFF = 1e-7
 # The first rung's error may be so many times what the finer ones will make of it by their order.
 DOUBT = 4.0
 
+NONE_STATED = {
+    "ruiz_f2": "the scene has none without --surface-stress",
+    LARGEST_TENSION: "the body is rigid, or the solver states no errors of stress",
+}
 PRESCRIBED = "the load prescribes it"
 INFINITE = "it is infinite in the exact answer"
 
@@ -71,14 +73,9 @@ def refuse_unreachable(asked: Asked, rung: Rung[Any], most_growth: float) -> Non
 
 def _why_left_out(name: str, rung: Rung[Any]) -> str:
     """Empty for what is bound."""
-    ends = [
-        (step[name], float(np.max(np.abs(values[name]))))
-        for step, values in zip(rung.stated.steps, rung.values, strict=True)
-        if name in step
-    ]
+    ends = rung.ends(name)
     if not ends:
-        without = " without --surface-stress" if name == "ruiz_f2" else ""
-        return "the scene has none" + without
+        return NONE_STATED.get(name, "the scene has none")
     if name not in rung.rules:
         return INFINITE
     largest_contact = max(scale(name, step) for step in rung.values)

@@ -6,7 +6,9 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Generic, TypeVar
 
-from contact_errors.asked import asked_of, refuse_unreachable
+import numpy as np
+
+from contact_errors.asked import Asked, asked_of, refuse_unreachable
 from contact_errors.ladder import FIRST_GROWTH, LATER_GROWTH, Ladder, Rung, growth
 from contact_scene.accuracy import AccuracyRequest
 from contact_scene.accuracy_reached import AccuracyReached
@@ -27,66 +29,114 @@ class Climb(Generic[F]):
     accuracy: AccuracyReached
 
 
+@dataclass(frozen=True)
+class Way(Generic[F]):
+    """Where a climb stands between two rounds: all that the next one takes from those before.
+
+    asked      what is bound
+    rounds     that lie behind
+    spent      seconds that they took
+    best       fineness of the best rung
+    shortfall  its largest error over what was asked of it
+    next       fineness of the rung to come
+    needed     seconds that it is expected to take; None where nobody limits them
+    """
+
+    asked: Asked
+    rounds: int
+    spent: float
+    best: F
+    shortfall: float
+    next: F
+    needed: float | None
+
+    def after(self, rung: Rung[F], ladder: Ladder[F], timed: bool) -> Way[F]:
+        """Where it stands after a rung.
+
+        timed  whether it is to be known how long the next one takes
+        """
+        shares, rounds = self.asked.shares, self.rounds + 1
+        most = FIRST_GROWTH if rounds == 1 else LATER_GROWTH
+        shortfall = rung.shortfall(shares)
+        better = shortfall <= self.shortfall
+        finer = ladder.refined(rung.fineness, growth(rung, shares).bounded(most))
+        shared = max(1.0, rung.seconds / max(rung.processor_seconds, 1e-3))
+        return Way(
+            asked=self.asked,
+            rounds=rounds,
+            spent=self.spent + rung.seconds,
+            best=rung.fineness if better else self.best,
+            shortfall=shortfall if better else self.shortfall,
+            next=finer,
+            needed=shared * ladder.seconds(finer, rung) if timed else None,
+        )
+
+
 def climb(
     ladder: Ladder[F],
     request: AccuracyRequest,
     most_seconds: float | None = None,
     estimated: Estimated | None = None,
+    begun: Way[F] | None = None,
+    between: Callable[[Way[F]], None] | None = None,
 ) -> Climb[F]:
     """Solve ever finer until a request is met.
 
     most_seconds  no rung is begun that would exceed them all together
+    begun         where it goes on, as `between` was told; from the first rung if absent
+    between       told before every round but the first
     Where a limit is in the way, or a finer rung has no answer, the best rung is returned with the
     reason. Raises AccuracyOutOfReach for what no grid can meet, and what the first rung raises.
     """
-    rung = best = ladder.climbed(ladder.first())
-    asked = asked_of(request, rung)
-    refuse_unreachable(asked, rung, ladder.most_growth(rung.fineness))
-    spent, rounds, stopped = rung.seconds, 1, None
-    while True:
-        if rung.shortfall(asked.shares) <= best.shortfall(asked.shares):
-            best = rung
-        if estimated is not None:
-            reached = {name: rung.reached(name) for name in asked.shares}
-            estimated(rounds, asked.shares, reached)
-        if rung.meets(asked.shares):
-            break
-        if rounds == MOST_ROUNDS:
-            stopped = f"{rounds} rounds have not met it"
-            break
-        most = FIRST_GROWTH if rounds == 1 else LATER_GROWTH
-        finer = ladder.refined(rung.fineness, growth(rung, asked.shares).bounded(most))
-        stopped = ladder.too_large(finer) or _too_long(ladder, finer, rung, spent, most_seconds)
-        if stopped is None:
+    way, stopped, met = begun, None, False
+    best: Rung[F] | None = None
+    while way is None or not met:
+        if way is None:
+            rung = ladder.climbed(ladder.first())
+            asked = asked_of(request, rung)
+            refuse_unreachable(asked, rung, ladder.most_growth(rung.fineness))
+            way = Way(asked, 0, 0.0, rung.fineness, np.inf, rung.fineness, None)
+        else:
+            stopped = _stopped(way, ladder, most_seconds)
+            if stopped is not None:
+                break
+            if between is not None:
+                between(way)
             try:
-                rung = ladder.climbed(finer)
+                rung = ladder.climbed(way.next)
             except SolverError as error:
                 stopped = f"the next round has no answer: {error}"
-        if stopped is not None:
-            break
-        spent, rounds = spent + rung.seconds, rounds + 1
+                break
+        shares = way.asked.shares
+        met, way = rung.meets(shares), way.after(rung, ladder, most_seconds is not None)
+        if way.best is rung.fineness:
+            best = rung
+        if estimated is not None:
+            estimated(way.rounds, shares, {name: rung.reached(name) for name in shares})
+    if best is None:  # it lies behind what was begun, and nothing came nearer
+        best = ladder.climbed(way.best)
     accuracy = AccuracyReached(
-        asked=dict(asked.shares),
-        reached={name: best.reached(name) for name in asked.shares},
-        met=best.meets(asked.shares),
+        asked=dict(way.asked.shares),
+        reached={name: best.reached(name) for name in way.asked.shares},
+        met=met,
         settings=ladder.settings(best.fineness),
-        rounds=rounds,
-        left_out=dict(asked.left_out),
+        rounds=way.rounds,
+        left_out=dict(way.asked.left_out),
         stopped=stopped,
     )
     return Climb(best, accuracy)
 
 
-def _too_long(
-    ladder: Ladder[F], finer: F, rung: Rung[F], spent: float, most_seconds: float | None
-) -> str | None:
-    if most_seconds is None:
-        return None
-    shared = max(1.0, rung.seconds / max(rung.processor_seconds, 1e-3))
-    needed = shared * ladder.seconds(finer, rung)
-    if spent + needed <= most_seconds:
+def _stopped(way: Way[F], ladder: Ladder[F], most_seconds: float | None) -> str | None:
+    """Why the next rung is not begun; None where nothing is in the way."""
+    if way.rounds == MOST_ROUNDS:
+        return f"{way.rounds} rounds have not met it"
+    if too_large := ladder.too_large(way.next):
+        return too_large
+    needed = way.needed or 0.0
+    if most_seconds is None or way.spent + needed <= most_seconds:
         return None
     return (
-        f"after {spent:.3g} s the next round would take about {needed:.2g} s, "
+        f"after {way.spent:.3g} s the next round would take about {needed:.2g} s, "
         f"beyond the {most_seconds:.3g} s of --most-seconds"
     )

@@ -12,7 +12,9 @@ import numpy as np
 
 from contact_errors.estimate import largest_so_far
 from contact_errors.rules import Rule
+from contact_errors.tension import Tension
 from contact_errors.values import Values
+from contact_scene.accuracy import LARGEST_TENSION
 from contact_scene.accuracy_reached import AccuracySettings
 from contact_scene.stated_error import Amount, ErrorStatus, Part, StatedError, StatedErrors
 
@@ -46,6 +48,7 @@ class Rung(Generic[F]):
     seconds   that it took with its companions
     processor_seconds
               of these, those that the machine worked for it
+    below     the largest tension in the body, where it is wanted
     """
 
     fineness: F
@@ -55,14 +58,27 @@ class Rung(Generic[F]):
     rules: Mapping[str, Rule]
     seconds: float
     processor_seconds: float
+    below: Tension | None = None
 
     def largest(self, name: str) -> float:
         """The largest size of a number in the history; 0 where it has none."""
+        if name == LARGEST_TENSION and self.below is not None:
+            return self.below.value
         return float(np.max(largest_so_far(self.values)[-1].get(name, 0.0)))
 
     def errors(self, name: str) -> Iterator[StatedError]:
         """Of a number at the ends of all steps that have it."""
-        return (step[name] for step in self.stated.steps if name in step)
+        return (error for error, _ in self.ends(name))
+
+    def ends(self, name: str) -> Sequence[tuple[StatedError, float]]:
+        """Its error and its size at the ends of all steps that have it."""
+        if name == LARGEST_TENSION:
+            return [] if self.below is None else [(self.below.error, self.below.value)]
+        return [
+            (step[name], float(np.max(np.abs(values[name]))))
+            for step, values in zip(self.stated.steps, self.values, strict=True)
+            if name in step
+        ]
 
     def reached(self, name: str) -> float | None:
         """The largest error of a number relative to its largest size; None where one is unknown or

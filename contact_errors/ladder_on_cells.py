@@ -16,9 +16,11 @@ from contact_errors.ladder import Growth, Rung, unkept
 from contact_errors.on_cells import stated_errors
 from contact_errors.rules import rules_for
 from contact_errors.solve_cost import Solved, machine_speed, seconds_like
+from contact_errors.tension import largest_tension
 from contact_errors.values import values_of
 from contact_results.cycles import fretting_cycles
 from contact_scene import Scene, SurfaceDiscretisation
+from contact_scene.accuracy import LARGEST_TENSION
 from contact_scene.accuracy_reached import AccuracySettings
 from contact_scene.free_memory import available_bytes
 from contact_scene.solver_errors import ContactAtWindowEdge, ContactNotResolved
@@ -59,11 +61,13 @@ class CellLadder:
 
     asked           window if it is given, ratio of the cells along the sides, largest tolerance
     surface_stress  whether numbers that take the stress at the surface are wanted
+    stress_at       loading step at whose end the largest tension is wanted; None where it is not
     """
 
     scene: Scene
     asked: SurfaceDiscretisation
     surface_stress: bool = False
+    stress_at: int | None = None
     keeping: Keeping = unkept
     watching: Watching = unkept
 
@@ -77,14 +81,19 @@ class CellLadder:
         began, began_processor = time.perf_counter(), time.process_time()
         result = self._solved(fineness)
         stated = stated_errors(result, surface_stress=self.surface_stress)
+        below = None
+        if self.stress_at is not None:
+            below = largest_tension(result, stated, self.stress_at)
+        rules = rules_for(self.scene.indenter, result.plan.coupling is not Coupling.NONE)
         return Rung(
             fineness=replace(fineness, grid=result.grid),
             result=result,
             stated=stated,
             values=values_of(result, fretting_cycles(result, surface_stress=self.surface_stress)),
-            rules=rules_for(self.scene.indenter, result.plan.coupling is not Coupling.NONE),
+            rules={**rules, **({LARGEST_TENSION: below.rule} if below else {})},
             seconds=time.perf_counter() - began,
             processor_seconds=time.process_time() - began_processor,
+            below=below,
         )
 
     def refined(self, fineness: CellFineness, by: Growth) -> CellFineness:

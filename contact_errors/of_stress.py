@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from contact_errors import estimate
-from contact_errors.rules import INTERIOR, TENSION
+from contact_errors.rules import INTERIOR, TENSION, Rule
 from contact_results.stress.extremes import Extreme, extremes
 from contact_results.stress.loaded_bodies import LoadedBodies
 from contact_results.stress.on_cells import stress_on_cells
@@ -42,18 +42,23 @@ def stress_errors(
         (e.region, e.measure): (e.value, beyond(wide.points, e))
         for e in extremes(wide.points, body)
     }
-    x, y = state.axes["x"], state.axes["y"]
-    near = NEAR * sqrt((x[1] - x[0]) * (y[1] - y[0]))
     return tuple(
         _error(
             e,
             beyond(field.points, e),
             there.get((e.region, e.measure)),
-            near,
+            rule_of(state, e),
             state.by_increments or 0.0,
         )
         for e in found
     )
+
+
+def rule_of(state: LoadedBodies, extreme: Extreme) -> Rule:
+    """The law of its error by cells."""
+    x, y = state.axes["x"], state.axes["y"]
+    near = NEAR * sqrt((x[1] - x[0]) * (y[1] - y[0]))
+    return INTERIOR if extreme.depth >= near else TENSION
 
 
 def on_wide_cells(state: LoadedBodies) -> LoadedBodies:
@@ -114,20 +119,18 @@ def _error(
     extreme: Extreme,
     beyond_here: float,
     wide: tuple[float, float] | None,
-    near: float,
+    rule: Rule,
     by_increments: float,
 ) -> StatedError:
     if wide is None:
         return estimate.UNKNOWN
     value, beyond_there = wide
-    inside = extreme.depth >= near
     change = abs(extreme.value - value)
     cells = np.zeros(1)
-    if inside:
+    if rule is INTERIOR:
         change = abs(extreme.value + beyond_here - value - beyond_there)
         cells = np.array([BETWEEN * beyond_here])
     differs, largest = np.array([change]), np.array([abs(extreme.value)])
-    rule = INTERIOR if inside else TENSION
     parts: dict[Part, Field] = {"cells": cells + estimate.by_cells(rule, differs, 2.0, np.zeros(1))}
     if by_increments:
         parts["increments"] = by_increments * largest

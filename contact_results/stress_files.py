@@ -16,6 +16,7 @@ from contact_results.stress.tables import (
     write_maxima,
     write_stress_summary,
 )
+from contact_scene.accuracy_reached import AccuracyReached
 from contact_scene.stated_error import StatedError
 
 
@@ -28,10 +29,12 @@ def write_stress(
     *,
     with_figures: bool,
     errors: Sequence[StatedError] | None = None,
+    accuracy: AccuracyReached | None = None,
 ) -> None:
     """Write tables, meshes, figures and summary of the `body` or the `indenter`.
 
-    errors  of what was found; None where they were left out
+    errors    of what was found; None where they were left out
+    accuracy  that was asked for and reached; None where none was asked for
     """
     body = state.indenter if which == "indenter" else state.body
     # Last to come and first to go: a directory with a summary is complete.
@@ -47,4 +50,4 @@ def write_stress(
 
         title = f"{state.title or 'Stress'}: {which}, step {state.step}"
         write_stress_figures(field, body, directory, title)
-    write_stress_summary(state, which, field, found, errors, directory)
+    write_stress_summary(state, which, field, found, errors, accuracy, directory)

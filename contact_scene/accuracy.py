@@ -12,7 +12,7 @@ from contact_scene.increment import State
 from contact_scene.problem import Problem, SceneError
 from contact_scene.quantity import Share
 from contact_scene.refusal import refusal, shown
-from contact_scene.reported import reported
+from contact_scene.reported import Reported, reported
 from contact_scene.summary import Closed
 
 # What a share without a name binds.
@@ -21,9 +21,17 @@ OVERALL = (
     *("tangential_shift", "twist", "energy_per_cycle"),
 )
 
+# Of the maxima that `slipstick stress` lists the first with this name.
+LARGEST_TENSION = "max_principal"
+TENSION = Reported("Pa", "Largest principal stress anywhere in the body, tension positive.")
+
 BOUND = {
     name: mark
-    for name, mark in {**reported(State), **reported(Closed)}.items()
+    for name, mark in {
+        **reported(State),
+        **reported(Closed),
+        LARGEST_TENSION: TENSION,
+    }.items()
     if mark.physical and mark.unit
 }
 
@@ -67,6 +75,11 @@ class AccuracyRequest(_Named):
         `overall`."""
         overall = {} if self.overall is None else dict.fromkeys(OVERALL, self.overall)
         return overall | {name: getattr(self, name) for name in self.named}
+
+    @property
+    def binds_stress(self) -> bool:
+        """Whether it binds a stress below the surface."""
+        return LARGEST_TENSION in self.named
 
 
 def accuracy_texts(text: str, option: str) -> dict[str, Any]:

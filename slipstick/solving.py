@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from contextlib import nullcontext
 from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal, TypeAlias, overload
 
 from contact_scene import Scene, SceneFile
+from contact_scene.solver_errors import AccuracyOutOfReach
 from slipstick.solvers.names import SolverName, solver_of
 
 if TYPE_CHECKING:
@@ -14,6 +16,7 @@ if TYPE_CHECKING:
     import semi_analytical
     from contact_results.surface import Result
     from contact_scene import FiniteElementDiscretisation, SurfaceDiscretisation
+    from contact_scene.accuracy import AccuracyRequest
     from contact_scene.stated_error import StatedErrors
     from slipstick.solvers.solver import Discretisation, Progress, Solver
 
@@ -82,7 +85,8 @@ def solve(
     Parameters
     ----------
     scene
-        What is solved; of a scene file that was read whole also how finely.
+        What is solved; of a scene file that was read whole also how finely. Where the file asks
+        for an accuracy, ever finer solves are made until it is met, and the last is returned.
     solver
         "semi-analytical", or finite elements with a penalty, "fem", or without one,
         "fem-complementarity".
@@ -97,18 +101,14 @@ def solve(
     TypeError
         It is no scene.
     ValueError
-        There is no such solver, or the discretisation is of another; or the scene file asks for an
-        accuracy, which takes more than one solve.
+        There is no such solver, or the discretisation is of another.
     SolverError
         As the solver says: UnsupportedScene, NotConverged, GrossSliding, ResourceRefused and others
-        in `contact_scene.solver_errors`.
+        in `contact_scene.solver_errors`; AccuracyOutOfReach where less was reached than asked.
     """
-    if isinstance(scene, SceneFile) and scene.accuracy is not None:
-        raise ValueError(
-            "the scene file asks for an accuracy, by its table [accuracy]: use 'slipstick run', or "
-            "solve(contents.scene) for one solve as fine as the discretisation says"
-        )
     chosen, solved, fineness = _asked(scene, solver, discretisation)
+    if isinstance(scene, SceneFile) and scene.accuracy is not None:
+        return _solved_to(scene.accuracy, chosen, solved, fineness, progress)
     return chosen.solve(solved, fineness, chosen.plan(solved, fineness), progress)
 
 
@@ -141,6 +141,28 @@ def save(
 
     with run_directory(Path(directory)) as staging:
         write_result(result, staging, with_figures=figures, errors=errors)
+
+
+def _solved_to(
+    request: AccuracyRequest,
+    chosen: Solver,
+    scene: Scene,
+    fineness: Discretisation,
+    progress: Progress | None,
+) -> Any:
+    from contact_errors.climb import climb
+
+    ladder = chosen.ladder(
+        scene,
+        fineness,
+        surface_stress="ruiz_f2" in request.named,
+        stress_at=len(scene.loading) if request.binds_stress else None,
+        watching=lambda _: nullcontext(progress),
+    )
+    made = climb(ladder, request)
+    if not made.accuracy.met:
+        raise AccuracyOutOfReach(f"the accuracy was not reached: {made.accuracy.stopped}")
+    return made.rung.result
 
 
 def _asked(

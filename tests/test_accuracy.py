@@ -1,8 +1,10 @@
 """An accuracy that is asked for is met, or it is said why not."""
 
 import json
+import signal
 from dataclasses import replace
 from itertools import pairwise
+from multiprocessing import get_context
 from pathlib import Path
 
 import numpy as np
@@ -28,7 +30,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from contact_errors import ladder_on_cells
-from contact_errors.climb import Climb, climb
+from contact_errors.asked import Asked
+from contact_errors.climb import Climb, Way, climb
 from contact_errors.ladder import AIM, Growth, Rung, growth, unkept
 from contact_errors.ladder_on_cells import CellFineness, CellLadder, even_smooth
 from contact_errors.ladder_on_elements import ElementLadder
@@ -36,6 +39,7 @@ from contact_errors.price import Prices
 from contact_errors.rules import APPROACH as APPROACH_RULE
 from contact_errors.rules import SHIFT, Rule
 from contact_errors.solve_cost import Solved, Speed, seconds_like
+from contact_results.directory.checkpoint_file import Unusable, packed, unpacked
 from contact_scene import (
     Body,
     Cone,
@@ -47,12 +51,14 @@ from contact_scene import (
     SceneError,
     SurfaceDiscretisation,
 )
-from contact_scene.scene_file import read_accuracy
+from contact_scene.scene_file import read_accuracy, read_scene_file
 from contact_scene.solver_errors import AccuracyOutOfReach
 from contact_scene.stated_error import ErrorStatus, StatedError, StatedErrors
 from contact_scene.summary import load_summary
 from fem_reference import Method
 from semi_analytical import solve
+from slipstick import solve as solve_file
+from slipstick.solvers.names import SolverName
 from verification.closed_forms.cattaneo_mindlin import PartialSlip
 from verification.closed_forms.moduli import tangential_modulus
 
@@ -66,6 +72,7 @@ material = { young_modulus = "420 GPa", poisson_ratio = 0.3 }
 [[loading]]
 normal_force = "1 kN"
 """
+TENSION = "max_principal 40%"
 LAYER = Layer(thickness=A, material=IsotropicMaterial(young_modulus=2 * YOUNG, poisson_ratio=NU))
 
 
@@ -100,6 +107,7 @@ def test_a_name_counts_more_than_the_share_of_all() -> None:
     [
         ("peak_presure 1%", "did you mean peak_pressure?"),
         ("halvings 1%", "unknown key"),
+        ("dissipation_uncertainty 1%", "unknown key"),
         ("approach 200%", "at most 50 %"),
         ("approach 0", "above 0"),
         ("approach 1 mm", "such as"),
@@ -216,6 +224,22 @@ def test_what_no_grid_can_meet_is_refused_after_the_first_round() -> None:
     with pytest.raises(AccuracyOutOfReach, match=r"ruiz_f2.* 0.5, and about \d.* % is all"):
         climb(ladder, request("ruiz_f2 1e-6"), None, lambda k, *_: rounds.append(k))
     assert rounds == []
+
+
+def test_the_largest_tension_is_as_accurate_as_was_asked() -> None:
+    pressed = scene(PRESS, friction=None)
+    made = climb(CellLadder(pressed, SurfaceDiscretisation(), stress_at=1), request(TENSION))
+    exact = (1 - 2 * NU) / 3 * hertz().peak_pressure  # at the edge of the contact
+    assert made.accuracy.met
+    assert set(made.accuracy.asked) == {"max_principal"}
+    assert made.rung.below.value == pytest.approx(exact, rel=0.4)
+
+
+def test_a_tension_that_nobody_has_is_refused() -> None:
+    rigid = scene(PRESS, indenter=paraboloid(), friction=None)
+    rigid = rigid.model_copy(update={"body": Body(material="rigid")})
+    with pytest.raises(AccuracyOutOfReach, match=r"max_principal.*rigid"):
+        climb(CellLadder(rigid, SurfaceDiscretisation(), stress_at=1), request(TENSION))
 
 
 def test_a_limit_of_time_keeps_the_best_result() -> None:
@@ -361,6 +385,44 @@ def test_a_run_refuses_what_cannot_be(tmp_path: Path, more: tuple[str, ...]) -> 
     assert not (tmp_path / "out").exists()
 
 
+def test_stress_meets_the_table_of_its_scene_and_says_so(tmp_path: Path) -> None:
+    path, out = written(tmp_path, "[accuracy]\nmax_principal = '40 %'\n"), tmp_path / "new" / "out"
+    assert slipstick("stress", path, "-o", out, "--no-figures") == 0
+    record = json.loads((out / "stress.json").read_text())
+    tension = next(e for e in record["maxima"] if e["measure"] == "max_principal")
+    assert record["accuracy"]["met"]
+    reached = record["accuracy"]["reached"]["max_principal"]
+    assert reached == pytest.approx(tension["error"]["error"] / tension["value"])
+    assert slipstick("stress", path, "-o", out, "--no-figures", "--most-seconds", 0) == 4
+    assert not json.loads((out / "stress.json").read_text())["accuracy"]["met"]
+
+
+@pytest.mark.parametrize(
+    "more",
+    [
+        ("--accuracy", "max_principal 1e-6"),
+        ("--accuracy", TENSION, "--indenter"),
+        ("--accuracy", TENSION, "--no-error"),
+        ("--accuracy", TENSION, "--solver", "fem"),
+        ("--accuracy", TENSION, "--step", "2"),
+        ("--most-seconds", "3"),
+    ],
+    ids=" ".join,
+)
+def test_stress_refuses_what_cannot_be(tmp_path: Path, more: tuple[str, ...]) -> None:
+    assert slipstick("stress", written(tmp_path), "-o", tmp_path / "out", *more) == 2
+    assert not (tmp_path / "out").exists()
+
+
+def test_python_solves_as_accurately_as_the_file_asks(tmp_path: Path) -> None:
+    result = solve_file(read_scene_file(written(tmp_path, "[accuracy]\napproach = '0.2 %'\n")))
+    assert result.steps[-1].approach == pytest.approx(APPROACH, rel=2e-3)
+    assert result.grid.cells < (64, 64)
+    asked = read_scene_file(written(tmp_path, "[accuracy]\ncontact_radius = 1e-9\n"))
+    with pytest.raises(AccuracyOutOfReach):
+        solve_file(asked)
+
+
 def test_check_tells_what_accuracy_is_asked_for(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -372,29 +434,66 @@ def test_an_empty_table_is_refused(tmp_path: Path) -> None:
     assert slipstick("check", written(tmp_path, "[accuracy]\n")) == 2
 
 
-def test_a_killed_run_ends_as_if_it_had_not_been(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+@pytest.mark.parametrize("stop", [signal.SIGTERM, signal.SIGKILL])
+def test_a_killed_run_goes_on_with_the_round_it_was_killed_in(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, stop: signal.Signals
 ) -> None:
     path, out, whole = written(tmp_path), tmp_path / "out", tmp_path / "whole"
-    asked = ("--no-figures", "--accuracy", "1%")
+    asked = ("--no-figures", "--accuracy", "0.1%")
     assert slipstick("run", path, "-o", whole, *asked) == 0
-    solved: list[object] = []
-    estimate = ladder_on_cells.stated_errors
+    last = summary(whole).accuracy.rounds
+    assert last > 1
+    stated, solved = ladder_on_cells.stated_errors, []
+
+    def counted(*given, **more):
+        solved.append(given)
+        return stated(*given, **more)
 
     def killed(*given, **more):
-        solved.append(given)
-        if len(solved) == 2:
-            raise KeyboardInterrupt
-        return estimate(*given, **more)
+        if len(solved) == last - 1:
+            signal.raise_signal(stop)
+        return counted(*given, **more)
 
     monkeypatch.setattr(ladder_on_cells, "stated_errors", killed)
-    with pytest.raises(BaseException):  # noqa: B017, PT011
-        assert slipstick("run", path, "-o", out, *asked) == 0
+    run = get_context("fork").Process(target=slipstick, args=("run", path, "-o", out, *asked))
+    run.start()
+    run.join()
+    assert run.exitcode in (128 + stop, -stop)
     assert not out.exists()
-    monkeypatch.undo()
+    assert (tmp_path / ".out.rounds").exists()
+    monkeypatch.setattr(ladder_on_cells, "stated_errors", counted)
     assert slipstick("run", path, "-o", out, *asked) == 0
-    assert summary(out) == summary(whole)
+    assert len(solved) == 1
+    assert (out / "summary.json").read_bytes() == (whole / "summary.json").read_bytes()
     assert sorted(p.name for p in tmp_path.iterdir()) == ["out", "scene.toml", "whole"]
+
+
+@pytest.mark.parametrize("solver", ["semi-analytical", "fem"])
+def test_where_a_climb_stands_is_the_same_after_it_was_kept(tmp_path: Path, solver: str) -> None:
+    chosen = SolverName(solver).solver
+    first = chosen.ladder(scene(PRESS), chosen.default()).first()
+    way = Way(Asked({"approach": 0.1}, {}), 1, 2.0, first, np.inf, first, None)
+    path = tmp_path / "kept"
+    path.write_bytes(packed(way, "of this"))
+    assert unpacked(path, "of this") == way
+    with pytest.raises(Unusable):
+        unpacked(path, "of another")
+
+
+def test_what_was_kept_of_another_request_is_begun_anew(tmp_path: Path) -> None:
+    kept = tmp_path / ".out.rounds"
+    kept.write_bytes(b"no rounds")
+    asked = ("--no-figures", "--accuracy", "1%")
+    assert slipstick("run", written(tmp_path), "-o", tmp_path / "out", *asked) == 0
+    assert not kept.exists()
+
+
+def test_the_best_round_is_solved_again_if_it_lies_behind_what_was_begun() -> None:
+    ladder, ways = CellLadder(scene(PRESS), SurfaceDiscretisation()), []
+    climb(ladder, request("0.1%"), between=ways.append)
+    made = climb(ladder, request("0.1%"), most_seconds=0.0, begun=ways[-1])
+    assert "--most-seconds" in made.accuracy.stopped
+    assert made.rung.fineness == ways[-1].best
 
 
 def test_paraboloids_of_all_sizes_take_the_same_cells() -> None:

@@ -110,7 +110,7 @@ ORDERS = {
     ),
     "contact_errors": (
         *("values", "rules", "estimate", "prescribed", "levels", "half_the_cells", "on_cells"),
-        *("element_rules", "on_elements", "of_stress"),
+        *("element_rules", "on_elements", "of_stress", "tension"),
         *("solve_cost", "ladder", "asked", "climb", "price", "ladder_on_cells"),
         "ladder_on_elements",
     ),

@@ -15,13 +15,17 @@ from enum import Enum
 from pathlib import Path
 from typing import Any
 
+from contact_scene import FiniteElementDiscretisation
 from contact_scene.free_memory import available_bytes
 
 FORMAT = b"slipstick checkpoint 1"
 PROTOCOL = 5
 LONGEST_LINE = 1000
 
-PACKAGES = ("contact_scene", "semi_analytical", "fem_reference", "contact_results")
+PACKAGES = (
+    *("contact_scene", "semi_analytical", "fem_reference", "contact_results"),
+    "contact_errors",
+)
 NUMPY = {
     ("numpy", "dtype"),
     ("numpy", "ndarray"),
@@ -81,7 +85,8 @@ class _Reader(pickle.Unpickler):
 
 def _is_value(found: Any) -> bool:
     if isinstance(found, type):
-        return hasattr(found, "__dataclass_fields__") or issubclass(found, Enum)
+        fields = hasattr(found, "__dataclass_fields__")
+        return fields or issubclass(found, Enum | FiniteElementDiscretisation)
     return bool(found.__module__ == FAR_FIELDS)
 
 

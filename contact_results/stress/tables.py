@@ -14,6 +14,7 @@ from contact_results.stress.extremes import Extreme, interface_sides, layer_name
 from contact_results.stress.loaded_bodies import LoadedBodies
 from contact_results.stress.points import MEASURES, StressField, StressPoints
 from contact_scene import Body
+from contact_scene.accuracy_reached import AccuracyReached
 from contact_scene.stated_error import StatedError
 
 MAXIMA, AXIS, INTERFACES = "stress_maxima.csv", "stress_axis.csv", "stress_interfaces.csv"
@@ -64,6 +65,7 @@ def write_stress_summary(
     field: StressField,
     found: Sequence[Extreme],
     errors: Sequence[StatedError] | None,
+    accuracy: AccuracyReached | None,
     directory: Path,
 ) -> None:
     """Write what was computed and its extremes; the last file of a stress state."""
@@ -73,6 +75,7 @@ def write_stress_summary(
         "body": which,
         "step": state.step,
         "peak_pressure": float(np.max(state.tractions["pressure"])),
+        "accuracy": None if accuracy is None else accuracy.model_dump(mode="json"),
         **field.how,
         "measures": MEASURES,
         "maxima": [

@@ -2,10 +2,12 @@
 
 from collections.abc import Iterator
 from contextlib import contextmanager
-from itertools import count
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, TypeAlias
 
+import typer
+
+from slipstick.cli.errors import ExitCode
 from slipstick.cli.optional import optional
 
 if TYPE_CHECKING:
@@ -13,6 +15,7 @@ if TYPE_CHECKING:
     from contact_results.directory.checkpoint import Checkpoint
     from contact_scene import SceneFile
     from contact_scene.accuracy import AccuracyRequest
+    from contact_scene.accuracy_reached import AccuracyReached
     from slipstick.solvers.solver import Progress, Solver
 
 AccuracyOption: TypeAlias = Annotated[
@@ -26,14 +29,48 @@ AccuracyOption: TypeAlias = Annotated[
     ),
 ]
 
+MostSecondsOption: TypeAlias = Annotated[
+    float | None,
+    optional(
+        "--most-seconds",
+        metavar="S",
+        min=0,
+        help="With an accuracy: begin no finer solve that would exceed this time all together; "
+        "the best result is kept, with exit code 4. Absent: as long as it takes.",
+    ),
+]
 
-def asked_accuracy(contents: "SceneFile", option: str | None) -> "AccuracyRequest | None":
-    """What the option asks for, or else the scene file."""
-    if option is None:
-        return contents.accuracy
-    from contact_scene.scene_file import read_accuracy
 
-    return read_accuracy(option, "--accuracy")
+def asked_accuracy(
+    contents: "SceneFile", option: str | None, most_seconds: float | None
+) -> "AccuracyRequest | None":
+    """What the option asks for, or else the scene file; a limit of time alone is refused."""
+    if option is not None:
+        from contact_scene.scene_file import read_accuracy
+
+        return read_accuracy(option, "--accuracy")
+    if most_seconds is not None and contents.accuracy is None:
+        raise typer.BadParameter("--most-seconds is of --accuracy; leave it or give an accuracy")
+    return contents.accuracy
+
+
+def refuse_beside_accuracy(options: dict[str, bool]) -> None:
+    """Refuse options that cannot be met where errors are needed."""
+    for option, asked in options.items():
+        if asked:
+            raise typer.BadParameter(
+                f"{option} cannot be met beside an accuracy; leave it or --accuracy (and the table "
+                "[accuracy]) out"
+            )
+
+
+def leave_unless_met(accuracy: "AccuracyReached | None") -> None:
+    """Leave with the exit code of a limit where less was reached than was asked for."""
+    from slipstick.cli.terminal import tell
+
+    if accuracy is not None and not accuracy.met:
+        tell(f"error: the accuracy was not reached: {accuracy.stopped}; the best result is kept")
+        raise typer.Exit(ExitCode.RESOURCES_REFUSED)
 
 
 def climb_to(
@@ -41,23 +78,31 @@ def climb_to(
     solver: "Solver",
     contents: "SceneFile",
     output: Path,
-    surface_stress: bool,
     most_seconds: float | None,
+    *,
+    surface_stress: bool = False,
+    step: int | None = None,
 ) -> "Climb[Any]":
-    """The scene solved ever finer until a request is met; every round leaves its own checkpoint
-    beside the results if it is killed."""
+    """The scene solved ever finer until a request is met. Beside the results every round leaves
+    its own checkpoint if it is killed, and all of them where the next one goes on.
+
+    step  at whose end the stress below the surface is wanted; the last if absent
+    """
     from contact_errors.climb import climb
     from contact_results.directory.checkpoint import checkpointed
-    from contact_results.directory.code_digest import solve_identity
+    from contact_results.directory.code_digest import SOLVERS, code_digest, solve_identity
+    from contact_results.directory.kept_value import kept_value
     from slipstick.cli.progress import solve_progress, tell_round
     from slipstick.cli.terminal import tell
 
-    rounds = count(1)
+    tried = 0  # in this round, whose grid may be outgrown
 
     @contextmanager
     def keeping(fineness: Any) -> "Iterator[Checkpoint]":
+        nonlocal tried
+        tried += 1
         identity = solve_identity(contents.scene, fineness, vars(solver))
-        with checkpointed(output, identity, tell, f"checkpoint-{next(rounds)}") as keeper:
+        with checkpointed(output, identity, tell, f"checkpoint-{tried}") as keeper:
             yield keeper
 
     @contextmanager
@@ -66,5 +111,24 @@ def climb_to(
             yield observe
 
     fineness = solver.fineness(contents)
-    ladder = solver.ladder(contents.scene, fineness, surface_stress, keeping, watching)
-    return climb(ladder, request, most_seconds, tell_round)
+    ladder = solver.ladder(
+        contents.scene,
+        fineness,
+        surface_stress=surface_stress,
+        stress_at=(step or len(contents.scene.loading)) if request.binds_stress else None,
+        keeping=keeping,
+        watching=watching,
+    )
+    asked = (contents.scene, fineness, vars(solver), request, surface_stress, step)
+    identity = solve_identity(*asked, code_digest((*SOLVERS, "contact_results", "contact_errors")))
+    with kept_value(output, identity, tell, "rounds") as kept:
+
+        def between(way: Any) -> None:
+            nonlocal tried
+            tried = 0
+            kept.keep(way)
+
+        begun = kept.last()
+        if begun is not None:
+            tell(f"going on after round {begun.rounds} of an interrupted run ({kept.path})")
+        return climb(ladder, request, most_seconds, tell_round, begun, between)

@@ -22,7 +22,9 @@ def print_prices(option: str, solver: "Solver", contents: "SceneFile") -> None:
 
     items = option.split(",")
     requests = [read_accuracy(item, "--accuracy") for item in items]
-    ladder = solver.ladder(contents.scene, solver.fineness(contents), False, None, None)
+    last = len(contents.scene.loading)
+    wanted = last if any(request.binds_stress for request in requests) else None
+    ladder = solver.ladder(contents.scene, solver.fineness(contents), stress_at=wanted)
     prices = Prices.of(ladder)
     rows, refused = [], []
     for item, request in zip(items, requests, strict=True):

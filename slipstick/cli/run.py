@@ -4,9 +4,15 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from slipstick.cli.asked_accuracy import AccuracyOption, asked_accuracy, climb_to
-from slipstick.cli.errors import ExitCode
-from slipstick.cli.optional import FiguresOption, OutputOption, optional
+from slipstick.cli.asked_accuracy import (
+    AccuracyOption,
+    MostSecondsOption,
+    asked_accuracy,
+    climb_to,
+    leave_unless_met,
+    refuse_beside_accuracy,
+)
+from slipstick.cli.optional import FiguresOption, OutputOption
 from slipstick.cli.scene_options import SceneArgument, SetOption
 from slipstick.cli.solver_option import SolverOption
 from slipstick.solvers.names import SolverName
@@ -53,16 +59,7 @@ def run(
         ),
     ] = True,
     accuracy: AccuracyOption = None,
-    most_seconds: Annotated[
-        float | None,
-        optional(
-            "--most-seconds",
-            metavar="S",
-            min=0,
-            help="With an accuracy: begin no finer solve that would exceed this time all together; "
-            "the best result is kept, with exit code 4. Absent: as long as it takes.",
-        ),
-    ] = None,
+    most_seconds: MostSecondsOption = None,
     path_error: Annotated[
         bool,
         typer.Option(
@@ -92,9 +89,7 @@ def run(
     stopwatch = Stopwatch()
     with stopwatch.phase("read"):
         contents = read_scene_file(scene, overrides or ())
-        request = asked_accuracy(contents, accuracy)
-    if most_seconds is not None and request is None:
-        raise typer.BadParameter("--most-seconds is of --accuracy; leave it or give an accuracy")
+        request = asked_accuracy(contents, accuracy, most_seconds)
     if solver.is_fem:
         _refuse_beside_fem(
             {
@@ -104,7 +99,7 @@ def run(
             }
         )
     if request is not None:
-        _refuse_beside_accuracy({"--all-effects": all_effects, "--no-error": not error})
+        refuse_beside_accuracy({"--all-effects": all_effects, "--no-error": not error})
     with stopwatch.phase("import"):
         chosen = solver.solver
         from slipstick.cli.progress import solve_progress
@@ -122,7 +117,9 @@ def run(
         stated = reached = None
         with stopwatch.phase("solve"):
             if request is not None:
-                climbed = climb_to(request, chosen, contents, output, surface_stress, most_seconds)
+                climbed = climb_to(
+                    request, chosen, contents, output, most_seconds, surface_stress=surface_stress
+                )
                 result, stated = climbed.rung.result, climbed.rung.stated
                 reached = climbed.accuracy
             else:
@@ -154,18 +151,7 @@ def run(
     typer.echo(f"results in {output}")
     if all_effects:
         _print_saving(result)
-    if reached is not None and not reached.met:
-        tell(f"error: the accuracy was not reached: {reached.stopped}; the best result is kept")
-        raise typer.Exit(ExitCode.RESOURCES_REFUSED)
-
-
-def _refuse_beside_accuracy(options: dict[str, bool]) -> None:
-    for option, asked in options.items():
-        if asked:
-            raise typer.BadParameter(
-                f"{option} cannot be met beside an accuracy; leave it or --accuracy (and the table "
-                "[accuracy]) out"
-            )
+    leave_unless_met(reached)
 
 
 def _refuse_beside_fem(options: dict[str, bool]) -> None:
@@ -184,9 +170,7 @@ def _path_errors(result: Any, keeper: "Keeper") -> "tuple[PathError, ...]":
         return path_errors(result, observe, keeper)
 
 
-def _stated_errors(
-    solver: "Solver", result: "Result", surface_stress: bool
-) -> "StatedErrors | None":
+def _stated_errors(solver: "Solver", result: "Result", surface_stress: bool) -> "StatedErrors":
     from slipstick.cli.progress import companion_progress
 
     with companion_progress() as observe:

@@ -7,6 +7,12 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from slipstick.cli.asked_accuracy import (
+    AccuracyOption,
+    MostSecondsOption,
+    asked_accuracy,
+    leave_unless_met,
+)
 from slipstick.cli.optional import FiguresOption, OutputOption, optional
 from slipstick.cli.scene_options import SetOption
 from slipstick.cli.solver_option import AskedSolver
@@ -16,8 +22,8 @@ if TYPE_CHECKING:
     from contact_results.stress.extremes import Extreme
     from contact_results.stress.loaded_bodies import LoadedBodies
     from contact_results.stress.points import StressField
-    from contact_results.surface import Result
-    from contact_scene.stated_error import StatedError, StatedErrors
+    from contact_scene.accuracy_reached import AccuracyReached
+    from contact_scene.stated_error import StatedError
 
 
 def stress(
@@ -61,32 +67,66 @@ def stress(
             "--error/--no-error", help="State an error for every maximum, or leave them out."
         ),
     ] = True,
+    accuracy: AccuracyOption = None,
+    most_seconds: MostSecondsOption = None,
     overrides: SetOption = None,
     solver: AskedSolver = None,
 ) -> None:
     """Stress in layers and substrate: maxima, sections, lines, and both sides of interfaces.
 
     Writes stress.json, tables (CSV), the section y = 0 for ParaView (VTU) and figures into DIR.
+
+    With --accuracy, or a table [accuracy] in the scene, the scene is solved as by 'run';
+    "max_principal 1%" binds the largest tension in the body.
     """
     _refuse_file_in_the_way(output)
     asked = None if depths is None else [_length(text) for text in depths.split(",")]
     chosen = solver or SolverName.SEMI_ANALYTICAL
     if source.is_dir():
-        _refuse_beside_run({"--set": overrides, "--solver": solver})
+        given: dict[str, object] = {"--set": overrides, "--solver": solver}
+        _refuse_beside_run(given | {"--accuracy": accuracy, "--most-seconds": most_seconds})
     else:
         _refuse_beside_fem(chosen.is_fem, asked, volume)
     from contact_results.stress.extremes import extremes
     from contact_results.stress_files import write_stress
+    from contact_scene import read_scene_file
+    from slipstick.cli.stress_source import state_of_run_directory, state_of_scene
 
-    state = _state(source, step, chosen, overrides or [], error)
+    reached = None
+    if source.is_dir():
+        state = state_of_run_directory(source, step)
+    else:
+        contents = read_scene_file(source, overrides or ())
+        request = asked_accuracy(contents, accuracy, most_seconds)
+        if indenter and request is not None and request.binds_stress:
+            raise typer.BadParameter("an accuracy of max_principal is of the body, not --indenter")
+        state, reached = state_of_scene(
+            contents,
+            step,
+            chosen,
+            error=error,
+            request=request,
+            most_seconds=most_seconds,
+            output=output,
+        )
     which, body = ("indenter", state.indenter) if indenter else ("body", state.body)
     if not body.deforms:
         raise typer.BadParameter(f"the {which} is rigid: there is no stress in it")
     field = _below(state, asked, indenter=indenter, volume=volume)
     found = extremes(field.points, body)
     errors = _errors(state, field, found, indenter) if error else None
-    write_stress(state, which, field, found, output, with_figures=figures, errors=errors)
-    _print(found, errors, state.by_increments, output)
+    write_stress(
+        state,
+        which,
+        field,
+        found,
+        output,
+        with_figures=figures,
+        errors=errors,
+        accuracy=reached,
+    )
+    _print(found, errors, state.by_increments, reached, output)
+    leave_unless_met(reached)
 
 
 def _refuse_file_in_the_way(output: Path) -> None:
@@ -110,38 +150,6 @@ def _refuse_beside_fem(is_fem: bool, depths: list[float] | None, volume: bool) -
             "finite elements give the stress at their nodes in one plane: leave --depths and "
             "--volume out"
         )
-
-
-def _state(
-    source: Path, step: int | None, solver: SolverName, overrides: list[str], error: bool
-) -> LoadedBodies:
-    from contact_results.stress.loaded_bodies import NoSuchState, state_of_result, state_of_run
-
-    try:
-        if source.is_dir():
-            return state_of_run(source, step)
-        result, errors = _solved(source, solver, overrides, error)
-        return state_of_result(result, step, errors)
-    except NoSuchState as error:
-        raise typer.BadParameter(str(error)) from None
-
-
-def _solved(
-    scene: Path, solver: SolverName, overrides: list[str], error: bool
-) -> tuple[Result, StatedErrors | None]:
-    from contact_scene import read_scene_file
-    from slipstick.cli.progress import companion_progress, solve_progress
-
-    contents = read_scene_file(scene, overrides)
-    chosen = solver.solver
-    fineness = chosen.fineness(contents)
-    decided = chosen.plan(contents.scene, fineness)
-    with solve_progress(decided.increments) as observe:
-        result = chosen.solve(contents.scene, fineness, decided, observe)
-    if not error:
-        return result, None
-    with companion_progress() as observe:
-        return result, chosen.errors(result, progress=observe)
 
 
 def _below(
@@ -190,14 +198,18 @@ def _print(
     found: tuple[Extreme, ...],
     errors: tuple[StatedError, ...] | None,
     by_increments: float | None,
+    reached: AccuracyReached | None,
     output: Path,
 ) -> None:
     import numpy as np
 
     from contact_results.number_text import number_text, uncertainty
     from contact_scene.engineering_units import engineering_unit, quantity
-    from slipstick.cli.terminal import print_table
+    from slipstick.cli.outcome_text import how_accurate
+    from slipstick.cli.terminal import print_pairs, print_table
 
+    if reached is not None:
+        print_pairs(how_accurate(reached))
     unit = engineering_unit(float(np.max([abs(e.value) for e in found])), "Pa")
     columns = ("region", "measure", f"largest\n{unit.name}", "x\n", "y\n", "depth\n")
     rows = (

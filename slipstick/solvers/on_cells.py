@@ -51,14 +51,17 @@ class OnCells:
         self,
         scene: Scene,
         fineness: SurfaceDiscretisation,
+        *,
         surface_stress: bool = False,
+        stress_at: int | None = None,
         keeping: Keeping | None = None,
         watching: Watching | None = None,
     ) -> CellLadder:
         from contact_errors.ladder import unkept
         from contact_errors.ladder_on_cells import CellLadder
 
-        return CellLadder(scene, fineness, surface_stress, keeping or unkept, watching or unkept)
+        kept, watched = keeping or unkept, watching or unkept
+        return CellLadder(scene, fineness, surface_stress, stress_at, kept, watched)
 
     def work(self, scene: Scene, fineness: SurfaceDiscretisation, plan: Plan) -> Pairs:
         """Grid, tolerance, increments and memory; what the scene left open says so."""

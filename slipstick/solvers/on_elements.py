@@ -62,7 +62,9 @@ class OnElements:
         self,
         scene: Scene,
         fineness: FiniteElementDiscretisation,
+        *,
         surface_stress: bool = False,
+        stress_at: int | None = None,
         keeping: Keeping | None = None,
         watching: Watching | None = None,
     ) -> ElementLadder:

@@ -57,12 +57,21 @@ class Solver(Protocol):
         """
 
     def ladder(
-        self, scene: Scene, fineness: Any, surface_stress: bool, keeping: Any, watching: Any
+        self,
+        scene: Scene,
+        fineness: Any,
+        *,
+        surface_stress: bool = False,
+        stress_at: int | None = None,
+        keeping: Any = None,
+        watching: Any = None,
     ) -> Ladder[Any]:
         """Ever finer solves of a scene, for an accuracy that is asked for.
 
-        keeping   from a fineness to a block that has the keeper of its solve
-        watching  the same for what is told of its increments
+        surface_stress  whether numbers that take the stress at the surface are wanted
+        stress_at       step at whose end the stress below it is; None where it is not wanted
+        keeping         from a fineness to a block that has the keeper of its solve
+        watching        the same for what is told of its increments
         """
 
     def work(self, scene: Scene, fineness: Any, plan: Any) -> Pairs:
