@@ -34,9 +34,8 @@ class Increment(ReportedIncrement):
 
     Fields are (rings,), or (rings, angles) where `angles` is given. Pressure and shear are values
     at the rings, linear in between; gap and slip are means weighted with the ring's hat function,
-    so that they vanish exactly where surfaces touch or stick. Outside the contact slip has no
-    meaning and is zero. Slip is since the start of the history, of the lower body's particles
-    relative to the indenter's.
+    so that they vanish exactly where surfaces touch or stick. Slip is since the start of the
+    history, of the lower body's particles relative to the indenter's while they were in contact.
 
     radii       of the rings [length]
     angles      from the direction of the tangential load [radian]; None where one function of the

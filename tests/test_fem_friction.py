@@ -162,16 +162,45 @@ def test_work_is_stored_or_lost() -> None:
 
 
 @pytest.mark.parametrize("method", Method)
-@pytest.mark.parametrize("pushed", [False, True], ids=["pressed", "pushed"])
-def test_energy_lost_is_as_uncertain_as_on_cells(method: Method, *, pushed: bool) -> None:
-    aside = [{"tangential_force": (0.7 * MU * LOAD, 0.0), "increments": 2}] if pushed else []
-    described = scene({**PRESS, "increments": 4}, *aside, indenter=RIGID_BALL, body=BODY)
-    found = solve(described, elements(harmonics=4), method).increments[-1]
+def test_energy_lost_is_as_uncertain_as_on_cells(method: Method) -> None:
+    """Of a push: while a contact grows, cells count slip from before it. Of what is uncertain, four
+    harmonics leave 5 %."""
+    push = {"tangential_force": (0.7 * MU * LOAD, 0.0), "increments": 2}
+    described = scene({**PRESS, "increments": 4}, push, indenter=RIGID_BALL, body=BODY)
+    found = solve(described, elements(harmonics=4), method).steps
     radius = HERTZ.contact_radius
-    on_cells = semi_analytical.solve(described, grid(32, 1.2, radius), 1e-7).steps[-1]
-    assert found.dissipated_energy == pytest.approx(on_cells.dissipated_energy, rel=0.02)
-    uncertain = found.dissipation_uncertainty
-    assert uncertain == pytest.approx(on_cells.dissipation_uncertainty, rel=0.03)
+    on_cells = semi_analytical.solve(described, grid(32, 1.2, radius), 1e-7).steps
+    for name, apart in (("dissipated_energy", 0.02), ("dissipation_uncertainty", 0.06)):
+        one, other = (getattr(end, name) - getattr(start, name) for start, end in (found, on_cells))
+        assert one == pytest.approx(other, rel=apart), name
+
+
+@pytest.mark.parametrize(
+    ("method", "aside"),
+    [(Method.COMPLEMENTARITY, 0.0), (Method.PENALTY, 0.0), (Method.COMPLEMENTARITY, 0.4)],
+    ids=["rings", "springs", "points"],
+)
+def test_slip_of_a_growing_contact_has_no_teeth(method: Method, aside: float) -> None:
+    """It rises along the radius and falls: up and down again it goes by hardly more than twice its
+    largest value. Charged for all of their motion, particles slip by up to five times that."""
+    start = {"normal_force": 0.1 * LOAD, "increments": 1}
+    grow = {**PRESS, "increments": 8, "tangential_force": (aside * 0.1 * LOAD, 0.0)}
+    steps = [start, grow] if aside else [{**PRESS, "increments": 8}]
+    described = scene(*steps, indenter=RIGID_BALL, body=BODY, friction=0.1)
+    told = solve(described, elements(harmonics=2), method).increments[-1]
+    slip = np.abs(told.slip_radial if told.angles is None else told.slip_radial[:, 0])
+    slip = slip[told.radii < told.contact_radius]
+    variation = np.sum(np.abs(np.diff(slip))) + slip[0] + slip[-1]
+    assert variation < 2.1 * np.max(slip)
+
+
+def test_slip_counts_from_touch_to_first_order_in_the_increments() -> None:
+    def lost(increments: int) -> float:
+        return float(end(pressed(0.1, increments)).dissipated_energy)
+
+    coarse, fine, limit = lost(10), lost(40), lost(160)
+    assert abs(coarse / limit - 1) < 0.02  # charged for all its motion, 0.08
+    assert abs(fine - limit) < abs(coarse - limit) / 4
 
 
 def test_many_increments_cost_little() -> None:

@@ -77,7 +77,8 @@ ORDERS = {
         *("factored_section", "sources", "stored_compliance", "compliance", "hats"),
     ),
     "fem_reference.contact": (
-        *("box_program", "ring_edge", "friction_limit", "one_component", "zone_edge"),
+        *("box_program", "ring_edge", "first_touch", "friction_limit", "one_component"),
+        "zone_edge",
         *("augmentation", "complementarity", "harmonics", "penalty"),
     ),
     "fem_reference.contact.complementarity": (

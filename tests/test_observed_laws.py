@@ -136,8 +136,10 @@ def test_broken_torsion_on_cells_is_seen(solved, name):
 
 @pytest.mark.parametrize("method", ["rings", "springs"])
 @pytest.mark.parametrize(
-    "name", ["pressure", "shear_along_load", "normal_force", "approach", "dissipated_energy"]
-)
+    "name",
+    ["pressure", "shear_along_load", "slip_along_load", "normal_force", "approach",
+     "dissipated_energy"],
+)  # fmt: skip
 def test_broken_law_of_elements_is_seen(solved, method, name):
     assert max(observed(changed(solved[method], **{name: 1.01}))) > SEEN
 

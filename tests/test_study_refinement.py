@@ -325,12 +325,12 @@ def test_orders_of_pressed_sections_are_those_of_the_energy(frictionless: Path) 
 def test_edge_that_is_off_by_a_part_of_an_element_is_seen(
     frictionless: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    right = complementarity.edge_radius
+    right = complementarity.contact_edge
 
-    def off(radii: np.ndarray, values: np.ndarray, last: int) -> float:
-        return right(radii, values, last) + 0.1 * float(radii[last + 1] - radii[last])
+    def off(radii: np.ndarray, pressure: np.ndarray) -> float:
+        return right(radii, pressure) + 0.1 * float(radii[1])
 
-    monkeypatch.setattr(complementarity, "edge_radius", off)
+    monkeypatch.setattr(complementarity, "contact_edge", off)
     found = of_elements(frictionless)
     assert found["order of the contact radius"] is Status.FAIL
     assert found["order of the approach"] is Status.PASS

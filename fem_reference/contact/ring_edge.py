@@ -48,6 +48,19 @@ def edge_radius(radii: Field, values: Field, last: int, step: int = 1) -> float:
     return float(radii[last] + width * min(1.0, beyond))
 
 
+def contact_edge(radii: Field, pressure: Field) -> float:
+    """Radius where the pressure ends [length]: the rim of a flat punch if its last ring carries
+    any, 0 where none does.
+
+    pressure  (n,), not negative
+    """
+    carrying = np.flatnonzero(pressure > 0)
+    if len(carrying) == 0:
+        return 0.0
+    last = int(carrying[-1])
+    return float(radii[last]) if last == len(radii) - 1 else edge_radius(radii, pressure, last)
+
+
 def stick_area(
     radii: Field, bound: Field, shear: Field, sides: Sides, contact_radius: float
 ) -> float:

@@ -92,10 +92,18 @@ class Rings:
 
     def shear(self, told: Increment) -> Field:
         """q of an increment."""
-        along = told.shear_along_load
+        return self._vector(told, "shear")
+
+    def slip(self, told: Increment) -> Field:
+        """s of an increment."""
+        return self._vector(told, "slip")
+
+    def _vector(self, told: Increment, name: str) -> Field:
+        along = getattr(told, f"{name}_along_load")
         if along is not None:
             return np.stack([self.on_grid(along), self.on_grid(None)])
-        return np.stack([self.on_grid(q) for q in (told.shear_radial, told.shear_circumferential)])
+        around = (getattr(told, f"{name}_{part}") for part in ("radial", "circumferential"))
+        return np.stack([self.on_grid(component) for component in around])
 
     def integral(self, values: Field) -> float:
         """Over the surface, of values that are linear between rings."""

@@ -30,7 +30,8 @@ class EnergeticState:
     gap         what the motion of the indenter leaves between the surfaces [length]
     passed      motion of the body's particles past the indenter's since the start [length]; None
                 where undefined
-    slip        what of it is slip, where springs yield the rest; None: all of it
+    slip        as it is told [length]; less than the motion where particles first met on the way
+    yields      whether springs take up what is left of overlap and motion
     """
 
     told: Increment
@@ -42,7 +43,8 @@ class EnergeticState:
     shear: Field
     limit: Field
     passed: Field | None
-    slip: Field | None = None
+    slip: Field
+    yields: bool = False
 
 
 def energy_missing(states: Sequence[EnergeticState]) -> Iterator[float]:
@@ -72,19 +74,16 @@ def _missing(
     assert after.passed is not None
     w, p, q = after.weights, (start.pressure, after.pressure), (start.shear, after.shear)
     passed = after.passed - start.passed
-    slipped = passed
-    if after.slip is not None:
-        slipped = after.slip if start.slip is None else after.slip - start.slip
     # Along the shear, which slip opposes, and as large as the mean of the limits.
     size = np.abs(np.hypot.reduce(q[1], axis=0))
     along = np.divide(q[1], size, out=np.zeros_like(q[1]), where=size > 0)
-    own = -0.5 * float(np.sum(w * (start.limit + after.limit) * along * slipped))
+    own = -0.5 * float(np.sum(w * (start.limit + after.limit) * along * (after.slip - start.slip)))
     closing = 0.5 * w * (p[1] * start.gap - p[0] * after.gap)
-    if after.slip is None:
+    if after.yields:
+        closing = closing + 0.5 * w * (p[0] * start.gap - p[1] * after.gap)
+    else:
         # What gap is left in a lasting contact is missing.
         closing = closing[(p[0] > 0) != (p[1] > 0)]
-    else:
-        closing = closing + 0.5 * w * (p[0] * start.gap - p[1] * after.gap)
     turning = -own - 0.5 * float(np.sum(w * (q[0] + q[1]) * passed))
     yield abs(work - (after.stored - start.stored) - own - float(np.sum(closing)) - turning)
     yield abs(dissipated - own)
@@ -95,5 +94,5 @@ def _at_rest(state: EnergeticState) -> EnergeticState:
     nothing, still = np.zeros_like(state.pressure), np.zeros_like(state.shear)
     return EnergeticState(
         state.told, state.weights, 0.0, state.undeformed, nothing, state.undeformed, still, nothing,
-        still,
+        still, still,
     )  # fmt: skip

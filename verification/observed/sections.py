@@ -17,7 +17,12 @@ from verification.observed.prescribed import missed
 from verification.observed.rings import Rings
 from verification.observed.section_energy import EnergeticState, energy_missing
 from verification.observed.spring_states import spring_stiffness
-from verification.observed.springs import energy_won, least_slip, observed_springs
+from verification.observed.springs import (
+    energy_won,
+    least_slip,
+    observed_springs,
+    other_than_motion,
+)
 
 Field = NDArray[np.float64]
 
@@ -62,6 +67,7 @@ class _Surface:
     """An increment on points.
 
     gap      with what the springs yield [length]
+    slip     as it is told [length]
     passed   motion of the body's particles past the indenter's since nothing moved [length];
              None where that of the indenter is undefined
     force    along the load [force], or the torque [force length]
@@ -73,6 +79,7 @@ class _Surface:
     pressure: Field
     shear: Field
     gap: Field
+    slip: Field
     passed: Field | None
     force: float
     stored: float
@@ -98,6 +105,7 @@ class _Surface:
             pressure=p,
             shear=q,
             gap=rings.undeformed + u_z - told.approach,
+            slip=rings.slip(told),
             passed=None if motion is None else along - motion * rings.driven,
             force=force,
             stored=0.5 * float(np.sum(rings.weights * (p * u_z + np.sum(q * along, axis=0)))),
@@ -114,6 +122,7 @@ class _Surface:
         return EnergeticState(
             self.told, self.rings.weights, self.stored, self.rings.undeformed, self.pressure,
             self.gap, self.shear, self.rings.model.friction.largest * self.pressure, self.passed,
+            self.slip,
         )  # fmt: skip
 
 
@@ -142,12 +151,16 @@ def _of_shear(before: _Surface | None, now: _Surface) -> Iterator[float]:
     # In an increment that was halved slip may have turned on the way.
     if now.told.halvings > 0 or now.passed is None:
         return
-    slip = now.passed if before is None or before.passed is None else now.passed - before.passed
+    passed, slip, touched = now.passed, now.slip, np.zeros_like(limit, dtype=bool)
+    if before is not None and before.passed is not None:
+        passed, slip, touched = passed - before.passed, slip - before.slip, before.pressure > 0
     if now.told.angles is None and now.rings.path is not Path.SHEARING:
         weights[0] = 0.0  # on the axis there is neither shear nor slip
-    work = weights * limit * np.hypot(*slip)
+    other = np.where(weights * limit > 0, other_than_motion(slip, passed, touched), 0.0)
+    yield float(np.max(other) / abs(now.told.approach))
+    work = weights * limit * np.hypot(*passed)
     least = least_slip(friction, now.told.approach) * float(np.sum(weights * limit))
-    against = weights * np.sum(now.shear * slip, axis=0)
+    against = weights * np.sum(now.shear * passed, axis=0)
     scale = max(float(np.sum(work)), least)
     if scale > 0:  # not so where the axis alone touches
         yield float(np.sum(work + against)) / scale

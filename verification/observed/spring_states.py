@@ -141,9 +141,10 @@ class SpringState:
         stored = 0.5 * float(np.sum(surface.weights * (p * u_z + q * u_t)))
         passed, slip = self.passed, self.slip
         if self.q is None:
-            passed = slip = np.zeros_like(p)
+            passed = np.zeros_like(p)
+        slip = np.zeros_like(p) if slip is None else slip
         return EnergeticState(
             self.told, surface.weights, stored, surface.gap, p, -self.overlap, q[None],
             surface.friction * p, None if passed is None else -passed[None],
-            None if slip is None else slip[None],
+            slip[None], yields=True,
         )  # fmt: skip

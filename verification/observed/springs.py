@@ -10,11 +10,15 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 import numpy as np
+from numpy.typing import NDArray
 
 from fem_reference import Increment, Result
 from verification.observed.section_energy import EnergeticState
 from verification.observed.spring_states import SpringState, SpringSurface
 from verification.observed.surfaces import LEAST_SLIP
+
+Field = NDArray[np.float64]
+Mask = NDArray[np.bool_]
 
 # Of the approach: slip is the small difference of motions that pressing makes as large as that, so
 # that rounding leaves it a hundred-millionth of this.
@@ -45,6 +49,19 @@ def energy_won(before: Increment | None, now: Increment) -> Iterator[float]:
     last = 0.0 if before is None else before.dissipated_energy
     if most is not None and last is not None:
         yield (last - most) / max(most, float(np.finfo(float).tiny))
+
+
+def other_than_motion(slip: Field, passed: Field, touched: Mask) -> Field:
+    """By how much slip is not the motion past each other in an increment, nor a part of it where
+    surfaces have met on the way [length].
+
+    slip, passed  (components, points)
+    touched       before the increment
+    """
+    squared = np.sum(passed**2, axis=0)
+    along = np.sum(slip * passed, axis=0)
+    part = np.clip(np.divide(along, squared, out=np.ones_like(squared), where=squared > 0), 0, 1)
+    return np.asarray(np.hypot.reduce(np.abs(slip - np.where(touched, 1.0, part) * passed), axis=0))
 
 
 def _of_pressure(now: SpringState, surface: SpringSurface) -> Iterator[float]:
@@ -87,13 +104,16 @@ def _of_slip(
     assert now.slip is not None
     assert now.passed is not None
     slip, passed, p = now.slip, now.passed, now.p
+    touched = np.zeros_like(p, dtype=bool)
     if before is not None and before.passed is not None:
         assert before.slip is not None
-        slip, passed = slip - before.slip, passed - before.passed
+        slip, passed, touched = slip - before.slip, passed - before.passed, before.p > 0
     limit, approach = surface.friction * p, abs(now.told.approach)
     work = surface.weights * limit * np.abs(slip)
     least = least_slip(surface.friction, approach) * float(np.sum(surface.weights * limit))
     against = surface.weights * now.q * slip
     yield float(np.sum(work + against) / max(float(np.sum(work)), least))
-    yielded = np.abs(passed + slip) - surface.friction * (2 * p / surface.stiffness - now.overlap)
+    yielded = other_than_motion(-slip[None], passed[None], touched) - surface.friction * (
+        2 * p / surface.stiffness - now.overlap
+    )
     yield float(np.max(np.where(p > 0, yielded, 0.0)) / approach)

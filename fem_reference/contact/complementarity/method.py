@@ -11,7 +11,7 @@ from fem_reference.contact.complementarity.contact_problem import ContactProblem
 from fem_reference.contact.complementarity.ring_increment import advance
 from fem_reference.contact.complementarity.ring_state import Slid, State
 from fem_reference.contact.one_component import with_shear
-from fem_reference.contact.ring_edge import edge_radius, stick_area
+from fem_reference.contact.ring_edge import contact_edge, stick_area
 from fem_reference.fields import Increment
 from fem_reference.loads import Loads
 from fem_reference.model import ContactModel
@@ -48,7 +48,7 @@ class Complementarity:
             gap=np.where(p > 0, 0.0, np.maximum(state.gap, 0.0) / problem.weights),
             normal_force=state.normal_force,
             approach=state.approach,
-            contact_radius=_contact_radius(problem, p),
+            contact_radius=contact_edge(problem.radii, p),
             peak_pressure=float(np.max(p)),
             residuals=state.residuals,
             iterations=state.steps,
@@ -70,11 +70,3 @@ class Complementarity:
             dissipated_energy=slid.dissipated,
         )
         return with_shear(sheared, self.plan, state, slid.shear, slid.slip / self.problem.weights)
-
-
-def _contact_radius(problem: ContactProblem, p: Field) -> float:
-    """Where the pressure ends: at the rim of a flat punch if its last ring carries any."""
-    last = int(np.flatnonzero(p > 0)[-1])
-    if last == len(p) - 1:
-        return float(problem.radii[-1])
-    return edge_radius(problem.radii, p, last)

@@ -15,8 +15,10 @@ from fem_reference.contact.complementarity.slipping import at_limit, slid, slip_
 from fem_reference.contact.complementarity.sweeps import alternate
 from fem_reference.contact.complementarity.together import Coupled
 from fem_reference.contact.complementarity.tresca import shear
+from fem_reference.contact.first_touch import touching_share
 from fem_reference.contact.friction_limit import reaches_limit
 from fem_reference.contact.one_component import target_of
+from fem_reference.contact.ring_edge import contact_edge
 from fem_reference.contact.zone_edge import refuse_contact_at_edge
 from fem_reference.loads import Loads, NormalTarget
 from fem_reference.residuals import complementarity, penetration
@@ -54,23 +56,24 @@ def _uncoupled(problem: ContactProblem, before: State | None, loads: Loads) -> S
     if problem.sideways is None:
         return state
     last = before.slid if before is not None and before.slid is not None else untouched(len(gap))
-    after, step, steps = _sheared(problem.sideways, pressed.pressure, last, loads)
+    share = _touching_share(problem, before, pressed.pressure)
+    after, step, steps = _sheared(problem.sideways, pressed.pressure, last, share, loads)
     state = replace(state, steps=state.steps + steps)
     return _with_shear(state, problem.sideways, after, step)
 
 
 def _sheared(
-    sideways: Sideways, p: Field, last: Slid, loads: Loads
+    sideways: Sideways, p: Field, last: Slid, share: Field, loads: Loads
 ) -> tuple[Slid, Field | None, int]:
-    """The shear part under its load, the slip increment unless undefined, and linear systems
-    solved."""
+    """The shear part under its load, the motion past each other unless undefined, and linear
+    systems solved."""
     if last.motion is None:
         raise motion_undefined()
     target = target_of(loads)
     if reaches_limit(target.resultant, sideways.capacity(p)):
         return at_limit(sideways, p, target, last), None, 0
     solved = shear(sideways, sideways.friction.limit(p), target, last.offset, last.sides)
-    after, step = slid(sideways, p, solved.shear, solved.motion, solved.sides, last)
+    after, step = slid(sideways, p, solved.shear, solved.motion, solved.sides, last, share)
     return after, step, solved.steps
 
 
@@ -92,9 +95,19 @@ def _coupled(
     opened = problem.gap + sideways.by_pressure.T @ q
     gap = problem.normal @ p + opened - solved.approach * problem.weights
     pressed = Pressed(p, solved.approach, solved.contact, solved.steps)
-    after, step = slid(sideways, p, q, 0.0, solved.slipping, last)
+    share = _touching_share(problem, before, p)
+    after, step = slid(sideways, p, q, 0.0, solved.slipping, last, share)
     state = replace(_pressed(problem, pressed, gap, loads), sweeps=solved.sweeps)
     return _with_shear(state, sideways, after, step)
+
+
+def _touching_share(problem: ContactProblem, before: State | None, p: Field) -> Field:
+    """See `touching_share`; before first touch the gap is the undeformed one."""
+    pressure, gap = np.zeros_like(p), problem.gap
+    if before is not None:
+        pressure, gap = before.pressure, before.gap
+    edges = (contact_edge(problem.radii, pressed) for pressed in (pressure, p))
+    return touching_share(problem.radii, (pressure == 0) & (gap > 0), *edges)
 
 
 def _with_shear(state: State, sideways: Sideways, after: Slid, step: Field | None) -> State:

@@ -21,16 +21,19 @@ Field = NDArray[np.float64]
 
 
 def slid(
-    sideways: Sideways, p: Field, q: Field, motion: float, sides: Sides, last: Slid
+    sideways: Sideways, p: Field, q: Field, motion: float, sides: Sides, last: Slid, share: Field
 ) -> tuple[Slid, Field]:
-    """The shear part after an increment, and the slip increment over the hats (n,)."""
+    """The shear part after an increment, and the motion past each other over the hats (n,).
+
+    share  of the increment for which rings touch (n,): of the motion that is slip
+    """
     offset = displaced(sideways, p, q)
     if sideways.motion is not None:
         offset -= motion * sideways.motion
     step = offset - last.offset
     # Without friction there are no sides, and all that touches slips.
     slips = sides != 0 if sideways.friction.largest > 0 else sideways.limited(p) > 0
-    slipped = np.where(slips, step, 0.0)
+    slipped = np.where(slips, share * step, 0.0)
     assert last.dissipated is not None
     limit = sideways.friction.limit(sideways.limited(p))
     friction = sliding_friction(q[None], last.limit, limit)[0]
@@ -84,7 +87,7 @@ def slip_residuals(
 ) -> ShearResiduals:
     """How well a state obeys friction and carries its load.
 
-    step  slip increment over the hats; None where it is undefined
+    step  motion past each other over the hats; None where it is undefined
     """
     bound, target = sideways.friction.limit(p), target_of(loads)
     direction = missing = None

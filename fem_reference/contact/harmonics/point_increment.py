@@ -9,6 +9,7 @@ from contact_scene.friction import sliding_friction
 from contact_scene.residuals import Residuals
 from contact_scene.solver_errors import NotConverged, motion_undefined
 from fem_reference.contact.augmentation import Penalty, augmented
+from fem_reference.contact.first_touch import touching_share
 from fem_reference.contact.friction_limit import reaches_limit
 from fem_reference.contact.harmonics.continuation import solve_by_continuation
 from fem_reference.contact.harmonics.point_contact import PointContact
@@ -20,6 +21,7 @@ from fem_reference.contact.harmonics.turns import (
     TurnsFailed,
     solve_coupled,
 )
+from fem_reference.contact.ring_edge import contact_edge
 from fem_reference.loads import NormalTarget, TangentialTarget
 from fem_reference.residuals import (
     LEAST_SLIP,
@@ -157,7 +159,7 @@ class _Trial:
         problem, before, solution = self.problem, self.before, self.solution
         p, q, w = solution.pressure, solution.shear, problem.compliance.areas
         in_stick = (problem.friction.limit(p) > 0) & ~solution.in_slip
-        slipped = np.where((p > 0) & ~in_stick, self.passed, 0.0)
+        slipped = np.where((p > 0) & ~in_stick, self._touching_share() * self.passed, 0.0)
         energy = None
         if solution.shift is not None and before.dissipated_energy is not None:
             bounds = problem.bound(before.pressure), problem.bound(p)
@@ -182,6 +184,25 @@ class _Trial:
             turns=turns,
             solves=solves,
         )
+
+    def _touching_share(self) -> Vector:
+        """See `touching_share`; at the points (points,), ray by ray."""
+        compliance, before = self.problem.compliance, self.before
+        starts, ends, apart = (
+            compliance.scalar_on_grid(values).T
+            for values in (
+                before.pressure,
+                self.solution.pressure,
+                (before.pressure == 0) & (before.gap > 0),
+            )
+        )
+        radii = compliance.rings.radii
+        rays = [
+            touching_share(radii, open_ray, contact_edge(radii, start), contact_edge(radii, end))
+            for start, end, open_ray in zip(starts, ends, apart, strict=True)
+        ]
+        axis, *rings = np.stack(rays, axis=1)
+        return np.concatenate([axis[:1], *rings])
 
     def _residuals(self) -> Residuals:
         problem, solution, g = self.problem, self.solution, self.gap

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from contact_scene.march import Place
 from contact_scene.summary import ContactStatus
 from fem_reference.contact.harmonics.point_state import PointState
-from fem_reference.contact.ring_edge import edge_radius
+from fem_reference.contact.ring_edge import contact_edge
 from fem_reference.fields import Increment
 
 Field = NDArray[np.float64]
@@ -25,7 +25,7 @@ def reported(state: PointState, direction: tuple[float, float], place: Place) ->
     p = compliance.scalar_on_grid(state.pressure)
     gap = compliance.scalar_on_grid(np.where(touching, 0.0, np.maximum(state.gap, 0.0)))
     q_r, q_theta = compliance.vector_on_grid(state.shear)
-    s_r, s_theta = compliance.vector_on_grid(np.where(touching, state.slip, 0.0))
+    s_r, s_theta = compliance.vector_on_grid(state.slip)
     in_stick = compliance.scalar_on_grid(state.in_stick)
 
     def shown(values: Field) -> Field:
@@ -72,12 +72,7 @@ def _contact_area(state: PointState, p: Field) -> float:
     """½∫a² dθ with the radius a of the contact's edge on every ray [length^2]; on the last ring,
     the rim of a flat punch, the edge is the ring. Rays without contact add nothing."""
     radii = state.compliance.rings.radii
-    edges = np.zeros(p.shape[1])
-    for angle, ray in enumerate(p.T):
-        if np.any(ray > 0):
-            last = int(np.flatnonzero(ray > 0)[-1])
-            rim = last == len(radii) - 1
-            edges[angle] = radii[last] if rim else edge_radius(radii, ray, last)
+    edges = [contact_edge(radii, ray) for ray in p.T]
     return float(0.5 * np.sum(state.compliance.grid.weights * np.square(edges)))
 
 

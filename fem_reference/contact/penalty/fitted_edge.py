@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 Field = NDArray[np.float64]
 Mask = NDArray[np.bool_]
 
-FITTED = (1.2, 6.0)  # distances from the last point, in elements
+FITTED = (1.2, 5.9)  # distances from the last point, in elements; none of any point
 FEWEST = 5  # points for a fit
 
 

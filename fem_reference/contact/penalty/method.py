@@ -16,7 +16,7 @@ from contact_scene.summary import ContactStatus
 from fem_reference.contact.augmentation import Penalty
 from fem_reference.contact.friction_limit import contact_status
 from fem_reference.contact.one_component import with_shear
-from fem_reference.contact.penalty.fitted_edge import edge_radius, stick_area
+from fem_reference.contact.penalty.fitted_edge import stick_area
 from fem_reference.contact.penalty.law import penalty_stiffness
 from fem_reference.contact.penalty.passes import advance
 from fem_reference.contact.penalty.problem import PenaltyProblem, penalty_problem
@@ -75,7 +75,7 @@ class PenaltyMethod:
             overlap=float(np.max(np.abs(overlap), where=p > 0, initial=0.0)),
             normal_force=state.normal_force,
             approach=state.approach,
-            contact_radius=self._contact_radius(state),
+            contact_radius=self.problem.contact_radius(state.edges[0]),
             peak_pressure=float(np.max(p)),
             residuals=state.residuals,
             iterations=state.iterations,
@@ -94,16 +94,6 @@ class PenaltyMethod:
             dissipated_energy=state.dissipated,
         )
         return with_shear(sheared, self.plan, state, state.traction[1], slip)
-
-    def _contact_radius(self, state: PenaltyState) -> float:
-        """Where the pressure ends: at the rim of a flat punch if its last point carries any."""
-        problem, p = self.problem, state.edges[0]
-        touching = np.flatnonzero(p > 0)
-        if len(touching) == 0:
-            return 0.0
-        if touching[-1] == len(p) - 1:
-            return problem.reach
-        return edge_radius(problem.points.radii, p, int(touching[-1]), problem.element)
 
     def _stick_radius(self, state: PenaltyState, contact_radius: float) -> float:
         in_stick = state.in_contact & ~state.in_slip

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from contact_scene.friction import sliding_friction
 from contact_scene.solver_errors import NotConverged, motion_undefined
 from fem_reference.contact.augmentation import Penalty, augmented
+from fem_reference.contact.first_touch import touching_share
 from fem_reference.contact.friction_limit import reaches_limit
 from fem_reference.contact.penalty.newton import Iterate, defect, solve_by_newton
 from fem_reference.contact.penalty.problem import PenaltyProblem
@@ -134,16 +135,23 @@ def _advanced(
     # What the law gives is reported: it obeys friction exactly, and the load to the tolerance.
     traction = response.traction
     slip, dissipated = last.slip, last.dissipated
+    edged = next((one for one in passes if one.left(surface)[0] <= AT_EDGE), passes[-1])
+    edges = edged.reached.traction
     if slip is not None:
         grown = (law.trial_shear(overlap[1:]) - traction[1:])[0] / law.stiffness
-        grown = np.where(response.in_contact, grown, 0.0)
+        share = touching_share(
+            problem.points.radii,
+            ~last.in_contact & (last.overlap[0] < 0),
+            problem.contact_radius(last.edges[0]),
+            problem.contact_radius(edges[0]),
+        )
+        grown = np.where(response.in_contact, share * grown, 0.0)
         assert dissipated is not None
         slip = slip - grown
         bounds = (problem.friction.limit(state[NORMAL]) for state in (last.traction, traction))
         friction = sliding_friction(traction[1:], *bounds)[0]
         dissipated += 2 * pi * float(np.sum(surface.weights * friction * grown))
     first = passes[0].reached
-    edges = next((one for one in passes if one.left(surface)[0] <= AT_EDGE), passes[-1])
     return PenaltyState(
         loads=loads,
         traction=traction,
@@ -154,7 +162,7 @@ def _advanced(
         slip=slip,
         dissipated=dissipated,
         first_pass=first,
-        edges=edges.reached.traction,
+        edges=edges,
         augmentations=len(passes) - 1,
         change=_change(last.first_pass, first),
         residuals=penalty_residuals(problem, solver.target, reached, response),

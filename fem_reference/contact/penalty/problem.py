@@ -11,6 +11,7 @@ from contact_scene.friction import FRICTIONLESS, CoulombFriction
 from contact_scene.pair import contact_modulus
 from fem_reference.contact.augmentation import Penalty
 from fem_reference.contact.one_component import target_of
+from fem_reference.contact.penalty.fitted_edge import edge_radius
 from fem_reference.contact.penalty.gauss_points import GaussPoints, gauss_points
 from fem_reference.contact.penalty.law import penalty_stiffness
 from fem_reference.contact.penalty.surface import ElasticSurface, Target
@@ -67,6 +68,17 @@ class PenaltyProblem:
         """The pressure without any shear."""
         surface = self.surface.part(slice(0, 1), np.zeros_like(self.surface.gap))
         return replace(self, surface=surface, friction=FRICTIONLESS, path=Path.PRESSING)
+
+    def contact_radius(self, pressure: Field) -> float:
+        """Where a pressure (n,) ends: at the rim of a flat punch if its last point carries any; 0
+        without contact."""
+        touching = np.flatnonzero(pressure > 0)
+        if len(touching) == 0:
+            return 0.0
+        last = int(touching[-1])
+        if last == len(pressure) - 1:
+            return self.reach
+        return edge_radius(self.points.radii, pressure, last, self.element)
 
     def capacity(self, pressure: Field) -> float:
         """The largest shear load over 2π that friction carries under a pressure (n,)."""
