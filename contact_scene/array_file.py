@@ -13,6 +13,8 @@ from pydantic_core import PydanticCustomError
 from contact_scene.refusal import refusal, shown
 
 _FEWEST, _MOST = 4, 16384
+_MOST_VALUES = 4096 * 4096  # 134 MB, more than any grid has that can be solved on
+_AT_ONCE = 1 << 20
 
 
 @dataclass(frozen=True)
@@ -47,7 +49,8 @@ def array_file(value: Any, info: ValidationInfo) -> ArrayFile:
     if isinstance(value, ArrayFile):
         return value
     if isinstance(value, np.ndarray):
-        return _checked(value, "")
+        _check_shape(value.shape, "")
+        return _checked(np.array(value, dtype=np.float64, order="C"), "")
     folder = (info.context or {}).get("folder")
     if isinstance(value, Path) and folder is None:
         value = str(value)
@@ -90,16 +93,22 @@ def _holds(folder: Path, path: Path) -> bool:
     return path.is_relative_to(folder.resolve())
 
 
-def _read(path: Path, name: str) -> NDArray[Any]:
-    """The array in a `.npy` file."""
+def _read(path: Path, name: str) -> NDArray[np.float64]:
+    """The array in a `.npy` file, a part at a time: two whole ones take too much memory."""
     expected = "a .npy file with a two-dimensional array of numbers (numpy.save writes it)"
     try:
         if not path.is_file():
             raise refusal(f"there is no file {shown(name)}", expected)
         with path.open("rb") as stream:
-            _check_header(stream, path.stat().st_size, name)
-            array: NDArray[Any] = np.lib.format.read_array(stream, allow_pickle=False)
-            return array
+            shape, by_columns, dtype = _header(stream, path.stat().st_size, name)
+            values = np.empty(shape)
+            lines = values.T if by_columns else values
+            count = _AT_ONCE // lines.shape[1]
+            for begin in range(0, len(lines), count):
+                some = lines[begin : begin + count]
+                read = np.frombuffer(stream.read(some.size * dtype.itemsize), dtype)
+                some[:] = read.reshape(some.shape)
+            return values
     except PydanticCustomError:
         raise
     except (OSError, ValueError, EOFError, SyntaxError, TypeError, MemoryError) as error:
@@ -107,8 +116,9 @@ def _read(path: Path, name: str) -> NDArray[Any]:
         raise refusal(f"cannot read {shown(name)}: {reason}", expected) from None
 
 
-def _check_header(stream: BinaryIO, size: int, name: str) -> None:
-    """Refuse what the header announces before anything is allocated for it."""
+def _header(stream: BinaryIO, size: int, name: str) -> tuple[tuple[int, ...], bool, np.dtype[Any]]:
+    """Shape, whether columns come first, and type; what the header announces is refused here if
+    need be, before anything is allocated for it."""
     version = np.lib.format.read_magic(stream)
     read_header = {
         (1, 0): np.lib.format.read_array_header_1_0,
@@ -116,31 +126,32 @@ def _check_header(stream: BinaryIO, size: int, name: str) -> None:
     }.get(version)
     if read_header is None:
         raise ValueError(f"version {version} of the format")
-    shape, _, dtype = read_header(stream)
+    shape, by_columns, dtype = read_header(stream)
     _check_shape(shape, name)
     if dtype.kind not in "fiu":
         raise refusal(f"the array {shown(name)} holds values of type {dtype}", "real numbers")
     if size - stream.tell() != shape[0] * shape[1] * dtype.itemsize:
         raise refusal(f"the file {shown(name)} is cut short or has a tail", "a whole .npy file")
-    stream.seek(0)
+    return shape, by_columns, dtype
 
 
 def _check_shape(shape: tuple[int, ...], name: str) -> None:
-    if len(shape) != 2 or min(shape) < _FEWEST or max(shape) > _MOST:
-        raise refusal(
-            f"the array {shown(name)} has shape {tuple(shape)}",
-            f"two dimensions (x, y) of {_FEWEST} to {_MOST} values each",
-        )
+    if len(shape) != 2 or not _FEWEST <= min(shape) <= max(shape) <= _MOST:
+        expected = f"two dimensions (x, y) of {_FEWEST} to {_MOST} values each"
+    elif shape[0] * shape[1] > _MOST_VALUES:
+        expected = f"at most {_MOST_VALUES} values in all, as 4096 x 4096 are"
+    else:
+        return
+    raise refusal(f"the array {shown(name)} has shape {tuple(shape)}", expected)
 
 
-def _checked(array: NDArray[Any], name: str) -> ArrayFile:
-    _check_shape(array.shape, name)
-    values = np.array(array, dtype=np.float64, order="C")
+def _checked(values: NDArray[np.float64], name: str) -> ArrayFile:
     if not np.all(np.isfinite(values)):
         i, j = np.argwhere(~np.isfinite(values))[0]
         raise refusal(
             f"the array {shown(name)} holds {values[i, j]} at [{i}, {j}]", "finite numbers"
         )
     values.flags.writeable = False
-    digest = hashlib.sha256(repr(values.shape).encode() + values.tobytes()).hexdigest()
-    return ArrayFile(values, name, digest)
+    digest = hashlib.sha256(repr(values.shape).encode())
+    digest.update(values.data)
+    return ArrayFile(values, name, digest.hexdigest())

@@ -5,18 +5,19 @@ up to the mistake is right, and `tomllib` will report the mistake itself.
 """
 
 import re
-from bisect import bisect_left
 
 from contact_scene.problem import Path
 
 DEEPEST = 100
 
 _BLANK = re.compile(r"[ \t\r]*")
-_BLANK_LINES = re.compile(r"(?:[ \t\r\n]+|#[^\n]*)*")
+# Repeats that never give back (`*+`): others remember every place that they might go back to.
+_BLANK_LINES = re.compile(r"(?:[ \t\r\n]+|#[^\n]*)*+")
 _TO_END_OF_LINE = re.compile(r"[^\n]*")
-_KEY = re.compile(r"[A-Za-z0-9_-]+|'([^'\n]*)'|\"((?:[^\"\\\n]|\\.)*)\"")
+_KEY = re.compile(r"[A-Za-z0-9_-]+|'([^'\n]*)'|\"((?:[^\"\\\n]+|\\.)*+)\"")
 _STRING = re.compile(
-    r"\"\"\"(?:[^\\]|\\.)*?\"\"\"\"{0,2}|'''.*?''''{0,2}|\"(?:[^\"\\\n]|\\.)*\"|'[^'\n]*'",
+    r"\"\"\"(?:[^\"\\]+|\\.|\"(?!\"\"))*+\"\"\"\"{0,2}|'''.*?''''{0,2}"
+    r"|\"(?:[^\"\\\n]+|\\.)*+\"|'[^'\n]*'",
     re.DOTALL,
 )
 _SCALAR = re.compile(r"[^,\]}#\n]*")
@@ -51,7 +52,7 @@ class _Scanner:
         self.at = 0
         self.lines: dict[Path, int] = {}
         self.entries: dict[Path, int] = {}  # number of [[tables]] so far
-        self.line_ends = [match.start() for match in re.finditer("\n", text)]
+        self.line, self.counted = 1, 0  # the line of a place that is not ahead of the cursor
 
     def scan(self) -> None:
         table: Path = ()
@@ -158,7 +159,9 @@ class _Scanner:
         return self._skip(pattern) > start
 
     def _line(self) -> int:
-        return bisect_left(self.line_ends, self.at) + 1
+        self.line += self.text.count("\n", self.counted, self.at)
+        self.counted = self.at
+        return self.line
 
     def _check_depth(self, depth: int) -> None:
         if depth > DEEPEST:

@@ -3,7 +3,7 @@
 from collections.abc import Iterable
 from dataclasses import dataclass
 
-from contact_scene.refusal import is_bare_key, printable
+from contact_scene.refusal import is_bare_key, printable, shortened
 
 Path = tuple[str | int, ...]
 
@@ -62,5 +62,6 @@ def dotted(path: Path) -> str:
         if isinstance(part, int):
             text += f"[{part + 1}]"
         else:
-            text += ("." if text else "") + (part if is_bare_key(part) else f'"{printable(part)}"')
+            bare, key = is_bare_key(part), shortened(part)
+            text += ("." if text else "") + (key if bare else f'"{printable(key)}"')
     return text

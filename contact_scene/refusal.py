@@ -21,7 +21,7 @@ def refusal(message: str, expected: str = "", hint: str = "") -> PydanticCustomE
 def shown(value: Any) -> str:
     """A value as a TOML writer would recognise it, printable and of bounded length."""
     if isinstance(value, str):
-        return '"' + printable(_shortened(value)) + '"'
+        return '"' + printable(shortened(value)) + '"'
     if isinstance(value, bool):
         return "true" if value else "false"
     if isinstance(value, int) and abs(value) >= 10**20:
@@ -43,10 +43,11 @@ def printable(text: str) -> str:
 def _shown_array(items: list[Any] | tuple[Any, ...]) -> str:
     if len(items) > 4 or any(isinstance(item, list | tuple | dict) for item in items):
         return f"an array of {len(items)}"
-    return _shortened("[" + ", ".join(shown(item) for item in items) + "]", 160)
+    return shortened("[" + ", ".join(shown(item) for item in items) + "]", 160)
 
 
-def _shortened(text: str, longest: int = _LONGEST_SHOWN) -> str:
+def shortened(text: str, longest: int = _LONGEST_SHOWN) -> str:
+    """Its beginning, if it is longer."""
     return text if len(text) <= longest else text[: longest - 1] + "…"
 
 

@@ -1,6 +1,7 @@
 """A TOML file, read within bounds, and the lines of its keys."""
 
 import re
+import sys
 import tomllib
 from pathlib import Path as FilePath
 from typing import Any
@@ -10,9 +11,11 @@ from contact_scene.locator import DEEPEST, NestedTooDeep, locate
 from contact_scene.problem import Path, Problem, SceneError
 
 _LARGEST_FILE = 10_000_000
-# Every key, entry and table costs one of these signs, and seven write the longest loading step:
+# Every key, entry, table and escape costs one of these signs, and seven write the longest step:
 # counting them refuses, at once, what would take long and much memory to read.
 _MOST_SIGNS = 7 * MOST_STEPS
+_MOST_DIGITS = sys.int_info.default_max_str_digits
+_TOO_LONG = re.compile(rf"[0-9](?:_?[0-9]){{{_MOST_DIGITS},}}+")
 
 
 def read_toml(file: FilePath) -> tuple[dict[str, Any], dict[Path, int]]:
@@ -28,6 +31,9 @@ def read_toml(file: FilePath) -> tuple[dict[str, Any], dict[Path, int]]:
         line = int(place[1]) if place else text.count("\n") + 1
         column = f" (column {place[2]})" if place else ""
         reason = str(error).partition(" (at ")[0]
+        if (long := _TOO_LONG.search(text)) and "int_max_str_digits" in reason:
+            line = text.count("\n", 0, long.start()) + 1
+            reason = f"a whole number of more than {_MOST_DIGITS} digits"
         raise _refused(file, f"not valid TOML: {reason}{column}", line=line) from None
 
 
@@ -53,8 +59,10 @@ def _text(file: FilePath) -> str:
         raise _refused(file, "is not text in UTF-8", line=line) from None
     if not text.strip():
         raise _refused(file, "is empty", "a scene (TOML)")
-    if sum(map(text.count, "=,[")) > _MOST_SIGNS:
-        raise _refused(file, "holds too many keys", f"at most {MOST_STEPS} loading steps")
+    if sum(map(text.count, "=,[\\")) > _MOST_SIGNS:
+        raise _refused(
+            file, "holds too many keys or escapes", f"at most {MOST_STEPS} loading steps"
+        )
     return text
 
 

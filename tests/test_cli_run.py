@@ -210,3 +210,18 @@ def test_killed_run_leaves_a_hidden_directory_that_the_next_run_clears_away(scen
     assert not (scene.parent / "out").exists()
     assert run(scene, "--no-figures").returncode == 0
     assert sorted(os.listdir(scene.parent)) == ["out", scene.name]
+
+
+def test_output_that_nobody_reads_has_a_code_of_its_own(scene: Path) -> None:
+    """As under `| head -1`; the results are there."""
+    running = command(scene, "--no-figures")
+    for arguments in (running, [*running[:3], "check", str(scene)]):
+        read, write = os.pipe()
+        os.close(read)
+        outcome = subprocess.run(
+            arguments, cwd=ROOT, stdout=write, stderr=subprocess.PIPE, check=False
+        )
+        os.close(write)
+        assert outcome.returncode == 141
+        assert b"Error" not in outcome.stderr
+    assert (scene.parent / "out" / "summary.json").is_file()

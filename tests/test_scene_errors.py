@@ -290,9 +290,9 @@ def save_truncated(path: Path) -> None:
 
 
 def save_boast(path: Path) -> None:
-    """A small file whose header claims two gigabytes."""
+    """A small file whose header claims 134 megabytes."""
     np.save(path, np.zeros((8, 8)))
-    path.write_bytes(path.read_bytes().replace(b"(8, 8), }        ", b"(16384, 16384), }"))
+    path.write_bytes(path.read_bytes().replace(b"(8, 8), }      ", b"(4096, 4096), }"))
 
 
 @pytest.mark.parametrize(
@@ -306,6 +306,7 @@ def save_boast(path: Path) -> None:
         (lambda path: np.save(path, np.zeros(16)), "has shape (16,), expected two dimensions"),
         (lambda path: np.save(path, np.zeros((4, 4, 4))), "has shape (4, 4, 4)"),
         (lambda path: np.save(path, np.zeros((3, 99))), "of 4 to 16384 values each"),
+        (lambda path: np.save(path, np.zeros((4097, 4096), "i1")), "at most 16777216 values in"),
         (lambda path: np.save(path, np.full((4, 4), np.nan)), "holds nan at [0, 0]"),
         (lambda path: np.save(path, np.zeros((4, 4), complex)), "values of type complex128"),
         (lambda path: path.mkdir(), "there is no file"),

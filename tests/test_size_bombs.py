@@ -32,6 +32,9 @@ MOST_MEMORY = 200 * MEGABYTE  # of a whole process, Python and its libraries inc
 SOON = 1.0  # seconds of CPU
 CLAIM = "more than a file of"
 HUGE = 1 << 14  # cells along a side, the most there can be: 2 GB for one field
+MOST_MEMORY_OF_MAP = 300 * MEGABYTE
+READ = 5.0  # seconds of CPU for what is permitted
+LONGEST_MESSAGE = 1000
 SIDE = 200  # of a stored compliance matrix: 320 kB
 SCENE = """
 [indenter]
@@ -96,7 +99,17 @@ SCENE_BOMBS: dict[str, tuple[Callable[[Path], object], str]] = {
     "steps": (lambda path: path.write_bytes(b"[[loading]]\n" * 800_000), "too many keys"),
     "brackets": (lambda path: path.write_bytes(b"a = " + b"[" * 9 * MEGABYTE), "too many keys"),
     "blanks": (lambda path: path.write_bytes(b" " * 10 * MEGABYTE), "is empty"),
-}
+    "title": (lambda path: path.write_bytes(b'title = "' + 9 * MEGABYTE * b"a" + b'"'), "title"),
+    "escapes": (lambda path: path.write_bytes(b'title = "' + 9 * MEGABYTE * b"\\"), "escapes"),
+    "lines of a text": (
+        lambda path: path.write_bytes(b'title = """' + 9 * MEGABYTE * b"\n" + b'"""'), "title"
+    ),
+    "key": (lambda path: path.write_bytes(9 * MEGABYTE * b"k" + b" = 1"), "kkk…"),
+    "digits": (
+        lambda path: path.write_bytes(b"\na = " + b"1" * MEGABYTE),
+        "scene.toml:2: not valid TOML: a whole number of more than 4300 digits",
+    ),
+}  # fmt: skip
 
 
 @pytest.fixture(scope="module")
@@ -115,8 +128,35 @@ def test_huge_scene_is_refused_at_once(
     ended = slipstick("check", tmp_path / "scene.toml")
     assert ended.code == 2
     assert words in ended.said
+    assert len(ended.said) < LONGEST_MESSAGE
     assert ended.memory < MOST_MEMORY
     assert ended.seconds - refusal_of_nothing.seconds < SOON
+
+
+@pytest.mark.parametrize("line", [b"\n", b"#\n"])
+def test_huge_scene_without_mistakes_is_read_soon(tmp_path: Path, line: bytes) -> None:
+    words = SCENE.replace('"height_map"', '"sphere"').replace('file = "heights.npy"', "radius = 1")
+    scene = words.replace('spacing = "1 um"', "").encode()
+    (tmp_path / "scene.toml").write_bytes(line * (9 * MEGABYTE // len(line)) + scene)
+    ended = slipstick("check", tmp_path / "scene.toml")
+    assert ended.code == 0
+    assert ended.memory < MOST_MEMORY
+    assert ended.seconds < READ
+
+
+@pytest.mark.parametrize("dtype", [float, "i8", "f4"])
+@pytest.mark.parametrize("by_columns", [False, True])
+def test_largest_map_is_checked_with_little_more_than_itself(
+    tmp_path: Path, dtype: Any, by_columns: bool
+) -> None:
+    """134 MB, of 4096 x 4096 values; what the disk holds of them does not matter."""
+    (tmp_path / "scene.toml").write_text(SCENE, encoding="utf-8")
+    shape = (HUGE // 4, HUGE // 4)
+    np.lib.format.open_memmap(tmp_path / "heights.npy", "w+", dtype, shape, by_columns)
+    ended = slipstick("check", tmp_path / "scene.toml")
+    assert ended.code == 0, ended.said
+    assert ended.memory < MOST_MEMORY_OF_MAP
+    assert ended.seconds < READ
 
 
 @pytest.mark.parametrize("shape", ["(100000, 100000)", "(16384, 16384)"])

@@ -1,5 +1,6 @@
 """The application: its commands, its version, and the one place where failures end."""
 
+import sys
 from collections.abc import Sequence
 from typing import Annotated
 
@@ -7,7 +8,7 @@ import typer
 
 from contact_results.directory.stop_signals import cleaned_up_when_stopped
 from contact_results.one_thread import one_thread
-from slipstick.cli.errors import explain
+from slipstick.cli.errors import ExitCode, explain
 from slipstick.cli.lazy_commands import LazyCommands
 
 application = typer.Typer(
@@ -17,7 +18,7 @@ application = typer.Typer(
     epilog="Exit codes: 0 done; 1 accuracy verdict failed; 2 invalid scene or unwritable output; "
     "3 not converged or resolved; 4 too little memory, disk or time; 5 baseline drift; "
     "7 worse or dearer than the baseline; "
-    "70 internal error.",
+    "70 internal error; 141 output closed.",
     context_settings={"help_option_names": ["-h", "--help"]},
 )
 
@@ -55,5 +56,10 @@ def main(arguments: Sequence[str] | None = None) -> None:
     try:
         with cleaned_up_when_stopped():
             command(args=arguments, prog_name="slipstick")
+    except SystemExit:
+        # Typer leaves with 1 where its output was closed, and puts this in the place of it.
+        if type(sys.stdout).__name__ == "PacifyFlushWrapper":
+            raise SystemExit(ExitCode.NOBODY_READS) from None
+        raise
     except Exception as error:
         raise SystemExit(explain(error)) from None

@@ -17,6 +17,7 @@ class ExitCode(IntEnum):
     BASELINE_DRIFT = 5
     WORSE = 7
     INTERNAL = 70  # a defect of ours (EX_SOFTWARE), never to be mistaken for a verdict
+    NOBODY_READS = 141  # the output was closed, as by `| head`: 128 + SIGPIPE
 
 
 DISK_FULL = {errno.ENOSPC, errno.EDQUOT, errno.EFBIG}
