@@ -145,7 +145,7 @@ class CellLadder:
 
     def _plan(self) -> Plan:
         """Effects, and the increments of the first rung: as many as the scene names at least."""
-        return semi_analytical.plan(self.scene, FIRST_PATH_ACCURACY)
+        return semi_analytical.plan(self.scene, FIRST_PATH_ACCURACY, self.asked.edge)
 
     def _solved(self, fineness: CellFineness) -> Result:
         """The result; on a larger window of the same cells where a fitted one has become too small,

@@ -28,7 +28,8 @@ def remarks(result: Result) -> tuple[str, ...]:
     found = beyond_linear_theory(result.scene, result.steps)
     if not hasattr(result, "grid"):
         return found
-    return (*found, *_left_out(cast("semi_analytical.Result", result)))
+    on_cells = cast("semi_analytical.Result", result)
+    return (*found, *_left_out(on_cells), *_edges_left(on_cells))
 
 
 def _left_out(result: semi_analytical.Result) -> Iterator[str]:
@@ -39,6 +40,16 @@ def _left_out(result: semi_analytical.Result) -> Iterator[str]:
             f"the cells are wider than the spacing of the height map: to flatten what they leave "
             f"out takes a pressure of {share:.2g} of the peak (root mean square); "
             f"try --set semi_analytical.cells=[{nx},{ny}]"
+        )
+
+
+def _edges_left(result: semi_analytical.Result) -> Iterator[str]:
+    left = [str(end.step) for end in result.steps if end.edge_change is None]
+    if result.plan.edge != "off" and left:
+        yield (
+            f"at the end of step {', '.join(left)} the edge of contact could not be put inside the "
+            f"cells: it is rough, or too few of them lie across the contact; the pressure there is "
+            f"constant on cells up to its edge"
         )
 
 

@@ -26,6 +26,9 @@ PathAccuracy = Annotated[
     float, Quantity(PURE_NUMBER, "a number from 1e-4 to 1", at_least=1e-4, at_most=1.0)
 ]
 
+# At the end of which increments edges are put inside the cells.
+EdgeCorrection = Literal["off", "last", "all"]
+
 
 class SurfaceDiscretisation(Description):
     """Cells and window of the surface, and the tolerance of the solver."""
@@ -43,6 +46,11 @@ class SurfaceDiscretisation(Description):
     path_accuracy: PathAccuracy = PATH_ACCURACY
     """Error of the shear that finite increments may leave at the end of a step, summed over the
     surface and relative to the friction limit. It sets the increments of steps that name none."""
+
+    edge: EdgeCorrection = "off"
+    """Whether pressures are put right at the edge of contact, where constant on cells they are
+    wrong by the order of a cell: at the end of each step ("last"), of each increment ("all"), or
+    not at all."""
 
 
 class FiniteElementDiscretisation(Description):

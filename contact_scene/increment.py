@@ -208,6 +208,15 @@ class Cost:
     halvings: Annotated[
         Count, Reported("", "How often an increment was cut in two to converge.", Kind.COUNTER)
     ] = 0
+    edge_change: Annotated[
+        float | None,
+        Reported(
+            "",
+            "Change of the pressure in the last round of the edge correction, relative to all of "
+            "it; null where pressures are constant on cells up to their edge.",
+            physical=False,
+        ),
+    ] = None
     worst_residual: Annotated[
         float | None,
         Reported("", "Largest residual of any kind at the end of any increment.", Kind.LARGEST),

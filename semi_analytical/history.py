@@ -10,6 +10,7 @@ from contact_scene.march import Place, Reached, marked_increments
 from contact_scene.standing import Mark, Standing
 from semi_analytical.balance import balanced
 from semi_analytical.contact_area import stuck_cells
+from semi_analytical.edge.corrected import Corrected
 from semi_analytical.energy import NOTHING_YET
 from semi_analytical.fields import Increment
 from semi_analytical.increment import State, residuals_of, solve_increment
@@ -23,6 +24,8 @@ from semi_analytical.shearing import TangentialTarget
 Advance = Callable[
     [ContactModel, State | None, NormalTarget, TangentialTarget | None, float], State
 ]
+# A state as it would be with its edges inside the cells, to a tolerance.
+Correct = Callable[[State, float], Corrected | None]
 
 # An increment that has taken more without converging is not cut any further. The last attempt that
 # fails before the halves converge is over after at most 17 200 in the stability map.
@@ -42,7 +45,7 @@ def marked(
     since   where the same march stood before, to go on from there
     raises  NotConverged and GrossSliding, with the last converged increment as `last_state`
     """
-    solver = _Solver(model, plan, _advance(plan), tolerance)
+    solver = _Solver(model, plan, _advance(plan), _correction(model, plan), tolerance)
     return marked_increments(model.scene, plan.increments, solver, since)
 
 
@@ -59,6 +62,15 @@ def _advance(plan: Plan) -> Advance:
     return solve_coupled_increment
 
 
+def _correction(model: ContactModel, plan: Plan) -> Correct | None:
+    """How edges are put inside the cells, where they are."""
+    if plan.edge == "off":
+        return None
+    from semi_analytical.edge_correction.state import EdgeCorrection
+
+    return EdgeCorrection(model)
+
+
 @dataclass(frozen=True)
 class _Solver:
     """The model as the march sees it; it counts convolutions."""
@@ -66,6 +78,7 @@ class _Solver:
     model: ContactModel
     plan: Plan
     increment: Advance
+    correct: Correct | None
     tolerance: float
 
     @property
@@ -88,7 +101,10 @@ class _Solver:
         after = self.increment(self.model, before, normal, tangential, self.tolerance)
         residuals_of(self.model, after).require(self.tolerance, "the increment", after.iterations)
         matters = self.plan.path[ramp.step - 1].path_matters
-        return balanced(self.model, before, after, path_matters=matters)
+        after = balanced(self.model, before, after, path_matters=matters)
+        if self.correct is None or (self.plan.edge == "last" and fraction < 1):
+            return after
+        return replace(after, corrected=self.correct(after, self.tolerance))
 
     def report(self, reached: Reached[State], last: Increment | None) -> Increment:
         """The state, with what the increment has changed and cost."""
@@ -123,6 +139,8 @@ def _increment(model: ContactModel, before: State | None, state: State, place: P
         iterations=state.iterations,
         convolutions=0,
     )
+    if state.corrected is not None:
+        pressed = _with_edges(pressed, state.corrected, cell, force)
     if sheared is None:
         return pressed
     bound = model.friction.limit(p)
@@ -143,6 +161,23 @@ def _increment(model: ContactModel, before: State | None, state: State, place: P
         dissipation_uncertainty=state.energy.uncertain,
     )
     return _traced(increment, before, sheared)
+
+
+def _with_edges(
+    increment: Increment, corrected: Corrected, cell: float, force: float | None
+) -> Increment:
+    """With the contact as it is with its edge inside the cells; energies stay those of cells."""
+    p = corrected.pressure
+    return replace(
+        increment,
+        pressure=p,
+        gap=corrected.gap,
+        normal_force=float(np.sum(p)) * cell if force is None else force,
+        approach=corrected.approach,
+        contact_area=corrected.contact_cells * cell,
+        peak_pressure=float(np.max(p)),
+        edge_change=corrected.change,
+    )
 
 
 def _traced(increment: Increment, before: State | None, sheared: Sheared) -> Increment:

@@ -7,6 +7,7 @@ from numpy.typing import NDArray
 
 from contact_scene.residuals import Residuals
 from semi_analytical.admissible_shear import magnitude
+from semi_analytical.edge.corrected import Corrected
 from semi_analytical.energy import NOTHING_YET, Energy
 from semi_analytical.model import ContactModel
 from semi_analytical.pressing import NormalTarget, Pair, Pressing, press
@@ -28,6 +29,8 @@ class State:
     moment        (Σp y, Σp x) times the cell area [force length]; None where nothing tilts
     energy        since the start of the history; the march over the increments keeps the account
     rounds        of alternation between pressure and shear that it took; 0 without
+    corrected     the same with its edges inside the cells, which no later state knows of; None
+                  where that was not asked for, or is not safe
     """
 
     target: NormalTarget
@@ -37,6 +40,7 @@ class State:
     moment: Pair | None = None
     energy: Energy = NOTHING_YET
     rounds: int = 0
+    corrected: Corrected | None = None
 
     @property
     def iterations(self) -> int:

@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 from enum import StrEnum
 
 from contact_scene import Scene, effect
-from contact_scene.discretisation import PATH_ACCURACY
+from contact_scene.discretisation import PATH_ACCURACY, EdgeCorrection
 from contact_scene.effect import Effect
 from contact_scene.friction import FRICTIONLESS
 from contact_scene.pair import coupling, dundurs_beta, refuse_contrast
@@ -33,6 +33,7 @@ class Plan:
     torsion     whether it turns about z
     coupling    whether and how pressure and shear act on each other's problem
     path        how many increments each loading step takes, and why
+    edge        at the end of which increments edges are put inside the cells
     effects     every effect with its reason, as shown to people
     """
 
@@ -42,6 +43,7 @@ class Plan:
     coupling: Coupling
     path: tuple[StepIncrements, ...]
     effects: tuple[Effect, ...]
+    edge: EdgeCorrection = "off"
 
     @property
     def increments(self) -> tuple[int, ...]:
@@ -62,10 +64,11 @@ class Plan:
         return replace(self, path=tuple(replace(step, count=count) for step, count in path))
 
 
-def plan(scene: Scene, path_accuracy: float = PATH_ACCURACY) -> Plan:
+def plan(scene: Scene, path_accuracy: float = PATH_ACCURACY, edge: EdgeCorrection = "off") -> Plan:
     """Decide the effects of a scene; raises UnsupportedScene for a layer on next to nothing.
 
     path_accuracy  error of the shear that finite increments may leave, relative to Σµp
+    edge           at the end of which increments edges shall be put inside the cells
     """
     refuse_contrast(
         scene,
@@ -90,11 +93,13 @@ def plan(scene: Scene, path_accuracy: float = PATH_ACCURACY) -> Plan:
         Effect("torsion", torsion, _why_torsion(friction, torsion)),
         effect.coupled(scene, coupled, why),
         effect.load_history(len(scene.loading) > 1 and shear),
+        Effect("edge correction", *_edges(scene, edge, shear, tilt)),
     )
     acting = Coupling.FULL if coupled else Coupling.NONE
     bodies = Bodies(coupled, dundurs_beta(scene), scene.friction or FRICTIONLESS)
     path = path_increments(scene, shear, bodies, path_accuracy)
-    return Plan(shear, tilt, torsion, acting, path, effects)
+    corrected = edge if effects[-1].on else "off"
+    return Plan(shear, tilt, torsion, acting, path, effects, corrected)
 
 
 def _tangentially_loaded(scene: Scene) -> bool:
@@ -126,3 +131,16 @@ def _why_torsion(friction: bool, torsion: bool) -> str:
     if torsion:
         return "a step names a torque or a twist"
     return "no step names a torque or a twist: the indenter is held from turning"
+
+
+def _edges(scene: Scene, asked: EdgeCorrection, shear: bool, tilt: bool) -> tuple[bool, str]:
+    """Whether edges are put inside the cells, and why (not)."""
+    if asked == "off":
+        return False, "not asked for: tractions are constant on cells up to their edges"
+    if scene.indenter.rim is not None:
+        return False, "below the rim of a flat punch the pressure rises to its edge"
+    if tilt:
+        return False, "not known of an indenter that tilts"
+    if shear:
+        return False, "not known of contacts that carry shear"
+    return True, "asked for: the pressure falls to zero like a root, inside the cells"

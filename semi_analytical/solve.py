@@ -92,7 +92,9 @@ def solve_discretised(
     increment reaches its edge after all; the window of a height map is all of it. Raises what
     `solve` raises, and ContactNotResolved where only a few cells carry the load.
     """
-    decided = plan_of(scene, discretisation.path_accuracy) if plan is None else plan
+    decided = plan
+    if decided is None:
+        decided = plan_of(scene, discretisation.path_accuracy, discretisation.edge)
     first = discretise(scene, discretisation)
     grids = [first]
     if discretisation.window is None and scene.indenter.extent is None:

@@ -27,6 +27,7 @@ ORDER = (
     "influence",
     "operator",
     "edge",
+    "edge",
     "stress",
     "multipliers",
     "admissible_shear",
@@ -55,6 +56,7 @@ ORDER = (
     "one_way_increment",
     "alternation",
     "coupled_increment",
+    "edge_correction",
     "load_targets",
     "history",
     "surface_tension",
@@ -65,7 +67,11 @@ ORDER = (
 
 ORDERS = {
     "semi_analytical": ORDER,
-    "semi_analytical.edge": ("means", "quadratic", "fit", "shape"),
+    "semi_analytical.edge": (
+        *("means", "quadratic", "fit", "shape"),
+        *("kernels", "displacement", "rim", "corrected"),
+    ),
+    "semi_analytical.edge_correction": ("mixing", "operators", "pressure", "state"),
     "fem_reference": (
         *("memory", "scales", "mesh", "elasticity", "path", "refusals"),
         *("effects", "plan", "loads", "residuals", "fields", "energy", "model", "history"),

@@ -28,7 +28,7 @@ class OnCells:
         return SurfaceDiscretisation()
 
     def plan(self, scene: Scene, fineness: SurfaceDiscretisation) -> Plan:
-        return semi_analytical.plan(scene, fineness.path_accuracy)
+        return semi_analytical.plan(scene, fineness.path_accuracy, fineness.edge)
 
     def solve(
         self,

@@ -1,0 +1,98 @@
+"""What tractions do within their cells, and the displacement by it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from semi_analytical.edge.kernels import PARTS, REACH, EdgeKernels, part_centres
+from semi_analytical.operator import (
+    Convolutions,
+    PaddedTransform,
+    even_transform,
+    mixed_transform,
+    odd_transform,
+)
+
+Field = NDArray[np.float64]
+Indices = NDArray[np.intp]
+
+# A slope of one per cell has a twelfth of a moment; that of its parts is a little less.
+MOMENT = 12 / (1 - 1 / PARTS**2)
+
+
+@dataclass(frozen=True)
+class Within:
+    """A traction within its cells, beside its means.
+
+    slopes  (2, nx, ny) change from side to side of a cell, along x and y [force/length^2]
+    i, j    cells in which it is more than a slope, (n,)
+    rest    (n, PARTS, PARTS) what mean and slope leave of its parts there [force/length^2]
+    """
+
+    slopes: Field
+    i: Indices
+    j: Indices
+    rest: Field
+
+    @classmethod
+    def of(cls, means: Field, i: Indices, j: Indices, parts: Field) -> Within:
+        """From means (nx, ny) by central differences, and in the cells (i, j) by parts."""
+        loaded = means != 0
+        slopes = np.stack([np.gradient(means, axis=axis) * loaded for axis in (0, 1)])
+        rest = parts - parts.mean(axis=(1, 2), keepdims=True)
+        x = part_centres()
+        by_x = MOMENT * np.einsum("nab,a->n", rest, x) / PARTS**2
+        by_y = MOMENT * np.einsum("nab,b->n", rest, x) / PARTS**2
+        slopes[:, i, j] = by_x, by_y
+        rest = rest - by_x[:, None, None] * x[:, None] - by_y[:, None, None] * x
+        return cls(slopes, i, j, rest)
+
+
+class EdgeOperator:
+    """Displacement (nx, ny) by what a traction does within its cells; one call is one and a half
+    convolutions."""
+
+    def __init__(self, kernels: EdgeKernels, shape: tuple[int, int], counter: Convolutions) -> None:
+        self._near = kernels.near
+        self._transform = PaddedTransform(shape, counter)
+        reach, padded = self._transform.reach, self._transform.padded
+        x, y = kernels.parity
+        self._spectra = [
+            _spectrum(moment[reach], parity, padded)
+            for moment, parity in zip(kernels.moments, ((-x, y), (x, -y)), strict=True)
+        ]
+        self._odd = x * y > 0
+        self._work = [self._transform.empty_spectrum() for _ in range(2)]
+
+    def __call__(self, within: Within) -> Field:
+        """The displacement at the centres of the cells [length]."""
+        total, other = self._work
+        for slope, spectrum, work in zip(within.slopes, self._spectra, self._work, strict=True):
+            self._transform.forward(slope, work)
+            work *= spectrum
+        total += other
+        if self._odd:
+            total *= -1j
+        return self._transform.inverse(total) + self._by_rest(within)
+
+    def _by_rest(self, within: Within) -> Field:
+        u = np.zeros(np.array(within.slopes.shape[1:]) + 2 * REACH)
+        # Not by matrix products, whose rounding depends on the number of threads.
+        seen = np.einsum("nab,ijab->ijn", within.rest, self._near)
+        for (i, j), displacement in zip(
+            np.ndindex(seen.shape[:2]), seen.reshape(-1, seen.shape[2]), strict=True
+        ):
+            np.add.at(u, (within.i + i, within.j + j), displacement)
+        return u[REACH:-REACH, REACH:-REACH]
+
+
+def _spectrum(moment: Field, parity: tuple[int, int], padded: tuple[int, int]) -> Field:
+    """Real half spectrum; times -i where the moment is odd along one side only."""
+    if parity == (1, 1):
+        return even_transform(moment, padded)
+    if parity == (-1, -1):
+        return odd_transform(moment, padded)
+    return mixed_transform(moment, padded, odd_axis=parity.index(-1))

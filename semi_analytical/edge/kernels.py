@@ -1,0 +1,110 @@
+"""Displacements by what cell-constant tractions leave out: slopes within cells, and what is left.
+
+Within a cell a traction is its mean, a slope, and a rest that matters to near cells alone. Slopes
+act by the first moments D of the influence coefficients, rests by a table of PARTS x PARTS parts of
+a cell as seen from the cells around it. Both are made of influence coefficients at the spacing of
+the parts, whichever the bodies: PARTS is odd, so that parts and cells have common centres.
+"""
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from semi_analytical.influence.coefficients import InfluenceCoefficients
+
+Field = NDArray[np.float64]
+
+PARTS = 11
+# Cells around a part of a cell that see the rest.
+REACH = 2
+# Cells within which a moment is summed over the parts; beyond it is a derivative, right to 5e-4.
+NEAR = 8
+# How many offsets of influence coefficients the parts need.
+PART_OFFSETS = NEAR * PARTS + PARTS // 2 + 1
+
+# Parity along x and y of what each component reads.
+PARITY = {
+    "zz": (1, 1),
+    "xx": (1, 1),
+    "yy": (1, 1),
+    "xy": (-1, -1),
+    "zx": (-1, 1),
+    "zy": (1, -1),
+}
+
+
+def part_centres() -> Field:
+    """Centres of the parts of a cell along one side, (PARTS,) in cells."""
+    return (np.arange(PARTS) - PARTS // 2) / PARTS
+
+
+@dataclass(frozen=True)
+class EdgeKernels:
+    """Of one component of the influence coefficients.
+
+    component  as in `InfluenceCoefficients`
+    cells      influence coefficients of the cells
+    parts      influence coefficients at PART_OFFSETS of the parts
+    """
+
+    component: str
+    cells: InfluenceCoefficients
+    parts: InfluenceCoefficients
+
+    @property
+    def parity(self) -> tuple[int, int]:
+        """Along x and y, of the coefficients."""
+        return PARITY[self.component]
+
+    @cached_property
+    def moments(self) -> Field:
+        """Displacement at cell offsets i, j >= 0 by tractions x and y on the cell at the origin,
+        lengths in cells, shape (2, nx, ny) [length^3/force]."""
+        A = getattr(self.cells, self.component)
+        count = tuple(min(n, NEAR + 1) for n in A.shape)
+        far = [-_slope(A, axis, self.parity[axis]) / 12 for axis in (0, 1)]
+        near = self._seen_from(count[0], count[1])
+        x = part_centres()
+        # The moment of the parts is a little less than that of the slope.
+        by_x = np.einsum("ijab,a->ij", near, x) / (1 - 1 / PARTS**2)
+        by_y = np.einsum("ijab,b->ij", near, x) / (1 - 1 / PARTS**2)
+        for whole, inner in zip(far, (by_x, by_y), strict=True):
+            whole[: count[0], : count[1]] = inner
+        return np.stack(far)
+
+    @cached_property
+    def near(self) -> Field:
+        """Displacement at cell offsets -REACH … REACH by unit traction on a part of the cell at the
+        origin, shape (2 REACH + 1, 2 REACH + 1, PARTS, PARTS) [length^3/force]."""
+        quadrant = self._seen_from(REACH + 1, REACH + 1)
+        along_x = _mirrored(quadrant, 0, 2, self.parity[0])
+        return _mirrored(along_x, 1, 3, self.parity[1])
+
+    def _seen_from(self, nx: int, ny: int) -> Field:
+        """Displacement at cell offsets i < nx, j < ny by unit traction on the part (a, b)."""
+        K = getattr(self.parts, self.component)
+        a = np.arange(PARTS) - PARTS // 2
+        i, j = (PARTS * np.arange(n)[:, None] - a for n in (nx, ny))
+        sign_x = np.where(i < 0, self.parity[0], 1)[:, None, :, None]
+        sign_y = np.where(j < 0, self.parity[1], 1)[None, :, None, :]
+        return np.asarray(
+            sign_x * sign_y * K[np.abs(i)[:, None, :, None], np.abs(j)[None, :, None, :]]
+        )
+
+
+def _mirrored(quadrant: Field, axis: int, parts: int, parity: int) -> Field:
+    """Offsets of both signs from those >= 0: seen from the other side, parts change places too."""
+    other = np.flip(np.flip(np.take(quadrant, range(1, quadrant.shape[axis]), axis), axis), parts)
+    return np.concatenate([parity * other, quadrant], axis)
+
+
+def _slope(values: Field, axis: int, parity: int) -> Field:
+    """Derivative per cell along an axis of values at offsets >= 0, of fourth order but at the far
+    end."""
+    v = np.moveaxis(values, axis, 0)
+    v = np.concatenate([parity * v[2:0:-1], v])
+    slope = np.gradient(v, axis=0)
+    slope[2:-2] = (8 * (v[3:-1] - v[1:-3]) - (v[4:] - v[:-4])) / 12
+    return np.moveaxis(slope[2:], 0, axis)

@@ -1,0 +1,121 @@
+"""The cells along the edge of a region, and the traction in their parts."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.ndimage import distance_transform_edt
+
+from semi_analytical.edge.fit import Indices, Stencil
+from semi_analytical.edge.kernels import PARTS, part_centres
+from semi_analytical.edge.means import mean_power
+from semi_analytical.edge.quadratic import Quadratic
+from semi_analytical.edge.shape import Mask, edge_shape
+
+Field = NDArray[np.float64]
+
+# Wider than for exact means: what is left of the error of one cell is to leave the others alone.
+STENCIL = Stencil(4, 2.2)
+# Layers of cells inside and outside the edge. Farther in a traction is a slope within a cell, to
+# 1/500 of it; farther out it is zero.
+INSIDE, OUTSIDE = 5.5, 1.5
+# So many times its slopes above zero, a part of a cell has the mean of a power by two terms of its
+# series, to 1e-6.
+SMOOTH = 8.0
+# Radius of a region in cells that is thick enough to be fitted.
+THICK = 2.5
+
+
+@dataclass(frozen=True)
+class Rim:
+    """Cells along the edge of a region that are fitted well.
+
+    region   (nx, ny) cells whose centre is inside the edge
+    i, j     the cells (n,)
+    parts    (n, PARTS, PARTS) mean of the traction in the parts of each
+    covered  (n,) part of each inside the edge
+    unsafe   part of all cells along the edge that are not fitted well
+    """
+
+    region: Mask
+    i: Indices
+    j: Indices
+    parts: Field
+    covered: Field
+    unsafe: float
+
+    @property
+    def outer(self) -> Mask:
+        """(nx, ny) cells that the region reaches into, and whose centre is outside."""
+        reached = np.zeros(self.region.shape, dtype=bool)
+        reached[self.i, self.j] = self.covered > 0
+        return reached & ~self.region
+
+    @property
+    def means(self) -> Field:
+        """(nx, ny) mean of the traction over each of the cells, zero elsewhere."""
+        means = np.zeros(self.region.shape)
+        means[self.i, self.j] = self.parts.mean(axis=(1, 2))
+        return means
+
+    @property
+    def area(self) -> float:
+        """Of the region, in cells."""
+        covered = self.region.astype(float)
+        covered[self.i, self.j] = self.covered
+        return float(np.sum(covered))
+
+
+def rim(
+    means: Field, loaded: Mask, before: Rim | None = None, exponent: float | Field = 0.5
+) -> Rim | None:
+    """The rim of a region of tractions; None where it is too thin to have one.
+
+    means     (nx, ny) mean of the traction over each cell [force/length^2]
+    loaded    (nx, ny) cells where it is positive
+    before    the rim of about the same region: cells outside it are no data, but what comes of
+              it. Without, the cut cells carry the error of a solver that knows no edge, and are
+              no data either
+    exponent  the traction goes with this power of the distance from the edge
+    """
+    region = loaded if before is None else loaded & ~before.outer
+    layer = distance_transform_edt(np.pad(region, 1))[1:-1, 1:-1]
+    if np.max(layer) <= THICK:
+        return None
+    scale = np.max(means)
+    shape = edge_shape(
+        means / scale, region, STENCIL, rings=before is None, exponent=exponent, rounds=2
+    )
+    outside = distance_transform_edt(~region)
+    i, j = np.nonzero((layer + outside <= INSIDE) & (outside <= OUTSIDE))
+    phi, safe = shape.about(i.astype(float), j.astype(float))
+    alpha = np.broadcast_to(exponent, means.shape)[i, j]
+    parts, covered = _in_parts(phi, alpha)
+    inside = region.copy()
+    inside[i[safe], j[safe]] = phi.f[safe] > 0
+    return Rim(
+        inside, i[safe], j[safe], scale * parts[safe], covered[safe], 1 - float(np.mean(safe))
+    )
+
+
+def _in_parts(phi: Quadratic, exponent: Field) -> tuple[Field, Field]:
+    """Mean of phi_+^exponent over the parts of each cell (n, PARTS, PARTS), and the part of each
+    where phi is positive (n,)."""
+    x, y = (at[..., None] for at in np.meshgrid(part_centres(), part_centres(), indexing="ij"))
+    part = phi.about(phi.x + x, phi.y + y)
+    f = part.f + (part.f_xx + part.f_yy) / (24 * PARTS**2)
+    f_x, f_y = part.f_x / PARTS, part.f_y / PARTS
+    exponent = np.broadcast_to(exponent, f.shape)
+    slope = np.abs(f_x) + np.abs(f_y)
+    smooth = f > SMOOTH * slope
+    parts, covered = np.zeros(f.shape), smooth.astype(float)
+    rise, a = f[smooth], exponent[smooth]
+    bend = a * (a - 1) * (f_x[smooth] ** 2 + f_y[smooth] ** 2) / rise**2
+    parts[smooth] = rise**a * (1 + bend / 24)
+    cut = ~smooth & (f > -slope)
+    slopes = f_x[cut], f_y[cut]
+    parts[cut] = mean_power(f[cut], *slopes, exponent[cut])
+    covered[cut] = mean_power(f[cut], *slopes, 0.0)
+    return np.moveaxis(parts, -1, 0), covered.mean(axis=(0, 1))

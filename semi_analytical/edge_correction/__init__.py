@@ -1,0 +1,1 @@
+"""Solved states with their edges put inside the cells (deferred correction)."""

@@ -1,0 +1,103 @@
+"""The pressure with its edge inside the cells.
+
+Constant on cells, a pressure that falls to zero like a root is wrong by O(h) at its edge. Fitted
+there, p^2 passes smoothly through zero and tells what the pressure is within the cells; by that it
+moves the surface, and the pressure is solved for again, until it fits what it is fitted to
+(deferred correction).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from contact_scene.solver_errors import NotConverged
+from semi_analytical.box import Box
+from semi_analytical.edge.corrected import Corrected
+from semi_analytical.edge.displacement import Within
+from semi_analytical.edge.rim import Rim, rim
+from semi_analytical.edge_correction.mixing import Mixing
+from semi_analytical.edge_correction.operators import EdgeOperators
+from semi_analytical.model import ContactModel
+from semi_analytical.normal import solve_normal
+from semi_analytical.normal_load import NormalLoad, PressureSum
+from semi_analytical.pressing import NormalTarget
+
+Field = NDArray[np.float64]
+
+MOST_ROUNDS = 8
+# Of the pressure in a round, Σ|Δp|/Σp: a tenth of what is left of its error at 128 cells.
+SETTLED = 3e-6
+# Part of its residual that the solve of a round leaves.
+ENOUGH = 0.1
+# To be accepted: the change that the rounds leave, and its part of the first; the part of the edge
+# that could not be fitted.
+LEAST_SETTLED, LEAST_FALL = 1e-3, 0.1
+MOST_UNSAFE = 0.15
+
+
+def edge_pressure(
+    operators: EdgeOperators, target: NormalTarget, pressure: Field, tolerance: float
+) -> Corrected | None:
+    """A solved pressure (nx, ny) with its edge inside the cells; None where that is not safe:
+    the contact is too thin, its edge is rough, or the rounds do not settle."""
+    problem = _Problem(operators, target, tolerance)
+    edge, p, mixing, changes = rim(pressure, pressure > 0), pressure, Mixing(), []
+    for number in range(MOST_ROUNDS):
+        if edge is None or edge.unsafe > MOST_UNSAFE:
+            return None
+        try:
+            answer, gap, approach = problem.solve(p, edge)
+        except NotConverged:
+            return None
+        change = answer - p
+        changes.append(float(np.sum(np.abs(change)) / np.sum(p)))
+        if changes[-1] < SETTLED:
+            break
+        p = answer if number == 0 else np.maximum(mixing.next(p, change), 0.0)
+        edge = rim(p, p > 0, edge)
+    if edge is None or changes[-1] > min(LEAST_SETTLED, LEAST_FALL * changes[0]):
+        return None
+    gap = np.where(edge.region, 0.0, np.maximum(gap, 0.0))
+    return Corrected(answer, gap, approach, edge.area, changes[-1])
+
+
+@dataclass(frozen=True)
+class _Problem:
+    operators: EdgeOperators
+    target: NormalTarget
+    tolerance: float
+
+    @property
+    def model(self) -> ContactModel:
+        return self.operators.model
+
+    def solve(self, p: Field, edge: Rim) -> tuple[Field, Field, float]:
+        """Pressure, gap and approach with the edge where it is.
+
+        Cells that the contact only reaches into carry what the fit says of them, and the load
+        that is left to the others is theirs to find.
+        """
+        model = self.model
+        operator = model.normal_operator(model.grid.cells)
+        reached = np.where(edge.outer, edge.means, 0.0)
+        within = Within.of(p, edge.i, edge.j, edge.parts)
+        gap = self.target.gap(model) + self.operators["zz"](within) + operator(reached)
+        solution = solve_normal(
+            operator,
+            operator.precondition,
+            np.where(edge.outer, np.inf, gap),
+            _less(self.target.on(model, Box.whole(model.grid.cells)), float(np.sum(reached))),
+            np.where(edge.outer, 0.0, p),
+            self.tolerance,
+            ENOUGH,
+        )
+        approach, _ = self.target.reached(model, solution.motion)
+        return solution.pressure + reached, gap + solution.displacement - approach, approach
+
+
+def _less(load: NormalLoad, carried: float) -> NormalLoad:
+    """The load without a sum of pressures that others carry."""
+    return replace(load, total=load.total - carried) if isinstance(load, PressureSum) else load

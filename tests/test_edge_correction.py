@@ -1,0 +1,150 @@
+"""The pressure with its edge inside the cells."""
+
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+from cell_means import ellipse_means
+from contact_scenes import APPROACH, LOAD, A, hertz, scene, steel
+
+from contact_results.remarks import remarks
+from contact_scene import Cone, FlatPunch, Scene
+from semi_analytical import SurfaceGrid, plan, solve
+from verification.closed_forms.cone import ConeContact
+from verification.closed_forms.moduli import contact_modulus
+from verification.problems.shifted_grid import ShiftedGrid
+
+CELLS = 48
+WINDOW = 2.6 * A
+PRESS = {"normal_force": LOAD}
+
+
+def solved(of: Scene, edge: str = "last", grid: SurfaceGrid | None = None):
+    grid = grid or SurfaceGrid((CELLS, CELLS), (WINDOW, WINDOW))
+    return solve(of, grid, 1e-8, plan=plan(of, edge=edge))
+
+
+def frictionless(*loading, indenter=None) -> Scene:
+    return scene(*loading, friction=None, indenter=indenter)
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_the_pressure_of_hertz_is_right_to_a_ten_thousandth_wherever_the_cells_lie(seed):
+    """Root mean square of cell means, an eightieth of what it is with constant edge cells."""
+    offset = np.random.default_rng(seed).uniform(-0.5, 0.5, 2)
+    end = solved(
+        frictionless(PRESS), grid=ShiftedGrid((CELLS, CELLS), (WINDOW, WINDOW), tuple(offset))
+    ).steps[-1]
+    h = WINDOW / CELLS
+    centre = (CELLS - 1) / 2 - offset
+    exact = hertz().peak_pressure * ellipse_means(CELLS, (A / h, A / h), tuple(centre))
+    assert np.linalg.norm(end.pressure - exact) < 1.5e-4 * np.linalg.norm(exact)
+    assert end.contact_radius == pytest.approx(A, rel=5e-5)
+    assert end.approach == pytest.approx(APPROACH, rel=1e-5)
+
+
+def test_an_approach_takes_the_force_of_hertz():
+    end = solved(frictionless({"approach": APPROACH})).steps[-1]
+    assert end.normal_force == pytest.approx(LOAD, rel=2e-5)
+    assert end.contact_radius == pytest.approx(A, rel=5e-5)
+
+
+def test_the_pressure_carries_the_load():
+    end = solved(frictionless(PRESS)).steps[-1]
+    cell = (WINDOW / CELLS) ** 2
+    assert np.sum(end.pressure) * cell == pytest.approx(LOAD, rel=1e-9)
+    assert np.min(end.pressure) >= 0
+    assert np.min(end.gap) >= 0
+
+
+def test_below_a_cone_the_edge_is_found_although_the_apex_is_not_smooth():
+    slope = np.radians(1.0)
+    modulus = contact_modulus((420e9, 0.3), (420e9, 0.3))
+    exact = ConeContact.under_load(LOAD, slope, modulus)
+    side = 2.6 * exact.contact_radius
+    grid = SurfaceGrid((96, 96), (side, side))
+    cone = frictionless(PRESS, indenter=Cone(slope_angle=slope, material=steel()))
+    error = {
+        edge: abs(solved(cone, edge, grid).steps[-1].contact_radius / exact.contact_radius - 1)
+        for edge in ("off", "last")
+    }
+    assert error["last"] < 0.2 * error["off"]
+
+
+STEPS = (PRESS, {"normal_force": 0.5 * LOAD}, {"normal_force": 0.8 * LOAD})
+
+
+def test_no_later_state_knows_of_the_correction():
+    """What is not corrected is the same to the last bit."""
+    loading = tuple({**step, "increments": 2} for step in STEPS[:2])
+    plain, corrected = (solved(frictionless(*loading), edge) for edge in ("off", "last"))
+    for one, other in zip(plain.increments, corrected.increments, strict=True):
+        assert one.elastic_energy == other.elastic_energy
+        assert one.residuals == other.residuals
+        if one.index == 1:
+            assert other.edge_change is None
+            np.testing.assert_array_equal(one.pressure, other.pressure)
+
+
+def test_edges_are_put_inside_the_cells_when_that_is_asked_for():
+    loading = ({**PRESS, "increments": 2},)
+    by = {
+        edge: [i.edge_change is not None for i in solved(frictionless(*loading), edge).increments]
+        for edge in ("off", "last", "all")
+    }
+    assert by == {"off": [False, False], "last": [False, True], "all": [True, True]}
+
+
+def test_not_asked_for_it_is_not_even_imported():
+    code = (
+        "import sys; from semi_analytical import SurfaceGrid, solve\n"
+        "from contact_scene import load_scene\n"
+        "of = load_scene('scenes/hertz.toml')\n"
+        "solve(of, SurfaceGrid((16, 16), (1.2e-3, 1.2e-3)), 1e-6)\n"
+        "print([name for name in sys.modules if 'edge_correction' in name])"
+    )
+    run = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert run.stdout.strip() == "[]"
+
+
+def test_where_the_contact_is_too_thin_the_pressure_stays_and_the_remarks_say_so():
+    thin = SurfaceGrid((16, 16), (10 * A, 10 * A))
+    plain, asked = (solved(frictionless(PRESS), edge, thin) for edge in ("off", "last"))
+    np.testing.assert_array_equal(plain.steps[-1].pressure, asked.steps[-1].pressure)
+    assert asked.steps[-1].edge_change is None
+    assert any("could not be put inside" in remark for remark in remarks(asked))
+    assert not any("inside" in remark for remark in remarks(plain))
+
+
+def test_a_pressure_that_is_not_smooth_at_its_edge_is_left_as_it_is():
+    """Heights at random from cell to cell leave no edge to fit."""
+    from semi_analytical.edge_correction.operators import EdgeOperators
+    from semi_analytical.edge_correction.pressure import edge_pressure
+    from semi_analytical.model import ContactModel
+    from semi_analytical.pressing import NormalTarget
+
+    grid = SurfaceGrid((CELLS, CELLS), (WINDOW, WINDOW))
+    model = ContactModel.of(frictionless(PRESS), grid)
+    rng = np.random.default_rng(1)
+    model.gap = model.gap + 0.003 * APPROACH * rng.uniform(size=grid.cells)
+    from semi_analytical.pressing import press
+
+    target = NormalTarget(force=LOAD)
+    base = press(model, target, 1e-8)
+    assert edge_pressure(EdgeOperators(model), target, base.pressure, 1e-8) is None
+
+
+@pytest.mark.parametrize(
+    ("of", "because"),
+    [
+        (frictionless(PRESS, indenter=FlatPunch(radius=A, material=steel())), "flat punch"),
+        (frictionless({**PRESS, "tilt": (1e-5, 0.0)}), "tilts"),
+    ],
+)
+def test_the_plan_says_of_what_edges_are_not_known(of, because):
+    decided = plan(of, edge="last")
+    effect = next(e for e in decided.effects if e.name == "edge correction")
+    assert not effect.on
+    assert because in effect.why
+    assert decided.edge == "off"
