@@ -306,7 +306,7 @@ def test_history_balances_energy_and_obeys_coulomb(forces):
     r = A * np.linspace(0, 1, 101)
     bound = MU * HERTZ.pressure(r) + 1e-12 * MU * HERTZ.peak_pressure
     assert np.all(np.abs(state.shear(r)) <= bound)
-    radii = [branch.stick_radius for _, branch in state._branches()]
+    radii = [branch.stick_radius for _, branch in state.branches()]
     elastic = disc_integral(lambda r: state.shear(r) * (state.shift + state.slip(r)) / 2, A, radii)
     scale = LIMIT * VIRGIN.sliding_shift
     assert work == pytest.approx(elastic + state.dissipated_energy, abs=1e-6 * scale)

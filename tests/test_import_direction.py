@@ -121,6 +121,10 @@ ORDERS = {
         *("solve_cost", "ladder", "asked", "climb", "price", "ladder_on_cells"),
         "ladder_on_elements",
     ),
+    "verification.challenge": (
+        *("halves", "asked", "cases", "toml_text", "export", "answer", "reading"),
+        *("verdicts", "judgement", "door", "sheet"),
+    ),
     "slipstick": ("solvers", "path_errors", "solving", "stored_run", "cli", "__main__"),
     # Its floors: what judges stands on what is known, what is shown on what was judged.
     "verification": (
@@ -129,7 +133,7 @@ ORDERS = {
         "judging",
         *("running", "regression"),
         *("cases", "defects", "peers", "studies", "benchmarks"),
-        "report",
+        *("report", "challenge", "adapters"),
     ),
     "verification.cases.both_solvers": (
         *("left_out", "contacts", "sides", "differences", "stress", "line", "charts", "tables"),

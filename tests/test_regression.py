@@ -273,14 +273,25 @@ def test_number_that_is_not_finite_is_a_change(healthy: CaseOutcome) -> None:
     assert kind_of(broken, broken, "order_of_pressure") is ChangeKind.UNCHANGED
 
 
-@pytest.mark.parametrize(("part", "kind"), [(9e-7, "unchanged"), (2e-6, "drift")])
-def test_a_finding_keeps_six_digits_on_every_machine(
-    healthy: CaseOutcome, part: float, kind: str
+@pytest.mark.parametrize(
+    ("was", "now", "kind"),
+    [
+        (0.25, 0.25 * (1 + 9e-7), "unchanged"),
+        (0.25, 0.25 * (1 + 2e-6), "drift"),
+        (940.0, 939.0, "unchanged"),
+        (20.0, 22.0, "drift"),
+    ],
+)
+def test_a_finding_keeps_six_digits_and_a_count_its_twentieth_on_every_machine(
+    healthy: CaseOutcome, was: float, now: float, kind: str
 ) -> None:
-    other = healthy.findings[0].model_copy(update={"value": 0.25 * (1 + part)})
-    moved = healthy.model_copy(update={"findings": (other,)})
+    (finding,) = healthy.findings
+    then, here = (
+        healthy.model_copy(update={"findings": (finding.model_copy(update={"value": value}),)})
+        for value in (was, now)
+    )
     for elsewhere in (False, True):
-        change = compare(moved, healthy, elsewhere=elsewhere).findings[0].regression
+        change = compare(here, then, elsewhere=elsewhere).findings[0].regression
         assert change is not None
         assert change.kind == kind
 

@@ -1,4 +1,26 @@
 """How good the answers are: problems with known answers, judging, cases, studies, report.
 
-It judges and does not serve: nothing but tests and, lazily, the command imports it.
+It judges and does not serve: nothing but tests and, lazily, the command imports it. Another solver
+is judged by `verification.judge`, from Python or by files (`slipstick challenge`).
 """
+
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from verification.challenge.answer import Answer, Field, Solver
+    from verification.challenge.door import CannotDo, judge
+
+__all__ = ["Answer", "CannotDo", "Field", "Solver", "judge"]
+
+_PLACES = {
+    "verification.challenge.answer": ("Answer", "Field", "Solver"),
+    "verification.challenge.door": ("CannotDo", "judge"),
+}
+
+
+def __getattr__(name: str) -> Any:
+    for place, names in _PLACES.items():
+        if name in names:
+            return getattr(import_module(place), name)
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

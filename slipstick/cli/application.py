@@ -17,7 +17,7 @@ application = typer.Typer(
     rich_markup_mode="markdown",
     epilog="Exit codes: 0 done; 1 accuracy verdict failed; 2 invalid scene or unwritable output; "
     "3 not converged or resolved; 4 too little memory, disk or time; 5 baseline drift; "
-    "7 worse or dearer than the baseline; "
+    "6 inconclusive (judge --strict); 7 worse or dearer than the baseline; "
     "70 internal error; 141 output closed.",
     context_settings={"help_option_names": ["-h", "--help"]},
 )

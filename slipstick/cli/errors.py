@@ -15,6 +15,7 @@ class ExitCode(IntEnum):
     NOT_CONVERGED = 3
     RESOURCES_REFUSED = 4
     BASELINE_DRIFT = 5
+    INCONCLUSIVE = 6
     WORSE = 7
     INTERNAL = 70  # a defect of ours (EX_SOFTWARE), never to be mistaken for a verdict
     NOBODY_READS = 141  # the output was closed, as by `| head`: 128 + SIGPIPE

@@ -37,6 +37,8 @@ COMMANDS: dict[str, LazyCommand] = {
         "compare": "Say what changed since the numbers that were accepted, or since a report.",
         "baseline": "List the accepted numbers, or accept those of a report.",
         "bench": "Measure what the method costs, beside other codes in turn.",
+        "challenge": "List or export problems for other codes to solve.",
+        "judge": "Judge another code's answers to a challenge.",
         "study": "Compute a study on a pool of processes and write its page.",
         "report": "Render the report again from recorded results.",
         "schema": "Print the JSON Schema of a scene file, a summary or a report.",

@@ -6,32 +6,15 @@ from dataclasses import replace
 
 import numpy as np
 
-from contact_scene import Ellipsoid
 from verification.cases.hertz_point import EDGE
-from verification.closed_forms.elliptical_contact import EllipticalContact
 from verification.judging.case import Case, Level
 from verification.judging.declared_case import Falls, Refined, case, judged
 from verification.judging.drawings import profile
 from verification.judging.ladder import on_cells, part_of_side
 from verification.judging.observables import APPROACH, CONTACT_RADIUS, PEAK_PRESSURE, PRESSURE_L2
 from verification.judging.refinement import refinement
-from verification.problems import paper_scene as paper
-from verification.problems.problem import Problem
+from verification.problems.elliptical import BARREL, EXACT
 
-RADII = (90e-3, 18e-3)
-EXACT = EllipticalContact.under_load(paper.NORMAL_FORCE, RADII, paper.CONTACT_MODULUS)
-BARREL = Problem(
-    paper.frictionless(
-        "Barrel on a half-space (radii 90 mm and 18 mm)",
-        Ellipsoid(radii=RADII, material=paper.STEEL),
-        paper.STEEL,
-        paper.pressing(),
-    ),
-    (EXACT,),
-    EXACT.semi_axes[0],
-    "Hertz 1882, by Carlson's elliptic integrals",
-    across=EXACT.semi_axes[1],
-)
 MEAN_RADIUS = replace(
     CONTACT_RADIUS,
     name="mean_contact_radius",

@@ -56,28 +56,29 @@ class TangentialHistory:
     @property
     def shift(self) -> float:
         """Tangential shift of the indenter [length]."""
-        return sum(scale * state.shift for scale, state in self._branches())
+        return sum(scale * state.shift for scale, state in self.branches())
 
     def shear(self, r: ArrayLike) -> NDArray[np.float64]:
         """Shear traction on the lower body [force/length²]."""
         total = np.zeros_like(np.asarray(r, dtype=float))
-        for scale, state in self._branches():
+        for scale, state in self.branches():
             total = total + scale * state.shear(r)
         return total
 
     def slip(self, r: ArrayLike) -> NDArray[np.float64]:
         """Slip of the lower surface relative to the indenter, nu = 0, r <= a [length]."""
         total = np.zeros_like(np.asarray(r, dtype=float))
-        for scale, state in self._branches():
+        for scale, state in self.branches():
             total = total + scale * state.slip(r)
         return total
 
     @property
     def stick_radius(self) -> float:
         """Radius of the zone that does not slip on the current branch [length]."""
-        return self._branches()[-1][1].stick_radius
+        return self.branches()[-1][1].stick_radius
 
-    def _branches(self) -> list[tuple[float, PartialSlip]]:
+    def branches(self) -> list[tuple[float, PartialSlip]]:
+        """The first loading and every branch since, with the factors by which they add up."""
         forces = (*self.turning_points, self.tangential_force)
         branches = [(1.0, replace(self.virgin, tangential_force=forces[0]))]
         for start, end in pairwise(forces):

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 from verification.judging.change import ChangeKind, CounterChange, Slowdown
 from verification.regression.baseline import COUNTERS
+from verification.regression.number_change import SAME_COUNT
 
 if TYPE_CHECKING:
     from verification.judging.outcome import CaseOutcome
@@ -15,8 +16,6 @@ if TYPE_CHECKING:
     from verification.running.report_record import Report
     from verification.solver import Solver
 
-# Of a case in all: single solves end an iteration sooner or later on other processors.
-SAME_COUNT = 0.05
 # Seconds of single cases scatter by a third on a busy machine; their median less.
 SLOWER = 1.5
 FEWEST = 3  # cases

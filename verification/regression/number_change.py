@@ -19,6 +19,7 @@ SAME_DIGITS = 1e-8  # relative, of what a reference is
 # measured on them may differ by somewhat more. Less than that is no change on any machine.
 NOISE = 1e-6  # of what errors are divided by; of a finding, of itself
 NOISE_OF_TOLERANCE = 0.01
+SAME_COUNT = 0.05  # an iteration sooner or later
 TOLERANCE_KEPT = 0.01  # relative; derived tolerances follow the last digits of small differences
 
 # Worse: an error that has become this many times larger, by at least that part of the tolerance.
@@ -52,10 +53,12 @@ def quantity_change(verdict: Verdict, was: RecordedQuantity | None, origin: Orig
 
 
 def finding_change(finding: FindingRecord, was: RecordedFinding | None, origin: Origin) -> Change:
-    """How a finding compares with the recorded one."""
+    """How a finding compares with the recorded one: whole numbers are counts, whatever of."""
     if was is None:
         return Change(kind=ChangeKind.NEW, recorded=False, since=origin.name)
-    noise = NOISE * max(abs(finding.value or 0.0), abs(was.value or 0.0))
+    values = [value or 0.0 for value in (finding.value, was.value)]
+    counts = all(value.is_integer() for value in values)
+    noise = (SAME_COUNT if counts else NOISE) * max(map(abs, values))
     same = _difference(finding.value, was.value) <= noise
     kind = ChangeKind.UNCHANGED if same else ChangeKind.DRIFT
     return Change(kind=kind, was=was.value, since=origin.name)

@@ -1,0 +1,55 @@
+"""`slipstick challenge`: our problems, for other codes to solve."""
+
+from __future__ import annotations
+
+from enum import StrEnum
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from slipstick.cli.optional import directory
+
+
+class Action(StrEnum):
+    """What to do."""
+
+    LIST = "list"
+    EXPORT = "export"
+
+
+def challenge(
+    action: Annotated[Action, typer.Argument(help="List all challenges, or export one.")],
+    case: Annotated[
+        str | None, typer.Argument(metavar="CASE", help="Which; 'list' names them.")
+    ] = None,
+    output: Annotated[
+        Path | None, directory("Where the files go; challenge-CASE if absent.")
+    ] = None,
+    blind: Annotated[
+        bool, typer.Option("--blind", help="Leave out the reference and the scales.")
+    ] = False,
+) -> None:
+    """Export a problem for another code: scene, words, tables to fill, and the reference.
+
+    Fill in answers.csv, levels.csv and solver.toml, then: slipstick judge DIR. Nothing of slipstick
+    is needed to answer.
+    """
+    from slipstick.cli.name_mistakes import unknown_names
+    from verification.challenge.cases import challenges
+    from verification.challenge.export import export
+
+    known = challenges()
+    if action is Action.LIST:
+        from slipstick.cli.terminal import print_table
+
+        rows = [(one.name, str(len(one.values)), one.title) for one in known.values()]
+        print_table(("challenge", "numbers", "title"), rows)
+        return
+    if case is None:
+        raise typer.BadParameter(f"name a challenge; there are {', '.join(known)}")
+    if problem := unknown_names("challenge", [case], known, "slipstick challenge list"):
+        raise typer.BadParameter(problem)
+    folder = output or Path(f"challenge-{case.replace('/', '-')}")
+    export(known[case], folder, blind=blind)
+    typer.echo(f"{folder}: read problem.md, fill in answers.csv, then: slipstick judge {folder}")

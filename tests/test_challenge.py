@@ -1,0 +1,328 @@
+"""Other codes are judged by files or from Python, and no slip of theirs passes in silence."""
+
+from __future__ import annotations
+
+import csv
+import json
+from collections.abc import Callable
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from contact_scene import load_scene
+from slipstick.cli import main
+from verification import Answer, CannotDo, Field, Solver, judge
+from verification.adapters import surface
+from verification.challenge.asked import Challenge
+from verification.challenge.cases import challenges
+from verification.challenge.door import Posed
+from verification.challenge.judgement import judged
+from verification.challenge.sheet import render_sheet
+from verification.challenge.toml_text import toml_text
+from verification.judging.outcome import Status
+from verification.problems.elliptical import EXACT as ELLIPSE
+from verification.problems.paper_scene import HERTZ
+
+POINT = challenges()["hertz_point"]
+NAMES = sorted(challenges())
+
+
+def exact_field(challenge: Challenge, step: int = 1, cells: int = 400) -> Field:
+    """The reference at the centres of cells, coarse enough to carry the load to 1e-3."""
+    (asked,) = (f for f in challenge.fields if f.step == step)
+    half = 1.05 * max(max(term.semi_axes) for term in asked.halves.terms)
+    x = (np.arange(cells) + 0.5) * 2 * half / cells - half
+    x, y = (part.ravel() for part in np.meshgrid(x, x, indexing="ij"))
+    area = np.full(x.size, (2 * half / cells) ** 2)
+    return Field(x, y, asked.halves.at(x, y), area)
+
+
+def exact(challenge: Challenge, off: float = 0.0, h: float = 1e-5) -> Answer:
+    """All numbers, off by a part of their scale, and the first field."""
+    scalars = {(v.quantity, v.step): v.value + off * v.scale for v in challenge.values}
+    return Answer(h, scalars)
+
+
+def statuses(
+    challenge: Challenge, *answers: Answer, solver: Solver | None = None
+) -> dict[str, Status]:
+    found = judged(challenge, solver or Solver("stranger"), answers)
+    return {row.quantity: row.status for row in found.rows}
+
+
+# ---- what is right ------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_a_scene_written_for_others_reads_back_as_itself(name: str, tmp_path: Path) -> None:
+    file = tmp_path / "scene.toml"
+    file.write_text(toml_text(challenges()[name].scene), encoding="utf-8")
+    assert load_scene(file) == challenges()[name].scene
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_a_field_for_others_carries_the_load_of_its_step(name: str) -> None:
+    for field in challenges()[name].fields:
+        assert field.halves.total == pytest.approx(field.total, rel=1e-10, abs=1e-9 * field.scale)
+
+
+def test_a_field_for_others_is_that_of_the_closed_form() -> None:
+    a, b = ELLIPSE.semi_axes
+    x, y = np.array([0.0, 0.3 * a, 0.9 * a]), np.array([0.0, 0.5 * b, 0.1 * b])
+    (field,) = challenges()["hertz_elliptical"].fields
+    assert field.halves.at(x, y) == pytest.approx(ELLIPSE.pressure(x, y), rel=1e-12)
+
+
+def test_a_version_changes_with_what_is_asked() -> None:
+    versions = {challenge.version for challenge in challenges().values()}
+    assert len(versions) == len(challenges())
+
+
+# ---- verdicts -----------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_the_right_numbers_pass_and_a_bias_of_one_per_cent_is_found(name: str) -> None:
+    challenge = challenges()[name]
+    assert judged(challenge, Solver("exact"), (exact(challenge),)).exit_code() == 0
+    biased = judged(challenge, Solver("biased"), (exact(challenge, 1.01e-2),))
+    assert biased.count(Status.FAIL) == len(challenge.values)
+
+
+def test_exchanged_axes_are_seen() -> None:
+    challenge = challenges()["hertz_elliptical"]
+    right = exact_field(challenge)
+    turned = Field(right.y, right.x, right.value, right.area)
+    for field, status in ((right, Status.PASS), (turned, Status.FAIL)):
+        found = statuses(challenge, Answer(1e-5, fields={("pressure", 1): field}))
+        assert found["pressure"] is status
+
+
+def test_leaving_out_the_edge_does_not_carry_the_load() -> None:
+    whole = exact_field(POINT)
+    inner = np.hypot(whole.x, whole.y) < 0.773 * HERTZ.contact_radius
+    part = Field(*(getattr(whole, n)[inner] for n in ("x", "y", "value", "area")))
+    found = statuses(POINT, Answer(1e-5, fields={("pressure", 1): part}))
+    assert (found["pressure"], found["pressure: load carried"]) == (Status.PASS, Status.FAIL)
+    assert (
+        statuses(POINT, Answer(1e-5, fields={("pressure", 1): whole}))["pressure: load carried"]
+        is Status.PASS
+    )
+
+
+def test_what_refinement_does_not_cure_stalls() -> None:
+    key = ("approach", 1)
+    sizes = (4e-5, 2e-5, 1e-5, 5e-6)
+
+    def answers(error: Callable[[float], float]) -> list[Answer]:
+        return [Answer(h, {key: HERTZ.approach * (1 + error(h))}) for h in sizes]
+
+    biased = statuses(POINT, *answers(lambda h: 9e-4 + 1e-6 * h / sizes[0]))
+    assert biased["approach"] is Status.PASS
+    assert biased["approach: stalls"] is Status.FAIL
+    falling = statuses(POINT, *answers(lambda h: 9e-4 * h / sizes[0]))
+    assert "approach: stalls" not in falling
+
+
+@pytest.mark.parametrize(("u", "status"), [(1e-4, Status.FAIL), (6e-4, Status.PASS)])
+def test_a_claimed_uncertainty_must_cover_the_error(u: float, status: Status) -> None:
+    value = HERTZ.approach * (1 + 1e-3)
+    found = statuses(POINT, Answer(1e-5, {("approach", 1): (value, u * HERTZ.approach)}))
+    assert found["approach: own uncertainty"] is status
+
+
+@pytest.mark.parametrize(("claimed", "status"), [(1.0, Status.PASS), (2.0, Status.FAIL)])
+def test_a_claimed_order_is_held_to(claimed: float, status: Status) -> None:
+    answers = [
+        Answer(h, {("approach", 1): HERTZ.approach * (1 + 10 * h * (1 + 1e-3 * (-1) ** n))})
+        for n, h in enumerate((8e-5, 4e-5, 2e-5, 1e-5))
+    ]
+    who = Solver("stranger", claimed_orders={"approach": claimed})
+    assert statuses(POINT, *answers, solver=who)["approach: order"] is status
+
+
+def test_who_gives_up_has_not_merely_omitted() -> None:
+    found = judged(POINT, Solver("stranger"), (Answer(1e-5, gave_up={0: "no convergence"}),))
+    assert found.exit_code() == 3
+    assert found.omitted == ()
+    assert "no convergence" in found.rows[0].because
+
+
+def test_a_mesh_that_knows_the_answer_is_not_judged_by_it() -> None:
+    answers = [Answer(h, {("contact_radius", 1): HERTZ.contact_radius}) for h in (2e-5, 1e-5)]
+    assert statuses(POINT, *answers)["contact_radius"] is Status.INCONCLUSIVE
+
+
+def test_a_slip_of_sign_or_unit_is_named() -> None:
+    for factor, words in ((-1.0, "other sign"), (1e3, "times 1e-3"), (0.5, "doubled")):
+        found = judged(
+            POINT, Solver("s"), (Answer(1e-5, {("approach", 1): factor * HERTZ.approach}),)
+        )
+        assert words in found.rows[0].because
+
+
+def test_a_number_that_is_none_fails() -> None:
+    assert statuses(POINT, Answer(1e-5, {("approach", 1): float("nan")})) == {
+        "approach": Status.FAIL
+    }
+
+
+# ---- files --------------------------------------------------------------------------------------
+
+
+def slipstick(*arguments: object) -> int:
+    try:
+        main([str(argument) for argument in arguments])
+    except SystemExit as end:
+        return int(end.code or 0)
+    return 0
+
+
+@pytest.fixture
+def filled(tmp_path: Path) -> Path:
+    """The challenge, answered rightly."""
+    folder = tmp_path / "challenge"
+    assert slipstick("challenge", "export", "hertz_point", "-o", folder) == 0
+    solver = folder / "solver.toml"
+    solver.write_text(solver.read_text().replace('name = ""', 'name = "stranger <b>"'))
+    (folder / "levels.csv").write_text(
+        "level,status,reason,h,h_unit,unknowns,cpu_seconds\n1,solved,,4.5,um,100,0.1\n"
+    )
+    write(folder, ("1", "1", "approach", f"{HERTZ.approach * 1e6!r}", "um", ""),
+          ("1", "1", "contact_radius", f"{HERTZ.contact_radius!r}", "m", ""))  # fmt: skip
+    return folder
+
+
+def write(folder: Path, *rows: tuple[str, ...]) -> None:
+    with (folder / "answers.csv").open("w", newline="") as file:
+        csv.writer(file).writerows(
+            (("level", "load_step", "quantity", "value", "unit", "u"), *rows)
+        )
+
+
+def test_filled_files_pass_and_their_sheet_is_escaped(
+    filled: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    page = tmp_path / "sheet.html"
+    assert slipstick("judge", filled, "--page", page, "--class", "A", "--strict") == 0
+    assert "hertz_point | stranger <b> | class A | 2 pass, 0 fail" in capsys.readouterr().out
+    assert "stranger <b>" not in page.read_text()
+    badge = json.loads((tmp_path / "badge.json").read_text())
+    assert (badge["message"], badge["color"]) == ("A · 2/2", "brightgreen")
+
+
+def test_what_is_required_and_missing_is_no_class(
+    filled: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    write(filled, ("1", "1", "approach", f"{HERTZ.approach!r}", "m", ""))
+    assert slipstick("judge", filled) == 0
+    assert "| partial |" in capsys.readouterr().out
+    assert slipstick("judge", filled, "--strict") == 6
+
+
+@pytest.mark.parametrize(
+    ("row", "said"),
+    [
+        (("1", "1", "approach", "8.37", "N", ""), "answers.csv:2: unit 'N' does not measure"),
+        (("1", "1", "approach", "8.37", "", ""), "has no unit"),
+        (("1", "1", "aproach", "8.37", "um", ""), "'aproach' is not asked in step 1; asked: app"),
+        (("1", "7", "approach", "8.37", "um", ""), "is not asked in step 7; asked: nothing"),
+        (("2", "1", "approach", "8.37", "um", ""), "level '2' is not in levels.csv; there are 1"),
+        (("1", "1", "approach", "eight", "um", ""), "'eight' is no number"),
+        (("1", "x", "approach", "8.37", "um", ""), "load_step 'x'"),
+        (("1", "1", "approach", "", "um", ""), "nothing to judge"),
+    ],
+)  # fmt: skip
+def test_a_mistake_in_the_answers_is_named_by_file_and_line(
+    filled: Path, capsys: pytest.CaptureFixture[str], row: tuple[str, ...], said: str
+) -> None:
+    write(filled, row)
+    assert slipstick("judge", filled) == 2
+    assert said in capsys.readouterr().err
+
+
+def test_a_value_given_twice_is_refused(filled: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    write(filled, *2 * [("1", "1", "approach", "8.37", "um", "")])
+    assert slipstick("judge", filled) == 2
+    assert "answers.csv:3: approach of step 1 twice" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("name", ["scene.toml", "asked.csv"])
+def test_a_changed_problem_is_refused(
+    filled: Path, capsys: pytest.CaptureFixture[str], name: str
+) -> None:
+    with (filled / name).open("a") as file:
+        file.write("\n")
+    assert slipstick("judge", filled) == 2
+    assert "differs from what was exported" in capsys.readouterr().err
+
+
+def test_answers_to_an_older_version_are_refused(
+    filled: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    manifest = json.loads((filled / "manifest.json").read_text())
+    (filled / "manifest.json").write_text(json.dumps(manifest | {"case_version": "0"}))
+    assert slipstick("judge", filled) == 2
+    assert "the answers are for version 0 of hertz_point" in capsys.readouterr().err
+
+
+def test_answers_are_not_overwritten(filled: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert slipstick("challenge", "export", "hertz_point", "-o", filled) == 2
+    assert "exists: take another folder" in capsys.readouterr().err
+
+
+def test_a_blind_export_does_not_print_the_answer(tmp_path: Path) -> None:
+    assert slipstick("challenge", "export", "cone_contact", "-o", tmp_path, "--blind") == 0
+    values = {f"{v.value:.6g}" for v in challenges()["cone_contact"].values}
+    text = "".join(file.read_text() for file in tmp_path.iterdir())
+    digits = {value.partition("e")[0].replace(".", "") for value in values}
+    assert not any(d in text.replace(".", "") for d in digits)
+    assert not (tmp_path / "reference.json").exists()
+
+
+# ---- from Python --------------------------------------------------------------------------------
+
+
+def test_our_own_solver_enters_by_the_door_of_all(tmp_path: Path) -> None:
+    found = judge("hertz_point", surface.answer, levels=3, solver=surface.SOLVER)
+    by_name = {row.quantity: row for row in found.rows}
+    assert by_name["approach"].status is Status.PASS
+    assert by_name["pressure"].grade == "C"
+    assert by_name["pressure: load carried"].status is Status.PASS
+    assert by_name["contact_radius"].status is Status.FAIL  # on 128 cells: class C
+    assert "Errors by fineness" in render_sheet(found)
+
+
+def test_a_body_that_is_five_per_cent_too_stiff_fails_in_everything() -> None:
+    def stiff(posed: Posed, level: int) -> Answer:
+        scene = json.loads(json.dumps(posed.scene))
+        for body in ("indenter", "body"):
+            scene[body]["material"]["young_modulus"] *= 1.05
+        return surface.answer(replace(posed, scene=scene), level)
+
+    found = judge("hertz_point", stiff, levels=2, at_least="C")
+    failed = {row.quantity for row in found.rows if row.status is Status.FAIL}
+    assert failed == {"approach", "contact_radius", "central_pressure", "pressure"}
+
+
+def test_the_problem_that_a_solver_sees_has_no_answer() -> None:
+    seen: list[Posed] = []
+
+    def solve(posed: Posed, level: int) -> Answer:
+        seen.append(posed)
+        return Answer(1e-5 / 2**level, {("approach", 1): HERTZ.approach})
+
+    assert judge("hertz_point", solve, levels=2).exit_code() == 0
+    assert str(HERTZ.approach) not in repr(seen[0])
+
+
+def test_who_cannot_do_a_problem_says_so() -> None:
+    def solve(posed: Posed, level: int) -> Answer:
+        raise CannotDo("homogeneous bodies only")
+
+    with pytest.raises(CannotDo, match="homogeneous"):
+        judge("coated_paraboloid/E1_over_E2=2", solve)
+    with pytest.raises(KeyError, match="hertz_elliptical"):
+        judge("hertz", solve)

@@ -1,0 +1,1 @@
+"""Codes that answer challenges, one file each, all by the same door."""

@@ -1,0 +1,88 @@
+"""What another code answers: levels of fineness with values and fields, in SI."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+Vector = NDArray[np.float64]
+Key = tuple[str, int]  # quantity and loading step, from 1
+SAMPLINGS = ("point", "cell")
+
+
+@dataclass(frozen=True)
+class Field:
+    """A traction at own points.
+
+    x, y   where [m]
+    value  [Pa]
+    area   that each point stands for [m²]
+    Raises ValueError for arrays of unequal lengths.
+    """
+
+    x: Vector
+    y: Vector
+    value: Vector
+    area: Vector
+
+    def __post_init__(self) -> None:
+        sizes = {name: np.size(getattr(self, name)) for name in ("x", "y", "value", "area")}
+        if len(set(sizes.values())) > 1:
+            told = ", ".join(f"{size} of {name}" for name, size in sizes.items())
+            raise ValueError(f"a field needs as many numbers of each: {told}")
+
+
+@dataclass(frozen=True)
+class Answer:
+    """One level.
+
+    h         size of a cell or element at the contact's edge; √area where it is oblong [m]
+    scalars   a value [SI], or a value with its standard uncertainty
+    fields    `pressure` [Pa] and `shear_x` [Pa] on the lower body
+    gave_up   reasons by loading step, where there is no answer
+    unknowns, seconds  of the whole level; None where nobody counted
+    """
+
+    h: float
+    scalars: Mapping[Key, float | tuple[float, float]] = field(default_factory=dict)
+    fields: Mapping[Key, Field] = field(default_factory=dict)
+    gave_up: Mapping[int, str] = field(default_factory=dict)
+    unknowns: int | None = None
+    seconds: float | None = None
+    label: str = ""
+
+    def value(self, key: Key) -> float | None:
+        """Of a number; None where it is not answered."""
+        found = self.scalars.get(key)
+        return found[0] if isinstance(found, tuple) else found
+
+    def uncertainty(self, key: Key) -> float | None:
+        """That the answerer claims, standard."""
+        found = self.scalars.get(key)
+        return found[1] if isinstance(found, tuple) else None
+
+
+@dataclass(frozen=True)
+class Solver:
+    """Who answers.
+
+    sampling      whether a field's value is that at the point or the mean over its area
+    knows_answer  quantities that the discretisation is given, as a radius that a mesh is cut to
+    claims        grade, and orders by quantity
+    """
+
+    name: str
+    version: str = ""
+    url: str = ""
+    sampling: str = "point"
+    knows_answer: tuple[str, ...] = ()
+    claimed_grade: str | None = None
+    claimed_orders: Mapping[str, float] = field(default_factory=dict)
+
+    def document(self) -> dict[str, Any]:
+        """As a sheet shows it."""
+        return {"solver": self.name, "version": self.version, "url": self.url}

@@ -1,0 +1,86 @@
+"""All verdicts on an answer, and what they amount to."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from verification.challenge.answer import Answer, Solver
+from verification.challenge.asked import Challenge, Grade
+from verification.challenge.verdicts import Row, omitted, rows_of
+from verification.judging.outcome import Status
+
+PASSED, ACCURACY, GAVE_UP, INCONCLUSIVE = 0, 1, 3, 6  # exit codes
+COLOURS = {"A": "brightgreen", "B": "green", "C": "yellowgreen"}
+
+
+@dataclass(frozen=True)
+class Judgement:
+    """What came out.
+
+    omitted  asked and not answered: quantity, step, whether it is required
+    """
+
+    challenge: Challenge
+    solver: Solver
+    answers: tuple[Answer, ...]
+    rows: tuple[Row, ...]
+    omitted: tuple[tuple[str, int, bool], ...]
+
+    def count(self, status: Status) -> int:
+        """Of the verdicts."""
+        return sum(row.status is status for row in self.rows)
+
+    @property
+    def grade(self) -> str:
+        """The worst of all errors; "partial" where something required is not answered, "none" where
+        an error meets no class or a verdict fails otherwise."""
+        if any(required for *_, required in self.omitted):
+            return "partial"
+        judged = [row for row in self.rows if row.error is not None and row.bound is not None]
+        if not judged or any(r.grade is None and ":" not in r.quantity for r in judged):
+            return "none"
+        return max(row.grade for row in judged if row.grade is not None)
+
+    @property
+    def line(self) -> str:
+        """One line for a log."""
+        counts = ", ".join(
+            f"{self.count(status)} {status}"
+            for status in (Status.PASS, Status.FAIL, Status.INCONCLUSIVE)
+        )
+        grade = self.grade if self.grade in ("none", "partial") else f"class {self.grade}"
+        left_out = f"{len(self.omitted)} of {len(self.challenge.values)} omitted"
+        return f"{self.challenge.name} | {self.solver.name} | {grade} | {counts}, {left_out}"
+
+    def exit_code(self, *, strict: bool = False) -> int:
+        """0 passed, 1 a verdict failed, 3 the solver gave up and nothing else failed; where strict,
+        6 if something is inconclusive or required and omitted."""
+        failed = [row for row in self.rows if row.status is Status.FAIL]
+        if failed:
+            return GAVE_UP if all(row.quantity == "solved" for row in failed) else ACCURACY
+        open_ones = self.count(Status.INCONCLUSIVE) or any(r for *_, r in self.omitted)
+        return INCONCLUSIVE if strict and open_ones else PASSED
+
+    def badge(self) -> str:
+        """For an endpoint of shields."""
+        passed, all_rows = self.count(Status.PASS), len(self.rows)
+        colour = "red" if self.count(Status.FAIL) else COLOURS.get(self.grade, "lightgrey")
+        content: dict[str, Any] = {
+            "schemaVersion": 1, "label": self.challenge.name,
+            "message": f"{self.grade} · {passed}/{all_rows}", "color": colour,
+        }  # fmt: skip
+        return json.dumps(content, ensure_ascii=False) + "\n"
+
+
+def judged(
+    challenge: Challenge, solver: Solver, answers: Sequence[Answer], grade: Grade | None = None
+) -> Judgement:
+    """The verdicts.
+
+    grade  that all must meet; None: what the solver claims, else the par of each quantity
+    """
+    rows = tuple(rows_of(challenge, solver, answers, grade))
+    return Judgement(challenge, solver, tuple(answers), rows, tuple(omitted(challenge, answers)))

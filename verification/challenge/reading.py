@@ -1,0 +1,244 @@
+"""Filled files, read with every mistake named by file and line."""
+
+from __future__ import annotations
+
+import csv
+import json
+import math
+import tomllib
+from collections.abc import Iterator, Mapping
+from decimal import Context, Decimal, InvalidOperation
+from pathlib import Path
+from types import MappingProxyType
+from typing import Any
+
+import numpy as np
+
+from contact_results.directory.refusal import Refused
+from contact_scene.units import LENGTH, PRESSURE, Kind, UnknownUnit
+from verification.challenge.answer import SAMPLINGS, Answer, Field, Key, Solver
+from verification.challenge.asked import Challenge, Grade
+from verification.challenge.cases import challenges
+from verification.challenge.export import (
+    ANSWER_COLUMNS,
+    ANSWERS,
+    FIELD_COLUMNS,
+    FIELDS,
+    GIVEN,
+    LEVEL_COLUMNS,
+    LEVELS,
+    MANIFEST,
+    SCHEMA,
+    SOLVER,
+    digest,
+)
+
+_ENERGIES = {"J": "1", "mJ": "1e-3", "uJ": "1e-6", "µJ": "1e-6", "N m": "1", "N mm": "1e-3"}
+ENERGY = Kind("J", '"3 uJ"', MappingProxyType({unit: Decimal(f) for unit, f in _ENERGIES.items()}))
+KINDS = {"m": LENGTH, "Pa": PRESSURE, "J": ENERGY}
+MOST_BYTES = 100_000_000
+EXACT = Context(prec=40)
+SOLVED, GAVE_UP = "solved", "gave up"
+
+
+def read_answers(directory: Path) -> tuple[Challenge, Solver, tuple[Answer, ...]]:
+    """The challenge, who answers, and the levels that have an answer, coarse to fine.
+
+    Raises Refused with file, line, what came and what is expected.
+    """
+    challenge = _challenge(directory)
+    solver = _solver(directory / SOLVER)
+    levels = dict(_levels(directory / LEVELS))
+    values: dict[str, dict[Key, float | tuple[float, float]]] = {name: {} for name in levels}
+    for where, level, key, value in _values(directory / ANSWERS, challenge):
+        if level not in levels:
+            known = ", ".join(levels) or "none"
+            raise Refused(f"{where}: level {level!r} is not in {LEVELS}; there are {known}")
+        if key in values[level]:
+            raise Refused(f"{where}: {key[0]} of step {key[1]} twice on level {level}")
+        values[level][key] = value
+    fields = _fields(directory / FIELDS, challenge, levels)
+    answers = tuple(
+        Answer(scalars=values[name], fields=fields.get(name, {}), label=name, **level)
+        for name, level in levels.items()
+    )
+    if not any(a.scalars or a.fields or a.gave_up for a in answers):
+        raise Refused(f"{directory / ANSWERS}: no value is filled in; there is nothing to judge")
+    return challenge, solver, answers
+
+
+def _challenge(directory: Path) -> Challenge:
+    path = directory / MANIFEST
+    try:
+        manifest = json.loads(_text(path))
+        schema, name, version = (manifest[key] for key in ("schema", "case", "case_version"))
+        files = {given: manifest["files"][given] for given in GIVEN}
+    except (ValueError, KeyError, TypeError) as error:
+        raise Refused(
+            f"{path}: not the manifest of a challenge ({error}); export it again"
+        ) from None
+    if schema != SCHEMA or name not in challenges():
+        raise Refused(f"{path}: {schema!r} {name!r} is no challenge that is known here")
+    challenge = challenges()[name]
+    if challenge.version != version:
+        raise Refused(
+            f"{path}: the answers are for version {version} of {name}, here it is "
+            f"{challenge.version}; export it again"
+        )
+    for given, sha in files.items():
+        if digest(_text(directory / given)) != sha:
+            raise Refused(f"{directory / given}: differs from what was exported; export it again")
+    return challenge
+
+
+def _solver(path: Path) -> Solver:
+    try:
+        content = tomllib.loads(_text(path))
+    except tomllib.TOMLDecodeError as error:
+        raise Refused(f"{path}: {error}") from None
+    who, convention, claims = (content.get(k, {}) for k in ("solver", "convention", "claims"))
+    name = str(who.get("name", "")).strip()
+    if not name:
+        raise Refused(f"{path}: solver.name is empty; say who answers")
+    sampling = convention.get("sampling", SAMPLINGS[0])
+    if sampling not in SAMPLINGS:
+        raise Refused(
+            f"{path}: convention.sampling is {sampling!r}, expected {' or '.join(SAMPLINGS)}"
+        )
+    grade = claims.get("grade")
+    if grade is not None and grade not in list(Grade):
+        raise Refused(f"{path}: claims.grade is {grade!r}, expected {', '.join(Grade)}")
+    orders = claims.get("order", {})
+    if not isinstance(orders, dict) or not all(isinstance(v, int | float) for v in orders.values()):
+        raise Refused(f"{path}: claims.order is {orders!r}, expected numbers by quantity")
+    return Solver(
+        name, str(who.get("version", "")), str(who.get("url", "")), sampling,
+        tuple(map(str, convention.get("knows_answer", ()))), grade, orders,
+    )  # fmt: skip
+
+
+def _levels(path: Path) -> Iterator[tuple[str, dict[str, Any]]]:
+    seen: set[str] = set()
+    for where, row in _rows(path, LEVEL_COLUMNS):
+        name, status = row["level"], row["status"]
+        if not name or name in seen:
+            raise Refused(f"{where}: level {name!r} {'twice' if name else 'has no name'}")
+        seen.add(name)
+        if status not in (SOLVED, GAVE_UP):
+            raise Refused(f"{where}: status {status!r}, expected {SOLVED!r} or {GAVE_UP!r}")
+        unknowns, seconds = (row[k] and _number(where, row[k]) for k in ("unknowns", "cpu_seconds"))
+        yield (
+            name,
+            {
+                "h": _positive(where, _si(where, row["h"], row["h_unit"], LENGTH)),
+                "gave_up": {0: row["reason"] or "no reason given"} if status == GAVE_UP else {},
+                "unknowns": int(unknowns) if unknowns else None,
+                "seconds": float(seconds) if seconds else None,
+            },
+        )
+
+
+def _values(
+    path: Path, challenge: Challenge
+) -> Iterator[tuple[str, str, Key, float | tuple[float, float]]]:
+    for where, row in _rows(path, ANSWER_COLUMNS):
+        if not row["value"]:
+            continue
+        step = _step(where, row["load_step"])
+        asked = challenge.value(row["quantity"], step)
+        if asked is None:
+            known = ", ".join(v.quantity for v in challenge.values if v.step == step) or "nothing"
+            raise Refused(
+                f"{where}: {row['quantity']!r} is not asked in step {step}; asked: {known}"
+            )
+        kind = KINDS[asked.unit]
+        value = _si(where, row["value"], row["unit"], kind)
+        key = asked.quantity, step
+        if row["u"]:
+            u = _si(where, row["u"], row["unit"], kind)
+            yield where, row["level"], key, (value, abs(u))
+        else:
+            yield where, row["level"], key, value
+
+
+def _fields(
+    folder: Path, challenge: Challenge, levels: Mapping[str, Any]
+) -> dict[str, dict[Key, Field]]:
+    found: dict[str, dict[Key, Field]] = {}
+    asked = {(f.quantity, f.step) for f in challenge.fields}
+    for path in sorted(folder.glob("*")) if folder.is_dir() else ():
+        level, _, step = path.stem.rpartition("_")
+        if path.suffix != ".csv" or level not in levels or not step.isdigit():
+            raise Refused(f"{path}: expected LEVEL_STEP.csv, with a level of {LEVELS}")
+        header = _text(path).partition("\n")[0].strip().split(",")
+        columns = {name.strip().removesuffix(" [Pa]"): k for k, name in enumerate(header)}
+        quantities = [q for q, s in asked if q in columns and s == int(step)]
+        if missing := [name for name in FIELD_COLUMNS if name not in header]:
+            raise Refused(f"{path}:1: no column {', '.join(missing)}")
+        if not quantities:
+            raise Refused(
+                f"{path}:1: no traction that is asked in step {step}: {', '.join(header)}"
+            )
+        try:
+            table = np.loadtxt(path, delimiter=",", skiprows=1, ndmin=2)
+        except ValueError as error:
+            raise Refused(f"{path}: {error}") from None
+        x, y, area = (table[:, header.index(name)] for name in FIELD_COLUMNS)
+        if not np.all(area > 0):
+            raise Refused(f"{path}: areas must be positive")
+        for quantity in quantities:
+            value = table[:, columns[quantity]]
+            found.setdefault(level, {})[quantity, int(step)] = Field(x, y, value, area)
+    return found
+
+
+def _rows(path: Path, columns: tuple[str, ...]) -> Iterator[tuple[str, dict[str, str]]]:
+    reader = csv.DictReader(_text(path).splitlines(), restkey="more")
+    if missing := [name for name in columns if name not in (reader.fieldnames or ())]:
+        raise Refused(f"{path}:1: no column {', '.join(missing)}; expected {', '.join(columns)}")
+    for row in reader:
+        if "more" in row:
+            raise Refused(f"{path}:{reader.line_num}: more values than columns")
+        yield f"{path}:{reader.line_num}", {k: (v or "").strip() for k, v in row.items()}
+
+
+def _text(path: Path) -> str:
+    try:
+        if path.stat().st_size > MOST_BYTES:
+            raise Refused(f"{path}: larger than {MOST_BYTES // 10**6} MB")
+        return path.read_text(encoding="utf-8-sig")
+    except (OSError, UnicodeDecodeError) as error:
+        reason = getattr(error, "strerror", None) or "not text in UTF-8"
+        raise Refused(f"{path}: {reason}") from None
+
+
+def _step(where: str, text: str) -> int:
+    if not text.isdigit() or len(text) > 6:
+        raise Refused(f"{where}: load_step {text!r}, expected a whole number from 1")
+    return int(text)
+
+
+def _number(where: str, text: str) -> float:
+    try:
+        return float(text)
+    except ValueError:
+        raise Refused(f"{where}: {text!r} is no number") from None
+
+
+def _positive(where: str, value: float) -> float:
+    if not 0 < value < math.inf:
+        raise Refused(f"{where}: h is {value:g}, expected a positive length")
+    return value
+
+
+def _si(where: str, text: str, unit: str, kind: Kind) -> float:
+    """A number with its unit; one that is not finite stays what it is, and fails where it is
+    judged."""
+    value = _number(where, text)
+    if not unit:
+        raise Refused(f"{where}: {text} has no unit; give one such as {kind.si}")
+    try:
+        factor = kind.to_si(Decimal(1), unit, EXACT)
+    except (UnknownUnit, InvalidOperation):
+        raise Refused(f"{where}: unit {unit!r} does not measure what {kind.si} does") from None
+    return value * factor

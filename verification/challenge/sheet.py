@@ -1,0 +1,73 @@
+"""A judgement as a page: who answered, one line, every verdict, errors by fineness."""
+
+from __future__ import annotations
+
+from verification.challenge.judgement import Judgement
+from verification.challenge.verdicts import WHOLE, Row
+from verification.exhibits.chart import Chart
+from verification.exhibits.log_chart import drawable, log_chart, point_curves
+from verification.exhibits.table import Table
+from verification.judging.status_words import SYMBOLS, WORDS
+from verification.report.templating import environment
+
+COLUMNS = ("quantity", "step", "level", "verdict", "error", "bound", "class", "order", "because")
+MOST_CURVES = 8
+
+
+def row_texts(row: Row) -> tuple[str, ...]:
+    """A verdict in words."""
+    return (
+        row.quantity,
+        WHOLE if row.step is None else str(row.step),
+        row.level,
+        f"{SYMBOLS[row.status]} {WORDS[row.status]}",
+        WHOLE if row.error is None else f"{row.error:.2e}",
+        WHOLE if row.bound is None else f"{row.bound:g}",
+        row.grade or WHOLE,
+        WHOLE if row.order is None else f"{row.order[0]:.2f} ± {row.order[1]:.2f}",
+        row.because,
+    )
+
+
+def render_sheet(judgement: Judgement) -> str:
+    """Self-contained HTML, readable without script."""
+    page = environment().get_template("judgement.html")
+    return page.render(
+        judgement=judgement, tables=(_verdicts(judgement), _levels(judgement)),
+        charts=tuple(_charts(judgement)),
+    )  # fmt: skip
+
+
+def _verdicts(judgement: Judgement) -> Table:
+    return Table(
+        title="Verdicts",
+        columns=COLUMNS,
+        rows=tuple(map(row_texts, judgement.rows)),
+        note="On the finest level. Classes: A 1e-4, B 1e-3, C 1e-2 of what the error is divided "
+        "by; a pass keeps clear of twice the uncertainty of the reference.",
+    )
+
+
+def _levels(judgement: Judgement) -> Table:
+    rows = (
+        (one.label, f"{one.h:.4g}", str(one.unknowns or WHOLE),
+         WHOLE if one.seconds is None else f"{one.seconds:.3g}")
+        for one in judgement.answers
+    )  # fmt: skip
+    return Table(title="Levels", columns=("level", "h [m]", "unknowns", "CPU s"), rows=tuple(rows))
+
+
+def _charts(judgement: Judgement) -> list[Chart]:
+    """The largest errors by fineness."""
+    fallen = [row for row in judgement.rows if len(row.errors) > 1]
+    fallen.sort(key=lambda row: -(row.error or 0.0))
+    lines = [(f"{r.quantity}, step {r.step}", drawable(r.errors)) for r in fallen[:MOST_CURVES]]
+    if not any(points for _, points in lines):
+        return []
+    return [
+        log_chart(
+            "errors", "Errors by fineness", "Of the numbers and fields with the largest errors, "
+            "each over its scale, against the size h of a cell or element.",
+            "h [m]", "error", point_curves(lines),
+        )
+    ]  # fmt: skip

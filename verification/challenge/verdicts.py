@@ -1,0 +1,211 @@
+"""What an answer is worth: a verdict on every number and field, by bounds that do not depend on who
+answers."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from verification.challenge.answer import Answer, Key, Solver
+from verification.challenge.asked import AskedField, AskedValue, Challenge, Grade
+from verification.convergence.observed_order import observed_order
+from verification.judging.outcome import Status
+
+STALLS_BELOW = 0.5  # upper end of the order's interval
+ORDER_OFF = 0.1
+FEWEST_LEVELS = 3
+KNOWN = 1e-13  # error that no discretisation has by itself
+WHOLE = "–"  # in place of a loading step
+
+
+@dataclass(frozen=True)
+class Row:
+    """A verdict.
+
+    value, reference, error  in the unit asked; the error over its scale. None where there is none
+    bound    of the error; None where something else is judged
+    grade    the best whose bound the error meets; None: none
+    """
+
+    quantity: str
+    step: int | None
+    level: str
+    status: Status
+    because: str
+    value: float | None = None
+    reference: float | None = None
+    error: float | None = None
+    bound: float | None = None
+    grade: Grade | None = None
+    order: tuple[float, float] | None = None
+    errors: tuple[tuple[float, float], ...] = ()  # by h, of all levels
+
+
+def rows_of(
+    challenge: Challenge, solver: Solver, answers: Sequence[Answer], asked: Grade | None
+) -> Iterator[Row]:
+    """On the finest level, with what all of them say of convergence.
+
+    answers  any order of levels
+    asked    the grade that all must meet; None: what is claimed, else the par of each
+    """
+    levels = sorted(answers, key=lambda one: -one.h)
+    demanded = asked or (Grade(solver.claimed_grade) if solver.claimed_grade else None)
+    for level in levels:
+        for step, reason in level.gave_up.items():
+            yield Row("solved", step or None, level.label, Status.FAIL, f"gave up: {reason}")
+    for value in challenge.values:
+        yield from _of_value(value, solver, levels, demanded or value.par)
+    for field in challenge.fields:
+        yield from _of_field(field, solver, levels, demanded or field.par)
+
+
+def omitted(challenge: Challenge, answers: Sequence[Answer]) -> list[tuple[str, int, bool]]:
+    """What is asked and not answered on the finest level: quantity, step, whether it is required.
+    Steps that a solver gave up are told as such."""
+    finest = min(answers, key=lambda one: one.h)
+    if 0 in finest.gave_up:
+        return []
+    return [
+        (v.quantity, v.step, v.required)
+        for v in challenge.values
+        if finest.value((v.quantity, v.step)) is None and v.step not in finest.gave_up
+    ]
+
+
+def _of_value(
+    asked: AskedValue, solver: Solver, levels: Sequence[Answer], grade: Grade
+) -> Iterator[Row]:
+    key = asked.quantity, asked.step
+    found = [(one, value) for one in levels if (value := one.value(key)) is not None]
+    if not found:
+        return
+    errors = [(one.h, abs(value - asked.value) / asked.scale) for one, value in found]
+    finest, value = found[-1]
+    if asked.quantity in solver.knows_answer or _known(asked, errors):
+        yield Row(
+            *key, finest.label, Status.INCONCLUSIVE,
+            "not judged: the mesh knows it", value, asked.value, errors[-1][1],
+        )  # fmt: skip
+        return
+    hint = _hint(value, asked)
+    yield _judged(key, finest.label, value, asked.value, errors, grade, asked.uncertainty, hint)
+    yield from _convergence(key, solver, errors, asked.uncertainty)
+    claimed = finest.uncertainty(key)
+    if claimed is not None:
+        u = math.hypot(claimed, asked.uncertainty * asked.scale)
+        honest = abs(value - asked.value) <= 2 * u
+        yield Row(
+            f"{asked.quantity}: own uncertainty", asked.step, finest.label,
+            Status.PASS if honest else Status.FAIL,
+            f"error {abs(value - asked.value):.3g}, claimed 2u = {2 * claimed:.3g} {asked.unit}",
+        )  # fmt: skip
+
+
+def _of_field(
+    asked: AskedField, solver: Solver, levels: Sequence[Answer], grade: Grade
+) -> Iterator[Row]:
+    key = asked.quantity, asked.step
+    found = [(one, one.fields[key]) for one in levels if key in one.fields]
+    if not found:
+        return
+    errors, carried = [], 0.0
+    for one, field in found:
+        if solver.sampling == "cell":
+            exact = asked.halves.mean(field.x, field.y, field.area)
+        else:
+            exact = asked.halves.at(field.x, field.y)
+        off = np.abs(field.value - exact)
+        if asked.norm == "L2":
+            own = np.sqrt(np.sum(field.area * exact**2))
+            error = float(np.sqrt(np.sum(field.area * off**2)) / own) if own > 0 else math.inf
+        else:
+            error = float(np.sum(field.area * off) / asked.scale)
+        errors.append((one.h, error))
+        carried = float(np.sum(field.value * field.area))
+    finest = found[-1][0].label
+    yield _judged(key, finest, None, None, errors, grade, asked.uncertainty, "")
+    yield from _convergence(key, solver, errors, asked.uncertainty)
+    off_load = abs(carried - asked.total) / asked.scale
+    yield Row(
+        f"{asked.quantity}: load carried", asked.step, finest,
+        Status.PASS if off_load <= Grade.B.bound else Status.FAIL,
+        "Σ value·area against the load", carried, asked.total, off_load, Grade.B.bound,
+    )  # fmt: skip
+
+
+def _judged(
+    key: Key,
+    level: str,
+    value: float | None,
+    reference: float | None,
+    errors: Sequence[tuple[float, float]],
+    grade: Grade,
+    uncertainty: float,
+    hint: str,
+) -> Row:
+    """The error of the finest level against a bound, with twice the reference's uncertainty."""
+    error, wide = errors[-1][1], 2 * uncertainty
+    if error + wide <= grade.bound:
+        status, because = Status.PASS, f"within class {grade}"
+    elif math.isfinite(error) and error - wide <= grade.bound:
+        status, because = Status.INCONCLUSIVE, "the reference is not certain enough to tell"
+    else:
+        status, because = Status.FAIL, f"beyond class {grade}{hint}"
+    met = next((one for one in Grade if error + wide <= one.bound), None)
+    fit = _order(errors, wide)
+    return Row(
+        *key, level, status, because, value, reference, error, grade.bound, met, fit, tuple(errors)
+    )
+
+
+def _convergence(
+    key: Key, solver: Solver, errors: Sequence[tuple[float, float]], uncertainty: float
+) -> Iterator[Row]:
+    """Whether refinement stalls, and the order where one is claimed."""
+    quantity, step = key
+    fit = _order(errors, 2 * uncertainty)
+    if fit is None:
+        return
+    order, half = fit
+    told = f"order {order:.2f} ± {half:.2f}"
+    if errors[-1][1] > Grade.A.bound and order + half < STALLS_BELOW:
+        yield Row(f"{quantity}: stalls", step, WHOLE, Status.FAIL,
+                  f"{told}: finer is hardly better", order=fit)  # fmt: skip
+    claimed = solver.claimed_orders.get(quantity)
+    if claimed is None:
+        return
+    least = claimed - ORDER_OFF
+    if order - half >= least:
+        status = Status.PASS
+    else:
+        status = Status.FAIL if order + half < least else Status.INCONCLUSIVE
+    yield Row(f"{quantity}: order", step, WHOLE, status, f"{told}, claimed {claimed:g}", order=fit)
+
+
+def _order(errors: Sequence[tuple[float, float]], wide: float) -> tuple[float, float] | None:
+    """Of the errors that the reference can tell from zero; None of too few levels."""
+    told = [(h, e) for h, e in errors if e > 1.5 * wide and e > 0 and math.isfinite(e)]
+    if len({h for h, _ in told}) < FEWEST_LEVELS:
+        return None
+    fit = observed_order(*zip(*told, strict=True))
+    return fit.order, fit.half_width
+
+
+def _known(asked: AskedValue, errors: Sequence[tuple[float, float]]) -> bool:
+    """Whether every level has an answer that no discretisation finds by itself."""
+    exact = max(KNOWN, 3 * asked.uncertainty)
+    return asked.limit is not None and len(errors) > 1 and all(e < exact for _, e in errors)
+
+
+def _hint(value: float, asked: AskedValue) -> str:
+    """What a slip would explain: a sign, a half, a unit."""
+    slips = {"with the other sign": -1.0, "halved": 0.5, "doubled": 2.0}
+    slips |= {f"times 1e{n}": 10.0**n for n in (-9, -6, -3, 3, 6, 9)}
+    for words, factor in slips.items():
+        if abs(factor * value - asked.value) <= Grade.C.bound * asked.scale:
+            return f"; {words} it would be within class C"
+    return ""
