@@ -188,8 +188,8 @@ class Cost:
         Count | None,
         Reported(
             "",
-            "Rounds of alternation between pressure and shear on cells, none where one pass does "
-            "it.",
+            "Steps for pressure and shear together on cells: of Newton's method, and rounds of "
+            "alternation where that stalls; none where one pass does it.",
             Kind.COUNTER,
         ),
     ] = None

@@ -8,17 +8,19 @@ from numpy.typing import NDArray
 
 from contact_scene.residuals import worst
 from contact_scene.solver_errors import NotConverged, motion_undefined
-from semi_analytical.alternation import CoupledProblem, CoupledSolution, solve_coupled
 from semi_analytical.box import Box, box_around
 from semi_analytical.contact_area import covered_cells
+from semi_analytical.coupled_problem import CoupledProblem, CoupledSolution
 from semi_analytical.full_slip import (
     at_limit,
     force_reaches_limit,
     refuse_excessive_torque,
     unresisted,
 )
+from semi_analytical.globalisation import solve_together
 from semi_analytical.increment import State, reached_moment
 from semi_analytical.model import ContactModel
+from semi_analytical.predictor import predicted
 from semi_analytical.pressing import (
     MARGIN,
     NormalTarget,
@@ -60,15 +62,15 @@ def solve_coupled_increment(
         carried = model.friction.carried(normal.force)
         if carried is not None:
             force_reaches_limit(tangential.force, carried)
-    start, iterations = _start(model, before, normal)
+    start, shear, iterations = _start(model, before, last, normal, tangential)
     box = box_around((start > 0) | (last.shear[0] != 0), MARGIN)
     whole = Box.whole(model.grid.cells)
     aim, residual = tolerance, np.inf
-    shear, motion = last.shear, first_motion(last, tangential)
+    motion = first_motion(last, tangential)
     for _ in range(MOST_ATTEMPTS):
         problem = _problem(model, box, last, normal, tangential)
         inside = (..., *box.slices)
-        solution = solve_coupled(problem, start[inside], shear[inside], motion, 0.8 * aim)
+        solution = solve_together(problem, start[inside], shear[inside], motion, 0.8 * aim)
         iterations += solution.iterations
         trial = _Trial(model, last, normal, tangential, box, solution, iterations)
         state, g = trial.state()
@@ -80,20 +82,28 @@ def solve_coupled_increment(
         )
         if residual <= tolerance:
             refuse_contact_at_edge(state.pressing.pressure, model)
-            return state
+            return state if before is None else replace(state, behind=before.seen())
         overlap_outside = np.min(np.where(box.mask(model.grid.cells), 0.0, g)) < 0
         box, aim = (whole, aim) if overlap_outside else (box, 0.1 * aim)
         start, shear = state.pressing.pressure, state.sheared.shear
     raise NotConverged("the coupled increment", iterations, residual, tolerance)
 
 
-def _start(model: ContactModel, before: State | None, normal: NormalTarget) -> tuple[Field, int]:
-    """The pressure of the state before; where the normal load changes, that of a frictionless
-    contact on a coarser grid, which knows how far the contact reaches. With the iterations
-    that took."""
-    if before is not None and before.target == normal:
-        return before.pressing.pressure, 0
-    return nested_start(model, normal)
+def _start(
+    model: ContactModel,
+    before: State | None,
+    last: Sheared,
+    normal: NormalTarget,
+    tangential: TangentialTarget,
+) -> tuple[Field, VectorField, int]:
+    """First pressure and shear: as the path predicts them; where it does not, the pressure of a
+    frictionless contact on a coarser grid, which knows how far the contact reaches, and the shear
+    of the state before. With the iterations that took."""
+    guess = None if before is None else predicted(model, before, normal, tangential)
+    if guess is not None:
+        return *guess, 0
+    start, iterations = nested_start(model, normal)
+    return start, last.shear, iterations
 
 
 def _problem(
@@ -104,9 +114,8 @@ def _problem(
     tangential: TangentialTarget,
 ) -> CoupledProblem:
     """The increment in a box of cells."""
-    pressed = model.normal_operator(box.shape)
-    sheared = model.tangential_operator(box.shape)
-    coupling = model.coupling_operator(box.shape)
+    together = model.coupled_operator(box.shape)
+    pressed, sheared, coupling = together.normal, together.tangential, together.coupling
     target = surface_target(model, last, tangential)
     rotation = None if tangential.torsion is None else model.rotation[(..., *box.slices)]
     return CoupledProblem(
@@ -116,6 +125,8 @@ def _problem(
         precondition_shear=sheared.precondition,
         normal_by_shear=coupling.normal_by_shear,
         shear_by_pressure=coupling.tangential_by_pressure,
+        together=together,
+        precondition_together=model.periodic_inverse(box.shape),
         gap=normal.gap(model)[box.slices],
         friction_limit=partial(model.friction.limit, where=box.slices),
         target=target[(..., *box.slices)],
@@ -141,10 +152,8 @@ class _Trial:
         """The state that the solution would make, and its gap."""
         model, solution, cells = self.model, self.solution, self.model.grid.cells
         p, q = self.box.embed(solution.pressure, cells), self.box.embed(solution.shear, cells)
-        coupling = model.coupling_operator(cells)
-        u_z = model.normal_operator(cells)(p) + coupling.normal_by_shear(q)
-        u_by_q = model.tangential_operator(cells)(q)
-        u_t = u_by_q + coupling.tangential_by_pressure(p)
+        u = model.coupled_operator(cells)(np.concatenate([q, p[None]]))
+        u_t, u_z = u[:2], u[2]
         gap, load = self.normal.gap(model), self.normal.on(model, Box.whole(cells))
         g = np.where(np.isfinite(gap), gap, np.inf) + u_z - load.closure(solution.closing)
         overlap = load.overlap(solution.closing, gap, np.isfinite(gap))
@@ -161,20 +170,23 @@ class _Trial:
         )
         normal_force = float(np.sum(p)) * model.grid.cell_area
         moment = reached_moment(model, self.normal, p)
-        sheared = self._sheared(p, q, u_t, u_by_q)
+        sheared = self._sheared(p, q, u_t)
         rounds = self.solution.rounds
         return State(self.normal, normal_force, pressing, sheared, moment, rounds=rounds), g
 
-    def _sheared(self, p: Field, q: VectorField, u_t: VectorField, u_by_q: VectorField) -> Sheared:
-        model, solution = self.model, self.solution
+    def _sheared(self, p: Field, q: VectorField, u_t: VectorField) -> Sheared:
+        model, solution, cells = self.model, self.solution, self.model.grid.cells
         bound = model.friction.limit(p)
         if solution.at_limit:
             return self._slid(p, bound, u_t)
+        # Where all sticks and none is pushed, pressure and shear move the surface in opposite ways
+        # to nothing, and only one of them tells what little slip is.
+        slips = np.any(solution.in_slip)
         shearing = Shearing(
             shear=q,
-            displacement=u_by_q,
+            displacement=u_t if slips else model.tangential_operator(cells)(q),
             motion=solution.motion,
-            in_slip=self.box.embed(solution.in_slip.astype(np.float64), model.grid.cells) > 0,
+            in_slip=self.box.embed(solution.in_slip.astype(np.float64), cells) > 0,
             iterations=0,
         )
         target = surface_target(model, self.last, self.tangential)

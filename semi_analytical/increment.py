@@ -19,6 +19,21 @@ Field = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
+class Behind:
+    """What the next increment but one needs of a state, to go on as the path went: of `State`,
+    `Pressing` and `Sheared`."""
+
+    target: NormalTarget
+    pressure: Field
+    shear: Field
+    normal_force: float
+    approach: float
+    covered_cells: float
+    force: Field
+    shift: Field
+
+
+@dataclass(frozen=True)
 class State:
     """Everything that the next increment needs of this one.
 
@@ -28,9 +43,10 @@ class State:
     sheared       the tangential part; None where no shear arises
     moment        (Σp y, Σp x) times the cell area [force length]; None where nothing tilts
     energy        since the start of the history; the march over the increments keeps the account
-    rounds        of alternation between pressure and shear that it took; 0 without
+    rounds        steps for pressure and shear together that it took; 0 without
     corrected     the same with its edges inside the cells, which no later state knows of; None
                   where that was not asked for, or is not safe
+    behind        the state before, where the next one is predicted
     """
 
     target: NormalTarget
@@ -41,6 +57,23 @@ class State:
     energy: Energy = NOTHING_YET
     rounds: int = 0
     corrected: Corrected | None = None
+    behind: Behind | None = None
+
+    def seen(self) -> Behind | None:
+        """This state as seen from ahead; None without shear, or where the shift is undefined."""
+        pressing, sheared = self.pressing, self.sheared
+        if sheared is None or sheared.shift is None:
+            return None
+        return Behind(
+            target=self.target,
+            pressure=pressing.pressure,
+            shear=sheared.shear,
+            normal_force=self.normal_force,
+            approach=pressing.approach,
+            covered_cells=pressing.covered_cells,
+            force=sheared.force,
+            shift=sheared.shift,
+        )
 
     @property
     def iterations(self) -> int:

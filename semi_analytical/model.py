@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 from contact_scene import CoulombFriction, Scene
 from contact_scene.friction import FRICTIONLESS
 from contact_scene.solver_errors import UnsupportedScene
+from semi_analytical.coupled_operator import STIFFNESSES, CoupledOperator, PeriodicInverse
 from semi_analytical.grid import SurfaceGrid
 from semi_analytical.influence.bodies import influence_coefficients
 from semi_analytical.influence.coefficients import InfluenceCoefficients
@@ -21,7 +22,9 @@ from semi_analytical.operator import (
 )
 
 Field = NDArray[np.float64]
-Operator = TypeVar("Operator", NormalOperator, TangentialOperator)
+Operator = TypeVar(
+    "Operator", NormalOperator, TangentialOperator, CouplingOperator, CoupledOperator
+)
 
 COARSEST = 16
 
@@ -43,6 +46,8 @@ class ContactModel:
         self._normal: dict[tuple[int, int], NormalOperator] = {}
         self._tangential: dict[tuple[int, int], TangentialOperator] = {}
         self._coupling: dict[tuple[int, int], CouplingOperator] = {}
+        self._coupled: dict[tuple[int, int], CoupledOperator] = {}
+        self._inverse: dict[tuple[int, int], PeriodicInverse] = {}
 
     @classmethod
     def of(cls, scene: Scene, grid: SurfaceGrid) -> "ContactModel":
@@ -112,8 +117,28 @@ class ContactModel:
     def coupling_operator(self, shape: tuple[int, int]) -> CouplingOperator:
         """Shear to normal and pressure to tangential displacement on a box of cells."""
         if shape not in self._coupling:
+            self._forget_other_boxes(self._coupling, shape)
             self._coupling[shape] = CouplingOperator(self.coefficients, shape, self.convolutions)
         return self._coupling[shape]
+
+    def coupled_operator(self, shape: tuple[int, int]) -> CoupledOperator:
+        """All tractions to all displacements on a box of cells."""
+        if shape not in self._coupled:
+            self._forget_other_boxes(self._coupled, shape)
+            self._coupled[shape] = CoupledOperator(
+                self.normal_operator(shape),
+                self.tangential_operator(shape),
+                self.coupling_operator(shape),
+            )
+        return self._coupled[shape]
+
+    def periodic_inverse(self, shape: tuple[int, int]) -> PeriodicInverse:
+        """Roughly all displacements to all tractions on a box of cells, slip graded."""
+        if shape not in self._inverse:
+            self._inverse.clear()
+            stiffness = self.self_compliance * STIFFNESSES
+            self._inverse[shape] = PeriodicInverse(self.coupled_operator(shape), stiffness)
+        return self._inverse[shape]
 
     @cached_property
     def coarse(self) -> "ContactModel | None":

@@ -44,6 +44,9 @@ class NormalLoad(Protocol):
     def constraint(self, inside: Field, precondition: Map) -> Constraint:
         """Keeps given forces as they are while the pressure changes; `inside` is 1 in contact."""
 
+    def free_motions(self, shape: tuple[int, ...]) -> tuple[Field, ...]:
+        """Closures by unit motions whose forces are given, fields of this shape (nx, ny)."""
+
 
 @dataclass(frozen=True)
 class PressureSum:
@@ -83,6 +86,10 @@ class PressureSum:
 
         return constrained
 
+    def free_motions(self, shape: tuple[int, ...]) -> tuple[Field, ...]:
+        """The approach."""
+        return (np.ones(shape),)
+
 
 @dataclass(frozen=True)
 class FixedApproach:
@@ -113,3 +120,7 @@ class FixedApproach:
     def constraint(self, inside: Field, precondition: Map) -> Constraint:
         """No force is given."""
         return lambda r, z: (r, z)
+
+    def free_motions(self, shape: tuple[int, ...]) -> tuple[Field, ...]:
+        """None."""
+        return ()

@@ -38,36 +38,41 @@ class PaddedTransform:
 
     Only the rows that are not zero are transformed along the last axis, and only the rows that
     are read are transformed back.
+
+    components  of a field that are transformed together, as its first axis; no such axis if one
     """
 
-    def __init__(self, shape: tuple[int, int], counter: Convolutions) -> None:
+    def __init__(self, shape: tuple[int, int], counter: Convolutions, components: int = 1) -> None:
         self.shape = shape
+        self._count = 0.5 * components
+        self._lead = (components,) if components > 1 else ()
         self.counter = counter
         nx, ny = offsets_for(shape)
         self.reach = (slice(nx), slice(ny))
         self.period = (nx - 1, ny - 1)
         self.padded = (2 * self.period[0], 2 * self.period[1])
-        self._rows = np.empty((shape[0], self.padded[1]))
+        self._rows = np.empty((*self._lead, shape[0], self.padded[1]))
 
     def empty_spectrum(self) -> Spectrum:
-        """Work space for one half spectrum."""
-        return np.empty((self.padded[0], self.padded[1] // 2 + 1), dtype=np.complex128)
+        """Work space for the half spectra of a field."""
+        half = (*self._lead, self.padded[0], self.padded[1] // 2 + 1)
+        return np.empty(half, dtype=np.complex128)
 
     def forward(self, values: Field, out: Spectrum) -> None:
-        """Transform `values` (nx, ny), zero beyond, into the half spectrum `out`."""
+        """Transform `values` (…, nx, ny), zero beyond, into the half spectra `out`."""
         nx = self.shape[0]
-        np.fft.rfft(values, n=self.padded[1], axis=1, out=out[:nx])
-        out[nx:] = 0
-        np.fft.fft(out, axis=0, out=out)
-        self.counter.count += 0.5
+        np.fft.rfft(values, n=self.padded[1], axis=-1, out=out[..., :nx, :])
+        out[..., nx:, :] = 0
+        np.fft.fft(out, axis=-2, out=out)
+        self.counter.count += self._count
 
     def inverse(self, spectrum: Spectrum) -> Field:
-        """Values on the grid (nx, ny) of a half spectrum, which is overwritten."""
+        """Values on the grid (…, nx, ny) of half spectra, which are overwritten."""
         nx, ny = self.shape
-        np.fft.ifft(spectrum, axis=0, out=spectrum)
-        np.fft.irfft(spectrum[:nx], n=self.padded[1], axis=1, out=self._rows)
-        self.counter.count += 0.5
-        return self._rows[:, :ny].copy()
+        np.fft.ifft(spectrum, axis=-2, out=spectrum)
+        np.fft.irfft(spectrum[..., :nx, :], n=self.padded[1], axis=-1, out=self._rows)
+        self.counter.count += self._count
+        return self._rows[..., :ny].copy()
 
 
 def even_transform(coefficients: Field, padded: tuple[int, int]) -> Field:
@@ -103,7 +108,11 @@ def _mirror(half: Field, length: int, sign: int) -> Field:
 
 
 class NormalOperator:
-    """u_z by pressure, both (nx, ny); one call is one convolution."""
+    """u_z by pressure, both (nx, ny); one call is one convolution.
+
+    symbols  real half spectrum of the zz coefficients
+    inverse  roughly that of the inverse, with the unpadded period
+    """
 
     def __init__(
         self,
@@ -113,17 +122,18 @@ class NormalOperator:
     ) -> None:
         self._transform = PaddedTransform(shape, counter)
         reach = self._transform.reach
-        self._zz = even_transform(coefficients.zz[reach], self._transform.padded)
+        zz = even_transform(coefficients.zz[reach], self._transform.padded)
+        self.symbols = (zz,)
         # A film much stiffer than its base waves beyond the period, which turns some entries
         # negative; conjugate gradients need a positive preconditioner.
-        size = np.abs(self._zz[::2, ::2])
-        self._inverse_zz = 1 / np.maximum(size, np.finfo(float).eps * np.max(size))
+        size = np.abs(zz[::2, ::2])
+        self.inverse = 1 / np.maximum(size, np.finfo(float).eps * np.max(size))
         self._work = self._transform.empty_spectrum()
 
     def __call__(self, pressure: Field) -> Field:
         """Normal displacement caused by a pressure."""
         self._transform.forward(pressure, self._work)
-        self._work *= self._zz
+        self._work *= self.symbols[0]
         return self._transform.inverse(self._work)
 
     def precondition(self, displacement: Field) -> Field:
@@ -134,13 +144,18 @@ class NormalOperator:
         """
         period = self._transform.period
         spectrum = np.fft.rfft2(displacement, period)
-        spectrum *= self._inverse_zz
+        spectrum *= self.inverse
         nx, ny = displacement.shape
         return np.fft.irfft2(spectrum, period)[:nx, :ny]
 
 
 class TangentialOperator:
-    """(u_x, u_y) by shear (q_x, q_y), each (2, nx, ny); one call is two convolutions."""
+    """(u_x, u_y) by shear (q_x, q_y), each (2, nx, ny); one call is two convolutions.
+
+    symbols  real half spectra of the xx, yy and xy coefficients
+    inverse  roughly those of the inverse, with the unpadded period
+    mean     of the xx and yy coefficients, with that period
+    """
 
     def __init__(
         self,
@@ -148,33 +163,32 @@ class TangentialOperator:
         shape: tuple[int, int],
         counter: Convolutions,
     ) -> None:
-        self._transform = PaddedTransform(shape, counter)
-        reach, padded = self._transform.reach, self._transform.padded
-        self._xx = even_transform(coefficients.xx[reach], padded)
-        self._yy = even_transform(coefficients.yy[reach], padded)
-        self._xy = odd_transform(coefficients.xy[reach], padded)
-        self._inverse = _inverse_2x2(*(s[::2, ::2] for s in (self._xx, self._yy, self._xy)))
-        self._work = [self._transform.empty_spectrum() for _ in range(3)]
+        self.transform = PaddedTransform(shape, counter, components=2)
+        reach, padded = self.transform.reach, self.transform.padded
+        xx = even_transform(coefficients.xx[reach], padded)
+        yy = even_transform(coefficients.yy[reach], padded)
+        xy = odd_transform(coefficients.xy[reach], padded)
+        self.symbols = xx, yy, xy
+        self.inverse = _inverse_2x2(*(s[::2, ::2] for s in self.symbols))
+        self.mean = np.abs(0.5 * (xx + yy)[::2, ::2])
+        self._work = self.transform.empty_spectrum()
 
     def __call__(self, shear: Field) -> Field:
         """Tangential displacement caused by a shear traction."""
-        q_x, q_y, u = self._work
-        self._transform.forward(shear[0], q_x)
-        self._transform.forward(shear[1], q_y)
-        displacement = np.empty_like(shear)
-        np.multiply(self._xx, q_x, out=u)
-        u += self._xy * q_y
-        displacement[0] = self._transform.inverse(u)
-        q_x *= self._xy
-        q_y *= self._yy
-        q_y += q_x
-        displacement[1] = self._transform.inverse(q_y)
-        return displacement
+        self.transform.forward(shear, self._work)
+        q_x, q_y = self._work
+        xx, yy, xy = self.symbols
+        across = xy * q_x
+        q_x *= xx
+        q_x += xy * q_y
+        q_y *= yy
+        q_y += across
+        return self.transform.inverse(self._work)
 
     def precondition(self, displacement: Field) -> Field:
         """Roughly the shear that causes a tangential displacement, both (2, nx, ny)."""
-        period = self._transform.period
-        xx, yy, xy = self._inverse
+        period = self.transform.period
+        xx, yy, xy = self.inverse
         u_x, u_y = np.fft.rfft2(displacement, period)
         spectrum = np.stack([xx * u_x + xy * u_y, xy * u_x + yy * u_y])
         _, nx, ny = displacement.shape
@@ -183,6 +197,8 @@ class TangentialOperator:
 
 class CouplingOperator:
     """u_z by shear and (u_x, u_y) by pressure: what dissimilar bodies add; 1.5 convolutions each.
+
+    symbols  real parts S of the half spectra -i S of the zx and zy coefficients
 
     The two are each other's transpose with the opposite sign of the coefficients: xz = -zx.
     """
@@ -195,8 +211,10 @@ class CouplingOperator:
     ) -> None:
         self._transform = PaddedTransform(shape, counter)
         reach, padded = self._transform.reach, self._transform.padded
-        self._zx = mixed_transform(coefficients.zx[reach], padded, odd_axis=0)
-        self._zy = mixed_transform(coefficients.zy[reach], padded, odd_axis=1)
+        self.symbols = (
+            mixed_transform(coefficients.zx[reach], padded, odd_axis=0),
+            mixed_transform(coefficients.zy[reach], padded, odd_axis=1),
+        )
         self._work = [self._transform.empty_spectrum() for _ in range(2)]
 
     def normal_by_shear(self, shear: Field) -> Field:
@@ -204,8 +222,8 @@ class CouplingOperator:
         u, q = self._work
         self._transform.forward(shear[0], u)
         self._transform.forward(shear[1], q)
-        u *= self._zx
-        q *= self._zy
+        u *= self.symbols[0]
+        q *= self.symbols[1]
         u += q
         u *= -1j
         return self._transform.inverse(u)
@@ -216,7 +234,7 @@ class CouplingOperator:
         self._transform.forward(pressure, p)
         p *= 1j
         displacement = np.empty((2, *pressure.shape))
-        for component, spectrum in zip(displacement, (self._zx, self._zy), strict=True):
+        for component, spectrum in zip(displacement, self.symbols, strict=True):
             np.multiply(p, spectrum, out=u)
             component[:] = self._transform.inverse(u)
         return displacement

@@ -138,6 +138,10 @@ class PressureMoments:
 
         return constrained
 
+    def free_motions(self, shape: tuple[int, ...]) -> tuple[Field, ...]:
+        """The shapes."""
+        return tuple(self.shapes)
+
 
 def _products(a: Field, b: Field) -> Field:
     """Sums of the products of fields (k, nx, ny) with fields (k, nx, ny), symmetric (k, k)."""

@@ -1,4 +1,4 @@
-"""The coupled solver on small dense problems: the laws of contact and friction, and another way."""
+"""The coupled solvers on small dense problems: the laws of contact and friction, and other ways."""
 
 import numpy as np
 import pytest
@@ -9,7 +9,10 @@ from random_compliance import as_map, compliance, rough_inverse
 from contact_scene.solver_errors import NotConverged
 from semi_analytical import alternation
 from semi_analytical.admissible_shear import FixedShift, ShearSum, magnitude, project_on_discs
-from semi_analytical.alternation import CoupledProblem, solve_coupled
+from semi_analytical.alternation import solve_coupled
+from semi_analytical.coupled_operator import STIFFNESSES
+from semi_analytical.coupled_problem import CoupledProblem
+from semi_analytical.globalisation import solve_together
 from semi_analytical.normal_load import FixedApproach, PressureSum
 
 TOLERANCE = 1e-11
@@ -40,6 +43,12 @@ class DenseContact:
         tangent, normal = np.split(np.arange(3 * CELLS), [2 * CELLS])
         A_tt, A_zz = self.matrix[np.ix_(tangent, tangent)], self.matrix[np.ix_(normal, normal)]
         A_zt = self.matrix[np.ix_(normal, tangent)]
+        self_compliance = float(np.mean(np.diag(A_tt)))
+        diagonal = np.diag(self.matrix).reshape(3, *SHAPE)
+        slipping = np.broadcast_to(
+            self_compliance * (1 + STIFFNESSES[:, None, None]), (len(STIFFNESSES), *SHAPE)
+        )
+        held = np.concatenate([diagonal, slipping])
         return CoupledProblem(
             normal=as_map(A_zz),
             precondition_normal=rough_inverse(A_zz),
@@ -47,17 +56,19 @@ class DenseContact:
             precondition_shear=rough_inverse(A_tt),
             normal_by_shear=lambda q: (A_zt @ q.ravel()).reshape(SHAPE),
             shear_by_pressure=lambda p: (A_zt.T @ p.ravel()).reshape(2, *SHAPE),
+            together=as_map(self.matrix),
+            precondition_together=lambda v: v / held,
             gap=self.gap,
             friction_limit=lambda p: self.friction * p,
             target=self.target,
             normal_load=normal_load,
             tangential_load=tangential_load,
-            self_compliance=float(np.mean(np.diag(A_tt))),
+            self_compliance=self_compliance,
         )
 
-    def solved(self, normal_load, tangential_load, tolerance=TOLERANCE):
+    def solved(self, normal_load, tangential_load, tolerance=TOLERANCE, solver=solve_coupled):
         problem = self.problem(normal_load, tangential_load)
-        return solve_coupled(problem, np.ones(SHAPE), np.zeros((2, *SHAPE)), NO_SHIFT, tolerance)
+        return solver(problem, np.ones(SHAPE), np.zeros((2, *SHAPE)), NO_SHIFT, tolerance)
 
     def by_small_steps(self, approach, shift):
         """Relax each cell on its own, pressure and shear at once: slow, and quite another way."""
@@ -91,30 +102,36 @@ SEEDS = st.integers(0, 2**32 - 1)
 FRICTION = st.sampled_from([0.01, 0.3, 1.0])
 
 
+BOTH_WAYS = pytest.mark.parametrize("solver", [solve_coupled, solve_together])
+
+
+@BOTH_WAYS
 @given(SEEDS, FRICTION, st.sampled_from([0.0, 0.3, 0.95]), ANGLES)
-def test_under_forces_all_laws_hold_and_the_loads_are_carried(seed, friction, part, angle):
+def test_under_forces_all_laws_hold_and_the_loads_are_carried(solver, seed, friction, part, angle):
     contact, total = DenseContact(seed, friction), 7.0
     force = part * friction * total * np.array([np.cos(angle), np.sin(angle)])
-    solution = contact.solved(PressureSum(total), ShearSum(force))
+    solution = contact.solved(PressureSum(total), ShearSum(force), solver=solver)
     assert_lawful(contact, solution)
     assert np.sum(solution.pressure) == pytest.approx(total, rel=1e-12)
     np.testing.assert_allclose(np.sum(solution.shear, axis=(1, 2)), force, atol=1e-11 * total)
 
 
+@BOTH_WAYS
 @given(SEEDS, FRICTION, st.sampled_from([0.0, 0.3, 30.0]), ANGLES)
-def test_under_prescribed_motions_all_laws_hold(seed, friction, size, angle):
+def test_under_prescribed_motions_all_laws_hold(solver, seed, friction, size, angle):
     contact = DenseContact(seed, friction, coupling=0.5)
     shift = size * np.array([np.cos(angle), np.sin(angle)])
-    solution = contact.solved(FixedApproach(2.0), FixedShift(shift))
+    solution = contact.solved(FixedApproach(2.0), FixedShift(shift), solver=solver)
     assert solution.approach == 2.0
     np.testing.assert_array_equal(solution.shift, shift)
     assert_lawful(contact, solution)
 
 
+@BOTH_WAYS
 @pytest.mark.parametrize("seed", range(4))
-def test_relaxing_cell_by_cell_ends_in_the_same_state(seed):
+def test_relaxing_cell_by_cell_ends_in_the_same_state(seed, solver):
     contact, shift = DenseContact(seed, 0.3), np.array([0.2, -0.1])
-    solution = contact.solved(FixedApproach(1.5), FixedShift(shift))
+    solution = contact.solved(FixedApproach(1.5), FixedShift(shift), solver=solver)
     p, q = contact.by_small_steps(1.5, shift)
     assert np.any(p == 0)
     assert 0 < np.count_nonzero(solution.in_slip) < np.count_nonzero(p)

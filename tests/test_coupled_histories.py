@@ -7,7 +7,14 @@ from coupled_scenes import bulk, coated, press, push, scene
 
 from contact_scene import RIGID, Cone, Ellipsoid, FlatPunch, HeightMap, Layer, Paraboloid
 from contact_scene.march import MOST_HALVINGS
-from semi_analytical import NotConverged, alternation, coupled_increment, history, solve
+from semi_analytical import (
+    NotConverged,
+    alternation,
+    coupled_increment,
+    history,
+    newton_increment,
+    solve,
+)
 
 TOLERANCE = 1e-8
 CELLS = 48
@@ -164,6 +171,7 @@ def test_a_hopeless_increment_is_given_up_when_its_budget_is_spent(monkeypatch, 
     def pressed(increment):
         reached.append(increment)
         begun.clear()
+        monkeypatch.setattr(newton_increment, "MOST_STEPS", 0)
         monkeypatch.setattr(alternation, "MOST_ITERATIONS", 0)
 
     monkeypatch.setattr(coupled_increment, "solve_coupled_increment", counted)

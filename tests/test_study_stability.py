@@ -186,7 +186,7 @@ def test_the_way_of_the_solver_is_told() -> None:
         for change in ({}, {"surface": Surface.ALIKE_BALL},
                        {"surface": Surface.ALIKE_BALL, "path": LoadingPath.PRESS})
     ]  # fmt: skip
-    assert ways == ["alternation, extrapolated", "pressure, then shear", "pressure alone"]
+    assert ways == ["pressure and shear together", "pressure, then shear", "pressure alone"]
 
 
 def test_contact_that_outgrows_its_window_gets_a_larger_one(

@@ -15,22 +15,27 @@ from semi_analytical.influence.layered_response import Components
 from semi_analytical.operator import CouplingOperator, NormalOperator, TangentialOperator
 from verification.defects.defect import Defect, Patches
 
-
-def scaled(patches: Patches, owner: type, name: str, factor: float) -> None:
-    """A method whose result is multiplied by a factor."""
-    patches.method(owner, name, lambda whole: lambda self, traction: factor * whole(self, traction))
+Operator = type[NormalOperator | TangentialOperator | CouplingOperator]
 
 
-def _coupling(patches: Patches, factor: float) -> None:
-    for name in ("normal_by_shear", "tangential_by_pressure"):
-        scaled(patches, CouplingOperator, name, factor)
+def scaled(patches: Patches, owner: Operator, factor: float) -> None:
+    """An operator whose displacements are multiplied by a factor."""
+
+    def wrap(whole: Any) -> Any:
+        def built(self: Any, *given: Any) -> None:
+            whole(self, *given)
+            self.symbols = tuple(factor * symbol for symbol in self.symbols)
+
+        return built
+
+    patches.method(owner, "__init__", wrap)
 
 
 def _periodic(patches: Patches) -> None:
     def images(self: NormalOperator, pressure: Any) -> Any:
         self._transform.counter.count += 1
         period = self._transform.period
-        spectrum = np.fft.rfft2(pressure, period) * self._zz[::2, ::2]
+        spectrum = np.fft.rfft2(pressure, period) * self.symbols[0][::2, ::2]
         nx, ny = pressure.shape
         return np.fft.irfft2(spectrum, period)[:nx, :ny]
 
@@ -161,12 +166,12 @@ COUPLED = ("frictional_indentation",)
 SURFACE_RESPONSE = (
     Defect(
         "coupling-sign", "Pressure draws the surface away from the load instead of towards it.",
-        COUPLED, lambda patches: _coupling(patches, -1.0),
+        COUPLED, lambda patches: scaled(patches, CouplingOperator, -1.0),
     ),
     Defect(
         "coupling-0p99", "The coupling of pressure and shear is too weak by 1 %.",
         ("no_slip_indentation", "frictional_indentation"),
-        lambda patches: _coupling(patches, 0.99),
+        lambda patches: scaled(patches, CouplingOperator, 0.99),
     ),
     Defect(
         "coupling-of-bodies-added", "The coupling of the upper body is added, not subtracted.",
@@ -187,17 +192,17 @@ SURFACE_RESPONSE = (
     Defect(
         "normal-bias", "Normal displacements are too large by 0.3 %.",
         ("dissimilar_bodies", "hertz_approach_control"),
-        lambda patches: scaled(patches, NormalOperator, "__call__", 1.003),
+        lambda patches: scaled(patches, NormalOperator, 1.003),
     ),
     Defect(
         "normal-bias-stiff", "Normal displacements are too small by 0.3 %.",
         ("dissimilar_bodies", "hertz_approach_control"),
-        lambda patches: scaled(patches, NormalOperator, "__call__", 1 / 1.003),
+        lambda patches: scaled(patches, NormalOperator, 1 / 1.003),
     ),
     Defect(
         "tangential-bias", "Tangential displacements are too large by 0.3 %.",
         ("cattaneo_mindlin",),
-        lambda patches: scaled(patches, TangentialOperator, "__call__", 1.003),
+        lambda patches: scaled(patches, TangentialOperator, 1.003),
     ),
     Defect(
         "shear-across-omitted", "Shear along y does not move the surface along x.",

@@ -46,7 +46,7 @@ class CellRecord(TypedRow):
     """How often increments were cut in two."""
 
     rounds: int = 0
-    """Most rounds of alternation of any increment."""
+    """Most steps of any increment for pressure and shear together."""
 
     way: str = ""
     """How it was solved."""

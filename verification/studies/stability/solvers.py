@@ -53,7 +53,7 @@ class Solved:
     increments    all of the history
     observed      the largest violation of the laws of contact and friction in their fields
     way           how it went about it, for a reader
-    rounds        the most that pressure and shear took to agree
+    rounds        the most steps that pressure and shear took together
     """
 
     increments: Sequence[SolvedIncrement]
@@ -67,12 +67,11 @@ def by_superposition(posed: Posed) -> Solved:
     """With the semi-analytical solver, in a wider window if the contact needs it."""
     result = _solved(posed)
     increments = result.increments
-    rounds = max(i.rounds for i in increments)
     return Solved(
         increments=increments,
         observed=surface_violation(result),
-        way=_way(result.plan, rounds),
-        rounds=rounds,
+        way=_way(result.plan),
+        rounds=max(i.rounds for i in increments),
         convolutions=sum(i.convolutions for i in increments),
     )
 
@@ -118,9 +117,9 @@ def _solved(posed: Posed) -> Result:
     return solve(posed.scene, grid, posed.tolerance)
 
 
-def _way(decided: Plan, rounds: int) -> str:
+def _way(decided: Plan) -> str:
     if not decided.shear:
         return "pressure alone"
     if decided.coupling is Coupling.NONE:
         return "pressure, then shear"
-    return "alternation" if rounds < 3 else "alternation, extrapolated"
+    return "pressure and shear together"

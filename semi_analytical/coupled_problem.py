@@ -1,0 +1,71 @@
+"""An increment of coupled bodies as its solvers see it, in a box of cells."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from semi_analytical.admissible_shear import Field, TangentialLoad, Vector, VectorField
+from semi_analytical.normal_load import Motion, NormalLoad
+
+
+@dataclass(frozen=True)
+class CoupledProblem:
+    """One increment in a box of cells; operators and preconditioners as in the two solvers.
+
+    normal, shear            u_z by pressure, u_t by shear
+    normal_by_shear          u_z by shear
+    shear_by_pressure        u_t by pressure
+    together                 (u_x, u_y, u_z) by (q_x, q_y, p): all four of them at once
+    precondition_together    roughly the inverse without the coupling, and behind that the shears of
+                             one component that the graded preconditioner asks for
+    gap                      undeformed gap (nx, ny), infinite where the bodies can never touch
+    friction_limit           pressure (nx, ny) -> largest shear (nx, ny), in proportion
+    target                   u_t - motion of the state before (2, nx, ny)
+    self_compliance          tangential displacement of a cell by its own unit shear
+    """
+
+    normal: Callable[[Field], Field]
+    precondition_normal: Callable[[Field], Field]
+    shear: Callable[[VectorField], VectorField]
+    precondition_shear: Callable[[VectorField], VectorField]
+    normal_by_shear: Callable[[VectorField], Field]
+    shear_by_pressure: Callable[[Field], VectorField]
+    together: Callable[[Field], Field]
+    precondition_together: Callable[[Field], Field]
+    gap: Field
+    friction_limit: Callable[[Field], Field]
+    target: VectorField
+    normal_load: NormalLoad
+    tangential_load: TangentialLoad
+    self_compliance: float
+
+
+@dataclass(frozen=True)
+class CoupledSolution:
+    """Pressure (nx, ny), shear (2, nx, ny), the motions of both loads, slip zone, iterations,
+    rounds.
+
+    at_limit  the force is as large as friction can carry or larger: everything slips along it, and
+              the motion is not defined
+    """
+
+    pressure: Field
+    shear: VectorField
+    closing: Motion
+    motion: Vector
+    in_slip: NDArray[np.bool_]
+    at_limit: bool
+    iterations: int
+    rounds: int
+
+    @property
+    def approach(self) -> float:
+        """Approach of the bodies at the origin [length]."""
+        return float(np.ravel(self.closing)[0])
+
+    @property
+    def shift(self) -> Vector:
+        """Shift of the indenter (2,) [length]."""
+        return self.motion[:2]

@@ -1,0 +1,105 @@
+"""GMRES: the Krylov vectors' combination that leaves the least residual (Saad and Schultz 1986)."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+Field = NDArray[np.float64]
+Vector = NDArray[np.float64]
+Matrix = NDArray[np.float64]
+
+# A vector that has lost so much to those before it is made orthogonal to them once more.
+LOST = 0.1
+# What rounding leaves of a vector that those before it explain.
+ROUND_OFF = 1e-14
+
+
+@dataclass(frozen=True)
+class LeastResidual:
+    """What `least_residual` finds.
+
+    solution    v
+    along       what came along, of v
+    motion      m
+    iterations  products with A
+    """
+
+    solution: Field
+    along: Field
+    motion: Vector
+    iterations: int
+
+
+def least_residual(
+    apply: Callable[[Field], tuple[Field, Field]],
+    right: Field,
+    free: Matrix,
+    depth: float,
+    most: int,
+) -> LeastResidual:
+    """Solve A v + E m = r for v and for as many m as E has columns, until the norm of the residual
+    is the part `depth` of what it is with v = 0.
+
+    apply  v -> A v, and whatever linear in v comes along, of the shape of r
+    right  r, any shape
+    free   the columns of E (k, size of r); they may depend on each other
+
+    Not by matrix products, whose rounding depends on the number of threads.
+    """
+    inside = Orthonormal(free)
+    k = len(inside.rows)
+    basis, along = np.empty((k + most + 1, right.size)), np.empty((most, right.size))
+    basis[:k] = inside.rows
+    first, r = _orthogonal(right.ravel(), basis[:k])
+    size = float(np.sqrt(np.sum(r * r)))
+    hessenberg, shares = np.zeros((k + most + 1, most)), np.zeros(0)
+    goal = np.zeros(most + 1)
+    goal[0] = size
+    for number in range(most if size > 0 else 0):
+        end = k + number + 1
+        np.multiply(
+            r, 1 / hessenberg[end - 1, number - 1] if number else 1 / size, out=basis[end - 1]
+        )
+        image, kept = apply(basis[end - 1].reshape(right.shape))
+        along[number] = kept.ravel()
+        hessenberg[:end, number], r = _orthogonal(image.ravel(), basis[:end])
+        hessenberg[end, number] = np.sqrt(np.sum(r * r))
+        within = hessenberg[k : end + 1, : number + 1]
+        shares = np.asarray(np.linalg.lstsq(within, goal[: number + 2])[0])
+        left = np.linalg.norm(within @ shares - goal[: number + 2])
+        broken = hessenberg[end, number] <= ROUND_OFF * np.linalg.norm(hessenberg[:, number])
+        if left <= depth * size or broken:
+            break
+    count = len(shares)
+    return LeastResidual(
+        np.einsum("i,ik->k", shares, basis[k : k + count]).reshape(right.shape),
+        np.einsum("i,ik->k", shares, along[:count]).reshape(right.shape),
+        inside.combination(first - hessenberg[:k, :count] @ shares),
+        count,
+    )
+
+
+def _orthogonal(v: Vector, basis: Matrix) -> tuple[Vector, Vector]:
+    """Components of a vector along an orthonormal basis, and what is left of it."""
+    shares = np.einsum("ik,k->i", basis, v)
+    left = v - np.einsum("i,ik->k", shares, basis)
+    if np.sum(left * left) < LOST**2 * np.sum(v * v):
+        more = np.einsum("ik,k->i", basis, left)
+        shares, left = shares + more, left - np.einsum("i,ik->k", more, basis)
+    return shares, left
+
+
+class Orthonormal:
+    """Orthonormal rows (j, n) that span the same as k given ones, j <= k."""
+
+    def __init__(self, given: Matrix) -> None:
+        sizes, turns = np.linalg.eigh(np.einsum("ik,jk->ij", given, given))
+        kept = sizes > ROUND_OFF * np.max(sizes, initial=0.0)
+        self._turn = turns[:, kept] / np.sqrt(sizes[kept])
+        self.rows = np.einsum("ij,ik->jk", self._turn, given)
+
+    def combination(self, shares: Vector) -> Vector:
+        """Which combination of the given rows one of the orthonormal ones is."""
+        return np.asarray(self._turn @ shares)

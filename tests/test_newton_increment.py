@@ -1,0 +1,167 @@
+"""Newton's method for pressure and shear at once: product, derivative, start and cost."""
+
+import numpy as np
+import pytest
+from contact_scenes import grid
+from coupled_scenes import press, push, scene
+from random_compliance import compliance
+from test_alternation import LOADS, DenseContact, assert_lawful
+
+from semi_analytical import globalisation, newton_increment, solve
+from semi_analytical.coupled_operator import STIFFNESSES, PeriodicInverse
+from semi_analytical.generalised_derivative import Natural, Point, Zones
+from semi_analytical.globalisation import solve_together
+from semi_analytical.krylov import least_residual
+from semi_analytical.linearised_increment import LinearisedIncrement
+from semi_analytical.model import ContactModel
+from semi_analytical.newton_increment import solve_by_newton
+from semi_analytical.predictor import Lens, predicted
+from semi_analytical.pressing import NormalTarget
+from semi_analytical.shearing import TangentialTarget
+
+TOLERANCE = 1e-8
+
+
+def model(cells=32):
+    return ContactModel.of(scene(press()), grid(cells))
+
+
+@pytest.mark.parametrize("shape", [(32, 32), (16, 48), (80, 32)])
+def test_the_fused_product_is_that_of_the_operators_and_takes_three_convolutions(shape, rng):
+    A = model(96).coupled_operator(shape)
+    tractions = rng.standard_normal((3, *shape))
+    q, p = tractions[:2], tractions[2]
+    u_t = A.tangential(q) + A.coupling.tangential_by_pressure(p)
+    u_z = A.normal(p) + A.coupling.normal_by_shear(q)
+    counter = A.tangential.transform.counter
+    before = counter.count
+    u = A(tractions)
+    assert counter.count == before + 3
+    np.testing.assert_allclose(u[:2], u_t, rtol=0, atol=1e-14 * np.max(np.abs(u_t)))
+    np.testing.assert_allclose(u[2], u_z, rtol=0, atol=1e-14 * np.max(np.abs(u_z)))
+
+
+def test_the_periodic_inverse_is_that_of_both_preconditioners_in_single_precision(rng):
+    contact = model()
+    A, shape = contact.coupled_operator((32, 16)), (32, 16)
+    stiffness = contact.self_compliance * STIFFNESSES
+    u = 1e-9 * rng.standard_normal((3 + len(stiffness), *shape))
+    t = PeriodicInverse(A, stiffness)(u)
+    expected = [*A.tangential.precondition(u[:2]), A.normal.precondition(u[2])]
+    np.testing.assert_allclose(t[:3], expected, rtol=0, atol=1e-5 * np.max(np.abs(expected)))
+    # The stiffer a cell is held, the nearer it is to its own spring.
+    np.testing.assert_allclose(t[-1], u[-1] / stiffness[-1], rtol=0, atol=0.1 * np.max(t[-1]))
+
+
+def test_gmres_leaves_nothing_that_unknowns_or_free_motions_explain(rng):
+    """Also where free motions depend on each other."""
+    matrix = compliance(rng, 12) + 0.3 * np.triu(rng.standard_normal((12, 12)))
+    one = rng.standard_normal(12)
+    free = np.stack([one, 2 * one, rng.standard_normal(12)])
+    right = rng.standard_normal((3, 4))
+    found = least_residual(
+        lambda v: ((matrix @ v.ravel()).reshape(v.shape), 7 * v), right, free, 1e-12, 12
+    )
+    explained = (matrix @ found.solution.ravel()) + found.motion @ free
+    np.testing.assert_allclose(explained, right.ravel(), atol=1e-10)
+    np.testing.assert_allclose(found.along, 7 * found.solution, atol=1e-12)
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_a_step_near_the_solution_squares_the_error(seed, rng):
+    contact = DenseContact(seed, 0.3)
+    problem = contact.problem(*LOADS)
+    solution = contact.solved(*LOADS, solver=solve_together, tolerance=1e-13)
+    exact = np.concatenate([solution.shear, solution.pressure[None]])
+    direction = rng.standard_normal(exact.shape) * np.max(exact)
+
+    def left(size):
+        t = exact + size * direction * (exact[2] > 0)
+        t[2] = problem.normal_load.admissible(t[2])
+        at = Point(t, problem.together(t), solution.approach, solution.motion)
+        zones = Zones.of(Natural.at(at, problem), problem)
+        increment = LinearisedIncrement(problem, zones)
+        base, _ = newton_increment._at(problem, increment.admissible(t), solution.motion)
+        step = increment.solved(base, Natural.at(base, problem), 1e-13)
+        return np.max(np.abs(base.tractions + step.tractions - exact)) / np.max(exact)
+
+    assert 0 < np.count_nonzero(solution.in_slip) < np.count_nonzero(solution.pressure)
+    assert left(1e-4) < 30 * 1e-8
+    assert left(1e-5) < 30 * 1e-10
+
+
+def test_where_newton_stalls_the_alternation_takes_over(monkeypatch):
+    contact = DenseContact(3, 0.3)
+    monkeypatch.setattr(newton_increment, "MOST_STEPS", 0)
+    solution = contact.solved(*LOADS, solver=solve_together)
+    assert_lawful(contact, solution)
+
+
+def test_where_newton_stalls_far_away_it_ends_from_nearer_by(monkeypatch):
+    contact = DenseContact(3, 0.3)
+    attempts = []
+
+    def at_the_second_attempt(*given):
+        attempts.append(given)
+        monkeypatch.setattr(newton_increment, "MOST_STEPS", 0 if len(attempts) == 1 else 40)
+        return solve_by_newton(*given)
+
+    monkeypatch.setattr(globalisation, "solve_by_newton", at_the_second_attempt)
+    solution = contact.solved(*LOADS, solver=solve_together)
+    assert len(attempts) == 2
+    assert_lawful(contact, solution)
+
+
+def test_the_lens_dilates_a_pressure_of_hertz_into_that_of_a_larger_contact():
+    at = np.arange(48.0)
+    r2 = (at[:, None] - 20) ** 2 + (at - 25) ** 2
+    p, wider = (np.sqrt(np.maximum(0, 1 - r2 / a**2)) for a in (10, 12))
+    lens = Lens.over(p, 1.2)
+    np.testing.assert_allclose(lens.centre, (20, 25))
+    grown, shear = lens.grown(p, np.stack([0.1 * p, 0 * p]), 1.2**2)
+    # Linear in p² but for the cells of the edge.
+    np.testing.assert_allclose(grown**2, wider**2, atol=0.04)
+    np.testing.assert_allclose(shear[0], 0.1 * grown, atol=1e-12)
+
+
+@pytest.fixture(scope="module")
+def marked_states():
+    """Model and states of pressing, then pushing."""
+    from semi_analytical import plan
+    from semi_analytical.history import marked
+
+    described = scene(press(increments=4), push(0.6, increments=4))
+    contact = ContactModel.of(described, grid(32))
+    return contact, [m.state for _, m in marked(contact, plan(described), TOLERANCE)]
+
+
+@pytest.mark.parametrize("number", [2, 3, 6, 7])
+def test_the_next_state_is_predicted_without_convolutions_and_nearer_than_by_the_last(
+    marked_states, number
+):
+    contact, states = marked_states
+    before, after = states[number - 1], states[number]
+    count = contact.convolutions.count
+    p, q = predicted(contact, before, after.target, TangentialTarget(force=after.sheared.force))
+    assert contact.convolutions.count == count
+    near = np.sum(np.abs(p - after.pressing.pressure)) + np.sum(np.abs(q - after.sheared.shear))
+    last = np.sum(np.abs(before.pressing.pressure - after.pressing.pressure))
+    last += np.sum(np.abs(before.sheared.shear - after.sheared.shear))
+    assert near < 0.6 * last
+
+
+def test_where_the_load_turns_the_path_says_nothing_of_its_end(marked_states):
+    contact, states = marked_states
+    back = TangentialTarget(force=0.5 * states[-1].sheared.force)
+    p, q = predicted(contact, states[-1], states[-1].target, back)
+    np.testing.assert_array_equal(p, states[-1].pressing.pressure)
+    np.testing.assert_array_equal(q, states[-1].sheared.shear)
+    assert predicted(contact, states[-1], NormalTarget(force=0.0), back) is None
+
+
+def test_a_coupled_increment_takes_few_products():
+    """Of three convolutions each; separate solvers in turns took 161."""
+    described = scene(press(increments=15), push(0.9, increments=20))
+    increments = solve(described, grid(64), TOLERANCE).increments
+    assert all(increment.halvings == 0 for increment in increments)
+    assert np.mean([increment.convolutions for increment in increments]) < 62
