@@ -71,6 +71,8 @@ ENERGY = Rule(2, 0.5, 2, 1.15, path_scatter=0.0, lengthscale=Lengthscale.ANNULUS
 EDGE = Rule(1, 0.3, 1, 1.5)
 # Stress at the surface and near it, largest at an edge of the tractions.
 TENSION = Rule(0.5, 0.0, 0, 1.6)
+# Stress at an edge that was fitted, by the difference of two fits.
+AT_EDGE = Rule(1, 0.0, 0, 3.0)
 # Stress inside, where it would be largest between the points.
 INTERIOR = Rule(2, 0.0, 0, 0.6)
 

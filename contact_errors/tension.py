@@ -31,8 +31,8 @@ def largest_tension(result: Result, stated: StatedErrors, step: int) -> Tension 
     field = stress_on_cells(state)
     (found,) = (
         extreme
-        for extreme in extremes(field.points, state.body)
+        for extreme in extremes(field, state.body)
         if (extreme.region, extreme.measure) == ("body", LARGEST_TENSION)
     )
     (error,) = stress_errors(state, field, [found])
-    return Tension(abs(found.value), error, rule_of(state, found))
+    return Tension(abs(found.value), error, rule_of(state, field.edge, found))

@@ -238,7 +238,7 @@ def test_the_error_of_stress_covers_what_is_wrong_at_the_trailing_edge(cells: in
         "", body, body, 1, {"x": on.x, "y": on.y}, {"pressure": pressure, "shear": shear}, None
     )
     field = stress_on_cells(state, depths=[0.0])
-    found = extremes(field.points, body)
+    found = extremes(field, body)
     errors = dict(zip([e.measure for e in found], stress_errors(state, field, found), strict=True))
     (tension,) = (e.value for e in found if e.measure == "max_principal")
     exact = hertz().peak_pressure * ((1 - 2 * NU) / 3 + np.pi * mu * (4 + NU) / 8)

@@ -70,7 +70,7 @@ def test_cells_and_rings_draw_the_same_picture(
 
 def test_largest_of_a_region_is_at_one_of_its_points(on_section: StressField) -> None:
     points = on_section.points
-    found = {(e.region, e.measure): e for e in extremes(points, COATED)}
+    found = {(e.region, e.measure): e for e in extremes(on_section, COATED)}
     assert {region for region, _ in found} == {
         *("body", "layer 1", "base", "interface 1 above", "interface 1 below")
     }

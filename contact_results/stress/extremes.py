@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
-from contact_results.stress.points import StressPoints
+from contact_results.stress.points import StressField, StressPoints
 from contact_scene import Body, IsotropicMaterial
 
 
@@ -17,6 +17,7 @@ class Extreme:
     """Where in a region a measure is largest: a point itself, nothing interpolated.
 
     at_window_edge  whether it is on the edge of what was computed, and there may be more beyond
+    on_edge         whether it is on the fitted edge of the contact
     """
 
     region: str
@@ -26,20 +27,31 @@ class Extreme:
     y: float
     depth: float
     at_window_edge: bool
+    on_edge: bool = False
 
 
-def extremes(points: StressPoints, body: Body) -> tuple[Extreme, ...]:
+def extremes(field: StressField, body: Body) -> tuple[Extreme, ...]:
     """Of every measure in every region."""
-    found = []
+    found = {(e.region, e.measure): e for e in _extremes(field.points, body)}
+    if field.edge is not None:
+        for extreme in _extremes(field.edge.points, body):
+            key = extreme.region, extreme.measure
+            if extreme.value > found[key].value:
+                found[key] = replace(extreme, on_edge=True)
+    return tuple(found.values())
+
+
+def _extremes(points: StressPoints, body: Body) -> Iterator[Extreme]:
     for region, inside in _regions(points, body):
+        if not np.any(inside):
+            continue
         for measure, values in points.measures.items():
             k = int(np.argmax(np.where(inside, values, -np.inf)))
             value, x, y, depth = (
                 float(field.flat[k]) for field in (values, points.x, points.y, points.depth)
             )
             at_edge = bool(points.at_edge.flat[k])
-            found.append(Extreme(region, measure, value, x, y, depth, at_edge))
-    return tuple(found)
+            yield Extreme(region, measure, value, x, y, depth, at_edge)
 
 
 def layer_name(layer: int, layers: int) -> str:

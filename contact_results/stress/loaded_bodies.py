@@ -6,7 +6,7 @@ import json
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import h5py
 import numpy as np
@@ -15,7 +15,8 @@ from numpy.typing import NDArray
 from contact_results.directory.file_names import FIELDS, SUMMARY
 from contact_results.files.stored_values import MISREAD, refuse_other_shape, text, values
 from contact_results.surface import surface_of
-from contact_scene import Body, FiniteElementDiscretisation
+from contact_scene import Body, CoulombFriction, FiniteElementDiscretisation
+from contact_scene.geometry import SHAPES, HeightMap, ShapedBody
 from contact_scene.increment import State
 from contact_scene.stated_error import ErrorStatus, StatedError, StatedErrors
 from contact_scene.summary import load_summary
@@ -28,6 +29,9 @@ Field = NDArray[np.float64]
 AXES = ("x", "y", "radii", "angles")
 SCALARS = ("pressure", "shear_radial", "shear_circumferential", "shear_along_load")
 VECTORS = ("shear",)
+
+OF_HEIGHTS = "the indenter is no smooth shape"
+OF_MAP = "the coefficient of friction varies"
 
 
 class NoSuchState(Exception):
@@ -43,6 +47,8 @@ class LoadedBodies:
     tractions       pressure and shear on the lower body, those that there are, by name
                     [force/length^2]
     discretisation  of finite elements; None of others
+    no_root         why the pressure need not fall like a root of the distance from the edge of the
+                    contact, or the shear not like the pressure; None where it does
     by_increments   part of themselves by which increments may leave the tractions wrong; None where
                     nobody has stated it
     """
@@ -54,6 +60,7 @@ class LoadedBodies:
     axes: Mapping[str, Field]
     tractions: Mapping[str, Field]
     discretisation: FiniteElementDiscretisation | None
+    no_root: str | None = None
     by_increments: float | None = None
 
     @property
@@ -82,6 +89,7 @@ def state_of_result(
         surface.axes,
         {name: field for name, field in tractions.items() if field is not None},
         getattr(result, "discretisation", None),
+        _no_root(scene.indenter, scene.friction),
         None if errors is None else _by_increments(end, errors.steps[end.step - 1]),
     )
 
@@ -152,7 +160,29 @@ def _read(file: h5py.File, step: int | None) -> LoadedBodies:
         {name: values(file[name]) for name in axes},
         {name: values(field, last) for name, field in fields.items()},
         asked,
+        _no_root_of(scene),
     )
+
+
+def _no_root_of(scene: Mapping[str, Any]) -> str | None:
+    """The same of the description that a run has written, whose maps may be gone."""
+    shape = SHAPES[scene["indenter"]["shape"]]
+    if shape is HeightMap:
+        return OF_HEIGHTS
+    friction = scene["friction"]
+    if friction is not None and isinstance(friction["coefficient"], Mapping):
+        return OF_MAP
+    return _no_root(shape.model_validate(scene["indenter"]), None)
+
+
+def _no_root(indenter: ShapedBody, friction: CoulombFriction | None) -> str | None:
+    if indenter.rim is not None:
+        return "the contact ends at the rim of the indenter"
+    if indenter.extent is not None or indenter.gap_exponent is None:
+        return OF_HEIGHTS
+    if friction is not None and friction.varying is not None:
+        return OF_MAP
+    return None
 
 
 def _body(description: dict[str, object]) -> Body:

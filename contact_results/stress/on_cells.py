@@ -10,13 +10,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from contact_results.stress.loaded_bodies import LoadedBodies
-from contact_results.stress.points import StressField, StressPoints
+from contact_results.stress.points import FittedEdge, StressField, StressPoints
 
 if TYPE_CHECKING:
     from contact_scene import Body
     from semi_analytical import SurfaceGrid
     from semi_analytical.frf.depth import Level
-    from semi_analytical.stress import SubsurfaceField
+    from semi_analytical.stress import NearEdge, SubsurfaceField
 
 Field = NDArray[np.float64]
 Indices = NDArray[np.int64]
@@ -32,12 +32,17 @@ def stress_on_cells(
     indenter: bool = False,
     depths: Sequence[float] | None = None,
     volume: bool = False,
+    see_edge: bool = True,
 ) -> StressField:
     """Stress on levels, under the whole window, which reaches well beyond the contact.
 
-    depths  both sides of every interface come on top [length]; None for what fits contact and
+    Near the edge of a smooth contact it is that of tractions which fall like a root there, and the
+    field has points on the edge; `how` says whether it could be fitted, and if not why.
+
+    depths    both sides of every interface come on top [length]; None for what fits contact and
             layers
-    volume  whether the field has the cells of the volume
+    volume    whether the field has the cells of the volume
+    see_edge  whether to look for the edge
     Raises ValueError for a depth that is not in the body, ResourceRefused.
     """
     from semi_analytical.stress import subsurface
@@ -49,10 +54,14 @@ def stress_on_cells(
     if indenter and shear is not None:
         shear = -shear
     field = subsurface(body, grid, pressure, shear, levels)
+    edge, why = None, "not looked for"
+    if see_edge:
+        field, edge, why = _with_edge(state, body, grid, field, pressure, shear)
     plane = field.along_x()
     points, section = _points(field, grid), _points(plane, grid)
     return StressField(
         points,
+        None if edge is None else FittedEdge(_on_edge(edge), edge.apart),
         replace(section, cells=_quadrilaterals(plane)),
         _axis(plane),
         replace(points, cells=_hexahedra(field)) if volume else None,
@@ -64,8 +73,56 @@ def stress_on_cells(
             "contact_radius": radius,
             "cells": list(grid.cells),
             "window": list(grid.window),
+            "edge": _how(edge, why),
             "levels": [{"depth": float(s.depth), "layer": s.layer} for s in levels],
         },
+    )
+
+
+def _with_edge(
+    state: LoadedBodies,
+    body: Body,
+    grid: SurfaceGrid,
+    field: SubsurfaceField,
+    pressure: Field,
+    shear: Field | None,
+) -> tuple[SubsurfaceField, NearEdge | None, str]:
+    """The field with the edge, and the edge; or the field as it is, and why."""
+    from semi_analytical.frf.stack import stack_of
+    from semi_analytical.stress import EdgeNotSeen, near_edge, near_surface
+
+    if state.no_root is not None:
+        return field, None, state.no_root
+    if not any(
+        level.layer == 0 and near_surface(level.depth, grid.spacing) for level in field.levels
+    ):
+        return field, None, "no depth is near the surface"
+    try:
+        edge = near_edge(stack_of(body), grid, pressure, shear)
+    except EdgeNotSeen as reason:
+        return field, None, str(reason)
+    return edge.corrected(field), edge, ""
+
+
+def _how(edge: NearEdge | None, why: str) -> dict[str, object]:
+    """Whether the edge was fitted, for the record."""
+    if edge is None:
+        return {"fitted": False, "because": why}
+    return {"fitted": True, "points": len(edge.x), "fits_apart": edge.apart}
+
+
+def _on_edge(edge: NearEdge) -> StressPoints:
+    """Points (n,) at the surface; displacements are not taken there."""
+    nothing = np.zeros(len(edge.x))
+    return StressPoints(
+        edge.x,
+        edge.y,
+        nothing,
+        np.zeros(len(nothing), dtype=np.int64),
+        np.full((3, len(nothing)), np.nan),
+        edge.stress(),
+        cylindrical=False,
+        at_edge=nothing > 0,
     )
 
 

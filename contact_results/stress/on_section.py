@@ -39,6 +39,7 @@ def stress_on_section(state: LoadedBodies, *, indenter: bool = False) -> StressF
     half = field.is_axisymmetric
     return StressField(
         section,
+        None,
         section,
         _axis(section, LISTED * radius),
         None,

@@ -99,10 +99,23 @@ class StressPoints:
 
 
 @dataclass(frozen=True, eq=False)
+class FittedEdge:
+    """The edge of the contact at the surface, as it was fitted between the cells.
+
+    points  on it (n,)
+    apart   difference of the largest principal stress there by another fit, over itself
+    """
+
+    points: StressPoints
+    apart: float
+
+
+@dataclass(frozen=True, eq=False)
 class StressField:
     """Stress in a body below a contact.
 
     points   wherever it was computed
+    edge     of the contact, where it could be fitted
     section  the plane y = 0, with cells
     axis     down the z axis
     volume   all points with their cells; None where not asked for
@@ -114,6 +127,7 @@ class StressField:
     """
 
     points: StressPoints
+    edge: FittedEdge | None
     section: StressPoints
     axis: StressPoints
     volume: StressPoints | None

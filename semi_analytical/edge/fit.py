@@ -41,11 +41,14 @@ class Fits:
     count: Indices
 
 
-def fit_about(data: Field, weight: Field, i: Indices, j: Indices, stencil: Stencil) -> Fits:
+def fit_about(
+    data: Field, weight: Field, i: Indices, j: Indices, stencil: Stencil, degree: int = 2
+) -> Fits:
     """Least squares about the cells (i, j), shape (n,).
 
     data    (nx, ny) cell means
     weight  (nx, ny) beside that of the stencil; zero where there are none
+    degree  1 or 2; of 1 nothing bends
     """
     reach = stencil.reach
     shift = np.arange(-reach, reach + 1)
@@ -54,16 +57,17 @@ def fit_about(data: Field, weight: Field, i: Indices, j: Indices, stencil: Stenc
     given, believed = (np.pad(field, reach)[at] for field in (data, weight))
     believed = believed * np.exp(-(dx**2 + dy**2) / (2 * stencil.width**2))
     columns = (np.ones_like(dx), dx, dy, dx**2 / 2 + 1 / 24, dx * dy, dy**2 / 2 + 1 / 24)
-    basis = np.stack(columns, axis=-1)
-    products = (basis[:, :, None] * basis[:, None, :]).reshape(-1, 36)
-    normal = (believed @ products).reshape(-1, 6, 6)
-    normal += RIDGE * np.eye(6) * (np.trace(normal, axis1=1, axis2=2)[:, None, None] + 1e-30)
+    basis = np.stack(columns[: 3 * degree], axis=-1)
+    count = basis.shape[1]
+    products = (basis[:, :, None] * basis[:, None, :]).reshape(-1, count * count)
+    normal = (believed @ products).reshape(-1, count, count)
+    normal += RIDGE * np.eye(count) * (np.trace(normal, axis1=1, axis2=2)[:, None, None] + 1e-30)
     right = (believed * given) @ basis
     found = np.linalg.solve(normal, right[..., None])[..., 0]
     left = given - found @ basis.T
     total = np.maximum(np.sum(believed, axis=1), 1e-30)
     return Fits(
-        Quadratic(i.astype(float), j.astype(float), *found.T),
+        Quadratic(i.astype(float), j.astype(float), *found.T, *np.zeros((6 - count, len(i)))),
         np.sqrt(np.sum(believed * left**2, axis=1) / total),
         np.count_nonzero(believed, axis=1),
     )

@@ -31,6 +31,21 @@ class Quadratic:
         """|grad phi| there."""
         return np.hypot(self.f_x, self.f_y)
 
+    def chosen(self, which: NDArray[np.bool_] | slice) -> Quadratic:
+        """Some of the places."""
+        return Quadratic(*(part[which] for part in vars(self).values()))
+
+    def reshaped(self, shape: tuple[int, ...]) -> Quadratic:
+        """The places in another shape."""
+        return Quadratic(*(part.reshape(shape) for part in vars(self).values()))
+
+    def scaled(self, dx: float, dy: float) -> Quadratic:
+        """With lengths of which a cell has dx and dy; the places stay index coordinates."""
+        return Quadratic(
+            *(self.x, self.y, self.f, self.f_x / dx, self.f_y / dy),
+            *(self.f_xx / dx**2, self.f_xy / (dx * dy), self.f_yy / dy**2),
+        )
+
     def at(self, dx: Field, dy: Field) -> Field:
         """Values at dx, dy from the places; more axes of dx, dy go in front."""
         bend = (self.f_xx * dx + 2 * self.f_xy * dy) * dx + self.f_yy * dy * dy

@@ -21,8 +21,9 @@ LEAST_DATA = 10
 LARGEST_RMS = 0.25
 # Cells inwards of the edge about which a fit may be asked for.
 ASKED = 3.5
-LONGEST_STEP = 1.0
-REFITS = 6
+# Of a step to the edge, and of all of them, in cells.
+LONGEST_STEP, FARTHEST = 1.0, 2.0
+REFITS = 3
 
 
 @dataclass(frozen=True)
@@ -34,6 +35,7 @@ class EdgeShape:
     weight     (nx, ny) how much a cell is believed
     exponent   alpha, a number or (nx, ny)
     stencil    of the fits
+    depth      (nx, ny) distance to the nearest cell outside of the region, zero there
     nearest    (2, nx, ny) indices of the nearest cell of the region
     """
 
@@ -42,11 +44,18 @@ class EdgeShape:
     weight: Field
     exponent: float | Field
     stencil: Stencil
+    depth: Field
     nearest: Indices
 
     def fits(self, i: Indices, j: Indices) -> Fits:
         """Fits about cells of the region, shape (n,)."""
         return fit_about(self.phi, self.weight, i, j, self.stencil)
+
+    def nearest_to(self, x: Field, y: Field) -> Indices:
+        """Cells of the region nearest to places (n,), indices (2, n)."""
+        last = np.array(self.means.shape) - 1
+        i, j = (np.clip(np.rint(at), 0, n).astype(int) for at, n in zip((x, y), last, strict=True))
+        return self.nearest[:, i, j]
 
     def about(self, x: Field, y: Field) -> tuple[Quadratic, Mask]:
         """phi about any places near the edge, shape (n,), and whether to believe it.
@@ -54,9 +63,7 @@ class EdgeShape:
         Outside of the region from the fit about its nearest cell: a window centred outside has its
         data on one side only, which costs two digits.
         """
-        last = np.array(self.means.shape) - 1
-        i, j = (np.clip(np.rint(at), 0, n).astype(int) for at, n in zip((x, y), last, strict=True))
-        fits = self.fits(*self.nearest[:, i, j])
+        fits = self.fits(*self.nearest_to(x, y))
         return fits.quadratic.about(x, y), believed(fits)
 
     def edge_points(self, i: Indices, j: Indices) -> tuple[Quadratic, Mask]:
@@ -64,14 +71,18 @@ class EdgeShape:
 
         By steps down the slope, with a fit about every place; f is zero up to rounding.
         """
-        x, y = i.astype(float), j.astype(float)
+        return self.points_near(i.astype(float), j.astype(float))
+
+    def points_near(self, x: Field, y: Field) -> tuple[Quadratic, Mask]:
+        """The same nearest to places (n,) not far from it."""
+        at_x, at_y = x, y
         for _ in range(REFITS):
-            here, safe = self.about(x, y)
-            x, y = _downhill(here)
-        on_it = here.about(x, y)
+            here, safe = self.about(at_x, at_y)
+            at_x, at_y = _downhill(here)
+        on_it = here.about(at_x, at_y)
         for _ in range(REFITS):
             on_it = here.about(*_downhill(on_it))
-        return on_it, safe & (np.hypot(on_it.x - i, on_it.y - j) < 2.0)
+        return on_it, safe & (np.hypot(on_it.x - x, on_it.y - y) < FARTHEST)
 
 
 def _downhill(here: Quadratic) -> tuple[Field, Field]:
@@ -134,7 +145,7 @@ def edge_shape(
         cut = np.abs(quadratic.mean) < (np.abs(slopes[0]) + np.abs(slopes[1])) / 2
         weight = data.astype(float)
         weight[on_band] *= np.where(cut, CUT_WEIGHT, 1.0)
-    return EdgeShape(means, phi, weight, exponent, stencil, nearest)
+    return EdgeShape(means, phi, weight, exponent, stencil, depth, nearest)
 
 
 def _layers(region: Mask) -> tuple[Field, Indices]:

@@ -3,12 +3,17 @@
 from semi_analytical.frf.depth import Level
 from semi_analytical.stress.field import SubsurfaceField, subsurface, subsurface_section
 from semi_analytical.stress.levels import default_depths, interfaces
+from semi_analytical.stress.near_edge import EdgeNotSeen, NearEdge, near_edge, near_surface
 
 __all__ = [
+    "EdgeNotSeen",
     "Level",
+    "NearEdge",
     "SubsurfaceField",
     "default_depths",
     "interfaces",
+    "near_edge",
+    "near_surface",
     "subsurface",
     "subsurface_section",
 ]

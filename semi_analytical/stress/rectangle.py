@@ -28,22 +28,22 @@ class RectanglePotentials:
     """Integrals over a rectangle of derivatives of A, B, C, over 2 pi, at a depth.
 
     x, y   first and last corner offsets of the observer from the loaded rectangles: the observers'
-           offsets minus and plus half a side, so that neighbours share them; shapes (nx + 1,),
-           (ny + 1,), none of them zero at depth zero [length]
+           offsets minus and plus half a side, so that neighbours share them; shapes (…, nx + 1),
+           (…, ny + 1), none of them zero at depth zero [length]
     depth  z >= 0 [length]
 
-    Each integral has shape (nx, ny).
+    Each integral has shape (…, nx, ny).
     """
 
     def __init__(self, x: Field, y: Field, depth: float) -> None:
-        self._x, self._y, self._z = x[:, None], y[None, :], depth
+        self._x, self._y, self._z = x[..., :, None], y[..., None, :], depth
         self._rho = np.sqrt(self._x**2 + self._y**2 + depth**2)
         self._xz = self._x**2 + depth**2
         self._yz = self._y**2 + depth**2
         self._deep = self._rho + depth
 
     def _corners(self, primitive: Field) -> Field:
-        return np.diff(np.diff(primitive, axis=0), axis=1) / (2 * pi)
+        return np.diff(np.diff(primitive, axis=-2), axis=-1) / (2 * pi)
 
     @cached_property
     def _log_x(self) -> Field:
@@ -178,7 +178,7 @@ class RectanglePotentials:
 
 
 def half_space_response(f: RectanglePotentials, material: HalfSpace, depth: float) -> Field:
-    """Fields by unit tractions on a rectangle, shape (FIELDS, TRACTIONS, nx, ny).
+    """Fields by unit tractions on a rectangle, shape (FIELDS, TRACTIONS, …, nx, ny).
 
     They are in equilibrium and regular at nu = 1/2; the divergence is 2 (1 - 2 nu) / 2G times A_z
     under pressure, A_x and A_y under shear, and 2 nu times these enters every normal stress.

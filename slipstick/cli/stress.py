@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
@@ -113,7 +113,7 @@ def stress(
     if not body.deforms:
         raise typer.BadParameter(f"the {which} is rigid: there is no stress in it")
     field = _below(state, asked, indenter=indenter, volume=volume)
-    found = extremes(field.points, body)
+    found = extremes(field, body)
     errors = _errors(state, field, found, indenter) if error else None
     write_stress(
         state,
@@ -125,7 +125,7 @@ def stress(
         errors=errors,
         accuracy=reached,
     )
-    _print(found, errors, state.by_increments, reached, output)
+    _print(found, errors, state.by_increments, reached, field.how.get("edge"), output)
     leave_unless_met(reached)
 
 
@@ -199,6 +199,7 @@ def _print(
     errors: tuple[StatedError, ...] | None,
     by_increments: float | None,
     reached: AccuracyReached | None,
+    edge: Any,
     output: Path,
 ) -> None:
     import numpy as np
@@ -222,6 +223,8 @@ def _print(
         for e, error in zip(found, errors or [None] * len(found), strict=True)
     )
     print_table(columns, rows, numbers=True)
+    if edge is not None and not edge["fitted"]:
+        typer.echo(f"  stress near the edge of the contact by cells alone: {edge['because']}")
     if errors is None:
         typer.echo("  no errors: --no-error left them out")
     elif by_increments is None:

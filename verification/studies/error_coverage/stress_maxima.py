@@ -18,7 +18,7 @@ def stress_maxima(result: Any, step: int) -> dict[str, tuple[float, StatedError]
     """By measure, of all of the lower body at the end of a step [force/length²]."""
     state = state_of_result(result, step)
     field = stress_on_section(state) if state.on_rings else stress_on_cells(state)
-    found = extremes(field.points, state.body)
+    found = extremes(field, state.body)
     errors = stress_errors(state, field, found)
     return {
         e.measure: (e.value, error)

@@ -1,0 +1,173 @@
+"""Stress at and near the edge of a contact, by tractions with their edge.
+
+At the surface the cells about the observer are one root of a quadratic; beyond and below, cells at
+the edge act by their small cells, and others by their mean and slope.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from semi_analytical.edge.quadratic import Quadratic
+from semi_analytical.frf.stack import HalfSpace
+from semi_analytical.stress.components import STRESS
+from semi_analytical.stress.edge_rays import stress_by_root
+from semi_analytical.stress.edge_tractions import EdgedTractions, part_centres
+from semi_analytical.stress.patch import PATCH, stress_from_beyond
+from semi_analytical.stress.point_force import stress_by_force
+from semi_analytical.stress.rectangle import RectanglePotentials, half_space_response
+
+Field = NDArray[np.float64]
+Spacing = tuple[float, float]
+
+# Half side in cells of the box in which phi is one quadratic.
+BOX = 2
+# Small cells along a side: beyond the box, and in it at a depth of one cell.
+PARTS, PARTS_AT_A_CELL = 4, 6
+# Observers, and small cells or points that they see, that are treated at once.
+OBSERVERS, SEEN = 256, 1 << 17
+
+
+def stress_at_surface(
+    edged: EdgedTractions, phi: Quadratic, plane: Field, material: HalfSpace, spacing: Spacing
+) -> Field:
+    """Stress (6, n) at z = 0 at the places of phi, near the edge.
+
+    phi       about them, (n,), index coordinates
+    plane     (6, nx, ny) stress at the cell centres by `edged.cells`
+    material  outermost
+    """
+    found = [
+        stress_from_beyond(edged.cells, plane, some.x, some.y, material, spacing)
+        + _in_box(edged, some, material, spacing)
+        + _by_points(edged, some.x, some.y, 0.0, material, spacing)
+        for some in (
+            phi.chosen(slice(start, start + OBSERVERS)) for start in range(0, len(phi.x), OBSERVERS)
+        )
+    ]
+    ring = _by_parts(edged, phi.x, phi.y, 0.0, material, spacing, PARTS, (BOX + 1, PATCH))
+    return np.asarray(np.concatenate(found, axis=-1) + ring)
+
+
+def change_at_depth(
+    edged: EdgedTractions, x: Field, y: Field, depth: float, material: HalfSpace, spacing: Spacing
+) -> Field:
+    """By how much stress (6, n) below places (n,) is other than by `edged.cells`.
+
+    depth  z > 0 [length], within the outermost material; below a quarter of a cell there are not
+           small cells enough
+    """
+    cells = depth / max(spacing)
+    near = max(PARTS, int(np.ceil(PARTS_AT_A_CELL / cells)))
+    points = 2 if cells >= 1 else 4
+    change = _by_parts(edged, x, y, depth, material, spacing, near, (0, BOX))
+    change += _by_parts(edged, x, y, depth, material, spacing, PARTS, (BOX + 1, PATCH))
+    for start in range(0, len(x), OBSERVERS):
+        part = slice(start, start + OBSERVERS)
+        change[:, part] += _by_points(
+            edged, x[part], y[part], depth, material, spacing, points, slopes_alone=True
+        )
+    return change
+
+
+def _in_box(edged: EdgedTractions, phi: Quadratic, material: HalfSpace, spacing: Spacing) -> Field:
+    """By the box: one root, and what the means of its cells have beside it."""
+    i, j = np.rint(phi.x).astype(int), np.rint(phi.y).astype(int)
+    x, y = phi.x - i, phi.y - j
+    half = BOX + 0.5
+    sides = ((half + x, 0), (half - x, 0), (half + y, 1), (half - y, 1))
+    box = np.stack([reach * spacing[axis] for reach, axis in sides])
+    slip = edged.slip_at(phi.x, phi.y)
+    stress = stress_by_root(phi.scaled(*spacing), box, slip, material.poisson_ratio)
+    shift = np.arange(-BOX, BOX + 1)
+    at_i, at_j = np.broadcast_arrays(
+        (i[:, None] + shift)[:, :, None], (j[:, None] + shift)[:, None, :]
+    )
+    by_root = phi.reshaped((-1, 1, 1)).about(at_i, at_j).cell_mean(0.5)
+    last = edged.means.shape
+    inside = (at_i >= 0) & (at_i < last[1]) & (at_j >= 0) & (at_j < last[2])
+    means = edged.means[:, np.clip(at_i, 0, last[1] - 1), np.clip(at_j, 0, last[2] - 1)] * inside
+    left = means - np.concatenate([slip, np.ones((1, len(i)))])[..., None, None] * by_root
+    # Observer less source: over increasing sources the corners run downward.
+    corners = np.arange(BOX + 1, -BOX - 1, -1) - 0.5
+    to_x, to_y = (
+        # On a side of cells, where uniform tractions would be singular, beside it.
+        np.where(at[:, None] == corners, 1e-9, at[:, None] - corners) * side
+        for at, side in zip((x, y), spacing, strict=True)
+    )
+    response = half_space_response(RectanglePotentials(to_x, to_y, 0.0), material, 0.0)[STRESS]
+    return stress + np.einsum("ftnij,tnij->fn", response[..., ::-1, ::-1], left)
+
+
+def _by_points(
+    edged: EdgedTractions,
+    x: Field,
+    y: Field,
+    depth: float,
+    material: HalfSpace,
+    spacing: Spacing,
+    points: int = 2,
+    *,
+    slopes_alone: bool = False,
+) -> Field:
+    """By the cells of the patch beyond the box, mean and slope, by Gauss points.
+
+    slopes_alone  without the means, and the box too
+    """
+    i, j = np.rint(x).astype(int), np.rint(y).astype(int)
+    a, b = (
+        grid.ravel() for grid in np.meshgrid(*2 * [np.arange(-PATCH, PATCH + 1)], indexing="ij")
+    )
+    if not slopes_alone:
+        ring = np.maximum(np.abs(a), np.abs(b)) > BOX
+        a, b = a[ring], b[ring]
+    fields = (edged.cells * (not slopes_alone), *edged.slopes)
+    at = i[:, None] + a + PATCH, j[:, None] + b + PATCH
+    pad = [(0, 0), (PATCH, PATCH), (PATCH, PATCH)]
+    mean, by_x, by_y = (np.pad(field, pad)[:, at[0], at[1]] for field in fields)
+    observer, cell = np.nonzero((mean[2] > 0) | (by_x[2] != 0) | (by_y[2] != 0))
+    mean, by_x, by_y = (field[:, observer, cell] for field in (mean, by_x, by_y))
+    to_x, to_y = (x - i)[observer] - a[cell], (y - j)[observer] - b[cell]
+    nodes, weights = (half / 2 for half in np.polynomial.legendre.leggauss(points))
+    total = np.zeros((6, len(observer)))
+    for s, weight_s in zip(nodes, weights, strict=True):
+        for t, weight_t in zip(nodes, weights, strict=True):
+            area = spacing[0] * spacing[1] * weight_s * weight_t
+            force = area * (mean + s * by_x + t * by_y)
+            places = (to_x - s) * spacing[0], (to_y - t) * spacing[1]
+            total += stress_by_force(*places, depth, material.poisson_ratio, force)
+    return _summed(total, observer, len(x))
+
+
+def _by_parts(
+    edged: EdgedTractions,
+    x: Field,
+    y: Field,
+    depth: float,
+    material: HalfSpace,
+    spacing: Spacing,
+    count: int,
+    within: tuple[int, int],
+) -> Field:
+    """By what the count² small cells differ from their cells, first and last ring of these."""
+    i, j = np.rint(x).astype(int), np.rint(y).astype(int)
+    away = np.maximum(np.abs(edged.i - i[:, None]), np.abs(edged.j - j[:, None]))
+    observer, cell = np.nonzero((away >= within[0]) & (away <= within[1]))
+    at = part_centres(count)
+    forces = edged.parts(count) * (spacing[0] * spacing[1] / count**2)
+    stress = np.zeros((6, len(x)))
+    at_once = max(1, SEEN // count**2)
+    for start in range(0, len(observer), at_once):
+        o, c = observer[start : start + at_once], cell[start : start + at_once]
+        to_x = ((x[o] - edged.i[c])[:, None, None] - at[:, None]) * spacing[0]
+        to_y = ((y[o] - edged.j[c])[:, None, None] - at) * spacing[1]
+        to_x, to_y = np.broadcast_arrays(to_x, to_y)
+        seen = stress_by_force(to_x, to_y, depth, material.poisson_ratio, forces[:, c])
+        stress += _summed(np.sum(seen, axis=(-2, -1)), o, len(x))
+    return stress
+
+
+def _summed(stress: Field, observer: NDArray[np.intp], count: int) -> Field:
+    """(6, pairs) to (6, observers)."""
+    return np.stack([np.bincount(observer, component, count) for component in stress])

@@ -1,0 +1,127 @@
+"""Stress at the surface under tractions that fall like a square root, as integrals over rays.
+
+Near the observer phi = p² is one quadratic. Along a ray of direction e it is Q = f + b r + c r²,
+with b = grad·e and c = e·H·e/2, and as the surface stress of a point force falls with 1/r², what
+the ray adds is its angular function times the finite part of the integral of √Q+/r, in closed form.
+What is singular drops, for the angular functions have no mean.
+"""
+
+from __future__ import annotations
+
+from math import pi
+
+import numpy as np
+from numpy.typing import NDArray
+
+from semi_analytical.edge.quadratic import Quadratic
+from semi_analytical.stress.point_force import stress_by_force
+
+Field = NDArray[np.float64]
+
+POINTS, WEIGHTS = np.polynomial.legendre.leggauss(6)
+# Panels grow away from the directions in which rays begin to meet what is loaded.
+GRADES = (0.02, 0.1, 0.5)
+# Below this the integrals are those of k = 0.
+STRAIGHT = 1e-9
+
+
+def stress_by_root(phi: Quadratic, box: Field, slip: Field, nu: float) -> Field:
+    """Stress (6, n) at z = 0 at the places of phi, by p = √phi+ and q = slip p within a box.
+
+    phi   lengths of the unit in which the box is given
+    box   (4, n): how far it reaches to -x, +x, -y, +y of the places, positive
+    slip  (2, n) shear over pressure
+    """
+    angle, weight = _directions(phi, box)
+    cos, sin = np.cos(angle), np.sin(angle)
+    f, f_x, f_y, f_xx, f_xy, f_yy = (
+        np.asarray(part)[:, None]
+        for part in (phi.f, phi.f_x, phi.f_y, phi.f_xx, phi.f_xy, phi.f_yy)
+    )
+    b = f_x * cos + f_y * sin
+    c = ((f_xx * cos + 2 * f_xy * sin) * cos + f_yy * sin * sin) / 2
+    with np.errstate(divide="ignore"):
+        reach = np.minimum(
+            np.where(cos < 0, box[0][:, None], box[1][:, None]) / np.abs(cos),
+            np.where(sin < 0, box[2][:, None], box[3][:, None]) / np.abs(sin),
+        )
+    force = _along_ray(np.broadcast_to(f, b.shape), b, c, reach) * weight
+    forces = np.stack([slip[0][:, None] * force, slip[1][:, None] * force, force])
+    stress = np.sum(stress_by_force(-cos, -sin, 0.0, nu, forces), axis=-1)
+    p = np.sqrt(np.maximum(phi.f, 0.0))
+    stress[:2] -= (1 + 2 * nu) / 2 * p
+    stress[2] -= p
+    stress[3] -= slip[1] * p
+    stress[4] -= slip[0] * p
+    return np.asarray(stress)
+
+
+def _directions(phi: Quadratic, box: Field) -> tuple[Field, Field]:
+    """Angles of the rays and their weights (n, rays): Gauss points between the corners of the box
+    and the directions about which the integral over a ray turns quickly."""
+    left, right, down, up = box
+    corners = [np.arctan2(y, x) for x in (-left, right) for y in (-down, up)]
+    g = phi.slope
+    n_x, n_y = phi.f_x / g, phi.f_y / g
+    # In the axes of the gradient n and the tangent t the discriminant b² - 4 f c along n u + t is
+    # nn u² + 2 nt u + tt.
+    turned_nn = phi.f_xx * n_x**2 + 2 * phi.f_xy * n_x * n_y + phi.f_yy * n_y**2
+    turned_nt = (phi.f_yy - phi.f_xx) * n_x * n_y + phi.f_xy * (n_x**2 - n_y**2)
+    turned_tt = phi.f_xx * n_y**2 - 2 * phi.f_xy * n_x * n_y + phi.f_yy * n_x**2
+    nn, nt, tt = g * g - 2 * phi.f * turned_nn, -2 * phi.f * turned_nt, -2 * phi.f * turned_tt
+    nn = np.maximum(nn, 0.1 * g * g)
+    width, middle = np.sqrt(np.abs(nt * nt - nn * tt)) / nn, -nt / nn
+    towards = np.arctan2(n_y, n_x)
+    turns = []
+    for side in (1, -1):  # either end of the tangent
+        for sign in (1, -1):
+            zero = np.arctan2(1.0, side * middle + sign * width)
+            turns += [towards + side * (zero - sign * grade) for grade in (0.0, *GRADES)]
+    bounds = np.sort(np.stack([*corners, *turns], axis=-1) % (2 * pi), axis=-1)
+    bounds = np.concatenate([bounds, bounds[:, :1] + 2 * pi], axis=-1)
+    half = np.diff(bounds, axis=-1)[..., None] / 2
+    angle = (bounds[:, :-1] + bounds[:, 1:])[..., None] / 2 + half * POINTS
+    rays = (len(bounds), -1)
+    return angle.reshape(rays), (half * WEIGHTS).reshape(rays)
+
+
+def _along_ray(f: Field, b: Field, c: Field, reach: Field) -> Field:
+    """Finite part of the integral of √Q+/r over 0 < r < reach, Q = f + b r + c r²."""
+    root = np.sqrt(np.maximum(b * b - 4 * f * c, 0.0))
+    q = -(b + np.where(b < 0, -root, root)) / 2
+    with np.errstate(divide="ignore", invalid="ignore"):
+        roots = np.stack([np.where(c == 0, np.inf, q / c), np.where(q == 0, 0.0, f / q)])
+    roots = np.where((b * b >= 4 * f * c) & np.isfinite(roots), roots, 0.0)
+    first, second = np.sort(np.clip(roots, 0.0, reach), axis=0)
+    total = np.zeros(b.shape)
+    for low, high in ((np.zeros_like(reach), first), (first, second), (second, reach)):
+        middle = (low + high) / 2
+        loaded = (high > low) & (f + b * middle + c * middle * middle > 0)
+        if np.any(loaded):
+            parts = (part[loaded] for part in (f, b, c, low, high))
+            total[loaded] += _between(*parts)
+    return total
+
+
+def _between(f: Field, b: Field, c: Field, low: Field, high: Field) -> Field:
+    """Integral of √Q/r where Q is not negative; from r = 0 on without its singular part."""
+    at_low, at_high = (np.sqrt(np.maximum(f + (b + c * r) * r, 0.0)) for r in (low, high))
+    whole = at_high - at_low + b / 2 * _arc(c, high - low, at_low + at_high)
+    from_zero = low == 0
+    away = np.where(from_zero, high, low)
+    last = f * _arc(f, 1 / away - 1 / high, at_low / away + at_high / high)
+    centre = np.sqrt(np.maximum(f, 0.0))
+    below = np.where(centre > 0, 2 * centre * at_high + b * high + 2 * f, 1.0)
+    ratio = np.where(centre > 0, 4 * f * high / below, 1.0)
+    return np.asarray(whole + np.where(from_zero, centre * np.log(ratio), last))
+
+
+def _arc(k: Field, n: Field, d: Field) -> Field:
+    """2 arctan(√-k n/d)/√-k, with artanh where k > 0."""
+    size = np.sqrt(np.abs(k))
+    flat = size * n <= STRAIGHT * d
+    size_or_one, d_or_one = np.where(flat, 1.0, size), np.where(d > 0, d, 1.0)
+    ratio = np.minimum(size * n / d_or_one, 1 - 1e-16)
+    round_ = 2 * np.arctan2(size * n, d) / size_or_one
+    open_ = 2 * np.arctanh(ratio) / size_or_one
+    return np.where(flat, 2 * n / d_or_one, np.where(k < 0, round_, open_))

@@ -1,0 +1,186 @@
+"""Stress near the edge of a contact, where tractions on cells do not give it, and whether the edge
+can be seen in them at all.
+
+Tension is largest on the edge itself, and the values at cell centres fall away from it with the
+root of the distance to both sides: at 128 cells they are a tenth too low.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.ndimage import binary_erosion, distance_transform_edt
+
+from semi_analytical.edge.fit import WIDE, WIDER
+from semi_analytical.edge.quadratic import Quadratic
+from semi_analytical.frf.depth import Level
+from semi_analytical.frf.stack import Stack
+from semi_analytical.grid import SurfaceGrid
+from semi_analytical.stress.at_edge import change_at_depth, stress_at_surface
+from semi_analytical.stress.edge_tractions import EdgedTractions, edged_tractions
+from semi_analytical.stress.field import SubsurfaceField, subsurface
+from semi_analytical.stress.patch import NODES
+
+Field = NDArray[np.float64]
+Mask = NDArray[np.bool_]
+
+# The fit, and one from other cells that tells how far to believe it.
+STENCILS = ((WIDE, 2), (WIDER, 3))
+# Points at which the two are compared, where the tension is this part of the largest or more; and
+# the part of it that is too far apart.
+COMPARED, LARGE, TOO_FAR_APART = 32, 0.8, 0.02
+# A cell slips if its shear over pressure is this part of the largest; rings that all have to.
+SLIPPING, SLIPPING_RINGS = 0.999, 2.5
+# How far beside and below the edge stress is evaluated anew, in cells; and from which depth on.
+BESIDE, BELOW, SHALLOWEST = 4.0, 4.0, 0.25
+# Shear that is round-off, over the largest pressure.
+NO_SHEAR = 1e-9
+
+
+class EdgeNotSeen(Exception):
+    """The tractions do not tell the edge; why."""
+
+
+@dataclass(frozen=True)
+class NearEdge:
+    """A loaded surface with its edge.
+
+    tractions  with their edge
+    phi        about points of the edge (n,)
+    apart      difference of the largest principal stress there by another fit, over itself
+    plane      stress at z = 0 at the cell centres by the cells (6, nx, ny)
+    """
+
+    stack: Stack
+    grid: SurfaceGrid
+    tractions: EdgedTractions
+    phi: Quadratic
+    apart: float
+    plane: Field
+
+    @property
+    def x(self) -> Field:
+        """Of the points of the edge (n,) [length]."""
+        return np.asarray(self.grid.x[0] + self.phi.x * self.grid.spacing[0])
+
+    @property
+    def y(self) -> Field:
+        """Of the points of the edge (n,) [length]."""
+        return np.asarray(self.grid.y[0] + self.phi.y * self.grid.spacing[1])
+
+    def stress(self) -> Field:
+        """On the edge (6, n) [force/length²], its limit from within."""
+        return _at_surface(self, self.phi)
+
+    def corrected(self, field: SubsurfaceField) -> SubsurfaceField:
+        """The same field with the stress near the edge by the tractions with their edge."""
+        i, j = np.nonzero(_beside(self.tractions))
+        stress = field.stress.copy()
+        for index, level in enumerate(field.levels):
+            if level.depth == 0:
+                phi, safe = self.tractions.shape.about(i.astype(float), j.astype(float))
+                stress[index][:, i[safe], j[safe]] = _at_surface(self, phi.chosen(safe))
+            elif self.reaches(level):
+                stress[index][:, i, j] += change_at_depth(
+                    self.tractions, i.astype(float), j.astype(float), level.depth,
+                    self.stack.outer, self.grid.spacing,
+                )  # fmt: skip
+        return replace(field, stress=stress)
+
+    def reaches(self, level: Level) -> bool:
+        """Whether stress at a level is evaluated anew."""
+        return level.layer == 0 and near_surface(level.depth, self.grid.spacing)
+
+
+def near_surface(depth: float, spacing: tuple[float, float]) -> bool:
+    """Whether stress at a depth feels the edge, and can be given it."""
+    cells = depth / max(spacing)
+    return depth == 0 or SHALLOWEST <= cells < BELOW
+
+
+def near_edge(stack: Stack, grid: SurfaceGrid, pressure: Field, shear: Field | None) -> NearEdge:
+    """What `NearEdge` says of a body under tractions whose pressure falls like a root towards the
+    edge of a smooth contact; arguments as of `subsurface`.
+
+    Raises EdgeNotSeen, and what `subsurface` raises.
+    """
+    if shear is not None and np.max(np.abs(shear)) <= NO_SHEAR * np.max(pressure):
+        shear = None
+    stuck = None if shear is None else _stuck(pressure, shear)
+    plane = subsurface(stack, grid, pressure, shear, (0.0,)).stress[0]
+    try:
+        one, other = (edged_tractions(pressure, shear, stuck, *stencil) for stencil in STENCILS)
+    except ValueError as error:
+        raise EdgeNotSeen(str(error)) from None
+    region = pressure > 0
+    i, j = np.nonzero(region & ~binary_erosion(region))
+    phi, safe = one.shape.edge_points(i, j)
+    some = phi.chosen(slice(None, None, max(1, len(i) // COMPARED)))
+    again, safe_again = other.shape.points_near(some.x, some.y)
+    wrong = np.count_nonzero(~safe) + np.count_nonzero(~safe_again)
+    if wrong:
+        raise EdgeNotSeen(
+            f"the square of the pressure is no smooth function at {wrong} of "
+            f"{len(safe) + len(safe_again)} points of the edge"
+        )
+    for at, count in zip((phi.x, phi.y), grid.cells, strict=True):
+        if not (np.min(at) >= NODES and np.max(at) <= count - 1 - NODES):
+            raise EdgeNotSeen(f"the contact comes within {NODES} cells of the border of the window")
+    found = NearEdge(stack, grid, one, _on_edge(phi), 0.0, plane)
+    tension, by_other = (
+        _largest(_at_surface(replace(found, tractions=tractions), _on_edge(points)))
+        for tractions, points in ((one, some), (other, again))
+    )
+    large = tension >= LARGE * np.max(tension)
+    apart = float(np.max(np.abs(tension - by_other)[large]) / np.max(np.abs(tension)))
+    if not apart <= TOO_FAR_APART:
+        raise EdgeNotSeen(
+            f"two fits of the edge leave the tension there {apart:.2g} of itself apart, more than "
+            f"{TOO_FAR_APART:g}: take smaller cells"
+        )
+    return replace(found, apart=apart)
+
+
+def _stuck(pressure: Field, shear: Field) -> Mask:
+    """Cells of the contact that stick. Raises EdgeNotSeen where some at its edge do."""
+    region = pressure > 0
+    size = np.hypot(*shear)
+    ratio = np.divide(size, pressure, out=np.zeros_like(size), where=region)
+    stuck = region & (ratio < SLIPPING * np.max(ratio))
+    rim = region & (distance_transform_edt(np.pad(region, 1))[1:-1, 1:-1] <= SLIPPING_RINGS)
+    if np.any(stuck & rim):
+        raise EdgeNotSeen(
+            f"{np.count_nonzero(rim & stuck)} of {np.count_nonzero(rim)} cells within "
+            f"{SLIPPING_RINGS:g} cells of the edge stick: the shear there is no multiple of the "
+            "pressure"
+        )
+    return np.asarray(stuck)
+
+
+def _on_edge(phi: Quadratic) -> Quadratic:
+    """Without the rounding of zero."""
+    return replace(phi, f=np.zeros_like(phi.f))
+
+
+def _at_surface(found: NearEdge, phi: Quadratic) -> Field:
+    return stress_at_surface(
+        found.tractions, phi, found.plane, found.stack.outer, found.grid.spacing
+    )
+
+
+def _beside(tractions: EdgedTractions) -> Mask:
+    """Cells within BESIDE of the edge, to both sides."""
+    shape = tractions.shape
+    away = distance_transform_edt(shape.depth == 0)
+    beside = (shape.depth <= BESIDE + 0.5) & (away <= BESIDE)
+    inner = np.zeros_like(beside)
+    inner[NODES:-NODES, NODES:-NODES] = True
+    return np.asarray(beside & inner)
+
+
+def _largest(stress: Field) -> Field:
+    """Largest principal stress in the surface, which carries nothing on the edge (n,)."""
+    xx, yy, xy = stress[0], stress[1], stress[5]
+    return np.asarray((xx + yy) / 2 + np.hypot((xx - yy) / 2, xy))

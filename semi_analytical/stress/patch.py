@@ -1,0 +1,81 @@
+"""Stress at the surface by the cells beyond a patch about the observer, between cell centres.
+
+The patch is summed with its edge; what is left of the plane of cell centres without it is smooth,
+layers and all, and interpolated.
+"""
+
+from __future__ import annotations
+
+from functools import lru_cache
+
+import numpy as np
+from numpy.typing import NDArray
+
+from semi_analytical.edge.fit import Indices
+from semi_analytical.frf.stack import HalfSpace
+from semi_analytical.stress.components import STRESS
+from semi_analytical.stress.rectangle import RectanglePotentials, half_space_response
+
+Field = NDArray[np.float64]
+
+# Half sides of the patch and of the nodes of interpolation, in cells.
+PATCH, NODES = 8, 2
+
+
+def stress_from_beyond(
+    cells: Field,
+    plane: Field,
+    x: Field,
+    y: Field,
+    material: HalfSpace,
+    spacing: tuple[float, float],
+) -> Field:
+    """Stress (6, n) at z = 0 at places (n,), index coordinates, by all cells but those of the patch
+    about the nearest one, which is NODES cells or more from the border of the plane.
+
+    cells     (3, nx, ny) tractions
+    plane     (6, nx, ny) stress at the cell centres by all of them
+    material  outermost
+    """
+    i, j = np.rint(x).astype(int), np.rint(y).astype(int)
+    nodes = np.arange(-NODES, NODES + 1)
+    patches = _patches(cells, i, j).reshape(len(i), -1)
+    by_patch = (patches @ _patch_kernel(material, spacing)).reshape(len(i), 6, -1)
+    at = plane[:, (i[:, None] + nodes)[:, :, None], (j[:, None] + nodes)[:, None, :]]
+    rest = at.reshape(6, len(i), -1) - np.moveaxis(by_patch, 1, 0)
+    weights = _lagrange(x - i)[:, :, None] * _lagrange(y - j)[:, None, :]
+    return np.asarray(np.einsum("fnk,nk->fn", rest, weights.reshape(len(i), -1)))
+
+
+def _patches(cells: Field, i: Indices, j: Indices) -> Field:
+    """Tractions on the patch about cells (n, 3, side, side)."""
+    shift = np.arange(2 * PATCH + 1)
+    padded = np.pad(cells, [(0, 0), (PATCH, PATCH), (PATCH, PATCH)])
+    found = padded[:, (i[:, None] + shift)[:, :, None], (j[:, None] + shift)[:, None, :]]
+    return np.moveaxis(found, 1, 0)
+
+
+@lru_cache(4)
+def _patch_kernel(material: HalfSpace, spacing: tuple[float, float]) -> Field:
+    """Stress at every node by every traction of the patch (3 side², 6 nodes)."""
+    reach = PATCH + NODES
+    x, y = ((np.arange(-reach, reach + 2.0) - 0.5) * side for side in spacing)
+    response = half_space_response(RectanglePotentials(x, y, 0.0), material, 0.0)[STRESS]
+    side = 2 * PATCH + 1
+    columns = [
+        # Observer less source, sources in increasing order.
+        response[:, :, a : a + side, b : b + side][:, :, ::-1, ::-1].reshape(6, -1)
+        for a in range(2 * NODES + 1)
+        for b in range(2 * NODES + 1)
+    ]
+    return np.ascontiguousarray(np.stack(columns, axis=1).reshape(6 * len(columns), -1).T)
+
+
+def _lagrange(at: Field) -> Field:
+    """Weights of the nodes (n, 2 NODES + 1)."""
+    nodes = np.arange(-NODES, NODES + 1)
+    weights = np.ones((len(at), len(nodes)))
+    for column, node in enumerate(nodes):
+        for other in nodes[nodes != node]:
+            weights[:, column] *= (at - other) / (node - other)
+    return weights

@@ -1,0 +1,164 @@
+"""Stress that sees the edge of the contact between the cells."""
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from contact_results.stress.extremes import extremes
+from contact_results.stress.loaded_bodies import LoadedBodies
+from contact_results.stress.on_cells import stress_on_cells
+from contact_scene import Body, IsotropicMaterial
+from semi_analytical import SurfaceGrid
+from semi_analytical.edge.quadratic import Quadratic
+from semi_analytical.frf.stack import HalfSpace, Stack
+from semi_analytical.stress import EdgeNotSeen, near_edge, subsurface
+from semi_analytical.stress.edge_rays import stress_by_root
+from semi_analytical.stress.point_force import stress_by_force
+from semi_analytical.stress.rectangle import RectanglePotentials, half_space_response
+from tests.cell_means import ellipse_means
+from verification.closed_forms.huber_stress import huber_stress
+from verification.closed_forms.sheared_surface import stress_by_hertz_shear, trailing_edge_tension
+
+Field = NDArray[np.float64]
+
+NU, MU = 0.3, 0.1
+STACK = Stack((), (1.0, NU))
+# The contact within its grid: radius in cells, and its centre off every symmetry.
+CELLS, RADIUS, CENTRE = 48, 15.0, (23.61, 23.28)
+
+
+def pressed_on(spacing: tuple[float, float] = (1.0, 1.0)) -> tuple[SurfaceGrid, Field]:
+    """Cell means of Hertz's unit pressure over a circle of RADIUS [length]."""
+    means = ellipse_means(CELLS, (RADIUS / spacing[0], RADIUS / spacing[1]), CENTRE)
+    return SurfaceGrid((CELLS, CELLS), (CELLS * spacing[0], CELLS * spacing[1])), means
+
+
+def places(grid: SurfaceGrid) -> tuple[Field, Field]:
+    """Of the cell centres from the centre of the contact."""
+    x, y = ((np.arange(CELLS) - at) * side for at, side in zip(CENTRE, grid.spacing, strict=True))
+    return np.meshgrid(x, y, indexing="ij")
+
+
+def huber(x: Field, y: Field, depth: float) -> Field:
+    """Under Hertz's unit pressure, in the axes of the scene (6, …)."""
+    r = np.hypot(x, y)
+    of = huber_stress(r, depth, RADIUS, 1.0, NU)
+    c, s = x / r, y / r
+    return np.stack(
+        [
+            of.radial * c * c + of.hoop * s * s,
+            of.radial * s * s + of.hoop * c * c,
+            of.axial,
+            of.shear * s,
+            of.shear * c,
+            (of.radial - of.hoop) * c * s,
+        ]
+    )
+
+
+@pytest.mark.parametrize("depth", [0.0, 0.3])
+def test_a_point_force_is_a_small_rectangle(depth: float) -> None:
+    half, force = 1e-3, np.array([0.3, -0.8, 1.7])
+    corners = (np.array([0.7 - half, 0.7 + half]), np.array([-0.4 - half, -0.4 + half]))
+    response = half_space_response(RectanglePotentials(*corners, depth), HalfSpace(1.0, NU), depth)
+    found = stress_by_force(np.array(0.7), np.array(-0.4), depth, NU, force)
+    expected = response[3:, :, 0, 0] @ force / (2 * half) ** 2
+    np.testing.assert_allclose(found, expected, atol=1e-6)
+
+
+@pytest.mark.parametrize("direction", [0.0, 0.6, 2.5])
+def test_rays_over_the_whole_circle_give_the_stress_of_hertz(direction: float) -> None:
+    """Inside, on the edge and outside: phi = 1 - r² is the whole pressure."""
+    r = np.array([0.3, 0.9, 0.999, 1.0, 1.001, 1.1, 1.5])
+    x, y = r * np.cos(direction), r * np.sin(direction)
+    bend = np.full(len(r), -2.0)
+    phi = Quadratic(x, y, (1 - r) * (1 + r), -2 * x, -2 * y, bend, 0 * r, bend)
+    stress = stress_by_root(phi, np.full((4, len(r)), 9.0), np.zeros((2, len(r))), NU)
+    np.testing.assert_allclose(stress, huber(RADIUS * x, RADIUS * y, 0.0), atol=1e-8)
+    if direction == 0:
+        pushed = stress_by_root(
+            phi, np.full((4, len(r)), 9.0), np.array([1.0, 0.0])[:, None] + 0 * x, NU
+        )
+        expected = stress_by_hertz_shear(r, 1.0, 1.0, NU)
+        np.testing.assert_allclose((pushed - stress)[0], expected, atol=1e-8)
+
+
+@pytest.mark.parametrize("spacing", [(1.0, 1.0), (1.0, 0.8)])
+def test_tension_on_the_trailing_edge_is_that_of_hamilton(spacing: tuple[float, float]) -> None:
+    grid, pressure = pressed_on(spacing)
+    found = near_edge(STACK, grid, pressure, np.stack([MU * pressure, 0 * pressure]))
+    stress = found.stress()
+    k = int(np.argmax(stress[0]))
+    exact = trailing_edge_tension(1.0, MU, NU)
+    assert stress[0, k] == pytest.approx(exact, rel=1e-3)
+    assert found.apart < 1e-3
+    x = found.x[k] - grid.x[0] - CENTRE[0] * spacing[0]
+    assert x == pytest.approx(-RADIUS, rel=5e-3)
+    by_cells = np.max(found.plane[0])
+    assert by_cells < 0.95 * exact
+
+
+@pytest.mark.parametrize("depth", [0.0, 0.5, 1.0, 2.0])
+@pytest.mark.parametrize("spacing", [(1.0, 1.0), (1.0, 0.8)])
+def test_stress_near_the_edge_is_that_of_hertz(depth: float, spacing: tuple[float, float]) -> None:
+    """Every component within three cells of the edge, in the peak pressure."""
+    grid, pressure = pressed_on(spacing)
+    field = subsurface(STACK, grid, pressure, None, (depth,))
+    x, y = places(grid)
+    near = np.abs(np.hypot(x, y) - RADIUS) < 3 * min(spacing)
+    error = [
+        np.max(np.abs(one.stress[0] - huber(x, y, depth))[:, near])
+        for one in (field, near_edge(STACK, grid, pressure, None).corrected(field))
+    ]
+    assert error[1] < 1e-3
+    assert error[0] > 8 * error[1]
+
+
+def test_elsewhere_nothing_changes() -> None:
+    grid, pressure = pressed_on()
+    field = subsurface(STACK, grid, pressure, None, (0.0, 5.0))
+    changed = near_edge(STACK, grid, pressure, None).corrected(field).stress != field.stress
+    x, y = places(grid)
+    assert np.any(changed[0])
+    assert not np.any(changed[1])
+    assert not np.any(changed[:, :, np.abs(np.hypot(x, y) - RADIUS) > 6])
+
+
+def test_an_edge_where_cells_stick_is_not_seen() -> None:
+    """Shear like that of a torsion without slip, r over the root."""
+    grid, pressure = pressed_on()
+    x, y = places(grid)
+    shear = 0.01 * np.hypot(x, y) / np.where(pressure > 0, pressure, np.inf)
+    with pytest.raises(EdgeNotSeen, match="stick"):
+        near_edge(STACK, grid, pressure, np.stack([shear, 0 * shear]))
+
+
+def test_an_edge_of_no_root_is_not_seen() -> None:
+    """Pressure of a flat punch, and of roughness."""
+    grid, pressure = pressed_on()
+    x, y = places(grid)
+    punch = np.where(pressure > 0.3, 1 / np.where(pressure > 0, pressure, 1.0), 0.0)
+    rough = np.maximum(np.cos(x) * np.cos(y) + 0.2, 0.0) * (pressure > 0)
+    for unlike in (punch, rough):
+        with pytest.raises(EdgeNotSeen):
+            near_edge(STACK, grid, unlike, None)
+
+
+@pytest.mark.parametrize("reason", [None, "the contact ends at the rim of the indenter"])
+def test_a_field_says_whether_the_edge_was_fitted(reason: str | None) -> None:
+    grid, pressure = pressed_on()
+    body = Body(material=IsotropicMaterial(young_modulus=1.0, poisson_ratio=NU))
+    tractions = {"pressure": pressure, "shear": np.stack([MU * pressure, 0 * pressure])}
+    axes = {"x": grid.x, "y": grid.y}
+    state = LoadedBodies("", body, body, 1, axes, tractions, None, reason)
+    field = stress_on_cells(state, depths=[0.0])
+    (tension,) = (e for e in extremes(field, body) if e.measure == "max_principal")
+    exact = trailing_edge_tension(1.0, MU, NU)
+    if reason is None:
+        assert field.how["edge"]["fitted"]
+        assert tension.on_edge
+        assert tension.value == pytest.approx(exact, rel=1e-3)
+    else:
+        assert field.how["edge"] == {"fitted": False, "because": reason}
+        assert not tension.on_edge
+        assert tension.value < 0.95 * exact
