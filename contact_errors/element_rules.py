@@ -47,6 +47,11 @@ AT_GAUSS_POINTS = with_their_likes(
         "dissipated_energy": Rule(1.5, 0.05, 4, 1.6, lengthscale=Lengthscale.ANNULUS),
     }
 )
+# The largest stress at the surface and near it, at an edge of the tractions: too low by 0.75 to
+# 1.15 of itself over the root of the elements (Hamilton's stress, places of the edge in one).
+ON_SURFACE = Rule(0.5, 1.5, 1, 1.6)
+# The largest stress inside, as far as elements that grow with the depth know it.
+INSIDE = Rule(1.5, 0.15, 1, 2.0)
 # A slip annulus below so many elements may be missed altogether: the stick radius is off by one.
 LEAST_ANNULUS = 1.5
 # Where friction acts back on a pressing contact its pressure has a cusp on the axis.

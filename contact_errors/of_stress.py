@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from contact_errors import estimate
 from contact_errors.rules import AT_EDGE, INTERIOR, TENSION, Rule
+from contact_errors.stress_on_rings import ring_stress_errors
 from contact_results.stress.extremes import Extreme, extremes
 from contact_results.stress.loaded_bodies import LoadedBodies
 from contact_results.stress.on_cells import stress_on_cells
@@ -32,13 +33,13 @@ BETWEEN = 1.1
 def stress_errors(
     state: LoadedBodies, field: StressField, found: Sequence[Extreme], *, indenter: bool = False
 ) -> tuple[StatedError, ...]:
-    """Errors of the extremes that were found in a field; nothing can be said of those on rings.
+    """Errors of the extremes that were found in a field.
 
     Of the tractions counts what increments leave wrong in them; what cells do is far less than what
     they leave wrong in the stress.
     """
     if state.on_rings:
-        return (estimate.UNKNOWN,) * len(found)
+        return ring_stress_errors(state, found, indenter=indenter)
     depths = np.unique(field.points.depth).tolist()
     wide = stress_on_cells(on_wide_cells(state), indenter=indenter, depths=depths, see_edge=False)
     body = state.indenter if indenter else state.body

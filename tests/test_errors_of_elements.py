@@ -2,17 +2,23 @@
 
 from dataclasses import replace
 
+import numpy as np
 import pytest
 from contact_scenes import INDENTERS, LOAD, PRESS, RIGID_BALL, A, hertz, push, scene, steel
 from fem_scenes import elements
 
 import contact_errors.on_elements as on_elements
+from contact_errors.of_stress import stress_errors
 from contact_errors.on_elements import stated_errors
 from contact_results.quantities import shift_along_x
+from contact_results.stress.extremes import extremes
+from contact_results.stress.loaded_bodies import LoadedBodies, state_of_result
+from contact_results.stress.on_section import stress_on_section
 from contact_scene import Body, IsotropicMaterial, Layer, Scene
 from contact_scene.stated_error import ErrorStatus
 from fem_reference import Method, solve
 from verification.closed_forms.cattaneo_mindlin import PartialSlip
+from verification.closed_forms.huber_stress import axis_stress
 from verification.closed_forms.moduli import tangential_modulus
 
 SMOOTH = scene(PRESS, friction=None)
@@ -52,6 +58,42 @@ def test_errors_of_partial_slip_hold_the_closed_form(method: Method) -> None:
         assert abs(shift_along_x(end) - exact.shift) <= shift
         assert abs(end.stick_radius - exact.stick_radius) <= error(stated, stick, step)
         assert stated.steps[step]["tangential_force"].status is ErrorStatus.EXACT
+
+
+@pytest.mark.parametrize(("edge", "coefficient"), [(8.5, 0.1), (12.0, 0.4)])
+def test_the_error_of_stress_covers_the_trailing_edge(edge: float, coefficient: float) -> None:
+    """Hertz's pressure with the shear of full slip, whose edge lies there in elements; Hamilton
+    (1983), eq. for x = -a."""
+    body, nu, radii = Body(material=steel(0.3)), 0.3, np.arange(int(1.3 * edge) + 2) / edge
+    pressure = np.sqrt(np.clip(1 - radii**2, 0, None))
+    tractions = {"pressure": pressure, "shear_along_load": coefficient * pressure}
+    state = LoadedBodies(
+        "", body, body, 1, {"radii": radii}, tractions, elements(int(np.ceil(edge)))
+    )
+    found, error = largest(state)
+    exact = (1 - 2 * nu) / 3 + np.pi * coefficient * (4 + nu) / 8
+    off = exact - found["max_principal"]
+    assert 0 < off <= error["max_principal"] < 4 * off
+
+
+@pytest.mark.parametrize("per_radius", [8, 11])
+def test_the_error_of_stress_covers_what_is_wrong_inside(per_radius: int) -> None:
+    result, depth = solve(SMOOTH, elements(per_radius)), np.linspace(0.3, 0.7, 401) * A
+    found, error = largest(state_of_result(result, None, stated_errors(result)))
+    inside = axis_stress(depth, A, hertz().peak_pressure, 0.3)
+    exact = np.max(np.abs(inside.radial - inside.axial))
+    assert abs(found["von_mises"] - exact) <= error["von_mises"] < 0.05 * exact
+
+
+def largest(state: LoadedBodies) -> tuple[dict[str, float], dict[str, float]]:
+    """The largest stresses of the body and their errors, by measure."""
+    field = stress_on_section(state)
+    found = extremes(field, state.body)
+    stated = stress_errors(state, field, found)
+    return (
+        {e.measure: e.value for e in found},
+        {e.measure: one.error for e, one in zip(found, stated, strict=True)},
+    )
 
 
 def replace_material(material: IsotropicMaterial):

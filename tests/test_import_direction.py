@@ -125,7 +125,7 @@ ORDERS = {
     ),
     "contact_errors": (
         *("values", "rules", "estimate", "prescribed", "levels", "half_the_cells", "on_cells"),
-        *("element_rules", "on_elements", "of_stress", "tension"),
+        *("element_rules", "on_elements", "stress_on_rings", "of_stress", "tension"),
         *("solve_cost", "ladder", "asked", "climb", "price", "ladder_on_cells"),
         "ladder_on_elements",
     ),
