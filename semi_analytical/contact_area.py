@@ -17,6 +17,7 @@ Mask = NDArray[np.bool_]
 REACH = 4
 LENGTH = 1.7
 LEAST_CELLS = 12
+AT_ONCE = 4096  # fits, of four kilobytes each: a long contact has tens of thousands
 # The fit at an edge cell must lie below this part of what it was fitted to.
 LEAST_FALL = 0.9
 # Smallest slope that is told from none, per cell and relative to the largest value.
@@ -37,7 +38,9 @@ def covered_cells(values: Field, inside: Mask) -> float:
     i, j = np.nonzero(edge)
     if len(i) == 0:
         return float(np.count_nonzero(inside))
-    fit, mean, count = _fit(values**2, trusted, i, j)
+    pieces = range(0, len(i), AT_ONCE)
+    fits = [_fit(values**2, trusted, i[k : k + AT_ONCE], j[k : k + AT_ONCE]) for k in pieces]
+    *fit, mean, count = np.concatenate(fits, axis=1)
     centre_inside = inside[i, j]
     parts = np.clip(
         _coverage(*fit), np.where(centre_inside, 0.5, 0), np.where(centre_inside, 1, 0.5)
@@ -65,11 +68,9 @@ def stuck_cells(shear: Field, bound: Field, in_stick: Mask) -> float:
     return covered_cells(np.sqrt(missing[0] ** 2 + missing[1] ** 2), in_stick)
 
 
-def _fit(
-    phi: Field, trusted: Mask, i: NDArray[np.intp], j: NDArray[np.intp]
-) -> tuple[tuple[Field, Field, Field], Field, NDArray[np.intp]]:
-    """Value and gradient per cell of weighted quadratic fits about the cells (i, j), the mean of
-    what was fitted, and the number of cells that each fit could use."""
+def _fit(phi: Field, trusted: Mask, i: NDArray[np.intp], j: NDArray[np.intp]) -> Field:
+    """Value and gradient (x, y) per cell of weighted quadratic fits about the cells (i, j), the
+    mean of what was fitted, and the number of cells that each fit could use: (5, cells)."""
     shift = np.arange(-REACH, REACH + 1)
     di, dj = (grid.ravel() for grid in np.meshgrid(shift, shift, indexing="ij"))
     pad = ((REACH, REACH), (REACH, REACH))
@@ -84,7 +85,7 @@ def _fit(
     # The ridge decides only what the cells at hand do not.
     normal += 1e-9 * np.eye(6) * (np.trace(normal, axis1=1, axis2=2)[:, None, None] + 1e-30)
     f, f_x, f_y = np.linalg.solve(normal, right[..., None])[:, :3, 0].T
-    return (f, f_x, f_y), mean, np.count_nonzero(use, axis=1)
+    return np.stack([f, f_x, f_y, mean, np.count_nonzero(use, axis=1)])
 
 
 def _coverage(f: Field, f_x: Field, f_y: Field) -> Field:

@@ -1,14 +1,15 @@
-"""Memory of a solve, estimated before anything is allocated."""
+"""Memory of a run, estimated before anything is allocated."""
 
 from contact_scene.free_memory import available_bytes
 from contact_scene.solver_errors import ResourceRefused
+from contact_scene.stored_fields import MOST_HELD
 from semi_analytical.grid import SurfaceGrid
 from semi_analytical.plan import Coupling, Plan
 
 DOUBLE = 8
 # Arrays of the size of the window held at once: coefficients, spectra of the padded grid (four
-# cells each) with their work space, solver vectors. Measured where the contact fills the window,
-# as it does when the window is fitted; a contact of half the window takes a third less.
+# cells each) with their work space, solver vectors. Measured of whole runs on fitted windows, of
+# which the contact takes two thirds along each side.
 PRESSURE_ARRAYS = 40
 HISTORY_ARRAYS = 4
 SHEAR_ARRAYS = 82
@@ -17,16 +18,19 @@ TILT_ARRAYS = 10
 TORSION_ARRAYS = 36
 # Spectra of the coupling, and the pressures that the alternation remembers: more of them, and two
 # per cent more memory, where coupling is strong.
-COUPLING_ARRAYS = {Coupling.NONE: 0, Coupling.ONE_WAY: 33, Coupling.FULL: 80}
+COUPLING_ARRAYS = {Coupling.NONE: 0, Coupling.ONE_WAY: 33, Coupling.FULL: 60}
 # Arrays that every increment leaves behind: pressure and gap; shear, slip, its distance and
 # dissipation, and masks.
 PRESSURE_RESULT = 2
 SHEAR_RESULT = 7
-FIXED = 4 << 20  # what does not grow with the window: work space of the transforms, small objects
+LIGHT = 4500  # bytes of an increment without its fields
+LIBRARIES = 80 << 20  # of the process that solves and writes
+DRAWING = 44 << 20  # libraries of the figures, and arrays for them
+DRAWING_ARRAYS = 20
 
 
 def estimated_bytes(grid: SurfaceGrid, plan: Plan) -> int:
-    """Largest memory that a solve holds at once [byte]."""
+    """Largest memory of a process that runs, libraries and figures included [byte]."""
     cells = grid.cells[0] * grid.cells[1]
     increments = sum(plan.increments)
     work = PRESSURE_ARRAYS + (SHEAR_ARRAYS if plan.shear else 0)
@@ -34,7 +38,10 @@ def estimated_bytes(grid: SurfaceGrid, plan: Plan) -> int:
     work += COUPLING_ARRAYS[plan.coupling]
     work += HISTORY_ARRAYS if increments > 1 else 0
     kept = PRESSURE_RESULT + (SHEAR_RESULT if plan.shear else 0)
-    return cells * DOUBLE * (work + kept * increments) + FIXED
+    held = min(cells * DOUBLE * kept * increments, MOST_HELD) + LIGHT * increments
+    held *= 2 if plan.shear else 1  # a companion on the same grid is held beside the result
+    drawing = DRAWING + cells * DOUBLE * DRAWING_ARRAYS
+    return LIBRARIES + held + max(cells * DOUBLE * work, drawing)
 
 
 def refuse_if_too_large(grid: SurfaceGrid, plan: Plan) -> None:

@@ -1,69 +1,73 @@
-"""The memory of a solve is known before it is taken: never too low, and seldom far too high."""
+"""The memory of a run is known before it is taken, whatever the scene and its grid."""
 
-import json
-import subprocess
 import sys
 from pathlib import Path
 
 import pytest
+from test_size_bombs import slipstick
 
-TESTS = Path(__file__).resolve().parent
-MEASURED = """
-import ctypes, gc, json, os, re, sys
-from pathlib import Path
-sys.path[:0] = {paths!r}
-os.environ["SLIPSTICK_CACHE_DIR"] = os.devnull
-import contact_scenes, coupled_scenes
-from contact_scene import SurfaceDiscretisation
-from semi_analytical import SurfaceGrid, plan, solve
-from semi_analytical.discretise import discretise
+from contact_scene import read_scene_file
+from semi_analytical import discretise, plan
 from semi_analytical.memory import estimated_bytes
 
-FILLED = 2.3  # contact radii: the widest contact that its window holds
-scene = eval({scene!r}, vars(contact_scenes) | {{"coupled": coupled_scenes}})
-
-def resident(line):
-    status = Path("/proc/self/status").read_text()
-    return 1024 * int(re.search(rf"^{{line}}:\\s+(\\d+)", status, re.M)[1])
-
-def fitted(cells):
-    return discretise(scene, SurfaceDiscretisation(cells=(cells, cells)))
-
-def peak(grid):
-    gc.collect()
-    ctypes.CDLL(None).malloc_trim(0)
-    Path("/proc/self/clear_refs").write_text("5")  # the peak starts here
-    before = resident("VmRSS")
-    solve(scene, grid, 1e-8)
-    return resident("VmHWM") - before
-
-first = solve(scene, fitted(24), 1e-8)  # all modules are loaded now
-width = FILLED * max(i.contact_radius for i in first.increments)
-grids = fitted({cells}), SurfaceGrid(({cells}, {cells}), (width, width))
-print(json.dumps(estimated_bytes(grids[0], plan(scene)) / max(map(peak, grids))))
+WITHIN = 0.15
+SCENE = """
+[indenter]
+shape = "sphere"
+radius = "18 mm"
+material = {{ young_modulus = "420 GPa", poisson_ratio = 0.3 }}
+[body]
+material = {{ young_modulus = "420 GPa", poisson_ratio = {nu} }}
+{layer}
+{friction}
+[[loading]]
+normal_force = 1000
+increments = 1
+{then}
+[semi_analytical]
+cells = {cells}
 """
-PRESS = "dict(normal_force=LOAD, increments=2)"
-PUSH = "dict(tangential_force=(0.6 * LIMIT, 0.0), increments=6)"
+LAYER = """[[body.layers]]
+thickness = "100 um"
+material = { young_modulus = "210 GPa", poisson_ratio = 0.3 }
+"""
+FRICTION = "[friction]\ncoefficient = 0.1"
+PUSHED = "[[loading]]\ntangential_force = [60, 0]\nincrements = 2"
+TURNED = "[[loading]]\ntorque = 0.01\nincrements = 1"
+UNLOADED = "[[loading]]\nnormal_force = 500\nincrements = 20"
+
+pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="the peak is read from /proc")
+
+
+def scene(cells: int | tuple[int, int], *, nu: float = 0.3, layer: str = "", then: str = "") -> str:
+    nx, ny = (cells, cells) if isinstance(cells, int) else cells
+    friction = FRICTION if then in (PUSHED, TURNED) or nu == 0 else ""
+    return SCENE.format(cells=[nx, ny], nu=nu, layer=layer, friction=friction, then=then)
+
+
+slow = pytest.mark.slow
 SCENES = {
-    "pressed once": "scene(dict(normal_force=LOAD, increments=1), friction=None)",
-    "pressed": f"scene({PRESS}, friction=None)",
-    "sheared": f"scene({PRESS}, {PUSH})",
-    "turned": f"scene({PRESS}, dict(torque=0.3 * LIMIT * A, increments=2))",
-    "coupled": f"coupled.scene({PRESS}, {PUSH}, body=coupled.bulk())",
-    "coupled strongly": f"coupled.scene({PRESS}, {PUSH}, body=coupled.bulk(0.1), friction=0.8)",
-    "coated": f"coupled.scene({PRESS}, {PUSH}, body=coupled.coated())",
+    "libraries": scene(32),
+    "pressed": scene(512),
+    "pressed, large": pytest.param(scene(1024), marks=slow),
+    "long": pytest.param(scene((16, 16384)), marks=slow),
+    "many increments": pytest.param(scene(256, then=UNLOADED), marks=slow),
+    "coated": pytest.param(scene(1024, layer=LAYER), marks=slow),
+    "sheared": pytest.param(scene(256, then=PUSHED), marks=slow),
+    "sheared, large": pytest.param(scene(512, then=PUSHED), marks=slow),
+    "turned": pytest.param(scene(256, then=TURNED), marks=slow),
+    "coupled": pytest.param(scene(256, nu=0.0), marks=slow),
 }
 
 
-@pytest.mark.slow
-@pytest.mark.skipif(sys.platform != "linux", reason="the peak is read from /proc")
-@pytest.mark.parametrize("scene", SCENES.values(), ids=SCENES)
-def test_estimated_memory_is_the_peak_or_a_little_more(scene: str) -> None:
-    """The peak of 256 x 256 cells in a process of its own: the larger one of a fitted window and of
-    one that the contact fills."""
-    code = MEASURED.format(paths=[str(TESTS), str(TESTS.parent)], scene=scene, cells=256)
-    outcome = subprocess.run(
-        [sys.executable, "-c", code], capture_output=True, text=True, check=False, timeout=900
-    )
-    assert outcome.returncode == 0, outcome.stderr
-    assert 1.0 <= json.loads(outcome.stdout) <= 1.15
+@pytest.mark.parametrize("text", SCENES.values(), ids=SCENES)
+def test_estimated_memory_is_the_peak_of_the_run(text: str, tmp_path: Path) -> None:
+    """Solving, companions, files and figures, in a process of its own."""
+    path = tmp_path / "scene.toml"
+    path.write_text(text, encoding="utf-8")
+    contents = read_scene_file(path)
+    grid = discretise(contents.scene, contents.semi_analytical)
+    decided = plan(contents.scene, contents.semi_analytical.path_accuracy)
+    ended = slipstick("run", path, "-o", tmp_path / "out")
+    assert ended.code == 0, ended.said
+    assert estimated_bytes(grid, decided) == pytest.approx(ended.memory, rel=WITHIN)

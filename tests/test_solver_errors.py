@@ -69,8 +69,9 @@ def test_memory_grows_with_cells_increments_and_shear(monkeypatch):
     sheared, long = plan(scene(PRESS, push(0.5))), plan(scene(PRESS, push(0.5, increments=50)))
     sizes = [memory.estimated_bytes(grid(64), p) for p in (small, sheared, long)]
     assert sizes == sorted(sizes)
-    larger = memory.estimated_bytes(grid(128), small)
-    assert larger - memory.FIXED == 4 * (sizes[0] - memory.FIXED)
+    large, larger = (memory.estimated_bytes(grid(cells), sheared) for cells in (1024, 2048))
+    fixed = memory.estimated_bytes(grid(16), sheared) - memory.DRAWING
+    assert larger - fixed == pytest.approx(4 * (large - fixed), rel=0.2)
     monkeypatch.setattr(memory, "available_bytes", lambda: sizes[1])
     memory.refuse_if_too_large(grid(64), sheared)
     with pytest.raises(ResourceRefused):
