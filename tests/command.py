@@ -1,7 +1,10 @@
 """The command line, run in the process of a test, and the tables that it writes."""
 
 import csv
+from contextlib import chdir, redirect_stderr, redirect_stdout
+from io import StringIO
 from pathlib import Path
+from subprocess import CompletedProcess
 
 import pytest
 
@@ -13,6 +16,13 @@ def slipstick(*arguments: object) -> int:
     with pytest.raises(SystemExit) as leaving:
         main([str(argument) for argument in arguments])
     return int(leaving.value.code or 0)
+
+
+def outcome(*arguments: object, cwd: Path) -> CompletedProcess[str]:
+    """What the command has said in a directory, and how it ended, as of a process of its own."""
+    with redirect_stdout(StringIO()) as out, redirect_stderr(StringIO()) as err, chdir(cwd):
+        code = slipstick(*arguments)
+    return CompletedProcess(arguments, code, out.getvalue(), err.getvalue())
 
 
 def rows(path: Path) -> list[dict[str, str]]:

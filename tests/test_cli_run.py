@@ -1,9 +1,9 @@
 """`slipstick run` from end to end with the real solver, also when it is stopped on the way."""
 
-import csv
 import json
 import os
 import resource
+import shutil
 import signal
 import subprocess
 import sys
@@ -12,33 +12,26 @@ from pathlib import Path
 
 import jsonschema
 import pytest
+from command import outcome, rows
+from scene_texts import COARSE, STEEL_BALL_PRESSED
 
 from contact_results.directory.file_names import SUMMARY
 from contact_scene.summary import summary_schema
 
 ROOT = Path(__file__).resolve().parents[1]
 
-SCENE = """
-[indenter]
-shape = "sphere"
-radius = "18 mm"
-material = { young_modulus = "420 GPa", poisson_ratio = 0.3 }
-[body]
-material = { young_modulus = "420 GPa", poisson_ratio = 0.3 }
-[friction]
-coefficient = 0.1
-[[loading]]
-normal_force = "1 kN"
+SCENE = (
+    STEEL_BALL_PRESSED
+    + """
 [[loading]]
 tangential_force = ["90 N", 0]
 increments = 2
 [[loading]]
 tangential_force = ["-90 N", 0]
 increments = 3
-[semi_analytical]
-cells = [32, 32]
-window = ["1.2 mm", "1.2 mm"]
 """
+    + COARSE
+)
 LONG = ("--set", "loading[2].increments=50000")  # minutes, if nobody stopped it
 FILES = {
     "summary.json", "timing.json", "result.h5", "profiles.csv", "increments.csv",
@@ -54,15 +47,23 @@ def scene(tmp_path: Path) -> Path:
     return path
 
 
+@pytest.fixture(scope="module")
+def whole(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The results of the scene with everything in them."""
+    scene = tmp_path_factory.mktemp("whole") / "scene.toml"
+    scene.write_text(SCENE, encoding="utf-8")
+    ended = run(scene)
+    assert ended.returncode == 0, ended.stderr
+    return scene.parent / "out"
+
+
 def command(scene: Path, *options: str) -> list[str]:
     output = str(scene.parent / "out")
     return [sys.executable, "-m", "slipstick", "run", str(scene), "--output", output, *options]
 
 
 def run(scene: Path, *options: str) -> subprocess.CompletedProcess[str]:
-    return subprocess.run(
-        command(scene, *options), cwd=ROOT, capture_output=True, text=True, check=False
-    )
+    return outcome("run", scene, "--output", scene.parent / "out", *options, cwd=ROOT)
 
 
 def summary(scene: Path) -> dict[str, list[dict[str, object]]]:
@@ -75,47 +76,45 @@ def partial_directories(scene: Path) -> list[str]:
     return [name for name in os.listdir(scene.parent) if name.startswith(".out.partial-")]
 
 
-def test_run_writes_every_file_and_the_same_bytes_again(scene: Path) -> None:
-    outcome = run(scene)
-    assert outcome.returncode == 0, outcome.stderr
-    out = scene.parent / "out"
-    assert set(os.listdir(out)) == FILES
+def test_run_writes_every_file_and_the_same_bytes_in_another_process(
+    whole: Path, scene: Path
+) -> None:
+    assert set(os.listdir(whole)) == FILES
+    subprocess.run(command(scene), cwd=ROOT, capture_output=True, check=True)
     jsonschema.validate(summary(scene), summary_schema())
-    first = {name: (out / name).read_bytes() for name in FILES - {"timing.json"}}
-    assert run(scene).returncode == 0
-    assert {name: (out / name).read_bytes() for name in FILES - {"timing.json"}} == first
+    for name in FILES - {"timing.json"}:
+        assert (scene.parent / "out" / name).read_bytes() == (whole / name).read_bytes()
 
 
 def test_stress_at_the_surface_is_there_if_asked_for(scene: Path) -> None:
     """Back to no force: the loads of step 1, so that a cycle closes."""
     closed = ("--set", "loading[3].tangential_force=[0, 0]", "--no-figures")
     for options, known in (((), False), (("--surface-stress",), True)):
-        outcome = run(scene, *closed, *options)
-        assert outcome.returncode == 0, outcome.stderr
+        ended = run(scene, *closed, *options)
+        assert ended.returncode == 0, ended.stderr
         end = summary(scene)["steps"][-1]
         assert end["cycle_start"] == 1
         assert (end["ruiz_f2"] is not None) == known
     assert (scene.parent / "out" / "cycles.csv").exists()
 
 
-def test_tables_agree_with_the_summary(scene: Path) -> None:
-    assert run(scene, "--no-figures").returncode == 0
-    with open(scene.parent / "out" / "increments.csv", newline="", encoding="utf-8") as file:
-        rows = list(csv.DictReader(file))
-    assert len(rows) == 1 + 2 + 3
-    for number, step in enumerate(summary(scene)["steps"], start=1):
-        last = [row for row in rows if row["step"] == str(number)][-1]
+def test_tables_agree_with_the_summary(whole: Path) -> None:
+    increments = rows(whole / "increments.csv")
+    assert len(increments) == 1 + 2 + 3
+    steps = json.loads((whole / SUMMARY).read_text(encoding="utf-8"))["steps"]
+    for number, step in enumerate(steps, start=1):
+        last = [row for row in increments if row["step"] == str(number)][-1]
         for name in ("normal_force", "approach", "contact_radius", "stick_radius"):
             assert float(last[name]) == step[name]
 
 
-def test_rerun_without_friction_removes_what_it_does_not_call_for(scene: Path) -> None:
-    assert run(scene).returncode == 0
+def test_rerun_without_friction_removes_what_it_does_not_call_for(whole: Path, scene: Path) -> None:
+    shutil.copytree(whole, scene.parent / "out")
     frictionless = SCENE.replace("[friction]\ncoefficient = 0.1\n", "")
     kept = [part for part in frictionless.split("[[loading]]") if "tangential" not in part]
     grid = "[semi_analytical]" + SCENE.partition("[semi_analytical]")[2]
     scene.write_text("[[loading]]".join(kept) + grid, encoding="utf-8")
-    assert run(scene).returncode == 0
+    assert run(scene, "--no-error").returncode == 0
     assert set(os.listdir(scene.parent / "out")) == FILES - {
         "shear.png",
         "stick_slip.png",
@@ -126,8 +125,8 @@ def test_rerun_without_friction_removes_what_it_does_not_call_for(scene: Path) -
 
 def test_approach_control_has_no_force_residual(scene: Path) -> None:
     scene.write_text(SCENE.replace('normal_force = "1 kN"', 'approach = "8 um"'), encoding="utf-8")
-    outcome = run(scene, "--no-figures")
-    assert outcome.returncode == 0, outcome.stderr
+    ended = run(scene, "--no-figures", "--no-error")
+    assert ended.returncode == 0, ended.stderr
     for step in summary(scene)["steps"]:
         assert isinstance(step["residuals"], dict)
         assert step["residuals"]["normal_equilibrium"] is None
@@ -145,17 +144,17 @@ def test_approach_control_has_no_force_residual(scene: Path) -> None:
 def test_refusal_says_why_in_one_message_and_leaves_nothing(
     scene: Path, override: str, code: int, words: str
 ) -> None:
-    outcome = run(scene, "--set", override)
-    assert outcome.returncode == code
-    assert outcome.stderr.count("error: ") == 1
-    assert words in outcome.stderr
-    assert "Traceback" not in outcome.stderr
+    ended = run(scene, "--set", override)
+    assert ended.returncode == code
+    assert ended.stderr.count("error: ") == 1
+    assert words in ended.stderr
+    assert "Traceback" not in ended.stderr
     assert os.listdir(scene.parent) == [scene.name]
 
 
 def test_full_disk_ends_with_one_message_and_nothing_written(scene: Path) -> None:
     """A limit on the size of files stands for it; HDF5 by itself would crash here."""
-    outcome = subprocess.run(
+    ended = subprocess.run(
         command(scene, "--no-figures"),
         cwd=ROOT,
         capture_output=True,
@@ -163,10 +162,10 @@ def test_full_disk_ends_with_one_message_and_nothing_written(scene: Path) -> Non
         check=False,
         preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (20_000, 20_000)),
     )
-    assert outcome.returncode == 4
+    assert ended.returncode == 4
     result = scene.parent / "out" / "result.h5"
-    assert outcome.stderr.splitlines()[-1] == f"error: {result}: File too large"
-    assert outcome.stderr.count("\n") == 4  # three steps and the message
+    assert ended.stderr.splitlines()[-1] == f"error: {result}: File too large"
+    assert ended.stderr.count("\n") == 4  # three steps and the message
     assert os.listdir(scene.parent) == [scene.name]
 
 
@@ -194,7 +193,7 @@ def stopped_run(scene: Path, number: signal.Signals, after: float) -> tuple[int,
 def test_stopped_run_leaves_earlier_results_and_nothing_else(
     scene: Path, number: signal.Signals, code: int
 ) -> None:
-    assert run(scene, "--no-figures").returncode == 0
+    assert run(scene, "--no-figures", "--no-error").returncode == 0
     out = scene.parent / "out"
     before = {path.name: path.read_bytes() for path in out.iterdir()}
     for after in (0.0, 0.13):
@@ -208,7 +207,7 @@ def test_killed_run_leaves_a_hidden_directory_that_the_next_run_clears_away(scen
     assert stopped_run(scene, signal.SIGKILL, 0.1) == (-signal.SIGKILL, "")
     assert len(partial_directories(scene)) == 1
     assert not (scene.parent / "out").exists()
-    assert run(scene, "--no-figures").returncode == 0
+    assert run(scene, "--no-figures", "--no-error").returncode == 0
     assert sorted(os.listdir(scene.parent)) == ["out", scene.name]
 
 

@@ -20,6 +20,7 @@ from contact_scenes import (
     steel,
 )
 from matplotlib.figure import Figure
+from scene_texts import COARSE, STEEL_BALL_PRESSED
 
 from contact_errors import estimate
 from contact_errors.half_the_cells import recut_plan
@@ -39,27 +40,18 @@ from semi_analytical import SurfaceGrid, plan, solve
 from verification.closed_forms.cattaneo_mindlin import PartialSlip
 from verification.closed_forms.moduli import tangential_modulus
 
-FRETTING = """
-[indenter]
-shape = "sphere"
-radius = "18 mm"
-material = { young_modulus = "420 GPa", poisson_ratio = 0.3 }
-[body]
-material = { young_modulus = "420 GPa", poisson_ratio = 0.3 }
-[friction]
-coefficient = 0.1
-[[loading]]
-normal_force = "1 kN"
+FRETTING = (
+    STEEL_BALL_PRESSED
+    + """
 [[loading]]
 tangential_force = ["90 N", 0]
 [[loading]]
 tangential_force = ["-90 N", 0]
 [[loading]]
 tangential_force = ["90 N", 0]
-[semi_analytical]
-cells = [32, 32]
-window = ["1.2 mm", "1.2 mm"]
 """
+    + COARSE
+)
 
 TWENTY = """
 [semi_analytical]

@@ -8,7 +8,7 @@ from pathlib import Path
 import meshio
 import numpy as np
 import pytest
-from command import rows
+from command import outcome, rows
 
 ROOT = Path(__file__).resolve().parents[1]
 
@@ -37,11 +37,6 @@ FILES = {
 }  # fmt: skip
 
 
-def slipstick(*arguments: object) -> subprocess.CompletedProcess[str]:
-    command = [sys.executable, "-m", "slipstick", *map(str, arguments)]
-    return subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=False)
-
-
 @pytest.fixture(scope="module")
 def place(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """A scene, its run in `run`, and the stress of the scene in `out`."""
@@ -49,11 +44,11 @@ def place(tmp_path_factory: pytest.TempPathFactory) -> Path:
     scene = directory / "scene.toml"
     scene.write_text(SCENE, encoding="utf-8")
     for arguments in (
-        ("run", scene, "-o", directory / "run", "--no-figures"),
+        ("run", scene, "-o", directory / "run", "--no-figures", "--no-error"),
         ("stress", scene, "-o", directory / "out"),
     ):
-        outcome = slipstick(*arguments)
-        assert outcome.returncode == 0, outcome.stderr
+        ended = outcome(*arguments, cwd=ROOT)
+        assert ended.returncode == 0, ended.stderr
     return directory
 
 
@@ -89,8 +84,8 @@ def test_axis_is_continuous_where_it_must_be_and_jumps_where_it_must(place: Path
 
 
 def test_run_and_scene_give_the_same(place: Path) -> None:
-    outcome = slipstick("stress", place / "run", "-o", place / "of_run", "--no-figures")
-    assert outcome.returncode == 0, outcome.stderr
+    ended = outcome("stress", place / "run", "-o", place / "of_run", "--no-figures", cwd=ROOT)
+    assert ended.returncode == 0, ended.stderr
     for name in ("stress_maxima.csv", "stress_axis.csv"):
         one, other = rows(place / "out" / name), rows(place / "of_run" / name)
         for a, b in zip(one, other, strict=True):
@@ -105,11 +100,11 @@ def test_run_and_scene_give_the_same(place: Path) -> None:
 
 
 def test_step_and_depths_are_the_ones_asked_for(place: Path) -> None:
-    outcome = slipstick(
+    ended = outcome(
         "stress", place / "run", "-o", place / "first", "--no-figures", "--volume",
-        "--step", 1, "--depths", "0, 50 um,2e-4",
+        "--step", 1, "--depths", "0, 50 um,2e-4", cwd=ROOT,
     )  # fmt: skip
-    assert outcome.returncode == 0, outcome.stderr
+    assert ended.returncode == 0, ended.stderr
     record = json.loads((place / "first" / "stress.json").read_text(encoding="utf-8"))
     assert record["step"] == 1
     summary = json.loads((place / "run" / "summary.json").read_text(encoding="utf-8"))
@@ -139,8 +134,9 @@ def test_mesh_holds_the_fields_of_the_table(place: Path) -> None:
 
 
 def test_indenter_has_its_own_stress(place: Path) -> None:
-    outcome = slipstick("stress", place / "run", "-o", place / "ball", "--indenter", "--no-figures")
-    assert outcome.returncode == 0, outcome.stderr
+    asked = ("stress", place / "run", "-o", place / "ball", "--indenter", "--no-figures")
+    ended = outcome(*asked, cwd=ROOT)
+    assert ended.returncode == 0, ended.stderr
     record = json.loads((place / "ball" / "stress.json").read_text(encoding="utf-8"))
     assert record["body"] == "indenter"
     assert {e["region"] for e in record["maxima"]} == {"body"}
@@ -164,11 +160,11 @@ finally:
         "fem_reference={elements_per_radius=4}",
     )
     asked = ("stress", place / "scene.toml", "-o", place / own, "--solver", solver, "--no-figures")
-    outcome = subprocess.run(
+    ended = subprocess.run(
         [sys.executable, "-c", script, *map(str, asked), *coarse],
         cwd=ROOT, capture_output=True, text=True, check=True,
     )  # fmt: skip
-    assert outcome.stdout.splitlines()[-1].split() == [own]
+    assert ended.stdout.splitlines()[-1].split() == [own]
 
 
 @pytest.mark.parametrize(
@@ -188,7 +184,7 @@ def test_what_cannot_be_done_is_refused(place: Path, arguments: list[str], compl
     filled = [argument.format(place) for argument in arguments]
     if "-o" not in filled:
         filled += ["-o", str(place / "refused")]
-    outcome = slipstick("stress", *filled)
-    assert outcome.returncode == 2
-    assert complaint in " ".join(outcome.stderr.replace("│", " ").split())
+    ended = outcome("stress", *filled, cwd=ROOT)
+    assert ended.returncode == 2
+    assert complaint in " ".join(ended.stderr.replace("│", " ").split())
     assert not (place / "refused").exists()

@@ -13,6 +13,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 import pytest
+from command import outcome
 from study_cases import Dying, Killed, Number, Refusing, Square, Timed
 
 from contact_results.one_thread import VARIABLES
@@ -29,13 +30,7 @@ from verification.running.stored_studies import stored_studies
 from verification.running.study import Settings
 from verification.studies.catalogue import STUDIES
 
-ROOT = Path(__file__).resolve().parents[1]
 STUDY = ("study", "coated-tractions", "--cells", "16", "--output", "out")
-
-
-def command(*arguments: str) -> list[str]:
-    code = f"import sys; sys.path.insert(0, {str(ROOT)!r}); from slipstick.cli import main; main()"
-    return [sys.executable, "-c", code, *arguments]
 
 
 @dataclass
@@ -53,12 +48,6 @@ class InThisProcess:
 
     def close(self) -> None:
         pass
-
-
-def slipstick(*arguments: str, cwd: Path) -> subprocess.CompletedProcess[str]:
-    return subprocess.run(
-        command(*arguments), cwd=cwd, capture_output=True, text=True, check=False, timeout=120
-    )
 
 
 def test_record_is_read_back(tmp_path: Path) -> None:
@@ -179,7 +168,9 @@ def killed_and_resumed(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, 
     directory = tmp_path_factory.mktemp("study")
     cases = directory / "out" / "cases"
     process = subprocess.Popen(
-        command(*STUDY, "--workers", "1"), cwd=directory, stderr=subprocess.DEVNULL
+        [sys.executable, "-m", "slipstick", *STUDY, "--workers", "1"],
+        cwd=directory,
+        stderr=subprocess.DEVNULL,
     )
     deadline = time.monotonic() + 60
     while not list(cases.glob("coated*.json")) and time.monotonic() < deadline:
@@ -190,9 +181,9 @@ def killed_and_resumed(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, 
     kept = {path.name: path.stat().st_mtime_ns for path in cases.glob("coated*.json")}
     assert 0 < len(kept) < 4
     assert not (directory / "out" / "study.json").exists()
-    outcome = slipstick(*STUDY, cwd=directory)
-    assert outcome.returncode == 0, outcome.stdout + outcome.stderr
-    assert outcome.stderr.count("already there") == len(kept)
+    ended = outcome(*STUDY, "--workers", "1", cwd=directory)
+    assert ended.returncode == 0, ended.stdout + ended.stderr
+    assert ended.stderr.count("already there") == len(kept)
     return directory / "out", kept
 
 
@@ -232,13 +223,13 @@ def test_study_leaves_page_record_figures_and_tables(
 
 
 def test_studies_are_listed_and_mistakes_are_refused(tmp_path: Path) -> None:
-    listed = slipstick("study", "--list", cwd=tmp_path)
+    listed = outcome("study", "--list", cwd=tmp_path)
     assert listed.returncode == 0
     assert "gross-sliding" in listed.stdout
-    unknown = slipstick("study", "gross-slidin", cwd=tmp_path)
+    unknown = outcome("study", "gross-slidin", cwd=tmp_path)
     assert unknown.returncode == 2
     assert "gross-sliding?" in unknown.stderr
-    assert slipstick("study", "gross-sliding", "--cells", "33", cwd=tmp_path).returncode == 2
+    assert outcome("study", "gross-sliding", "--cells", "33", cwd=tmp_path).returncode == 2
     assert list(tmp_path.iterdir()) == []
 
 
