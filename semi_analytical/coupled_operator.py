@@ -85,11 +85,11 @@ class PeriodicInverse:
         self._values: NDArray[Any] = np.empty((count, rows, columns), dtype=np.float32)
 
     def __call__(self, displacements: Field) -> Field:
-        """Tractions (3 + k, nx, ny) of displacements of that shape."""
+        """Tractions (3 + k, nx, ny) of displacements of that shape, neither tiny nor huge."""
         _, nx, ny = displacements.shape
-        self._values[:] = 0
-        size = np.max(np.abs(displacements)) or 1.0
-        np.divide(displacements, size, out=self._values[:, :nx, :ny], casting="same_kind")
+        if (nx, ny) != self._period:
+            self._values[:] = 0
+        self._values[:, :nx, :ny] = displacements
         spectra = self._spectra
         np.fft.rfft(self._values, axis=-1, out=spectra)
         np.fft.fft(spectra, axis=-2, out=spectra)
@@ -103,4 +103,4 @@ class PeriodicInverse:
         spectra[2:] *= self._symbols[3:]
         np.fft.ifft(spectra, axis=-2, out=spectra)
         np.fft.irfft(spectra, n=self._period[1], axis=-1, out=self._values)
-        return np.multiply(self._values[:, :nx, :ny], size / self._unit, dtype=np.float64)
+        return np.multiply(self._values[:, :nx, :ny], 1 / self._unit, dtype=np.float64)

@@ -31,7 +31,10 @@ class LinearisedIncrement:
     """The derivative in given zones under the loads: rigid motions whose forces are given are
     unknowns beside the tractions, and the tractions keep these forces."""
 
-    def __init__(self, problem: CoupledProblem, zones: Zones) -> None:
+    def __init__(
+        self, problem: CoupledProblem, zones: Zones, last: "LinearisedIncrement | None" = None
+    ) -> None:
+        """last  in nearly these zones: what carried its loads will do here too"""
         self._problem, self._zones = problem, zones
         self._precondition = GradedPreconditioner(zones, problem)
         shape = problem.gap.shape
@@ -46,10 +49,12 @@ class LinearisedIncrement:
         free, images, forces = np.empty((3, *units.shape))
         for number, unit in enumerate(units):
             free[number] = zones.free(unit)
-            images[number] = self._precondition(free[number])
+            images[number] = (
+                zones.free(last._images[number]) if last else self._precondition(free[number])
+            )
             # Forces of free unknowns are the product with these.
             forces[number] = zones.forces_on(unit)
-        self._images = images
+        self._images: Field = images
         flat = (len(units), 3 * problem.gap.size)
         self._free, images, forces = (part.reshape(flat) for part in (free, images, forces))
         inverse = np.linalg.pinv(np.einsum("ik,jk->ij", forces, images), rcond=UNDETERMINED)

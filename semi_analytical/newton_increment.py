@@ -21,7 +21,7 @@ from semi_analytical.residuals import complementarity, penetration, slip_directi
 
 MOST_STEPS = 40
 # Steps without the residual falling by a tenth.
-MOST_IDLE = 6
+MOST_IDLE = 3
 # Part of the rows that a solve leaves: at most, and while the zones still change.
 ROUGHLY = 0.05
 # Of the root of the number of cells in contact: at most so many change once the zones settle.
@@ -41,11 +41,14 @@ def solve_by_newton(
     load = problem.normal_load
     start[2] = load.admissible(np.where(np.isfinite(problem.gap), start[2], 0.0))
     point, _ = _at(problem, start, motion)
-    natural, last = _natural(problem, point), None
+    natural = _natural(problem, point)
+    zones: Zones | None = None
+    increment: LinearisedIncrement | None = None
     best, idle, iterations = np.inf, 0, 0
     for number in range(1, MOST_STEPS + 1):
-        zones = Zones.of(natural, problem)
-        increment = LinearisedIncrement(problem, zones)
+        zones, last = Zones.of(natural, problem), zones
+        settled = zones.changes(last) <= SETTLED * np.sqrt(np.sum(zones.contact))
+        increment = LinearisedIncrement(problem, zones, increment if settled else None)
         tractions = increment.admissible(point.tractions)
         base, closing = _at(problem, tractions, natural.motion)
         found = _natural(problem, base)
@@ -58,12 +61,10 @@ def solve_by_newton(
         best = min(best, residual)
         if idle >= MOST_IDLE:
             break
-        settled = zones.changes(last) <= SETTLED * np.sqrt(np.sum(zones.contact))
         depth = min(ROUGHLY, found.merit) if settled else ROUGHLY
         step = increment.solved(base, found, min(ROUGHLY, max(depth, FINE * tolerance / residual)))
         iterations += step.iterations
         point, natural = _toward(problem, base, step, found.merit)
-        last = zones
     raise NotConverged("the coupled increment", iterations, best, tolerance)
 
 

@@ -96,7 +96,10 @@ def _dilated(
 ) -> Start | None:
     """As the gap has it at first, then as the contact has grown with its load so far."""
     exponent = model.scene.indenter.gap_exponent
-    if exponent is None or normal.tilting is not None:
+    held = normal.tilting is None or (
+        normal.tilting.moment is None and normal.tilting == now.target.tilting
+    )
+    if exponent is None or not held:
         return None
     if normal.force is not None:
         load, loads = normal.force, [seen.normal_force for seen in (now, behind) if seen]

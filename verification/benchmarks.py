@@ -71,7 +71,7 @@ def coupled_benchmarks() -> Iterator[Benchmark]:
         meaning=f"median convolutions of an increment {what}",
         unit="",
         value=max(convolutions),
-        target=250.0,
+        target=85.0,
     )
     yield Benchmark(
         name="coupled_increment",
