@@ -39,7 +39,7 @@ def stress_errors(
     they leave wrong in the stress.
     """
     if state.on_rings:
-        return ring_stress_errors(state, found, indenter=indenter)
+        return ring_stress_errors(state, field, found, indenter=indenter)
     depths = np.unique(field.points.depth).tolist()
     wide = stress_on_cells(on_wide_cells(state), indenter=indenter, depths=depths, see_edge=False)
     body = state.indenter if indenter else state.body

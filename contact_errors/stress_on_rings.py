@@ -10,9 +10,12 @@ from numpy.typing import NDArray
 
 from contact_errors import estimate
 from contact_errors.element_rules import INSIDE, ON_SURFACE
-from contact_results.stress.extremes import Extreme, extremes
+from contact_errors.rules import Rule
+from contact_results.stress.extremes import Extreme, extremes, layer_name
 from contact_results.stress.loaded_bodies import LoadedBodies
 from contact_results.stress.on_section import stress_on_section
+from contact_results.stress.points import StressField, StressPoints
+from contact_scene.accuracy import LARGEST_TENSION
 from contact_scene.stated_error import Part, StatedError
 
 Field = NDArray[np.float64]
@@ -22,10 +25,12 @@ NEAR = 2.0
 
 
 def ring_stress_errors(
-    state: LoadedBodies, found: Sequence[Extreme], *, indenter: bool = False
+    state: LoadedBodies, field: StressField, found: Sequence[Extreme], *, indenter: bool = False
 ) -> tuple[StatedError, ...]:
-    """Errors of the extremes that were found below tractions on rings.
+    """Errors of the extremes that were found in a field below tractions on rings.
 
+    Where a region has the surface, the error of its largest tension reaches as far as the tension
+    at the surface may: on few elements that is so much too low that one inside exceeds it.
     Of the tractions counts what increments leave wrong in them; what elements do is far less than
     what they leave wrong in the stress.
     """
@@ -33,10 +38,26 @@ def ring_stress_errors(
     body = state.indenter if indenter else state.body
     there = {(e.region, e.measure): e.value for e in extremes(wide, body)}
     radius, count = _loaded(state)
-    return tuple(
-        _error(e, there.get((e.region, e.measure)), radius, count, state.by_increments or 0.0)
-        for e in found
-    )
+    near, by_increments = NEAR * radius / count, state.by_increments or 0.0
+    tension, there_too = (_tension_near(one.points, near) for one in (field, wide))
+    reached = tension + _by_elements(ON_SURFACE, tension, there_too, count)
+    outermost = {"body", layer_name(0, len(body.layers))}
+    errors = []
+    for e in found:
+        coarse = there.get((e.region, e.measure))
+        if coarse is None:
+            errors.append(estimate.UNKNOWN)
+            continue
+        rule = INSIDE if e.depth >= near else ON_SURFACE
+        elements = _by_elements(rule, e.value, coarse, count)
+        if e.measure == LARGEST_TENSION and e.region in outermost:
+            elements = max(elements, reached - e.value)
+        parts: dict[Part, Field] = {"elements": np.array([elements])}
+        if by_increments:
+            parts["increments"] = np.array([by_increments * abs(e.value)])
+        apart = estimate.contradicts(np.array([e.value - coarse]), np.array([abs(e.value)]), 0.0)
+        errors.append(estimate.stated(parts, not (apart or e.at_window_edge)))
+    return tuple(errors)
 
 
 def on_half_the_rings(state: LoadedBodies) -> LoadedBodies:
@@ -72,16 +93,11 @@ def _loaded(state: LoadedBodies) -> tuple[float, float]:
     )
 
 
-def _error(
-    extreme: Extreme, coarse: float | None, radius: float, count: float, by_increments: float
-) -> StatedError:
-    if coarse is None:
-        return estimate.UNKNOWN
-    rule = INSIDE if extreme.depth >= NEAR * radius / count else ON_SURFACE
-    change, largest = np.array([abs(extreme.value - coarse)]), np.array([abs(extreme.value)])
-    scatter = largest * rule.scatter(count)
-    parts: dict[Part, Field] = {"elements": estimate.by_cells(rule, change, 2.0, scatter)}
-    if by_increments:
-        parts["increments"] = by_increments * largest
-    apart = estimate.contradicts(change, largest, 0.0)
-    return estimate.stated(parts, not (apart or extreme.at_window_edge))
+def _tension_near(points: StressPoints, depth: float) -> float:
+    """The largest principal stress above a depth [force/length^2]."""
+    return float(np.max(points.measures[LARGEST_TENSION][points.depth < depth]))
+
+
+def _by_elements(rule: Rule, value: float, coarse: float, count: float) -> float:
+    change, largest = np.array([abs(value - coarse)]), np.array([abs(value)])
+    return float(estimate.by_cells(rule, change, 2.0, largest * rule.scatter(count))[0])
