@@ -14,10 +14,11 @@ from numpy.typing import NDArray
 
 if TYPE_CHECKING:
     import fem_reference
+    import radial
     import semi_analytical
 
-    Increment = semi_analytical.Increment | fem_reference.Increment
-    Result = semi_analytical.Result | fem_reference.Result
+    Increment = semi_analytical.Increment | fem_reference.Increment | radial.Increment
+    Result = semi_analytical.Result | fem_reference.Result | radial.Result
 
 Field = NDArray[np.float64]
 

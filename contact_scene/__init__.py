@@ -7,7 +7,11 @@ A scene is made in Python from the frozen values named here, or read from a TOML
 from contact_scene.array_file import ArrayFile
 from contact_scene.body import Body, Layer
 from contact_scene.body_file import read_body
-from contact_scene.discretisation import FiniteElementDiscretisation, SurfaceDiscretisation
+from contact_scene.discretisation import (
+    FiniteElementDiscretisation,
+    RadialDiscretisation,
+    SurfaceDiscretisation,
+)
 from contact_scene.friction import CoulombFriction, FrictionMap
 from contact_scene.geometry import Cone, Ellipsoid, FlatPunch, HeightMap, Paraboloid, Sphere
 from contact_scene.load_path import ControlKind, LoadRamp, ScalarControl, VectorControl
@@ -36,6 +40,7 @@ __all__ = [
     "LoadStep",
     "Paraboloid",
     "Problem",
+    "RadialDiscretisation",
     "Rigid",
     "ScalarControl",
     "Scene",

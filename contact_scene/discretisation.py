@@ -1,4 +1,4 @@
-"""How fine each solver shall be: the tables `[semi_analytical]` and `[fem_reference]`."""
+"""How fine each solver shall be: the tables `[semi_analytical]`, `[fem_reference]`, `[radial]`."""
 
 from typing import Annotated, Literal
 
@@ -11,6 +11,7 @@ PATH_ACCURACY = 1e-2
 
 Cells = Annotated[int, WholeNumber(8, 16384)]
 Elements = Annotated[int, WholeNumber(4, 512)]
+Rings = Annotated[int, WholeNumber(8, 4096)]
 Harmonics = Annotated[int, WholeNumber(2, 64)]
 Augmentations = Annotated[int, WholeNumber(0, 100)]
 BoxSize = Annotated[
@@ -92,3 +93,15 @@ class FiniteElementDiscretisation(Description):
         """The same with twice the elements; ValueError beyond the bounds."""
         finer = {**self.model_dump(), "elements_per_radius": 2 * self.elements_per_radius}
         return FiniteElementDiscretisation.model_validate(finer)
+
+
+class RadialDiscretisation(Description):
+    """Where the radial solver shows its fields, and its tolerance; it needs no grid and chooses its
+    orders and points itself."""
+
+    rings: Rings = 64
+    """Number of rings over the largest contact of the history, denser towards its edge, at which
+    pressure and gap are told."""
+
+    tolerance: Tolerance = 1e-10
+    """Bound of every dimensionless residual at the end of an increment."""

@@ -3,7 +3,11 @@ or how accurate the answer."""
 
 from contact_scene.accuracy import AccuracyRequest
 from contact_scene.consistency import Parts
-from contact_scene.discretisation import FiniteElementDiscretisation, SurfaceDiscretisation
+from contact_scene.discretisation import (
+    FiniteElementDiscretisation,
+    RadialDiscretisation,
+    SurfaceDiscretisation,
+)
 from contact_scene.scene import Scene
 
 
@@ -15,6 +19,9 @@ class SceneDocument(Scene):
 
     fem_reference: FiniteElementDiscretisation = FiniteElementDiscretisation()
     """How fine the finite-element reference shall be; absent: chosen."""
+
+    radial: RadialDiscretisation = RadialDiscretisation()
+    """Where the radial solver shows its fields; absent: chosen."""
 
     accuracy: AccuracyRequest | None = None
     """How accurate the numbers shall be; it then decides how fine. Absent: as fine as the solvers'

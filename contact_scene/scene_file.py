@@ -10,7 +10,11 @@ from pydantic import TypeAdapter, ValidationError
 from contact_scene.accuracy import AccuracyRequest, accuracy_texts, of_option
 from contact_scene.consistency import Parts, inconsistencies
 from contact_scene.description import Description
-from contact_scene.discretisation import FiniteElementDiscretisation, SurfaceDiscretisation
+from contact_scene.discretisation import (
+    FiniteElementDiscretisation,
+    RadialDiscretisation,
+    SurfaceDiscretisation,
+)
 from contact_scene.document import SceneDocument
 from contact_scene.mistakes import mistakes
 from contact_scene.problem import SceneError
@@ -26,6 +30,7 @@ class SceneFile:
     scene: Scene
     semi_analytical: SurfaceDiscretisation
     fem_reference: FiniteElementDiscretisation
+    radial: RadialDiscretisation
     accuracy: AccuracyRequest | None = None
 
 
@@ -75,7 +80,9 @@ def _checked(document: dict[str, Any], context: dict[str, Any]) -> SceneFile:
         found += inconsistencies(_valid_parts(document, error, context))
         raise SceneError(found) from None
     scene = Scene.model_construct(**{name: getattr(valid, name) for name in Scene.model_fields})
-    return SceneFile(scene, valid.semi_analytical, valid.fem_reference, valid.accuracy)
+    return SceneFile(
+        scene, valid.semi_analytical, valid.fem_reference, valid.radial, valid.accuracy
+    )
 
 
 def _valid_parts(

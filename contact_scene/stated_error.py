@@ -15,7 +15,7 @@ Amount: TypeAlias = Size | tuple[Size, Size]
 
 # Where an error comes from.
 Part: TypeAlias = Literal[
-    "cells", "increments", "tolerance", "elements", "section", "penalty", "harmonics"
+    "cells", "increments", "tolerance", "elements", "section", "penalty", "harmonics", "quadrature"
 ]
 
 
@@ -38,7 +38,8 @@ class StatedError(Description):
     numbers for a vector; null where nothing can be said."""
 
     parts: dict[Part, Amount]
-    """What cells, increments, tolerance; elements, section, penalty, harmonics contribute."""
+    """What cells, increments, tolerance; elements, section, penalty, harmonics; quadrature
+    contribute."""
 
     status: ErrorStatus
     """Whether the error is estimated, the number has not converged, or it is exact because the

@@ -1,24 +1,12 @@
 """What a solve returns: fields over the radius, with the names and signs of CONVENTIONS."""
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from enum import Enum
-from math import pi
-from typing import Annotated
-
-import numpy as np
-from numpy.typing import NDArray
 
 from contact_scene import FiniteElementDiscretisation, Scene
-from contact_scene.increment import ReportedIncrement
-from contact_scene.reported import Kind, Reported
-from contact_scene.summary import ContactStatus
+from contact_scene.ring_increment import RingIncrement
 from fem_reference.mesh.section_mesh import SectionMesh
 from fem_reference.plan import Plan
-
-Field = NDArray[np.float64]
-Mask = NDArray[np.bool_]
-Pair = tuple[float, float]
-F = Kind.FIELD
 
 
 class Method(Enum):
@@ -29,69 +17,19 @@ class Method(Enum):
 
 
 @dataclass(frozen=True, kw_only=True)
-class Increment(ReportedIncrement):
+class Increment(RingIncrement):
     """The converged state at the end of one increment of the load history.
 
-    Fields are (rings,), or (rings, angles) where `angles` is given. Pressure and shear are values
-    at the rings, linear in between; gap and slip are means weighted with the ring's hat function,
-    so that they vanish exactly where surfaces touch or stick. Slip is since the start of the
-    history, of the lower body's particles relative to the indenter's while they were in contact.
+    Pressure and shear are values at the rings, linear in between; gap and slip are means weighted
+    with the ring's hat function, so that they vanish exactly where surfaces touch or stick.
 
-    radii       of the rings [length]
-    angles      from the direction of the tangential load [radian]; None where one function of the
-                radius says all
-    in_stick    rings in contact that did not slip in this increment
     iterations  linear systems of the contact solver
     path        which way of solving was taken, where a method has several
     """
 
-    radii: Field
-    pressure: Annotated[Field, Reported("Pa", "Normal traction, positive in contact.", F, True)]
-    gap: Annotated[
-        Field,
-        Reported("m", "Distance of the deformed surfaces, inf where they never touch.", F, True),
-    ]
-    status: ContactStatus = ContactStatus.FRICTIONLESS
-    contact_area: float = field(init=False)
-    stick_area: float | None = field(init=False)
     factorizations: int = 0
     sweeps: int = 1
-    tangential_force: Pair | None = None
-    tangential_shift: Pair | None = None
-    angles: Field | None = None
-    shear_radial: Annotated[
-        Field | None, Reported("Pa", "Traction on the lower body, outward.", F, True)
-    ] = None
-    shear_circumferential: Annotated[
-        Field | None,
-        Reported("Pa", "Traction on the lower body, anticlockwise seen along z.", F, True),
-    ] = None
-    shear_along_load: Annotated[
-        Field | None,
-        Reported("Pa", "Traction on the lower body along the load, on a whole ring.", F, True),
-    ] = None
-    slip_radial: Annotated[Field | None, Reported("m", "Slip, outward.", F, True)] = None
-    slip_circumferential: Annotated[
-        Field | None, Reported("m", "Slip, anticlockwise seen along z.", F, True)
-    ] = None
-    slip_along_load: Annotated[
-        Field | None, Reported("m", "Slip along the load, on a whole ring.", F, True)
-    ] = None
-    in_stick: Annotated[
-        Mask | None, Reported("", "Whether the ring is in contact and sticks.", F, True)
-    ] = None
     path: str | None = None
-
-    def __post_init__(self) -> None:
-        stuck = None if self.stick_radius is None else pi * self.stick_radius**2
-        object.__setattr__(self, "contact_area", pi * self.contact_radius**2)
-        object.__setattr__(self, "stick_area", stuck)
-        super().__post_init__()
-
-    @property
-    def in_contact(self) -> Mask:
-        """Rings that carry pressure."""
-        return np.asarray(self.pressure > 0)
 
 
 @dataclass(frozen=True)

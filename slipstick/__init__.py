@@ -7,7 +7,7 @@
     run = slipstick.load("out")                    # and back, arrays with units and meaning
 
 The names here are all that a script needs; they are imported when they are used. The solvers'
-own names are in `semi_analytical` and `fem_reference`.
+own names are in `semi_analytical`, `fem_reference` and `radial`.
 """
 
 from importlib import import_module
@@ -27,6 +27,7 @@ if TYPE_CHECKING:
         Layer,
         LoadStep,
         Paraboloid,
+        RadialDiscretisation,
         Scene,
         Sphere,
         SurfaceDiscretisation,
@@ -50,6 +51,7 @@ __all__ = [
     "LoadStep",
     "SurfaceDiscretisation",
     "FiniteElementDiscretisation",
+    "RadialDiscretisation",
     "plan",
     "solve",
     "stated_errors",

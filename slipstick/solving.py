@@ -13,15 +13,21 @@ from slipstick.solvers.names import SolverName, solver_of
 
 if TYPE_CHECKING:
     import fem_reference
+    import radial
     import semi_analytical
     from contact_results.surface import Result
-    from contact_scene import FiniteElementDiscretisation, SurfaceDiscretisation
+    from contact_scene import (
+        FiniteElementDiscretisation,
+        RadialDiscretisation,
+        SurfaceDiscretisation,
+    )
     from contact_scene.accuracy import AccuracyRequest
     from contact_scene.stated_error import StatedErrors
     from slipstick.solvers.solver import Discretisation, Progress, Solver
 
 Cells: TypeAlias = Literal["semi-analytical"]
 Elements: TypeAlias = Literal["fem", "fem-complementarity"]
+Radii: TypeAlias = Literal["radial"]
 
 
 @overload
@@ -38,6 +44,14 @@ def plan(
     solver: Elements,
     discretisation: FiniteElementDiscretisation | None = None,
 ) -> fem_reference.Plan: ...
+
+
+@overload
+def plan(
+    scene: Scene | SceneFile,
+    solver: Radii,
+    discretisation: RadialDiscretisation | None = None,
+) -> radial.Plan: ...
 
 
 def plan(
@@ -73,6 +87,16 @@ def solve(
 ) -> fem_reference.Result: ...
 
 
+@overload
+def solve(
+    scene: Scene | SceneFile,
+    solver: Radii,
+    discretisation: RadialDiscretisation | None = None,
+    *,
+    progress: Progress | None = None,
+) -> radial.Result: ...
+
+
 def solve(
     scene: Scene | SceneFile,
     solver: str = "semi-analytical",
@@ -89,10 +113,10 @@ def solve(
         for an accuracy, ever finer solves are made until it is met, and the last is returned.
     solver
         "semi-analytical", or finite elements with a penalty, "fem", or without one,
-        "fem-complementarity".
+        "fem-complementarity"; or "radial", for pressing of bodies of revolution.
     discretisation
-        How finely: SurfaceDiscretisation or FiniteElementDiscretisation. What it leaves open is
-        chosen.
+        How finely: SurfaceDiscretisation, FiniteElementDiscretisation or RadialDiscretisation.
+        What it leaves open is chosen.
     progress
         Called with each increment once it has converged.
 

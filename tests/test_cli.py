@@ -114,7 +114,7 @@ def test_a_mistake_is_told_without_the_harness() -> None:
     assert not imported_by("check", "absent.toml", leaving=2) & {*HEAVY, "verification"}
 
 
-@pytest.mark.parametrize("solver", SolverName)
+@pytest.mark.parametrize("solver", [solver for solver in SolverName if solver != "radial"])
 @pytest.mark.parametrize("command", ["plan", "run"])
 def test_a_solver_is_used_without_the_other_and_without_the_harness(
     scene: Path, command: str, solver: SolverName
@@ -127,6 +127,16 @@ def test_a_solver_is_used_without_the_other_and_without_the_harness(
         "semi_analytical", "fem_reference")  # fmt: skip
     assert own in imported
     assert not imported & {other, "verification"}
+
+
+def test_the_radial_solver_is_used_without_the_others(tmp_path: Path) -> None:
+    """But for the response of layers, which a run has from the semi-analytical one."""
+    pressed = (ROOT / "scenes" / "hertz.toml", "--solver", "radial")
+    assert not imported_by("plan", *pressed) & {"semi_analytical", "fem_reference", "scipy"}
+    assert not imported_by("run", *pressed, "-o", tmp_path / "out") & {
+        "fem_reference",
+        "verification",
+    }
 
 
 def test_schema_imports_nothing_heavy() -> None:

@@ -16,7 +16,7 @@ from packaging.utils import canonicalize_name
 ROOT = Path(__file__).resolve().parents[1]
 PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
 PACKAGES = (
-    *("contact_scene", "semi_analytical", "fem_reference"),
+    *("contact_scene", "semi_analytical", "fem_reference", "radial"),
     *("contact_results", "contact_errors", "verification", "slipstick"),
 )
 IGNORED = shutil.ignore_patterns("__pycache__", "*.pyc")

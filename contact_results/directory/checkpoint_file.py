@@ -23,7 +23,7 @@ PROTOCOL = 5
 LONGEST_LINE = 1000
 
 PACKAGES = (
-    *("contact_scene", "semi_analytical", "fem_reference", "contact_results"),
+    *("contact_scene", "semi_analytical", "fem_reference", "radial", "contact_results"),
     "contact_errors",
 )
 NUMPY = {

@@ -65,7 +65,7 @@ class LoadedBodies:
 
     @property
     def on_rings(self) -> bool:
-        """Whether finite elements found the tractions."""
+        """Whether the tractions are functions of the radius."""
         return "radii" in self.axes
 
 

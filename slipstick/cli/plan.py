@@ -1,11 +1,14 @@
 """`slipstick plan`: what a solve would do, before it does it."""
 
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 from slipstick.cli.optional import optional
 from slipstick.cli.scene_options import SceneArgument, SetOption
 from slipstick.cli.solver_option import SolverOption
 from slipstick.solvers.names import SolverName
+
+if TYPE_CHECKING:
+    from contact_scene import Scene
 
 
 def plan(
@@ -40,7 +43,21 @@ def plan(
     print_pairs(chosen.work(contents.scene, fineness, decided))
     if reasons := chosen.reasons(decided):
         print_table(("step", "increments", "why"), reasons)
+    if solver is not SolverName.RADIAL and _is_radial(contents.scene):
+        print_pairs([("radial", "--solver radial would do: pressing alone, nearly exact")])
     if accuracy is not None:
         from slipstick.cli.prices import print_prices
 
         print_prices(accuracy, chosen, contents)
+
+
+def _is_radial(scene: "Scene") -> bool:
+    """Whether one dimension is all that a scene calls for."""
+    from contact_scene.solver_errors import UnsupportedScene
+    from radial.plan import plan
+
+    try:
+        plan(scene)
+    except UnsupportedScene:
+        return False
+    return True

@@ -90,8 +90,8 @@ def run(
     with stopwatch.phase("read"):
         contents = read_scene_file(scene, overrides or ())
         request = asked_accuracy(contents, accuracy, most_seconds)
-    if solver.is_fem:
-        _refuse_beside_fem(
+    if solver is not SolverName.SEMI_ANALYTICAL:
+        _refuse_beside_others(
             {
                 "--all-effects": all_effects,
                 "--surface-stress": surface_stress,
@@ -154,7 +154,7 @@ def run(
     leave_unless_met(reached)
 
 
-def _refuse_beside_fem(options: dict[str, bool]) -> None:
+def _refuse_beside_others(options: dict[str, bool]) -> None:
     for option, asked in options.items():
         if asked:
             raise typer.BadParameter(

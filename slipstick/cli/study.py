@@ -196,11 +196,14 @@ def _scene_study(
     from verification.studies.refinement.studied_scene import CannotRefine
 
     known = SCENE_STUDIES[name]
-    by = {solver: solver.method for solver in SolverName}
-    method = known.methods[0] if solver is None else by[solver]
-    if method not in known.methods:
-        able = " or ".join(one for one, method in by.items() if method in known.methods)
-        raise typer.BadParameter(f"study {name} is of {able}, and --solver is {solver}")
+    able = [
+        one for one in SolverName if one is not SolverName.RADIAL and one.method in known.methods
+    ]
+    if solver not in (None, *able):
+        raise typer.BadParameter(
+            f"study {name} is of {' or '.join(able)}, and --solver is {solver}"
+        )
+    method = known.methods[0] if solver is None else solver.method
     if method is None:
         _refuse_odd(settings.cells)
     try:

@@ -17,15 +17,16 @@ class SolverName(StrEnum):
     SEMI_ANALYTICAL = "semi-analytical"
     FEM = "fem"
     FEM_COMPLEMENTARITY = "fem-complementarity"
+    RADIAL = "radial"
 
     @property
     def is_fem(self) -> bool:
         """Whether it solves on a section, by finite elements."""
-        return self is not SolverName.SEMI_ANALYTICAL
+        return self in (SolverName.FEM, SolverName.FEM_COMPLEMENTARITY)
 
     @property
     def method(self) -> Method | None:
-        """How finite elements enforce contact and friction; None for the other solver."""
+        """How finite elements enforce contact and friction; None for other solvers."""
         if not self.is_fem:
             return None
         from fem_reference import Method
@@ -35,6 +36,10 @@ class SolverName(StrEnum):
     @property
     def solver(self) -> Solver:
         """The solver; no other is imported."""
+        if self is SolverName.RADIAL:
+            from slipstick.solvers.on_radii import OnRadii
+
+            return OnRadii()
         if self.method is None:
             from slipstick.solvers.on_cells import OnCells
 
@@ -46,6 +51,8 @@ class SolverName(StrEnum):
 
 def solver_of(result: Result) -> Solver:
     """The solver that a result is of."""
+    if result.solver == "radial":
+        return SolverName.RADIAL.solver
     method = getattr(result, "method", None)
     if method is None:
         return SolverName.SEMI_ANALYTICAL.solver

@@ -10,6 +10,7 @@ if TYPE_CHECKING:
     from contact_results.surface import Result
     from contact_scene import (
         FiniteElementDiscretisation,
+        RadialDiscretisation,
         Scene,
         SceneFile,
         SurfaceDiscretisation,
@@ -18,7 +19,9 @@ if TYPE_CHECKING:
     from contact_scene.standing import Keeper
     from contact_scene.stated_error import StatedErrors
 
-    Discretisation: TypeAlias = SurfaceDiscretisation | FiniteElementDiscretisation
+    Discretisation: TypeAlias = (
+        SurfaceDiscretisation | FiniteElementDiscretisation | RadialDiscretisation
+    )
 
 Progress: TypeAlias = Callable[["ReportedIncrement"], None]
 Pairs: TypeAlias = Iterator[tuple[str, str]]

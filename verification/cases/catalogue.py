@@ -44,6 +44,7 @@ CASES = (
     "no_slip_indentation",
     "spence_example",
     "subsurface_stress",
+    "radial_pressing",
     "fem_hertz",
     "fem_classical",
     "fem_coated",

@@ -1,0 +1,195 @@
+"""Solve a scene: plan, rings, and march through its loads."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from contact_scene import ControlKind, LoadRamp, RadialDiscretisation, Scene
+from contact_scene.march import Reached, marked_increments
+from contact_scene.residuals import Residuals
+from contact_scene.solver_errors import UnsupportedScene
+from contact_scene.standing import Keeper, Standing
+from radial.bodies import Bodies
+from radial.disc import Disc
+from radial.fields import Increment, Result
+from radial.plan import ELSEWHERE, Plan
+from radial.plan import plan as plan_of
+from radial.pressing import Pressed, Target, pressed
+from radial.surface import displacement, largest_pressure, pressure
+
+Array = NDArray[np.float64]
+Progress = Callable[[Increment], None]
+
+# Rings outside over those inside, out to so many radii of the largest contact.
+OUTSIDE, REACH = 4, 2.0
+# Of the largest pressure, or of the approach: less tension or overlap is round-off.
+NO_DISC = 1e-9
+
+
+def solve(
+    scene: Scene,
+    discretisation: RadialDiscretisation | None = None,
+    progress: Progress | None = None,
+    plan: Plan | None = None,
+    keeper: Keeper | None = None,
+    fineness: int = 1,
+) -> Result:
+    """Contact of a scene of revolution, every increment of its load history.
+
+    Parameters
+    ----------
+    scene
+        What is solved.
+    discretisation
+        Where fields are told, and the tolerance of every residual.
+    progress
+        Called with each increment once it is solved.
+    plan
+        What is computed; what the scene calls for if absent.
+    keeper
+        Of this very solve: what it has kept is not computed again.
+    fineness
+        How many times as many orders and points as the solver chooses: to see what they cost.
+
+    Raises
+    ------
+    UnsupportedScene
+        The scene is not of revolution, or asks for more than pressure, by name; or its surfaces
+        part within the contact.
+    NotConverged
+        An increment stopped above the tolerance; `last_state` holds the last good one.
+    """
+    asked = discretisation or RadialDiscretisation()
+    decided = plan_of(scene) if plan is None else plan
+    solver = _Solver.of(scene, asked, fineness)
+    last = keeper.last() if keeper else None
+    increments = [*last.increments] if last else []
+    if progress is not None:
+        for increment in increments:
+            progress(increment)
+    for increment, mark in marked_increments(scene, decided.increments, solver, last):
+        increments.append(increment)
+        if keeper is not None:
+            keeper.keep(Standing(tuple(increments), mark, None))
+        if progress is not None:
+            progress(increment)
+    return Result(scene, asked, decided, tuple(increments))
+
+
+@dataclass(frozen=True)
+class _Solver:
+    """Pressing as the march sees it: no increment needs the one before.
+
+    fineness  of orders and points
+    radii     of the rings [length]
+    largest   contacts that were solved to lay them out
+    """
+
+    scene: Scene
+    bodies: Bodies
+    tolerance: float
+    fineness: int
+    radii: Array
+    largest: tuple[Pressed, ...]
+    most_spent: float = 0.0
+
+    @classmethod
+    def of(cls, scene: Scene, asked: RadialDiscretisation, fineness: int) -> _Solver:
+        bodies = Bodies.of(scene)
+        largest = tuple(
+            pressed(bodies, scene.indenter, target, fineness) for target in _largest(scene)
+        )
+        widest = max((found.contact for found in largest), key=lambda contact: contact.radius)
+        rings = _rings(asked.rings, widest, scene.indenter.rim)
+        return cls(scene, bodies, asked.tolerance, fineness, rings, largest)
+
+    def spent(self) -> float:
+        """Nothing that halves would save."""
+        return 0.0
+
+    def advance(
+        self, ramp: LoadRamp, start: Pressed | None, before: Pressed | None, fraction: float
+    ) -> Pressed:
+        """The contact at a fraction of the ramp."""
+        reached = (start.normal_force, start.approach) if start else (0.0, 0.0)
+        target = Target(*ramp.normal.led(fraction, reached))
+        for found in self.largest:
+            if found.target == target:
+                return found
+        return pressed(self.bodies, self.scene.indenter, target, self.fineness)
+
+    def report(self, reached: Reached[Pressed], last: Increment | None) -> Increment:
+        """The contact at the rings; raises UnsupportedScene where it is no disc, NotConverged above
+        the tolerance."""
+        state = reached.state
+        contact, x = state.contact, self.radii / state.contact.radius
+        p = pressure(contact, x)
+        gap = np.zeros_like(x)
+        apart = x > 1
+        undeformed = self.scene.indenter.initial_gap(self.radii[apart], 0.0)
+        gap[apart] = undeformed + displacement(contact, x[apart]) - contact.approach
+        _refuse_no_disc(self.radii, p, gap / contact.approach)
+        force = state.target.force
+        residuals = Residuals(
+            complementarity=contact.missed,
+            penetration=max(contact.missed, -float(np.min(gap)) / contact.approach),
+            normal_equilibrium=None if force is None else abs(contact.load / force - 1),
+        )
+        residuals.require(self.tolerance, "the contact radius", state.tried)
+        worked = 0.0 if last is None else last.input_work or 0.0
+        begun = (0.0, 0.0) if last is None else (last.normal_force, last.approach)
+        return Increment(
+            step=reached.place.step,
+            index=reached.place.index,
+            increments_in_step=reached.place.increments_in_step,
+            residuals=residuals,
+            iterations=state.tried,
+            halvings=reached.halvings,
+            normal_force=state.normal_force,
+            approach=state.approach,
+            contact_radius=contact.radius,
+            peak_pressure=largest_pressure(contact, x, p),
+            elastic_energy=contact.elastic_energy,
+            input_work=worked + 0.5 * (begun[0] + state.normal_force) * (state.approach - begun[1]),
+            radii=self.radii,
+            pressure=p,
+            gap=gap,
+        )
+
+
+def _largest(scene: Scene) -> Iterator[Target]:
+    """The largest force and the largest approach that steps of the history end with."""
+    for kind in ControlKind:
+        ends = [ramp.normal.end for ramp in scene.load_path() if ramp.normal.kind is kind]
+        if ends:
+            force = kind is ControlKind.FORCE
+            yield Target(max(ends) if force else None, None if force else max(ends))
+
+
+def _rings(count: int, widest: Disc, rim: float | None) -> Array:
+    """Radii, denser towards the edge of the widest contact and out to twice its radius; none where
+    the pressure is infinite [length]."""
+    inside = np.sin(0.5 * np.pi * np.arange(count + 1) / count)
+    inside = inside[1 if widest.profile.apex else 0 : None if rim is None else -1]
+    beside = np.arange(1, count // OUTSIDE + 1) / (count // OUTSIDE)
+    return np.asarray(widest.radius * np.concatenate([inside, 1 + (REACH - 1) * beside**2]))
+
+
+def _refuse_no_disc(radii: Array, p: Array, gap: Array) -> None:
+    """Raise UnsupportedScene where the surfaces part within the contact or meet again outside.
+
+    gap  over the approach
+    """
+    for wrong, what in (
+        (p < -NO_DISC * np.max(p), "part within the contact"),
+        (gap < -NO_DISC, "touch again outside the contact"),
+    ):
+        if np.any(wrong):
+            raise UnsupportedScene(
+                f"the surfaces {what}, {radii[np.argmax(wrong)]:.4g} m from the axis, and this "
+                f"solver takes contacts on one disc; {ELSEWHERE}"
+            )

@@ -1,0 +1,67 @@
+"""The radial solver, for scenes of revolution in one dimension."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import radial
+from contact_scene import RadialDiscretisation, Scene, SceneFile
+from contact_scene.solver_errors import UnsupportedScene
+from contact_scene.standing import Keeper
+from contact_scene.stated_error import StatedErrors
+from radial import Plan, Result
+from slipstick.solvers.solver import Pairs, Progress, increments_text
+
+
+class OnRadii:
+    """See `solver.Solver`."""
+
+    def fineness(self, contents: SceneFile) -> RadialDiscretisation:
+        return contents.radial
+
+    def default(self) -> RadialDiscretisation:
+        return RadialDiscretisation()
+
+    def plan(self, scene: Scene, fineness: RadialDiscretisation) -> Plan:
+        return radial.plan(scene)
+
+    def solve(
+        self,
+        scene: Scene,
+        fineness: RadialDiscretisation,
+        plan: Plan,
+        progress: Progress | None = None,
+        keeper: Keeper | None = None,
+    ) -> Result:
+        return radial.solve(scene, fineness, progress, plan, keeper)
+
+    def errors(
+        self, result: Result, *, surface_stress: bool = False, progress: Progress | None = None
+    ) -> StatedErrors:
+        from contact_errors.on_radii import stated_errors
+
+        return stated_errors(result, progress)
+
+    def ladder(self, scene: Scene, fineness: RadialDiscretisation, *rest: Any) -> Any:
+        """There is none: what the solver takes depends on no fineness."""
+        raise UnsupportedScene(
+            "the radial solver is as accurate as it can be in one run, which states its errors; "
+            "leave --accuracy, and the table [accuracy], out"
+        )
+
+    def work(self, scene: Scene, fineness: RadialDiscretisation, plan: Plan) -> Pairs:
+        """Rings, tolerance and increments."""
+        yield "rings", _rings_text(fineness)
+        yield "tolerance", f"{fineness.tolerance:.3g}"
+        yield "increments", increments_text(plan.increments)
+
+    def reasons(self, plan: Plan) -> Sequence[tuple[str, str, str]]:
+        return ()
+
+    def layout(self, result: Result) -> Pairs:
+        yield "rings", _rings_text(result.fineness)
+
+
+def _rings_text(asked: RadialDiscretisation) -> str:
+    return f"{asked.rings} over the largest contact; they show the fields and decide nothing"

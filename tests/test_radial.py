@@ -1,0 +1,333 @@
+"""The radial solver: closed forms of half-spaces, laws of layers, and what it refuses."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from numpy.testing import assert_allclose
+from numpy.typing import ArrayLike
+
+import radial
+import semi_analytical
+import slipstick
+from contact_errors.on_radii import stated_errors
+from contact_scene import (
+    RIGID,
+    Body,
+    Cone,
+    CoulombFriction,
+    Ellipsoid,
+    FlatPunch,
+    IsotropicMaterial,
+    Layer,
+    LoadStep,
+    Paraboloid,
+    RadialDiscretisation,
+    Scene,
+    Sphere,
+    SurfaceDiscretisation,
+)
+from contact_scene.geometry import ShapedBody
+from contact_scene.solver_errors import NotConverged, UnsupportedScene
+from radial.bodies import Bodies
+from radial.disc import disc
+from radial.surface import displacement, pressure
+from verification.closed_forms.coated_indentation import LayeredSurface
+from verification.closed_forms.coated_indentation import flat_punch as coated_punch
+from verification.closed_forms.coated_indentation import paraboloid as coated_paraboloid
+
+STEEL = IsotropicMaterial(young_modulus=210e9, poisson_ratio=0.3)
+MODULUS = STEEL.plane_strain_modulus
+FORCE, RADIUS = 1e3, 18e-3
+BALL = Paraboloid(radius=RADIUS, material=RIGID)
+EXACT = 1e-12
+
+ratios = st.floats(-0.5, 0.5)
+moduli = st.floats(0.1, 10.0)
+thicknesses = st.floats(0.2, 5.0)
+
+
+def pressed(indenter: ShapedBody, body: Body | None = None, **step: Any) -> radial.Increment:
+    loading = (LoadStep(**(step or {"normal_force": FORCE})),)
+    scene = Scene(indenter=indenter, body=body or Body(material=STEEL), loading=loading)
+    return radial.solve(scene).steps[-1]
+
+
+def coated(modulus: float, thickness: float, ratio: float = 0.3, base: Any = None) -> Body:
+    """A layer on a substrate of unit modulus E/(1 - ν²), lengths in the units of the scene."""
+    substrate = IsotropicMaterial(young_modulus=0.91, poisson_ratio=0.3)
+    layer = IsotropicMaterial(young_modulus=0.91 * modulus, poisson_ratio=ratio)
+    return Body(material=base or substrate, layers=(Layer(thickness=thickness, material=layer),))
+
+
+# ---- half-spaces ------------------------------------------------------------------------------
+
+
+def test_a_ball_is_pressed_as_hertz_says() -> None:
+    end = pressed(BALL)
+    a = (3 * FORCE * RADIUS / (4 * MODULUS)) ** (1 / 3)
+    peak = 1.5 * FORCE / (math.pi * a**2)
+    assert_allclose(end.contact_radius, a, rtol=EXACT)
+    assert_allclose(end.approach, a**2 / RADIUS, rtol=EXACT)
+    assert_allclose(end.peak_pressure, peak, rtol=EXACT)
+    assert_allclose(end.elastic_energy, 0.4 * FORCE * end.approach, rtol=EXACT)
+    x = np.minimum(end.radii / a, 1)
+    assert_allclose(end.pressure / peak, np.sqrt((1 - x) * (1 + x)), atol=1e-7)
+    outside = end.radii > a
+    x = end.radii[outside] / a
+    moved = ((2 - x**2) * np.arcsin(1 / x) + np.sqrt(x**2 - 1)) / math.pi
+    assert_allclose(end.gap[outside] / end.approach, x**2 / 2 + moved - 1, atol=EXACT)
+    assert not np.any(end.gap[~outside])
+
+
+def test_a_cone_is_pressed_as_sneddon_says() -> None:
+    slope = math.radians(1)
+    end = pressed(Cone(slope_angle=slope, material=RIGID))
+    a = math.sqrt(2 * FORCE / (math.pi * MODULUS * math.tan(slope)))
+    mean = FORCE / (math.pi * a**2)
+    assert_allclose(end.contact_radius, a, rtol=EXACT)
+    assert_allclose(end.approach, math.pi / 2 * a * math.tan(slope), rtol=EXACT)
+    assert_allclose(end.elastic_energy, FORCE * end.approach / 3, rtol=EXACT)
+    inside = end.radii < 0.999 * a
+    exact = np.arccosh(a / end.radii[inside])
+    assert_allclose(end.pressure[inside] / mean, exact, rtol=1e-10)
+
+
+def test_a_flat_punch_is_pressed_as_boussinesq_says() -> None:
+    end = pressed(FlatPunch(radius=1e-3, material=RIGID))
+    assert end.contact_radius == 1e-3
+    assert_allclose(end.approach, FORCE / (2 * MODULUS * 1e-3), rtol=EXACT)
+    inside = end.radii < 1e-3
+    chord = np.sqrt((1e-3 - end.radii[inside]) * (1e-3 + end.radii[inside]))
+    assert_allclose(end.pressure[inside], FORCE / (2 * math.pi * 1e-3 * chord), rtol=1e-11)
+    assert np.all(np.isinf(end.gap[~inside]))
+
+
+@pytest.mark.parametrize("share", [0.05, 0.3, 0.8])
+def test_an_arc_is_pressed_as_segedin_says(share: float) -> None:
+    a, R = share * RADIUS, RADIUS
+    logarithm = math.log((R + a) / (R - a))
+    force = MODULUS * ((R**2 + a**2) / 2 * logarithm - a * R)
+    ball = Sphere(radius=R, material=RIGID)
+    by_force, by_approach = (
+        pressed(ball, normal_force=force),
+        pressed(ball, approach=a / 2 * logarithm),
+    )
+    assert_allclose(by_force.contact_radius, a, rtol=1e-11)
+    assert_allclose(by_approach.contact_radius, a, rtol=1e-11)
+    assert_allclose(by_approach.normal_force, force, rtol=1e-11)
+
+
+class PowerLaw(ShapedBody):
+    """r^k / k in metres: a shape that says nothing of itself but its gap."""
+
+    power: float
+
+    def initial_gap(self, x: ArrayLike, y: ArrayLike) -> Any:
+        return np.hypot(x, y) ** self.power / self.power
+
+
+@pytest.mark.parametrize("power", [1.0, 2.0, 3.0, 4.0, 6.0])
+def test_any_smooth_profile_is_pressed_as_sneddon_says(power: float) -> None:
+    """δ = S(a) and W = 2E* ∫ (δ - S) ds, with S(s) = sᵏ ½√π Γ(k/2)/Γ((k+1)/2)."""
+    bodies = Bodies((), MODULUS)
+    a = 2e-3
+    made = disc(bodies, PowerLaw.model_construct(power=power, material=RIGID, layers=()), a)
+    at_edge = (
+        a**power * math.sqrt(math.pi) / 2 * math.gamma(power / 2) / math.gamma((power + 1) / 2)
+    )
+    assert_allclose(made.approach, at_edge, rtol=1e-11)
+    assert_allclose(made.load, 2 * MODULUS * a * at_edge * power / (power + 1), rtol=1e-11)
+
+
+# ---- layers -----------------------------------------------------------------------------------
+
+
+@given(modulus=moduli, thickness=thicknesses, ratio=ratios)
+def test_layers_press_as_the_nystrom_method_says(
+    modulus: float, thickness: float, ratio: float
+) -> None:
+    """The closed form's own nodes, wavenumbers and derivative for the pressure; the response of
+    the layers is what both have in common."""
+    bodies = Bodies.of(_scene(BALL, coated(modulus, thickness, ratio)))
+    surface = LayeredSurface(_compliance(bodies), bodies.modulus, thickness)
+    ball = coated_paraboloid(surface, RADIUS, 1.0)
+    ours = disc(bodies, BALL, 1.0)
+    assert_allclose([ours.approach, ours.load], [ball.approach, ball.load], rtol=1e-10)
+    x = np.linspace(0, 0.99, 12)
+    assert_allclose(pressure(ours, x), ball.pressure(x), rtol=0, atol=1e-9 * ball.load)
+    punch = FlatPunch(radius=1.0, material=RIGID)
+    stiffness = coated_punch(surface, 1.0).load
+    assert_allclose(disc(bodies, punch, 1.0, 1.0).load, stiffness, rtol=1e-10)
+
+
+@given(modulus=moduli, thickness=thicknesses)
+def test_a_layer_like_its_substrate_changes_nothing(modulus: float, thickness: float) -> None:
+    same = pressed(BALL, coated(1.0, thickness * 1e-3), normal_force=1e-6 * modulus)
+    bare = pressed(BALL, Body(material=coated(1.0, 1.0).material), normal_force=1e-6 * modulus)
+    assert_allclose(same.approach, bare.approach, rtol=EXACT)
+    assert_allclose(same.pressure, bare.pressure, rtol=0, atol=1e-7 * bare.peak_pressure)
+
+
+def test_a_layer_may_be_on_either_body() -> None:
+    soft = coated(0.5, 1e-3, ratio=0.4)
+    ball = BALL.model_copy(update={"material": soft.material, "layers": soft.layers})
+    below = pressed(BALL, soft, normal_force=1e-6)
+    above = pressed(ball, Body(material=RIGID), normal_force=1e-6)
+    assert above.approach == below.approach
+    assert np.array_equal(above.pressure, below.pressure)
+
+
+@given(modulus=st.floats(0.05, 20.0), thickness=st.floats(0.05, 5.0))
+def test_the_surface_touches_where_there_is_pressure(modulus: float, thickness: float) -> None:
+    """The displacement just outside meets the indenter, by another integral than the equation's;
+    the gap opens from there as a power of three halves."""
+    bodies = Bodies.of(_scene(BALL, coated(modulus, thickness)))
+    made = disc(bodies, BALL, 1.0)
+    x = 1 + np.array([1e-6, 1e-4])
+    gap = x**2 / (2 * RADIUS) + displacement(made, x) - made.approach
+    assert_allclose(gap[0], 0.0, atol=1e-8 * made.approach)
+    assert gap[1] > 0
+
+
+@pytest.mark.parametrize("body", [Body(material=STEEL), coated(3.0, 1e-3, base=RIGID)])
+@pytest.mark.parametrize("indenter", [BALL, Cone(slope_angle=0.05, material=RIGID)])
+def test_what_is_stored_is_the_work_of_the_load(indenter: ShapedBody, body: Body) -> None:
+    """dU = W dδ, by differences of neighbouring loads."""
+    force, step = FORCE if body.layers == () else 1e-6, 1e-3
+    less, more = (pressed(indenter, body, normal_force=f * force) for f in (1 - step, 1 + step))
+    assert less.elastic_energy is not None
+    assert more.elastic_energy is not None
+    stored = more.elastic_energy - less.elastic_energy
+    assert_allclose(stored, force * (more.approach - less.approach), rtol=step**2)
+
+
+def test_the_cells_of_the_other_solver_converge_to_it() -> None:
+    body = coated(2.0, 1e-3)
+    scene = _scene(BALL, body, normal_force=1e-6)
+    end = radial.solve(scene).steps[-1]
+    errors = []
+    for cells in (32, 64):
+        asked = SurfaceDiscretisation(cells=(cells, cells))
+        on_cells = semi_analytical.solve_discretised(scene, asked).steps[-1]
+        errors.append(abs(on_cells.approach / end.approach - 1))
+    assert errors[1] < 2e-4
+    assert errors[1] < errors[0] / 2
+
+
+# ---- histories, errors and files --------------------------------------------------------------
+
+
+def _scene(indenter: ShapedBody, body: Body, **step: Any) -> Scene:
+    return Scene(indenter=indenter, body=body, loading=(LoadStep(**(step or {"normal_force": 1})),))
+
+
+def _compliance(bodies: Bodies) -> Any:
+    return lambda k: 2 * (1 + bodies.excess(k)) / (k * bodies.modulus)
+
+
+HISTORY = Scene(
+    indenter=BALL,
+    body=Body(
+        material=STEEL,
+        layers=(
+            Layer(
+                thickness=1e-4, material=IsotropicMaterial(young_modulus=4e11, poisson_ratio=0.2)
+            ),
+        ),
+    ),
+    loading=(
+        LoadStep(normal_force=FORCE, increments=3),
+        LoadStep(approach=3e-6),
+        LoadStep(normal_force=FORCE),
+    ),
+)
+
+
+def test_unloading_comes_back_to_the_same_state() -> None:
+    first, _, last = radial.solve(HISTORY).steps
+    assert last.approach == first.approach
+    assert np.array_equal(last.pressure, first.pressure)
+
+
+def test_errors_hold_what_is_known_and_can_be_read_back(tmp_path: Path) -> None:
+    result = radial.solve(HISTORY)
+    errors = stated_errors(result)
+    assert errors.steps[0]["normal_force"].status == "exact"
+    assert errors.steps[1]["approach"].status == "exact"
+    for name in ("approach", "contact_radius", "peak_pressure", "elastic_energy"):
+        error = errors.steps[0][name].error
+        assert 0 < error < 1e-10 * getattr(result.steps[0], name)  # type: ignore[operator]
+    work = errors.steps[0]["input_work"].error
+    end = result.steps[0]
+    assert work is not None
+    assert work >= abs(end.input_work - end.elastic_energy) > 1e-3 * end.elastic_energy  # type: ignore[operator]
+    slipstick.save(result, tmp_path / "out", errors=errors)
+    run = slipstick.load(tmp_path / "out")
+    assert run.summary.solver == "radial"
+    assert np.array_equal(run.increments["pressure"].array[-1], result.steps[-1].pressure)
+    assert (tmp_path / "out" / "profiles.png").is_file()
+
+
+def test_no_error_is_stated_of_what_is_infinite() -> None:
+    scene = _scene(Cone(slope_angle=0.02, material=RIGID), Body(material=STEEL), normal_force=FORCE)
+    error = stated_errors(radial.solve(scene)).steps[0]["peak_pressure"]
+    assert error.error is None
+
+
+def test_a_tolerance_that_cannot_be_met_is_refused() -> None:
+    """A thin incompressible layer on a rigid base magnifies round-off."""
+    punch = FlatPunch(radius=1.0, material=RIGID)
+    scene = _scene(punch, coated(1.0, 0.05, ratio=0.5, base=RIGID))
+    with pytest.raises(NotConverged):
+        radial.solve(scene, RadialDiscretisation(tolerance=1e-12))
+
+
+# ---- what is refused --------------------------------------------------------------------------
+
+LIKE = Paraboloid(radius=RADIUS, material=STEEL)
+RUB = CoulombFriction(coefficient=0.1)
+REFUSED = {
+    "not the same all around": {"indenter": Ellipsoid(radii=(1e-2, 2e-2), material=RIGID)},
+    "tangential force": {
+        "indenter": LIKE,
+        "friction": RUB,
+        "loading": (LoadStep(normal_force=1e3, tangential_force=(10, 0)),),
+    },
+    "torque or twist": {
+        "indenter": LIKE,
+        "friction": RUB,
+        "loading": (LoadStep(normal_force=1e3, torque=1e-3),),
+    },
+    "moment or a tilt": {"loading": (LoadStep(normal_force=1e3, moment=(1e-3, 0)),)},
+    "past each other": {"friction": RUB},
+    "part within the contact": {
+        "indenter": FlatPunch(radius=1e-3, material=RIGID),
+        "body": coated(1e3, 5e-5),
+        "loading": (LoadStep(normal_force=1e-6),),
+    },
+    "polynomials": {"body": coated(0.01, 1e-7), "loading": (LoadStep(normal_force=1e-3),)},
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("reason", REFUSED)
+def test_what_is_no_pressing_of_revolution_is_refused_by_name(reason: str) -> None:
+    usual = {
+        "indenter": BALL,
+        "body": Body(material=STEEL),
+        "loading": (LoadStep(normal_force=1e3),),
+    }
+    with pytest.raises(UnsupportedScene, match=reason):
+        radial.solve(Scene(**(usual | REFUSED[reason])))
+
+
+def test_friction_that_nothing_calls_for_is_no_reason_to_refuse() -> None:
+    scene = _scene(LIKE, Body(material=STEEL), normal_force=FORCE)
+    rough = scene.model_copy(update={"friction": RUB})
+    assert radial.solve(rough).steps[0].approach == radial.solve(scene).steps[0].approach
