@@ -43,7 +43,7 @@ class OnRadii:
 
         return stated_errors(result, progress)
 
-    def ladder(self, scene: Scene, fineness: RadialDiscretisation, *rest: Any) -> Any:
+    def ladder(self, scene: Scene, fineness: RadialDiscretisation, **asked: Any) -> Any:
         """There is none: what the solver takes depends on no fineness."""
         raise UnsupportedScene(
             "the radial solver is as accurate as it can be in one run, which states its errors; "
