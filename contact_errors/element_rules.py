@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import replace
 
-from contact_errors.rules import AT_EDGES, FLAT, INFINITE, Lengthscale, Rule, with_their_likes
+from contact_errors.rules import FLAT, INFINITE, Lengthscale, Rule, with_their_likes
 from contact_scene.geometry import ShapedBody
 
 PEAK = Rule(2, 0.25, 8, 1.6, path_factor=2.0)
@@ -32,7 +32,9 @@ RULES = with_their_likes(
         "dissipated_energy": ENERGY,
         "elastic_energy": replace(APPROACH, envelope=0.26),
         "input_work": replace(SHIFT, envelope=0.26),
-        **AT_EDGES,
+        # Rings are wide: the slip of the last one is that of its middle, far from the edge.
+        "slip_amplitude": Rule(1.5, 5.0, 8, 1.45, lengthscale=Lengthscale.ANNULUS),
+        "ruiz_f1": Rule(1, 1.1, 8, 1.05, lengthscale=Lengthscale.ANNULUS),
     }
 )
 # Gauss points with quadratic displacements: motions converge faster, edges are fitted.
@@ -55,7 +57,7 @@ INSIDE = Rule(1.5, 0.15, 1, 2.0)
 # A slip annulus below so many elements may be missed altogether: the stick radius is off by one.
 LEAST_ANNULUS = 1.5
 # Where friction acts back on a pressing contact its pressure has a cusp on the axis.
-CUSP = {"peak_pressure": Rule(1, 0.02, 0.5, 3.0, path_factor=2.0)}
+CUSP = {"peak_pressure": Rule(1, 0.02, 0.5, 3.0, path_factor=2.0, lengthscale=Lengthscale.CUSP)}
 
 # By the section of the size that is chosen, relative; errors fall as the inverse of its square.
 SECTION = 1e-5

@@ -21,6 +21,7 @@ from contact_errors.values import Values, charged_by_increments, values_of
 from contact_results.cycles import fretting_cycles
 from contact_results.remarks import left_out
 from contact_scene.stated_error import Part, StatedErrors
+from contact_scene.summary import ContactStatus
 from semi_analytical import Result
 from semi_analytical.plan import Coupling
 from semi_analytical.resolution import Resolution, resolution
@@ -115,6 +116,10 @@ class _Cells:
             return float(cells.contact / np.sqrt(1 + 1 / annulus))
         return cells.contact
 
+    def _slides(self, step: int) -> bool:
+        """Whether all slips, along the force, which leaves the pressure no cusp."""
+        return self.result.steps[step].status is ContactStatus.GROSS_SLIDING
+
     def resolved(self, step: int, rule: Rule, largest: Numbers) -> bool:
         cells, lengthscale = self._at[step], rule.lengthscale
         if cells.contact < LEAST[Lengthscale.CONTACT]:
@@ -123,7 +128,9 @@ class _Cells:
             return False
         if cells.wave is not None and cells.wave < LEAST_WAVE:
             return False
-        if lengthscale is Lengthscale.STICK:
+        if lengthscale is Lengthscale.CUSP and self._slides(step):
+            return True
+        if lengthscale in (Lengthscale.STICK, Lengthscale.CUSP):
             return cells.stick is not None and cells.stick >= LEAST[Lengthscale.STICK]
         if lengthscale in (Lengthscale.SLIP, Lengthscale.ANNULUS):
             return cells.annulus is None or cells.annulus >= LEAST[Lengthscale.ANNULUS]

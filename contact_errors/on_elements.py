@@ -31,6 +31,7 @@ from contact_results.cycles import fretting_cycles
 from contact_scene import FiniteElementDiscretisation, Scene
 from contact_scene.solver_errors import SolverError
 from contact_scene.stated_error import Companion, Part, StatedErrors
+from contact_scene.summary import ContactStatus
 from fem_reference import Increment, Method, Path, Result, solve
 from fem_reference.mesh.section_outline import sufficient_box
 from fem_reference.scales import Scales
@@ -159,7 +160,7 @@ class _Elements:
 
     def per(self, step: int, rule: Rule) -> float:
         contact, stick, lengthscale = self._contact(step), self._stick(step), rule.lengthscale
-        if stick is None or lengthscale is Lengthscale.CONTACT:
+        if stick is None or lengthscale in (Lengthscale.CONTACT, Lengthscale.CUSP):
             return contact
         if lengthscale is Lengthscale.STICK:
             return max(stick, 1.0)
@@ -168,11 +169,17 @@ class _Elements:
             return annulus
         return contact / float(np.sqrt(1 + 1 / annulus))
 
+    def _slides(self, step: int) -> bool:
+        """Whether all slips, along the force, which leaves the pressure no cusp."""
+        return self.result.steps[step].status is ContactStatus.GROSS_SLIDING
+
     def resolved(self, step: int, rule: Rule, largest: Numbers) -> bool:
         contact, stick, lengthscale = self._contact(step), self._stick(step), rule.lengthscale
         if contact < LEAST[Lengthscale.CONTACT]:
             return False
-        if lengthscale is Lengthscale.STICK:
+        if lengthscale is Lengthscale.CUSP and self._slides(step):
+            return True
+        if lengthscale in (Lengthscale.STICK, Lengthscale.CUSP):
             return stick is not None and stick >= LEAST[Lengthscale.STICK]
         if lengthscale is not Lengthscale.ANNULUS:
             return True

@@ -29,6 +29,7 @@ class Lengthscale(Enum):
     CONTACT = auto()  # contact radius m
     FILM = auto()  # contact radius, or the thinnest layer where that is thinner
     STICK = auto()  # stick radius
+    CUSP = auto()  # contact radius; the stick zone has to be resolved, which rounds off the cusp
     SLIP = auto()  # contact radius, and width w of the slip annulus: m/√(1 + 1/w)
     ANNULUS = auto()  # the same two alike: √(m w)
 
@@ -67,8 +68,10 @@ STICK = Rule(1.25, 0.25, 4, 3.2, 2.0, 1.0, Lengthscale.STICK)
 SHIFT = Rule(2, 0.06, 2, 1.35, 3.0, 0.3, Lengthscale.SLIP)
 TWIST = Rule(2, 0.24, 9, 1.3, 3.0, 0.3, Lengthscale.SLIP)
 ENERGY = Rule(2, 0.5, 2, 1.15, path_scatter=0.0, lengthscale=Lengthscale.ANNULUS)
-# The largest of a field that has its largest slope there.
-EDGE = Rule(1, 0.3, 1, 1.5)
+TILT = Rule(2, 0.1, 0.5, 1.65, path_factor=1.5)
+# Slip is largest at the edge of the contact, where a cell may lie within or beyond.
+AMPLITUDE = Rule(1.5, 1.0, 4, 1.3, lengthscale=Lengthscale.ANNULUS)
+RUIZ_F1 = Rule(2, 1.0, 1, 2.0, lengthscale=Lengthscale.ANNULUS)
 # Stress at the surface and near it, largest at an edge of the tractions.
 TENSION = Rule(0.5, 0.0, 0, 1.6)
 # Stress at an edge that was fitted, by the difference of two fits.
@@ -76,9 +79,6 @@ AT_EDGE = Rule(1, 0.0, 0, 3.0)
 # Stress inside, where it would be largest between the points.
 INTERIOR = Rule(2, 0.0, 0, 0.6)
 
-
-# Of the largest of fields, on cells as on elements.
-AT_EDGES = {"slip_amplitude": EDGE, "ruiz_f1": EDGE, "ruiz_f2": TENSION}
 
 # Numbers that follow the law of another, and the squares of others.
 ALIKE = {
@@ -110,17 +110,19 @@ RULES = with_their_likes(
         "peak_pressure": PEAK,
         "tangential_shift": SHIFT,
         "twist": TWIST,
-        "tilt": replace(APPROACH, envelope=0.1),
+        "tilt": TILT,
         "stick_radius": STICK,
         "dissipated_energy": ENERGY,
-        "elastic_energy": replace(APPROACH, envelope=0.1),
+        "elastic_energy": replace(APPROACH, envelope=0.1, factor=1.15),
         "input_work": replace(SHIFT, envelope=0.12),
-        **AT_EDGES,
+        "slip_amplitude": AMPLITUDE,
+        "ruiz_f1": RUIZ_F1,
+        "ruiz_f2": replace(TENSION, factor=2.3),
     }
 )
 
 # Where friction acts back on a pressing contact its pressure has a cusp on the axis.
-CUSP = {"peak_pressure": replace(PEAK, order=1, factor=1.65)}
+CUSP = {"peak_pressure": replace(PEAK, order=1, factor=1.65, lengthscale=Lengthscale.CUSP)}
 FLAT = with_their_likes({"approach": Rule(1, 0.2, 8, 1.45, path_factor=1.5)})
 CONE = with_their_likes({"contact_radius": Rule(1.25, 1.0, 4, 1.2, path_factor=1.5)})
 # Infinite in the exact answer: no number of cells has an error.

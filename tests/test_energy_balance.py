@@ -237,6 +237,21 @@ def test_what_finite_increments_leave_uncertain_covers_what_they_miss(described)
     assert many.dissipation_uncertainty < 0.3 * few.dissipation_uncertainty
 
 
+@pytest.mark.parametrize("described", UNCERTAIN.values(), ids=UNCERTAIN)
+def test_slip_is_uncertain_by_what_friction_changes_along_it(described):
+    """Σ |Δq| |Δs| Δ over the increments of steps whose path matters, whatever they miss of it."""
+    result = solve(described(6), GRID, TOLERANCE)
+    matters = [step.path_matters for step in result.plan.path]
+    changed, shear, slip = 0.0, 0.0, 0.0
+    for i in result.increments:
+        if matters[i.step - 1]:
+            changed += float(np.sum(np.hypot(*(i.shear - shear)) * np.hypot(*(i.slip - slip))))
+        shear, slip = i.shear, i.slip
+    uncertain = result.increments[-1].dissipation_uncertainty
+    # Of cells that open it counts the way of the free surface, which is no slip.
+    assert 1 - 1e-9 <= uncertain / (changed * GRID.cell_area) <= 1.05
+
+
 def test_where_the_path_does_not_matter_the_energy_lost_is_not_uncertain():
     loop = contact_scenes.scene(PRESS, push(0.9), push(-0.9), push(0.9))
     assert solve(loop, GRID, TOLERANCE).increments[-1].dissipation_uncertainty == 0.0

@@ -2,6 +2,7 @@
 
 import json
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -22,19 +23,21 @@ from contact_scenes import (
 from matplotlib.figure import Figure
 from scene_texts import COARSE, STEEL_BALL_PRESSED
 
-from contact_errors import estimate
+import fem_reference
+from contact_errors import estimate, on_elements
 from contact_errors.half_the_cells import recut_plan
 from contact_errors.levels import path_changes, recut
 from contact_errors.of_stress import on_wide_cells, stress_errors
 from contact_errors.on_cells import stated_errors
 from contact_errors.rules import RULES, Rule
 from contact_errors.values import OF_CYCLES, PHYSICAL
+from contact_results.cycles import fretting_cycles
 from contact_results.directory import file_names
 from contact_results.figures.caption import SHOWN, add_caption
 from contact_results.stress.extremes import extremes
 from contact_results.stress.loaded_bodies import LoadedBodies, state_of_result
 from contact_results.stress.on_cells import stress_on_cells
-from contact_scene import RIGID, Body, Cone, Scene
+from contact_scene import RIGID, Body, Cone, FiniteElementDiscretisation, Scene
 from contact_scene.stated_error import ErrorStatus, StatedError
 from semi_analytical import SurfaceGrid, plan, solve
 from verification.closed_forms.cattaneo_mindlin import PartialSlip
@@ -217,6 +220,28 @@ def test_the_error_of_partial_slip_covers_what_is_wrong(cells: int) -> None:
     assert abs(end.tangential_shift[0] - exact.shift) <= size(errors["tangential_shift"])
 
 
+@pytest.mark.parametrize("solver", ["semi-analytical", "fem-complementarity"])
+def test_the_error_of_the_largest_slip_of_a_cycle_covers_what_is_wrong(solver: str) -> None:
+    """It is largest at the very edge of the contact, where no cell and no ring is."""
+    matter, limit = steel(poisson_ratio=0.0), MU * LOAD
+    ways = ({"tangential_force": (way * limit, 0.0)} for way in (0.6, -0.6, 0.6))
+    loop = scene({"normal_force": LOAD}, *ways, indenter=paraboloid(matter), body=matter)
+    contact_radius = hertz(poisson_ratio=0.0).contact_radius
+    result: Any
+    if solver == "semi-analytical":
+        result = solve(loop, grid(32, radius=contact_radius), 1e-8)
+        errors = stated_errors(result)
+    else:
+        mesh = FiniteElementDiscretisation(elements_per_radius=10)
+        result = fem_reference.solve(loop, mesh, fem_reference.Method.COMPLEMENTARITY)
+        errors = on_elements.stated_errors(result)
+    modulus = tangential_modulus((YOUNG, 0.0), (YOUNG, 0.0))
+    exact = PartialSlip(LOAD, contact_radius, MU, modulus, 0.6 * limit).slip(contact_radius)
+    (cycle,) = fretting_cycles(result)
+    wrong = abs(float(np.max(cycle.slip_amplitude)) - abs(float(exact)))
+    assert wrong <= size(errors.steps[-1]["slip_amplitude"])
+
+
 @pytest.mark.parametrize("cells", [24, 33, 48])
 def test_the_error_of_stress_covers_what_is_wrong_at_the_trailing_edge(cells: int) -> None:
     # Hertz's pressure with the shear of full slip along x; Hamilton (1983), eq. for x = -a.
@@ -325,3 +350,15 @@ def test_stress_counts_what_increments_leave_wrong_in_the_tractions(tmp_path: Pa
         parts = maximum["error"]["parts"]
         assert 0 < parts["increments"] < 0.1 * maximum["value"]
         assert maximum["error"]["error"] == pytest.approx(sum(parts.values()))
+
+
+@pytest.mark.parametrize(("friction", "status"), [(0.1, "not converged"), (0.5, "estimated")])
+def test_a_peak_above_a_stick_zone_of_less_than_a_cell_has_not_converged(
+    friction: float, status: str
+) -> None:
+    """Friction of a rigid ball gives the pressure a cusp that only the stick zone rounds off."""
+    ball = paraboloid().model_copy(update={"material": RIGID})
+    pressed = scene({"normal_force": 1e3}, indenter=ball, friction=friction)
+    (errors,) = errors_of(pressed, grid(20, radius=0.8 * A))
+    assert errors["approach"].status is ErrorStatus.ESTIMATED
+    assert errors["peak_pressure"].status == status

@@ -2,22 +2,26 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Mapping
+
 import numpy as np
+from numpy.polynomial import Chebyshev
 from scipy.optimize import minimize_scalar
 
 from contact_scene import RIGID, Body, IsotropicMaterial, Paraboloid, Scene
 from verification.closed_forms.coated_indentation import LayeredIndentation, paraboloid
 from verification.closed_forms.coated_torsion import CoatedTorsion, TorsionalSurface, one_layer
 from verification.problems.drawn import drawing
-from verification.problems.drawn.branches import INTERPOLATED, Twisting, ends, led
+from verification.problems.drawn.branches import INTERPOLATED, Led, Twisting
 from verification.problems.drawn.drawing import Rng
 from verification.problems.drawn.known_scene import (
     APPROACH,
+    ELASTIC,
     MISES,
     PEAK,
     RADIUS,
     TENSION,
-    TWIST,
+    WORK,
     KnownScene,
     Truth,
     known,
@@ -29,6 +33,7 @@ from verification.problems.reference import ReferenceKind
 SEMI_CLOSED_ERROR = 1e-9
 STRESS_ERROR = 1e-4  # of the search for the largest
 MOST_LAYERS = 2
+STOPS = 14  # contact radii between which the energy is interpolated
 
 
 def pressed(rng: Rng, sections: bool = False, stressed: bool = False) -> KnownScene:
@@ -43,8 +48,8 @@ def pressed(rng: Rng, sections: bool = False, stressed: bool = False) -> KnownSc
     bodies = (body,) if rigid else (body, Body(material=ball.material))
     contact = paraboloid(surface_of(*bodies), radius, a)
     fine = drawing.fineness(rng, (a, a), sections, finest=40.0)
-    step, sunk = drawing.pressing(rng, contact.load, radius, fine)
-    truths = pressed_truths(contact, sunk)
+    step, values = drawing.pressing(rng, contact, radius, fine)
+    truths = tuple(pressed_truths(contact, stored_energy(contact), values))
     if stressed:
         tension, mises = PressedStress(body, contact.pressure, a, contact.load).largest()
         values = {TENSION: tension} | ({} if mises is None else {MISES: mises})
@@ -78,20 +83,42 @@ def twisted(rng: Rng, sections: bool = False) -> KnownScene:
     torques = [part * sliding for part in drawing.parts(rng)]
     virgin = Twisting.of(state, 0.15 * a, a)
     fine = drawing.fineness(rng, (a, a), sections, finest=40.0)
-    scene = led(ball, body, mu, contact.load, "torque", torques)
-    source = "Fredholm equation for Abel's transform of the shear, to and fro by Masing's rule"
-    truths = (*pressed_truths(contact), *ends(virgin, torques, TWIST, source, INTERPOLATED))
-    return KnownScene(scene, truths, fine)
+    stored = stored_energy(contact)
+    led = Led(
+        virgin=virgin, forces=torques, load=contact.load, stored=stored,
+        by_motion=drawing.by_motion(rng), twists=True, uncertainty=INTERPOLATED,
+        source="Fredholm equation for Abel's transform of the shear, to and fro by Masing's rule",
+    )  # fmt: skip
+    return KnownScene(
+        led.scene(ball, body, mu), (*pressed_truths(contact, stored), *led.truths()), fine
+    )
 
 
-def pressed_truths(contact: LayeredIndentation, sunk: float = 0.0) -> tuple[Truth, ...]:
-    """Of the step that presses; sunk is what a tilt takes from the approach [length]."""
-    values = {
-        APPROACH: contact.approach - sunk,
-        PEAK: _peak(contact),
-        RADIUS: contact.contact_radius,
-    }
-    return tuple(known(1, FREDHOLM, values, SEMI_CLOSED_ERROR, ReferenceKind.SEMI_CLOSED))
+def pressed_truths(
+    contact: LayeredIndentation, stored: float, others: Mapping[str, float] | None = None
+) -> Iterator[Truth]:
+    """Of the step that presses.
+
+    stored  energy
+    others  instead of the approach
+    """
+    values = dict(others or {APPROACH: contact.approach})
+    values |= {PEAK: _peak(contact), RADIUS: contact.contact_radius}
+    yield from known(1, FREDHOLM, values, SEMI_CLOSED_ERROR, ReferenceKind.SEMI_CLOSED)
+    energies = {ELASTIC: stored, WORK: stored}
+    yield from known(1, FREDHOLM, energies, INTERPOLATED, ReferenceKind.SEMI_CLOSED)
+
+
+def stored_energy(contact: LayeredIndentation) -> float:
+    """Energy of a contact pressed from first touch, ∫ W d(approach) over the contact radius."""
+    domain = [0.0, contact.contact_radius]
+    stops = Chebyshev.basis(STOPS, domain=domain).roots()
+    states = [paraboloid(contact.surface, contact.radius, float(a)) for a in stops]
+    load, approach = (
+        Chebyshev.fit(stops, [getattr(s, name) for s in states], STOPS - 1, domain=domain)
+        for name in ("load", "approach")
+    )
+    return float((load * approach.deriv()).integ(lbnd=0.0)(contact.contact_radius))
 
 
 def _peak(contact: LayeredIndentation) -> float:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any, Protocol
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -14,7 +16,15 @@ from contact_scene import (
     Paraboloid,
     SurfaceDiscretisation,
 )
-from verification.problems.drawn.known_scene import CELLS, ELEMENTS, Fineness
+from verification.problems.drawn.known_scene import (
+    APPROACH,
+    CELLS,
+    ELEMENTS,
+    MOMENT,
+    NORMAL,
+    TILT,
+    Fineness,
+)
 
 Rng = np.random.Generator
 Array = NDArray[np.float64]
@@ -24,6 +34,8 @@ PER_RADIUS = (4.0, 60.0)  # cells over a contact radius
 WIDTHS = (2.3, 3.4)  # window over the contact radius
 ELEMENTS_PER_RADIUS = (8, 32)
 STRAINS = (3e-3, 3e-2)  # contact radius over radius of curvature
+BY_MOTION = 0.3  # of the scenes are led by motions, not by forces
+ROOM = 1.5  # cells between a contact beside the centre and the edge of the window
 
 
 def logarithmic(rng: Rng, low: float, high: float) -> float:
@@ -92,21 +104,43 @@ def fineness(
     return Fineness(CELLS, grid, nx / width)
 
 
-def pressing(rng: Rng, force: float, radius: float, fine: Fineness) -> tuple[LoadStep, float]:
-    """A paraboloid pressed on, on a grid with its contact up to half a cell beside the centre, and
-    by how much that takes from the approach.
+class Pressed(Protocol):
+    """A contact of revolution that was pressed."""
+
+    @property
+    def load(self) -> float: ...
+    @property
+    def approach(self) -> float: ...
+    @property
+    def contact_radius(self) -> float: ...
+
+
+def pressing(
+    rng: Rng, contact: Pressed, radius: float, fine: Fineness
+) -> tuple[LoadStep, dict[str, float]]:
+    """A paraboloid pressed on by force or by approach, on a grid beside the centre of its contact
+    by tilt or by moment, and those of the four that follow.
 
     x²/2R - φx = (x - Rφ)²/2R - Rφ²/2: a tilted paraboloid is a shifted one.
     """
+    given = (NORMAL, APPROACH)[by_motion(rng)], (TILT, MOMENT)[int(rng.integers(2))]
+    values: dict[str, Any] = {NORMAL: contact.load, APPROACH: contact.approach}
     grid = fine.asked
-    if not isinstance(grid, SurfaceDiscretisation):
-        return LoadStep(normal_force=force), 0.0
-    assert grid.window is not None
-    assert grid.cells is not None
-    side = np.divide(grid.window, grid.cells)
-    x, y = rng.uniform(-0.5, 0.5, 2) * side
-    step = LoadStep(normal_force=force, tilt=(float(y / radius), float(x / radius)))
-    return step, float(x**2 + y**2) / (2 * radius)
+    if isinstance(grid, SurfaceDiscretisation):
+        assert grid.window is not None
+        assert grid.cells is not None
+        side = np.divide(grid.window, grid.cells)
+        room = np.array(grid.window) / 2 - contact.contact_radius - ROOM * side
+        x, y = rng.uniform(-1, 1, 2) * np.maximum(room, side / 2)
+        values[APPROACH] -= (x**2 + y**2) / (2 * radius)
+        values |= {TILT: (y / radius, x / radius), MOMENT: (contact.load * y, contact.load * x)}
+    step = LoadStep(**{name: value for name, value in values.items() if name in given})
+    return step, {n: float(np.ravel(v)[0]) for n, v in values.items() if n not in given}
+
+
+def by_motion(rng: Rng) -> bool:
+    """Whether motions are prescribed, not forces."""
+    return bool(rng.random() < BY_MOTION)
 
 
 def parts(rng: Rng) -> tuple[float, ...]:

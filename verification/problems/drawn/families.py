@@ -9,7 +9,7 @@ from zlib import crc32
 
 import numpy as np
 
-from verification.problems.drawn import coated, homogeneous, refined
+from verification.problems.drawn import coated, coated_indented, homogeneous, refined
 from verification.problems.drawn.drawing import Rng
 from verification.problems.drawn.known_scene import KnownScene
 
@@ -32,7 +32,7 @@ FAMILIES = {
     "hertz": Family(homogeneous.hertz, 78),
     "shapes": Family(homogeneous.shapes, 8),
     "ellipse": Family(homogeneous.ellipse, 8),
-    "cattaneo": Family(homogeneous.cattaneo, 22),
+    "cattaneo": Family(homogeneous.cattaneo, 32),
     "sliding": Family(homogeneous.sliding, 6),
     "twisted": Family(homogeneous.twisted, 6),
     "indented": Family(homogeneous.indented, 10),
@@ -40,6 +40,8 @@ FAMILIES = {
     "coated-stress": Family(partial(coated.pressed, stressed=True), 26),
     "coated-twisted": Family(coated.twisted, 140),
     "coated-sheared": Family(refined.sheared, 45),
+    "coated-indented": Family(coated_indented.pressed, 40),
+    "coated-pushed": Family(refined.coupled, 16),
     "sections": Family(partial(homogeneous.hertz, sections=True), 3),
     "sections-cattaneo": Family(partial(homogeneous.cattaneo, sections=True), 4),
     "sections-indented": Family(partial(homogeneous.indented, sections=True), 5),

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from math import pi, sqrt
 
 from contact_scene import (
@@ -25,6 +25,7 @@ from verification.closed_forms.cone import ConeContact
 from verification.closed_forms.elliptical_contact import EllipticalContact
 from verification.closed_forms.flat_punch import FlatPunchContact
 from verification.closed_forms.hertz import PointContact
+from verification.closed_forms.ruiz import CycledContact
 from verification.closed_forms.sheared_surface import (
     stress_by_hertz_pressure,
     stress_by_hertz_shear,
@@ -33,23 +34,20 @@ from verification.closed_forms.sheared_surface import (
 from verification.closed_forms.sphere import SphereContact
 from verification.closed_forms.torsion import TorsionalPartialSlip
 from verification.problems.drawn import drawing
-from verification.problems.drawn.branches import (
-    INTERPOLATED,
-    Reached,
-    Twisting,
-    ends,
-    led,
-)
+from verification.problems.drawn.branches import INTERPOLATED, Led, Reached, Twisting
 from verification.problems.drawn.drawing import Rng
 from verification.problems.drawn.known_scene import (
+    AMPLITUDE,
     APPROACH,
+    ELASTIC,
+    F1,
+    F2,
     MISES,
     PEAK,
     RADIUS,
-    SHIFT,
     STICK,
     TENSION,
-    TWIST,
+    WORK,
     KnownScene,
     Truth,
     known,
@@ -75,11 +73,12 @@ def hertz(rng: Rng, sections: bool = False) -> KnownScene:
     body, nu = Body(material=matter), matter.poisson_ratio
     contact = PointContact(radius, _modulus(ball, body), a)
     fine = drawing.fineness(rng, (a, a), sections)
-    step, sunk = drawing.pressing(rng, contact.load, radius, fine)
-    values = {
-        APPROACH: contact.approach - sunk,
+    step, values = drawing.pressing(rng, contact, radius, fine)
+    values |= {
         PEAK: contact.peak_pressure,
         RADIUS: a,
+        ELASTIC: _stored(contact),
+        WORK: _stored(contact),
         TENSION: (1 - 2 * nu) / 3 * contact.peak_pressure,
         MISES: deepest_mises(a, contact.peak_pressure, nu),
     }
@@ -141,15 +140,19 @@ def ellipse(rng: Rng) -> KnownScene:
     def virgin(force: float) -> Reached:
         """µE*/G* times the difference of two pressed contacts; E* = G* for ν = 0."""
         state = superpose(under, load, force, mu, 1.0)
-        return Reached(state.shift, _mean_axis(under(load - force / mu)), float("nan"))
+        stick_radius = _mean_axis(under(load - force / mu))
+        return Reached.first(force, state.shift, stick_radius, float("nan"))
 
     forces = [part * mu * load for part in drawing.parts(rng)]
     fine = drawing.fineness(rng, contact.semi_axes, False)
     fine = fine._replace(per_radius=fine.per_radius * min(1.0, contact.axis_ratio))
     indenter = Ellipsoid(radii=radii, material=matter)
-    scene = led(indenter, Body(material=matter), mu, load, "tangential_force", forces)
-    truths = (*known(1, "Hertz 1882", values), *ends(virgin, forces, SHIFT, "Jäger 1998", ROUNDING))
-    return KnownScene(scene, truths, fine)
+    led = Led(
+        virgin=virgin, forces=forces, load=load, stored=0.4 * load * contact.approach,
+        by_motion=drawing.by_motion(rng), source="Jäger 1998", uncertainty=ROUNDING,
+    )  # fmt: skip
+    truths = (*known(1, "Hertz 1882", values), *led.truths())
+    return KnownScene(led.scene(indenter, Body(material=matter), mu), truths, fine)
 
 
 def cattaneo(rng: Rng, sections: bool = False) -> KnownScene:
@@ -162,7 +165,7 @@ def cattaneo(rng: Rng, sections: bool = False) -> KnownScene:
 
     def virgin(force: float) -> Reached:
         state = PartialSlip(contact.load, a, mu, modulus, force)
-        return Reached(state.shift, state.stick_radius, state.dissipated_energy)
+        return Reached.first(force, state.shift, state.stick_radius, state.dissipated_energy)
 
     forces = [part * limit for part in drawing.parts(rng)]
     first = virgin(forces[0])
@@ -171,11 +174,16 @@ def cattaneo(rng: Rng, sections: bool = False) -> KnownScene:
     sheared = stress_by_hertz_shear(-a, a, q0, 0.0) - stress_by_hertz_shear(-a, c, q0 * c / a, 0.0)
     tension = float(stress_by_hertz_pressure(-a, a, contact.peak_pressure, 0.0) + sheared)
     fine = drawing.fineness(rng, (a, a), sections)
-    ball = Paraboloid(radius=radius, material=matter)
-    scene = led(ball, Body(material=matter), mu, contact.load, "tangential_force", forces)
+    led = Led(
+        virgin=virgin, forces=forces, load=contact.load, stored=_stored(contact),
+        by_motion=drawing.by_motion(rng), source="Mindlin and Deresiewicz 1953",
+        uncertainty=ROUNDING,
+    )  # fmt: skip
+    scene = led.scene(Paraboloid(radius=radius, material=matter), Body(material=matter), mu)
     truths = (
         *_pressed(contact),
-        *ends(virgin, forces, SHIFT, "Mindlin and Deresiewicz 1953", ROUNDING),
+        *led.truths(),
+        *_of_cycle(contact, limit, forces, surface_stress=not sections),
         *known(2, "Hamilton and Goodman 1966, less the stick disc's", {TENSION: tension}),
     )
     return KnownScene(scene, truths, fine)
@@ -222,12 +230,12 @@ def twisted(rng: Rng) -> KnownScene:
     limit = pi**2 / 8 * mu * contact.peak_pressure * a**3
     torques = [part * limit for part in drawing.parts(rng)]
     fine = drawing.fineness(rng, (a, a), False)
-    scene = led(ball, body, mu, contact.load, "torque", torques)
-    truths = (
-        *_pressed(contact),
-        *ends(virgin, torques, TWIST, f"Lubkin 1951; {MASING}", INTERPOLATED),
-    )
-    return KnownScene(scene, truths, fine)
+    led = Led(
+        virgin=virgin, forces=torques, load=contact.load, stored=_stored(contact),
+        by_motion=drawing.by_motion(rng), twists=True, source=f"Lubkin 1951; {MASING}",
+        uncertainty=INTERPOLATED,
+    )  # fmt: skip
+    return KnownScene(led.scene(ball, body, mu), (*_pressed(contact), *led.truths()), fine)
 
 
 def indented(rng: Rng, sections: bool = False) -> KnownScene:
@@ -256,11 +264,37 @@ def indented(rng: Rng, sections: bool = False) -> KnownScene:
     return KnownScene(scene, truths, fine)
 
 
+def _stored(contact: PointContact) -> float:
+    """Energy of a pressed ball: its load grows as the 3/2 power of the approach."""
+    return 0.4 * contact.load * contact.approach
+
+
+def _of_cycle(
+    contact: PointContact, limit: float, forces: Sequence[float], *, surface_stress: bool
+) -> Iterator[Truth]:
+    """The largest of the fields of a closed cycle; finite elements have no stress there."""
+    if forces[-1] != forces[0]:
+        return
+    a, mu = contact.contact_radius, limit / contact.load
+    end = PartialSlip(contact.load, a, mu, contact.contact_modulus, forces[0])
+    cycled = CycledContact(end, contact.peak_pressure)
+    values = {
+        AMPLITUDE: float(cycled.slip_amplitude(a)),
+        F1: cycled.largest_f1,
+    }
+    if surface_stress and cycled.largest_f2 > 0:
+        values[F2] = cycled.largest_f2
+    source = "Ruiz, Boddington and Chen 1984 of Mindlin's contact"
+    yield from known(len(forces) + 1, source, values)
+
+
 def _pressed(contact: PointContact) -> Iterator[Truth]:
     values = {
         APPROACH: contact.approach,
         PEAK: contact.peak_pressure,
         RADIUS: contact.contact_radius,
+        ELASTIC: _stored(contact),
+        WORK: _stored(contact),
     }
     return known(1, HERTZIAN, values)
 

@@ -4,26 +4,35 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
+from contact_errors.values import Values
 from contact_scene import FiniteElementDiscretisation, Scene, SurfaceDiscretisation
 from verification.problems.reference import ROUNDING, Reference, ReferenceKind
 
 CELLS, ELEMENTS = "semi-analytical", "fem-complementarity"
 APPROACH, PEAK, RADIUS = "approach", "peak_pressure", "contact_radius"
-STICK, SHIFT, TWIST = "stick_radius", "tangential_shift", "twist"
-ENERGY, CYCLE = "dissipated_energy", "energy_per_cycle"
+STICK, SHIFT, TWIST, TILT = "stick_radius", "tangential_shift", "twist", "tilt"
+NORMAL, TANGENTIAL, TORQUE, MOMENT = "normal_force", "tangential_force", "torque", "moment"
+ENERGY, CYCLE, ELASTIC, WORK = (
+    "dissipated_energy", "energy_per_cycle", "elastic_energy", "input_work"
+)  # fmt: skip
+AMPLITUDE, F1, F2 = "slip_amplitude", "ruiz_f1", "ruiz_f2"
 TENSION, MISES = "max_principal", "von_mises"
 STRESSES = (TENSION, MISES)
 # What is judged, and of which quantities.
 KINDS = {
-    APPROACH: (APPROACH,),
+    APPROACH: (APPROACH, NORMAL),
     PEAK: (PEAK,),
     RADIUS: (RADIUS,),
     STICK: (STICK,),
-    SHIFT: (SHIFT,),
-    TWIST: (TWIST,),
+    SHIFT: (SHIFT, TANGENTIAL),
+    TWIST: (TWIST, TORQUE),
+    TILT: (TILT, MOMENT),
     ENERGY: (ENERGY, CYCLE),
+    ELASTIC: (ELASTIC,),
+    WORK: (WORK,),
+    "largest_of_a_cycle": (AMPLITUDE, F1, F2),
     TENSION: (TENSION,),
     MISES: (MISES,),
 }
@@ -31,37 +40,28 @@ KINDS = {
 
 @dataclass(frozen=True)
 class Truth:
-    """One number of the answer.
+    """One number of the answer, of a vector the component along x.
 
     step       loading step at whose end it holds, from 1
-    since      of a difference of two ends, the step of the first
     reference  in SI, with its standard uncertainty
     """
 
     step: int
     quantity: str
     reference: Reference
-    since: int | None = None
 
     @property
     def kind(self) -> str:
         """By which it is counted."""
         return next(kind for kind, names in KINDS.items() if self.quantity in names)
 
-    def read(self, steps: Sequence[Any]) -> float | None:
-        """The same number of a result, by the ends of its steps; None where it has none.
+    def read(self, steps: Sequence[Values]) -> float | None:
+        """The same number of a result, by what its steps have; None where it has none.
 
         Stresses are not of a result, see `stress_maxima.py`.
         """
-        end = steps[self.step - 1]
-        if self.quantity == SHIFT:
-            return None if end.tangential_shift is None else float(end.tangential_shift[0])
-        if self.quantity != CYCLE:
-            value = getattr(end, self.quantity)
-            return None if value is None else float(value)
-        assert self.since is not None
-        energies = end.dissipated_energy, steps[self.since - 1].dissipated_energy
-        return None if None in energies else float(energies[0] - energies[1])
+        value = steps[self.step - 1].get(self.quantity)
+        return None if value is None else float(value[0])
 
 
 class Fineness(NamedTuple):

@@ -1,33 +1,55 @@
-"""A family without closed form: alike coated bodies sheared, known from much finer cells.
+"""Families without closed form: coated bodies under a tangential force, known from finer solves.
 
 Layers answer shear otherwise than pressure, so that the difference of two pressed contacts is not
-the sheared one. Shift and energy lost converge with the second power of the cells: on cells a
-fourth as wide they are off by a sixteenth of what is judged.
+the sheared one. What is judged converges with the second power of the cells, and on cells a fourth
+as wide is off by a sixteenth (the largest slip of a cycle by a fourth); and with the first power of
+the increments, where they matter.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
+from typing import NamedTuple
 
 import semi_analytical
-from contact_scene import SurfaceDiscretisation
+from contact_errors.values import Values, values_of
+from contact_results.cycles import fretting_cycles
+from contact_scene import RIGID, Paraboloid, SurfaceDiscretisation
 from verification.closed_forms.coated_indentation import paraboloid
 from verification.problems.drawn import coated, drawing
 from verification.problems.drawn.branches import led
 from verification.problems.drawn.drawing import Rng
 from verification.problems.drawn.known_scene import (
+    AMPLITUDE,
+    APPROACH,
     CYCLE,
+    ELASTIC,
     ENERGY,
+    F1,
     SHIFT,
+    TANGENTIAL,
+    WORK,
+    Fineness,
     KnownScene,
     Truth,
 )
 from verification.problems.layered_scene import surface_of
 from verification.problems.reference import Reference, ReferenceKind
 
-FINEST = 10.0  # cells per radius that are judged
-FINER = (3.5, 4.5)  # times as many, where borders cut cells elsewhere
-SOURCE = "the same solver on 3.5 and 4.5 times as many cells, which differ by the uncertainty"
+FINEST, COUPLED_FINEST = 10.0, 7.0  # cells per radius that are judged
+COARSE_PATH = 4e-2  # accuracy of the path where friction acts back on the pressure
+
+
+class Finer(NamedTuple):
+    """Cells along a side and increments over those that are judged."""
+
+    cells: float
+    increments: int
+
+
+# The finer first; borders cut cells elsewhere, and what they differ by the finer is off by no more.
+CELLS_FINER = Finer(4.5, 1), Finer(3.5, 1)
+PATH_FINER = Finer(3.5, 4), Finer(2.5, 2)
 
 
 def sheared(rng: Rng) -> KnownScene:
@@ -37,36 +59,67 @@ def sheared(rng: Rng) -> KnownScene:
     contact = paraboloid(surface_of(body, body), radius, a)
     forces = [part * mu * contact.load for part in drawing.parts(rng)]
     fine = drawing.fineness(rng, (a, a), False, finest=FINEST)
-    ball = drawing.ball_like(body, radius)
-    scene = led(ball, body, mu, contact.load, "tangential_force", forces)
-    known = KnownScene(scene, coated.pressed_truths(contact), fine)
-    return KnownScene(scene, (*known.truths, *_refined(known, forces)), fine)
+    scene = led(drawing.ball_like(body, radius), body, mu, contact.load, TANGENTIAL, forces)
+    pressed = tuple(coated.pressed_truths(contact, coated.stored_energy(contact)))
+    known = KnownScene(scene, pressed, fine)
+    return KnownScene(scene, (*pressed, *_refined(known, forces, CELLS_FINER)), fine)
 
 
-def _refined(known: KnownScene, forces: list[float]) -> Iterator[Truth]:
-    """Mean of the two fine solves, at ends of steps that symmetry does not repeat."""
+def coupled(rng: Rng) -> KnownScene:
+    """A rigid ball pressed on a coating with friction, and pushed or led to and fro."""
+    radius, a = drawing.sizes(rng)
+    body, mu = drawing.coated_body(rng, a), drawing.friction(rng)
+    contact = paraboloid(surface_of(body), radius, a)
+    forces = [part * mu * contact.load for part in drawing.parts(rng)]
+    fine = drawing.fineness(rng, (a, a), False, finest=COUPLED_FINEST)
+    asked = fine.asked.model_copy(update={"path_accuracy": COARSE_PATH})
+    ball = Paraboloid(radius=radius, material=RIGID)
+    scene = led(ball, body, mu, contact.load, TANGENTIAL, forces)
+    known = KnownScene(scene, (), Fineness(fine.solver, asked, fine.per_radius))
+    truths = _refined(known, forces, PATH_FINER, (APPROACH,))
+    return KnownScene(scene, tuple(truths), known.fineness)
+
+
+def _refined(
+    known: KnownScene,
+    forces: Sequence[float],
+    finer: tuple[Finer, Finer],
+    others: tuple[str, ...] = (),
+) -> Iterator[Truth]:
+    """Of the finer of two fine solves, at ends of steps that symmetry does not repeat."""
+    best, other = (_solved(known, times) for times in finer)
+    times, less = finer
+    source = (
+        f"the same solver on {times.cells:g} times as many cells along a side and "
+        f"{times.increments} times as many increments, beside {less.cells:g} and {less.increments}"
+    )
+    for step, quantity in _wanted(forces, others):
+        value, beside = (found[step - 1].get(quantity) for found in (best, other))
+        if value is not None and beside is not None:
+            apart = abs(float(value[0] - beside[0]))
+            reference = Reference(float(value[0]), ReferenceKind.OWN_REFINEMENT, source, apart)
+            yield Truth(step, quantity, reference)
+
+
+def _wanted(forces: Sequence[float], others: tuple[str, ...]) -> Iterator[tuple[int, str]]:
+    """Steps and quantities."""
+    closed = forces[-1] == forces[0]
+    for step, force in enumerate(forces, start=2):
+        if step == 2 or abs(force) != forces[0]:
+            yield from ((step, name) for name in (SHIFT, ELASTIC, WORK, *others))
+            if step > 2 or not closed:  # the energy of a closed loop is four times this one
+                yield step, ENERGY
+    if closed:
+        yield from ((len(forces) + 1, name) for name in (CYCLE, AMPLITUDE, F1))
+
+
+def _solved(known: KnownScene, times: Finer) -> Sequence[Values]:
+    """What the steps have, on finer cells and by more increments."""
     asked = known.fineness.asked
     assert isinstance(asked, SurfaceDiscretisation)
     assert asked.cells is not None
-    several = [
-        semi_analytical.solve_discretised(
-            known.scene,
-            asked.model_copy(update={"cells": tuple(round(times * n) for n in asked.cells)}),
-        ).steps
-        for times in FINER
-    ]
-    closed = forces[-1] == forces[0]
-    wanted = [
-        (step, quantity, None)
-        for step, force in enumerate(forces, start=2)
-        for quantity in (SHIFT, ENERGY)
-        if (step == 2 and not (closed and quantity == ENERGY)) or abs(force) != forces[0]
-    ]
-    loop = [(len(forces) + 1, CYCLE, 2)] if closed else []
-    for step, quantity, since in (*wanted, *loop):
-        one = Truth(step, quantity, Reference(0.0, ReferenceKind.OWN_REFINEMENT, SOURCE), since)
-        values = [value for steps in several if (value := one.read(steps)) is not None]
-        if len(values) == len(FINER):
-            mean, apart = sum(values) / len(values), abs(values[1] - values[0])
-            reference = Reference(mean, ReferenceKind.OWN_REFINEMENT, SOURCE, apart)
-            yield Truth(step, quantity, reference, since)
+    cells = tuple(round(times.cells * n) for n in asked.cells)
+    plan = semi_analytical.plan(known.scene, asked.path_accuracy).refined(times.increments)
+    finer = asked.model_copy(update={"cells": cells})
+    result = semi_analytical.solve_discretised(known.scene, finer, plan=plan)
+    return values_of(result, fretting_cycles(result))
