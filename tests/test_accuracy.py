@@ -393,6 +393,7 @@ def test_stress_meets_the_table_of_its_scene_and_says_so(tmp_path: Path) -> None
     assert record["accuracy"]["met"]
     reached = record["accuracy"]["reached"]["max_principal"]
     assert reached == pytest.approx(tension["error"]["error"] / tension["value"])
+    path = written(tmp_path, "[accuracy]\nmax_principal = '0.1 %'\n")
     assert slipstick("stress", path, "-o", out, "--no-figures", "--most-seconds", 0) == 4
     assert not json.loads((out / "stress.json").read_text())["accuracy"]["met"]
 

@@ -4,7 +4,9 @@ import numpy as np
 import pytest
 from scipy.integrate import quad
 
+from verification.closed_forms.hamilton_stress import hamilton_stress
 from verification.closed_forms.huber_stress import axis_stress, huber_stress, sliding_axis_shear
+from verification.closed_forms.sheared_surface import stress_by_hertz_shear
 
 A, PEAK = 0.8, 1.9
 POINTS = [(0.1, 0.3), (0.5, 0.4), (0.79, 0.05), (1.2, 0.3), (2.0, 3.0)]
@@ -107,3 +109,41 @@ def test_stress_outside_the_range_is_refused():
         huber_stress(0.0, 0.1, A, PEAK, 0.6)
     with pytest.raises(ValueError, match="peak_pressure is 0"):
         huber_stress(0.0, 0.1, A, 0.0, 0.3)
+
+
+@pytest.mark.parametrize("depth", [0.003, 0.1, 0.5, 2.0])
+def test_hamiltons_stress_is_hubers_without_shear(depth: float) -> None:
+    r, turn = np.array([1e-9, 0.3, 0.9, 1.0, 1.05, 2.0]), 0.7
+    c, s = np.cos(turn), np.sin(turn)
+    xx, yy, zz, yz, xz, xy = hamilton_stress(r * c, r * s, depth, 1.0, 1.0, 0.0, 0.3)
+    exact = huber_stress(r, depth, 1.0, 1.0, 0.3)
+    np.testing.assert_allclose(xx * c * c + yy * s * s + 2 * xy * c * s, exact.radial, atol=1e-9)
+    np.testing.assert_allclose(xx * s * s + yy * c * c - 2 * xy * c * s, exact.hoop, atol=1e-9)
+    np.testing.assert_allclose(zz, exact.axial, atol=1e-9)
+    np.testing.assert_allclose(xz * c + yz * s, exact.shear, atol=1e-9)
+
+
+def test_hamiltons_stress_is_that_of_sliding_on_the_axis_and_at_the_surface() -> None:
+    depth = np.array([0.01, 0.3, 1.0])
+    on_axis = hamilton_stress(1e-9, 0.0, depth, 1.0, 0.0, 1.0, 0.3)[4]
+    np.testing.assert_allclose(on_axis, sliding_axis_shear(depth, 1.0, 1.0), atol=1e-9)
+    x = np.array([-0.5, 0.5, 1.3])
+    near = hamilton_stress(x, 0.0, 1e-6, 1.0, 0.0, 1.0, 0.3)[0]
+    np.testing.assert_allclose(near, stress_by_hertz_shear(x, 1.0, 1.0, 0.3), atol=1e-5)
+
+
+def test_hamiltons_stress_is_in_equilibrium() -> None:
+    """Of the shear alone, off every symmetry."""
+    place, step = np.array([0.7, 0.6, 0.2]), 1e-4
+    d_x, d_y, d_z = (
+        hamilton_stress(*(place + step * along), 1.0, 0.0, 1.0, 0.3)
+        - hamilton_stress(*(place - step * along), 1.0, 0.0, 1.0, 0.3)
+        for along in np.eye(3)
+    )
+    xx, yy, zz, yz, xz, xy = range(6)
+    for forces in (
+        d_x[xx] + d_y[xy] + d_z[xz],
+        d_x[xy] + d_y[yy] + d_z[yz],
+        d_x[xz] + d_y[yz] + d_z[zz],
+    ):
+        assert abs(forces) < 1e-6 * 2 * step

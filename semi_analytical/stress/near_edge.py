@@ -74,6 +74,16 @@ class NearEdge:
         """On the edge (6, n) [force/length²], its limit from within."""
         return _at_surface(self, self.phi)
 
+    def at(self, x: Field, y: Field) -> Field:
+        """At places of the surface near the edge (6, n) [force/length²]; x, y (n,) [length]."""
+        of_cells = (
+            (p - c[0]) / side
+            for p, c, side in zip(
+                (x, y), (self.grid.x, self.grid.y), self.grid.spacing, strict=True
+            )
+        )
+        return _at_surface(self, self.tractions.shape.about(*of_cells)[0])
+
     def corrected(self, field: SubsurfaceField) -> SubsurfaceField:
         """The same field with the stress near the edge by the tractions with their edge."""
         i, j = np.nonzero(_beside(self.tractions))

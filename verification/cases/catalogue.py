@@ -45,6 +45,7 @@ CASES = (
     "spence_example",
     "subsurface_stress",
     "radial_pressing",
+    "edge_stress",
     "fem_hertz",
     "fem_classical",
     "fem_coated",

@@ -1,0 +1,86 @@
+"""Stress below a sliding Hertz contact, all components anywhere below the surface.
+
+Hamilton (1983) gives it in closed form. Here it is one integral of the same potentials, which knows
+no special places: the pressure √(a²-r²) is the sum over -a < s < a of point sources of strength
+(a²-s²)/4 at the complex depth -is, so that every potential of a point force, taken at the depth
+z + is, gives that of the contact (Sackfield and Hills 1983 use the same shift).
+"""
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from verification.closed_forms.validity import require_positive
+
+POINTS = 120
+
+
+def hamilton_stress(
+    x: ArrayLike,
+    y: ArrayLike,
+    z: ArrayLike,
+    contact_radius: float,
+    peak_pressure: float,
+    peak_shear: float,
+    poisson_ratio: float,
+) -> NDArray[np.float64]:
+    """Stress (6, …), order xx, yy, zz, yz, xz, xy, tension positive [force/length²].
+
+    x, y, z     place, z > 0 into the body, broadcast together [length]
+    peak_shear  q0 of the shear q0 √(1-r²/a²) along +x on the body [force/length²]
+
+    The integrand turns within z of s = r; s = r + z sinh u makes that a length of one. Raises
+    ValueError at the surface, where the integral is not one.
+    """
+    require_positive(contact_radius=contact_radius)
+    nu, a = poisson_ratio, 1.0
+    x, y, z = np.broadcast_arrays(*(np.asarray(v, dtype=float) / contact_radius for v in (x, y, z)))
+    if not np.all(z > 0):
+        raise ValueError(f"depth down to {np.min(z)!r}, expected z > 0")
+    r = np.hypot(x, y)
+    first, last = np.arcsinh(-r / z), np.arcsinh((a - r) / z)
+    nodes, weights = np.polynomial.legendre.leggauss(POINTS)
+    total = np.zeros((6, *x.shape))
+    for node, weight in zip(nodes, weights, strict=True):
+        u = first + (last - first) * (node + 1) / 2
+        s = r + z * np.sinh(u)
+        step = weight * (last - first) / 2 * z * np.cosh(u)
+        # Both signs of s: the real part twice.
+        by_p, by_q = _point_stress(x, y, z, z + 1j * s, nu)
+        total += step * (a * a - s * s) / 2 * (peak_pressure * by_p + peak_shear * by_q).real
+    return total
+
+
+def _point_stress(
+    x: NDArray[np.float64],
+    y: NDArray[np.float64],
+    z: NDArray[np.float64],
+    deep: NDArray[np.complex128],
+    nu: float,
+) -> tuple[NDArray[np.complex128], NDArray[np.complex128]]:
+    """By 2π times a unit force along z and along x: Boussinesq's and Cerruti's solutions (Johnson
+    1985, sections 3.2 and 3.6), with the potentials 1/ρ, -ln(ρ+z), z ln(ρ+z)-ρ at a depth of their
+    own."""
+    rho = np.sqrt(x * x + y * y + deep * deep)
+    add = rho + deep
+    a1, a3, a5 = 1 / rho, rho**-3, 3 * rho**-5
+    b1, b2 = -1 / (rho * add), (2 * rho + deep) * a3 / add**2
+    b3 = -(8 * rho**2 + 9 * rho * deep + 3 * deep**2) / (rho**5 * add**3)
+    c1, c3 = a1 / add**2, -(3 * rho + deep) * a3 / add**3
+    a_z, g = -deep * a3, 1 - 2 * nu
+    by_p = [
+        g * (b1 + x * x * b2) - z * (x * x * a5 - a3) + 2 * nu * a_z,
+        g * (b1 + y * y * b2) - z * (y * y * a5 - a3) + 2 * nu * a_z,
+        a_z - z * (deep * deep * a5 - a3),
+        -z * y * deep * a5,
+        -z * x * deep * a5,
+        x * y * (g * b2 - z * a5),
+    ]
+    by_q = [
+        x * (-2 * (1 + nu) * a3 + 2 * nu * (3 * c1 + x * x * c3) + z * (3 * b2 + x * x * b3)),
+        x * (2 * nu * (c1 + y * y * c3 - a3) + z * (b2 + y * y * b3)),
+        -z * x * deep * a5,
+        -z * x * y * a5,
+        a_z - z * (x * x * a5 - a3),
+        y * (-a3 + 2 * nu * (c1 + x * x * c3) + z * (b2 + x * x * b3)),
+    ]
+    return np.stack(by_p), np.stack(by_q)
