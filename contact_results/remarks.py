@@ -47,9 +47,9 @@ def _edges_left(result: semi_analytical.Result) -> Iterator[str]:
     left = [str(end.step) for end in result.steps if end.edge_change is None]
     if result.plan.edge != "off" and left:
         yield (
-            f"at the end of step {', '.join(left)} the edge of contact could not be put inside the "
-            f"cells: it is rough, or too few of them lie across the contact; the pressure there is "
-            f"constant on cells up to its edge"
+            f"at the end of step {', '.join(left)} the edges of contact and stick could not be put "
+            f"inside the cells: they are rough, too few cells lie across them, or the history is "
+            f"more than is known of them; the tractions there are constant on cells"
         )
 
 

@@ -49,9 +49,9 @@ class SurfaceDiscretisation(Description):
     surface and relative to the friction limit. It sets the increments of steps that name none."""
 
     edge: EdgeCorrection = "off"
-    """Whether pressures are put right at the edge of contact, where constant on cells they are
-    wrong by the order of a cell: at the end of each step ("last"), of each increment ("all"), or
-    not at all."""
+    """Whether tractions are put right at the edges of contact and stick, where constant on cells
+    they are wrong by the order of a cell: at the end of each step ("last"), of each increment
+    ("all"), or not at all."""
 
 
 class FiniteElementDiscretisation(Description):

@@ -213,7 +213,7 @@ class Cost:
         Reported(
             "",
             "Change of the pressure in the last round of the edge correction, relative to all of "
-            "it; null where pressures are constant on cells up to their edge.",
+            "it; null where tractions are constant on cells up to their edges.",
             physical=False,
         ),
     ] = None

@@ -24,8 +24,8 @@ from semi_analytical.shearing import TangentialTarget
 Advance = Callable[
     [ContactModel, State | None, NormalTarget, TangentialTarget | None, float], State
 ]
-# A state as it would be with its edges inside the cells, to a tolerance.
-Correct = Callable[[State, float], Corrected | None]
+# A state, after the one before and under its load, with its edges inside the cells.
+Correct = Callable[[State | None, State, TangentialTarget | None, float], Corrected | None]
 
 # An increment that has taken more without converging is not cut any further. The last attempt that
 # fails before the halves converge is over after at most 17 200 in the stability map.
@@ -104,7 +104,7 @@ class _Solver:
         after = balanced(self.model, before, after, path_matters=matters)
         if self.correct is None or (self.plan.edge == "last" and fraction < 1):
             return after
-        return replace(after, corrected=self.correct(after, self.tolerance))
+        return replace(after, corrected=self.correct(before, after, tangential, self.tolerance))
 
     def report(self, reached: Reached[State], last: Increment | None) -> Increment:
         """The state, with what the increment has changed and cost."""
@@ -143,8 +143,17 @@ def _increment(model: ContactModel, before: State | None, state: State, place: P
         pressed = _with_edges(pressed, state.corrected, cell, force)
     if sheared is None:
         return pressed
-    bound = model.friction.limit(p)
-    stuck = stuck_cells(sheared.shear, bound, sheared.in_stick) * cell
+    stuck = stuck_cells(sheared.shear, model.friction.limit(p), sheared.in_stick)
+    if state.corrected is not None and state.corrected.sheared is not None:
+        edges = state.corrected.sheared
+        stuck = edges.stick_cells
+        sheared = replace(
+            sheared,
+            shear=edges.shear,
+            shift=edges.shift,
+            in_stick=edges.stick,
+            force=edges.force,
+        )
     increment = replace(
         pressed,
         status=sheared.status if model.scene.friction else pressed.status,
@@ -156,7 +165,7 @@ def _increment(model: ContactModel, before: State | None, state: State, place: P
         torque=sheared.torque,
         twist=sheared.twist,
         # Both areas are fitted on their own; where all sticks they may cross by their errors.
-        stick_area=min(stuck, pressed.contact_area),
+        stick_area=min(stuck * cell, pressed.contact_area),
         dissipated_energy=sheared.dissipated_energy,
         dissipation_uncertainty=state.energy.uncertain,
     )

@@ -93,7 +93,7 @@ def plan(scene: Scene, path_accuracy: float = PATH_ACCURACY, edge: EdgeCorrectio
         Effect("torsion", torsion, _why_torsion(friction, torsion)),
         effect.coupled(scene, coupled, why),
         effect.load_history(len(scene.loading) > 1 and shear),
-        Effect("edge correction", *_edges(scene, edge, shear, tilt)),
+        Effect("edge correction", *_edges(scene, edge, tilt, torsion, coupled)),
     )
     acting = Coupling.FULL if coupled else Coupling.NONE
     bodies = Bodies(coupled, dundurs_beta(scene), scene.friction or FRICTIONLESS)
@@ -133,7 +133,9 @@ def _why_torsion(friction: bool, torsion: bool) -> str:
     return "no step names a torque or a twist: the indenter is held from turning"
 
 
-def _edges(scene: Scene, asked: EdgeCorrection, shear: bool, tilt: bool) -> tuple[bool, str]:
+def _edges(
+    scene: Scene, asked: EdgeCorrection, tilt: bool, torsion: bool, coupled: bool
+) -> tuple[bool, str]:
     """Whether edges are put inside the cells, and why (not)."""
     if asked == "off":
         return False, "not asked for: tractions are constant on cells up to their edges"
@@ -141,6 +143,10 @@ def _edges(scene: Scene, asked: EdgeCorrection, shear: bool, tilt: bool) -> tupl
         return False, "below the rim of a flat punch the pressure rises to its edge"
     if tilt:
         return False, "not known of an indenter that tilts"
-    if shear:
-        return False, "not known of contacts that carry shear"
-    return True, "asked for: the pressure falls to zero like a root, inside the cells"
+    if coupled:
+        return False, "not known of bodies that couple"
+    if torsion:
+        return False, "not known of contacts that twist"
+    if scene.friction is not None and scene.friction.uniform is None:
+        return False, "not known of friction that varies from place to place"
+    return True, "asked for: tractions fall to zero like roots, inside the cells"

@@ -79,7 +79,7 @@ ORDERS = {
         *("means", "quadratic", "fit", "shape"),
         *("kernels", "displacement", "rim", "corrected"),
     ),
-    "semi_analytical.edge_correction": ("mixing", "operators", "pressure", "state"),
+    "semi_analytical.edge_correction": ("mixing", "operators", "pressure", "shear", "state"),
     "fem_reference": (
         *("memory", "scales", "mesh", "elasticity", "path", "refusals"),
         *("effects", "plan", "loads", "residuals", "fields", "energy", "model", "history"),

@@ -7,7 +7,35 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from semi_analytical.edge.displacement import Within
+
 Field = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class CorrectedShear:
+    """The tangential part; fields on the whole window.
+
+    shear         (2, nx, ny) its mean over each cell [force/length^2]
+    within        what it is within the cells, along x and y
+    slip          (2, nx, ny) its direction where cells slip, and there nearest to where they stick
+    displacement  (2, nx, ny) u_t at the centres of the cells [length]
+    shift         (2,) of the indenter [length]; None at the friction limit under force control
+    force         (2,) tangential [force]
+    stick         (nx, ny) cells whose centre sticks
+    stick_cells   area of the stick zone in cells
+    change        of the shear in the last round, Σ|Δq|/Σµp
+    """
+
+    shear: Field
+    within: tuple[Within, Within]
+    slip: Field
+    displacement: Field
+    shift: Field | None
+    force: Field
+    stick: NDArray[np.bool_]
+    stick_cells: float
+    change: float
 
 
 @dataclass(frozen=True)
@@ -20,6 +48,7 @@ class Corrected:
     approach       of the bodies [length]
     contact_cells  area of the contact in cells
     change         of the pressure in the last round, Σ|Δp|/Σp
+    sheared        the tangential part; None where no shear arises
     """
 
     pressure: Field
@@ -27,3 +56,4 @@ class Corrected:
     approach: float
     contact_cells: float
     change: float
+    sheared: CorrectedShear | None = None

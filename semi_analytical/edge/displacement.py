@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -50,6 +51,20 @@ class Within:
         rest = rest - by_x[:, None, None] * x[:, None] - by_y[:, None, None] * x
         return cls(slopes, i, j, rest)
 
+    def times(self, factor: Field) -> Within:
+        """The rest alone times a field (nx, ny) that hardly changes from cell to cell."""
+        of_cells = factor[self.i, self.j]
+        some = of_cells != 0
+        rest = of_cells[some, None, None] * self.rest[some]
+        return Within(self.slopes, self.i[some], self.j[some], rest)
+
+    @classmethod
+    def together(cls, slopes: Field, rests: Sequence[Within]) -> Within:
+        """These slopes, and all these rests."""
+        parts = ((w.i, w.j, w.rest) for w in rests)
+        i, j, rest = (np.concatenate(part) for part in zip(*parts, strict=True))
+        return cls(slopes, i, j, rest)
+
 
 class EdgeOperator:
     """Displacement (nx, ny) by what a traction does within its cells; one call is one and a half
@@ -82,10 +97,8 @@ class EdgeOperator:
         u = np.zeros(np.array(within.slopes.shape[1:]) + 2 * REACH)
         # Not by matrix products, whose rounding depends on the number of threads.
         seen = np.einsum("nab,ijab->ijn", within.rest, self._near)
-        for (i, j), displacement in zip(
-            np.ndindex(seen.shape[:2]), seen.reshape(-1, seen.shape[2]), strict=True
-        ):
-            np.add.at(u, (within.i + i, within.j + j), displacement)
+        for i, j in np.ndindex(seen.shape[:2]):
+            np.add.at(u, (within.i + i, within.j + j), seen[i, j])
         return u[REACH:-REACH, REACH:-REACH]
 
 

@@ -40,9 +40,9 @@ MOST_UNSAFE = 0.15
 
 def edge_pressure(
     operators: EdgeOperators, target: NormalTarget, pressure: Field, tolerance: float
-) -> Corrected | None:
-    """A solved pressure (nx, ny) with its edge inside the cells; None where that is not safe:
-    the contact is too thin, its edge is rough, or the rounds do not settle."""
+) -> tuple[Corrected, Rim] | None:
+    """A solved pressure (nx, ny) with its edge inside the cells, and the edge; None where that is
+    not safe: the contact is too thin, its edge is rough, or the rounds do not settle."""
     problem = _Problem(operators, target, tolerance)
     edge, p, mixing, changes = rim(pressure, pressure > 0), pressure, Mixing(), []
     for number in range(MOST_ROUNDS):
@@ -58,10 +58,15 @@ def edge_pressure(
             break
         p = answer if number == 0 else np.maximum(mixing.next(p, change), 0.0)
         edge = rim(p, p > 0, edge)
-    if edge is None or changes[-1] > min(LEAST_SETTLED, LEAST_FALL * changes[0]):
+    if edge is None or not settles(changes):
         return None
     gap = np.where(edge.region, 0.0, np.maximum(gap, 0.0))
-    return Corrected(answer, gap, approach, edge.area, changes[-1])
+    return Corrected(answer, gap, approach, edge.area, changes[-1]), edge
+
+
+def settles(changes: list[float]) -> bool:
+    """Whether the changes of the rounds have become small, and a small part of the first."""
+    return changes[-1] <= min(LEAST_SETTLED, LEAST_FALL * changes[0])
 
 
 @dataclass(frozen=True)

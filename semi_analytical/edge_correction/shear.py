@@ -1,0 +1,210 @@
+"""The shear with its edges inside the cells, at the border of stick as at that of contact.
+
+With n the direction of slip, q = µp n - d: d vanishes where cells slip, and towards the border of
+the stick zone it falls to zero like the pressure of a smaller contact (Cattaneo 1938). So q is
+within the cells what p and d are. After a reversal the same holds of what the shear has changed by,
+at twice the friction (Masing's rule: Mindlin and Deresiewicz 1953): q = q' + µp (n - n') - d, with
+q' and n' before it.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.ndimage import distance_transform_edt
+
+from contact_scene.solver_errors import NotConverged
+from semi_analytical.admissible_shear import magnitude
+from semi_analytical.edge.corrected import CorrectedShear
+from semi_analytical.edge.displacement import Within
+from semi_analytical.edge.rim import Rim, rim
+from semi_analytical.edge_correction.mixing import Mixing
+from semi_analytical.edge_correction.operators import EdgeOperators
+from semi_analytical.edge_correction.pressure import (
+    ENOUGH,
+    MOST_ROUNDS,
+    MOST_UNSAFE,
+    SETTLED,
+    settles,
+)
+from semi_analytical.sheared import Sheared
+from semi_analytical.shearing import TangentialTarget
+from semi_analytical.tangential import TangentialSolution, solve_tangential
+
+Field = NDArray[np.float64]
+VectorField = NDArray[np.float64]
+Mask = NDArray[np.bool_]
+WithinVector = tuple[Within, Within]
+
+
+@dataclass(frozen=True)
+class Missing:
+    """What is missing from full slip: shear (2, nx, ny), that of full slip (2, nx, ny), its
+    direction (2, nx, ny), where there is anything missing (nx, ny), and the border of that."""
+
+    shear: VectorField
+    full: VectorField
+    slip: VectorField
+    stick: Mask
+    edge: Rim
+
+
+@dataclass(frozen=True)
+class ShearProblem:
+    """An increment at its corrected pressure.
+
+    bound    µp (nx, ny) [force/length^2]
+    limit    µp within the cells, in `contact.parts` along the edge of the contact
+    load     of the increment
+    target   u_t - shift of the state before (2, nx, ny) [length]
+    before   its shear (2, nx, ny), and what that is within the cells
+    turned   direction of its slip (2, nx, ny) where it is turned round; None where it goes on
+    """
+
+    operators: EdgeOperators
+    bound: Field
+    contact: Rim
+    limit: Within
+    load: TangentialTarget
+    target: VectorField
+    before: tuple[VectorField, WithinVector]
+    turned: VectorField | None
+    tolerance: float
+
+    def full(self, bound: Field, slip: VectorField, before: VectorField) -> VectorField:
+        """The shear if all slipped; turned round, if all did that slipped before."""
+        return bound * slip if self.turned is None else before + bound * (slip - self.turned)
+
+    def missing(
+        self, q: VectorField, bound: Field, before: VectorField, stick: Mask, edge: Rim | None
+    ) -> Missing | None:
+        """What is missing from full slip along the slip of the nearest slipping cell; None where
+        there is no border of stick to fit.
+
+        before  shear of the state before (2, nx, ny)
+        edge    about the same border; None where there is none yet
+        """
+        reached = np.zeros_like(stick) if edge is None else edge.outer
+        slips = (bound > 0) & ~(stick & ~reached)
+        if not np.any(slips) or not np.any(stick):
+            return None
+        nearest = distance_transform_edt(~slips, return_distances=False, return_indices=True)
+        slip = q[:, nearest[0], nearest[1]]
+        slip = slip / magnitude(slip)
+        full = self.full(bound, slip, before)
+        shear = np.where(stick, full - q, 0.0)
+        border = rim(magnitude(shear), stick, edge)
+        if border is None or border.unsafe > MOST_UNSAFE:
+            return None
+        return Missing(shear, full, slip, stick, border)
+
+    def within(self, q: VectorField, missing: Missing) -> WithinVector:
+        """What a shear is within the cells.
+
+        Deep in the stick zone it is what it was, and central differences of what has come since.
+        """
+        edge = missing.edge
+        d = magnitude(missing.shear)
+        along = missing.shear / np.where(d > 0, d, 1.0)
+        deep = missing.stick.copy()
+        deep[edge.i, edge.j] = False
+        of_d = Within.of(d, edge.i, edge.j, edge.parts)
+        slips = (self.bound > 0) & ~missing.stick
+        last, within_last = self.before
+        since_turn = 0.0 if self.turned is None else 1.0
+        found = []
+        for k in (0, 1):
+            n = missing.slip[k] - (0.0 if self.turned is None else self.turned[k])
+            turns = np.stack(np.gradient(n)) * np.where(slips, self.bound, 0.0)
+            outer = n * self.limit.slopes + turns - along[k] * of_d.slopes
+            outer += since_turn * within_last[k].slopes
+            since = np.stack(np.gradient(q[k] - last[k])) + within_last[k].slopes
+            parts = (
+                self.limit.times(np.where(deep, 0.0, n)),
+                of_d.times(-along[k]),
+                within_last[k].times(np.where(deep, 1.0, since_turn)),
+            )
+            found.append(Within.together(np.where(deep, since, outer), parts))
+        return found[0], found[1]
+
+    def displacement(self, within: WithinVector) -> VectorField:
+        """u_t (2, nx, ny) by what a shear is within the cells [length]."""
+        of, (x, y) = self.operators, within
+        return np.stack([of["xx"](x) + of["xy"](y), of["xy"](x) + of["yy"](y)])
+
+    def solve(
+        self, q: VectorField, motion: Field, missing: Missing, u: VectorField
+    ) -> TangentialSolution:
+        """The shear with the border of stick where it is.
+
+        Cells that the stick zone only reaches into are missing from full slip what the fit says.
+        """
+        model = self.operators.model
+        operator = model.tangential_operator(model.grid.cells)
+        reached = magnitude(missing.full - missing.edge.means * missing.slip)
+        return solve_tangential(
+            operator,
+            operator.precondition,
+            np.where(missing.edge.outer, np.minimum(reached, self.bound), self.bound),
+            self.target - u,
+            self.load.on(model.grid.cell_area, None),
+            q,
+            motion,
+            model.self_compliance,
+            self.tolerance,
+            ENOUGH,
+        )
+
+
+def edge_shear(
+    problem: ShearProblem, solved: Sheared, before: VectorField
+) -> CorrectedShear | None:
+    """A solved shear with its edges inside the cells; None where that is not safe.
+
+    before  shear that the solved one started from (2, nx, ny)
+    """
+    assert solved.shift is not None
+    # What is missing at the solved pressure is about what is missing at the corrected one.
+    missing = problem.missing(solved.shear, solved.limit, before, solved.in_stick, None)
+    if missing is None:
+        return None
+    full = problem.full(problem.bound, missing.slip, problem.before[0])
+    missing = replace(missing, full=full)
+    q, motion = full - missing.shear, solved.shift
+    mixing, changes = Mixing(), []
+    for number in range(MOST_ROUNDS):
+        within = problem.within(q, missing)
+        u = problem.displacement(within)
+        try:
+            solution = problem.solve(q, motion, missing, u)
+        except NotConverged:
+            return None
+        answer, motion = solution.shear, solution.motion
+        change = answer - q
+        changes.append(float(np.sum(magnitude(change)) / np.sum(problem.bound)))
+        edge, stick = missing.edge, (problem.bound > 0) & ~solution.in_slip
+        if changes[-1] < SETTLED or number == MOST_ROUNDS - 1:
+            break
+        q = answer if number == 0 else mixing.next(q, change)
+        next_missing = problem.missing(
+            q, problem.bound, problem.before[0], stick | edge.outer, edge
+        )
+        if next_missing is None:
+            return None
+        missing = next_missing
+    if not settles(changes):
+        return None
+    force, cell = problem.load.force, problem.operators.model.grid.cell_area
+    return CorrectedShear(
+        shear=answer,
+        within=within,
+        slip=missing.slip,
+        displacement=solution.displacement + u,
+        shift=motion,
+        force=np.sum(answer, axis=(1, 2)) * cell if force is None else force,
+        stick=edge.region,
+        stick_cells=edge.area,
+        change=changes[-1],
+    )
