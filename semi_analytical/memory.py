@@ -19,6 +19,10 @@ TORSION_ARRAYS = 36
 # Spectra of the coupling, and the pressures that the alternation remembers: more of them, and two
 # per cent more memory, where coupling is strong.
 COUPLING_ARRAYS = {Coupling.NONE: 0, Coupling.ONE_WAY: 33, Coupling.FULL: 60}
+# Spectra of what tractions do within the cells, and these along the edge: as many cells as a side has.
+EDGE_ARRAYS = 28
+EDGE_SHEAR_ARRAYS = 84
+EDGE_RIM = 200_000  # bytes per cell of the longer side
 # Arrays that every increment leaves behind: pressure and gap; shear, slip, its distance and
 # dissipation, and masks.
 PRESSURE_RESULT = 2
@@ -36,12 +40,16 @@ def estimated_bytes(grid: SurfaceGrid, plan: Plan) -> int:
     work = PRESSURE_ARRAYS + (SHEAR_ARRAYS if plan.shear else 0)
     work += (TILT_ARRAYS if plan.tilt else 0) + (TORSION_ARRAYS if plan.torsion else 0)
     work += COUPLING_ARRAYS[plan.coupling]
+    rim = 0
+    if plan.edge != "off":
+        work += EDGE_ARRAYS + (EDGE_SHEAR_ARRAYS if plan.shear else 0)
+        rim = EDGE_RIM * max(grid.cells)
     work += HISTORY_ARRAYS if increments > 1 else 0
     kept = PRESSURE_RESULT + (SHEAR_RESULT if plan.shear else 0)
     held = min(cells * DOUBLE * kept * increments, MOST_HELD) + LIGHT * increments
     held *= 2 if plan.shear else 1  # a companion on the same grid is held beside the result
     drawing = DRAWING + cells * DOUBLE * DRAWING_ARRAYS
-    return LIBRARIES + held + max(cells * DOUBLE * work, drawing)
+    return LIBRARIES + held + max(cells * DOUBLE * work + rim, drawing)
 
 
 def refuse_if_too_large(grid: SurfaceGrid, plan: Plan) -> None:
