@@ -19,7 +19,8 @@ TORSION_ARRAYS = 36
 # Spectra of the coupling, and the pressures that the alternation remembers: more of them, and two
 # per cent more memory, where coupling is strong.
 COUPLING_ARRAYS = {Coupling.NONE: 0, Coupling.ONE_WAY: 33, Coupling.FULL: 60}
-# Spectra of what tractions do within the cells, and these along the edge: as many cells as a side has.
+# Spectra of what tractions do within the cells, and that along the edge, in about as many cells as
+# a side has.
 EDGE_ARRAYS = 28
 EDGE_SHEAR_ARRAYS = 84
 EDGE_RIM = 200_000  # bytes per cell of the longer side
