@@ -5,6 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from contact_scene.solver_errors import NotConverged
 from semi_analytical.coupled_problem import CoupledProblem
 from semi_analytical.generalised_derivative import Field, Natural, Point, Tractions, Zones
 from semi_analytical.graded_preconditioner import GradedPreconditioner
@@ -63,10 +64,13 @@ class LinearisedIncrement:
     def admissible(self, tractions: Tractions) -> Tractions:
         """Tractions in the zones that friction allows and that carry the loads, near given ones.
 
-        raises  NotConverged where no pressure in the zones has the moments
+        raises  NotConverged where the zones cannot carry the loads
         """
         problem, zones, load = self._problem, self._zones, self._problem.tangential_load
         p = problem.normal_load.admissible(np.maximum(tractions[2], 0.0) * zones.contact)
+        bound = problem.friction_limit(p)
+        if load.exhausts(bound):
+            raise NotConverged("the coupled increment", 0, np.inf, 0.0)
         t = zones.tractions(np.concatenate([tractions[:2] * zones.stick, p[None]]))
         images = self._images[: self._shifts, :2]
         forces = np.array([load.forces(image) for image in images])
@@ -74,7 +78,7 @@ class LinearisedIncrement:
         missing = load.given - load.forces(t[:2])
         shares = np.linalg.pinv(forces.T, rcond=UNDETERMINED) @ missing
         t[:2] += np.einsum("i,icjk->cjk", shares, images)
-        t[:2] = load.admissible(t[:2], problem.friction_limit(p))
+        t[:2] = load.admissible(t[:2], bound)
         return t
 
     def solved(self, base: Point, natural: Natural, depth: float) -> Step:

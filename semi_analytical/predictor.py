@@ -24,6 +24,8 @@ Start = tuple[Field, VectorField]
 
 # Relative: a load that turns more is not the way to go on.
 STRAIGHT = 1e-6
+# In logarithms of the load, over the last increment: beyond, that tells nothing of the next one.
+FURTHEST = 2.0
 
 
 @dataclass(frozen=True)
@@ -112,7 +114,7 @@ def _dilated(
         return None
     way = np.log(load / loads[0])
     last_way = np.log(loads[0] / loads[-1])
-    if behind is None or last_way == 0 or behind.normal_force <= 0:
+    if behind is None or abs(way) > FURTHEST * abs(last_way) or behind.normal_force <= 0:
         lens = Lens.over(now.pressure, np.exp(wider * way))
         return lens.grown(now.pressure, now.shear, np.exp(rise * way))
     part = way / last_way
