@@ -9,8 +9,6 @@ import numpy as np
 
 from verification import Answer, CannotDo, Field, judge
 
-SIDE = 1.2e-3  # of the window [m]
-
 
 def love(x, y):
     """Integral of 1/r over the cell corners that x and y hold."""
@@ -28,8 +26,8 @@ def modulus(scene):
 def solve(problem, level):
     """Pressure under the first load on 32, 64, … cells a side."""
     n, e_star = 32 * 2**level, modulus(problem.scene)
-    h = SIDE / n
-    x = (np.arange(n) + 0.5) * h - SIDE / 2
+    h = problem.window / n
+    x = (np.arange(n) + 0.5) * h - problem.window / 2
     gap = (x[:, None] ** 2 + x[None, :] ** 2) / (2 * problem.scene["indenter"]["radius"])
     k = (np.fft.fftfreq(2 * n) * 2 * n)[:, None] * h
     lo, hi = k - h / 2, k + h / 2

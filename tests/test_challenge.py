@@ -19,11 +19,11 @@ from verification.challenge.asked import Challenge
 from verification.challenge.cases import challenges
 from verification.challenge.door import Posed
 from verification.challenge.judgement import judged
-from verification.challenge.sheet import render_sheet
 from verification.challenge.toml_text import toml_text
 from verification.judging.outcome import Status
 from verification.problems.elliptical import EXACT as ELLIPSE
 from verification.problems.paper_scene import HERTZ
+from verification.report.judgement_sheet import render_sheet
 
 POINT = challenges()["hertz_point"]
 NAMES = sorted(challenges())
@@ -286,13 +286,21 @@ def test_a_blind_export_does_not_print_the_answer(tmp_path: Path) -> None:
 
 
 def test_our_own_solver_enters_by_the_door_of_all(tmp_path: Path) -> None:
-    found = judge("hertz_point", surface.answer, levels=3, solver=surface.SOLVER)
+    found = judge("hertz_point", surface.answer, levels=3, solver=surface.ON_CELLS)
     by_name = {row.quantity: row for row in found.rows}
     assert by_name["approach"].status is Status.PASS
     assert by_name["pressure"].grade == "C"
     assert by_name["pressure: load carried"].status is Status.PASS
     assert by_name["contact_radius"].status is Status.FAIL  # on 128 cells: class C
     assert "Errors by fineness" in render_sheet(found)
+
+
+def test_edges_inside_the_cells_are_worth_a_class(tmp_path: Path) -> None:
+    for answer, solver, grade in (
+        (surface.answer, surface.ON_CELLS, "C"),
+        (surface.answer_with_edges, surface.WITH_EDGES, "B"),
+    ):
+        assert judge("hertz_point", answer, levels=3, solver=solver).grade == grade
 
 
 def test_a_body_that_is_five_per_cent_too_stiff_fails_in_everything() -> None:

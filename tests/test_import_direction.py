@@ -135,7 +135,7 @@ ORDERS = {
     ),
     "verification.challenge": (
         *("halves", "asked", "cases", "toml_text", "export", "answer", "reading"),
-        *("verdicts", "judgement", "door", "sheet"),
+        *("verdicts", "judgement", "door"),
     ),
     "slipstick": ("solvers", "path_errors", "solving", "stored_run", "cli", "__main__"),
     # Its floors: what judges stands on what is known, what is shown on what was judged.
@@ -144,8 +144,8 @@ ORDERS = {
         *("problems", "laws", "observed", "external_codes"),
         "judging",
         *("running", "regression"),
-        *("cases", "defects", "peers", "studies", "benchmarks"),
-        *("report", "challenge", "adapters"),
+        *("cases", "defects", "peers", "challenge", "adapters", "studies", "benchmarks"),
+        "report",
     ),
     "verification.cases.both_solvers": (
         *("left_out", "contacts", "sides", "differences", "stress", "line", "charts", "tables"),

@@ -46,7 +46,7 @@ def judge(
     from verification.challenge.asked import Grade
     from verification.challenge.judgement import judged
     from verification.challenge.reading import read_answers
-    from verification.challenge.sheet import COLUMNS, render_sheet, row_texts
+    from verification.report.judgement_sheet import COLUMNS, render_sheet, row_texts
 
     found = judged(*read_answers(folder), None if grade is None else Grade(grade))
     print_table(COLUMNS, [row_texts(row) for row in found.rows])

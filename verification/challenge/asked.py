@@ -77,6 +77,7 @@ class Challenge:
     """A problem for others.
 
     problem  in words
+    window   side of a square in which all of it happens, with room [length]
     shares   what its reference has in common with our own solvers; empty: nothing
     """
 
@@ -87,7 +88,7 @@ class Challenge:
     source: str
     values: tuple[AskedValue, ...]
     fields: tuple[AskedField, ...]
-    window: str
+    window: float
     shares: str = ""
 
     @property

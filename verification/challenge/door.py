@@ -27,6 +27,7 @@ class Posed:
     loads   at the end of every loading step: normal and tangential force [N]
     asked   quantity and loading step, with its unit
     fields  tractions that are wanted at own points
+    window  side of a square in which all of it happens, with room [m]
     """
 
     name: str
@@ -34,6 +35,7 @@ class Posed:
     loads: tuple[tuple[float, tuple[float, float]], ...]
     asked: Mapping[tuple[str, int], str]
     fields: tuple[tuple[str, int], ...]
+    window: float
 
 
 def posed(name: str) -> Posed:
@@ -47,6 +49,7 @@ def posed(name: str) -> Posed:
         tuple(challenge.loads),
         {(v.quantity, v.step): v.unit for v in challenge.values},
         tuple((f.quantity, f.step) for f in challenge.fields),
+        challenge.window,
     )
 
 

@@ -86,7 +86,8 @@ def _problem(challenge: Challenge) -> str:
     ]
     return _template_text("problem.md").format(
         title=challenge.title, problem=challenge.problem, steps="\n".join(steps),
-        window=challenge.window, source=challenge.source, shares=challenge.shares or "nothing",
+        window=f"{challenge.window * 1e3:g} mm square", source=challenge.source,
+        shares=challenge.shares or "nothing",
     )  # fmt: skip
 
 

@@ -20,6 +20,7 @@ TITLES = {
     "penalty": "What a penalty costs",
     "stability": "The stability map",
     "seeded-defects": "Seeded defects",
+    "scoreboard": "Other codes on the same problems",
 }
 LEVELS = ("quick", "standard", "full")
 PLACES = (Path("reports/studies"), Path("out"))  # where records are looked for

@@ -15,6 +15,7 @@ from verification.studies.refinement.increments import increments_study
 from verification.studies.refinement.mesh import mesh_study
 from verification.studies.refinement.sampling import sampling_study
 from verification.studies.refinement.window import window_study
+from verification.studies.scoreboard import STUDY as SCOREBOARD
 from verification.studies.seeded_defects.study import STUDY as SEEDED_DEFECTS
 from verification.studies.sliding.coated_tractions import STUDY as COATED_TRACTIONS
 from verification.studies.sliding.gross_sliding import STUDY as GROSS_SLIDING
@@ -53,6 +54,7 @@ STUDIES: dict[str, Study] = {
         WORK_PRECISION,
         ERROR_BUDGET,
         ERROR_COVERAGE,
+        SCOREBOARD,
     )
 }
 SCENE_STUDIES: dict[str, SceneStudy] = {

@@ -37,11 +37,17 @@ def solve(request: Request) -> Answer:
     )  # fmt: skip
     solver.set_gap(gap)
     solver.step(p_bar=load)
-    step = solver.step(q_bar=(request["tangential_force"] / side**2, 0.0), dt=1.0)
+    forces = request.get("tangential_forces") or [request["tangential_force"]]
+    shears = []
+    for force in forces:
+        step = solver.step(q_bar=(force / side**2, 0.0), dt=1.0)
+        shears.append([step.qx.reshape(n, n), step.qy.reshape(n, n)])
+        if not step.converged:
+            break
     return {
         "version": version("aspher"),
         "pressure": solver.pressure.reshape(n, n),
-        "shear": [step.qx.reshape(n, n), step.qy.reshape(n, n)],
+        "shear": shears if "tangential_forces" in request else shears[-1],
         "approach": None,
         "iterations": None,
         "converged": bool(step.converged),

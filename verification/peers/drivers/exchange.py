@@ -27,10 +27,14 @@ class CannotDo(Exception):
 
 
 def gap_of(request: Request) -> NDArray[np.float64]:
-    """Gap below a paraboloid at the cell centres (n, n)."""
+    """Gap below a paraboloid at the cell centres (n, n), or below a cone where a slope is given."""
     n, side = request["cells"], request["window"]
     x = (np.arange(n) + 0.5) * side / n - side / 2
-    return np.asarray((x[:, None] ** 2 + x[None, :] ** 2) / (2 * request["radius"]))
+    if request.get("slope"):
+        return np.asarray(request["slope"] * np.hypot(x[:, None], x[None, :]))
+    radius = request["radius"]
+    along, across = radius if isinstance(radius, list) else (radius, radius)
+    return np.asarray(x[:, None] ** 2 / (2 * along) + x[None, :] ** 2 / (2 * across))
 
 
 def answer(solve: Callable[[Request], Answer], *modules: str) -> None:

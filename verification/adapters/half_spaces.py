@@ -1,0 +1,113 @@
+"""Codes for homogeneous half-spaces on cells, through the drivers that `slipstick bench` asks too:
+aspher, tamaas and ContactMechanics, each in its own environment."""
+
+from __future__ import annotations
+
+import json
+import os
+import subprocess
+from collections.abc import Callable
+from math import pi, sqrt, tan
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from contact_results.one_thread import VARIABLES
+from verification.challenge.answer import Answer, Field, Key
+from verification.challenge.door import CannotDo, Posed
+from verification.peers.environment import Peer
+
+COARSEST, TOLERANCE = 32, 1e-8
+SECONDS_ALLOWED = 240
+SOURCES = Path(__file__).parents[2]
+
+
+def answering(python: Path, peer: Peer) -> Callable[[Posed, int], Answer]:
+    """A solver by a code that is installed for this Python."""
+
+    def solve(posed: Posed, level: int) -> Answer:
+        request, length, stress = _request(posed, COARSEST * 2**level, peer)
+        done = subprocess.run(
+            [str(python), "-m", peer.driver], input=json.dumps(request), capture_output=True,
+            text=True, check=False, timeout=SECONDS_ALLOWED,
+            env={**os.environ, **dict.fromkeys(VARIABLES, "1"), "PYTHONPATH": str(SOURCES)},
+        )  # fmt: skip
+        if done.returncode:
+            raise RuntimeError(f"{peer.module}: {done.stderr.strip().splitlines()[-1:]}")
+        found = json.loads(done.stdout)
+        if "cannot" in found:
+            raise CannotDo(found["cannot"])
+        return _answer(posed, request, found, length, stress)
+
+    return solve
+
+
+def _request(posed: Posed, cells: int, peer: Peer) -> tuple[dict[str, Any], float, float]:
+    """What its driver reads, with the units of length and stress: tamaas is sensitive to them."""
+    scene = posed.scene
+    bodies = [scene["indenter"], scene["body"]]
+    if any(body.get("layers") for body in bodies):
+        raise CannotDo("homogeneous bodies only")
+    if any(body["material"] == "rigid" for body in bodies):
+        raise CannotDo("the scene is of elastic bodies only here")
+    friction = (scene.get("friction") or {}).get("coefficient", 0.0)
+    if friction and not peer.friction:
+        raise CannotDo("no friction")
+    pair = [body["material"] for body in bodies]
+    modulus = 1 / sum((1 - m["poisson_ratio"] ** 2) / m["young_modulus"] for m in pair)
+    length = posed.window / 3
+    force = modulus * length**2
+    shape = scene["indenter"]
+    gap: dict[str, Any] = {"radius": 1.0}
+    if shape["shape"] == "cone":
+        gap["slope"] = tan(shape["slope_angle"])
+    elif "radii" in shape:
+        gap["radius"] = [radius / length for radius in shape["radii"]]
+    elif shape["shape"] == "paraboloid":
+        gap["radius"] = shape["radius"] / length
+    else:
+        raise CannotDo(f"no {shape['shape']}")
+    request = {
+        "cells": cells, "window": 3.0, "modulus": 1.0, **gap,
+        "force": posed.loads[0][0] / force, "friction": friction, "tolerance": TOLERANCE,
+        "tangential_force": 0.0,
+    }  # fmt: skip
+    if friction:
+        request["tangential_forces"] = [t[0] / force for _, t in posed.loads[1:]]
+    return request, length, modulus
+
+
+def _answer(
+    posed: Posed, request: dict[str, Any], found: dict[str, Any], length: float, stress: float
+) -> Answer:
+    n = request["cells"]
+    h = 3 * length / n
+    x = (np.arange(n) + 0.5) * h - 1.5 * length
+    x, y = np.meshgrid(x, x, indexing="ij")
+    pressure = np.array(found["pressure"]) * stress
+    contact = pressure > 0
+    area = np.full(int(np.sum(contact)), h**2)
+    weigh, middle = pressure / np.sum(pressure), slice(n // 2 - 1, n // 2 + 1)
+    own: dict[str, float | None] = {
+        "approach": None if found["approach"] is None else abs(found["approach"]) * length,
+        "contact_radius": sqrt(np.sum(contact) * h**2 / pi),
+        "central_pressure": float(np.mean(pressure[middle, middle])),
+        "semi_axis_x": sqrt(5 * float(np.sum(weigh * x**2))),  # of a half-ellipsoid: <x²> = a²/5
+        "semi_axis_y": sqrt(5 * float(np.sum(weigh * y**2))),
+    }
+    scalars: dict[Key, float] = {
+        (q, s): value for q, s in posed.asked if s == 1 and (value := own.get(q)) is not None
+    }
+    shears = [np.array(one)[0] * stress for one in found["shear"] or ()]
+    fields, gave_up = {}, {}
+    for quantity, step in posed.fields:
+        if quantity == "shear_x" and step - 2 >= len(shears):
+            gave_up[step] = "did not get there"
+            continue
+        traction = pressure if quantity == "pressure" else shears[step - 2]
+        fields[quantity, step] = Field(x[contact], y[contact], traction[contact], area)
+    if not found["converged"]:
+        gave_up[len(posed.loads)] = "did not converge"
+    seconds = float(found["seconds"])
+    return Answer(h, scalars, fields, gave_up, unknowns=n * n, seconds=seconds)

@@ -1,0 +1,164 @@
+"""The study of all codes on all challenges: ours and others by the same door."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterator
+from dataclasses import dataclass
+from math import inf
+
+from verification.adapters import surface
+from verification.adapters.half_spaces import answering
+from verification.challenge.answer import Solver
+from verification.challenge.cases import challenges
+from verification.challenge.door import CannotDo, judge
+from verification.challenge.judgement import Judgement
+from verification.exhibits.numbers import plain
+from verification.exhibits.table import Table
+from verification.judging.case import Level
+from verification.judging.outcome import Status
+from verification.peers.environment import PEERS, made_environment, peers_directory
+from verification.running.row import CaseRecord, Row
+from verification.running.study import Conclusion, Records, Settings, Statement, Study
+
+OURS = {
+    surface.ON_CELLS.name: (surface.ON_CELLS, surface.answer),
+    surface.WITH_EDGES.name: (surface.WITH_EDGES, surface.answer_with_edges),
+}
+LEVELS = {Level.QUICK: 3, Level.STANDARD: 4, Level.FULL: 4}
+CANNOT, LINE, GRADE = "cannot", "line", "grade"
+
+
+@dataclass(frozen=True)
+class ScoredRun:
+    """One code on one challenge."""
+
+    code: str
+    challenge: str
+    levels: int
+
+    @property
+    def name(self) -> str:
+        """Of its record."""
+        words = f"{self.code}-{self.challenge}"
+        return "".join(c if c.isalnum() else "-" for c in words)
+
+    def compute(self) -> CaseRecord:
+        """Solve on all levels and judge; a code that has no such problem says so."""
+        asked: dict[str, str | bool | int | float | None] = {
+            "code": self.code, "challenge": self.challenge, "levels": self.levels,
+        }  # fmt: skip
+        try:
+            return _record(self._judged(), asked)
+        except CannotDo as error:
+            return CaseRecord(parameters=asked, words={CANNOT: str(error)})
+
+    def _judged(self) -> Judgement:
+        if self.code in OURS:
+            solver, answer = OURS[self.code]
+            return judge(self.challenge, answer, self.levels, solver=solver)
+        (peer,) = (peer for peer in PEERS if peer.module == self.code)
+        installed = made_environment(peers_directory())
+        if reason := installed.missing.get(peer.distribution):
+            raise CannotDo(f"could not be installed: {reason}")
+        solve = answering(installed.python, peer)
+        version = peer.distribution.partition("==")[2]
+        return judge(self.challenge, solve, self.levels, solver=Solver(peer.module, version))
+
+
+def cases(settings: Settings) -> tuple[ScoredRun, ...]:
+    """Every code on every challenge."""
+    codes = (*OURS, *(peer.module for peer in PEERS))
+    levels = settings.levels or LEVELS[settings.level]
+    return tuple(ScoredRun(code, name, levels) for name in challenges() for code in codes)
+
+
+def conclude(settings: Settings, records: Records) -> Conclusion:
+    """Classes by code and challenge, and what each code's largest errors are."""
+    runs = [(run, records[run.name]) for run in cases(settings) if run.name in records]
+    done = Counter(run.code for run, record in runs if CANNOT not in record.words)
+    codes = list(dict.fromkeys(run.code for run, _ in runs))
+    found = {(run.challenge, run.code): record for run, record in runs}
+    board = Table(
+        title="Classes by challenge and code",
+        columns=("challenge", *codes),
+        rows=tuple(
+            (name, *(_cell(found.get((name, code))) for code in codes)) for name in challenges()
+        ),
+        note="Verdicts that pass of all; class A is 1e-4 of a stated scale, B 1e-3, C 1e-2, on the "
+        "finest of the levels; partial: something required is not answered.",
+    )
+    return Conclusion(
+        statements=tuple(
+            Statement(
+                claim=f"{code} answers",
+                outcome=None,
+                measured=f"{done[code]} of {len(challenges())} challenges",
+            )
+            for code in codes
+        ),
+        answer=f"On {32 * 2 ** ((settings.levels or LEVELS[settings.level]) - 1)} cells a side all "
+        "codes with cells of constant traction share one error; who differs is told below.",
+        tables=(board, Table(title="Largest errors", columns=("challenge", "quantity", *codes),
+                             rows=tuple(_errors(found, codes)))),
+        remarks=tuple(
+            f"{run.code} on {run.challenge}: {record.words[CANNOT]}."
+            for run, record in runs if CANNOT in record.words
+        ),
+    )  # fmt: skip
+
+
+def _record(judgement: Judgement, asked: dict[str, str | bool | int | float | None]) -> CaseRecord:
+    parts = tuple(
+        Row(
+            parameters={"quantity": row.quantity, "step": row.step, "level": row.level},
+            measures={"error": row.error, "bound": row.bound},
+            words={"status": row.status, "because": row.because},
+        )
+        for row in judgement.rows
+    )
+    counters = {status.value: judgement.count(status) for status in Status}
+    counters["omitted"] = len(judgement.omitted)
+    seconds = sum(answer.seconds or 0.0 for answer in judgement.answers)
+    return CaseRecord(
+        parameters=asked, words={LINE: judgement.line, GRADE: judgement.grade},
+        counters=counters, parts=parts, seconds=seconds,
+    )  # fmt: skip
+
+
+def _cell(record: CaseRecord | None) -> str:
+    if record is None or CANNOT in record.words:
+        return "–"
+    passed, all_verdicts = (
+        record.counters[Status.PASS],
+        sum(record.counters[status] for status in Status),
+    )
+    return f"{record.words[GRADE]}, {passed} of {all_verdicts}"
+
+
+def _errors(
+    found: dict[tuple[str, str], CaseRecord], codes: list[str]
+) -> Iterator[tuple[str, ...]]:
+    """Over all loading steps."""
+    for name in challenges():
+        worst: dict[str, dict[str, float]] = {}
+        for code in codes:
+            record = found.get((name, code))
+            for row in record.parts if record else ():
+                error, quantity = row.measures["error"], str(row.parameters["quantity"])
+                if row.measures["bound"] is not None:
+                    of = worst.setdefault(quantity, {})
+                    of[code] = max(of.get(code, 0.0), inf if error is None else error)
+        for quantity, of in worst.items():
+            texts = (plain(of[code], 2) if code in of else "–" for code in codes)
+            yield name, quantity, *texts
+
+
+STUDY = Study(
+    name="scoreboard",
+    title="Codes on our challenges",
+    question="How good are this and other codes on problems whose answer is known, all judged by "
+    "the same bounds and by the same door?",
+    cases=cases,
+    conclude=conclude,
+)
