@@ -3,15 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
-from contact_errors.of_stress import rule_of, stress_errors
 from contact_errors.rules import Rule
-from contact_results.stress.extremes import extremes
-from contact_results.stress.loaded_bodies import state_of_result
-from contact_results.stress.on_cells import stress_on_cells
 from contact_scene.accuracy import LARGEST_TENSION
 from contact_scene.stated_error import StatedError, StatedErrors
-from semi_analytical import Result
+
+if TYPE_CHECKING:
+    from semi_analytical import Result
 
 
 @dataclass(frozen=True)
@@ -25,6 +24,11 @@ class Tension:
 
 def largest_tension(result: Result, stated: StatedErrors, step: int) -> Tension | None:
     """At the end of a loading step, from 1; None for a rigid body."""
+    from contact_errors.of_stress import rule_of, stress_errors
+    from contact_results.stress.extremes import extremes
+    from contact_results.stress.loaded_bodies import state_of_result
+    from contact_results.stress.on_cells import stress_on_cells
+
     state = state_of_result(result, step, stated)
     if not state.body.deforms:
         return None

@@ -43,6 +43,7 @@ FALLS = 1.5
 SMALL = 1e-3  # what may be luck on the coarse grid
 EDGE_FALLS = 1.3  # tension at the edge of the contact, order one half
 
+ENERGY = "elastic_energy"
 SEED = 2  # of draws that neither set the rules nor judge them
 
 
@@ -73,7 +74,10 @@ def errors(known: KnownScene, fine: bool, *, stress: bool) -> Iterator[tuple[Tru
                 if stress
                 else truth.read(steps)
             )
-            assert found is not None
+            if found is None:  # sheared sections tell of no energy stored, and run states no error
+                assert truth.quantity == ENERGY
+                assert known.fineness.solver != CELLS
+                continue
             yield truth, abs(found / truth.reference.value - 1)
 
 

@@ -38,6 +38,9 @@ class NoSuchState(Exception):
     """The directory holds no run, or the run has no such step."""
 
 
+ROUNDING = 1e-9  # of the approach: what shifts by symmetry are below
+
+
 @dataclass(frozen=True)
 class LoadedBodies:
     """The two bodies of a scene and what loads their surface.
@@ -133,7 +136,8 @@ def _by_increments(end: State, errors: Mapping[str, StatedError]) -> float | Non
         if error.error is None:
             return None
         size = float(np.max(np.abs(value)))
-        parts.append(float(np.max(error.parts.get("increments", 0.0))) / size if size else 0.0)
+        if size > ROUNDING * abs(end.approach or 0.0):  # nothing is known by the digits of a zero
+            parts.append(float(np.max(error.parts.get("increments", 0.0))) / size)
     return max(parts, default=0.0)
 
 
