@@ -123,7 +123,20 @@ RULES = with_their_likes(
 
 # Where friction acts back on a pressing contact its pressure has a cusp on the axis.
 CUSP = {"peak_pressure": replace(PEAK, order=1, factor=1.65, lengthscale=Lengthscale.CUSP)}
-FLAT = with_their_likes({"approach": Rule(1, 0.2, 8, 1.45, path_factor=1.5)})
+# A rim lies within cells: whatever holds the indenter is off as the radius a that the cells make of
+# it is, motions and energies with 1/a, rotations with 1/a³.
+RIM = Rule(1, 0.2, 8, 1.45, path_factor=1.5)
+RIM_TURNED = replace(RIM, envelope=0.6)
+FLAT = with_their_likes(
+    {
+        "approach": RIM,
+        "tangential_shift": replace(RIM, path_factor=3.0, path_scatter=0.3),
+        "twist": replace(RIM_TURNED, path_factor=3.0, path_scatter=0.3),
+        "tilt": RIM_TURNED,
+        "elastic_energy": RIM,
+        "input_work": replace(RIM, path_factor=3.0, path_scatter=0.3),
+    }
+)
 CONE = with_their_likes({"contact_radius": Rule(1.25, 1.0, 4, 1.2, path_factor=1.5)})
 # Infinite in the exact answer: no number of cells has an error.
 INFINITE = frozenset({"peak_pressure"})

@@ -12,6 +12,7 @@ from contact_scenes import (
     LOAD,
     MU,
     NU,
+    PRESS,
     YOUNG,
     A,
     grid,
@@ -37,7 +38,7 @@ from contact_results.figures.caption import SHOWN, add_caption
 from contact_results.stress.extremes import extremes
 from contact_results.stress.loaded_bodies import LoadedBodies, state_of_result
 from contact_results.stress.on_cells import stress_on_cells
-from contact_scene import RIGID, Body, Cone, FiniteElementDiscretisation, Scene
+from contact_scene import RIGID, Body, Cone, FiniteElementDiscretisation, FlatPunch, Scene
 from contact_scene.stated_error import ErrorStatus, StatedError
 from semi_analytical import SurfaceGrid, plan, solve
 from verification.closed_forms.cattaneo_mindlin import PartialSlip
@@ -108,6 +109,33 @@ def test_the_error_of_hertz_covers_what_is_wrong(cells: int) -> None:
         wrong = abs(getattr(end, name) - value)
         assert wrong <= size(errors[name]), name
         assert size(errors[name]) < 0.1 * value
+
+
+@pytest.mark.parametrize("cells", [24, 48])
+@pytest.mark.parametrize(
+    ("push", "name", "power"),
+    [
+        ({"tangential_force": (50.0, 0.0)}, "tangential_shift", 1),
+        ({"torque": 0.01}, "twist", 3),
+        ({"moment": (0.0, 0.05)}, "tilt", 3),
+    ],
+)
+def test_the_error_below_a_rim_covers_what_is_wrong(
+    push: dict[str, Any], name: str, power: int, cells: int
+) -> None:
+    """A rigid punch that sticks on a half-space, which resists with 8 G a/(2 - ν) (Mindlin 1949),
+    16 G a³/3 and 8 G a³/3(1 - ν): with ν = ½ all are 16/3."""
+    a, shear_modulus = 3e-4, YOUNG / 3
+    punch = FlatPunch(radius=a, material=RIGID)
+    pressed = scene(PRESS, push, indenter=punch, body=steel(poisson_ratio=0.5))
+    result = solve(pressed, SurfaceGrid((cells, cells), (4 * a, 4 * a)), 1e-8)
+    errors, end = stated_errors(result).steps[-1], result.steps[-1]
+    load = float(np.max([*push.values()]))
+    moved = load / (16 / 3 * shear_modulus * a**power)
+    work = 0.5 * (load * moved + LOAD**2 / (8 * shear_modulus * a))
+    assert abs(np.max(getattr(end, name)) - moved) <= size(errors[name])
+    for energy in ("elastic_energy", "input_work"):
+        assert abs(getattr(end, energy) - work) <= size(errors[energy]), energy
 
 
 def test_what_the_load_prescribes_is_exact() -> None:
