@@ -28,6 +28,9 @@ from semi_analytical.resolution import Resolution, resolution
 
 # In cells: below them a number has not converged, however small its differences are.
 LEAST = {Lengthscale.CONTACT: 3.0, Lengthscale.STICK: 1.0, Lengthscale.ANNULUS: 0.5}
+# Of the peak, over the square of the cells in a radius: what the mean over the cell nearest to
+# Hertz's peak lacks, a quarter by its place and a twelfth by its width.
+MEAN_AT_PEAK = 1 / 3
 LEAST_LAYER, LEAST_WAVE = 1.0, 4.0
 # What stands out of a random surface, in root mean squares: one place in a thousand.
 HIGHEST = 3.0
@@ -98,7 +101,10 @@ class _Cells:
     def beside(self, step: int, name: str, rule: Rule, largest: Numbers) -> Mapping[Part, Numbers]:
         if name != "peak_pressure":
             return {}
-        return {"cells": HIGHEST * self._left_out * largest}
+        left_out = HIGHEST * self._left_out
+        if self.result.steps[step].edge_change is not None:  # the largest mean of a cell
+            left_out += MEAN_AT_PEAK / self._at[step].contact ** 2
+        return {"cells": left_out * largest}
 
     def per(self, step: int, rule: Rule) -> float:
         """Fewer than there are where the length scale is a combination."""

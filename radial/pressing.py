@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import exp, inf, log
+from math import exp, inf, isfinite, log
 from typing import TYPE_CHECKING
 
-from contact_scene.solver_errors import NotConverged
+from contact_scene.solver_errors import NotConverged, UnsupportedScene
 from radial.bodies import Bodies
 from radial.disc import Disc, disc
 
@@ -31,11 +31,18 @@ class Target:
     approach: float | None
 
     def missed(self, contact: Disc) -> float:
-        """Logarithm of what a contact has over what is asked."""
-        if self.force is not None:
-            return log(contact.load / self.force)
-        assert self.approach is not None
-        return log(contact.approach / self.approach)
+        """Logarithm of what a contact has over what is asked; raises UnsupportedScene where a
+        contact of this radius would pull: beyond the end of the shape."""
+        has, asked = contact.load, self.force
+        if asked is None:
+            assert self.approach is not None
+            has, asked = contact.approach, self.approach
+        if not (has > 0 and isfinite(has)):
+            raise UnsupportedScene(
+                f"no contact of radius {contact.radius:.3g} m carries the load: it goes on to the "
+                "end of the shape (a sphere pressed to its equator); ask for less force or approach"
+            )
+        return log(has / asked)
 
     def is_beyond(self, contact: Disc) -> bool:
         """Whether more is asked than a contact has."""

@@ -112,6 +112,19 @@ def test_leaving_out_the_edge_does_not_carry_the_load() -> None:
     )
 
 
+def test_points_that_stand_for_all_others_do_not_spread_the_load() -> None:
+    (asked,) = POINT.fields
+    peak = HERTZ.peak_pressure
+    middle = Field(*(np.array([v]) for v in (0.0, 0.0, peak, asked.total / peak)))
+    found = statuses(POINT, Answer(1e-5, fields={("pressure", 1): middle}))
+    assert found["pressure"] is Status.PASS
+    assert found["pressure: load carried"] is Status.PASS
+    assert found["pressure: spread of the load"] is Status.FAIL
+    whole = exact_field(POINT, cells=48)
+    found = statuses(POINT, Answer(1e-5, fields={("pressure", 1): whole}))
+    assert set(found.values()) == {Status.PASS}
+
+
 def test_what_refinement_does_not_cure_stalls() -> None:
     key = ("approach", 1)
     sizes = (4e-5, 2e-5, 1e-5, 5e-6)
@@ -231,6 +244,7 @@ def test_what_is_required_and_missing_is_no_class(
         (("1", "7", "approach", "8.37", "um", ""), "is not asked in step 7; asked: nothing"),
         (("2", "1", "approach", "8.37", "um", ""), "level '2' is not in levels.csv; there are 1"),
         (("1", "1", "approach", "eight", "um", ""), "'eight' is no number"),
+        (("1", "1", "approach", "8.37", "um", "-1"), "u is -1, expected"),
         (("1", "x", "approach", "8.37", "um", ""), "load_step 'x'"),
         (("1", "1", "approach", "", "um", ""), "nothing to judge"),
     ],
@@ -312,7 +326,8 @@ def test_a_body_that_is_five_per_cent_too_stiff_fails_in_everything() -> None:
 
     found = judge("hertz_point", stiff, levels=2, at_least="C")
     failed = {row.quantity for row in found.rows if row.status is Status.FAIL}
-    assert failed == {"approach", "contact_radius", "central_pressure", "pressure"}
+    numbers = {"approach", "contact_radius", "central_pressure", "pressure"}
+    assert failed == numbers | {"pressure: spread of the load"}
 
 
 def test_the_problem_that_a_solver_sees_has_no_answer() -> None:

@@ -331,3 +331,12 @@ def test_friction_that_nothing_calls_for_is_no_reason_to_refuse() -> None:
     scene = _scene(LIKE, Body(material=STEEL), normal_force=FORCE)
     rough = scene.model_copy(update={"friction": RUB})
     assert radial.solve(rough).steps[0].approach == radial.solve(scene).steps[0].approach
+
+
+@pytest.mark.parametrize("load", [{"normal_force": 1e9}, {"approach": 2e-3}])
+def test_a_sphere_pressed_to_its_equator_is_refused(load: dict[str, float]) -> None:
+    steel = IsotropicMaterial(young_modulus=210e9, poisson_ratio=0.3)
+    ball = Sphere(radius=1e-3, material=RIGID)
+    scene = Scene(indenter=ball, body=Body(material=steel), loading=(LoadStep(**load),))
+    with pytest.raises((UnsupportedScene, NotConverged)):
+        radial.solve(scene)

@@ -38,9 +38,17 @@ from contact_results.figures.caption import SHOWN, add_caption
 from contact_results.stress.extremes import extremes
 from contact_results.stress.loaded_bodies import LoadedBodies, state_of_result
 from contact_results.stress.on_cells import stress_on_cells
-from contact_scene import RIGID, Body, Cone, FiniteElementDiscretisation, FlatPunch, Scene
+from contact_scene import (
+    RIGID,
+    Body,
+    Cone,
+    FiniteElementDiscretisation,
+    FlatPunch,
+    Scene,
+    SurfaceDiscretisation,
+)
 from contact_scene.stated_error import ErrorStatus, StatedError
-from semi_analytical import SurfaceGrid, plan, solve
+from semi_analytical import SurfaceGrid, plan, solve, solve_discretised
 from verification.closed_forms.cattaneo_mindlin import PartialSlip
 from verification.closed_forms.moduli import tangential_modulus
 
@@ -341,6 +349,16 @@ def test_every_figure_has_a_caption_with_errors(tmp_path: Path) -> None:
     assert figure.get_supxlabel().count(" ± ") == 2
     add_caption(figure, file_names.PRESSURE_FIGURE, result, None)
     assert "errors not stated" in figure.get_supxlabel()
+
+
+@pytest.mark.parametrize("cells", [10, 16, 48])
+def test_the_error_of_the_largest_mean_covers_what_it_lacks_of_the_peak(cells: int) -> None:
+    asked = SurfaceDiscretisation(cells=(cells, cells), window=(3 * A, 3 * A), edge="last")
+    result = solve_discretised(scene({"normal_force": 1e3}), asked)
+    assert result.steps[0].edge_change is not None
+    missed = abs(result.steps[0].peak_pressure - hertz().peak_pressure)
+    (errors,) = stated_errors(result).steps
+    assert missed <= size(errors["peak_pressure"]) <= 4 * missed
 
 
 def test_increments_tell_of_tractions_whose_peak_is_infinite() -> None:

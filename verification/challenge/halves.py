@@ -44,10 +44,20 @@ class Half:
 
     @property
     def total(self) -> float:
-        """Its integral [force]: π b_x b_y ∫ √(1 - s²) Σ c_k T_k ds²."""
+        """Its integral [force]."""
+        return self._integral(0)
+
+    @property
+    def spread(self) -> float:
+        """Its integral times x² + y² [force*length²]."""
+        return 0.5 * (self.semi_axes[0] ** 2 + self.semi_axes[1] ** 2) * self._integral(1)
+
+    def _integral(self, power: int) -> float:
+        """π b_x b_y ∫ s^(2 power) √(1 - s²) Σ c_k T_k ds²."""
         nodes, weights = np.polynomial.legendre.leggauss(NODES)
         root = 0.5 * (nodes + 1)  # √(1 - s²): smooth in it
         shape = 2 * root**2 * chebyshev.chebval(1 - 2 * root**2, self.series)
+        shape *= (1 - root**2) ** power
         b_x, b_y = self.semi_axes
         return float(np.pi * b_x * b_y * self.coefficient * np.sum(0.5 * weights * shape))
 
@@ -73,6 +83,16 @@ class Halves:
     def total(self) -> float:
         """The force carried."""
         return sum(term.total for term in self.terms)
+
+    @property
+    def spread(self) -> float:
+        """The force carried, times the square of its distance from the axis [force*length²]."""
+        return sum(term.spread for term in self.terms)
+
+    @property
+    def reach(self) -> float:
+        """The largest semi-axis [length]."""
+        return max(max(term.semi_axes) for term in self.terms)
 
     def document(self) -> list[dict[str, Any]]:
         """As it is written for others."""

@@ -156,7 +156,9 @@ def _values(
         key = asked.quantity, step
         if row["u"]:
             u = _si(where, row["u"], row["unit"], kind)
-            yield where, row["level"], key, (value, abs(u))
+            if not 0 <= u < math.inf:
+                raise Refused(f"{where}: u is {row['u']}, expected a positive uncertainty, or none")
+            yield where, row["level"], key, (value, u)
         else:
             yield where, row["level"], key, value
 
