@@ -14,7 +14,7 @@ from contact_results.quantities import shift_along_x
 from contact_results.stress.extremes import extremes
 from contact_results.stress.loaded_bodies import LoadedBodies, state_of_result
 from contact_results.stress.on_section import stress_on_section
-from contact_scene import Body, IsotropicMaterial, Layer, Scene
+from contact_scene import RIGID, Body, FlatPunch, IsotropicMaterial, Layer, Scene
 from contact_scene.stated_error import ErrorStatus
 from fem_reference import Method, solve
 from verification.closed_forms.cattaneo_mindlin import PartialSlip
@@ -168,3 +168,13 @@ def test_slip_that_no_element_sees_is_not_converged() -> None:
     stated = stated_errors(result)
     assert stated.steps[0]["dissipated_energy"].status is ErrorStatus.ESTIMATED
     assert stated.steps[1]["dissipated_energy"].status is ErrorStatus.NOT_CONVERGED
+
+
+def test_springs_below_a_rim_know_no_error_of_the_energy_stored() -> None:
+    """It falls as the root of the elements and below: 10, 7 and 5 % on 8, 16 and 32."""
+    punch = FlatPunch(radius=A, material=RIGID)
+    asked = scene({"normal_force": LOAD}, indenter=punch, friction=None)
+    for method, known in ((Method.PENALTY, False), (Method.COMPLEMENTARITY, True)):
+        (errors,) = stated_errors(solve(asked, elements(8), method)).steps
+        assert (errors["elastic_energy"].error is not None) is known
+        assert errors["approach"].error is not None
