@@ -21,7 +21,7 @@ from contact_results.directory.atomic_file import atomic_file
 from contact_results.directory.code_digest import SOLVERS, code_digest
 from contact_results.directory.machine import machine
 from contact_scene import Body, CoulombFriction, IsotropicMaterial, LoadStep, Paraboloid, Scene
-from semi_analytical.influence.cache import cache_directory
+from contact_scene.kept_arrays import cache_directory
 
 Cells = tuple[int, int]
 

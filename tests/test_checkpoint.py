@@ -296,8 +296,8 @@ def test_file_of_a_stranger_runs_nothing(protocol: int, tmp_path: Path) -> None:
 
 @pytest.mark.parametrize(
     "name",
-    ["fem_reference.elasticity.stored_compliance\nos.system",
-     "fem_reference.elasticity.stored_compliance\nstore",
+    ["contact_scene.kept_arrays\nos.system",
+     "contact_scene.kept_arrays\nremembered",
      "semi_analytical.solve\nsolve", "numpy\nload", "slipstick.cli\nmain"],
 )  # fmt: skip
 def test_functions_are_not_looked_up(name: str, tmp_path: Path) -> None:
@@ -320,6 +320,29 @@ def test_second_run_into_the_same_directory_leaves_the_first_alone(tmp_path: Pat
     first.close()
     third = checkpoint(tmp_path, said)
     assert third.last() is not None
+
+
+def test_planted_link_is_named_and_what_it_leads_to_is_left_alone(tmp_path: Path) -> None:
+    said: list[str] = []
+    (tmp_path / "outside").mkdir()
+    (tmp_path / "outside" / "precious").touch()
+    (tmp_path / "checkpoint").symlink_to(tmp_path / "outside")
+    keeper = checkpoint(tmp_path, said)
+    SOLVES["similar"](keeper)
+    keeper.remove()
+    assert [path.name for path in (tmp_path / "outside").iterdir()] == ["precious"]
+    assert said == [f"{tmp_path / 'checkpoint'} cannot be locked: no checkpoint is read or written"]
+
+
+def test_part_of_another_user_is_not_believed(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (tmp_path / "part").write_bytes(packed(3.0, "this solve"))
+    assert unpacked(tmp_path / "part", "this solve") == 3.0
+    monkeypatch.setattr(os, "geteuid", lambda: 4242)
+    os.chown(tmp_path / "part", 4243, -1) if os.getuid() == 0 else None
+    with pytest.raises(Unusable, match="it belongs to another user"):
+        unpacked(tmp_path / "part", "this solve")
 
 
 def test_short_run_leaves_nothing_at_any_time(tmp_path: Path) -> None:

@@ -81,6 +81,21 @@ def test_lock_of_a_dead_process_stops_nobody(target: Path) -> None:
     assert [path.name for path in target.parent.rglob("*")] == ["out"]
 
 
+def test_lock_of_another_user_is_seen(target: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Who may not write its file may lock it all the same."""
+
+    def as_another(path: Path, flags: int, mode: int = 0o777) -> int:
+        if flags & os.O_RDWR:
+            raise PermissionError(13, "Permission denied", str(path))
+        return real(path, flags, mode)
+
+    real = os.open
+    with run_directory(target):
+        monkeypatch.setattr(sole_use.os, "open", as_another)
+        with pytest.raises(OutputRefused, match=f"in use by process {os.getpid()} on"):
+            run_directory(target).__enter__()
+
+
 def test_lock_taken_at_the_other_place_meanwhile_is_noticed(
     target: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

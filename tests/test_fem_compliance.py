@@ -1,6 +1,5 @@
 """Condensed compliances against Hankel integrals, punches with closed forms, and themselves."""
 
-import os
 import re
 import shutil
 from dataclasses import replace
@@ -13,7 +12,7 @@ from hankel_responses import Coating, Patch, nodal_forces, patch_energy
 from contact_scene import RIGID, Body, IsotropicMaterial, Layer
 from contact_scene.solver_errors import ResourceRefused
 from fem_reference import memory
-from fem_reference.elasticity import factored_section, sources, stored_compliance
+from fem_reference.elasticity import factored_section, sources
 from fem_reference.elasticity.compliance import composite, condense
 from fem_reference.elasticity.factored_section import FactoredSection
 from fem_reference.elasticity.hats import hats_on
@@ -351,57 +350,6 @@ def test_bodies_in_one_cache_do_not_share_entries(cache, other):
     for body in (coated(2, 0.3, 1, 0.3, 1)[0], other[0]):
         assert not condense(section_mesh(body, 4, box=100.0), PRESSING).from_cache
     assert len(list(cache.iterdir())) == 2
-
-
-def flip(content):
-    return content[:-200] + bytes([content[-200] ^ 1]) + content[-199:]
-
-
-@pytest.mark.parametrize(
-    "damage", [flip, lambda x: x[:-1], lambda x: x[:100], lambda x: b"", lambda x: b"PK\3\4" * 99]
-)
-def test_damaged_entries_are_computed_again(cache, damage):
-    section = section_mesh(HALF_SPACE, 4)
-    sound = condense(section, PRESSING)
-    (entry,) = cache.iterdir()
-    entry.write_bytes(damage(entry.read_bytes()))
-    again = condense(section, PRESSING)
-    assert not again.from_cache
-    assert np.array_equal(again.matrix, sound.matrix)
-    assert condense(section, PRESSING).from_cache
-
-
-def test_a_renamed_entry_is_not_believed(cache):
-    section = section_mesh(HALF_SPACE, 4)
-    condense(section, PRESSING)
-    (entry,) = cache.iterdir()
-    stiff = condense(section_mesh(coated(9, 0.3, 9, 0.3, 1)[0], 4), PRESSING)
-    (other,) = set(cache.iterdir()) - {entry}
-    other.write_bytes(entry.read_bytes())
-    again = condense(section_mesh(coated(9, 0.3, 9, 0.3, 1)[0], 4), PRESSING)
-    assert not again.from_cache
-    assert np.array_equal(again.matrix, stiff.matrix)
-
-
-def test_without_a_place_to_write_nothing_is_kept(cache, monkeypatch):
-    (cache / "file").write_text("")
-    monkeypatch.setenv("SLIPSTICK_CACHE_DIR", str(cache / "file"))
-    section = section_mesh(HALF_SPACE, 4)
-    assert not condense(section, PRESSING).from_cache
-    assert not condense(section, PRESSING).from_cache
-
-
-def test_the_oldest_entries_make_room(cache, monkeypatch):
-    sections = [section_mesh(HALF_SPACE, 4, box=box) for box in (50.0, 60.0, 70.0)]
-    for section in sections[:2]:
-        condense(section, TORSION)
-    size = max(entry.stat().st_size for entry in cache.iterdir())
-    for entry in cache.iterdir():
-        os.utime(entry, (0, 0))
-    monkeypatch.setattr(stored_compliance, "MOST_BYTES", 2.5 * size)
-    condense(sections[0], TORSION)
-    condense(sections[2], TORSION)
-    assert [condense(sections[i], TORSION).from_cache for i in (0, 2, 1)] == [True, True, False]
 
 
 def test_no_more_than_one_factorisation_is_spent(monkeypatch):

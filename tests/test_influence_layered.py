@@ -12,9 +12,10 @@ from point_responses import POINT_RESPONSES
 from scipy.integrate import dblquad, quad
 from stack_strategies import HALF_SPACES, stacks
 
+from contact_scene import kept_arrays
 from contact_scene.solver_errors import ResourceRefused
 from semi_analytical.frf.stack import Stack
-from semi_analytical.influence import cache, layered_memory, sources
+from semi_analytical.influence import layered_memory, sources
 from semi_analytical.influence.closed_form import HalfSpaceCoefficients, RectangleIntegrals
 from semi_analytical.influence.layered import LayeredCoefficients
 from semi_analytical.influence.radial_table import radial_table
@@ -255,7 +256,7 @@ STACK = Stack([(2.0, 0.3, 0.5)], (1.0, 0.3))
 
 
 def normal_coefficients(stack=STACK, spacing=(1.0, 1.0), shape=(5, 4)):
-    return LayeredCoefficients(stack, spacing, shape, cache.remembered).zz
+    return LayeredCoefficients(stack, spacing, shape, kept_arrays.remembered).zz
 
 
 @pytest.fixture
@@ -350,7 +351,7 @@ def test_bodies_in_one_cache_do_not_share_entries(folder, computations):
 
 def test_cache_keeps_the_components_apart(folder, computations):
     for _ in range(2):
-        coefficients = LayeredCoefficients(STACK, (1.0, 1.0), (5, 4), cache.remembered)
+        coefficients = LayeredCoefficients(STACK, (1.0, 1.0), (5, 4), kept_arrays.remembered)
         fresh = LayeredCoefficients(STACK, (1.0, 1.0), (5, 4))
         np.testing.assert_array_equal(all_components(coefficients), all_components(fresh))
     assert len(list(folder.iterdir())) == 3
@@ -365,71 +366,3 @@ DAMAGES = {
     "longer": lambda data: data + b"\0" * 8,
     "foreign": lambda data: b"something else entirely",
 }
-
-
-@pytest.mark.parametrize("damage", DAMAGES.values(), ids=DAMAGES)
-def test_damaged_cache_file_is_computed_again_and_replaced(folder, computations, damage):
-    expected = normal_coefficients()
-    [path] = folder.iterdir()
-    path.write_bytes(damage(path.read_bytes()))
-    np.testing.assert_array_equal(normal_coefficients(), expected)
-    normal_coefficients()
-    assert len(computations) == 2
-
-
-def test_renamed_cache_file_is_not_believed(folder, computations):
-    normal_coefficients()
-    [path] = folder.iterdir()
-    foreign = path.read_bytes()
-    expected = normal_coefficients(shape=(4, 5))
-    [other] = set(folder.iterdir()) - {path}
-    other.write_bytes(foreign)
-    np.testing.assert_array_equal(normal_coefficients(shape=(4, 5)), expected)
-
-
-def test_without_a_place_to_write_there_is_no_cache(tmp_path, monkeypatch, computations):
-    blocked = tmp_path / "file"
-    blocked.write_text("in the way")
-    monkeypatch.setenv("SLIPSTICK_CACHE_DIR", str(blocked))
-    np.testing.assert_array_equal(normal_coefficients(), normal_coefficients())
-    assert len(computations) == 2
-    assert blocked.read_text() == "in the way"
-
-
-def test_failed_write_leaves_nothing_behind(folder, monkeypatch):
-    def fail(*_):
-        raise OSError("no space left on device")
-
-    monkeypatch.setattr("semi_analytical.influence.cache.os.replace", fail)
-    normal_coefficients()
-    assert list(folder.iterdir()) == []
-
-
-def test_cache_is_bounded_and_spares_other_files(folder, monkeypatch):
-    monkeypatch.setattr(cache, "LARGEST_CACHE", 2000)
-    folder.mkdir(parents=True)
-    (folder / "notes.txt").write_text("x" * 5000)
-    for nx in range(1, 12):
-        normal_coefficients(shape=(nx, 4))
-    entries = list(folder.glob("*.coefficients"))
-    assert 1 < len(entries) < 11
-    assert sum(entry.stat().st_size for entry in entries) <= 2000
-    assert (folder / "notes.txt").exists()
-    normal_coefficients(shape=(60, 60))  # larger than a quarter of the cache: not kept
-    assert set(folder.glob("*.coefficients")) == set(entries)
-
-
-@pytest.mark.parametrize(
-    ("variables", "expected"),
-    [
-        ({"SLIPSTICK_CACHE_DIR": "/a/b"}, "/a/b"),
-        ({"XDG_CACHE_HOME": "/c"}, "/c/slipstick"),
-        ({"XDG_CACHE_HOME": "relative", "HOME": "/d"}, "/d/.cache/slipstick"),
-    ],
-)
-def test_cache_directory_follows_the_environment(monkeypatch, variables, expected):
-    monkeypatch.delenv("SLIPSTICK_CACHE_DIR", raising=False)
-    monkeypatch.delenv("XDG_CACHE_HOME", raising=False)
-    for name, value in variables.items():
-        monkeypatch.setenv(name, value)
-    assert str(cache.cache_directory()) == expected

@@ -22,8 +22,6 @@ from contact_results.directory.file_names import FIELDS
 from contact_results.files import stored_values
 from contact_results.stress.loaded_bodies import NoSuchState, state_of_run
 from contact_scene.solver_errors import ResourceRefused
-from fem_reference.elasticity import stored_compliance
-from semi_analytical.influence import cache
 from verification.running.case_store import CaseStore, DamagedRecord
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -35,7 +33,6 @@ HUGE = 1 << 14  # cells along a side, the most there can be: 2 GB for one field
 MOST_MEMORY_OF_MAP = 300 * MEGABYTE
 READ = 5.0  # seconds of CPU for what is permitted
 LONGEST_MESSAGE = 1000
-SIDE = 200  # of a stored compliance matrix: 320 kB
 SCENE = """
 [indenter]
 shape = "height_map"
@@ -328,39 +325,6 @@ def test_values_beyond_the_memory_are_refused_unread(
         pytest.raises(ResourceRefused, match="can be had"),
     ):
         stored_values.values(file["x"])
-
-
-def packed_compliance(entry: Path) -> None:
-    """No larger than the entry that is looked for, and yet not it."""
-    np.savez_compressed(entry, matrix=np.zeros(20 * MEGABYTE), digest=np.array("of nothing"))
-    assert entry.stat().st_size < 8 * SIDE**2
-
-
-@pytest.mark.parametrize("write", [packed_compliance, lambda entry: sparse(entry, b"PK\3\4")])
-def test_stored_compliance_of_zeros_is_absent(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, write: Callable[[Path], object]
-) -> None:
-    monkeypatch.setenv("SLIPSTICK_CACHE_DIR", str(tmp_path))
-    write(tmp_path / f"key{stored_compliance.ENDING}")
-    with frugal():
-        assert stored_compliance.stored("key", (SIDE, SIDE)) is None
-    stored_compliance.store("key", np.eye(SIDE))
-    stored = stored_compliance.stored("key", (SIDE, SIDE))
-    assert stored is not None
-    assert np.array_equal(stored, np.eye(SIDE))
-
-
-def test_stored_coefficients_of_zeros_are_absent(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setenv("SLIPSTICK_CACHE_DIR", str(tmp_path))
-    assert np.array_equal(cache.remembered("this", (8, 8), lambda: np.eye(8)), np.eye(8))
-    (entry,) = tmp_path.iterdir()
-    sparse(entry, entry.read_bytes())
-    with frugal():
-        assert np.array_equal(
-            cache.remembered("this", (8, 8), lambda: 2 * np.eye(8)), 2 * np.eye(8)
-        )
 
 
 @pytest.mark.parametrize("head", [b"", FORMAT + b"\nthis solve\n"])

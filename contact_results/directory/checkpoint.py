@@ -134,6 +134,8 @@ class Checkpoint:
         if self._lock is None and self._open:
             self._lock = acquire(self._directory, wait=False)
             self._open = self._lock is not None
+            if not self._open:
+                self._say(f"{self._directory} cannot be locked: no checkpoint is read or written")
         return self._lock is not None
 
     def _standing_of_parts(self) -> Standing | None:

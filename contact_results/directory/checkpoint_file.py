@@ -17,6 +17,7 @@ from typing import Any
 
 from contact_scene import FiniteElementDiscretisation
 from contact_scene.free_memory import available_bytes
+from contact_scene.own_file import open_own
 
 FORMAT = b"slipstick checkpoint 1"
 PROTOCOL = 5
@@ -51,7 +52,7 @@ def packed(value: Any, identity: str) -> bytes:
 def unpacked(path: Path, identity: str) -> Any:
     """The value in a file; raises Unusable for a file of another solve, or one not whole."""
     try:
-        with path.open("rb") as file:
+        with open_own(path) as file:
             name, whose, digest = (file.readline(LONGEST_LINE).rstrip(b"\n") for _ in range(3))
             if name != FORMAT:
                 raise Unusable(f"{path} is no checkpoint of this version")

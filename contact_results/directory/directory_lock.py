@@ -9,10 +9,11 @@ def acquire(directory: Path, *, wait: bool) -> int | None:
     """Lock the directory and return the descriptor that holds the lock.
 
     wait     wait for another holder; otherwise give up at once
-    returns  None if somebody else holds it, or if the file system knows no locks
+    returns  None if somebody else holds it, if the file system knows no locks, or for a link:
+             whoever may write beside it could have put it there
     """
     try:
-        descriptor = os.open(directory, os.O_RDONLY)
+        descriptor = os.open(directory, os.O_RDONLY | os.O_DIRECTORY | os.O_NOFOLLOW)
     except OSError:
         return None
     try:

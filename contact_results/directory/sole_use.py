@@ -60,9 +60,8 @@ def _locked(path: Path, target: Path) -> Iterator[None]:
 def _lock(path: Path, target: Path) -> int | None:
     """The descriptor that holds the lock; None where there can be none."""
     while True:
-        try:
-            descriptor = os.open(path, os.O_RDWR | os.O_CREAT | os.O_NOFOLLOW, 0o666)
-        except OSError:  # of a directory that cannot be written others speak
+        descriptor = _opened(path)
+        if descriptor is None:
             return None
         try:
             fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
@@ -75,7 +74,8 @@ def _lock(path: Path, target: Path) -> int | None:
             ) from None
         except OSError:  # the file system knows no locks
             os.close(descriptor)
-            path.unlink(missing_ok=True)
+            with suppress(OSError):
+                path.unlink()
             return None
         if _is_at(descriptor, path):
             with suppress(OSError):
@@ -83,6 +83,15 @@ def _lock(path: Path, target: Path) -> int | None:
                 os.pwrite(descriptor, _this_process().encode(), 0)
             return descriptor
         os.close(descriptor)  # its holder has just removed it
+
+
+def _opened(path: Path) -> int | None:
+    """The file, made if need be; for reading alone where it is another user's. None without one:
+    of a directory that cannot be written others speak."""
+    for access in (os.O_RDWR | os.O_CREAT, os.O_RDONLY | os.O_NONBLOCK):
+        with suppress(OSError):
+            return os.open(path, access | os.O_NOFOLLOW, 0o666)
+    return None
 
 
 def _this_process() -> str:

@@ -6,10 +6,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from contact_scene.kept_arrays import remembered
 from fem_reference.elasticity.factored_section import FactoredSection
 from fem_reference.elasticity.motion import Motion
 from fem_reference.elasticity.sources import sources_digest
-from fem_reference.elasticity.stored_compliance import store, stored
 from fem_reference.mesh.section_mesh import SectionMesh
 
 
@@ -45,13 +45,15 @@ def condense(section: SectionMesh, motion: Motion) -> NodalCompliance:
     Raises ResourceRefused where the memory does not suffice.
     """
     radii, count = section.radii, len(motion.components)
-    key, shape = _identity(section, motion), (count, radii.size) * 2
-    matrix = stored(key, shape)
-    if matrix is not None:
-        return NodalCompliance(motion, radii, matrix, 1, from_cache=True)
-    matrix = FactoredSection(section, motion).compliance()
-    store(key, matrix)
-    return NodalCompliance(motion, radii, matrix, 1)
+    computed = False
+
+    def compute() -> NDArray[np.float64]:
+        nonlocal computed
+        computed = True
+        return FactoredSection(section, motion).compliance()
+
+    matrix = remembered(_identity(section, motion), (count, radii.size) * 2, compute)
+    return NodalCompliance(motion, radii, matrix, 1, from_cache=not computed)
 
 
 def composite(

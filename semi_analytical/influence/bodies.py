@@ -1,8 +1,8 @@
 """Influence coefficients of the two bodies of a scene."""
 
 from contact_scene import Body, IsotropicMaterial
+from contact_scene.kept_arrays import remembered
 from semi_analytical.frf.stack import stack_of
-from semi_analytical.influence.cache import remembered
 from semi_analytical.influence.closed_form import HalfSpaceCoefficients, RectangleIntegrals
 from semi_analytical.influence.coefficients import Composite, InfluenceCoefficients
 from semi_analytical.influence.layered import LayeredCoefficients

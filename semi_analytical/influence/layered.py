@@ -44,7 +44,7 @@ class LayeredCoefficients:
     stack     the body, not a rigid one
     spacing   cell sides [length]
     shape     number of offsets along x and y, the zero offset included
-    remember  where arrays are kept between runs, for instance `cache.remembered`
+    remember  where arrays are kept between runs, for instance `kept_arrays.remembered`
 
     Raises ResourceRefused, before any work, if the arrays do not fit into the free memory.
     """

@@ -1,13 +1,15 @@
-"""Influence coefficients kept on disk, found again by what determines them.
+"""Arrays kept on disk, found again by what determines them: they depend on neither load nor shape
+nor friction, and many runs need the same.
 
 A file holds raw numbers behind their own checksum; its name is the hash of what they were computed
-from. A file that is damaged, cut off, foreign or renamed is not read, but computed again and
-replaced. Without a place to write there is no cache, and no complaint.
+from. One that is damaged, cut off, foreign or renamed is named, computed again and replaced.
+Without a place to write there is no cache, and no complaint.
 """
 
 from __future__ import annotations
 
 import contextlib
+import logging
 import os
 import tempfile
 from collections.abc import Callable
@@ -17,10 +19,15 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-FIRST_LINE = b"slipstick influence coefficients, format 1\n"
-SUFFIX = ".coefficients"
+from contact_scene.own_file import open_own
+
+FIRST_LINE = b"slipstick array, format 1\n"
+SUFFIX = ".array"
 # All entries together; one alone may take a quarter. The least recently used ones go first.
 LARGEST_CACHE = 1 << 30
+
+# Without a handler of the caller's, a warning is one line on stderr.
+log = logging.getLogger(__name__)
 
 
 def remembered(
@@ -61,14 +68,20 @@ def _read(path: Path, key: str, shape: tuple[int, ...]) -> NDArray[np.float64] |
     """The stored array, or None unless the file is whole and the one that was asked for."""
     size = 8 * int(np.prod(shape))
     try:
-        with path.open("rb") as file:
+        with open_own(path) as file:
             header = file.read(len(FIRST_LINE) + 2 * 65)
             body = file.read(size + 1)  # one more, to see whether the file is longer
-        os.utime(path)
-    except OSError:
+    except (FileNotFoundError, NotADirectoryError):
+        return None
+    except OSError as error:
+        log.warning("%s cannot be used: %s; computed again", path, error.strerror)
         return None
     if len(body) != size or header != _header(key, body):
+        what = "is damaged" if header.startswith(FIRST_LINE) else "is no array of this version"
+        log.warning("%s %s; computed again", path, what)
         return None
+    with contextlib.suppress(OSError):
+        os.utime(path)
     return np.frombuffer(body, "<f8").reshape(shape).astype(np.float64)
 
 

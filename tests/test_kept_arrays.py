@@ -1,0 +1,196 @@
+"""Arrays that are kept on disk: believed if they are whole, ours and what was asked for."""
+
+import os
+import re
+import subprocess
+import sys
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from contact_scene import kept_arrays
+from contact_scene.kept_arrays import SUFFIX, cache_directory, remembered
+
+SHAPE = (4, 3)
+
+
+@pytest.fixture
+def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    monkeypatch.setenv("SLIPSTICK_CACHE_DIR", str(tmp_path / "deep" / "cache"))
+    return tmp_path / "deep" / "cache"
+
+
+def computed(identity: str = "this", shape: tuple[int, ...] = SHAPE) -> bool:
+    """Ask for an array; whether it had to be computed."""
+    called = []
+
+    def compute() -> NDArray[np.float64]:
+        called.append(1)
+        return np.arange(np.prod(shape), dtype=float).reshape(shape)
+
+    values = remembered(identity, shape, compute)
+    np.testing.assert_array_equal(values, np.arange(np.prod(shape)).reshape(shape))
+    values[0] = -1  # it is writable, and nobody else's
+    return bool(called)
+
+
+def the_entry(folder: Path) -> Path:
+    (path,) = folder.iterdir()
+    return path
+
+
+def test_what_is_kept_is_not_computed_again(folder: Path) -> None:
+    assert [computed(), computed(), computed("that"), computed()] == [True, False, True, False]
+
+
+def grown_to_zeros(path: Path) -> None:
+    os.truncate(path, 1 << 40)  # the disk does not hold them
+
+
+def in_place_of(path: Path, make: Callable[[Path], object]) -> None:
+    path.unlink()
+    make(path)
+
+
+DAMAGES: dict[str, tuple[Callable[[Path], object], str]] = {
+    "a flipped bit": (lambda p: flipped(p, -5), "is damaged"),
+    "a flipped bit of the checksum": (lambda p: flipped(p, 100), "is damaged"),
+    "cut off": (lambda p: os.truncate(p, p.stat().st_size - 8), "is damaged"),
+    "grown": (grown_to_zeros, "is damaged"),
+    "empty": (lambda p: os.truncate(p, 0), "is no array of this version"),
+    "foreign": (lambda p: p.write_bytes(b"something else"), "is no array of this version"),
+    "of another version": (
+        lambda p: p.write_bytes(p.read_bytes().replace(b"format 1", b"format 0")),
+        "is no array of this version",
+    ),
+    "a queue that never ends": (
+        lambda p: in_place_of(p, os.mkfifo), "cannot be used: it is no plain file"
+    ),
+    "a directory": (lambda p: in_place_of(p, os.mkdir), "cannot be used: it is no plain file"),
+}  # fmt: skip
+
+
+def flipped(path: Path, at: int) -> None:
+    content = bytearray(path.read_bytes())
+    content[at] ^= 1
+    path.write_bytes(content)
+
+
+@pytest.mark.parametrize("damage", DAMAGES)
+def test_what_is_not_whole_is_named_once_and_computed_again(
+    folder: Path, damage: str, caplog: pytest.LogCaptureFixture
+) -> None:
+    computed()
+    path = the_entry(folder)
+    apply, why = DAMAGES[damage]
+    apply(path)
+    assert computed()
+    assert caplog.messages == [f"{path} {why}; computed again"]
+    assert computed() == path.is_dir()
+
+
+def test_entry_of_another_name_is_not_believed(
+    folder: Path, caplog: pytest.LogCaptureFixture
+) -> None:
+    computed()
+    foreign = the_entry(folder)
+    computed("that", (2, 3))
+    (other,) = set(folder.iterdir()) - {foreign}
+    other.write_bytes(foreign.read_bytes())
+    assert computed("that", (2, 3))
+    assert len(caplog.messages) == 1
+
+
+def test_entry_of_another_user_is_not_believed(
+    folder: Path, caplog: pytest.LogCaptureFixture, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Its checksum says that it is whole, not that it is right."""
+    computed()
+    os.chown(the_entry(folder), 1, -1) if os.geteuid() == 0 else monkeypatch.setattr(
+        os, "geteuid", lambda: the_entry(folder).stat().st_uid + 1
+    )
+    assert computed()
+    assert "it belongs to another user; computed again" in caplog.text
+
+
+def test_planted_link_writes_nowhere_else(folder: Path, tmp_path: Path) -> None:
+    computed()
+    outside, path = tmp_path / "outside", the_entry(folder)
+    outside.write_text("precious")
+    in_place_of(path, lambda p: p.symlink_to(outside))
+    assert computed()
+    assert outside.read_text() == "precious"
+    assert not path.is_symlink()
+    assert not computed()
+
+
+def test_damage_is_one_line_for_whoever_has_no_log(folder: Path) -> None:
+    code = (
+        "import numpy; from contact_scene.kept_arrays import remembered; "
+        f"remembered('this', {SHAPE}, lambda: numpy.zeros({SHAPE}))"
+    )
+    computed()
+    os.truncate(the_entry(folder), 100)
+    ended = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert re.fullmatch(r"\S+ is damaged; computed again\n", ended.stderr)
+
+
+def test_without_a_place_to_write_there_is_no_cache_and_no_complaint(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
+) -> None:
+    blocked = tmp_path / "file"
+    blocked.write_text("in the way")
+    monkeypatch.setenv("SLIPSTICK_CACHE_DIR", str(blocked))
+    assert [computed(), computed()] == [True, True]
+    assert blocked.read_text() == "in the way"
+    assert not caplog.messages
+
+
+def test_failed_write_leaves_nothing_behind(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    def fail(*_: object) -> None:
+        raise OSError("no space left on device")
+
+    monkeypatch.setattr(kept_arrays.os, "replace", fail)
+    computed()
+    assert list(folder.iterdir()) == []
+
+
+def test_least_recently_used_make_room_and_other_files_are_spared(
+    folder: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(kept_arrays, "LARGEST_CACHE", 900)
+    folder.mkdir(parents=True)
+    (folder / "notes.txt").write_text("x" * 5000)
+    for number in range(3):  # of 250 bytes each
+        computed(str(number), (4,))
+    for path in folder.glob(f"*{SUFFIX}"):
+        os.utime(path, (0, 0))
+    computed("0", (4,))
+    computed("3", (4,))
+    assert sum(path.stat().st_size for path in folder.glob(f"*{SUFFIX}")) <= 900
+    assert not computed("0", (4,))
+    assert not computed("3", (4,))
+    before = set(folder.iterdir())
+    computed("more than a quarter", (60, 60))
+    assert set(folder.iterdir()) == before
+
+
+@pytest.mark.parametrize(
+    ("variables", "expected"),
+    [
+        ({"SLIPSTICK_CACHE_DIR": "/a/b"}, "/a/b"),
+        ({"XDG_CACHE_HOME": "/c"}, "/c/slipstick"),
+        ({"XDG_CACHE_HOME": "relative", "HOME": "/d"}, "/d/.cache/slipstick"),
+    ],
+)
+def test_cache_directory_follows_the_environment(
+    monkeypatch: pytest.MonkeyPatch, variables: dict[str, str], expected: str
+) -> None:
+    monkeypatch.delenv("SLIPSTICK_CACHE_DIR", raising=False)
+    monkeypatch.delenv("XDG_CACHE_HOME", raising=False)
+    for name, value in variables.items():
+        monkeypatch.setenv(name, value)
+    assert str(cache_directory()) == expected
