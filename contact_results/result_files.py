@@ -6,6 +6,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from contact_results.cycles import fretting_cycles
+from contact_results.directory.file_names import COLUMNS, CYCLES, INCREMENTS, PROFILES
+from contact_results.files import cycle_table, increment_table, profile_table
+from contact_results.files.csv_file import write_meanings
 from contact_results.files.cycle_table import write_cycles
 from contact_results.files.field_file import write_fields
 from contact_results.files.increment_table import write_increments
@@ -39,6 +42,8 @@ def write_result(
     write_profiles(result, directory)
     write_increments(result, directory)
     write_cycles(cycles, surface_of(result), directory)
+    tables = {PROFILES: profile_table.COLUMNS, INCREMENTS: increment_table.COLUMNS}
+    write_meanings(directory / COLUMNS, tables | ({CYCLES: cycle_table.COLUMNS} if cycles else {}))
     write_fields(result, cycles, directory)
     if with_figures:
         from contact_results.figures.figure_files import write_figures

@@ -6,7 +6,7 @@ Whoever writes, draws or sums fields asks here, and need not know which solver t
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
 
 import numpy as np
@@ -54,6 +54,10 @@ class Surface(Protocol):
     @property
     def line(self) -> Line:
         """Where `along` takes its values."""
+
+    @property
+    def direction(self) -> tuple[float, float]:
+        """Unit vector along the line."""
 
     def scalar(self, increment: Increment, name: str) -> NDArray[Any] | None:
         """A scalar field of an increment; None where it has none."""
@@ -103,6 +107,11 @@ class Cells:
     def line(self) -> Line:
         """All x at y = 0."""
         return Line(self.x, "x at y = 0", ("x", "y"))
+
+    @property
+    def direction(self) -> tuple[float, float]:
+        """Along x."""
+        return 1.0, 0.0
 
     def scalar(self, increment: Increment, name: str) -> NDArray[Any] | None:
         """As the increment has it."""
@@ -201,10 +210,14 @@ class Rings:
             return None
         outward, around, ahead = components
         angles = np.zeros_like(self.radii) if self.angles is None else self.angles
-        cos, sin = np.cos(angles), np.sin(angles)
+        cos, sin = np.cos(angles), np.where(angles == np.pi, 0.0, np.sin(angles))
         return self._turned(
             np.stack([outward * cos - around * sin + ahead, outward * sin + around * cos])
         )
+
+    def on_both_sides(self) -> Rings:
+        """The same with angles, at least of the ray along the load and of that behind the axis."""
+        return self if self.angles is not None else replace(self, angles=np.array([0.0, np.pi]))
 
     def along(self, field: Field) -> Field:
         """Values over the radius; with angles from behind the axis to ahead of it."""

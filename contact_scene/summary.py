@@ -5,18 +5,19 @@ from dataclasses import dataclass
 from enum import StrEnum
 from typing import Annotated, Any, TypeAlias
 
-from pydantic import ConfigDict, Field
+from pydantic import ConfigDict, Field, field_validator
 from pydantic.dataclasses import dataclass as pydantic_dataclass
 
 from contact_scene import residuals
 from contact_scene.accuracy_reached import AccuracyReached
+from contact_scene.convention import CONVENTION
 from contact_scene.description import Description
 from contact_scene.increment import Cost, State
 from contact_scene.path_error import PathError
 from contact_scene.reported import Reported
 from contact_scene.stated_error import Companion, StatedError
 
-SUMMARY_VERSION = 1
+SUMMARY_VERSION = 2  # 1 had no convention
 
 Ratio: TypeAlias = Annotated[float, Field(json_schema_extra={"unit": "1"})]
 Metre: TypeAlias = Annotated[float, Field(json_schema_extra={"unit": "m"})]
@@ -117,7 +118,10 @@ class RunSummary(Description):
     """Results of one run, in SI. The same input gives the same summary, byte for byte."""
 
     schema_version: Annotated[int, Field(ge=1)] = SUMMARY_VERSION
-    """Version of this record; it grows when a key changes its name or meaning."""
+    """Version of this record; it grows when a key is new or changes its name or meaning."""
+
+    convention: str = CONVENTION
+    """Units, axes and signs."""
 
     title: str
     """Title of the scene."""
@@ -151,6 +155,15 @@ class RunSummary(Description):
 
     path_errors: tuple[PathError, ...] | None = None
     """What finite increments cost, one entry for every step; null where it was not asked for."""
+
+    @field_validator("schema_version")
+    @classmethod
+    def _refuse_what_is_newer(cls, version: int) -> int:
+        if version > SUMMARY_VERSION:
+            raise ValueError(
+                f"version {version} is of a newer slipstick; this one reads up to {SUMMARY_VERSION}"
+            )
+        return version
 
 
 def dump_summary(summary: RunSummary) -> str:

@@ -167,7 +167,9 @@ def test_table_and_figures_are_written_whole(ask: Ask, tmp_path: Path) -> None:
     code, out, err = ask(COATED, "--range", "1e2,1e5", "--points", 7, "--output", directory)
     assert code == 0, err
     assert "αG·F_zz" in out
-    assert sorted(path.name for path in directory.iterdir()) == ["frf.csv", "frf.png", "frf.svg"]
+    assert sorted(path.name for path in directory.iterdir()) == [
+        *("frf.csv", "frf.png", "frf.svg", "frf_columns.csv"),
+    ]
     with open(directory / "frf.csv", encoding="utf-8") as file:
         rows = list(csv.DictReader(file))
     assert [float(row["alpha [1/m]"]) for row in rows] == pytest.approx(np.geomspace(1e2, 1e5, 7))

@@ -35,6 +35,7 @@ increments = 3
 LONG = ("--set", "loading[2].increments=50000")  # minutes, if nobody stopped it
 FILES = {
     "summary.json", "timing.json", "result.h5", "profiles.csv", "increments.csv",
+    "columns.csv",
     "pressure.png", "shear.png", "profiles.png", "stick_slip.png", "hysteresis.png",
     "dissipation.png",
 }  # fmt: skip
@@ -104,8 +105,8 @@ def test_tables_agree_with_the_summary(whole: Path) -> None:
     steps = json.loads((whole / SUMMARY).read_text(encoding="utf-8"))["steps"]
     for number, step in enumerate(steps, start=1):
         last = [row for row in increments if row["step"] == str(number)][-1]
-        for name in ("normal_force", "approach", "contact_radius", "stick_radius"):
-            assert float(last[name]) == step[name]
+        for name, unit in (("normal_force", "N"), ("approach", "m"), ("stick_radius", "m")):
+            assert float(last[f"{name} [{unit}]"]) == step[name]
 
 
 def test_rerun_without_friction_removes_what_it_does_not_call_for(whole: Path, scene: Path) -> None:

@@ -87,9 +87,13 @@ def table(directory: Path) -> list[dict[str, str]]:
         return list(csv.DictReader(file))
 
 
-def test_columns_are_the_registered_scalars(written: tuple[Any, Path]) -> None:
-    parts = [part for name in SCALARS for part in components(name)]
-    assert list(table(written[1])[0]) == ["step", "increment", *parts]
+def headers(name: str) -> list[str]:
+    return [f"{part} [{SCALARS[name].unit or 1}]" for part in components(name)]
+
+
+def test_columns_are_the_registered_scalars_with_their_units(written: tuple[Any, Path]) -> None:
+    expected = ["step", "increment", *(part for name in SCALARS for part in headers(name))]
+    assert list(table(written[1])[0]) == expected
 
 
 def test_both_tables_have_the_same_numbers(written: tuple[Any, Path]) -> None:
@@ -101,7 +105,7 @@ def test_both_tables_have_the_same_numbers(written: tuple[Any, Path]) -> None:
         fields = {n for n, m in reported(type(result.steps[0])).items() if m.kind is Kind.FIELD}
         assert set(group) <= {"step", "increment", *SCALARS, *fields}
         for name, mark in SCALARS.items():
-            cells = np.array([[row[part] for part in components(name)] for row in rows])
+            cells = np.array([[row[part] for part in headers(name)] for row in rows])
             if name not in group:
                 assert set(cells.ravel()) == {""}, name
                 continue
@@ -119,7 +123,7 @@ def test_the_increment_says_what_its_tables_say(written: tuple[Any, Path]) -> No
         for name in SCALARS:
             value = getattr(increment, name)
             values = [None] * len(components(name)) if value is None else np.ravel(value).tolist()
-            assert [row[part] for part in components(name)] == [
+            assert [row[part] for part in headers(name)] == [
                 "" if number is None else repr(number) for number in values
             ], name
 

@@ -104,31 +104,24 @@ def test_profile_holds_the_numbers_of_the_line_y_0(tmp_path: Path, ny: int) -> N
     write_result(result, tmp_path, with_figures=False)
     table = rows(tmp_path / "profiles.csv")
     assert list(table[0]) == [
-        "step",
-        "x",
-        "y",
-        "pressure",
-        "shear_x",
-        "shear_y",
-        "slip_x",
-        "slip_y",
-        "dissipation",
+        *("step", "x [m]", "y [m]", "shear_x [Pa]", "shear_y [Pa]", "slip_x [m]", "slip_y [m]"),
+        *("pressure [Pa]", "gap [m]", "in_stick [1]", "dissipation [J/m^2]"),
     ]
     assert len(table) == 24 * len(result.steps)
-    assert {row["y"] for row in table} == {"0.0"}
+    assert {row["y [m]"] for row in table} == {"0.0"}
     end = result.steps[1]
     middle = [ny // 2] if ny % 2 else [ny // 2 - 1, ny // 2]
     shear = end.shear[0][:, middle].mean(axis=1)
     mine = [row for row in table if row["step"] == "2"]
-    assert [float(row["x"]) for row in mine] == result.grid.x.tolist()
-    assert [float(row["shear_x"]) for row in mine] == shear.tolist()
+    assert [float(row["x [m]"]) for row in mine] == result.grid.x.tolist()
+    assert [float(row["shear_x [Pa]"]) for row in mine] == shear.tolist()
 
 
 def test_frictionless_profile_leaves_shear_and_slip_empty(frictionless: Path) -> None:
     row = rows(frictionless / "profiles.csv")[12]
-    assert float(row["pressure"]) > 0
-    off = ("shear_x", "shear_y", "slip_x", "slip_y", "dissipation")
-    assert [row[key] for key in off] == [""] * 5
+    assert float(row["pressure [Pa]"]) > 0
+    off = [name for name in row if name.startswith(("shear", "slip", "dissipation", "in_stick"))]
+    assert [row[name] for name in off] == [""] * 6
 
 
 def test_increment_table_has_one_row_per_increment(written: tuple[Result, Path]) -> None:
@@ -137,9 +130,9 @@ def test_increment_table_has_one_row_per_increment(written: tuple[Result, Path])
     assert [(int(row["step"]), int(row["increment"])) for row in table] == [
         (increment.step, increment.index) for increment in result.increments
     ]
-    forces = [float(row["tangential_force_x"]) for row in table]
+    forces = [float(row["tangential_force_x [N]"]) for row in table]
     assert forces == [increment.tangential_force[0] for increment in result.increments]
-    assert {float(row["worst_residual"]) for row in table} == {WORST_RESIDUAL}
+    assert {float(row["worst_residual [1]"]) for row in table} == {WORST_RESIDUAL}
 
 
 def test_field_file_holds_every_increment_bit_for_bit(

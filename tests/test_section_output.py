@@ -2,6 +2,7 @@
 
 import json
 from pathlib import Path
+from typing import Any
 
 import h5py
 import jsonschema
@@ -101,13 +102,32 @@ def test_profiles_are_the_fields_at_the_ends_of_steps(written: tuple[Result, Pat
     found = rows(directory / "profiles.csv")
     for number, end in enumerate(result.steps, 1):
         of_step = [row for row in found if int(row["step"]) == number]
-        assert [float(row["pressure"]) for row in of_step] == end.pressure.ravel().tolist()
-        for name in ("shear_radial", "shear_along_load", "shear_circumferential"):
+        behind, ahead = of_step[: len(of_step) // 2], of_step[len(of_step) // 2 :]
+        assert [float(row["x [m]"]) for row in ahead] == end.radii.tolist()
+        assert [float(row["x [m]"]) for row in behind] == (-end.radii[:0:-1]).tolist()
+        assert {row["y [m]"] for row in of_step} == {"0.0"}
+
+        def at(name: str, angle: int, end: Any = end) -> Any:
             field = getattr(end, name)
-            column = [row[name] for row in of_step]
-            assert column == (
-                [""] * len(column) if field is None else [repr(v) for v in field.ravel().tolist()]
+            if field is None:
+                return 0.0
+            return field[:, angle] if field.ndim == 2 else field
+
+        assert [float(row["pressure [Pa]"]) for row in ahead] == at("pressure", 0).tolist()
+        if result.scene.friction is None:
+            assert {row["shear_x [Pa]"] for row in of_step} == {""}
+            continue
+        for rows_, angle, outward in ((ahead, 0, 1.0), (behind[::-1], -1, -1.0)):
+            inner = slice(None) if outward > 0 else slice(1, None)
+            radial, around, along = (
+                np.broadcast_to(at(f"shear_{name}", angle), end.radii.shape)[inner]
+                for name in ("radial", "circumferential", "along_load")
             )
+            assert [float(row["shear_x [Pa]"]) for row in rows_] == (
+                outward * radial + along
+            ).tolist()
+            if result.scene.title == "twisted":
+                assert [float(row["shear_y [Pa]"]) for row in rows_] == (outward * around).tolist()
 
 
 def test_increments_are_all_there(written: tuple[Result, Path]) -> None:
@@ -115,8 +135,8 @@ def test_increments_are_all_there(written: tuple[Result, Path]) -> None:
     found = rows(directory / "increments.csv")
     assert len(found) == len(result.increments)
     for row, increment in zip(found, result.increments, strict=True):
-        assert float(row["approach"]) == increment.approach
-        assert row["torque"] == ("" if increment.torque is None else repr(increment.torque))
+        assert float(row["approach [m]"]) == increment.approach
+        assert row["torque [N m]"] == ("" if increment.torque is None else repr(increment.torque))
 
 
 def test_weights_of_rings_carry_the_loads(written: tuple[Result, Path]) -> None:

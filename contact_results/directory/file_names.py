@@ -6,6 +6,7 @@ FIELDS = "result.h5"
 PROFILES = "profiles.csv"
 INCREMENTS = "increments.csv"
 CYCLES = "cycles.csv"
+COLUMNS = "columns.csv"
 
 PRESSURE_FIGURE = "pressure.png"
 SHEAR_FIGURE = "shear.png"
@@ -24,6 +25,7 @@ RUN_FILES = (
     PROFILES,
     INCREMENTS,
     CYCLES,
+    COLUMNS,
     PRESSURE_FIGURE,
     SHEAR_FIGURE,
     PROFILE_FIGURE,

@@ -1,36 +1,39 @@
-"""`cycles.csv`: one row per closed load cycle with what it does to the surface, in SI."""
+"""`cycles.csv`: one row per closed load cycle with what it does to the surface."""
 
 from __future__ import annotations
 
-import csv
 from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
+from contact_results.cycles import FrettingCycle
 from contact_results.directory.file_names import CYCLES
+from contact_results.files.csv_file import Column, marked, write_table
 from contact_results.surface import Surface
+from contact_scene.reported import reported
 
-if TYPE_CHECKING:
-    from contact_results.cycles import FrettingCycle
+LARGEST = "Of the surface, where it is largest: "
 
-COLUMNS = (
-    "start_step",
-    "end_step",
-    "input_work",
-    "dissipated_energy",
-    "largest_dissipation",
-    "slip_amplitude",
-    "ruiz_f1",
-    "ruiz_f1_x",
-    "ruiz_f1_y",
-    "surface_tension",
-    "ruiz_f2",
-    "ruiz_f2_x",
-    "ruiz_f2_y",
-)
+
+def _columns() -> tuple[Column, ...]:
+    marks = reported(FrettingCycle)
+    columns = [
+        Column("start_step", None, "Step at whose end the cycle begins."),
+        Column("end_step", None, "Step at whose end the cycle closes."),
+        marked("input_work", marks["input_work"]),
+        marked("dissipated_energy", marks["dissipated_energy"]),
+        marked("largest_dissipation", marks["dissipation"], LARGEST),
+        marked("slip_amplitude", marks["slip_amplitude"], LARGEST),
+    ]
+    for name, before in (("ruiz_f1", ()), ("ruiz_f2", ("surface_tension",))):
+        columns += (marked(field, marks[field], LARGEST) for field in (*before, name))
+        columns += (Column(f"{name}_{axis}", "m", f"Where {name} is largest.") for axis in "xy")
+    return tuple(columns)
+
+
+COLUMNS = _columns()
 
 Field = NDArray[np.float64]
 
@@ -40,10 +43,7 @@ def write_cycles(cycles: Sequence[FrettingCycle], surface: Surface, directory: P
     no file if there is no cycle."""
     if not cycles:
         return
-    with open(directory / CYCLES, "w", newline="", encoding="utf-8") as file:
-        table = csv.writer(file, lineterminator="\n")
-        table.writerow(COLUMNS)
-        table.writerows(_row(cycle, surface) for cycle in cycles)
+    write_table(directory / CYCLES, COLUMNS, (_row(cycle, surface) for cycle in cycles))
 
 
 def _row(cycle: FrettingCycle, surface: Surface) -> list[int | float | None]:

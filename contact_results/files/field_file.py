@@ -13,6 +13,7 @@ import numpy as np
 
 from contact_results.directory.file_names import FIELDS
 from contact_results.surface import Rings, surface_of
+from contact_scene.convention import CONVENTION
 from contact_scene.increment import SCALARS
 from contact_scene.reported import Kind, Reported, reported
 
@@ -46,6 +47,7 @@ def write_fields(result: Result, cycles: Sequence[FrettingCycle], directory: Pat
     with _fields_file(directory / FIELDS) as file:
         axes = ", ".join(surface.axes)
         file.attrs["description"] = f"slipstick, SI units; fields are [increment, (x, y), {axes}]"
+        file.attrs["convention"] = CONVENTION
         file.attrs["solver"] = result.solver
         file.attrs["tolerance"] = result.tolerance
         _write(

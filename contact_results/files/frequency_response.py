@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import csv
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
@@ -11,14 +10,14 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from contact_results.directory.atomic_file import atomic_file
+from contact_results.files.csv_file import Column, write_meanings, write_table
 
 if TYPE_CHECKING:
     from semi_analytical.frf.stack import Stack
 
 Array = NDArray[np.float64]
 
-TABLE = "frf.csv"
+TABLE, MEANT = "frf.csv", "frf_columns.csv"
 FIGURES = ("frf.png", "frf.svg")
 
 POINTS_PER_DECADE = 8
@@ -87,15 +86,17 @@ def frequency_response(
     return FrequencyResponse(stack, np.geomspace(low, high, count))
 
 
-def write_table(response: FrequencyResponse, directory: Path) -> None:
-    """Write `frf.csv`, with as many digits as it takes to read the same number again."""
-    columns: dict[str, Array] = {"alpha [1/m]": response.alpha, "alpha h [1]": response.reach}
-    columns |= {f"{name} [m^3/N]": values for name, values in response.columns.items()}
-    columns |= {f"alpha G {name} [1]": values for name, values in response.dimensionless.items()}
-    with (
-        atomic_file(directory / TABLE) as path,
-        open(path, "w", newline="", encoding="utf-8") as file,
-    ):
-        table = csv.writer(file, lineterminator="\n")
-        table.writerow(columns)
-        table.writerows(zip(*(values.tolist() for values in columns.values()), strict=True))
+def write_responses(response: FrequencyResponse, directory: Path) -> None:
+    """Write `frf.csv`, and beside it what its columns mean."""
+    scaled = "the same times alpha and the shear modulus G of the outermost material"
+    columns = {
+        Column("alpha", "1/m", "Wavenumber."): response.alpha,
+        Column("alpha h", "", "alpha times the thickness of the outermost layer."): response.reach,
+    }
+    for name, values in response.columns.items():
+        columns[Column(name, "m^3/N", f"Displacement {MEANINGS[name]}.")] = values
+    for name, values in response.dimensionless.items():
+        columns[Column(f"alpha G {name}", "", f"{name}, {scaled}.")] = values
+    rows = zip(*(values.tolist() for values in columns.values()), strict=True)
+    write_table(directory / TABLE, tuple(columns), rows)
+    write_meanings(directory / MEANT, {TABLE: tuple(columns)})

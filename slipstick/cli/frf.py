@@ -188,8 +188,8 @@ def _print_table(response: FrequencyResponse) -> None:
 
 def _write(response: FrequencyResponse, directory: Path, title: str) -> None:
     from contact_results.figures.frf_plot import write_frf_figures
-    from contact_results.files.frequency_response import write_table
+    from contact_results.files.frequency_response import write_responses
 
-    write_table(response, directory)
+    write_responses(response, directory)
     write_frf_figures(response, directory, title)
     typer.echo(f"table and figures in {directory}")

@@ -1,0 +1,87 @@
+"""The tables of a run: every number has its unit, every column its meaning, whoever solved."""
+
+import csv
+import json
+from pathlib import Path
+
+import pytest
+from command import rows
+from fem_scenes import solved
+from synthetic_result import synthetic_result
+from test_section_output import LOOP, TWISTED
+
+import slipstick
+from contact_results.directory.file_names import COLUMNS, SUMMARY
+from contact_results.result_files import write_result
+from contact_scene.convention import CONVENTION
+from contact_scene.summary import SUMMARY_VERSION, load_summary
+
+RESULTS = {
+    "cells": synthetic_result,
+    "cells, frictionless": lambda: synthetic_result(friction=False),
+    "elements": lambda: solved(LOOP, 8, harmonics=2),
+    "elements, twisted": lambda: solved(TWISTED, 8, harmonics=2),
+    "radii": lambda: slipstick.solve(LOOP.model_copy(update={"friction": None,
+                                                            "loading": LOOP.loading[:1]}),
+                                     "radial"),
+}  # fmt: skip
+# Names of rows, not quantities.
+LABELS = {"step", "increment", "start_step", "end_step"}
+
+
+@pytest.fixture(scope="module")
+def written(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Path]:
+    places = {name: tmp_path_factory.mktemp("written") for name in RESULTS}
+    for name, place in places.items():
+        write_result(RESULTS[name](), place, with_figures=False)
+    return places
+
+
+def header(path: Path) -> list[str]:
+    with open(path, newline="", encoding="ascii") as file:
+        return next(csv.reader(file))
+
+
+def test_every_column_but_the_names_of_rows_has_its_unit(written: dict[str, Path]) -> None:
+    for place in written.values():
+        for path in set(place.glob("*.csv")) - {place / COLUMNS}:
+            without = {name for name in header(path) if not name.endswith("]")}
+            assert without <= LABELS, path.name
+
+
+def test_every_column_has_one_row_that_says_what_it_means(written: dict[str, Path]) -> None:
+    for place in written.values():
+        (first, *told) = rows(place / COLUMNS)
+        assert first == {"file": "all", "column": "", "unit": "SI", "meaning": CONVENTION}
+        found = [(row["file"], row["column"], row["unit"]) for row in told]
+        tables = sorted(set(place.glob("*.csv")) - {place / COLUMNS})
+        split = (
+            (path.name, name, unit.removesuffix("]"))
+            for path in tables
+            for name, _, unit in (column.partition(" [") for column in header(path))
+        )
+        assert sorted(found) == sorted(split)
+        assert all(row["meaning"].isascii() and len(row["meaning"]) > 8 for row in told)
+
+
+def test_all_solvers_have_the_same_columns(written: dict[str, Path]) -> None:
+    for name in ("profiles.csv", "increments.csv"):
+        assert len({tuple(header(place / name)) for place in written.values()}) == 1
+
+
+def test_files_say_axes_and_signs_themselves(written: dict[str, Path]) -> None:
+    for place in written.values():
+        assert json.loads((place / SUMMARY).read_text(encoding="utf-8"))["convention"] == CONVENTION
+
+
+def test_a_summary_of_the_version_before_reads_and_one_of_a_newer_is_refused(
+    written: dict[str, Path],
+) -> None:
+    record = json.loads((written["cells"] / SUMMARY).read_text(encoding="utf-8"))
+    now = load_summary(json.dumps(record))
+    del record["convention"]
+    record["schema_version"] = 1
+    assert load_summary(json.dumps(record)).steps == now.steps
+    record["schema_version"] = SUMMARY_VERSION + 1
+    with pytest.raises(ValueError, match="version 3 is of a newer slipstick; this one reads up"):
+        load_summary(json.dumps(record))
