@@ -5,11 +5,20 @@ from __future__ import annotations
 from collections.abc import Sequence
 from pathlib import Path
 
+from contact_results.files import surface_file
+from contact_results.files.csv_file import write_meanings
+from contact_results.files.surface_file import write_surface
 from contact_results.stress.extremes import Extreme
 from contact_results.stress.loaded_bodies import LoadedBodies
-from contact_results.stress.mesh_file import SECTION, VOLUME, write_mesh
 from contact_results.stress.points import StressField
+from contact_results.stress.section_file import POINT_ARRAYS, SECTION, VOLUME, write_points
 from contact_results.stress.tables import (
+    AXIS,
+    INTERFACES,
+    LARGEST_COLUMNS,
+    MAXIMA,
+    POINT_COLUMNS,
+    SIDE_COLUMNS,
     SUMMARY,
     write_axis,
     write_interfaces,
@@ -17,7 +26,10 @@ from contact_results.stress.tables import (
     write_stress_summary,
 )
 from contact_scene.accuracy_reached import AccuracyReached
+from contact_scene.convention import CONVENTION, OF_THE_INDENTER
 from contact_scene.stated_error import StatedError
+
+MEANINGS, SURFACE = "stress_columns.csv", "stress_surface.vtu"
 
 
 def write_stress(
@@ -31,23 +43,38 @@ def write_stress(
     errors: Sequence[StatedError] | None = None,
     accuracy: AccuracyReached | None = None,
 ) -> None:
-    """Write tables, meshes, figures and summary of the `body` or the `indenter`.
+    """Write tables, their meanings, meshes, figures and summary of the `body` or the `indenter`.
 
     errors    of what was found; None where they were left out
     accuracy  that was asked for and reached; None where none was asked for
     """
-    body = state.indenter if which == "indenter" else state.body
-    # Last to come and first to go: a directory with a summary is complete.
-    (directory / SUMMARY).unlink(missing_ok=True)
+    of_indenter = which == "indenter"
+    body = state.indenter if of_indenter else state.body
+    convention = OF_THE_INDENTER if of_indenter else CONVENTION
+    # Last to come and first to go: a directory with a summary is complete, and all its files are
+    # of one stress.
+    for name in (SUMMARY, VOLUME):
+        (directory / name).unlink(missing_ok=True)
     write_maxima(found, errors, directory)
     write_axis(field, body, directory)
     write_interfaces(field, body, directory)
-    write_mesh(field.section, directory / SECTION)
+    write_points(field.section.turned(field.direction), directory / SECTION, convention)
+    files = {
+        MAXIMA: LARGEST_COLUMNS,
+        AXIS: POINT_COLUMNS,
+        INTERFACES: SIDE_COLUMNS,
+        SECTION: POINT_ARRAYS,
+        SURFACE: surface_file.columns(state.tractions),
+    }
     if field.volume is not None:
-        write_mesh(field.volume, directory / VOLUME)
+        write_points(field.volume.turned(field.direction), directory / VOLUME, convention)
+        files[VOLUME] = POINT_ARRAYS
+    sense = -1.0 if of_indenter else 1.0
+    write_surface(state.surface, state.tractions, directory / SURFACE, convention, sense)
+    write_meanings(directory / MEANINGS, files, convention)
     if with_figures:
         from contact_results.figures.stress_plot import write_stress_figures
 
         title = f"{state.title or 'Stress'}: {which}, step {state.step}"
         write_stress_figures(field, body, directory, title)
-    write_stress_summary(state, which, field, found, errors, accuracy, directory)
+    write_stress_summary(state, which, field, found, errors, accuracy, convention, directory)

@@ -5,10 +5,11 @@ import subprocess
 import sys
 from pathlib import Path
 
-import meshio
 import numpy as np
 import pytest
 from command import outcome, rows
+
+from contact_results.files.mesh_file import read_mesh
 
 ROOT = Path(__file__).resolve().parents[1]
 
@@ -33,7 +34,8 @@ window = ["1.2 mm", "1.2 mm"]
 """
 FILES = {
     "stress.json", "stress_maxima.csv", "stress_axis.csv", "stress_interfaces.csv",
-    "stress_section.vtu", "stress_section.png", "stress_axis.png", "stress_interfaces.png",
+    "stress_section.vtu", "stress_surface.vtu", "stress_columns.csv",
+    "stress_section.png", "stress_axis.png", "stress_interfaces.png",
 }  # fmt: skip
 
 
@@ -112,24 +114,27 @@ def test_step_and_depths_are_the_ones_asked_for(place: Path) -> None:
     assert [(level["depth"], level["layer"]) for level in record["levels"]] == [
         (0.0, 0), (5e-5, 0), (1e-4, 0), (1e-4, 1), (2e-4, 1),
     ]  # fmt: skip
-    volume = meshio.read(place / "first" / "stress_volume.vtu")
-    assert set(volume.cells_dict) == {"hexahedron"}
+    volume = read_mesh(place / "first" / "stress_volume.vtu")
+    kind, corners = volume.cells
+    assert kind == "hexahedron"
     # Two slabs in the layer, one below it; none across the interface.
     nx, ny = record["cells"]
-    assert len(volume.cells_dict["hexahedron"]) == 3 * (nx - 1) * (ny - 1)
-    for corners in volume.cells_dict["hexahedron"]:
-        assert len(set(volume.point_data["material"][corners])) == 1
+    assert len(corners) == 3 * (nx - 1) * (ny - 1)
+    materials = volume.at_points["material"][corners]
+    assert np.all(materials == materials[:, :1])
 
 
 def test_mesh_holds_the_fields_of_the_table(place: Path) -> None:
-    section = meshio.read(place / "out" / "stress_section.vtu")
+    section = read_mesh(place / "out" / "stress_section.vtu")
     depth, x = section.points[:, 2], section.points[:, 0]
     assert np.all(section.points[:, 1] == 0)
     left = np.abs(x - x[x < 0].max()) < 1e-12  # half a cell beside the axis
     table = rows(place / "out" / "stress_axis.csv")
     expected = [float(row["sigma_zz [Pa]"]) for row in table]
     peak = max(map(abs, expected))
-    np.testing.assert_allclose(section.point_data["sigma_zz"][left], expected, atol=0.02 * peak)
+    np.testing.assert_allclose(
+        section.at_points["stress [Pa]"][left, 8], expected, atol=0.02 * peak
+    )
     np.testing.assert_array_equal(depth[left], [float(row["depth [m]"]) for row in table])
 
 

@@ -48,9 +48,9 @@ def test_both_halves_of_a_section_meet_on_the_axis(on_section: StressField) -> N
     np.testing.assert_array_equal(ahead.depth, behind.depth)
     scale = np.abs(section.stress).max()
     # What recovery leaves of the first harmonic there is 2e-3 at 8 elements per radius.
-    for name, values in ahead.along_x.items():
-        np.testing.assert_allclose(behind.along_x[name], values, atol=4e-3 * scale)
-    assert np.abs(ahead.along_x["xz"]).max() > 0.1 * scale
+    for name, values in ahead.components.items():
+        np.testing.assert_allclose(behind.components[name], values, atol=4e-3 * scale)
+    assert np.abs(ahead.components["xz"]).max() > 0.1 * scale
 
 
 def test_cells_and_rings_draw_the_same_picture(
@@ -63,8 +63,8 @@ def test_cells_and_rings_draw_the_same_picture(
             axis.chosen(axis.material == material) for axis in (on_cells.axis, on_section.axis)
         )
         inside = one.chosen(one.depth > 0.1)
-        for name, values in inside.along_x.items():
-            expected = np.interp(inside.depth, other.depth, other.along_x[name])
+        for name, values in inside.components.items():
+            expected = np.interp(inside.depth, other.depth, other.components[name])
             np.testing.assert_allclose(values, expected, atol=0.02 * scale)
 
 
@@ -85,9 +85,7 @@ def test_largest_of_a_region_is_at_one_of_its_points(on_section: StressField) ->
 def test_measures_of_a_pure_shear() -> None:
     nothing, one = np.zeros(1), np.zeros((3, 1))
     shear = np.array([0, 0, 0, 0, 3.0, 0])[:, None]
-    points = StressPoints(
-        nothing, nothing, nothing, nothing.astype(int), one, shear, False, nothing > 0
-    )
+    points = StressPoints(nothing, nothing, nothing, nothing.astype(int), one, shear, nothing > 0)
     found = {name: value.item() for name, value in points.measures.items()}
     expected = {"von_mises": 3 * np.sqrt(3), "max_principal": 3.0, "max_shear": 3.0}
     assert found == pytest.approx(expected)

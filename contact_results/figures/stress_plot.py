@@ -47,8 +47,8 @@ def section_plot(field: StressField, body: Body, title: str) -> Figure:
     points = field.section
     panels = {
         "von Mises": points.von_mises,
-        _named(field, "xx"): points.along_x["xx"],
-        _named(field, "xz"): points.along_x["xz"],
+        "σ_xx": points.components["xx"],
+        "σ_xz": points.components["xz"],
         "tension (largest principal)": np.maximum(points.principal[0], 0.0),
     }
     reach, depth = field.shown
@@ -74,7 +74,7 @@ def axis_plot(field: StressField, body: Body, title: str) -> Figure:
     """Stresses down the axis, one line per material; call within `figure_style`."""
     depth = field.shown[1]
     axis = field.axis.chosen(field.axis.depth <= depth)
-    lines = {_named(field, name): axis.along_x[name] for name in ("xx", "yy", "zz", "xz")}
+    lines = {f"σ_{name}": axis.components[name] for name in ("xx", "yy", "zz", "xz")}
     lines["von Mises"] = axis.von_mises
     length = engineering_unit(depth, "m")
     unit = engineering_unit(float(max(np.abs(v).max() for v in lines.values())), "Pa")
@@ -111,12 +111,12 @@ def interface_plot(field: StressField, body: Body, title: str) -> Figure:
             break
         carried, jumping = axes[number - 1]
         near = points.chosen(np.abs(points.x) <= reach)
-        x, stress = near.x / length.size, near.along_x
+        x, stress = near.x / length.size, near.components
         if side == "above":
             for n, name in enumerate(("zz", "xz")):
-                label = _named(field, name)
+                label = f"σ_{name}"
                 carried.plot(x, stress[name] / unit.size, label=label, **style.line(n))
-        values = {_named(field, "xx"): stress["xx"], "von Mises": near.von_mises}
+        values = {"σ_xx": stress["xx"], "von Mises": near.von_mises}
         for n, (name, jump) in enumerate(values.items(), 2 * (side == "below")):
             jumping.plot(x, jump / unit.size, label=f"{name} {side}", **style.line(n))
         for ax in (carried, jumping):
@@ -128,12 +128,6 @@ def interface_plot(field: StressField, body: Body, title: str) -> Figure:
     for ax in axes[-1]:
         ax.set_xlabel(f"{field.label} ({length.name})")
     return figure
-
-
-def _named(field: StressField, component: str) -> str:
-    """σ and the letters that the section has for x and y."""
-    along, across = field.letters
-    return "σ_" + component.replace("x", along).replace("y", across)
 
 
 def _quarters(points: StressPoints, reach: float, depth: float) -> NDArray[np.int64]:

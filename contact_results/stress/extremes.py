@@ -32,16 +32,19 @@ class Extreme:
 
 def extremes(field: StressField, body: Body) -> tuple[Extreme, ...]:
     """Of every measure in every region."""
-    found = {(e.region, e.measure): e for e in _extremes(field.points, body)}
+    found = {(e.region, e.measure): e for e in _extremes(field.points, field.direction, body)}
     if field.edge is not None:
-        for extreme in _extremes(field.edge.points, body):
+        for extreme in _extremes(field.edge.points, field.direction, body):
             key = extreme.region, extreme.measure
             if extreme.value > found[key].value:
                 found[key] = replace(extreme, on_edge=True)
     return tuple(found.values())
 
 
-def _extremes(points: StressPoints, body: Body) -> Iterator[Extreme]:
+def _extremes(
+    points: StressPoints, direction: tuple[float, float], body: Body
+) -> Iterator[Extreme]:
+    along, across = direction
     for region, inside in _regions(points, body):
         if not np.any(inside):
             continue
@@ -50,6 +53,7 @@ def _extremes(points: StressPoints, body: Body) -> Iterator[Extreme]:
             value, x, y, depth = (
                 float(field.flat[k]) for field in (values, points.x, points.y, points.depth)
             )
+            x, y = along * x - across * y + 0.0, across * x + along * y + 0.0
             at_edge = bool(points.at_edge.flat[k])
             yield Extreme(region, measure, value, x, y, depth, at_edge)
 

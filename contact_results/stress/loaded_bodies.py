@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from contact_results.directory.file_names import FIELDS, SUMMARY
 from contact_results.files.stored_values import MISREAD, refuse_other_shape, text, values
-from contact_results.surface import surface_of
+from contact_results.surface import Cells, Rings, Surface, surface_of
 from contact_scene import Body, CoulombFriction, FiniteElementDiscretisation
 from contact_scene.geometry import SHAPES, HeightMap, ShapedBody
 from contact_scene.increment import State
@@ -52,6 +52,7 @@ class LoadedBodies:
     discretisation  of finite elements; None of others
     no_root         why the pressure need not fall like a root of the distance from the edge of the
                     contact, or the shear not like the pressure; None where it does
+    direction       unit vector along which the rings' angles start
     by_increments   part of themselves by which increments may leave the tractions wrong; None where
                     nobody has stated it
     """
@@ -65,11 +66,21 @@ class LoadedBodies:
     discretisation: FiniteElementDiscretisation | None
     no_root: str | None = None
     by_increments: float | None = None
+    direction: tuple[float, float] = (1.0, 0.0)
 
     @property
     def on_rings(self) -> bool:
         """Whether the tractions are functions of the radius."""
         return "radii" in self.axes
+
+    @property
+    def surface(self) -> Surface:
+        """Where the tractions live."""
+        if self.on_rings:
+            angles = self.axes.get("angles")
+            return Rings(self.axes["radii"], angles, self.direction, polar=False)
+        x, y = self.axes["x"], self.axes["y"]
+        return Cells(x, y, float((x[1] - x[0]) * (y[1] - y[0])))
 
 
 def state_of_result(
@@ -94,6 +105,7 @@ def state_of_result(
         getattr(result, "discretisation", None),
         _no_root(scene.indenter, scene.friction),
         None if errors is None else _by_increments(end, errors.steps[end.step - 1]),
+        surface.direction,
     )
 
 
@@ -165,7 +177,13 @@ def _read(file: h5py.File, step: int | None) -> LoadedBodies:
         {name: values(field, last) for name, field in fields.items()},
         asked,
         _no_root_of(scene),
+        direction=_direction(file),
     )
+
+
+def _direction(file: h5py.File) -> tuple[float, float]:
+    x, y = file.attrs.get("direction", (1.0, 0.0))
+    return float(x), float(y)
 
 
 def _no_root_of(scene: Mapping[str, Any]) -> str | None:

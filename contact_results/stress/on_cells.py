@@ -66,9 +66,7 @@ def stress_on_cells(
         _axis(plane),
         replace(points, cells=_hexahedra(field)) if volume else None,
         "x at y = 0",
-        ("x", "y"),
         (float(field.x[-1]), float(field.depths[-1])),
-        np.inf,
         {
             "contact_radius": radius,
             "cells": list(grid.cells),
@@ -121,7 +119,6 @@ def _on_edge(edge: NearEdge) -> StressPoints:
         np.zeros(len(nothing), dtype=np.int64),
         np.full((3, len(nothing)), np.nan),
         edge.stress(),
-        cylindrical=False,
         at_edge=nothing > 0,
     )
 
@@ -173,7 +170,6 @@ def _points(field: SubsurfaceField, grid: SurfaceGrid) -> StressPoints:
         np.broadcast_to(layers[:, None, None], x.shape),
         np.moveaxis(field.displacement, 1, 0),
         np.moveaxis(field.stress, 1, 0),
-        cylindrical=False,
         at_edge=np.isin(x, grid.x[[0, -1]]) | np.isin(y, grid.y[[0, -1]]),
     )
 
@@ -189,7 +185,6 @@ def _axis(section: SubsurfaceField) -> StressPoints:
         np.array([level.layer for level in section.levels]),
         displacement.T,
         stress.T,
-        cylindrical=False,
         at_edge=np.zeros(len(nothing), dtype=bool),
     )
 

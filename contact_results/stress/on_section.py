@@ -18,7 +18,7 @@ RECOVERY = (
     "stress at the 2 x 2 Gauss points, extrapolated bilinearly to the nodes and averaged over the "
     "elements of one material"
 )
-LISTED = 10.0  # loaded radii that tables reach
+NEAR = 5.0  # loaded radii that files reach, of the hundreds that stand for a half-space
 SHOWN = (2.0, 3.0)  # loaded radii to the sides and in depth
 
 
@@ -41,34 +41,42 @@ def stress_on_section(state: LoadedBodies, *, indenter: bool = False) -> StressF
     field = subsurface(body, tractions, asked, upper=indenter)
     radius = tractions.loaded_radius
     section = _section(field)
-    half = field.is_axisymmetric
+    reach = NEAR * radius
+    near = section.near(reach)
+    assert section.cells is not None
+    assert near.cells is not None
     return StressField(
         section,
         None,
-        section,
-        _axis(section, LISTED * radius),
+        near,
+        _axis(near, reach),
         None,
-        "radius r" if half else "x along the load",
-        ("r", "θ") if half else ("x", "y"),
+        "x along the load",
         (SHOWN[0] * radius, min(SHOWN[1] * radius, float(section.depth.max()))),
-        LISTED * radius,
         {
             "loaded_radius": radius,
             "elements_per_radius": asked.elements_per_radius,
             "recovery": RECOVERY,
+            "written_to": reach,
+            "elements": len(section.cells[1]),
+            "elements_written": len(near.cells[1]),
         },
+        state.direction,
     )
 
 
 def _section(field: SectionField) -> StressPoints:
-    """One half where the angle does not matter, else both, the one behind the axis at negative x;
-    nothing ends at the edge of the mesh, which stands for all beyond."""
-    halves = (0.0,) if field.is_axisymmetric else (0.0, pi)
+    """Both halves, the one behind the axis at negative x, where r and x, θ and y point away from
+    each other; nothing ends at the edge of the mesh, which stands for all beyond."""
+    halves = (0.0, pi)
     count = field.points.shape[1]
-    moved = []
+    moved, stressed = [], []
     for theta in halves:
+        side = cos(theta)
         u_r, u_theta, u_z = field.displacement(theta)
-        moved.append(np.stack([cos(theta) * u_r, cos(theta) * u_theta, u_z]))
+        rr, tt, zz, tz, rz, rt = field.stress(theta)
+        moved.append(np.stack([side * u_r, side * u_theta, u_z]))
+        stressed.append(np.stack([rr, tt, zz, side * tz, side * rz, rt]))
     nothing = np.zeros(len(halves) * count)
     return StressPoints(
         np.concatenate([cos(theta) * field.points[0] for theta in halves]),
@@ -76,8 +84,7 @@ def _section(field: SectionField) -> StressPoints:
         np.tile(field.points[1], len(halves)),
         np.tile(field.material, len(halves)),
         np.concatenate(moved, axis=1),
-        np.concatenate([field.stress(theta) for theta in halves], axis=1),
-        cylindrical=True,
+        np.concatenate(stressed, axis=1),
         at_edge=nothing > 0,
         cells=("quad9", np.concatenate([field.cells + k * count for k in range(len(halves))])),
     )

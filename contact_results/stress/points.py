@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -14,6 +14,7 @@ from contact_results.stress.invariants import principal_stresses, von_mises
 Field = NDArray[np.float64]
 Indices = NDArray[np.int64]
 
+COMPONENTS = ("xx", "yy", "zz", "yz", "xz", "xy")
 # Names and meanings.
 MEASURES = {
     "von_mises": "equivalent stress of von Mises",
@@ -31,7 +32,6 @@ class StressPoints:
     material      (…) 0 for the outermost layer
     displacement  u_x, u_y, u_z (3, …) [length]
     stress        tension positive (6, …) [force/length^2]: xx, yy, zz, yz, xz, xy
-    cylindrical   whether the stress is rr, tt, zz, tz, rz, rt instead
     cells         kind and corners of the cells between the points; None where there are none
     at_edge       whether a point is on the edge of what was computed (…)
     """
@@ -42,7 +42,6 @@ class StressPoints:
     material: Indices
     displacement: Field
     stress: Field
-    cylindrical: bool
     at_edge: NDArray[np.bool_]
     cells: tuple[str, Indices] | None = None
 
@@ -66,17 +65,32 @@ class StressPoints:
     @property
     def components(self) -> Mapping[str, Field]:
         """The stress (…) by the names of its components."""
-        names = ("rr", "tt", "zz", "tz", "rz", "rt")
-        names = names if self.cylindrical else ("xx", "yy", "zz", "yz", "xz", "xy")
-        return dict(zip(names, self.stress, strict=True))
+        return dict(zip(COMPONENTS, self.stress, strict=True))
 
-    @property
-    def along_x(self) -> Mapping[str, Field]:
-        """The stress (…) of points with y = 0 as xx, yy, zz, yz, xz, xy: r and x, θ and y point
-        away from each other behind the axis."""
-        behind = np.copysign(1.0, self.x) if self.cylindrical else 1.0  # the axis is ±0
-        xx, yy, zz, yz, xz, xy = self.stress
-        return {"xx": xx, "yy": yy, "zz": zz, "yz": behind * yz, "xz": behind * xz, "xy": xy}
+    def turned(self, direction: tuple[float, float]) -> StressPoints:
+        """The same seen from axes in which x points along a direction."""
+        if direction == (1.0, 0.0):
+            return self
+        c, s = direction
+        (u, v, w), (xx, yy, zz, yz, xz, xy) = self.displacement, self.stress
+        mean, half = (xx + yy) / 2, (xx - yy) / 2 * (c * c - s * s) - 2 * c * s * xy
+        shear = c * s * (xx - yy) + (c * c - s * s) * xy
+        stress = [mean + half, mean - half, zz, s * xz + c * yz, c * xz - s * yz, shear]
+        return replace(
+            self,
+            x=c * self.x - s * self.y,
+            y=s * self.x + c * self.y,
+            displacement=np.stack([c * u - s * v, s * u + c * v, w]),
+            stress=np.stack(stress),
+        )
+
+    def near(self, reach: float) -> StressPoints:
+        """The cells that have a corner within a distance to the sides and in depth."""
+        assert self.cells is not None
+        kind, cells = self.cells
+        inside = np.maximum(np.abs(self.x), self.depth) <= reach
+        kept, corners = np.unique(cells[inside[cells].any(axis=1)], return_inverse=True)
+        return replace(self.chosen(kept), cells=(kind, corners.reshape(-1, cells.shape[1])))
 
     def chosen(self, points: NDArray[np.bool_] | Indices) -> StressPoints:
         """Some of the points (n,), without cells; counted in a row, whatever the arrangement."""
@@ -88,7 +102,6 @@ class StressPoints:
             self.material.ravel()[which],
             self.displacement.reshape(3, -1)[:, which],
             self.stress.reshape(6, -1)[:, which],
-            self.cylindrical,
             self.at_edge.ravel()[which],
         )
 
@@ -116,14 +129,13 @@ class StressField:
 
     points   wherever it was computed
     edge     of the contact, where it could be fitted
-    section  the plane y = 0, with cells
+    section  the plane y = 0 near the contact, with cells
     axis     down the z axis
     volume   all points with their cells; None where not asked for
     label    what x is in the section
-    letters  of the directions along it and across: x and y, or r and θ
     shown    how far a figure reaches to the sides and in depth [length]
-    listed   how far a table reaches to the sides [length]
     how      how it was computed, for the record
+    direction  unit vector, in the scene, of x in the section
     """
 
     points: StressPoints
@@ -132,7 +144,6 @@ class StressField:
     axis: StressPoints
     volume: StressPoints | None
     label: str
-    letters: tuple[str, str]
     shown: tuple[float, float]
-    listed: float
     how: Mapping[str, object]
+    direction: tuple[float, float] = (1.0, 0.0)

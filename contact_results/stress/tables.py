@@ -1,18 +1,18 @@
-"""`stress_maxima.csv`, `stress_axis.csv`, `stress_interfaces.csv` and `stress.json`, in SI."""
+"""`stress_maxima.csv`, `stress_axis.csv`, `stress_interfaces.csv` and `stress.json`."""
 
 from __future__ import annotations
 
-import csv
 import json
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 import numpy as np
 
 from contact_results.directory.atomic_file import atomic_file
+from contact_results.files.csv_file import Column, write_table
 from contact_results.stress.extremes import Extreme, interface_sides, layer_name
 from contact_results.stress.loaded_bodies import LoadedBodies
-from contact_results.stress.points import MEASURES, StressField, StressPoints
+from contact_results.stress.points import COMPONENTS, MEASURES, StressField, StressPoints
 from contact_scene import Body
 from contact_scene.accuracy_reached import AccuracyReached
 from contact_scene.stated_error import StatedError
@@ -20,42 +20,69 @@ from contact_scene.stated_error import StatedError
 MAXIMA, AXIS, INTERFACES = "stress_maxima.csv", "stress_axis.csv", "stress_interfaces.csv"
 SUMMARY = "stress.json"
 
-PLACE = ("x [m]", "y [m]", "depth [m]")
+PLACE = (
+    Column("x", "m", "Place in the plane of contact."),
+    Column("y", "m", "Place in the plane of contact."),
+    Column("depth", "m", "Distance below the surface, z."),
+)
+LARGEST_COLUMNS = (
+    Column("region", None, "Part of the body: all of it, a layer, the base, a side of interfaces."),
+    Column("measure", None, "; ".join(f"{name}: {said}" for name, said in MEASURES.items())),
+    Column("value", "Pa", "Largest value of the measure at any point of the region."),
+    Column("error", "Pa", "How far it may be from the exact one; empty where that is unknown."),
+    *PLACE,
+)
+POINT_COLUMNS = (
+    *PLACE,
+    Column("material", None, "layer 1 is the outermost; base is below all layers."),
+    *(Column(f"u_{axis}", "m", f"Displacement along {axis}.") for axis in "xyz"),
+    *(Column(f"sigma_{k}", "Pa", "Component of stress, tension positive.") for k in COMPONENTS),
+    Column("von_mises", "Pa", "Equivalent stress of von Mises."),
+    *(
+        Column(f"principal_{k}", "Pa", f"Principal stress, number {k} from the most tensile.")
+        for k in (1, 2, 3)
+    ),
+)
+SIDE_COLUMNS = (
+    Column("interface", None, "Number of the interface, from 1 for the outermost."),
+    Column("side", None, "Of the interface: above is nearer to the surface of contact."),
+    *POINT_COLUMNS,
+)
 
 
 def write_maxima(
     found: Sequence[Extreme], errors: Sequence[StatedError] | None, directory: Path
 ) -> None:
     """Write one row per region and measure; no error where none is known."""
-    sizes = ["" if e.error is None else e.error for e in errors] if errors else [""] * len(found)
+    sizes = [e.error for e in errors] if errors else [None] * len(found)
     rows = (
         (e.region, e.measure, e.value, size, e.x, e.y, e.depth)
         for e, size in zip(found, sizes, strict=True)
     )
-    _write(directory / MAXIMA, ("region", "measure", "value [Pa]", "error [Pa]", *PLACE), rows)
+    write_table(directory / MAXIMA, LARGEST_COLUMNS, rows)
 
 
 def write_axis(field: StressField, body: Body, directory: Path) -> None:
     """Write one row per point on the z axis; interfaces have two."""
-    _write(directory / AXIS, _columns(field.axis), _rows(field.axis, body))
+    rows = _rows(field.axis.turned(field.direction), body)
+    write_table(directory / AXIS, POINT_COLUMNS, rows)
 
 
 def write_interfaces(field: StressField, body: Body, directory: Path) -> None:
-    """Write one row per point of the section on either side of an interface."""
-    columns = ("interface", "side", *_columns(field.section))
+    """Write one row per point of the section on either side of an interface; none without."""
     rows = (
         (number, name, *row)
         for number, name, points in sides(field, body)
-        for row in _rows(points, body)
+        for row in _rows(points.turned(field.direction), body)
     )
-    _write(directory / INTERFACES, columns, rows)
+    write_table(directory / INTERFACES, SIDE_COLUMNS, rows)
 
 
 def sides(field: StressField, body: Body) -> Iterator[tuple[int, str, StressPoints]]:
     """Number and side of every interface with its points in the section, along x."""
     for number, name, depth, material in interface_sides(body):
         points = field.section
-        on_it = np.flatnonzero(points.on_side(depth, material) & (np.abs(points.x) <= field.listed))
+        on_it = np.flatnonzero(points.on_side(depth, material))
         yield number, name, points.chosen(on_it[np.argsort(points.x.flat[on_it], kind="stable")])
 
 
@@ -66,11 +93,13 @@ def write_stress_summary(
     found: Sequence[Extreme],
     errors: Sequence[StatedError] | None,
     accuracy: AccuracyReached | None,
+    convention: str,
     directory: Path,
 ) -> None:
     """Write what was computed and its extremes; the last file of a stress state."""
     stated = [None] * len(found) if errors is None else [e.model_dump(mode="json") for e in errors]
     record = {
+        "convention": convention,
         "title": state.title,
         "body": which,
         "step": state.step,
@@ -87,24 +116,10 @@ def write_stress_summary(
         path.write_text(text, encoding="utf-8")
 
 
-def _columns(points: StressPoints) -> tuple[str, ...]:
-    return (
-        *(*PLACE, "material", "u_x [m]", "u_y [m]", "u_z [m]"),
-        *(f"sigma_{name} [Pa]" for name in points.components),
-        *("von_mises [Pa]", "principal_1 [Pa]", "principal_2 [Pa]", "principal_3 [Pa]"),
-    )
-
-
 def _rows(points: StressPoints, body: Body) -> Iterator[tuple[object, ...]]:
     numbers = np.vstack([points.displacement, points.stress, points.von_mises, points.principal])
     materials = [layer_name(material, len(body.layers)) for material in points.material.tolist()]
-    places = zip(points.x.tolist(), points.y.tolist(), points.depth.tolist(), strict=True)
-    for place, material, row in zip(places, materials, numbers.T.tolist(), strict=True):
+    # A zero has no sign.
+    places = (np.stack([points.x, points.y, points.depth], axis=-1) + 0.0).tolist()
+    for place, material, row in zip(places, materials, (numbers.T + 0.0).tolist(), strict=True):
         yield (*place, material, *row)
-
-
-def _write(path: Path, columns: Sequence[str], rows: Iterable[Sequence[object]]) -> None:
-    with atomic_file(path) as temporary, open(temporary, "w", newline="", encoding="utf-8") as file:
-        table = csv.writer(file, lineterminator="\n")
-        table.writerow(columns)
-        table.writerows(rows)

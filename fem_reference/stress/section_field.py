@@ -48,11 +48,6 @@ class SectionField:
     cells: Indices
     parts: tuple[Amplitude, ...]
 
-    @property
-    def is_axisymmetric(self) -> bool:
-        """Whether the angle does not matter."""
-        return all(part.motion.harmonic == 0 for part in self.parts)
-
     def displacement(self, theta: float = 0.0) -> Field:
         """u_r, u_theta, u_z (3, n) on the half plane at an angle from the load [length]."""
         return self._sum([part.displacement for part in self.parts], (1,), theta)

@@ -1,0 +1,118 @@
+"""Fields of the surface as VTU files for ParaView."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+from pathlib import Path
+from types import SimpleNamespace
+from typing import Any, cast
+
+import numpy as np
+from numpy.typing import NDArray
+
+from contact_results.files.csv_file import Column
+from contact_results.files.mesh_file import Mesh, write_mesh
+from contact_results.surface import Rings, Surface
+
+VECTORS = {
+    "shear": Column("shear", "Pa", "Tangential traction, vector (x, y, 0)."),
+    "slip": Column("slip", "m", "Slip since the start of the history, vector (x, y, 0)."),
+}
+SCALARS = {
+    "pressure": Column("pressure", "Pa", "Normal traction, positive in compression."),
+    "gap": Column("gap", "m", "Distance of the deformed surfaces; NaN where they never touch."),
+    "in_stick": Column("in_stick", "", "1 in contact and sticking, else 0."),
+    "dissipation": Column("dissipation", "J/m^2", "Energy per area lost to friction since then."),
+}
+AROUND = 48  # places on a ring whose fields are those of the radius
+# Of rings: what vectors are made of, the odd one over the angle last.
+POLAR = ("radial", "along_load", "circumferential")
+
+Fields = Mapping[str, NDArray[Any] | None]
+Places = NDArray[np.float64]
+
+
+def write_surface(
+    surface: Surface, fields: Fields, path: Path, convention: str, sense: float = 1.0
+) -> None:
+    """Write the fields of one state as they are computed: constant on cells, or linear between
+    rings, which make a disc.
+
+    fields  by the names of an increment; those that are not there are left out
+    sense   −1 for tractions and slip of the indenter
+    """
+    if isinstance(surface, Rings):
+        surface, fields = _all_around(surface, fields)
+    arrays: dict[str, NDArray[Any]] = {}
+    state = cast(Any, _state(fields))
+    for name, column in VECTORS.items():
+        vector = surface.vector(state, name)
+        if vector is not None:
+            x, y = sense * vector.reshape(2, -1) + 0.0
+            arrays[column.header] = np.stack([x, y, np.zeros_like(x)], axis=-1)
+    for name, column in SCALARS.items():
+        field = surface.scalar(state, name)
+        if field is not None:
+            arrays[column.header] = field.ravel()
+    if isinstance(surface, Rings):
+        mesh = Mesh(*_disc(surface), at_points=arrays)
+    else:
+        mesh = Mesh(*_rectangles(surface), on_cells=arrays)
+    write_mesh(mesh, path, convention)
+
+
+def columns(fields: Fields) -> tuple[Column, ...]:
+    """What the arrays of such a file are."""
+    there = {name for name, field in fields.items() if field is not None}
+    stems = {stem for stem in VECTORS for name in there if name.startswith(stem)}
+    return tuple(c for name, c in (VECTORS | SCALARS).items() if name in stems | there)
+
+
+def _state(fields: Fields) -> SimpleNamespace:
+    names = [f"{stem}_{part}" for stem in VECTORS for part in POLAR]
+    return SimpleNamespace(**dict.fromkeys((*names, *VECTORS, *SCALARS)) | dict(fields))
+
+
+def _rectangles(cells: Surface) -> tuple[Places, tuple[str, NDArray[np.int64]]]:
+    """Corners around the centres, and which of them belong to a cell."""
+    x, y = (_between(centres) for centres in cells.axes.values())
+    places = np.stack(np.meshgrid(x, y, indexing="ij"), axis=-1).reshape(-1, 2)
+    index = np.arange(len(places)).reshape(len(x), len(y))
+    around = (index[:-1, :-1], index[1:, :-1], index[1:, 1:], index[:-1, 1:])
+    return _flat(places), ("quad", np.stack(around, axis=-1).reshape(-1, 4))
+
+
+def _between(centres: Places) -> Places:
+    half = (centres[-1] - centres[0]) / (len(centres) - 1) / 2
+    return np.append(centres - half, centres[-1] + half)
+
+
+def _disc(rings: Rings) -> tuple[Places, tuple[str, NDArray[np.int64]]]:
+    """Points on the rings, and what is between two of them."""
+    places = np.moveaxis(rings.positions, 0, -1)
+    index = np.arange(places[..., 0].size).reshape(places.shape[:2])
+    ahead = np.roll(index, -1, axis=1)
+    quads = np.stack([index[:-1], index[1:], ahead[1:], ahead[:-1]], axis=-1)
+    return _flat(places.reshape(-1, 2)), ("quad", quads.reshape(-1, 4))
+
+
+def _all_around(rings: Rings, fields: Fields) -> tuple[Rings, Fields]:
+    """The half circle with its mirror image, or what a function of the radius is on a circle."""
+    if rings.angles is None:
+        return replace(rings, angles=np.linspace(0.0, 2 * np.pi, AROUND, endpoint=False)), fields
+    angles = np.append(rings.angles, 2 * np.pi - rings.angles[-2:0:-1])
+    whole = {name: _mirrored(name, field) for name, field in fields.items()}
+    return replace(rings, angles=angles), whole
+
+
+def _mirrored(name: str, field: NDArray[Any] | None) -> NDArray[Any] | None:
+    if field is None or field.ndim == 1:
+        return field
+    image = field[:, -2:0:-1]
+    return np.concatenate([field, -image if name.endswith(POLAR[-1]) else image], axis=1)
+
+
+def _flat(places: Places) -> Places:
+    """At depth zero."""
+    return np.column_stack([places, np.zeros(len(places))]) + 0.0

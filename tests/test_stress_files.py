@@ -1,0 +1,275 @@
+"""The files of a stress: one set of columns and axes for all solvers, meshes that read back."""
+
+import base64
+import csv
+import json
+import xml.etree.ElementTree as ET
+import zlib
+from collections.abc import Mapping
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from command import rows
+from test_stress_points import COATED, FILM, FRICTION, pressed_and_pushed
+
+from contact_results.files.mesh_file import Mesh, read_mesh, write_mesh
+from contact_results.files.surface_file import write_surface
+from contact_results.stress.extremes import extremes
+from contact_results.stress.loaded_bodies import LoadedBodies
+from contact_results.stress.on_cells import stress_on_cells
+from contact_results.stress.on_section import NEAR, stress_on_section
+from contact_results.stress.points import StressField
+from contact_results.stress_files import write_stress
+from contact_results.surface import Cells, Rings
+from contact_scene.convention import CONVENTION, OF_THE_INDENTER
+
+RADII = np.linspace(0, 1.2, 25)
+X = (np.arange(16) - 7.5) * 2.4 / 16
+ALONG_Y, ASKEW = (0.0, 1.0), (0.6, 0.8)
+
+
+def hertz(r: np.ndarray) -> np.ndarray:
+    return np.sqrt(np.maximum(1 - r**2, 0))
+
+
+STATES: dict[str, LoadedBodies] = {
+    "cells": pressed_and_pushed({"x": X, "y": X}, hertz(np.hypot(X[:, None], X))),
+    "rings": pressed_and_pushed({"radii": RADII}, hertz(RADII)),
+}
+STATES["rings, along y"] = replace(STATES["rings"], direction=ALONG_Y)
+
+
+@pytest.fixture(scope="module")
+def fields() -> dict[str, StressField]:
+    on_rings = stress_on_section(STATES["rings"])
+    return {
+        "cells": stress_on_cells(STATES["cells"], see_edge=False),
+        "rings": on_rings,
+        "rings, along y": replace(on_rings, direction=ALONG_Y),
+    }
+
+
+@pytest.fixture(scope="module")
+def written(
+    fields: dict[str, StressField], tmp_path_factory: pytest.TempPathFactory
+) -> dict[str, Path]:
+    places = {name: tmp_path_factory.mktemp("stress") for name in fields}
+    for name, field in fields.items():
+        found = extremes(field, COATED)
+        write_stress(STATES[name], "body", field, found, places[name], with_figures=False)
+    return places
+
+
+def header(path: Path) -> list[str]:
+    with open(path, newline="", encoding="ascii") as file:
+        return next(csv.reader(file))
+
+
+def test_cells_and_rings_have_the_same_files_columns_and_arrays(written: dict[str, Path]) -> None:
+    one, *others = written.values()
+    for other in others:
+        assert {path.name for path in one.iterdir()} == {path.name for path in other.iterdir()}
+        for table in one.glob("*.csv"):
+            assert header(table) == header(other / table.name)
+        for mesh in one.glob("*.vtu"):
+            a, b = read_mesh(mesh), read_mesh(other / mesh.name)
+            assert {*a.at_points, *a.on_cells} == {*b.at_points, *b.on_cells}
+
+
+def test_every_column_and_array_has_one_row_that_says_what_it_means(
+    written: dict[str, Path],
+) -> None:
+    for place in written.values():
+        convention, *told = rows(place / "stress_columns.csv")
+        assert convention["meaning"] == CONVENTION
+        named = {
+            (row["file"], f"{row['column']} [{row['unit']}]" if row["unit"] else row["column"])
+            for row in told
+        }
+        there = {
+            (path.name, name)
+            for path in place.glob("*.csv")
+            for name in header(path)
+            if path.name != "stress_columns.csv"
+        }
+        for path in place.glob("*.vtu"):
+            mesh = read_mesh(path)
+            there |= {(path.name, name) for name in (*mesh.at_points, *mesh.on_cells)}
+        assert named == there
+
+
+def test_stress_at_the_surface_is_the_traction_with_the_signs_of_the_convention(
+    written: dict[str, Path],
+) -> None:
+    """Of the load along y, which lies in the plane x = 0, too."""
+    for name, axis in (("cells", "x"), ("rings", "x"), ("rings, along y", "y")):
+        mesh = read_mesh(written[name] / "stress_section.vtu")
+        x, y, depth = mesh.points.T
+        along, across = (x, y) if axis == "x" else (y, x)
+        assert np.all(across == 0)
+        inside = (depth == 0) & (np.abs(along) < 0.7)
+        pressure = hertz(along[inside])
+        tensor = mesh.at_points["stress [Pa]"].reshape(-1, 3, 3)[inside]
+        np.testing.assert_array_equal(tensor, np.swapaxes(tensor, 1, 2))
+        np.testing.assert_allclose(tensor[:, 2, 2], -pressure, atol=0.03)
+        np.testing.assert_allclose(tensor[:, "xy".index(axis), 2], -FRICTION * pressure, atol=0.03)
+
+
+def test_a_mesh_by_elements_ends_near_the_contact_and_says_so(written: dict[str, Path]) -> None:
+    for name in ("rings", "rings, along y"):
+        record = json.loads((written[name] / "stress.json").read_text(encoding="utf-8"))
+        reach, radius = record["written_to"], record["loaded_radius"]
+        assert reach == NEAR * radius
+        mesh = read_mesh(written[name] / "stress_section.vtu")
+        size = np.abs(mesh.points).max(axis=1)
+        corners = size[mesh.cells[1]]
+        assert np.all(corners.min(axis=1) <= reach)
+        assert len(corners) == record["elements_written"] < record["elements"] / 2
+        assert size.max() > reach  # no element is cut in two
+
+
+def test_a_load_askew_is_the_load_along_x_turned(fields: dict[str, StressField]) -> None:
+    section = fields["rings"].section
+    turned = section.turned(ASKEW)
+    c, s = ASKEW
+    turn = np.array([[c, -s, 0], [s, c, 0], [0, 0, 1]])
+    places = np.stack([section.x, section.y, section.depth])
+    np.testing.assert_allclose(
+        np.stack([turned.x, turned.y, turned.depth]), turn @ places, atol=1e-15
+    )
+    np.testing.assert_allclose(turned.displacement, turn @ section.displacement, atol=1e-13)
+    one, other = (
+        np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
+        for xx, yy, zz, yz, xz, xy in (section.stress, turned.stress)
+    )
+    expected = np.einsum("ij,jkn,lk->iln", turn, one, turn)
+    np.testing.assert_allclose(other, expected, atol=1e-13)
+
+
+def test_the_surface_carries_the_load(written: dict[str, Path]) -> None:
+    """Friction along it; a disc of 48 corners is 2.9e-3 smaller than its circle."""
+    for name, direction in (("cells", 0), ("rings", 0), ("rings, along y", 1)):
+        state, mesh = STATES[name], read_mesh(written[name] / "stress_surface.vtu")
+        load = np.sum(state.surface.weights * state.tractions["pressure"])
+        corners = mesh.points[mesh.cells[1]]
+        one, other = corners[:, 2] - corners[:, 0], corners[:, 3] - corners[:, 1]
+        areas = np.linalg.norm(np.cross(one, other), axis=1) / 2
+        means = {
+            array: mesh.on_cells.get(array, np.empty(0))
+            if mesh.on_cells
+            else mesh.at_points[array][mesh.cells[1]].mean(axis=1)
+            for array in ("pressure [Pa]", "shear [Pa]")
+        }
+        assert np.sum(areas * means["pressure [Pa]"]) == pytest.approx(load, rel=4e-3)
+        force = areas @ means["shear [Pa]"]
+        expected = np.zeros(3)
+        expected[direction] = FRICTION * load
+        assert force == pytest.approx(expected, rel=4e-3, abs=1e-12)
+
+
+def test_tractions_of_the_indenter_are_the_opposite(
+    fields: dict[str, StressField], tmp_path: Path
+) -> None:
+    state, field = STATES["cells"], fields["cells"]
+    write_stress(state, "indenter", field, extremes(field, COATED), tmp_path, with_figures=False)
+    mesh = read_mesh(tmp_path / "stress_surface.vtu")
+    expected = -state.tractions["shear"].reshape(2, -1).T
+    np.testing.assert_array_equal(mesh.on_cells["shear [Pa]"][:, :2], expected)
+    record = json.loads((tmp_path / "stress.json").read_text(encoding="utf-8"))
+    assert record["convention"] == OF_THE_INDENTER
+
+
+def test_angles_are_mirrored_and_infinite_gaps_left_out(tmp_path: Path) -> None:
+    angles = np.linspace(0, np.pi, 9)
+    rings = Rings(RADII, angles, (1.0, 0.0), polar=False)
+    ones = np.ones((len(RADII), len(angles)))
+    # The unit vector along x in polar components.
+    fields = {
+        "pressure": ones,
+        "shear_radial": ones * np.cos(angles),
+        "shear_circumferential": -ones * np.sin(angles),
+        "gap": np.full(len(RADII), np.inf),
+    }
+    write_surface(rings, fields, tmp_path / "surface.vtu", CONVENTION)
+    mesh = read_mesh(tmp_path / "surface.vtu")
+    assert len(mesh.points) == len(RADII) * 16
+    np.testing.assert_allclose(
+        mesh.at_points["shear [Pa]"], np.broadcast_to([1.0, 0, 0], (len(mesh.points), 3)),
+        atol=1e-15,
+    )  # fmt: skip
+    assert np.all(np.isnan(mesh.at_points["gap [m]"]))
+    assert np.sum(mesh.points[:, 1]) == pytest.approx(0, abs=1e-12)
+
+
+def by_hand(path: Path) -> Mapping[str, Any]:
+    """The arrays of a VTU file by the words of the format: blocks of zlib in base64."""
+    types = {"Float64": "<f8", "Int64": "<i8", "Int8": "<i1"}
+    found = {}
+    for array in ET.parse(path).iter("DataArray"):
+        text = (array.text or "").strip()
+        count = int(np.frombuffer(base64.b64decode(text[:8])[:4], "<u4")[0])
+        letters = 4 * -(-4 * (3 + count) // 3)
+        sizes = np.frombuffer(base64.b64decode(text[:letters])[: 4 * (3 + count)], "<u4")[3:]
+        packed = base64.b64decode(text[letters:])
+        ends = np.cumsum(sizes)
+        content = b"".join(
+            zlib.decompress(packed[end - size : end]) for size, end in zip(sizes, ends, strict=True)
+        )
+        values = np.frombuffer(content, types[array.attrib["type"]])
+        width = int(array.attrib.get("NumberOfComponents", 1))
+        found[array.attrib.get("Name", "points")] = values.reshape(-1, width).squeeze()
+    return found
+
+
+def test_a_mesh_comes_back_bit_for_bit_whoever_reads_it(tmp_path: Path) -> None:
+    points = np.random.default_rng(0).normal(size=(6, 3))
+    cells = ("quad", np.array([[0, 1, 4, 3], [1, 2, 5, 4]]))
+    arrays = {"p [Pa]": points[:, 0] * 1e9, "stress [Pa]": np.arange(54.0).reshape(6, 9)}
+    flags = {"in_stick [1]": np.array([True, False])}
+    path = tmp_path / "hostile <&> name.vtu"
+    write_mesh(Mesh(points, cells, arrays, flags), path, CONVENTION)
+    again = read_mesh(path)
+    np.testing.assert_array_equal(again.points, points)
+    assert again.cells[0] == "quad"
+    np.testing.assert_array_equal(again.cells[1], cells[1])
+    raw = by_hand(path)
+    for name, values in (arrays | flags).items():
+        np.testing.assert_array_equal((dict(again.at_points) | dict(again.on_cells))[name], values)
+        np.testing.assert_array_equal(raw[name], values)
+    assert CONVENTION in path.read_text(encoding="ascii")
+    first = path.read_bytes()
+    write_mesh(Mesh(points, cells, arrays, flags), path, CONVENTION)
+    assert path.read_bytes() == first
+
+
+def test_what_is_no_mesh_of_ours_is_refused_by_name(tmp_path: Path) -> None:
+    for content in (b"", b"<a", b"<VTKFile type='ImageData' version='0.1'/>"):
+        (tmp_path / "a.vtu").write_bytes(content)
+        with pytest.raises(ValueError, match=r"a.vtu is not a mesh that slipstick has written"):
+            read_mesh(tmp_path / "a.vtu")
+
+
+def test_interfaces_name_the_jump_and_what_is_carried_over(written: dict[str, Path]) -> None:
+    for name in ("cells", "rings"):
+        table = rows(written[name] / "stress_interfaces.csv")
+        assert {float(row["depth [m]"]) for row in table} == {FILM.thickness}
+        above, below = (
+            [row for row in table if row["side"] == side] for side in ("above", "below")
+        )
+        assert [row["x [m]"] for row in above] == [row["x [m]"] for row in below]
+        for component, jumps in (("xx", True), ("zz", False), ("xz", False)):
+            difference = max(
+                abs(float(a[f"sigma_{component} [Pa]"]) - float(b[f"sigma_{component} [Pa]"]))
+                for a, b in zip(above, below, strict=True)
+            )
+            assert (difference > 0.1) == jumps, component
+
+
+def test_cells_that_do_not_touch_have_a_file_too(tmp_path: Path) -> None:
+    cells = Cells(X, X, 1.0)
+    nothing = np.zeros((len(X), len(X)))
+    write_surface(cells, {"pressure": nothing, "shear": None}, tmp_path / "a.vtu", CONVENTION)
+    assert list(read_mesh(tmp_path / "a.vtu").on_cells) == ["pressure [Pa]"]
