@@ -12,7 +12,7 @@ missing = [name for name in ("index.html", "report.json") if not (folder / name)
 if missing:
     sys.exit(f"{folder} lacks {' and '.join(missing)}")
 
-LARGEST_PAGE = 2_000_000  # bytes at the quick level
+LARGEST_PAGE = 1_000_000  # bytes at the quick level
 size = (folder / "index.html").stat().st_size
 if size > LARGEST_PAGE:
     sys.exit(f"{folder}/index.html has {size} bytes, more than {LARGEST_PAGE}")

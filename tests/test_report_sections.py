@@ -42,8 +42,8 @@ from verification.studies.catalogue import STUDIES
 from verification.studies.work_precision.price_rows import Reached
 
 SECTIONS = (
-    "verdict", "baseline", "answers", "cases", "solvers", "paper", "frf", "cost", "stability",
-    "defects", "omissions", "provenance",
+    "verdict", "pictures", "baseline", "answers", "cases", "solvers", "paper", "frf", "cost",
+    "stability", "defects", "omissions", "provenance",
 )  # fmt: skip
 
 
@@ -311,9 +311,9 @@ def test_a_quick_page_stays_small_and_says_what_it_leaves_out() -> None:
     assert "View 12; View 13" in quick
     assert "Cells: 300 rows" in quick
     full = render_page(report.model_copy(update={"level": "full"}))
-    assert full.count("<svg") == 14
+    assert full.count("<svg") == shown
     assert full.count("1e-9") == 300
-    assert "more diagrams" not in full
+    assert 'href="study-seeded-defects.html"' in full
 
 
 def test_what_is_inconclusive_leads_the_page() -> None:

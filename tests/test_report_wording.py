@@ -27,7 +27,7 @@ from verification.report.profiles_together import profiles_together
 from verification.report.sketch import sketch_svg
 from verification.running.report_record import Report, dump_report, load_report
 
-KEPT = Path(__file__).resolve().parents[1] / "reports/full/report.json"
+KEPT = Path(__file__).resolve().parents[1] / "reports/full/report.json.xz"
 TEXTS = {
     *("title", "question", "caption", "label", "x_label", "y_label", "meaning", "problem"),
     *("source", "because", "claim", "measured", "answer", "note", "scale_name", "remark", "why"),

@@ -88,8 +88,9 @@ def exit_code_of(report: Report) -> ExitCode:
 def _baselines(place: Path | None) -> dict[str, Baseline]:
     from verification.regression.acceptance import baselines_of
     from verification.regression.baseline_files import read_baselines
+    from verification.report.files import record_in
 
-    if place is None or (place.is_dir() and not (place / "report.json").is_file()):
+    if place is None or (place.is_dir() and not record_in(place).is_file()):
         return read_baselines(place)
     return baselines_of(read_report(place), f"the report {place}")
 

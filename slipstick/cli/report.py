@@ -18,12 +18,12 @@ def report(
 ) -> None:
     """Render the report again from its report.json; nothing is computed.
 
-    For a report of an earlier version, or one of which only report.json was kept. Exit code 2 if
-    there is none, or none that this version can read.
+    For a report of an earlier version, or one of which only report.json was kept, as it is or
+    packed by 'xz report.json'. Exit code 2 if there is none, or none that this version can read.
     """
-    from verification.report.files import PAGE, refuse_if_unwritable, write_report
+    from verification.report.files import PAGE, draw_again, refuse_if_unwritable
 
     loaded = read_report(directory)
     refuse_if_unwritable(directory)
-    write_report(loaded, directory)
+    draw_again(loaded, directory)
     typer.echo(f"report: {directory / PAGE}")

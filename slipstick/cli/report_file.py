@@ -1,4 +1,4 @@
-"""A report that a command is given: its folder, or its `report.json`."""
+"""A report that a command is given: its folder, or its `report.json`, packed or not."""
 
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -13,13 +13,13 @@ if TYPE_CHECKING:
 
 def read_report(place: Path) -> "Report":
     """The report; without one that this version can read, a message and exit code 2."""
-    from verification.report.files import EARLIER, RECORD
+    from verification.report.files import EARLIER, record_in
     from verification.running.report_record import load_report
 
-    record = place / RECORD if place.is_dir() else place
+    record = record_in(place) if place.is_dir() else place
     if not record.is_file():
         earlier = record.parent / EARLIER
-        before = f"; the report before it is in {earlier}" if (earlier / RECORD).is_file() else ""
+        before = f"; the report before it is in {earlier}" if record_in(earlier).is_file() else ""
         typer.echo(f"error: {record} does not exist; 'slipstick verify' makes it{before}", err=True)
         raise typer.Exit(ExitCode.INVALID)
     try:

@@ -13,7 +13,7 @@ from verification.judging.verdict_text import clearance_text
 from verification.problems.reference import ReferenceKind
 from verification.report.both_solvers import WORDS, SharedReference, shared_references
 from verification.report.equal_fineness import nearer_sentences, nearer_table, votes
-from verification.report.prices import price_table, telling_chart
+from verification.report.prices import cost_sentence, price_table, telling_chart
 from verification.report.sections import StudySection, study_of, study_section
 from verification.running.record import StudyRecord
 from verification.running.report_record import Report
@@ -65,6 +65,8 @@ def _cost(report: Report) -> Answer:
     else:
         by_clock = f"By the clock, on the machine that its provenance names: {timed.answer}"
         shown, unit, said = timed, ", in CPU seconds", (*answer.sentences, by_clock)
+    if short := cost_sentence(record):
+        said = (f"{short[0].upper()}{short[1:]}.", *said)
     return replace(
         answer, sentences=said, chart=telling_chart(shown) or answer.chart,
         table=price_table(shown, unit),

@@ -68,6 +68,16 @@ def change_rows(report: Report) -> list[ChangeRow]:
     return sorted(rows, key=lambda row: (RANK[row.kind], -row.size))
 
 
+def moved_rows(report: Report) -> list[ChangeRow]:
+    """Those that have something to compare with: what is new is counted, not listed."""
+    return [row for row in change_rows(report) if row.kind is not ChangeKind.NEW]
+
+
+def worse_rows(report: Report) -> list[ChangeRow]:
+    """Those that are worse than recorded, or dearer."""
+    return [row for row in change_rows(report) if row.kind.regresses]
+
+
 def _all_rows(report: Report) -> Iterator[ChangeRow]:
     """With the cases that are new or gone; where nothing at all is recorded, that is said apart."""
     some = report.gone or len(without_baseline(report)) < len(report.cases)

@@ -1,4 +1,4 @@
-"""How much of a study a page shows: that of the quick level is to stay small."""
+"""How much of a study a page shows; a report of a higher level has all of it on pages beside."""
 
 from __future__ import annotations
 
@@ -7,16 +7,16 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True)
 class Extent:
-    """The most charts of a study, and the most rows of a table."""
+    """The most charts of a study, the most rows of a table, and whether studies have pages."""
 
-    charts: int
-    rows: int
+    charts: int = 4
+    rows: int = 1_000_000
+    appendices: bool = True
 
 
-ALL = Extent(charts=10_000, rows=1_000_000)
-BY_LEVEL = {"quick": Extent(charts=4, rows=40)}  # its page is to have less than 2 MB
+BY_LEVEL = {"quick": Extent(rows=40, appendices=False)}  # its page is to have less than 1 MB
 
 
 def extent(level: str) -> Extent:
     """What a report of this level shows of every study, whose own page always has all of it."""
-    return BY_LEVEL.get(level, ALL)
+    return BY_LEVEL.get(level, Extent())

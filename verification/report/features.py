@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 from verification.exhibits.numbers import plain
 from verification.judging.outcome import CaseOutcome, RunRecord, Status
+from verification.report.prices import cost_sentence
 from verification.report.sections import study_section
 from verification.running.record import StudyRecord
 from verification.running.report_record import Report
@@ -32,7 +34,7 @@ def features(report: Report) -> tuple[Feature, ...]:
     """Planning, accuracy and its cost, stability, stated errors."""
     return (
         _planned(report),
-        _studied(report, "Know what accuracy costs", "work-precision"),
+        _studied(report, "Know what accuracy costs", "work-precision", cost_sentence),
         _studied(report, "Stay stable in hard cases", "stability"),
         _studied(report, "State an error for every number, and keep it", "error-coverage"),
     )
@@ -70,19 +72,27 @@ def _pairs(case: CaseOutcome) -> dict[frozenset[str], tuple[RunRecord, RunRecord
     }
 
 
-def _studied(report: Report, promise: str, name: str) -> Feature:
-    """What a study answers; what it judged, where it has no answer."""
+def _studied(
+    report: Report, promise: str, name: str, short: Callable[[StudyRecord], str] = lambda _: ""
+) -> Feature:
+    """What a study says in short or answers; what it judged, where it does neither."""
     section = study_section(report, name)
     anchor = f"study-{name}"
     if section.record is None:
         return Feature(promise, None, f"not in this report; {section.command} finds it", anchor)
-    return Feature(promise, section.record.status, _found(section.record), anchor)
+    said = short(section.record) or _found(section.record)
+    return Feature(promise, section.record.status, said, anchor)
 
 
 def _found(record: StudyRecord) -> str:
     conclusion = record.conclusion
     if conclusion.answer:
         return f"{conclusion.answer} (level {record.level})"
-    judged = [s.outcome for s in conclusion.statements if s.outcome is not None]
+    return claims_line(record)
+
+
+def claims_line(record: StudyRecord) -> str:
+    """How many of the claims of a study hold."""
+    judged = [s.outcome for s in record.conclusion.statements if s.outcome is not None]
     good = judged.count(Status.PASS)
     return f"{good} of its {len(judged)} judged claims hold (level {record.level})"

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import secrets
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager, suppress
 from pathlib import Path
 
@@ -12,13 +12,17 @@ from contact_results.directory.atomic_file import atomic_file
 from contact_results.directory.directory_lock import acquire, release
 from contact_results.directory.refusal import OutputRefused
 from contact_results.directory.stop_signals import stop_signals_held
-from verification.running.report_record import Report, dump_report
+from verification.report.extent import extent
+from verification.report.sections import TITLES
+from verification.running.report_record import PACKED_SUFFIX, Report, dump_report
 
 PAGE = "index.html"
 RECORD = "report.json"
+PACKED = f"{RECORD}{PACKED_SUFFIX}"  # what is kept of a report: `xz report.json` makes it
 JUNIT = "junit.xml"
 SUMMARY = "summary.md"
-FILES = (RECORD, PAGE, JUNIT, SUMMARY)
+APPENDICES = {name: f"study-{name}.html" for name in TITLES}
+FILES = (RECORD, PACKED, PAGE, JUNIT, SUMMARY, *APPENDICES.values())
 EARLIER = "earlier"  # of the report's directory: the report before, until the new one is whole
 
 
@@ -33,6 +37,12 @@ def refuse_if_unwritable(directory: Path) -> None:
         raise OutputRefused(f"cannot write into {directory}: {error.strerror}") from error
 
 
+def record_in(directory: Path) -> Path:
+    """Where the record of a report is, or would be: packed only where there is no other."""
+    packed = directory / PACKED
+    return packed if packed.is_file() and not (directory / RECORD).is_file() else directory / RECORD
+
+
 def set_aside_report(directory: Path) -> None:
     """Move an earlier report into `earlier`, before the hours of work that make the new one.
 
@@ -41,7 +51,8 @@ def set_aside_report(directory: Path) -> None:
     next call removes it.
     """
     with _alone_in(directory):
-        set_aside(directory, FILES)
+        record = record_in(directory).name
+        set_aside(directory, (record, *(name for name in FILES if name != record)))
 
 
 def set_aside(directory: Path, names: Sequence[str]) -> None:
@@ -57,9 +68,8 @@ def set_aside(directory: Path, names: Sequence[str]) -> None:
         try:
             (directory / EARLIER).mkdir(exist_ok=True)
             _remove(directory / EARLIER, names)
-            for name in names:
-                with suppress(FileNotFoundError):
-                    os.replace(directory / name, directory / EARLIER / name)
+            for name in filter(lambda one: (directory / one).is_file(), names):
+                os.replace(directory / name, directory / EARLIER / name)
         except OSError as error:
             raise OutputRefused(
                 f"cannot set what is in {directory} aside into {directory / EARLIER}: "
@@ -74,26 +84,49 @@ def remove_set_aside(directory: Path, names: Sequence[str]) -> None:
         (directory / EARLIER).rmdir()
 
 
+def draw_again(report: Report, directory: Path) -> None:
+    """Render everything from the record that is there, and leave a packed one as it is."""
+    packed = record_in(directory).name == PACKED
+    _write(_rendered(report) | ({} if packed else {RECORD: dump_report(report)}), directory,
+           kept=(PACKED,) if packed else ())  # fmt: skip
+
+
 def write_report(report: Report, directory: Path) -> None:
     """Render everything, then replace the files of an earlier report, also of one set aside.
 
     A record of other numbers goes first and the new one comes last: a directory with a
     `report.json` holds files that belong together.
     """
+    _write(_rendered(report) | {RECORD: dump_report(report)}, directory)
+
+
+def _rendered(report: Report) -> dict[str, str]:
+    """The files that are drawn, by name."""
     # Drawing takes long to import: whoever has just a directory to prepare does without.
     from verification.report.junit import render_junit
     from verification.report.page import render_page
+    from verification.report.study_page import render_study
     from verification.report.summary_text import render_summary
 
-    texts = {
+    return {
         PAGE: render_page(report),
         JUNIT: render_junit(report),
         SUMMARY: render_summary(report),
-        RECORD: dump_report(report),
+        **{
+            APPENDICES[study.name]: render_study(study)
+            for study in report.studies
+            if study.name in APPENDICES and extent(report.level).appendices
+        },
     }
+
+
+def _write(texts: Mapping[str, str], directory: Path, kept: Sequence[str] = ()) -> None:
+    """Replace the files of an earlier report but those that are kept; what comes last in the texts
+    says that they are whole."""
     with _alone_in(directory), stop_signals_held():
-        if not _holds(directory / RECORD, texts[RECORD]):
+        if RECORD in texts and not _holds(directory / RECORD, texts[RECORD]):
             (directory / RECORD).unlink(missing_ok=True)
+        _remove(directory, [name for name in FILES if name not in texts and name not in kept])
         for name, text in texts.items():
             with atomic_file(directory / name) as temporary:
                 temporary.write_text(text, encoding="utf-8", newline="\n")

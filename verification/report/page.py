@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from base64 import b64encode
 from functools import cache
 
 import jinja2
@@ -25,20 +26,24 @@ from verification.report.both_solvers import (
 )
 from verification.report.changes import (
     change_counts,
-    change_rows,
     changes_text,
+    moved_rows,
     origins,
     without_baseline,
+    worse_rows,
 )
+from verification.report.closing import closing_sentences, line_of
 from verification.report.counts import counts_text
 from verification.report.extent import extent
-from verification.report.features import features
+from verification.report.features import claims_line, features
+from verification.report.front import front_charts
 from verification.report.order_table import not_judged
 from verification.report.orders import observed_orders
 from verification.report.profiles_together import profiles_together
 from verification.report.sections import study_of, study_section
 from verification.report.shared_styles import with_shared_styles
 from verification.report.sketch import sketch_svg, thin_layers
+from verification.report.stability_map import legend, stability_map
 from verification.report.templating import environment
 from verification.running.report_record import Report
 from verification.running.study_text import measured_text
@@ -52,7 +57,8 @@ PLACES = {
     "sampling_route": FREQUENCY_RESPONSE,
 }
 
-MANY_ROWS = 24  # a longer table is folded
+MOST_WORSE = 6  # on the front; the rest stands below
+MOST_MOVED = 40
 
 
 def render_page(report: Report) -> str:
@@ -66,10 +72,12 @@ def _environment() -> jinja2.Environment:
     made.filters.update(
         value=value_text, plain=plain, clearance=clearance_text, order=order_text,
         uncertainty=uncertainty_text, failure=failure_text,
+        base64=lambda text: b64encode(text.encode()).decode("ascii"),
     )  # fmt: skip
     made.globals.update(
         Status=Status,
-        MANY_ROWS=MANY_ROWS,
+        MOST_WORSE=MOST_WORSE,
+        MOST_MOVED=MOST_MOVED,
         bar=_bar,
         sheets=_sheets,
         sketch=_sketch,
@@ -87,13 +95,20 @@ def _environment() -> jinja2.Environment:
         extent=extent,
         inconclusive=_inconclusive,
         counts_text=counts_text,
+        front_charts=front_charts,
+        stability_map=stability_map,
+        map_legend=legend,
+        line_of=line_of,
+        closing_sentences=closing_sentences,
+        claims_line=claims_line,
     )
     made.globals.update(
         change_counts=change_counts,
-        change_rows=change_rows,
         changes_text=changes_text,
+        moved_rows=moved_rows,
         origins=origins,
         without_baseline=without_baseline,
+        worse_rows=worse_rows,
     )
     return made
 

@@ -2,13 +2,19 @@
 
 from __future__ import annotations
 
+from statistics import median
+
 from verification.exhibits.chart import Chart
-from verification.exhibits.numbers import EXTRAPOLATED, NOT_REACHED
+from verification.exhibits.numbers import EXTRAPOLATED, NOT_REACHED, plain
 from verification.exhibits.table import Table
+from verification.running.record import StudyRecord
+from verification.running.row import value_of
 from verification.running.study import Conclusion
 from verification.studies.work_precision.price_rows import (
+    COST,
     at_target,
     by_quantity,
+    cheapest_row,
     cost_text,
     is_reached,
 )
@@ -51,3 +57,29 @@ def telling_chart(conclusion: Conclusion) -> Chart | None:
             ranked.append(((papers, reached), by_name[chart]))
     best = max(ranked, key=lambda pair: pair[0], default=None)
     return next(iter(conclusion.charts), None) if best is None else best[1]
+
+
+def cost_sentence(record: StudyRecord) -> str:
+    """For how many quantities the target is reached and what the cheapest setting takes, by counted
+    work and by the clock if it was looked at; empty where the study has no prices."""
+    counted = _spans(record.conclusion)
+    if not counted:
+        return ""
+    timed = record.provenance.timed
+    clock = "" if timed is None else _spans(timed)
+    told = f"{counted}; by the clock, {clock.partition(': ')[2]}" if clock else counted
+    return f"{told} (level {record.level})"
+
+
+def _spans(conclusion: Conclusion) -> str:
+    """Quantities that are had to the target, with the median and the largest of the least costs."""
+    quantities = list(by_quantity(at_target(conclusion.rows, TARGET)))
+    best = [row for _, rows in quantities if (row := cheapest_row(rows)) is not None]
+    if not best:
+        return ""
+    costs = [value_of(row, COST) for row in best]
+    unit = best[0].units[COST]
+    return (
+        f"an error of {100 * TARGET:g} % is had for {len(best)} of {len(quantities)} quantities: "
+        f"{plain(median(costs), 2)} {unit} in the median, {plain(max(costs), 2)} {unit} at most"
+    )

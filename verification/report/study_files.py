@@ -11,7 +11,7 @@ from contact_results.figures import style
 from verification.exhibits.chart import Chart
 from verification.report.drawing import draw
 from verification.report.files import remove_set_aside, set_aside
-from verification.report.templating import environment
+from verification.report.study_page import render_study
 from verification.running.record import StudyRecord, dump_study
 from verification.running.stored_studies import RECORD
 
@@ -42,11 +42,6 @@ def write_study(record: StudyRecord, rows: Mapping[str, str], directory: Path) -
             with atomic_file(directory / name) as temporary:
                 temporary.write_text(text, encoding="utf-8", newline="\n")
         remove_set_aside(directory, SET_ASIDE)
-
-
-def render_study(record: StudyRecord) -> str:
-    """The page as HTML; equal records give equal text."""
-    return environment().get_template("study.html").render(study=record)
 
 
 def _write_figure(chart: Chart, directory: Path) -> None:

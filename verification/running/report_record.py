@@ -1,11 +1,13 @@
 """`report.json`: all that a report shows. Only `provenance` differs between two equal runs."""
 
+import lzma
 from pathlib import Path
 from typing import Any
 
 from pydantic import ValidationError, model_validator
 
 from contact_scene.description import Description
+from verification.exhibits.picture import Picture
 from verification.judging.case import Level
 from verification.judging.change import GoneCase, Slowdown
 from verification.judging.outcome import CaseOutcome, Status, Verdict
@@ -15,6 +17,8 @@ from verification.running.record import StudyRecord, json_text
 __all__ = ["Benchmark", "Provenance", "Report"]
 
 REPORT_VERSION = 1
+PACKED_SUFFIX = ".xz"
+LARGEST_RECORD = 100_000_000  # bytes, unpacked; a full report has a few million
 
 
 class Report(Description):
@@ -41,6 +45,9 @@ class Report(Description):
 
     slower: tuple[Slowdown, ...] = ()
     """Solvers that take longer than when their cases were recorded."""
+
+    pictures: tuple[Picture, ...] = ()
+    """Fields of one contact, for the front."""
 
     @model_validator(mode="after")
     def _counts_what_it_lists(self) -> "Report":
@@ -101,16 +108,28 @@ def dump_report(report: Report) -> str:
 
 
 def load_report(path: Path) -> Report:
-    """The report back from its file; ValueError, in one line, for what is no report of this version
-    or contradicts itself; OSError if unreadable."""
-    text = path.read_text(encoding="utf-8")
+    """The report back from its file, which may be packed; ValueError, in one line, for what is no
+    report of this version, contradicts itself or is damaged; OSError if unreadable."""
+    content = _unpacked(path) if path.suffix == PACKED_SUFFIX else path.read_bytes()
     try:
-        return Report.model_validate_json(text)
+        return Report.model_validate_json(content)
     except ValidationError as error:
         first = error.errors(include_url=False)[0]
         place = ".".join(map(str, first["loc"]))
         problem = first["msg"].removeprefix("Value error, ")
         raise ValueError(f"{place}: {problem}" if place else problem) from None
+
+
+def _unpacked(path: Path) -> bytes:
+    """What `xz` packed; a bomb ends where no report does."""
+    try:
+        with lzma.open(path) as packed:
+            content = packed.read(LARGEST_RECORD + 1)
+    except (lzma.LZMAError, EOFError) as error:
+        raise ValueError(f"it cannot be unpacked: {error}") from None
+    if len(content) > LARGEST_RECORD:
+        raise ValueError(f"it is larger than any report: more than {LARGEST_RECORD} bytes")
+    return content
 
 
 def report_schema() -> dict[str, Any]:
