@@ -65,8 +65,9 @@ def test_constraints_pin_what_is_asked_for() -> None:
     versions = {canonicalize_name(name): version for name, version in pins.items()}
     extras = PROJECT["optional-dependencies"]
     for text in (
-        *PROJECT["dependencies"], *extras["mesh"], *extras["test"], *extras["cluster"]
-    ):  # fmt: skip
+        *PROJECT["dependencies"],
+        *(need for name in ("mesh", "test", "cluster", "docs") for need in extras[name]),
+    ):
         requirement = Requirement(text)
         name = canonicalize_name(requirement.name)
         assert name in versions, f"{name} has no pin"

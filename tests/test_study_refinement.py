@@ -219,7 +219,7 @@ def test_only_steps_whose_path_matters_are_refined(scene_file: Path) -> None:
 
 def test_grids_become_finer_by_the_root_of_two_at_the_same_increments(scene_file: Path) -> None:
     runs = levels(mesh_study(scene_file, (), 2, None), Settings(Level.QUICK, cells=64))
-    assert [run.cells[0] for run in runs] == [22, 32, 46, 64]
+    assert [run.cells[0] for run in runs] == [16, 22, 32, 46, 64]
     assert {run.increments for run in runs} == {(1, 3)}
     assert {run.window for run in runs} == {(9e-4, 9e-4)}
 
@@ -265,7 +265,7 @@ def pressed(tmp_path: Path) -> Path:
 def test_elements_become_smaller_by_the_root_of_two_in_the_same_section(pressed: Path) -> None:
     study = mesh_study(pressed, (), None, Method.COMPLEMENTARITY)
     cases = sections(study, Settings(Level.STANDARD))
-    assert [case.elements for case in cases] == [8, 12, 17, 24, 34, 48]
+    assert [case.elements for case in cases] == [13, 18, 25, 36, 51, 72]
     assert {case.increments for case in cases} == {(6,)}
     edges = [case.laid_out * (1 + 0.5 / case.elements) for case in cases]
     np.testing.assert_allclose(edges, edges[0], rtol=1e-12)
@@ -275,7 +275,7 @@ def test_elements_become_smaller_by_the_root_of_two_in_the_same_section(pressed:
 def test_increments_are_doubled_on_one_mesh(pressed: Path) -> None:
     study = increments_study(pressed, (), None, Method.PENALTY)
     cases = sections(study, Settings(Level.QUICK))
-    assert [case.increments for case in cases] == [(3,), (6,), (12,), (24,)]
+    assert [case.increments for case in cases] == [(3,), (6,), (12,), (24,), (48,)]
     assert len({(case.elements, case.laid_out, case.box, case.method) for case in cases}) == 1
 
 

@@ -60,7 +60,7 @@ def study(
             metavar="N",
             min=LEAST_LEVELS,
             max=MOST_LEVELS,
-            help="Levels of refinement of SCENE; 4, 5 or 6 by --level if absent.",
+            help="Levels of refinement of SCENE; 5 or 6 by --level if absent, one more of a mesh.",
         ),
     ] = None,
     output: Annotated[

@@ -66,6 +66,7 @@ def judge(
               `CannotDo` where it has no such problem
     at_least  class "A", "B" or "C" that every error must meet; None: the par of each
     solver    who it is; None: the function's name
+
     Raises what `solve` raises, and KeyError for an unknown challenge.
     """
     problem, answers = posed(name), []

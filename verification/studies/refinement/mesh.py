@@ -11,6 +11,7 @@ from verification.judging.case import Level
 from verification.running.row import Row
 from verification.running.study import Settings, Study
 from verification.studies.refinement.expected import by_cells, by_elements
+from verification.studies.refinement.fit import FEWEST_LEVELS
 from verification.studies.refinement.level_row import values_of
 from verification.studies.refinement.refinement import Refinement, count_of, study_of
 from verification.studies.refinement.section_level import SectionLevel
@@ -25,10 +26,11 @@ RATIO = 2**0.5
 ASKED_BY = "more --cells"  # more levels are coarser ones
 FEWEST_CELLS = 16
 FEWEST_ELEMENTS = 6
-# The finest mesh over the scene's: sections cost little, and coarse ones are not asymptotic. There
-# is one mesh more, too: how many elements a layer's thickness takes adds a scatter of its own.
+# How a circle cuts cells, and how many elements a layer's thickness takes, add a scatter of their
+# own, which one level more tells from the order.
 ONE_MORE = 1
-FINER = {Level.QUICK: 1, Level.STANDARD: 2, Level.FULL: 4}
+# The finest mesh over the scene's: sections cost little, and coarse ones are not asymptotic.
+FINER = {Level.QUICK: 2, Level.STANDARD: 3, Level.FULL: 4}
 
 
 def mesh_study(
@@ -58,8 +60,11 @@ def _of_cells(scene: StudiedScene) -> Refinement:
         finest = start.grid_of(settings.cells).cells
         counts = [
             tuple(2 * round(count / RATIO**number / 2) for count in finest)
-            for number in reversed(range(count_of(settings)))
+            for number in reversed(range(count_of(settings, ONE_MORE)))
         ]
+        if settings.levels is None:
+            fine = [count for count in counts if min(count) >= FEWEST_CELLS]
+            counts = max(fine, counts[-FEWEST_LEVELS:], key=len)
         if min(counts[0]) < FEWEST_CELLS:
             raise _too_coarse(f"{len(counts)} grids would have {counts[0]} cells", FEWEST_CELLS)
         grids = [SurfaceGrid((nx, ny), start.grid.window) for nx, ny in counts]

@@ -22,7 +22,8 @@ from verification.studies.refinement.expected import Expected
 from verification.studies.refinement.fit import FEWEST_JUDGED, FEWEST_LEVELS, Fit, fits
 from verification.studies.refinement.studied_scene import CannotRefine
 
-LEVELS = {Level.QUICK: 4, Level.STANDARD: 5, Level.FULL: 6}
+# Enough for a verdict on orders.
+LEVELS = {Level.QUICK: FEWEST_JUDGED, Level.STANDARD: FEWEST_JUDGED, Level.FULL: 6}
 
 Levels = Callable[[Settings], Sequence[StudyCase]]
 

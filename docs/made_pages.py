@@ -1,0 +1,20 @@
+"""All pages that are not written by hand, into docs/made/ (not kept in the repository)."""
+
+from pathlib import Path
+
+import made_cases
+import made_reference
+
+INCLUDED = ("scene_keys", "columns", "commands", "exit_codes")
+
+
+def write_pages(docs: Path) -> None:
+    """Write what has changed; the rest keeps its date, so that Sphinx need not read it again."""
+    made = docs / "made"
+    pages = {f"{name}.md": getattr(made_reference, name)() for name in INCLUDED}
+    pages |= {f"cases/{name}.md": text for name, text in made_cases.pages().items()}
+    for name, text in pages.items():
+        path = made / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        if not path.is_file() or path.read_text(encoding="utf-8") != text:
+            path.write_text(text, encoding="utf-8")

@@ -1,0 +1,128 @@
+"""Pages read off the code: keys of the scene file, columns of the results, commands, exit codes."""
+
+import re
+from collections.abc import Iterable, Iterator
+from typing import Any
+
+import typer
+from pydantic import BaseModel
+
+from contact_scene import Body, IsotropicMaterial, Layer, LoadStep, Scene
+from contact_scene.accuracy import AccuracyRequest
+from contact_scene.discretisation import (
+    FiniteElementDiscretisation,
+    RadialDiscretisation,
+    SurfaceDiscretisation,
+)
+from contact_scene.friction import CoulombFriction, FrictionMap
+from contact_scene.geometry import SHAPES
+from contact_scene.increment import Cost, State
+from contact_scene.quantity import Quantity
+from contact_scene.reported import reported
+from contact_scene.ring_increment import RingIncrement
+from contact_scene.summary import Closed
+from semi_analytical.fields import Increment
+from slipstick.cli.application import application
+from slipstick.cli.lazy_commands import COMMANDS
+
+TABLES: dict[str, type[BaseModel]] = {
+    "the file itself": Scene,
+    **{f'[indenter], shape = "{name}"': shape for name, shape in SHAPES.items()},
+    "[body]": Body,
+    "[[body.layers]] and [[indenter.layers]], outermost first": Layer,
+    "material = { … }": IsotropicMaterial,
+    "[friction]": CoulombFriction,
+    "coefficient = { … }, a map": FrictionMap,
+    "[[loading]], one per step": LoadStep,
+    "[semi_analytical]": SurfaceDiscretisation,
+    "[fem_reference]": FiniteElementDiscretisation,
+    "[radial]": RadialDiscretisation,
+    "[accuracy]": AccuracyRequest,
+}
+COLUMNS = {
+    "State at the end of an increment": State,
+    "Closed load cycles": Closed,
+    "Fields on cells": Increment,
+    "Fields on rings": RingIncrement,
+    "What an increment took": Cost,
+}
+
+
+def scene_keys() -> str:
+    """Every table of a scene file with its keys."""
+    parts = []
+    for title, model in TABLES.items():
+        rows = [_key(name, field) for name, field in model.model_fields.items()]
+        rows = [row for row in rows if row[0] != "`shape`"]
+        parts += [f"## {title}\n", _first_sentence(model.__doc__), table(("key", "expects"), rows)]
+    return "\n".join(parts)
+
+
+def columns() -> str:
+    """Every reported value, with the unit that files have it in."""
+    parts, seen = [], set()
+    for title, record in COLUMNS.items():
+        marks = {k: v for k, v in reported(record).items() if k not in seen}
+        seen |= set(marks)
+        rows = [(f"`{k}`", v.unit or "1", _cell(v.meaning), v.kind.value) for k, v in marks.items()]
+        parts += [f"## {title}\n", table(("name", "unit", "meaning", "what it is"), rows)]
+    return "\n".join(parts)
+
+
+def commands() -> str:
+    """What `--help` says of every command, and the exit codes."""
+    parts = []
+    for name, lazy in COMMANDS.items():
+        command = lazy.load(name)
+        context = typer.Context(command, info_name=f"slipstick {name}")
+        usage = " ".join(command.collect_usage_pieces(context))
+        rows = [_option(parameter) for parameter in command.params if parameter.name != "help"]
+        parts += [f"## {name}\n", f"    slipstick {name} {usage}\n", f"{command.help}\n"]
+        parts += [table(("", "meaning"), rows)]
+    return "\n".join(parts)
+
+
+def exit_codes() -> str:
+    """The line at the end of `slipstick --help`, as a table."""
+    line = str(application.info.epilog).removeprefix("Exit codes: ").rstrip(".")
+    rows = [item.split(" ", 1) for item in line.split("; ")]
+    return table(("code", "meaning"), rows)
+
+
+def table(head: Iterable[str], rows: Iterable[Iterable[str]]) -> str:
+    """A table of Markdown."""
+    head = tuple(head)
+    lines = [head, ("---",) * len(head), *rows]
+    return "".join(f"| {' | '.join(line)} |\n" for line in lines)
+
+
+def _key(name: str, field: Any) -> tuple[str, str]:
+    quantity = next((m for m in _marks(field.annotation, field.metadata)), None)
+    meaning = _cell(field.description or "")
+    expects = f" *{quantity.expected}*" if quantity is not None else ""
+    must = "**needed.** " if field.is_required() else ""
+    return f"`{name}`", f"{must}{meaning}{expects}"
+
+
+def _marks(annotation: Any, metadata: Iterable[Any]) -> Iterator[Quantity]:
+    yield from (mark for mark in metadata if isinstance(mark, Quantity))
+    for part in getattr(annotation, "__args__", ()):
+        yield from _marks(part, getattr(part, "__metadata__", ()))
+
+
+def _option(parameter: Any) -> tuple[str, str]:
+    names = " ".join(f"`{name}`" for name in (*parameter.opts, *parameter.secondary_opts))
+    if parameter.param_type_name == "argument":
+        names = f"`{parameter.metavar or parameter.name}`"
+    return names, _cell(getattr(parameter, "help", "") or "")
+
+
+def _first_sentence(text: str | None) -> str:
+    paragraph = " ".join((text or "").split("\n\n")[0].split())
+    return f"{paragraph}\n"
+
+
+def _cell(text: str) -> str:
+    """Text within a table: one line, no bar of its own; brackets are dimensions, not links."""
+    flat = " ".join(text.split()).replace("|", "\\|")
+    return re.sub(r"\[([^\]]+)\]", r"\\[\1\\]", flat)

@@ -1,0 +1,65 @@
+"""What README and documentation name is there: files, commands, options, cases and studies."""
+
+import re
+import shlex
+from pathlib import Path
+
+import pytest
+
+from slipstick.cli.lazy_commands import COMMANDS
+from verification.cases.catalogue import CASES
+from verification.studies.catalogue import SCENE_STUDIES, STUDIES
+
+ROOT = Path(__file__).resolve().parents[1]
+PAGES = (ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md")))
+WRITTEN = [page for page in PAGES if "made" not in page.relative_to(ROOT).parts]
+PLACEHOLDER = re.compile(r"SCENE|COMMAND|CASE|NAME|DIR|\$h|^tcp:|…")
+
+
+def text_of(page: Path) -> str:
+    return page.read_text(encoding="utf-8").replace("\\\n", " ")
+
+
+def calls(page: Path) -> list[list[str]]:
+    """Every call of slipstick in an indented block or between backticks, without its remark."""
+    text = text_of(page)
+    found = re.findall(r"^ {4,}(?:\.venv/bin/)?slipstick +(.+)$", text, re.MULTILINE)
+    found += re.findall(r"`slipstick ([a-z][^`]*)`", text)
+    return [shlex.split(call, comments=True) for call in found]
+
+
+CALLS = [(page, words) for page in WRITTEN for words in calls(page)]
+
+
+@pytest.mark.parametrize(
+    ("page", "words"), CALLS, ids=[f"{p.stem}: {' '.join(w)}" for p, w in CALLS]
+)
+def test_commands_of_the_pages_are_known(page: Path, words: list[str]) -> None:
+    name, *rest = words
+    command = COMMANDS[name].load(name)
+    options = {o for p in command.params for o in (*p.opts, *p.secondary_opts)} | {"--help", "-h"}
+    assert {word for word in rest if word.startswith("-")} <= options
+    for word in rest:
+        if re.fullmatch(r"[\w/]+\.toml", word):
+            assert (ROOT / word).is_file()
+    if rest and name == "study" and not rest[0].startswith("-"):
+        assert PLACEHOLDER.search(rest[0]) or rest[0] in {*STUDIES, *SCENE_STUDIES}
+    if rest and name == "verify" and not rest[0].startswith("-"):
+        assert PLACEHOLDER.search(rest[0]) or rest[0] in CASES
+
+
+def test_cases_of_the_table_in_the_readme_are_known() -> None:
+    named = re.findall(r"\| `(\w+)` \|$", text_of(ROOT / "README.md"), re.MULTILINE)
+    assert len(named) >= 6
+    assert set(named) <= set(CASES)
+
+
+@pytest.mark.parametrize("page", WRITTEN, ids=lambda page: page.relative_to(ROOT).as_posix())
+def test_links_to_files_lead_somewhere(page: Path) -> None:
+    for target in re.findall(r"\]\(([^)#\s]+)[^)]*\)", text_of(page)):
+        if not target.startswith(("http", "mailto")):
+            assert (page.parent / target).exists(), target
+
+
+def test_the_picture_is_small() -> None:
+    assert (ROOT / "docs" / "coated_contact.png").stat().st_size <= 150_000
