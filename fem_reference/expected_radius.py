@@ -17,14 +17,19 @@ from contact_scene.scene_text import shape_text
 from contact_scene.solver_errors import ContactAtZoneEdge, UnsupportedScene
 from fem_reference.contact.complementarity.method import complementarity_method
 from fem_reference.history import march
-from fem_reference.model import ContactModel
+from fem_reference.mesh.section_outline import sufficient_box
+from fem_reference.model import ContactModel, outermost_modulus
 from fem_reference.plan import plan
+from fem_reference.scales import Scales
 
 # Layered bodies are pressed on a coarse mesh first.
 COARSE = 8
 GROWTH, TOO_SMALL = 1.5, 0.5
 MOST_TRIALS = 30
 COARSE_TOLERANCE = 1e-8
+# In contact radii: of coatings a million times as stiff as what is below them, sections are larger
+# by many decades, and so is the work; the radius needs none of them.
+LARGEST_COARSE_BOX = 1e4
 
 
 def meshed_radius(scene: Scene, asked: float | None) -> float:
@@ -87,9 +92,7 @@ def _coarse_radius(scene: Scene, ramp: LoadRamp, guess: float) -> float:
     decided = plan(pressing)
     radius = guess
     for _ in range(MOST_TRIALS):
-        model = ContactModel.of(
-            pressing, FiniteElementDiscretisation(elements_per_radius=COARSE), radius
-        )
+        model = ContactModel.of(pressing, _coarse(scene, radius), radius)
         method = complementarity_method(model, decided)
         try:
             (pressed,) = march(pressing, decided, method, COARSE_TOLERANCE)
@@ -100,3 +103,13 @@ def _coarse_radius(scene: Scene, ramp: LoadRamp, guess: float) -> float:
             return pressed.contact_radius
         radius = max(pressed.contact_radius, radius / 4)
     return radius
+
+
+def _coarse(scene: Scene, radius: float) -> FiniteElementDiscretisation:
+    """Elements that tell how large a contact is, if it is of about this radius."""
+    to_radius = Scales(radius, outermost_modulus(scene)).dimensionless
+    bodies = [to_radius(body) for body in (scene.body, scene.indenter)]
+    deepest = max(sum(layer.thickness for layer in body.layers) for body in bodies)
+    enough = max(LARGEST_COARSE_BOX, 10.0 * deepest)
+    box = enough if max(map(sufficient_box, bodies)) > enough else None
+    return FiniteElementDiscretisation(elements_per_radius=COARSE, box=box)

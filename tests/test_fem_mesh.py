@@ -123,6 +123,7 @@ def test_holes_and_overlaps_are_noticed(mesher, change):
         (stack(), {"elements_per_radius": 8, "box": np.inf}, SolverError, "larger box"),
         (stack(20.0), {"elements_per_radius": 8, "box": 10.0}, SolverError, "larger box"),
         (stack(1e-9), {"elements_per_radius": 8}, UnsupportedScene, "leave it out"),
+        (stack(2e6), {"elements_per_radius": 8}, UnsupportedScene, "leave the substrate out"),
     ],
 )
 def test_sizes_that_make_no_mesh_are_refused(mesher, body, arguments, error, message):

@@ -149,20 +149,35 @@ def test_contact_beyond_the_zone_asked_for_is_refused() -> None:
     assert caught.value.where == "step 1, increment 1 of 1"
 
 
-@pytest.mark.parametrize(
-    ("ratio", "thickness"), [(0.05, 0.2), (0.05, 2.0), (20.0, 0.2), (20.0, 2.0), (1e-3, 1e-3)]
-)
-def test_mesh_fits_the_contact_of_a_coated_body(ratio: float, thickness: float) -> None:
-    """So that the elements over the radius are as many as asked for, whatever the layers."""
+def on_film(ratio: float, thickness: float) -> Scene:
+    """A rigid ball on a coating, by its modulus in those of what is below and its thickness."""
     film = Layer(
         thickness=thickness * A,
         material=IsotropicMaterial(young_modulus=ratio * YOUNG, poisson_ratio=NU),
     )
     coated = Body(material=IsotropicMaterial(young_modulus=YOUNG, poisson_ratio=NU), layers=(film,))
-    asked = Scene(indenter=RIGID_BALL, body=coated, loading=[LoadStep(**PRESS)])
+    return Scene(indenter=RIGID_BALL, body=coated, loading=[LoadStep(**PRESS)])
+
+
+@pytest.mark.parametrize(
+    ("ratio", "thickness"), [(0.05, 0.2), (0.05, 2.0), (20.0, 0.2), (20.0, 2.0), (1e-3, 1e-3)]
+)
+def test_mesh_fits_the_contact_of_a_coated_body(ratio: float, thickness: float) -> None:
+    """So that the elements over the radius are as many as asked for, whatever the layers."""
+    asked = on_film(ratio, thickness)
     found = end(asked)
     assert expected_radius(asked) == pytest.approx(found.contact_radius, rel=0.05)
     assert found.contact_radius / found.radii[1] == pytest.approx(16, rel=0.05)
+
+
+def test_radius_on_a_very_stiff_film_needs_no_section_of_many_decades(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """What suffices for the answer reaches to 300 000 contact radii, and takes its time."""
+    asked = on_film(1e4, 0.3)
+    short = expected_radius(asked)
+    monkeypatch.setattr("fem_reference.expected_radius.LARGEST_COARSE_BOX", 1e20)
+    assert short == pytest.approx(expected_radius(asked), rel=1e-6)
 
 
 def test_same_bits_again() -> None:

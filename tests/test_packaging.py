@@ -19,6 +19,12 @@ PACKAGES = (
     *("contact_scene", "semi_analytical", "fem_reference", "radial"),
     *("contact_results", "contact_errors", "verification", "slipstick"),
 )
+# Name, version, and whatever follows up to the next one.
+PINS = re.findall(
+    r"^([\w.-]+)==(\S+)(.*(?:\n +.*)*)",
+    (ROOT / "constraints.txt").read_text(encoding="utf-8"),
+    re.MULTILINE,
+)
 IGNORED = shutil.ignore_patterns("__pycache__", "*.pyc")
 
 
@@ -60,9 +66,7 @@ def test_command_leads_to_the_command_line() -> None:
 
 
 def test_constraints_pin_what_is_asked_for() -> None:
-    lines = (ROOT / "constraints.txt").read_text(encoding="utf-8").splitlines()
-    pins = dict(line.split("==") for line in lines if line and not line.startswith("#"))
-    versions = {canonicalize_name(name): version for name, version in pins.items()}
+    versions = {canonicalize_name(name): version for name, version, _ in PINS}
     extras = PROJECT["optional-dependencies"]
     for text in (
         *PROJECT["dependencies"],
@@ -74,10 +78,20 @@ def test_constraints_pin_what_is_asked_for() -> None:
         assert versions[name] in requirement.specifier, f"{text}, but {versions[name]} is pinned"
 
 
+def test_every_pin_has_hashes_and_nothing_is_installed_without_them() -> None:
+    """So that a file that was exchanged at the registry is refused."""
+    assert [
+        name for name, _, rest in PINS if not re.search(r"--hash=sha256:[0-9a-f]{64}", rest)
+    ] == []
+    installs = re.findall(r'"\$\{pip\[@\]\}" .*', (ROOT / "run").read_text(encoding="utf-8"))
+    assert len(installs) == 2
+    assert "--require-hashes" in installs[0]
+    assert '-e "$root"' in installs[1]
+
+
 def test_installed_requirements_are_pinned() -> None:
     """Every distribution that ours needs, directly or not, is in constraints.txt."""
-    text = (ROOT / "constraints.txt").read_text(encoding="utf-8")
-    pins = {canonicalize_name(name) for name in re.findall(r"^([\w.-]+)==", text, re.MULTILINE)}
+    pins = {canonicalize_name(name) for name, _, _ in PINS}
     pending, seen = [Requirement("slipstick[mesh,test]")], set()
     while pending:
         requirement = pending.pop()

@@ -61,6 +61,13 @@ def test_every_job_ends_by_itself() -> None:
         assert max(minutes) < LONGEST_JOB
 
 
+def test_actions_are_pinned_by_commit() -> None:
+    """A tag can be moved to other code; it stands beside for people."""
+    for path in (ROOT / ".github").rglob("*.yml"):
+        for used in re.findall(r"uses: (.+)", path.read_text(encoding="utf-8")):
+            assert used.startswith("./") or re.fullmatch(r"[\w/-]+@[0-9a-f]{40} # v[\d.]+", used)
+
+
 def test_no_workflow_writes_where_a_report_is_committed() -> None:
     """What was there before would be taken for what did not end."""
     for command in commands():

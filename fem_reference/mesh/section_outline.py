@@ -23,6 +23,10 @@ SMALLEST_BOX = 2.0
 THINNEST_LAYER = 1e-4
 """In units of the element beside it: flatter elements than that spoil the matrix."""
 
+DEEPEST_LAYERS = 1e6
+"""In contact radii: what lies below moves the surface by a millionth of what the contact does, and
+elements down to it take memory and time without end."""
+
 
 @dataclass(frozen=True)
 class SectionOutline:
@@ -62,14 +66,20 @@ def section_outline(
     elements_per_radius  N: the elements of the contact zone have the side 1/N
     box                  outer radius and depth of the section; None: `sufficient_box`
     zone                 the contact zone reaches at least so far
-    Raises ValueError for sizes that make no mesh, UnsupportedScene for layers too thin for one,
-    SolverError for a box too small for the body.
+    Raises ValueError for sizes that make no mesh, UnsupportedScene for layers too thin or too thick
+    for one, SolverError for a box too small for the body.
     """
     if elements_per_radius < 2:
         raise ValueError(f"{elements_per_radius} elements per contact radius: give at least 2")
     across = 2 * int(np.ceil(zone * elements_per_radius / 2 - 1e-9))
     size = 1.0 / elements_per_radius
     zone = across * size
+    thickness = sum(layer.thickness for layer in body.layers)
+    if thickness > DEEPEST_LAYERS:
+        raise UnsupportedScene(
+            f"the layers are {thickness:g} contact radii thick, above {DEEPEST_LAYERS:g}: what is "
+            "below them is not felt; leave the substrate out and make the last layer the body"
+        )
     outer = sufficient_box(body) if box is None else float(box)
     depths = [float(depth) for depth in np.cumsum([x.thickness for x in body.layers])]
     materials = [layer.material for layer in body.layers]
@@ -79,7 +89,7 @@ def section_outline(
     if not (SMALLEST_BOX * zone <= outer < np.inf and depths == sorted(depths)):
         raise SolverError(
             f"a section of {outer:g} contact radii does not hold a contact zone of {zone:g} and "
-            f"layers of {sum(x.thickness for x in body.layers):g}: give a larger box"
+            f"layers of {thickness:g}: give a larger box"
         )
     thinnest = min([x.thickness for x in body.layers], default=np.inf)
     if thinnest < THINNEST_LAYER * size:
