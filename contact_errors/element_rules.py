@@ -15,7 +15,7 @@ from contact_scene.geometry import ShapedBody
 
 PEAK = Rule(2, 0.25, 8, 1.6, path_factor=2.0)
 APPROACH = Rule(2, 0.13, 1, 1.5, path_factor=1.5)
-RADIUS = Rule(2, 0.2, 4, 4.3, path_factor=1.5)
+RADIUS = Rule(2, 0.2, 4, 4.8, path_factor=1.5, lengthscale=Lengthscale.FILM)
 STICK = Rule(1, 0.06, 2, 2.4, 2.0, 1.0, Lengthscale.STICK)
 SHIFT = Rule(2, 0.1, 1, 5.0, 3.0, 0.3, Lengthscale.SLIP)
 TWIST = Rule(2, 1.8, 4, 2.0, 3.0, 0.3, Lengthscale.SLIP)
@@ -23,6 +23,7 @@ ENERGY = Rule(1.5, 0.27, 8, 1.9, lengthscale=Lengthscale.ANNULUS)
 
 RULES = with_their_likes(
     {
+        "normal_force": replace(APPROACH, envelope=0.26),
         "approach": APPROACH,
         "contact_radius": RADIUS,
         "peak_pressure": PEAK,
@@ -42,11 +43,12 @@ AT_GAUSS_POINTS = with_their_likes(
     {
         "approach": Rule(1.5, 0.004, 4, 1.8, path_factor=1.5),
         "peak_pressure": Rule(1.5, 0.011, 4, 1.4, path_factor=2.0),
-        "contact_radius": Rule(1, 0.05, 8, 1.6, path_factor=1.5),
-        "stick_radius": Rule(1, 0.06, 4, 1.9, 2.0, 1.0, Lengthscale.STICK),
+        "contact_radius": Rule(1, 0.05, 8, 1.9, path_factor=1.5, lengthscale=Lengthscale.FILM),
+        "stick_radius": Rule(1, 0.06, 4, 2.6, 2.0, 1.0, Lengthscale.STICK),
         "tangential_shift": Rule(2, 0.05, 1, 1.4, 3.0, 0.3, Lengthscale.SLIP),
-        "twist": Rule(2, 0.15, 4, 1.2, 3.0, 0.3, Lengthscale.SLIP),
-        "dissipated_energy": Rule(1.5, 0.05, 4, 1.6, lengthscale=Lengthscale.ANNULUS),
+        "twist": Rule(2, 0.15, 4, 1.7, 3.0, 0.3, Lengthscale.SLIP),
+        "dissipated_energy": Rule(1.5, 0.05, 4, 2.0, lengthscale=Lengthscale.ANNULUS),
+        "slip_amplitude": Rule(1, 0.15, 8, 1.45, lengthscale=Lengthscale.ANNULUS),
     }
 )
 # The largest stress at the surface and near it, at an edge of the tractions: too low by 0.75 to
@@ -57,7 +59,7 @@ INSIDE = Rule(1.5, 0.15, 1, 2.0)
 # A slip annulus below so many elements may be missed altogether: the stick radius is off by one.
 LEAST_ANNULUS = 1.5
 # Where friction acts back on a pressing contact its pressure has a cusp on the axis.
-CUSP = {"peak_pressure": Rule(1, 0.02, 0.5, 3.0, path_factor=2.0, lengthscale=Lengthscale.CUSP)}
+CUSP = {"peak_pressure": Rule(1, 0.02, 0.5, 4.6, path_factor=2.0, lengthscale=Lengthscale.CUSP)}
 
 # By the section of the size that is chosen, relative; errors fall as the inverse of its square.
 SECTION = 1e-5

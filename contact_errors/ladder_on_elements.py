@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from math import ceil, sqrt
 
 import fem_reference
-from contact_errors.ladder import Growth, Rung
+from contact_errors.ladder import Growth, Rung, unkept
 from contact_errors.on_elements import Progress, rules_of, stated_errors
 from contact_errors.values import values_of
 from contact_results.cycles import fretting_cycles
@@ -26,11 +26,14 @@ from fem_reference.model import ContactModel
 FIRST_ELEMENTS, MOST_ELEMENTS = 8, 512
 # Increments of the first rung over those that are chosen by default, where the scene names none.
 FIRST_INCREMENTS = 0.5
-MOST_HARMONICS, MORE_HARMONICS = 64, 1.5
+MOST_HARMONICS = 64
+# What harmonics change falls at least with their square.
+LEAST_MORE_HARMONICS = 1.5
 LEAST_TOLERANCE, LEAST_OVERLAP, LARGEST_BOX = 1e-12, 1e-8, 1e6
 NODES_PER_ELEMENT = 4  # biquadratic: about one corner, two midsides and a middle each
-# Of the time with the elements: boundaries have as many as the radius, sections their square.
-GROWTH_OF_SECONDS = 2.0
+# Of the time: what does not grow with the square of the elements over a radius takes as long as so
+# many of them, and what comes before the first increment as long as so many; each harmonic as much.
+ELEMENTS_OF_REST, INCREMENTS_OF_REST = 32, 50
 
 
 @dataclass(frozen=True)
@@ -56,8 +59,8 @@ class ElementLadder:
     scene: Scene
     asked: FiniteElementDiscretisation
     method: Method
-    keeping: Keeping
-    watching: Watching
+    keeping: Keeping = unkept
+    watching: Watching = unkept
 
     def first(self) -> ElementFineness:
         plan = fem_reference.plan(self.scene)
@@ -90,7 +93,8 @@ class ElementLadder:
     def refined(self, fineness: ElementFineness, by: Growth) -> ElementFineness:
         mesh, less = fineness.mesh, by.less
         matters = fem_reference.plan(self.scene).path_matters
-        more = MORE_HARMONICS if "harmonics" in less else 1.0
+        left = less.get("harmonics")
+        more = 1.0 if left is None else max(LEAST_MORE_HARMONICS, left**-0.5)
         finer = _updated(
             mesh,
             elements_per_radius=ceil(by.cells * mesh.elements_per_radius),
@@ -108,10 +112,14 @@ class ElementLadder:
         return ElementFineness(finer, tuple(increments))
 
     def seconds(self, fineness: ElementFineness, like: Rung[ElementFineness]) -> float:
-        before = like.fineness
-        finer = fineness.mesh.elements_per_radius / before.mesh.elements_per_radius
-        more = sum(fineness.increments) / sum(before.increments)
-        return like.processor_seconds * more * finer**GROWTH_OF_SECONDS
+        return like.processor_seconds * self._work(fineness) / self._work(like.fineness)
+
+    def _work(self, fineness: ElementFineness) -> float:
+        mesh = fineness.mesh
+        of_sections = ELEMENTS_OF_REST**2 + mesh.elements_per_radius**2
+        work = of_sections * (INCREMENTS_OF_REST + sum(fineness.increments))
+        coupled = fem_reference.plan(self.scene).path is Path.HARMONICS
+        return float(work * (mesh.harmonics if coupled else 1))
 
     def memory(self, fineness: ElementFineness) -> int:
         path = fem_reference.plan(self.scene).path

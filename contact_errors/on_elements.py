@@ -43,6 +43,7 @@ CUSPED = (Path.PRESSING_WITH_FRICTION, Path.HARMONICS)
 FEWEST_ELEMENTS = 3  # of a companion, over the contact radius
 # In elements: below them a number has not converged, however small its differences are.
 LEAST = {Lengthscale.CONTACT: 3.0, Lengthscale.STICK: 1.0, Lengthscale.ANNULUS: 0.5}
+LEAST_LAYER = 2.0  # of what the layers blur
 
 
 def stated_errors(
@@ -160,6 +161,8 @@ class _Elements:
 
     def per(self, step: int, rule: Rule) -> float:
         contact, stick, lengthscale = self._contact(step), self._stick(step), rule.lengthscale
+        if lengthscale is Lengthscale.FILM:
+            return float(np.sqrt(contact * min(contact, self._layer)))
         if stick is None or lengthscale in (Lengthscale.CONTACT, Lengthscale.CUSP):
             return contact
         if lengthscale is Lengthscale.STICK:
@@ -176,6 +179,8 @@ class _Elements:
     def resolved(self, step: int, rule: Rule, largest: Numbers) -> bool:
         contact, stick, lengthscale = self._contact(step), self._stick(step), rule.lengthscale
         if contact < LEAST[Lengthscale.CONTACT]:
+            return False
+        if lengthscale is Lengthscale.FILM and self._layer < LEAST_LAYER:
             return False
         if lengthscale is Lengthscale.CUSP and self._slides(step):
             return True
@@ -217,6 +222,12 @@ class _Elements:
         """Elements over the stick radius; None without shear."""
         radius = self.result.steps[step].stick_radius
         return None if radius is None else self._per_length * radius
+
+    @property
+    def _layer(self) -> float:
+        """Elements over the thickness of the thinnest layer; infinite without one."""
+        layers = (*self.result.scene.body.layers, *self.result.scene.indenter.layers)
+        return self._per_length * min((layer.thickness for layer in layers), default=np.inf)
 
     @property
     def _per_length(self) -> float:

@@ -27,7 +27,7 @@ class Lengthscale(Enum):
     """What in a contact a quantity is resolved by, in cells."""
 
     CONTACT = auto()  # contact radius m
-    FILM = auto()  # contact radius, or the thinnest layer where that is thinner
+    FILM = auto()  # contact radius, or the thinnest layer if that is thinner; elements: √ of both
     STICK = auto()  # stick radius
     CUSP = auto()  # contact radius; the stick zone has to be resolved, which rounds off the cusp
     SLIP = auto()  # contact radius, and width w of the slip annulus: m/√(1 + 1/w)
@@ -63,7 +63,7 @@ class Rule:
 
 PEAK = Rule(2, 0.25, 0.5, 1.2, path_factor=2.0)
 APPROACH = Rule(2, 0.05, 1, 1.65, path_factor=1.5)
-RADIUS = Rule(1.25, 0.22, 4, 1.4, path_factor=1.5, lengthscale=Lengthscale.FILM)
+RADIUS = Rule(1.25, 0.22, 4, 1.5, path_factor=1.5, lengthscale=Lengthscale.FILM)
 STICK = Rule(1.25, 0.25, 4, 3.2, 2.0, 1.0, Lengthscale.STICK)
 SHIFT = Rule(2, 0.06, 2, 1.35, 3.0, 0.3, Lengthscale.SLIP)
 TWIST = Rule(2, 0.24, 9, 1.3, 3.0, 0.3, Lengthscale.SLIP)

@@ -34,7 +34,7 @@ from contact_errors.asked import Asked
 from contact_errors.climb import Climb, Way, climb
 from contact_errors.ladder import AIM, Growth, Rung, growth, unkept
 from contact_errors.ladder_on_cells import CellFineness, CellLadder, even_smooth
-from contact_errors.ladder_on_elements import ElementLadder
+from contact_errors.ladder_on_elements import ElementFineness, ElementLadder
 from contact_errors.price import Prices
 from contact_errors.rules import APPROACH as APPROACH_RULE
 from contact_errors.rules import SHIFT, Rule
@@ -158,6 +158,8 @@ def test_a_larger_section_and_less_overlap_follow_from_their_errors() -> None:
     first = ladder.first()
     box = ladder.refined(first, by).mesh.box
     finer = ladder.refined(ladder.refined(first, by), by).mesh
+    far = ladder.refined(first, Growth(1.0, 1.0, {"harmonics": 1 / 9})).mesh
+    assert far.harmonics == 3 * asked.harmonics  # what they change falls with their square
     assert finer.box == pytest.approx(2 * box)
     assert finer.overlap == pytest.approx(asked.overlap / 100)
     assert finer.harmonics > asked.harmonics
@@ -403,6 +405,7 @@ def test_stress_meets_the_table_of_its_scene_and_says_so(tmp_path: Path) -> None
     [
         ("--accuracy", "max_principal 1e-6"),
         ("--accuracy", TENSION, "--indenter"),
+        ("--accuracy", TENSION, "--depths", "0.1 mm"),
         ("--accuracy", TENSION, "--no-error"),
         ("--accuracy", TENSION, "--solver", "fem"),
         ("--accuracy", TENSION, "--step", "2"),
@@ -489,6 +492,15 @@ def test_what_was_kept_of_another_request_is_begun_anew(tmp_path: Path) -> None:
     assert not kept.exists()
 
 
+def test_a_run_without_accuracy_leaves_nothing_of_a_killed_one_with_it(tmp_path: Path) -> None:
+    rounds, solve_of_round = tmp_path / ".out.rounds", tmp_path / ".out.checkpoint-2"
+    rounds.write_bytes(b"of another scene")
+    solve_of_round.mkdir()
+    (solve_of_round / "part-000000").write_bytes(b"of another scene")
+    assert slipstick("run", written(tmp_path), "-o", tmp_path / "out", "--no-figures") == 0
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["out", "scene.toml"]
+
+
 def test_the_best_round_is_solved_again_if_it_lies_behind_what_was_begun() -> None:
     ladder, ways = CellLadder(scene(PRESS), SurfaceDiscretisation()), []
     climb(ladder, request("0.1%"), between=ways.append)
@@ -535,6 +547,18 @@ def test_a_worked_example_of_seconds() -> None:
     coarse = [Solved((16, 16), 100)]
     assert speed.seconds((16, 16), 100) == pytest.approx(0.2024)
     assert seconds_like(coarse, 0.5, 4.0, 1.5, speed) == pytest.approx(0.2976 + 7.6728)
+
+
+def test_a_worked_example_of_seconds_by_elements() -> None:
+    # 12 for 24 elements and 30 increments: (32² + 24²)(50 + 30) = 128 000. 32 and 150:
+    # 2·32²·200 = 409 600, 3.2 times as much.
+    ladder = ElementLadder(scene(PRESS), FiniteElementDiscretisation(), Method.COMPLEMENTARITY)
+    by = [
+        ElementFineness(FiniteElementDiscretisation(elements_per_radius=n), (increments,))
+        for n, increments in ((24, 30), (32, 150))
+    ]
+    like = replace(rung_of({}, SHIFT), fineness=by[0], processor_seconds=12.0)
+    assert ladder.seconds(by[1], like) == pytest.approx(38.4)
 
 
 def test_plan_prints_prices_and_what_cannot_be_had(

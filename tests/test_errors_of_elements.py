@@ -18,8 +18,10 @@ from contact_scene import RIGID, Body, FlatPunch, IsotropicMaterial, Layer, Scen
 from contact_scene.stated_error import ErrorStatus
 from fem_reference import Method, solve
 from verification.closed_forms.cattaneo_mindlin import PartialSlip
+from verification.closed_forms.coated_indentation import paraboloid as pressed_coating
 from verification.closed_forms.huber_stress import axis_stress
 from verification.closed_forms.moduli import tangential_modulus
+from verification.problems.layered_scene import surface_of
 
 SMOOTH = scene(PRESS, friction=None)
 LOOSE = steel(0.0)
@@ -98,6 +100,24 @@ def largest(state: LoadedBodies) -> tuple[dict[str, float], dict[str, float]]:
 
 def replace_material(material: IsotropicMaterial):
     return INDENTERS["paraboloid"].model_copy(update={"material": material})
+
+
+@pytest.mark.parametrize(("thickness", "known"), [(0.21, True), (0.15, False)])
+def test_the_error_of_the_radius_below_a_film_counts_its_elements(
+    thickness: float, known: bool
+) -> None:
+    """Fewer than two over the thickness do not know it."""
+    film = Layer(thickness=thickness * A, material=steel(young_modulus=7.2 * LOOSE.young_modulus))
+    body = Body(material=LOOSE, layers=(film,))
+    contact = pressed_coating(surface_of(body), RIGID_BALL.radius, A)
+    asked = Scene(indenter=RIGID_BALL, body=body, loading=({"normal_force": contact.load},))
+    for method in Method:
+        result = solve(asked, elements(11), method)
+        (errors,) = stated_errors(result).steps
+        of_radius = errors["contact_radius"]
+        assert (of_radius.status is ErrorStatus.ESTIMATED) is known
+        assert abs(result.steps[0].contact_radius - A) <= of_radius.error
+        assert errors["approach"].status is ErrorStatus.ESTIMATED
 
 
 def test_parts_say_what_they_are_of() -> None:

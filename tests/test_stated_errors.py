@@ -13,6 +13,7 @@ from contact_scenes import (
     MU,
     NU,
     PRESS,
+    RADIUS,
     YOUNG,
     A,
     grid,
@@ -44,13 +45,16 @@ from contact_scene import (
     Cone,
     FiniteElementDiscretisation,
     FlatPunch,
+    Layer,
     Scene,
     SurfaceDiscretisation,
 )
 from contact_scene.stated_error import ErrorStatus, StatedError
 from semi_analytical import SurfaceGrid, plan, solve, solve_discretised
 from verification.closed_forms.cattaneo_mindlin import PartialSlip
+from verification.closed_forms.coated_indentation import paraboloid as pressed_coating
 from verification.closed_forms.moduli import tangential_modulus
+from verification.problems.layered_scene import surface_of
 
 FRETTING = (
     STEEL_BALL_PRESSED
@@ -359,6 +363,26 @@ def test_the_error_of_the_largest_mean_covers_what_it_lacks_of_the_peak(cells: i
     missed = abs(result.steps[0].peak_pressure - hertz().peak_pressure)
     (errors,) = stated_errors(result).steps
     assert missed <= size(errors["peak_pressure"]) <= 4 * missed
+
+
+@pytest.mark.parametrize(("cells", "stiffer"), [(37, 40.0), (56, 30.0)])
+def test_the_error_of_a_peak_at_the_rim_of_a_stiff_film_covers_what_is_wrong(
+    cells: int, stiffer: float
+) -> None:
+    """The film bends and stands on the edge of its contact, on a ring as wide as it is thick."""
+    base, thickness = steel(), 0.083 * A
+    matter = steel(young_modulus=stiffer * base.young_modulus)
+    body = Body(material=base, layers=(Layer(thickness=thickness, material=matter),))
+    contact = pressed_coating(surface_of(body), RADIUS, A)
+    pressed = Scene(
+        indenter=paraboloid(RIGID), body=body, loading=({"normal_force": contact.load},)
+    )
+    result = solve(pressed, grid(cells, contacts=1.2), 1e-8)
+    (errors,) = stated_errors(result).steps
+    r = np.linspace(0, A, 2001)
+    peak = float(np.max(contact.pressure(r)))
+    wrong = abs(result.steps[0].peak_pressure - peak)
+    assert 0.02 * peak < wrong <= size(errors["peak_pressure"])
 
 
 def test_increments_tell_of_tractions_whose_peak_is_infinite() -> None:

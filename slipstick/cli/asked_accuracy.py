@@ -40,6 +40,9 @@ MostSecondsOption: TypeAlias = Annotated[
     ),
 ]
 
+# Beside the results: where a climb stands, and the solves of a round.
+ROUNDS, OF_ROUND = "rounds", "checkpoint-"
+
 
 def asked_accuracy(
     contents: "SceneFile", option: str | None, most_seconds: float | None
@@ -73,6 +76,22 @@ def leave_unless_met(accuracy: "AccuracyReached | None") -> None:
         raise typer.Exit(ExitCode.RESOURCES_REFUSED)
 
 
+def forget_rounds(output: Path) -> None:
+    """Remove what a killed run with an accuracy has left beside results that are not its own."""
+    from contact_results.directory.checkpoint import checkpointed
+    from contact_results.directory.kept_value import kept_value
+    from slipstick.cli.terminal import tell
+
+    target = output.resolve()
+    of_rounds = f".{target.name}.{OF_ROUND}"
+    left = [path for place in (target, target.parent) for path in place.glob(f"{of_rounds}*")]
+    for path in left:
+        with checkpointed(output, "", tell, path.name.removeprefix(f".{target.name}.")):
+            pass
+    with kept_value(output, "", tell, ROUNDS):
+        pass
+
+
 def climb_to(
     request: "AccuracyRequest",
     solver: "Solver",
@@ -102,7 +121,7 @@ def climb_to(
         nonlocal tried
         tried += 1
         identity = solve_identity(contents.scene, fineness, vars(solver))
-        with checkpointed(output, identity, tell, f"checkpoint-{tried}") as keeper:
+        with checkpointed(output, identity, tell, f"{OF_ROUND}{tried}") as keeper:
             yield keeper
 
     @contextmanager
@@ -121,7 +140,7 @@ def climb_to(
     )
     asked = (contents.scene, fineness, vars(solver), request, surface_stress, step)
     identity = solve_identity(*asked, code_digest((*SOLVERS, "contact_results", "contact_errors")))
-    with kept_value(output, identity, tell, "rounds") as kept:
+    with kept_value(output, identity, tell, ROUNDS) as kept:
 
         def between(way: Any) -> None:
             nonlocal tried

@@ -9,6 +9,7 @@ from slipstick.cli.asked_accuracy import (
     MostSecondsOption,
     asked_accuracy,
     climb_to,
+    forget_rounds,
     leave_unless_met,
     refuse_beside_accuracy,
 )
@@ -145,6 +146,8 @@ def run(
                 accuracy=reached,
             )
         write_timing(stopwatch, staging)
+    if request is None:
+        forget_rounds(output)
     _print_outcome(chosen, result, stated, reached, by_doubling, stopwatch.wall_seconds)
     if not error:
         typer.echo("  no errors: --no-error left them out")

@@ -100,6 +100,11 @@ def stress(
         request = asked_accuracy(contents, accuracy, most_seconds)
         if indenter and request is not None and request.binds_stress:
             raise typer.BadParameter("an accuracy of max_principal is of the body, not --indenter")
+        if asked is not None and request is not None and request.binds_stress:
+            raise typer.BadParameter(
+                "an accuracy of max_principal is of the largest at all depths: leave --depths out, "
+                "or bind other quantities"
+            )
         state, reached = state_of_scene(
             contents,
             step,
