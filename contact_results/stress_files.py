@@ -5,21 +5,28 @@ from __future__ import annotations
 from collections.abc import Sequence
 from pathlib import Path
 
+from contact_results.directory.file_names import STRESS
 from contact_results.files import surface_file
 from contact_results.files.csv_file import write_meanings
 from contact_results.files.surface_file import write_surface
 from contact_results.stress.extremes import Extreme
 from contact_results.stress.loaded_bodies import LoadedBodies
 from contact_results.stress.points import StressField
-from contact_results.stress.section_file import POINT_ARRAYS, SECTION, VOLUME, write_points
+from contact_results.stress.section_file import (
+    POINT_ARRAYS,
+    SECTION,
+    SURFACE,
+    VOLUME,
+    write_points,
+)
 from contact_results.stress.tables import (
     AXIS,
     INTERFACES,
     LARGEST_COLUMNS,
     MAXIMA,
+    MEANINGS,
     POINT_COLUMNS,
     SIDE_COLUMNS,
-    SUMMARY,
     write_axis,
     write_interfaces,
     write_maxima,
@@ -28,8 +35,6 @@ from contact_results.stress.tables import (
 from contact_scene.accuracy_reached import AccuracyReached
 from contact_scene.convention import CONVENTION, OF_THE_INDENTER
 from contact_scene.stated_error import StatedError
-
-MEANINGS, SURFACE = "stress_columns.csv", "stress_surface.vtu"
 
 
 def write_stress(
@@ -53,7 +58,7 @@ def write_stress(
     convention = OF_THE_INDENTER if of_indenter else CONVENTION
     # Last to come and first to go: a directory with a summary is complete, and all its files are
     # of one stress.
-    for name in (SUMMARY, VOLUME):
+    for name in (STRESS, VOLUME):
         (directory / name).unlink(missing_ok=True)
     write_maxima(found, errors, directory)
     write_axis(field, body, directory)

@@ -5,6 +5,7 @@
     errors = slipstick.stated_errors(result)       # how far off its numbers may be
     slipstick.save(result, "out", errors=errors)   # summary, tables, fields, figures
     run = slipstick.load("out")                    # and back, arrays with units and meaning
+    below = slipstick.load_stress("out/stress")    # what `slipstick stress` has written
 
 The names here are all that a script needs; they are imported when they are used. The solvers'
 own names are in `semi_analytical`, `fem_reference` and `radial`.
@@ -15,6 +16,7 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from contact_results.files.stored_run import StoredRun, load
+    from contact_results.stress.stored_stress import StoredStress, load_stress
     from contact_scene import (
         RIGID,
         Body,
@@ -58,12 +60,15 @@ __all__ = [
     "save",
     "load",
     "StoredRun",
+    "load_stress",
+    "StoredStress",
 ]
 
 HOMES = {
     **dict.fromkeys(__all__, "contact_scene"),
     **dict.fromkeys(("plan", "solve", "stated_errors", "save"), "slipstick.solving"),
     **dict.fromkeys(("load", "StoredRun"), "contact_results.files.stored_run"),
+    **dict.fromkeys(("load_stress", "StoredStress"), "contact_results.stress.stored_stress"),
 }
 
 

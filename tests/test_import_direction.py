@@ -125,7 +125,7 @@ ORDERS = {
             "cycles",
             "path_error",
         ),
-        *("files", "stress", "figures", "result_files", "stress_files"),
+        *("files", "stress", "figures", "result_files", "stress_files", "export"),
     ),
     "contact_errors": (
         *("values", "rules", "estimate", "prescribed", "levels", "half_the_cells", "on_cells"),

@@ -7,6 +7,7 @@ PROFILES = "profiles.csv"
 INCREMENTS = "increments.csv"
 CYCLES = "cycles.csv"
 COLUMNS = "columns.csv"
+STRESS = "stress.json"  # of `slipstick stress`, which has a directory of its own
 
 PRESSURE_FIGURE = "pressure.png"
 SHEAR_FIGURE = "shear.png"

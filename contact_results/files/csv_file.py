@@ -8,6 +8,7 @@ a second table beside, in which every column has a row.
 from __future__ import annotations
 
 import csv
+import re
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -34,6 +35,7 @@ class Column:
         return self.name if self.unit is None else f"{self.name} [{self.unit or '1'}]"
 
 
+WITH_UNIT = re.compile(r"(?P<name>.*) \[(?P<unit>[^\[\]]*)\]")  # `Column.header` read again
 STEP = Column("step", None, "Loading step, from 1.")
 
 

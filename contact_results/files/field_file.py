@@ -31,6 +31,7 @@ AXES = {
     "radii": ("m", "radii of the rings"),
     "angles": ("rad", "from the direction of the tangential load"),
 }
+PER_INCREMENT, COMPONENT = ("increment",), ("component",)
 PLACES = {"step": "loading step, from 1", "increment": "increment within the step, from 1"}
 
 
@@ -58,14 +59,15 @@ def write_fields(result: Result, cycles: Sequence[FrettingCycle], directory: Pat
             fineness = result.discretisation.model_dump_json()
             _write(file, "discretisation", fineness, Reported("", "how finely (JSON)"))
         for name, values in surface.axes.items():
-            _write(file, name, values, Reported(*AXES[name]))
+            _write(file, name, values, Reported(*AXES[name]), (name,))
         group = file.create_group("increments", track_order=False)
         for name, mark in reported(type(result.increments[0])).items():
             if mark.kind is Kind.FIELD:
                 _write_field(group, name, mark, surface, result.increments)
         _write_scalars(group, result.increments)
         if cycles:
-            _write_cycle(file.create_group("last_cycle", track_order=False), cycles[-1])
+            places = tuple(surface.axes)
+            _write_cycle(file.create_group("last_cycle", track_order=False), cycles[-1], places)
 
 
 class _NeverFull(io.FileIO):
@@ -100,13 +102,15 @@ def _write_scalars(group: h5py.Group, increments: Sequence[Increment]) -> None:
     """NaN where an increment has none; nothing where none has."""
     for name, meaning in PLACES.items():
         attribute = "index" if name == "increment" else name
-        _write(group, name, [getattr(i, attribute) for i in increments], Reported("", meaning))
+        values = [getattr(i, attribute) for i in increments]
+        _write(group, name, values, Reported("", meaning), PER_INCREMENT)
     for name, mark in SCALARS.items():
         values = [getattr(increment, name) for increment in increments]
         known = next((value for value in values if value is not None), None)
         if known is not None:
             nothing = np.full(np.shape(known), np.nan)
-            _write(group, name, np.array([nothing if v is None else v for v in values]), mark)
+            found = np.array([nothing if v is None else v for v in values])
+            _write(group, name, found, mark, (*PER_INCREMENT, *COMPONENT)[: found.ndim])
 
 
 def _write_field(
@@ -127,23 +131,34 @@ def _write_field(
                 track_times=False,
                 **COMPRESSION,
             )
-            _describe(dataset, mark)
+            places = tuple(surface.axes)
+            of_vector = COMPONENT * (field.ndim - len(places))
+            _describe(dataset, mark, (*PER_INCREMENT, *of_vector, *places))
         dataset[index] = field
 
 
-def _write_cycle(group: h5py.Group, cycle: FrettingCycle) -> None:
+def _write_cycle(group: h5py.Group, cycle: FrettingCycle, places: tuple[str, ...]) -> None:
     group.attrs["start_step"], group.attrs["end_step"] = cycle.cycle.start, cycle.cycle.end
     for name, mark in reported(type(cycle)).items():
         values = getattr(cycle, name)
         if mark.kind is Kind.FIELD and values is not None:
-            _write(group, name, values, mark, **COMPRESSION)
+            _write(group, name, values, mark, places, **COMPRESSION)
 
 
-def _write(group: h5py.Group, name: str, values: Any, mark: Reported, **how: Any) -> None:
-    _describe(group.create_dataset(name, data=values, track_times=False, **how), mark)
+def _write(
+    group: h5py.Group,
+    name: str,
+    values: Any,
+    mark: Reported,
+    indices: tuple[str, ...] = (),
+    **how: Any,
+) -> None:
+    _describe(group.create_dataset(name, data=values, track_times=False, **how), mark, indices)
 
 
-def _describe(dataset: h5py.Dataset, mark: Reported) -> None:
-    """Put unit and meaning next to the numbers."""
+def _describe(dataset: h5py.Dataset, mark: Reported, indices: tuple[str, ...]) -> None:
+    """Put unit, meaning and what each index counts next to the numbers."""
     dataset.attrs["unit"] = mark.unit
     dataset.attrs["description"] = mark.meaning
+    for number, index in enumerate(indices):
+        dataset.dims[number].label = index

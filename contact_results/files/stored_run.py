@@ -12,24 +12,21 @@ import h5py
 import numpy as np
 from numpy.typing import NDArray
 
-from contact_results.directory.file_names import FIELDS, SUMMARY
+from contact_results.directory.file_names import (
+    COLUMNS,
+    CYCLES,
+    FIELDS,
+    INCREMENTS,
+    PROFILES,
+    STRESS,
+    SUMMARY,
+)
+from contact_results.files.stored_table import StoredTables, StoredValues
 from contact_results.files.stored_values import MISREAD, text, values
 from contact_scene import Scene
 from contact_scene.increment import SCALARS
 from contact_scene.reported import Kind
 from contact_scene.summary import RunSummary, load_summary
-
-
-@dataclass(frozen=True)
-class StoredValues:
-    """An array as it is stored.
-
-    unit  in SI; empty if dimensionless
-    """
-
-    array: NDArray[Any]
-    unit: str
-    meaning: str
 
 
 class StoredGroup(Mapping[str, StoredValues]):
@@ -54,7 +51,13 @@ class StoredGroup(Mapping[str, StoredValues]):
                     f"{self._path}: {dataset.name} has unit {unit!r} and description {meaning!r}, "
                     f"expected both in words as in the {FIELDS} of a run"
                 )
-            return StoredValues(values(dataset), unit, meaning)
+            indices = tuple(dim.label for dim in dataset.dims)
+            return StoredValues(values(dataset), unit, meaning, indices if all(indices) else ())
+
+    def at(self, name: str, row: int) -> NDArray[Any]:
+        """The array at one increment, alone."""
+        with h5py.File(self._path) as file:
+            return values(file[self._group][name], row)
 
     def __iter__(self) -> Iterator[str]:
         return iter(self._names)
@@ -72,6 +75,8 @@ class StoredRun:
     coordinates  of the fields: x and y of cells, or radii and angles of rings
     increments   every field and scalar, the increment as the first index
     last_cycle   fields of the last closed load cycle; empty if there is none
+    tables       profiles, increments and, where load cycles close, cycles
+    direction    unit vector from which angles count, that of the tangential load
     """
 
     summary: RunSummary
@@ -79,6 +84,13 @@ class StoredRun:
     coordinates: StoredGroup
     increments: StoredGroup
     last_cycle: StoredGroup
+    tables: StoredTables
+    direction: tuple[float, float]
+
+    @property
+    def convention(self) -> str:
+        """Units, axes and signs."""
+        return self.summary.convention
 
 
 def load(directory: str | PathLike[str]) -> StoredRun:
@@ -90,7 +102,9 @@ def load(directory: str | PathLike[str]) -> StoredRun:
     summary, fields = Path(directory) / SUMMARY, Path(directory) / FIELDS
     for path in (summary, fields):
         if not path.is_file():
-            raise FileNotFoundError(f"{directory} is no run: it has no {path.name}")
+            stress = (Path(directory) / STRESS).is_file()
+            instead = "; it is a stress, which load_stress reads" if stress else ""
+            raise FileNotFoundError(f"{directory} is no run: it has no {path.name}{instead}")
     try:
         record = load_summary(summary.read_text(encoding="utf-8"))
     except ValueError as error:
@@ -101,12 +115,15 @@ def load(directory: str | PathLike[str]) -> StoredRun:
             if "increments" not in file:
                 raise ValueError("it has no increments")
             strange = next(_strange(record, scene, file), None)
-        groups = (StoredGroup(fields, group) for group in ("/", "increments", "last_cycle"))
+            x, y = file.attrs.get("direction", (1.0, 0.0))
+        groups = [StoredGroup(fields, group) for group in ("/", "increments", "last_cycle")]
     except MISREAD as error:
         raise ValueError(f"{fields} is not the {FIELDS} of a run: {error}") from None
     if strange:
         raise ValueError(f"{summary} and {fields} are of different runs: {strange}; run again")
-    return StoredRun(record, scene, *groups)
+    tables = StoredTables(Path(directory), (PROFILES, INCREMENTS, CYCLES), COLUMNS)
+    places, increments, cycle = groups
+    return StoredRun(record, scene, places, increments, cycle, tables, (float(x), float(y)))
 
 
 def _strange(summary: RunSummary, scene: Scene, file: h5py.File) -> Iterator[str]:

@@ -11,6 +11,7 @@ from contact_results.files.mesh_file import Mesh, tensor, write_mesh
 from contact_results.stress.points import StressPoints
 
 SECTION, VOLUME = "stress_section.vtu", "stress_volume.vtu"
+SURFACE = "stress_surface.vtu"  # the tractions
 
 POINT_ARRAYS = (
     Column("displacement", "m", "Vector (x, y, z)."),

@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from contact_results.directory.atomic_file import atomic_file
+from contact_results.directory.file_names import STRESS
 from contact_results.files.csv_file import Column, write_table
 from contact_results.stress.extremes import Extreme, interface_sides, layer_name
 from contact_results.stress.loaded_bodies import LoadedBodies
@@ -18,7 +19,7 @@ from contact_scene.accuracy_reached import AccuracyReached
 from contact_scene.stated_error import StatedError
 
 MAXIMA, AXIS, INTERFACES = "stress_maxima.csv", "stress_axis.csv", "stress_interfaces.csv"
-SUMMARY = "stress.json"
+MEANINGS = "stress_columns.csv"
 
 PLACE = (
     Column("x", "m", "Place in the plane of contact."),
@@ -112,7 +113,7 @@ def write_stress_summary(
         ],
     }
     text = json.dumps(record, indent=2, allow_nan=False, ensure_ascii=False) + "\n"
-    with atomic_file(directory / SUMMARY) as path:
+    with atomic_file(directory / STRESS) as path:
         path.write_text(text, encoding="utf-8")
 
 

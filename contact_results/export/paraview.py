@@ -1,0 +1,44 @@
+"""The surface at the end of every loading step for ParaView, and a `.pvd` that makes them one."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+
+from contact_results.directory.atomic_file import atomic_file
+from contact_results.files.stored_run import StoredRun
+from contact_results.files.surface_file import POLAR, SCALARS, VECTORS, write_surface
+from contact_results.surface import Cells, Rings, Surface
+
+COLLECTION = "surface.pvd"
+NAMES = (*SCALARS, *VECTORS, *(f"{stem}_{part}" for stem in VECTORS for part in POLAR))
+
+
+def write_paraview(run: StoredRun, directory: Path) -> None:
+    """Write `surface_step_1.vtu` and so on, and `surface.pvd` with the steps for times."""
+    surface, steps = surface_of_run(run), run.increments["step"].array
+    ends = np.flatnonzero(np.diff(steps, append=steps[-1] + 1))
+    there = [name for name in NAMES if name in run.increments]
+    entries = []
+    for row in ends.tolist():
+        step = int(steps[row])
+        file = f"surface_step_{step}.vtu"
+        fields = {name: run.increments.at(name, row) for name in there}
+        write_surface(surface, fields, directory / file, run.convention)
+        entries.append(f'<DataSet timestep="{step}" file="{file}"/>\n')
+    with atomic_file(directory / COLLECTION) as temporary:
+        temporary.write_text(
+            '<VTKFile type="Collection" version="0.1">\n<Collection>\n'
+            f"{''.join(entries)}</Collection>\n</VTKFile>\n",
+            encoding="ascii",
+        )
+
+
+def surface_of_run(run: StoredRun) -> Surface:
+    """What the fields of a run live on."""
+    places = {name: run.coordinates[name].array for name in run.coordinates}
+    if "radii" in places:
+        return Rings(places["radii"], places.get("angles"), run.direction, polar=False)
+    x, y = places["x"], places["y"]
+    return Cells(x, y, float((x[1] - x[0]) * (y[1] - y[0])))
