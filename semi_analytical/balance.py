@@ -50,9 +50,10 @@ def configuration(model: ContactModel, state: State) -> Configuration:
         normal_displacement=pressing.displacement,
         gap=model.gap + pressing.displacement - pressing.closure(model),
         shear=sheared.shear,
-        friction_limit=sheared.limit,
+        friction_limit=model.friction.limit(sheared.pressure),
         tangential_displacement=sheared.displacement,
         slipped=slipped,
+        touching=sheared.touching,
         forces=np.array([normal, *sheared.force, *moments]),
         motions=motions,
     )

@@ -203,5 +203,5 @@ class _Trial:
         elif load.force is not None:
             force_reaches_limit(load.force, float(np.sum(bound)) * model.grid.cell_area)
             if np.any(bound):
-                return replace(at_limit(model, bound, last, load), displacement=u_t)
+                return replace(at_limit(model, p, last, load), displacement=u_t)
         return unresisted(model, p, u_t, last, load, self.solution.motion)

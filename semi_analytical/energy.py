@@ -7,8 +7,9 @@ and with p g = 0, it follows that
 
     input work = ΔE + dissipation + unresolved work
     input work      Σ ½ (f₀ + f₁)(ω₁ - ω₀), forces and moments f over their conjugate motions ω
-    dissipation     -Σ f·(s₁ - s₀) Δ, with f along q₁ and as large as ½ µ(p₀ + p₁)
-    unresolved work  ½ Σ (p₁ g₀ - p₀ g₁) Δ + Σ (f - ½ (q₀ + q₁))·(s₁ - s₀) Δ
+    dissipation     -Σ f·κ(s₁ - s₀) Δ, with f along q₁ and as large as ½ µ(p₀ + p₁), and κ the part
+                    of the increment for which a cell touches
+    unresolved work  ½ Σ (p₁ g₀ - p₀ g₁) Δ + Σ (κf - ½ (q₀ + q₁))·(s₁ - s₀) Δ
 
 Friction while slipping is at its limit, which follows the pressure: hence the mean of both limits,
 along the shear at the end, for which slip was solved. Where the pressure stays, or all grows in
@@ -21,7 +22,7 @@ remains beside it measures how well the equations were solved.
 Where the path matters, slip and the friction along it are known no better than to what they change
 by in an increment: the dissipation is uncertain by
 
-    Σ over increments of Σ |q₁ - q₀| |s₁ - s₀| Δ,
+    Σ over increments of Σ |q₁ - q₀| κ|s₁ - s₀| Δ,
 
 twice the half change of friction along all slip. Measured on first pressing, loops, unloading and
 turning loads, 4 to 64 increments: the true error is .005 to .66 of that.
@@ -50,6 +51,7 @@ class Configuration:
     shear, tangential_displacement      q and u (2, nx, ny)
     friction_limit                      µp (nx, ny)
     slipped                             u less the rigid motion (2, nx, ny): it changes by the slip
+    touching                            part κ of the increment before for which cells touch
     forces, motions                     f and ω in one order; motions None where undefined
     """
 
@@ -60,6 +62,7 @@ class Configuration:
     friction_limit: Field
     tangential_displacement: VectorField
     slipped: VectorField | None
+    touching: Field
     forces: Vector
     motions: Vector | None
 
@@ -78,6 +81,7 @@ class Configuration:
             friction_limit=nothing[0],
             tangential_displacement=nothing,
             slipped=nothing,
+            touching=nothing[0],
             forces=np.zeros(pairs),
             motions=np.zeros(pairs),
         )
@@ -159,7 +163,7 @@ def elastic_energy(state: Configuration, cell_area: float) -> float:
 
 
 def unresolved_work(before: Configuration, after: Configuration, cell_area: float) -> float:
-    """½ Σ (p₁ g₀ - p₀ g₁) Δ + Σ (f - ½ (q₀ + q₁))·(s₁ - s₀) Δ [force length].
+    """½ Σ (p₁ g₀ - p₀ g₁) Δ + Σ (κf - ½ (q₀ + q₁))·(s₁ - s₀) Δ [force length].
 
     Only where contact begins or ends: a gap that is left in a lasting contact is no gap but a
     residual, and belongs to the imbalance.
@@ -171,17 +175,18 @@ def unresolved_work(before: Configuration, after: Configuration, cell_area: floa
     closing = float(np.sum(p1[begins] * before.gap[begins]))
     opening = float(np.sum(p0[ends] * after.gap[ends]))
     friction = sliding_friction(after.shear, before.friction_limit, after.friction_limit)
-    missed = friction - 0.5 * (before.shear + after.shear)
+    missed = after.touching * friction - 0.5 * (before.shear + after.shear)
     sliding = float(np.sum(missed * (after.slipped - before.slipped)))
     return (0.5 * (closing - opening) + sliding) * cell_area
 
 
 def friction_changed(before: Configuration, after: Configuration, cell_area: float) -> float:
-    """Σ |q₁ - q₀| |s₁ - s₀| Δ [force length]."""
+    """Σ |q₁ - q₀| κ|s₁ - s₀| Δ [force length]."""
     assert before.slipped is not None
     assert after.slipped is not None
     changed, slipped = after.shear - before.shear, after.slipped - before.slipped
-    return float(np.sum(np.hypot(*changed) * np.hypot(*slipped))) * cell_area
+    way = after.touching * np.hypot(*slipped)
+    return float(np.sum(np.hypot(*changed) * way)) * cell_area
 
 
 def _work(before: Configuration, after: Configuration) -> float | None:

@@ -9,6 +9,7 @@ from contact_scene.residuals import ShearResiduals
 from contact_scene.solver_errors import GrossSliding
 from contact_scene.summary import ContactStatus
 from semi_analytical.admissible_shear import AT_LIMIT
+from semi_analytical.first_touch import touching_share
 from semi_analytical.model import ContactModel
 from semi_analytical.residuals import friction_cone
 from semi_analytical.sheared import Sheared, rigid, torsion_reached
@@ -56,9 +57,11 @@ def refuse_excessive_torque(model: ContactModel, bound: Field, load: TangentialT
     raise GrossSliding(f"{reached}: gross sliding; prescribe twist or tangential_shift instead")
 
 
-def at_limit(model: ContactModel, bound: Field, last: Sheared, load: TangentialTarget) -> Sheared:
+def at_limit(
+    model: ContactModel, pressure: Field, last: Sheared, load: TangentialTarget
+) -> Sheared:
     """Force control at the friction limit: the traction is known, the shift is not."""
-    force = load.force
+    bound, force = model.friction.limit(pressure), load.force
     assert force is not None
     q = bound * (force / np.hypot(*force))[:, None, None]
     defect = np.sum(q, axis=(1, 2)) - force / model.grid.cell_area
@@ -66,7 +69,7 @@ def at_limit(model: ContactModel, bound: Field, last: Sheared, load: TangentialT
     return replace(
         last,
         shear=q,
-        limit=bound,
+        pressure=pressure,
         displacement=model.tangential_operator(model.grid.cells)(q),
         shift=None,
         in_stick=np.zeros_like(bound, dtype=bool),
@@ -96,11 +99,13 @@ def unresisted(
     motion        of the load
     """
     nothing = np.zeros_like(last.shear)
+    touching = touching_share(last.pressure, pressure, model.gap)
     twist, torque = torsion_reached(model, load, motion, nothing)
     after = replace(
         last,
         shear=nothing,
-        limit=nothing[0],
+        pressure=pressure,
+        touching=touching,
         displacement=displacement,
         shift=motion[:2],
         in_stick=np.zeros_like(last.in_stick),
@@ -113,7 +118,7 @@ def unresisted(
     )
     passed = rigid(model, after.motion) - rigid(model, last.motion)
     passed = passed + last.displacement - displacement
-    slipped = np.where(pressure > 0, passed, 0.0)
+    slipped = np.where(pressure > 0, touching * passed, 0.0)
     return replace(
         after,
         slip=last.slip - slipped,

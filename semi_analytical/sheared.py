@@ -21,7 +21,9 @@ Vector = NDArray[np.float64]
 class Sheared:
     """The tangential part of a state, all fields on the whole window.
 
-    limit              friction limit µp (nx, ny) [force/length^2]
+    pressure           p that the shear is below (nx, ny) [force/length^2]
+    touching           part of the increment for which cells are in contact (nx, ny), of those that
+                       are at its end
     displacement       u_t by the shear; less the motion it remembers where particles met
     shift              of the indenter; None at the friction limit under force control
     twist, torque      of the indenter; None where nothing twists
@@ -32,7 +34,8 @@ class Sheared:
     """
 
     shear: VectorField
-    limit: Field
+    pressure: Field
+    touching: Field
     displacement: VectorField
     shift: Vector | None
     slip: VectorField
@@ -59,7 +62,8 @@ def untouched(cells: tuple[int, int]) -> Sheared:
     nothing = np.zeros((2, *cells))
     return Sheared(
         shear=nothing,
-        limit=nothing[0],
+        pressure=nothing[0],
+        touching=nothing[0],
         displacement=nothing,
         shift=np.zeros(2),
         slip=nothing,

@@ -10,6 +10,7 @@ from contact_scene.residuals import ShearResiduals
 from contact_scene.solver_errors import NotConverged, motion_undefined
 from contact_scene.summary import ContactStatus
 from semi_analytical.admissible_shear import magnitude
+from semi_analytical.first_touch import touching_share
 from semi_analytical.full_slip import (
     at_limit,
     force_reaches_limit,
@@ -84,11 +85,11 @@ def _without_solving(
         )
     moved = last.shear, last.shift, last.displacement
     if load.torsion is None and not any(np.any(a) for a in (load.force, *moved)):
-        return replace(last, limit=bound, in_stick=bound > 0, iterations=0)
+        return replace(last, pressure=pressure, in_stick=bound > 0, iterations=0)
     if not force_reaches_limit(load.force, float(np.sum(bound)) * model.grid.cell_area):
         return None
     if np.any(bound):
-        return at_limit(model, bound, last, load)
+        return at_limit(model, pressure, last, load)
     return unresisted(model, pressure, nothing, last, load, first_motion(last, load))
 
 
@@ -139,14 +140,17 @@ def advanced(
     # A residual of the solver may point against the shear; friction lets nothing slip that way.
     backward = q[0] * passed[0] + q[1] * passed[1] < 0
     in_stick = (bound > 0) & (~solution.in_slip | backward)
-    slipped = np.where((pressure > 0) & ~in_stick, passed, 0.0)
-    lost = np.sum(sliding_friction(q, last.limit, bound) * slipped, axis=0)
+    touching = touching_share(last.pressure, pressure, model.gap)
+    slipped = np.where((pressure > 0) & ~in_stick, touching * passed, 0.0)
+    friction = sliding_friction(q, model.friction.limit(last.pressure), bound)
+    lost = np.sum(friction * slipped, axis=0)
     force = np.sum(q, axis=(1, 2)) * cell
     assert last.dissipated_energy is not None
     twist, torque = torsion_reached(model, load, solution.motion, q)
     after = Sheared(
         shear=q,
-        limit=bound,
+        pressure=pressure,
+        touching=touching,
         displacement=solution.displacement,
         shift=solution.motion[:2],
         slip=last.slip - slipped,

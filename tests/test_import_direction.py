@@ -39,6 +39,7 @@ ORDER = (
     "tangential",
     "torsion",
     "contact_area",
+    "first_touch",
     "path_increments",
     "plan",
     "other_plans",

@@ -167,7 +167,8 @@ def edge_shear(
     """
     assert solved.shift is not None
     # What is missing at the solved pressure is about what is missing at the corrected one.
-    missing = problem.missing(solved.shear, solved.limit, before, solved.in_stick, None)
+    limit = problem.operators.model.friction.limit(solved.pressure)
+    missing = problem.missing(solved.shear, limit, before, solved.in_stick, None)
     if missing is None:
         return None
     full = problem.full(problem.bound, missing.slip, problem.before[0])

@@ -207,7 +207,7 @@ def _both_solvers(section: SectionRun, surface: Run, cells: int) -> tuple[Compar
         for step in (PUSHED, BACK)
         for name, meaning, read in (
             ("shift", "difference of the shift", _shift),
-            ("energy", "difference of the energy lost since it was pressed", _energy),
+            ("energy", "difference of the energy lost", _energy),
             ("approach", "difference of the approach", _approach),
         )
     )
@@ -218,8 +218,7 @@ def _shift(steps: Any) -> float:
 
 
 def _energy(steps: Any) -> float:
-    """Not while the contact grew: there cells count slip from before the touch, elements do not."""
-    return float(steps[-1].dissipated_energy - steps[PRESSED - 1].dissipated_energy)
+    return float(steps[-1].dissipated_energy)
 
 
 def _approach(steps: Any) -> float:

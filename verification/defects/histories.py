@@ -77,6 +77,10 @@ def _way_slipped(patches: Patches) -> None:
     _grown(patches, "slip_distance", 2.0)
 
 
+def _before_touch(patches: Patches) -> None:
+    patches.function(stick_slip, "touching_share", lambda whole: lambda *given: 1.0)
+
+
 def _loss_with_coupling(patches: Patches) -> None:
     def wrap(whole: Any) -> Any:
         def sheared(self: Any, *given: Any) -> Any:
@@ -140,6 +144,10 @@ HISTORIES = (
     Defect(
         "dissipation-map", "The map of the energy lost is 5 % too large, its sum is not.",
         ("load_paths",), _dissipation_map,
+    ),
+    Defect(
+        "slip-before-touch", "Slip counts from the start of the increment, not from the touch.",
+        ("coupled_history",), _before_touch,
     ),
     Defect("way-slipped", "The way slipped is twice what it is.", ("load_paths",), _way_slipped),
     Defect(

@@ -6,7 +6,8 @@ these displacements belong to the tractions is Betti's theorem: only then does t
 motion that is told wrong and a displacement of other tractions all break it.
 
 Slip counts from the touch of two particles, and how far they had moved past each other before is
-not told. Where a contact with friction has grown, stored energy and unresolved work are therefore
+not told. In the first increment it follows from the slip and the part of the increment for which
+they touch; where a contact with friction has grown since, stored energy and unresolved work are
 taken as they are told, and where it has shrunk the unresolved work.
 """
 
@@ -40,6 +41,7 @@ class _State:
     """An increment as its energy sees it.
 
     u        displacements (3, nx, ny), zero where nothing presses [length]
+    slip     as it is told; passed with the motion before first touch (2, nx, ny) [length]
     limit    of friction (nx, ny)
     forces   W, T_x, T_y, M_x, M_y, M_z; motions theirs
     """
@@ -48,6 +50,7 @@ class _State:
     u: Field
     gap: Field
     slip: Field
+    passed: Field
     limit: Field
     forces: Field
     motions: Field
@@ -55,21 +58,23 @@ class _State:
     @classmethod
     def at_rest(cls, gap: Field) -> _State:
         nothing = np.zeros((3, *gap.shape))
-        return cls(nothing, nothing, gap, nothing[:2], nothing[0], np.zeros(6), np.zeros(6))
+        return cls(nothing, nothing, gap, *(nothing[:2],) * 2, nothing[0], np.zeros(6), np.zeros(6))
 
     @classmethod
-    def of(cls, now: Increment, result: Result, undeformed: Field) -> _State:
+    def of(cls, now: Increment, result: Result, undeformed: Field, before_touch: Field) -> _State:
         x, y = result.grid.coordinates()
         p, nothing = now.pressure, np.zeros((2, *now.pressure.shape))
         q = nothing if now.shear is None else now.shear
         s = nothing if now.slip is None else now.slip
+        passed = s + before_touch
         tilt = np.zeros(2) if now.tilt is None else now.tilt
         shift = np.zeros(2) if now.tangential_shift is None else now.tangential_shift
         twist = now.twist or 0.0
         touching = p > 0
         gap, first = (np.where(touching, g, 0.0) for g in (now.gap, undeformed))
         u_z = gap - first + now.approach + tilt[0] * y + tilt[1] * x
-        u = np.stack([s[0] + shift[0] - twist * y, s[1] + shift[1] + twist * x, u_z])
+        u_x, u_y = passed[0] + shift[0] - twist * y, passed[1] + shift[1] + twist * x
+        u = np.stack([u_x, u_y, u_z])
         M_x, M_y, M_z = np.sum(p * y), np.sum(p * x), np.sum(q[1] * x - q[0] * y)
         forces = np.array([np.sum(p), np.sum(q[0]), np.sum(q[1]), M_x, M_y, M_z])
         return cls(
@@ -77,6 +82,7 @@ class _State:
             u=u * touching,
             gap=now.gap,
             slip=s,
+            passed=passed,
             limit=(result.scene.friction or FRICTIONLESS).limit(p),
             forces=forces * result.grid.cell_area,
             motions=np.array([now.approach, *shift, *tilt, twist]),
@@ -87,11 +93,12 @@ def _imbalances(result: Result) -> Iterator[float]:
     cell = result.grid.cell_area
     undeformed = result.scene.indenter.initial_gap(*result.grid.coordinates())
     before, state = None, _State.at_rest(undeformed)
+    before_touch = _before_touch(result.increments[0], undeformed)
     largest = 0.0
     for now, grown in zip(result.increments, has_grown(result.increments), strict=True):
         if now.shear is not None and now.dissipated_energy is None:
             return  # the motion is undefined, and with it all that follows
-        after = _State.of(now, result, undeformed)
+        after = _State.of(now, result, undeformed, before_touch)
         largest = max(largest, *(abs(e) for e in (now.elastic_energy, *_told(now))))
         elastic = 0.5 * float(np.sum(after.tractions * after.u)) * cell
         yield 0.0 if grown else abs(elastic - now.elastic_energy) / largest
@@ -100,6 +107,16 @@ def _imbalances(result: Result) -> Iterator[float]:
             missing = _missing(state, after, before, now, cell, grown=grown)
             yield from (e / largest for e in missing)
         before, state = now, after
+
+
+def _before_touch(first: Increment, undeformed: Field) -> Field:
+    """How far particles move past each other until they touch in the first increment (2, nx, ny):
+    where there is a gap (p/p₀)² of the motion is slip, as p² grows with the way of the edge."""
+    if first.slip is None:
+        return np.zeros((2, *undeformed.shape))
+    p = first.pressure
+    touching = np.where((p > 0) & (undeformed > 0), (p / np.max(p)) ** 2, 1.0)
+    return np.asarray(first.slip * (1 / touching - 1))
 
 
 def _told(now: Increment) -> tuple[float, float, float]:
@@ -127,19 +144,17 @@ def _missing(
     dissipated = float(np.sum(friction * np.hypot(*slipped))) * cell
     stored = now.elastic_energy - (0.0 if before is None else before.elastic_energy)
     shrunk = np.any(state.tractions[:2] * (after.tractions[2] == 0))
-    unresolved = (
-        told[2] if grown or shrunk else _unresolved(state, after, slipped) * cell - dissipated
-    )
+    unresolved = told[2] if grown or shrunk else _unresolved(state, after) * cell - dissipated
     yield abs(work - stored - dissipated - unresolved)
     yield from (abs(a - b) for a, b in zip((work, dissipated, unresolved), told, strict=True))
 
 
-def _unresolved(state: _State, after: _State, slipped: Field) -> float:
+def _unresolved(state: _State, after: _State) -> float:
     """What the finite increment leaves open: loads are taken as straight lines where gaps close
     or open, and so is the shear (see `semi_analytical.energy`); with what is dissipated."""
     p0, p1 = state.tractions[2], after.tractions[2]
     begins, ends = (p0 == 0) & (p1 > 0), (p0 > 0) & (p1 == 0)
     closing = float(np.sum(p1[begins] * state.gap[begins]))
     opening = float(np.sum(p0[ends] * after.gap[ends]))
-    sheared = float(np.sum((after.tractions + state.tractions)[:2] * slipped))
+    sheared = float(np.sum((after.tractions + state.tractions)[:2] * (after.passed - state.passed)))
     return 0.5 * (closing - opening - sheared)

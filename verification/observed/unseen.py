@@ -76,13 +76,19 @@ def has_shear(told: Any) -> bool:
 
 
 def has_grown(increments: Iterable[semi_analytical.Increment]) -> Iterator[bool]:
-    """Whether a contact with friction has grown since it was first pressed, for each increment."""
+    """Whether a contact with friction has grown since it was first pressed, or on the way there in
+    halves, for each increment."""
     before, grown = None, False
     for now in increments:
-        if before is not None and now.shear is not None:
-            grown |= bool(np.any((now.pressure > 0) & (before.pressure == 0)))
+        if now.shear is not None:
+            halved = now.halvings > 0
+            grown |= halved if before is None else _grows(before, now)
         yield grown
         before = now
+
+
+def _grows(before: semi_analytical.Increment, now: semi_analytical.Increment) -> bool:
+    return bool(np.any((now.pressure > 0) & (before.pressure == 0)))
 
 
 def _words(*found: tuple[int, str], of: int) -> str:
