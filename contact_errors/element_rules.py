@@ -13,7 +13,7 @@ from dataclasses import replace
 from contact_errors.rules import FLAT, INFINITE, Lengthscale, Rule, with_their_likes
 from contact_scene.geometry import ShapedBody
 
-PEAK = Rule(2, 0.25, 8, 1.6, path_factor=2.0)
+PEAK = Rule(2, 0.25, 8, 1.85, path_factor=2.0)
 APPROACH = Rule(2, 0.13, 1, 1.5, path_factor=1.5)
 RADIUS = Rule(2, 0.2, 4, 4.8, path_factor=1.5, lengthscale=Lengthscale.FILM)
 STICK = Rule(1, 0.06, 2, 2.4, 2.0, 1.0, Lengthscale.STICK)
@@ -47,7 +47,7 @@ AT_GAUSS_POINTS = with_their_likes(
         "stick_radius": Rule(1, 0.06, 4, 2.6, 2.0, 1.0, Lengthscale.STICK),
         "tangential_shift": Rule(2, 0.05, 1, 1.4, 3.0, 0.3, Lengthscale.SLIP),
         "twist": Rule(2, 0.15, 4, 1.7, 3.0, 0.3, Lengthscale.SLIP),
-        "dissipated_energy": Rule(1.5, 0.05, 4, 2.0, lengthscale=Lengthscale.ANNULUS),
+        "dissipated_energy": Rule(1.5, 0.05, 4, 2.3, lengthscale=Lengthscale.ANNULUS),
         "slip_amplitude": Rule(1, 0.15, 8, 1.45, lengthscale=Lengthscale.ANNULUS),
     }
 )
@@ -59,7 +59,7 @@ INSIDE = Rule(1.5, 0.15, 1, 2.0)
 # A slip annulus below so many elements may be missed altogether: the stick radius is off by one.
 LEAST_ANNULUS = 1.5
 # Where friction acts back on a pressing contact its pressure has a cusp on the axis.
-CUSP = {"peak_pressure": Rule(1, 0.02, 0.5, 4.6, path_factor=2.0, lengthscale=Lengthscale.CUSP)}
+CUSP = {"peak_pressure": Rule(1, 0.02, 0.5, 5.2, path_factor=2.0, lengthscale=Lengthscale.CUSP)}
 
 # By the section of the size that is chosen, relative; errors fall as the inverse of its square.
 SECTION = 1e-5
