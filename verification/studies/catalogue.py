@@ -10,6 +10,7 @@ from verification.studies.cross_check import STUDY as CROSS_CHECK
 from verification.studies.error_budget.study import STUDY as ERROR_BUDGET
 from verification.studies.error_coverage.study import STUDY as ERROR_COVERAGE
 from verification.studies.penalty.study import STUDY as PENALTY
+from verification.studies.predicted_costs import STUDY as PREDICTED_COSTS
 from verification.studies.refinement.domain import domain_study
 from verification.studies.refinement.increments import increments_study
 from verification.studies.refinement.mesh import mesh_study
@@ -54,6 +55,7 @@ STUDIES: dict[str, Study] = {
         WORK_PRECISION,
         ERROR_BUDGET,
         ERROR_COVERAGE,
+        PREDICTED_COSTS,
         SCOREBOARD,
     )
 }

@@ -7,6 +7,7 @@ numerics with what is judged.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from dataclasses import replace
 
 import numpy as np
 from scipy.interpolate import CubicSpline
@@ -46,6 +47,12 @@ SOURCE = "finite elements, 48 over the radius and 80 increments; beside 32 and 4
 
 def pressed(rng: Rng) -> KnownScene:
     """One layer under a rigid ball, with friction."""
+    posed = unsolved(rng)
+    return replace(posed, truths=tuple(_by_elements(posed.scene)))
+
+
+def unsolved(rng: Rng) -> KnownScene:
+    """The same scene, of which nothing is known."""
     radius, a = drawing.sizes(rng)
     body, mu = drawing.coated_body(rng, a), drawing.friction(rng)
     contact = paraboloid(surface_of(body), radius, a)
@@ -57,7 +64,7 @@ def pressed(rng: Rng) -> KnownScene:
         loading=(LoadStep(normal_force=contact.load),),
     )
     fine = drawing.fineness(rng, (a, a), False, finest=FINEST)
-    return KnownScene(scene, tuple(_by_elements(scene)), fine)
+    return KnownScene(scene, (), fine)
 
 
 def _by_elements(scene: Scene) -> Iterator[Truth]:

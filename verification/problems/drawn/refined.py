@@ -9,6 +9,7 @@ the increments, where they matter.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from typing import NamedTuple
 
 import semi_analytical
@@ -67,6 +68,17 @@ def sheared(rng: Rng) -> KnownScene:
 
 def coupled(rng: Rng) -> KnownScene:
     """A rigid ball pressed on a coating with friction, and pushed or led to and fro."""
+    known, forces = _coupled(rng)
+    return replace(known, truths=tuple(_refined(known, forces, PATH_FINER, (APPROACH,))))
+
+
+def unsolved(rng: Rng) -> KnownScene:
+    """The same scene, of which nothing is known."""
+    return _coupled(rng)[0]
+
+
+def _coupled(rng: Rng) -> tuple[KnownScene, Sequence[float]]:
+    """It, and the forces that lead."""
     radius, a = drawing.sizes(rng)
     body, mu = drawing.coated_body(rng, a), drawing.friction(rng)
     contact = paraboloid(surface_of(body), radius, a)
@@ -75,9 +87,7 @@ def coupled(rng: Rng) -> KnownScene:
     asked = fine.asked.model_copy(update={"path_accuracy": COARSE_PATH})
     ball = Paraboloid(radius=radius, material=RIGID)
     scene = led(ball, body, mu, contact.load, TANGENTIAL, forces)
-    known = KnownScene(scene, (), Fineness(fine.solver, asked, fine.per_radius))
-    truths = _refined(known, forces, PATH_FINER, (APPROACH,))
-    return KnownScene(scene, tuple(truths), known.fineness)
+    return KnownScene(scene, (), Fineness(fine.solver, asked, fine.per_radius)), forces
 
 
 def _refined(
