@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.stats import t as student
+from scipy.special import stdtrit
 
 from verification.convergence.observed_order import CONFIDENCE, ObservedOrder, observed_order
 
@@ -50,7 +50,7 @@ def error_line(sizes: Sequence[float], errors: Sequence[float]) -> ErrorLine:
     left = y - y.mean() - observed.order * (x - x.mean())
     freedom = len(x) - 2
     deviation = np.sqrt(np.sum(left**2) / freedom / len(x))
-    reach = float(student.ppf((1 + CONFIDENCE) / 2, freedom) * deviation)
+    reach = float(stdtrit(freedom, (1 + CONFIDENCE) / 2) * deviation)
     return ErrorLine(observed, float(x.mean()), float(y.mean()), reach)
 
 

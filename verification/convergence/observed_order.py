@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import brentq, minimize_scalar
-from scipy.stats import t as student
+from scipy.special import stdtrit
 
 CONFIDENCE = 0.95
 # An order is known well enough to be judged if its interval is no wider than this.
@@ -248,4 +248,4 @@ def _triplet_order(h: Vector, f: Vector) -> float | None:
 
 
 def _half_width(deviation: float, freedom: int) -> float:
-    return float(student.ppf((1 + CONFIDENCE) / 2, freedom) * deviation)
+    return float(stdtrit(freedom, (1 + CONFIDENCE) / 2) * deviation)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
-from scipy.stats import beta
+from scipy.special import betaincinv
 
 from verification.problems.drawn.known_scene import ELASTIC, ENERGY, SHIFT, STICK, TILT, TWIST
 from verification.running.row import Row, value_of
@@ -35,8 +35,8 @@ class Share:
     def interval(self) -> tuple[float, float]:
         """That leaves out 2.5 % on either side."""
         k, n, tail = self.count, self.of, (1 - CONFIDENCE) / 2
-        low = float(beta.ppf(tail, k, n - k + 1)) if k else 0.0
-        high = float(beta.ppf(1 - tail, k + 1, n - k)) if k < n else 1.0
+        low = float(betaincinv(k, n - k + 1, tail)) if k else 0.0
+        high = float(betaincinv(k + 1, n - k, 1 - tail)) if k < n else 1.0
         return low, high
 
     @property
