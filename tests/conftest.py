@@ -60,5 +60,10 @@ def pytest_make_collect_report() -> Generator[None, pytest.CollectReport, pytest
 
 @pytest.fixture(autouse=True, scope="session")
 def own_cache(tmp_path_factory: pytest.TempPathFactory) -> None:
-    """Neither read nor fill the cache of whoever runs the tests; subprocesses inherit this."""
-    os.environ["SLIPSTICK_CACHE_DIR"] = str(tmp_path_factory.mktemp("cache"))
+    """Neither read nor fill the cache of whoever runs the tests; subprocesses inherit this.
+
+    The workers of one run share it.
+    """
+    own = tmp_path_factory.getbasetemp()
+    shared = own.parent if "PYTEST_XDIST_WORKER" in os.environ else own
+    os.environ["SLIPSTICK_CACHE_DIR"] = str(shared / "cache")
