@@ -15,6 +15,7 @@ from command import slipstick
 from synthetic_result import synthetic_result
 
 import semi_analytical
+from contact_results.directory.file_names import SUMMARY
 from contact_results.one_thread import VARIABLES
 from contact_scene import scene_schema
 from contact_scene.solver_errors import (
@@ -80,67 +81,65 @@ def solver(monkeypatch: pytest.MonkeyPatch) -> Callable[[Exception | None], None
     return replace_by
 
 
-def imported_by(*arguments: object, leaving: int = 0) -> set[str]:
-    """Top-level modules that a fresh process has imported after the command, which ends so."""
-    script = (
-        "import sys\n"
-        "from slipstick.cli import main\n"
-        "try: main(sys.argv[1:])\n"
-        f"except SystemExit as left: assert (left.code or 0) == {leaving}, left.code\n"
-        "print('\\n' + ' '.join({name.partition('.')[0] for name in sys.modules}))"
-    )
+IMPORTING = """
+import json, sys
+from slipstick.cli import main
+for command, leaving in json.loads(sys.argv[1]):
+    try: main(command)
+    except SystemExit as left: assert (left.code or 0) == leaving, left.code
+    print("\\nimported", *{name.partition(".")[0] for name in sys.modules})
+"""
+
+
+def imported_after(*commands: tuple[object, ...], leaving: int = 0) -> list[set[str]]:
+    """Top-level modules that a fresh process has imported after each command; the last ends so."""
+    codes = [0] * (len(commands) - 1) + [leaving]
+    asked = [([*map(str, c)], code) for c, code in zip(commands, codes, strict=True)]
     outcome = subprocess.run(
-        [sys.executable, "-c", script, *map(str, arguments)],
-        cwd=ROOT,
-        capture_output=True,
-        text=True,
-        check=True,
-    )
-    return set(outcome.stdout.splitlines()[-1].split())
+        [sys.executable, "-c", IMPORTING, json.dumps(asked)],
+        cwd=ROOT, capture_output=True, text=True, check=True,
+    )  # fmt: skip
+    told = [line.split() for line in outcome.stdout.splitlines() if line.startswith("imported ")]
+    assert len(told) == len(commands)
+    return [{*names[1:]} for names in told]
 
 
 # ---- starting ---------------------------------------------------------------------------------
 
 
-def test_help_imports_nothing_heavy() -> None:
-    assert not imported_by("--help") & {*HEAVY, "numpy", "pydantic"}
+def test_help_schema_check_and_mistakes_import_nothing_heavy(scene: Path) -> None:
+    commands = ("--help",), ("schema", "summary"), ("check", scene), ("check", "absent.toml")
+    helped, *others = imported_after(*commands, leaving=2)
+    assert not helped & {*HEAVY, "numpy", "pydantic"}
+    for imported in others:
+        assert not imported & {*HEAVY, "verification"}
 
 
-def test_check_imports_nothing_heavy(scene: Path) -> None:
-    assert not imported_by("check", scene) & set(HEAVY)
-
-
-def test_a_mistake_is_told_without_the_harness() -> None:
-    assert not imported_by("check", "absent.toml", leaving=2) & {*HEAVY, "verification"}
-
-
-@pytest.mark.parametrize("solver", [solver for solver in SolverName if solver != "radial"])
-@pytest.mark.parametrize("command", ["plan", "run"])
+@pytest.mark.parametrize(
+    ("own", "other"), [("fem_reference", "semi_analytical"), ("semi_analytical", "fem_reference")]
+)
 def test_a_solver_is_used_without_the_other_and_without_the_harness(
-    scene: Path, command: str, solver: SolverName
+    scene: Path, own: str, other: str
 ) -> None:
-    options = ["--output", scene.parent / "out"] if command == "run" else []
+    fem = own == "fem_reference"
+    solvers = [each for each in SolverName if each != "radial" and each.is_fem is fem]
     coarse = ("--set", "semi_analytical.cells=[16,16]", "--set",
               "fem_reference.elements_per_radius=4")  # fmt: skip
-    imported = imported_by(command, scene, "--solver", solver, *coarse, *options)
-    own, other = ("fem_reference", "semi_analytical") if solver.is_fem else (
-        "semi_analytical", "fem_reference")  # fmt: skip
-    assert own in imported
-    assert not imported & {other, "verification"}
+    for solver in solvers:
+        asked = (scene, "--solver", solver, *coarse)
+        output = scene.parent / solver
+        for imported in imported_after(("plan", *asked), ("run", *asked, "--output", output)):
+            assert own in imported
+            assert not imported & {other, "verification"}
+        assert (output / SUMMARY).exists()
 
 
 def test_the_radial_solver_is_used_without_the_others(tmp_path: Path) -> None:
     """But for the response of layers, which a run has from the semi-analytical one."""
     pressed = (ROOT / "scenes" / "hertz.toml", "--solver", "radial")
-    assert not imported_by("plan", *pressed) & {"semi_analytical", "fem_reference", "scipy"}
-    assert not imported_by("run", *pressed, "-o", tmp_path / "out") & {
-        "fem_reference",
-        "verification",
-    }
-
-
-def test_schema_imports_nothing_heavy() -> None:
-    assert not imported_by("schema", "summary") & set(HEAVY)
+    planned, run = imported_after(("plan", *pressed), ("run", *pressed, "-o", tmp_path / "out"))
+    assert not planned & {"semi_analytical", "fem_reference", "scipy"}
+    assert not run & {"fem_reference", "verification"}
 
 
 def test_help_names_every_command(capsys: pytest.CaptureFixture[str]) -> None:

@@ -214,7 +214,7 @@ def test_tractions_and_slip_that_grow_in_proportion_lose_the_same_in_any_increme
     assert one.dissipation_uncertainty == 0.0
 
 
-TURNS_ROUND = [push(0.7 * np.cos(t), 0.7 * np.sin(t)) for t in np.linspace(0, 1.5 * np.pi, 7)[1:]]
+TURNS_ROUND = [push(0.7 * np.cos(t), 0.7 * np.sin(t)) for t in np.linspace(0, 0.75 * np.pi, 4)[1:]]
 UNCERTAIN = {
     "pressing": lambda n: coupled_scenes.scene(
         coupled_scenes.press(increments=n), body=bulk(), friction=0.3

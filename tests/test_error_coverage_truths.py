@@ -35,6 +35,12 @@ from verification.studies.error_coverage.stress_maxima import stress_maxima
 # Their largest stresses take seconds to know; what finer cells and increments tell, a minute.
 DEAR = {"coated-stress", "coated-pushed"}
 UNSTRESSED = [family for family in FAMILIES if family not in DEAR]
+# Where a draw takes seconds.
+ONCE = [family for family in UNSTRESSED if family.startswith(("sections", "coated"))]
+DRAWS = [
+    *((family, 1 if family in ONCE else 2) for family in UNSTRESSED),
+    *(pytest.param(family, 2, marks=pytest.mark.slow) for family in ONCE),
+]
 COARSE, FINE = 16, 48  # cells along a side
 FEW, MANY = 6, 18  # elements per contact radius
 # The largest error falls at least by that while cells become a third as large: smooth quantities
@@ -90,9 +96,8 @@ def worst(family: str, *, fine: bool, stress: bool, draws: int) -> dict[str, flo
     return found
 
 
-@pytest.mark.parametrize("family", UNSTRESSED)
-def test_errors_fall_towards_the_truth(family: str) -> None:
-    draws = 1 if family.startswith("sections") else 2
+@pytest.mark.parametrize(("family", "draws"), DRAWS)
+def test_errors_fall_towards_the_truth(family: str, draws: int) -> None:
     coarse, fine = (worst(family, fine=fine, stress=False, draws=draws) for fine in (False, True))
     assert {k: e for k, e in fine.items() if e > max(SMALL, coarse[k] / FALLS)} == {}
 

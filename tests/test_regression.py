@@ -641,7 +641,7 @@ def test_verification_warns_of_drift_and_passes(
 ) -> None:
     output, baselines = tmp_path / "out", tmp_path / "baselines"
     monkeypatch.setattr(baseline_files, "BASELINES", baselines)
-    verify = ("verify", "dissimilar_bodies", "--output", output)
+    verify = ("verify", "dissimilar_bodies", "--output", output, "--studies", tmp_path)
     assert slipstick(*verify) == 0
     assert "no baseline yet" in capsys.readouterr().out
     accepted = ("baseline", "--accept", "--with-changes", "--from", output, "--to", baselines)

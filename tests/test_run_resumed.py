@@ -9,6 +9,7 @@ import time
 from pathlib import Path
 
 import pytest
+from command import outcome
 
 ROOT = Path(__file__).resolve().parents[1]
 SCENE = """
@@ -33,7 +34,7 @@ increments = 8
 tangential_force = [-20, 0]
 increments = 8
 [semi_analytical]
-cells = [32, 32]
+cells = [20, 20]
 [fem_reference]
 elements_per_radius = 6
 """
@@ -50,12 +51,19 @@ main()
 """
 
 
+ASKED = ("run", "scene.toml", "-o", "out", "--no-figures", "--no-error")
+
+
+@pytest.fixture(autouse=True)
+def _no_stored_coefficients(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Their hits are counted in the results."""
+    monkeypatch.setenv("SLIPSTICK_CACHE_DIR", os.devnull)
+
+
 def started(directory: Path, *options: str) -> "subprocess.Popen[str]":
     (directory / "scene.toml").write_text(SCENE, encoding="utf-8")
-    asked = ("run", "scene.toml", "-o", "out", "--no-figures", "--no-error")
     return subprocess.Popen(
-        [sys.executable, "-c", RUN, *asked, *options], cwd=directory, text=True,
-        env=os.environ | {"SLIPSTICK_CACHE_DIR": os.devnull},  # its hits are counted in the results
+        [sys.executable, "-c", RUN, *ASKED, *options], cwd=directory, text=True,
         stdout=subprocess.PIPE, stderr=subprocess.PIPE,
     )  # fmt: skip
 
@@ -77,9 +85,9 @@ def visible(directory: Path) -> dict[str, bytes]:
 
 def uninterrupted(directory: Path, *options: str) -> dict[str, bytes]:
     directory.mkdir()
-    process = started(directory, *options)
-    _, log = process.communicate(timeout=170)
-    assert process.returncode == 0, log
+    (directory / "scene.toml").write_text(SCENE, encoding="utf-8")
+    ended = outcome(*ASKED, *options, cwd=directory)
+    assert ended.returncode == 0, ended.stderr
     return results(directory)
 
 
@@ -110,11 +118,10 @@ def test_killed_run_goes_on_and_leaves_the_same_bytes(
     assert done[-1] >= 6
     assert done[:-1] == [INCREMENTS] * (len(solves) - 1)
     assert not (killed / "out").exists()
-    process = started(killed, *options)
-    _, log = process.communicate(timeout=170)
-    assert process.returncode == 0, log
+    ended = outcome(*ASKED, *options, cwd=killed)
+    assert ended.returncode == 0, ended.stderr
     for number in done:
-        assert f"going on after increment {number} of an interrupted run" in log
+        assert f"going on after increment {number} of an interrupted run" in ended.stderr
     assert results(killed) == expected
 
 
