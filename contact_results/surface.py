@@ -241,6 +241,15 @@ class Rings:
         return np.stack([along * x - across * y, along * y + across * x])
 
 
+def surface_on(axes: Mapping[str, Field], direction: tuple[float, float]) -> Surface:
+    """What fields live on, from the axes of a surface and the direction where its angles start;
+    whether vectors are the same on a whole ring is left open."""
+    if "radii" in axes:
+        return Rings(axes["radii"], axes.get("angles"), direction, polar=False)
+    x, y = axes["x"], axes["y"]
+    return Cells(x, y, float((x[-1] - x[0]) * (y[-1] - y[0])) / ((len(x) - 1) * (len(y) - 1)))
+
+
 def surface_of(result: Result) -> Surface:
     """What a result's fields live on."""
     if hasattr(result, "grid"):

@@ -31,10 +31,10 @@ class RingIncrement(ReportedIncrement):
     """
 
     radii: Field
-    pressure: Annotated[Field, Reported("Pa", "Normal traction, positive in contact.", F, True)]
+    pressure: Annotated[Field, Reported("Pa", "Normal traction, positive in contact.", F)]
     gap: Annotated[
         Field,
-        Reported("m", "Distance of the deformed surfaces, inf where they never touch.", F, True),
+        Reported("m", "Distance of the deformed surfaces, inf where they never touch.", F),
     ]
     status: ContactStatus = ContactStatus.FRICTIONLESS
     contact_area: float = field(init=False)
@@ -43,25 +43,25 @@ class RingIncrement(ReportedIncrement):
     tangential_shift: Pair | None = None
     angles: Field | None = None
     shear_radial: Annotated[
-        Field | None, Reported("Pa", "Traction on the lower body, outward.", F, True)
+        Field | None, Reported("Pa", "Traction on the lower body, outward.", F)
     ] = None
     shear_circumferential: Annotated[
         Field | None,
-        Reported("Pa", "Traction on the lower body, anticlockwise seen along z.", F, True),
+        Reported("Pa", "Traction on the lower body, anticlockwise seen along z.", F),
     ] = None
     shear_along_load: Annotated[
         Field | None,
-        Reported("Pa", "Traction on the lower body along the load, on a whole ring.", F, True),
+        Reported("Pa", "Traction on the lower body along the load, on a whole ring.", F),
     ] = None
-    slip_radial: Annotated[Field | None, Reported("m", "Slip, outward.", F, True)] = None
+    slip_radial: Annotated[Field | None, Reported("m", "Slip, outward.", F)] = None
     slip_circumferential: Annotated[
-        Field | None, Reported("m", "Slip, anticlockwise seen along z.", F, True)
+        Field | None, Reported("m", "Slip, anticlockwise seen along z.", F)
     ] = None
     slip_along_load: Annotated[
-        Field | None, Reported("m", "Slip along the load, on a whole ring.", F, True)
+        Field | None, Reported("m", "Slip along the load, on a whole ring.", F)
     ] = None
     in_stick: Annotated[
-        Mask | None, Reported("", "Whether the ring is in contact and sticks.", F, True)
+        Mask | None, Reported("", "Whether the ring is in contact and sticks.", F)
     ] = None
 
     def __post_init__(self) -> None:

@@ -35,7 +35,7 @@ class Increment(ReportedIncrement):
     Fields of shear are None without friction.
     """
 
-    pressure: Annotated[Field, Reported("Pa", "Normal traction, positive in contact.", F, True)]
+    pressure: Annotated[Field, Reported("Pa", "Normal traction, positive in contact.", F)]
     gap: Annotated[
         Field, Reported("m", "Distance of the deformed surfaces, inf where they never touch.", F)
     ]
@@ -51,7 +51,7 @@ class Increment(ReportedIncrement):
     tilt: Vector | None = None
     shear: Annotated[
         VectorField | None,
-        Reported("Pa", "Tangential traction (x, y) on the lower body.", F, True),
+        Reported("Pa", "Tangential traction (x, y) on the lower body.", F),
     ] = None
     slip: Annotated[
         VectorField | None,
@@ -67,7 +67,7 @@ class Increment(ReportedIncrement):
     ] = None
     dissipation: Annotated[
         Field | None,
-        Reported("J/m^2", "Energy per area lost to friction since the start.", F, True),
+        Reported("J/m^2", "Energy per area lost to friction since the start.", F),
     ] = None
     slip_before: VectorField | None = None
     dissipation_before: Field | None = None

@@ -12,6 +12,7 @@ from scipy.io import savemat
 from contact_results.directory.atomic_file import atomic_file
 from contact_results.directory.refusal import Refused
 from contact_results.export.sheets import Stored, arrays_of, title_of
+from contact_results.files.stored_run import StoredRun
 
 HEADER = 116  # bytes of text, where `savemat` puts the time of day
 NO_TIME = b"MATLAB 5.0 MAT-file, slipstick"
@@ -19,11 +20,13 @@ MOST_BYTES = 2**31 - 1  # of a variable in a MAT-file of version 5
 
 
 def write_matlab(stored: Stored, path: Path) -> None:
-    """Write `title`, `convention`, the structs of arrays, and `unit`, `meaning` and `indices` with
-    the same fields; indices count from the first as they do here. Raises Refused for an array that
-    the format cannot hold."""
+    """Write `title`, `convention`, of a run the `direction` where angles start, the structs of
+    arrays, and `unit`, `meaning` and `indices` with the same fields. Raises Refused for an array
+    that the format cannot hold."""
     sheets = arrays_of(stored)
     contents: dict[str, Any] = {"title": title_of(stored), "convention": stored.convention}
+    if isinstance(stored, StoredRun):
+        contents["direction"] = stored.direction
     told: dict[str, dict[str, dict[str, str]]] = {"unit": {}, "meaning": {}, "indices": {}}
     for group, sheet in sheets.items():
         contents[group] = {}

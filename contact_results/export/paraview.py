@@ -9,7 +9,7 @@ import numpy as np
 from contact_results.directory.atomic_file import atomic_file
 from contact_results.files.stored_run import StoredRun
 from contact_results.files.surface_file import POLAR, SCALARS, VECTORS, write_surface
-from contact_results.surface import Cells, Rings, Surface
+from contact_results.surface import surface_on
 
 COLLECTION = "surface.pvd"
 NAMES = (*SCALARS, *VECTORS, *(f"{stem}_{part}" for stem in VECTORS for part in POLAR))
@@ -17,7 +17,8 @@ NAMES = (*SCALARS, *VECTORS, *(f"{stem}_{part}" for stem in VECTORS for part in 
 
 def write_paraview(run: StoredRun, directory: Path) -> None:
     """Write `surface_step_1.vtu` and so on, and `surface.pvd` with the steps for times."""
-    surface, steps = surface_of_run(run), run.increments["step"].array
+    places = {name: values.array for name, values in run.coordinates.items()}
+    surface, steps = surface_on(places, run.direction), run.increments["step"].array
     ends = np.flatnonzero(np.diff(steps, append=steps[-1] + 1))
     there = [name for name in NAMES if name in run.increments]
     entries = []
@@ -33,12 +34,3 @@ def write_paraview(run: StoredRun, directory: Path) -> None:
             f"{''.join(entries)}</Collection>\n</VTKFile>\n",
             encoding="ascii",
         )
-
-
-def surface_of_run(run: StoredRun) -> Surface:
-    """What the fields of a run live on."""
-    places = {name: run.coordinates[name].array for name in run.coordinates}
-    if "radii" in places:
-        return Rings(places["radii"], places.get("angles"), run.direction, polar=False)
-    x, y = places["x"], places["y"]
-    return Cells(x, y, float((x[1] - x[0]) * (y[1] - y[0])))

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from contact_results.directory.file_names import FIELDS, SUMMARY
 from contact_results.files.stored_values import MISREAD, refuse_other_shape, text, values
-from contact_results.surface import Cells, Rings, Surface, surface_of
+from contact_results.surface import Surface, surface_of, surface_on
 from contact_scene import Body, CoulombFriction, FiniteElementDiscretisation
 from contact_scene.geometry import SHAPES, HeightMap, ShapedBody
 from contact_scene.increment import State
@@ -76,11 +76,7 @@ class LoadedBodies:
     @property
     def surface(self) -> Surface:
         """Where the tractions live."""
-        if self.on_rings:
-            angles = self.axes.get("angles")
-            return Rings(self.axes["radii"], angles, self.direction, polar=False)
-        x, y = self.axes["x"], self.axes["y"]
-        return Cells(x, y, float((x[1] - x[0]) * (y[1] - y[0])))
+        return surface_on(self.axes, self.direction)
 
 
 def state_of_result(
