@@ -15,7 +15,7 @@ author = "slipstick contributors"
 copyright = "slipstick contributors, BSD-3-Clause"
 release = program_version()
 
-extensions = ["myst_parser", "sphinx.ext.autodoc"]
+extensions = ["myst_parser", "sphinx.ext.autodoc", "sphinx.ext.napoleon"]
 myst_enable_extensions = ["colon_fence", "deflist"]
 myst_heading_anchors = 3
 exclude_patterns = ["made/*.md", "__pycache__"]

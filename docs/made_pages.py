@@ -3,6 +3,7 @@
 from pathlib import Path
 
 import made_cases
+import made_gallery
 import made_reference
 
 INCLUDED = ("scene_keys", "columns", "commands", "exit_codes")
@@ -18,3 +19,4 @@ def write_pages(docs: Path) -> None:
         path.parent.mkdir(parents=True, exist_ok=True)
         if not path.is_file() or path.read_text(encoding="utf-8") != text:
             path.write_text(text, encoding="utf-8")
+    made_gallery.write_gallery(made / "gallery")

@@ -62,10 +62,15 @@ def judge(
 ) -> Judgement:
     """How good a solver is on a challenge.
 
-    solve     problem and level 0, 1, 2, … (you choose what finer means) -> `Answer`; raises
-              `CannotDo` where it has no such problem
-    at_least  class "A", "B" or "C" that every error must meet; None: the par of each
-    solver    who it is; None: the function's name
+    Parameters
+    ----------
+    solve
+        Problem and level 0, 1, 2, … (you choose what finer means) -> `Answer`; raises `CannotDo`
+        where it has no such problem.
+    at_least
+        Class "A", "B" or "C" that every error must meet; None: the par of each.
+    solver
+        Who it is; None: the function's name.
 
     Raises what `solve` raises, and KeyError for an unknown challenge.
     """

@@ -1,0 +1,125 @@
+"""The pages of the gallery: every scene is solved, drawn and judged; a verdict that is not the
+expected one stops the documentation."""
+
+from __future__ import annotations
+
+import shutil
+import tempfile
+import time
+from pathlib import Path
+
+from gallery_claims import SCENES, Entry, Found, Verdict, found
+from gallery_entries import ENTRIES
+from made_reference import table
+
+from slipstick import save
+
+FIGURES = ("overview.png", "profiles.png")  # the first that the run has
+SYMBOLS = {
+    Verdict.AGREES: "✓ agrees",
+    Verdict.DIFFERS: "✗ differs",
+    Verdict.CANNOT_TELL: "? cannot tell",
+}
+
+
+class Unexpected(Exception):
+    """A verdict of the gallery is not the one that its text speaks of."""
+
+
+def write_gallery(folder: Path) -> None:
+    """Pages and figures; raises Unexpected."""
+    folder.mkdir(parents=True, exist_ok=True)
+    spent = {}
+    for entry in ENTRIES:
+        started = time.process_time()
+        judged = [found(entry, claim) for claim in entry.claims]
+        _draw(entry, folder / f"{entry.scene}.png")
+        spent[entry.scene] = time.process_time() - started
+        refuse_unexpected(entry, judged)
+        (folder / f"{entry.scene}.md").write_text(
+            page(entry, judged, spent[entry.scene]), encoding="utf-8"
+        )
+    (folder / "index.md").write_text(_index(spent), encoding="utf-8")
+
+
+def refuse_unexpected(entry: Entry, judged: list[Found]) -> None:
+    """Raises Unexpected, naming the number, what was expected and what came."""
+    for one in judged:
+        if one.verdict is not one.claim.verdict:
+            raise Unexpected(
+                f"{entry.scene}: {one.claim.what}: ours {one.ours:.8g} ± {one.error:.1g}, "
+                f"{one.claim.by} {one.claim.published:.8g} ± {one.claim.reading:.1g} "
+                f"{one.claim.unit}: {one.verdict}, expected: {one.claim.verdict}"
+            )
+
+
+def page(entry: Entry, judged: list[Found], seconds: float) -> str:
+    """The figure, the numbers, the verdict, and the file to make them from."""
+    rows = [
+        (
+            one.claim.what,
+            f"{one.claim.published:.9g} {one.claim.unit}",
+            one.claim.by,
+            f"{ours(one)} {one.claim.unit}",
+            SYMBOLS[one.verdict],
+        )
+        for one in judged
+    ]
+    scene = (SCENES / f"{entry.scene}.toml").read_text(encoding="utf-8").rstrip()
+    solver = "" if entry.solver == "semi-analytical" else f" --solver {entry.solver}"
+    changes = sorted({c for claim in entry.claims for c in claim.changes})
+    more = "".join(f"    --set '{change}'\n" for change in changes)
+    return "\n".join(
+        (
+            f"# {entry.title}\n",
+            f"{entry.words}\n",
+            f"![Tractions of the contact]({entry.scene}.png)\n",
+            table(("number", "published", "by", "ours", "verdict"), rows),
+            f"{entry.conclusion}\n",
+            f"*Source*: {entry.source}.\n",
+            f"## Again, in {max(1, round(seconds))} s\n",
+            f"    slipstick run docs/gallery/{entry.scene}.toml{solver} --output "
+            f"out/{entry.scene}\n",
+            *([f"and for the other rows of the table with\n\n{more}"] if more else []),
+            f"```toml\n{scene}\n```\n",
+        )
+    )
+
+
+def ours(one: Found) -> str:
+    """The number to the first two digits of its error, no more than nine in all."""
+    if one.error < 1e-8 * abs(one.ours):
+        return f"{one.ours:.9g}"
+    places = 1
+    while places < 9 and one.error * 10**places < 10:
+        places += 1
+    return f"{one.ours:.{places}f} ± {one.error:.{places}f}"
+
+
+def _draw(entry: Entry, path: Path) -> None:
+    solved = entry.of(entry.shown)
+    with tempfile.TemporaryDirectory() as directory:
+        save(solved.result, Path(directory) / "run", errors=solved.errors)
+        figures = (Path(directory) / "run" / name for name in FIGURES)
+        shutil.copy(next(figure for figure in figures if figure.is_file()), path)
+
+
+def _index(spent: dict[str, float]) -> str:
+    rows = []
+    for entry in ENTRIES:
+        verdicts = [SYMBOLS[claim.verdict][0] for claim in entry.claims]
+        seconds = f"{max(1, round(spent[entry.scene]))} s"
+        rows.append(
+            (f"[{entry.title}]({entry.scene}.md)", entry.source, " ".join(verdicts), seconds)
+        )
+    names = "\n".join(entry.scene for entry in ENTRIES)
+    return (
+        "# Gallery\n\n"
+        "Published contacts, ours beside them: the figure, our error, the verdict. Each is one "
+        "scene file in `docs/gallery`, solved, drawn and judged whenever these pages are built. "
+        "Two numbers agree (✓) where they are no further apart than both may be off, else they "
+        "differ (✗); where our own error says too little, that is said (?). A verdict other than "
+        "expected stops the build.\n\n"
+        f"{table(('contact', 'source', 'verdicts', 'takes'), rows)}\n"
+        f"```{{toctree}}\n:hidden:\n\n{names}\n```\n"
+    )

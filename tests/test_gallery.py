@@ -1,0 +1,51 @@
+"""The gallery: every verdict is the one that its page speaks of."""
+
+import sys
+from pathlib import Path
+
+import pytest
+
+DOCS = Path(__file__).resolve().parents[1] / "docs"
+sys.path.append(str(DOCS))
+
+from gallery_claims import SCENES, Claim, Found, Verdict, found  # noqa: E402
+from gallery_entries import ENTRIES  # noqa: E402
+from made_gallery import Unexpected, refuse_unexpected  # noqa: E402
+
+
+@pytest.mark.parametrize("entry", ENTRIES, ids=lambda entry: entry.scene)
+def test_verdicts_are_those_expected(entry) -> None:
+    refuse_unexpected(entry, [found(entry, claim) for claim in entry.claims])
+
+
+def test_every_scene_of_the_gallery_has_its_page() -> None:
+    assert {path.stem for path in SCENES.glob("*.toml")} == {entry.scene for entry in ENTRIES}
+    assert len(ENTRIES) >= 12
+
+
+def claim(published: float, reading: float, verdict: Verdict = Verdict.AGREES) -> Claim:
+    return Claim(
+        "a number", "somebody", published, reading, lambda solved: (1.0, 0.01), "", 1.0, (), verdict
+    )
+
+
+@pytest.mark.parametrize(
+    ("published", "reading", "error", "verdict"),
+    [
+        (1.02, 0.0, 0.019, Verdict.DIFFERS),
+        (1.02, 0.002, 0.019, Verdict.AGREES),
+        (1.02, 0.0, 0.021, Verdict.AGREES),
+        (1.02, 0.0, 0.2, Verdict.CANNOT_TELL),
+        (1.02, 0.0, float("inf"), Verdict.CANNOT_TELL),
+    ],
+)
+def test_numbers_agree_within_what_both_may_be_off(
+    published: float, reading: float, error: float, verdict: Verdict
+) -> None:
+    assert Found(claim(published, reading), 1.0, error).verdict is verdict
+
+
+def test_another_verdict_than_the_page_speaks_of_is_refused() -> None:
+    one = Found(claim(2.0, 0.1), 1.0, 0.01)
+    with pytest.raises(Unexpected, match=r"ours 1 ± 0\.01, somebody 2 .*differs, expected: agrees"):
+        refuse_unexpected(ENTRIES[0], [one])
