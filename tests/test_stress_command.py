@@ -36,6 +36,7 @@ FILES = {
     "stress.json", "stress_maxima.csv", "stress_axis.csv", "stress_interfaces.csv",
     "stress_section.vtu", "stress_surface.vtu", "stress_columns.csv",
     "stress_section.png", "stress_axis.png", "stress_interfaces.png",
+    "stress_surface.png",
 }  # fmt: skip
 
 

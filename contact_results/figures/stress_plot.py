@@ -1,4 +1,4 @@
-"""Stress below a contact: sections, lines down the axis, and lines along the interfaces."""
+"""Stress below a contact: sections, lines into the depth, along the surface and the interfaces."""
 
 from __future__ import annotations
 
@@ -9,23 +9,18 @@ from typing import Any
 
 import numpy as np
 from matplotlib.figure import Figure
-from matplotlib.tri import Triangulation
-from numpy.typing import NDArray
 
 from contact_results.directory.atomic_file import atomic_file
 from contact_results.figures import style
-from contact_results.stress.extremes import interface_sides
+from contact_results.figures.section_panel import draw_interfaces, draw_section
 from contact_results.stress.points import StressField, StressPoints
 from contact_results.stress.tables import sides
 from contact_scene import Body
-from contact_scene.engineering_units import EngineeringUnit, engineering_unit
+from contact_scene.engineering_units import EngineeringUnit, engineering_unit, quantity
 
 SECTION, AXIS, INTERFACES = "stress_section.png", "stress_axis.png", "stress_interfaces.png"
+SURFACE = "stress_surface.png"
 MOST_INTERFACES = 4
-# Quadrilaterals within a cell: of a nine-node element the quarters around its middle.
-PARTS = {"quad": ((0, 1, 2, 3),), "quad9": ((0, 4, 8, 7), (4, 1, 5, 8), (8, 5, 2, 6), (7, 8, 6, 3))}
-
-Values = NDArray[np.float64]
 
 
 def write_stress_figures(field: StressField, body: Body, directory: Path, title: str) -> None:
@@ -33,13 +28,15 @@ def write_stress_figures(field: StressField, body: Body, directory: Path, title:
     figures: dict[str, Callable[[StressField, Body, str], Figure]] = {
         SECTION: section_plot,
         AXIS: axis_plot,
+        SURFACE: surface_plot,
     }
     if body.layers:
         figures[INTERFACES] = interface_plot
     with style.figure_style():
         for name, draw in figures.items():
             with atomic_file(directory / name) as path:
-                style.save(draw(field, body, title), path)
+                dots = style.OF_SECTIONS if name == SECTION else style.DOTS_PER_INCH
+                style.save(draw(field, body, title), path, dots)
 
 
 def section_plot(field: StressField, body: Body, title: str) -> Figure:
@@ -47,22 +44,17 @@ def section_plot(field: StressField, body: Body, title: str) -> Figure:
     points = field.section
     panels = {
         "von Mises": points.von_mises,
-        "σ_xx": points.components["xx"],
-        "σ_xz": points.components["xz"],
+        _named("xx"): points.components["xx"],
+        _named("xz"): points.components["xz"],
         "tension (largest principal)": np.maximum(points.principal[0], 0.0),
     }
-    reach, depth = field.shown
-    length = engineering_unit(reach, "m")
-    quarters = _quarters(points, reach, depth)
-    left = max(-reach, float(points.x.min()))
-    figure = _titled(9.0 if left < 0 else 6.4, 6.4, title)
+    half = float(points.x.min()) >= 0
+    figure = _titled(6.4 if half else 9.0, 6.4, title)
     axes = figure.subplots(2, 2, sharex=True, sharey=True)
     for ax, (name, values) in zip(axes.flat, panels.items(), strict=True):
-        _draw_section(figure, ax, points, quarters, values, name, length)
-        _draw_interfaces(ax, body, depth, length)
-        ax.set_aspect("equal")
-        ax.set_xlim(left / length.size, reach / length.size)
-        ax.set_ylim(depth / length.size, 0.0)
+        length = draw_section(
+            figure, ax, field, body, values, name, from_zero=name.startswith("tension")
+        )
     for ax in axes[-1]:
         ax.set_xlabel(f"{field.label} ({length.name})")
     for ax in axes[:, 0]:
@@ -71,31 +63,87 @@ def section_plot(field: StressField, body: Body, title: str) -> Figure:
 
 
 def axis_plot(field: StressField, body: Body, title: str) -> Figure:
-    """Stresses down the axis, one line per material; call within `figure_style`."""
+    """Stresses down the axis and down the edge of the contact with the larger tension along the
+    surface, which is the trailing one; one line per material. Call within `figure_style`."""
     depth = field.shown[1]
-    axis = field.axis.chosen(field.axis.depth <= depth)
-    lines = {f"σ_{name}": axis.components[name] for name in ("xx", "yy", "zz", "xz")}
-    lines["von Mises"] = axis.von_mises
+    lines = {"on the z axis": field.axis, **_below_edge(field)}
     length = engineering_unit(depth, "m")
+    figure = _titled(4.6 * len(lines) + 0.8, 4.8, title)
+    axes = figure.subplots(1, len(lines), sharey=True, squeeze=False)[0]
+    for ax, (where, points) in zip(axes, lines.items(), strict=True):
+        _draw_depth(ax, points.chosen(points.depth <= depth), length)
+        draw_interfaces(ax, body, depth, length)
+        ax.set_title(where)
+        ax.set_ylim(depth / length.size, 0.0)
+    axes[0].set_ylabel(f"depth z ({length.name})")
+    style.legend_beside(axes[-1])
+    return figure
+
+
+def surface_plot(field: StressField, body: Body, title: str) -> Figure:
+    """Stresses along the surface; call within `figure_style`."""
+    figure = _titled(6.4, 3.4, title)
+    draw_surface(figure.subplots(), field)
+    return figure
+
+
+def draw_surface(ax: Any, field: StressField) -> None:
+    """σ_xx and σ_yy at z = 0, and where the contact ends."""
+    reach = field.shown[0]
+    length = engineering_unit(reach, "m")
+    surface = _at_surface(field)
+    near = surface.chosen(np.abs(surface.x) <= reach)
+    lines = {_named(name): near.components[name] for name in ("xx", "yy")}
     unit = engineering_unit(float(max(np.abs(v).max() for v in lines.values())), "Pa")
-    figure = _titled(5.2, 4.8, title)
-    ax = figure.subplots()
     for number, (name, values) in enumerate(lines.items()):
-        for material in np.unique(axis.material):
-            inside = axis.material == material
+        ax.plot(near.x / length.size, values / unit.size, label=name, **style.line(number))
+    ax.axhline(0.0, color="black", linewidth=0.5)
+    for edge in {-_radius(field), _radius(field)}:
+        if edge >= near.x.min():
+            ax.axvline(edge / length.size, color=style.GREY, linewidth=0.7, linestyle=":")
+    ax.set_xlabel(f"{field.label}, z = 0 ({length.name}); dotted: contact radius")
+    ax.set_ylabel(f"stress ({unit.name})")
+    ax.legend(loc="best")
+
+
+def _radius(field: StressField) -> float:
+    """Of the contact, from its area on cells, from its edge on rings."""
+    return float(str(field.how.get("contact_radius", field.how.get("loaded_radius"))))
+
+
+def _at_surface(field: StressField) -> StressPoints:
+    """Points of the section at z = 0, along x; none where no depth is at the surface."""
+    points = field.section
+    at = np.flatnonzero(points.depth == points.depth.min())
+    return points.chosen(at[np.argsort(points.x.flat[at], kind="stable")])
+
+
+def _below_edge(field: StressField) -> dict[str, StressPoints]:
+    """The points below the place of the section next to the edge, downward, by what it is."""
+    surface, points = _at_surface(field), field.section
+    ends = [int(np.argmin(np.abs(surface.x - side * _radius(field)))) for side in (-1, 1)]
+    edge = float(surface.x[max(ends, key=lambda k: surface.components["xx"][k])])
+    below = np.flatnonzero(np.abs(points.x - edge) <= 1e-9 * _radius(field))
+    order = np.lexsort([points.material.flat[below], points.depth.flat[below]])
+    where = f"below the edge, x = {quantity(edge, 'm', 3)}"
+    return {where: points.chosen(below[order])}
+
+
+def _draw_depth(ax: Any, line: StressPoints, length: EngineeringUnit) -> None:
+    lines = {_named(name): line.components[name] for name in ("xx", "yy", "zz", "xz")}
+    lines["von Mises"] = line.von_mises
+    unit = engineering_unit(float(max(np.abs(v).max() for v in lines.values())), "Pa")
+    for number, (name, values) in enumerate(lines.items()):
+        for material in np.unique(line.material):
+            inside = line.material == material
             ax.plot(
                 values[inside] / unit.size,
-                axis.depth[inside] / length.size,
-                label=name if material == axis.material[0] else None,
+                line.depth[inside] / length.size,
+                label=name if material == line.material[0] else None,
                 **style.line(number),
             )
-    _draw_interfaces(ax, body, depth, length)
     ax.axvline(0.0, color="black", linewidth=0.5)
-    ax.set_ylim(depth / length.size, 0.0)
-    ax.set_xlabel(f"stress on the z axis ({unit.name})")
-    ax.set_ylabel(f"depth z ({length.name})")
-    style.legend_beside(ax)
-    return figure
+    ax.set_xlabel(f"stress ({unit.name})")
 
 
 def interface_plot(field: StressField, body: Body, title: str) -> Figure:
@@ -114,9 +162,9 @@ def interface_plot(field: StressField, body: Body, title: str) -> Figure:
         x, stress = near.x / length.size, near.components
         if side == "above":
             for n, name in enumerate(("zz", "xz")):
-                label = f"σ_{name}"
+                label = _named(name)
                 carried.plot(x, stress[name] / unit.size, label=label, **style.line(n))
-        values = {"σ_xx": stress["xx"], "von Mises": near.von_mises}
+        values = {_named("xx"): stress["xx"], "von Mises": near.von_mises}
         for n, (name, jump) in enumerate(values.items(), 2 * (side == "below")):
             jumping.plot(x, jump / unit.size, label=f"{name} {side}", **style.line(n))
         for ax in (carried, jumping):
@@ -130,52 +178,8 @@ def interface_plot(field: StressField, body: Body, title: str) -> Figure:
     return figure
 
 
-def _quarters(points: StressPoints, reach: float, depth: float) -> NDArray[np.int64]:
-    """(n, 4) corners of what is at least partly in view."""
-    assert points.cells is not None
-    kind, cells = points.cells
-    across, down = np.abs(points.x.ravel()), points.depth.ravel()
-    near = (across[cells].min(axis=1) <= reach) & (down[cells].min(axis=1) <= depth)
-    return cells[near][:, np.array(PARTS[kind])].reshape(-1, 4)
-
-
-def _with_middles(values: Values, quarters: NDArray[np.int64]) -> Values:
-    return np.concatenate([values.ravel(), values.ravel()[quarters].mean(axis=1)])
-
-
-def _draw_section(
-    figure: Figure,
-    ax: Any,
-    points: StressPoints,
-    quarters: NDArray[np.int64],
-    values: Values,
-    name: str,
-    length: EngineeringUnit,
-) -> None:
-    """Linear within the triangles between each side of a quadrilateral and its middle."""
-    x, z, drawn = (_with_middles(part, quarters) for part in (points.x, points.depth, values))
-    middles = np.arange(len(drawn) - len(quarters), len(drawn))
-    around = np.stack([quarters, np.roll(quarters, 1, axis=1)], axis=-1)
-    triangles = np.concatenate([np.column_stack([around[:, k], middles]) for k in range(4)])
-    in_view = drawn[triangles]
-    unit = engineering_unit(float(np.abs(in_view).max()), "Pa")
-    limit = float(np.abs(in_view).max()) / unit.size or 1.0
-    signed = bool(np.any(in_view < 0))
-    image = ax.tripcolor(
-        Triangulation(x / length.size, z / length.size, triangles),
-        drawn / unit.size,
-        shading="gouraud",
-        cmap=style.SIGNED_MAP if signed else style.MAGNITUDE_MAP,
-        vmin=-limit if signed else 0.0,
-        vmax=limit,
-    )
-    figure.colorbar(image, ax=ax, label=f"{name} ({unit.name})")
-
-
-def _draw_interfaces(ax: Any, body: Body, deepest: float, length: EngineeringUnit) -> None:
-    for _, side, depth, _ in interface_sides(body):
-        if side == "above" and depth < deepest:
-            ax.axhline(depth / length.size, color=style.GREY, linewidth=0.7, linestyle="--")
+def _named(component: str) -> str:
+    return f"$σ_{{{component}}}$"
 
 
 def _titled(width: float, height: float, title: str) -> Figure:

@@ -1,0 +1,125 @@
+"""A stress on the section y = 0 in levels at round numbers, with the interfaces at their depths."""
+
+from __future__ import annotations
+
+from math import floor, log10
+from typing import Any
+
+import numpy as np
+from matplotlib import patheffects
+from matplotlib.colors import BoundaryNorm, Normalize
+from matplotlib.figure import FigureBase
+from matplotlib.ticker import MaxNLocator
+from matplotlib.tri import Triangulation
+from numpy.typing import NDArray
+
+from contact_results.figures import style
+from contact_results.stress.extremes import interface_sides
+from contact_results.stress.points import StressField, StressPoints
+from contact_scene import Body
+from contact_scene.engineering_units import EngineeringUnit, engineering_unit
+
+# Quadrilaterals within a cell: of a nine-node element the quarters around its middle.
+PARTS = {"quad": ((0, 1, 2, 3),), "quad9": ((0, 4, 8, 7), (4, 1, 5, 8), (8, 5, 2, 6), (7, 8, 6, 3))}
+MOST_LEVELS = 12
+DECADES = 2  # below the largest value, that a series of 1, 2, 5 shows
+HALO = [patheffects.withStroke(linewidth=2.2, foreground="white")]
+
+Values = NDArray[np.float64]
+
+
+def draw_section(
+    figure: FigureBase,
+    ax: Any,
+    field: StressField,
+    body: Body,
+    values: Values,
+    name: str,
+    *,
+    from_zero: bool = False,
+) -> EngineeringUnit:
+    """Draw values at the points of the section, z downward; returns the unit of length.
+
+    from_zero  whether the levels are 1, 2, 5, 10 … up to the largest value, which shows a tail
+               beside a peak; else they are evenly spaced
+    """
+    points, (reach, depth) = field.section, field.shown
+    length = engineering_unit(reach, "m")
+    triangles, drawn = _triangles(points, values, length, reach, depth)
+    in_view = drawn[triangles.triangles]
+    unit = engineering_unit(float(np.abs(in_view).max()), "Pa")
+    low, high = float(in_view.min()) / unit.size, float(in_view.max()) / unit.size
+    levels = rising_levels(high) if from_zero and high > 0 else even_levels(low, high)
+    image = ax.tricontourf(
+        triangles, np.clip(drawn / unit.size, levels[0], levels[-1]), levels=levels,
+        **_colours(levels, from_zero=from_zero),
+    )  # fmt: skip
+    ax.tricontour(
+        triangles, drawn / unit.size, levels=levels, colors="black", linewidths=0.3,
+        linestyles="solid",
+    )  # fmt: skip
+    figure.colorbar(image, ax=ax, ticks=levels, label=f"{name} ({unit.name})", format="%g")
+    draw_interfaces(ax, body, depth, length)
+    ax.set_aspect("equal")
+    ax.set_xlim(max(-reach, float(points.x.min())) / length.size, reach / length.size)
+    ax.set_ylim(depth / length.size, 0.0)
+    return length
+
+
+def draw_interfaces(ax: Any, body: Body, deepest: float, length: EngineeringUnit) -> None:
+    """A line at the depth of every interface in view."""
+    for _, side, depth, _ in interface_sides(body):
+        if side == "above" and depth < deepest:
+            ax.axhline(
+                depth / length.size, color="black", linewidth=1.0, linestyle="--",
+                path_effects=HALO,
+            )  # fmt: skip
+
+
+def even_levels(low: float, high: float) -> Values:
+    """Evenly spaced round numbers around all values, zero among them where they change sign."""
+    if low == high:
+        low, high = min(low, 0.0), max(high, 0.0) or 1.0
+    rounded = MaxNLocator(MOST_LEVELS, steps=[1, 2, 2.5, 5, 10])
+    return np.asarray(rounded.tick_values(low, high), dtype=float)
+
+
+def rising_levels(high: float) -> Values:
+    """Zero, then 1, 2, 5, 10 … over two decades up to the first that no value exceeds."""
+    top = floor(log10(high)) + 1
+    series = [m * 10.0**n for n in range(top - DECADES - 1, top + 1) for m in (1, 2, 5)]
+    last = next(k for k, level in enumerate(series) if level >= high)
+    return np.array([0.0, *series[max(0, last - 3 * DECADES) : last + 1]])
+
+
+def _colours(levels: Values, *, from_zero: bool) -> dict[str, Any]:
+    if from_zero:
+        return {"cmap": style.MAGNITUDE_MAP, "norm": BoundaryNorm(levels, 256)}
+    if levels[0] < 0:
+        most = float(np.abs(levels).max())
+        return {"cmap": style.SIGNED_MAP, "norm": Normalize(-most, most)}
+    return {"cmap": style.MAGNITUDE_MAP, "norm": Normalize(0.0, float(levels[-1]))}
+
+
+def _triangles(
+    points: StressPoints, values: Values, length: EngineeringUnit, reach: float, depth: float
+) -> tuple[Triangulation, Values]:
+    """Between each side of a quadrilateral in view and its middle, with the values there."""
+    quarters = _quarters(points, reach, depth)
+    x, z, drawn = (
+        np.concatenate([part.ravel(), part.ravel()[quarters].mean(axis=1)])
+        for part in (points.x, points.depth, values)
+    )
+    middles = np.arange(len(drawn) - len(quarters), len(drawn))
+    around = np.stack([quarters, np.roll(quarters, 1, axis=1)], axis=-1)
+    corners = np.concatenate([np.column_stack([around[:, k], middles]) for k in range(4)])
+    return Triangulation(x / length.size, z / length.size, corners), drawn
+
+
+def _quarters(points: StressPoints, reach: float, depth: float) -> NDArray[np.int64]:
+    """(n, 4) corners of what is at least partly in view."""
+    assert points.cells is not None
+    kind, cells = points.cells
+    across, down = np.abs(points.x.ravel()), points.depth.ravel()
+    near = (across[cells].min(axis=1) <= reach) & (down[cells].min(axis=1) <= depth)
+    return cells[near][:, np.array(PARTS[kind])].reshape(-1, 4)
