@@ -8,14 +8,14 @@ import sys
 from pathlib import Path
 
 folder = Path(sys.argv[1])
-missing = [name for name in ("index.html", "report.json") if not (folder / name).is_file()]
+LARGEST = {"index.html": 800_000, "sheets.html": 1_200_000}  # bytes at the quick level
+missing = [name for name in (*LARGEST, "report.json") if not (folder / name).is_file()]
 if missing:
     sys.exit(f"{folder} lacks {' and '.join(missing)}")
 
-LARGEST_PAGE = 1_000_000  # bytes at the quick level
-size = (folder / "index.html").stat().st_size
-if size > LARGEST_PAGE:
-    sys.exit(f"{folder}/index.html has {size} bytes, more than {LARGEST_PAGE}")
+for name, largest in LARGEST.items():
+    if (size := (folder / name).stat().st_size) > largest:
+        sys.exit(f"{folder}/{name} has {size} bytes, more than {largest}")
 
 counts = json.loads((folder / "report.json").read_text(encoding="utf-8"))["counts"]
 print("Verdicts: " + ", ".join(f"{number} {verdict}" for verdict, number in counts.items()))

@@ -146,7 +146,7 @@ ORDERS = {
         "judging",
         *("running", "regression"),
         *("cases", "defects", "peers", "challenge", "adapters", "studies", "benchmarks"),
-        "report",
+        *("showcase", "report"),
     ),
     "verification.cases.both_solvers": (
         *("left_out", "contacts", "sides", "differences", "stress", "line", "charts", "tables"),

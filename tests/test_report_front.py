@@ -8,6 +8,7 @@ import pytest
 from report_examples import case, chart, report_of, run_record, study, verdict
 
 from verification.exhibits.chart import Chart, Look, Panel, curve
+from verification.exhibits.picture import Picture
 from verification.judging.change import Change, ChangeKind, Origin
 from verification.judging.outcome import (
     RESIDUAL,
@@ -21,17 +22,17 @@ from verification.report.closing import closing_sentences, line_of
 from verification.report.files import (
     APPENDICES,
     EARLIER,
-    FILES,
     PACKED,
     PAGE,
     RECORD,
+    SHEETS,
     draw_again,
     record_in,
     set_aside_report,
     write_report,
 )
 from verification.report.front import COVERAGE, LOOP, front_charts
-from verification.report.page import render_page
+from verification.report.page import render_page, render_sheets
 from verification.report.prices import cost_sentence
 from verification.report.stability_map import ENDS, VIEW, legend, stability_map
 from verification.running.report_record import Report, dump_report, load_report
@@ -48,13 +49,27 @@ def test_every_sheet_and_study_is_folded_under_one_line_and_its_anchor_is_inside
         (case("hertz_point", {"approach": (1e-6, 1e-6)}, run_record(64, None)),),
         (study("stability", level="full"),),
     )
-    page = render_page(report)
-    for name in ("hertz_point", "study-stability", "study-penalty"):
+    front, sheets = render_page(report), render_sheets(report)
+    for page, name in (
+        (sheets, "hertz_point"), (front, "study-stability"), (front, "study-penalty")
+    ):  # fmt: skip
         before, _, _ = page.partition(f'<article id="{name}">')
         line = before[before.rindex("<details") :]
         assert line.startswith('<details class="sheet">\n<summary>')  # shut
         assert "</details>" not in line
-    assert not re.search(r"<details [^>]*open", page.split('id="cases"')[0])
+    assert f'href="{SHEETS}#hertz_point"' in front
+    assert not re.search(r"<details [^>]*open", front)
+
+
+def test_a_picture_is_an_image_and_no_part_of_the_page() -> None:
+    script = "<svg onload='x()'><script>x()</script><image href='http://example.invalid'/></svg>"
+    for svg in (script, f"<!DOCTYPE x>{script}", '"><script>x()</script>'):
+        picture = Picture(name="p", title="t", caption='c"><b>', svg=svg)
+        page = render_page(report_of(()).model_copy(update={"pictures": (picture,)}))
+        (image,) = re.findall(r"<img [^>]*>", page)
+        assert re.fullmatch(r'<img src="data:[^"<>]*" alt="[^"<>]*">', image)
+        assert "<script" not in page
+        assert "onload" not in page.replace(image, "")
 
 
 def test_a_line_names_the_quantity_nearest_to_its_limit() -> None:
@@ -172,8 +187,6 @@ def test_studies_have_pages_beside_a_full_report_and_none_of_an_earlier_one_stay
     write_report(report, tmp_path)
     there = {path.name for path in tmp_path.iterdir()} & {*APPENDICES.values()}
     assert there == ({APPENDICES["stability"]} if level == "full" else set())
-    assert PAGE in FILES
-    assert all(name in FILES for name in APPENDICES.values())
 
 
 def test_a_packed_record_is_read_drawn_from_and_left_as_it_is(tmp_path: Path) -> None:

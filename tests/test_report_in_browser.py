@@ -10,7 +10,8 @@ from pathlib import Path
 import pytest
 from report_examples import case, report_of, run_record, study
 
-from verification.report.page import render_page
+from verification.exhibits.picture import Picture
+from verification.report.page import render_page, render_sheets
 from verification.running.report_record import Report
 
 NAMES = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable")
@@ -108,11 +109,12 @@ def full() -> Report:
 
 
 def test_page_opens_without_error_and_without_request(full: Report, tmp_path: Path) -> None:
-    seen = opened(render_page(full), tmp_path)
-    assert seen.console == []
-    assert seen.requests == []
-    assert seen.document.count("<article") == render_page(full).count("<article")
-    assert "Omissions and known limits</h2>" in seen.document
+    for render in (render_page, render_sheets):
+        seen = opened(render(full), tmp_path)
+        assert seen.console == []
+        assert seen.requests == []
+        assert seen.document.count("<article") == render(full).count("<article")
+        assert seen.document.rstrip().endswith("</html>")
 
 
 def test_page_forbids_scripts_and_so_works_without_them(full: Report, tmp_path: Path) -> None:
@@ -123,6 +125,12 @@ def test_page_forbids_scripts_and_so_works_without_them(full: Report, tmp_path: 
     assert any("Content Security Policy" in line for line in seen.console)
 
 
+def drawn(payloads: tuple[str, ...]) -> list[str]:
+    """Pictures that hold them, and one that is nothing else."""
+    root = '<svg xmlns="http://www.w3.org/2000/svg" width="9" height="9">'
+    return [payloads[0], *(f"{root}{payload}</svg>" for payload in payloads[1:])]
+
+
 def test_nothing_in_a_record_is_run(tmp_path: Path) -> None:
     outcomes = tuple(
         case(f"case_{n}", {payload: (1e-6, 1e-6)}, run_record(64, None), payload, drawn=n % 4 == 0)
@@ -130,11 +138,16 @@ def test_nothing_in_a_record_is_run(tmp_path: Path) -> None:
     )
     assert len(PAYLOADS) >= 30
     studies = (study("gross-sliding", PAYLOADS[0], text=PAYLOADS[1]),)
-    page = render_page(report_of(outcomes, studies))
-    seen = opened(page, tmp_path)
-    assert f"<title>{RAN}" not in seen.document
-    assert seen.console == []
-    assert seen.requests == []
+    pictures = tuple(
+        Picture(name=f"p{n}", title=payload, caption=payload, svg=svg)
+        for n, (payload, svg) in enumerate(zip(PAYLOADS, drawn(PAYLOADS), strict=True))
+    )
+    report = report_of(outcomes, studies).model_copy(update={"pictures": pictures})
+    for render in (render_page, render_sheets):
+        seen = opened(render(report), tmp_path)
+        assert f"<title>{RAN}" not in seen.document
+        assert seen.console == []
+        assert seen.requests == []
 
 
 def test_a_page_that_runs_or_asks_is_seen_to(tmp_path: Path) -> None:

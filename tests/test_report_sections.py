@@ -42,7 +42,7 @@ from verification.studies.catalogue import STUDIES
 from verification.studies.work_precision.price_rows import Reached
 
 SECTIONS = (
-    "verdict", "pictures", "baseline", "answers", "cases", "solvers", "paper", "frf", "cost",
+    "verdict", "pictures", "baseline", "answers", "cases", "solvers", "paper", "cost",
     "stability", "defects", "omissions", "provenance",
 )  # fmt: skip
 
@@ -245,7 +245,7 @@ def test_promises_lead_the_page_with_figures_or_with_the_command_that_finds_them
     assert stable.status is Status.FAIL
     header = render_page(report).split("</header>")[0]
     for feature in (plan, cost, stable, stated):
-        assert f'<a href="#{feature.anchor}">{feature.promise}</a>' in header
+        assert f'<a href="{feature.address}">{feature.promise}</a>' in header
         assert feature.figures in header
 
 
@@ -311,7 +311,7 @@ def test_a_quick_page_stays_small_and_says_what_it_leaves_out() -> None:
     assert "View 12; View 13" in quick
     assert "Cells: 300 rows" in quick
     full = render_page(report.model_copy(update={"level": "full"}))
-    assert full.count("<svg") == shown
+    assert full.count("<svg") == extent("full").charts
     assert full.count("1e-9") == 300
     assert 'href="study-seeded-defects.html"' in full
 

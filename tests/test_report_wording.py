@@ -22,7 +22,7 @@ from verification.report.equal_fineness import silences, votes
 from verification.report.features import FORCED, features
 from verification.report.order_table import not_judged
 from verification.report.orders import observed_orders
-from verification.report.page import PLACES
+from verification.report.page import PAPER_CASE
 from verification.report.profiles_together import profiles_together
 from verification.report.sketch import sketch_svg
 from verification.running.report_record import Report, dump_report, load_report
@@ -34,7 +34,7 @@ TEXTS = {
     *("material", "substrate", "friction"),
 }
 # Names that are known by themselves: of cases with a place of their own, and of every case's laws.
-NAMES = {FORCED, *PLACES, SOLVED, RESIDUAL, VIOLATION, IMBALANCE}
+NAMES = {FORCED, PAPER_CASE, SOLVED, RESIDUAL, VIOLATION, IMBALANCE}
 
 
 def other_words() -> Callable[[str], str]:

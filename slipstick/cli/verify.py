@@ -13,6 +13,7 @@ from slipstick.cli.optional import directory, optional
 from slipstick.cli.scheduler_option import SchedulerOption, workers_at
 
 if TYPE_CHECKING:
+    from verification.exhibits.picture import Picture
     from verification.judging.case import Case
     from verification.running.case_pool import Workers
     from verification.running.report_record import Benchmark, Report
@@ -65,7 +66,7 @@ def verify(
     Exit code 0 if nothing failed, 1 if a verdict failed, or a study that these same sources have
     made and the report shows; what is new since the baseline is printed
     and is no failure ('slipstick compare' has an exit code for it). DIR receives index.html (the
-    report, to be opened in a browser), report.json, junit.xml and summary.md.
+    report, to be opened in a browser) with sheets.html, report.json, junit.xml and summary.md.
 
     Every finished case leaves a record in DIR/cases: the same command goes on where a killed one
     stopped, and computes again what other sources or libraries made; a case that was running is
@@ -136,6 +137,7 @@ def _verified(
             provenance=provenance(command, seconds, made, loops=loops),
             studies=studies,
             chosen=bool(names),
+            pictures=() if names else _pictures(),
         )
         report = compared(measured, baselines)
         write_report(report, directory)
@@ -146,6 +148,12 @@ def _benchmarks() -> tuple[Benchmark, ...]:
     from verification.benchmarks import benchmarks
 
     return tuple(benchmarks())
+
+
+def _pictures() -> tuple[Picture, ...]:
+    from verification.showcase import showcase
+
+    return showcase()
 
 
 def _print_list(cases: tuple[Case, ...]) -> None:

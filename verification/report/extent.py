@@ -1,4 +1,4 @@
-"""How much of a study a page shows; a report of a higher level has all of it on pages beside."""
+"""How much the pages of a report show; at a higher level studies have pages of their own."""
 
 from __future__ import annotations
 
@@ -7,16 +7,20 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True)
 class Extent:
-    """The most charts of a study, the most rows of a table, and whether studies have pages."""
+    """The most charts of a study, rows of a table and sketches of a case; whether studies have
+    pages beside the report, and whether solves are told one by one."""
 
     charts: int = 4
     rows: int = 1_000_000
+    sketches: int = 1_000
     appendices: bool = True
+    solves: bool = True
 
 
-BY_LEVEL = {"quick": Extent(rows=40, appendices=False)}  # its page is to have less than 1 MB
+# Its pages are to have less than 1 MB each.
+QUICK = Extent(charts=2, rows=40, sketches=1, appendices=False, solves=False)
 
 
 def extent(level: str) -> Extent:
-    """What a report of this level shows of every study, whose own page always has all of it."""
-    return BY_LEVEL.get(level, Extent())
+    """What a report of this level shows."""
+    return QUICK if level == "quick" else Extent()

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 from verification.exhibits.numbers import plain
 from verification.judging.outcome import CaseOutcome, RunRecord, Status
+from verification.report.files import SHEETS
 from verification.report.prices import cost_sentence
 from verification.report.sections import study_section
 from verification.running.record import StudyRecord
@@ -21,13 +22,20 @@ class Feature:
 
     status   None where this report has nothing on it
     figures  what was found, or the command that finds it
-    anchor   of the part of the page that shows it
+    anchor   of what shows it
+    page     that it is on; empty for the front
     """
 
     promise: str
     status: Status | None
     figures: str
     anchor: str
+    page: str = ""
+
+    @property
+    def address(self) -> str:
+        """As seen from the front."""
+        return f"{self.page}#{self.anchor}"
 
 
 def features(report: Report) -> tuple[Feature, ...]:
@@ -59,6 +67,7 @@ def _planned(report: Report) -> Feature:
         f"{plain(apart, 2)} and take {plain(min(ratios), 2)} to {plain(max(ratios), 2)} times the "
         "convolutions",
         FORCED,
+        SHEETS,
     )
 
 

@@ -16,13 +16,14 @@ from verification.report.extent import extent
 from verification.report.sections import TITLES
 from verification.running.report_record import PACKED_SUFFIX, Report, dump_report
 
-PAGE = "index.html"
+PAGE, SHEETS = "index.html", "sheets.html"  # the front, and one sheet per case
 RECORD = "report.json"
 PACKED = f"{RECORD}{PACKED_SUFFIX}"  # what is kept of a report: `xz report.json` makes it
 JUNIT = "junit.xml"
 SUMMARY = "summary.md"
 APPENDICES = {name: f"study-{name}.html" for name in TITLES}
-FILES = (RECORD, PACKED, PAGE, JUNIT, SUMMARY, *APPENDICES.values())
+FILES = (RECORD, PAGE, SHEETS, JUNIT, SUMMARY)  # of any report
+POSSIBLE = (*FILES, PACKED, *APPENDICES.values())
 EARLIER = "earlier"  # of the report's directory: the report before, until the new one is whole
 
 
@@ -52,7 +53,7 @@ def set_aside_report(directory: Path) -> None:
     """
     with _alone_in(directory):
         record = record_in(directory).name
-        set_aside(directory, (record, *(name for name in FILES if name != record)))
+        set_aside(directory, (record, *(name for name in POSSIBLE if name != record)))
 
 
 def set_aside(directory: Path, names: Sequence[str]) -> None:
@@ -104,12 +105,13 @@ def _rendered(report: Report) -> dict[str, str]:
     """The files that are drawn, by name."""
     # Drawing takes long to import: whoever has just a directory to prepare does without.
     from verification.report.junit import render_junit
-    from verification.report.page import render_page
+    from verification.report.page import render_page, render_sheets
     from verification.report.study_page import render_study
     from verification.report.summary_text import render_summary
 
     return {
         PAGE: render_page(report),
+        SHEETS: render_sheets(report),
         JUNIT: render_junit(report),
         SUMMARY: render_summary(report),
         **{
@@ -126,11 +128,11 @@ def _write(texts: Mapping[str, str], directory: Path, kept: Sequence[str] = ()) 
     with _alone_in(directory), stop_signals_held():
         if RECORD in texts and not _holds(directory / RECORD, texts[RECORD]):
             (directory / RECORD).unlink(missing_ok=True)
-        _remove(directory, [name for name in FILES if name not in texts and name not in kept])
+        _remove(directory, [name for name in POSSIBLE if name not in texts and name not in kept])
         for name, text in texts.items():
             with atomic_file(directory / name) as temporary:
                 temporary.write_text(text, encoding="utf-8", newline="\n")
-        remove_set_aside(directory, FILES)
+        remove_set_aside(directory, POSSIBLE)
 
 
 def _remove(directory: Path, names: Sequence[str]) -> None:

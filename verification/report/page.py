@@ -1,8 +1,7 @@
-"""The page: one HTML file that needs nothing else, neither network nor scripts."""
+"""The pages, a front and the sheets of the cases: neither needs network or scripts."""
 
 from __future__ import annotations
 
-from base64 import b64encode
 from functools import cache
 
 import jinja2
@@ -36,6 +35,7 @@ from verification.report.closing import closing_sentences, line_of
 from verification.report.counts import counts_text
 from verification.report.extent import extent
 from verification.report.features import claims_line, features
+from verification.report.files import PAGE, SHEETS
 from verification.report.front import front_charts
 from verification.report.order_table import not_judged
 from verification.report.orders import observed_orders
@@ -44,26 +44,28 @@ from verification.report.sections import study_of, study_section
 from verification.report.shared_styles import with_shared_styles
 from verification.report.sketch import sketch_svg, thin_layers
 from verification.report.stability_map import legend, stability_map
+from verification.report.svg import image_address
 from verification.report.templating import environment
 from verification.running.report_record import Report
 from verification.running.study_text import measured_text
 
-# Cases whose sheets stand in another section than the others.
-PAPER, FREQUENCY_RESPONSE = "paper", "frf"
-PLACES = {
-    "paper_fretting_loop": PAPER,
-    "frf_laws": FREQUENCY_RESPONSE,
-    "layered_reference": FREQUENCY_RESPONSE,
-    "sampling_route": FREQUENCY_RESPONSE,
-}
-
+PAPER_CASE = "paper_fretting_loop"  # which makes the paper's figures 1 and 2
 MOST_WORSE = 6  # on the front; the rest stands below
 MOST_MOVED = 40
 
 
 def render_page(report: Report) -> str:
-    """The report as HTML; equal records give equal text."""
-    return with_shared_styles(_environment().get_template("page.html").render(report=report))
+    """The front as HTML; equal records give equal text."""
+    return _rendered("page.html", report)
+
+
+def render_sheets(report: Report) -> str:
+    """One sheet per case, in the order of the record."""
+    return _rendered("sheets.html", report)
+
+
+def _rendered(template: str, report: Report) -> str:
+    return with_shared_styles(_environment().get_template(template).render(report=report))
 
 
 @cache
@@ -72,14 +74,16 @@ def _environment() -> jinja2.Environment:
     made.filters.update(
         value=value_text, plain=plain, clearance=clearance_text, order=order_text,
         uncertainty=uncertainty_text, failure=failure_text,
-        base64=lambda text: b64encode(text.encode()).decode("ascii"),
+        address=image_address,
     )  # fmt: skip
     made.globals.update(
         Status=Status,
         MOST_WORSE=MOST_WORSE,
+        PAGE=PAGE,
+        SHEETS=SHEETS,
+        PAPER_CASE=PAPER_CASE,
         MOST_MOVED=MOST_MOVED,
         bar=_bar,
-        sheets=_sheets,
         sketch=_sketch,
         thin=_thin,
         kinds=_kinds,
@@ -122,15 +126,10 @@ def _thin(scene: SceneRecord) -> bool:
     return scene.sketch is not None and thin_layers(scene.sketch)
 
 
-def _bar(verdict: Verdict) -> float:
+def _bar(verdict: Verdict) -> int:
     """Length of the bar of a verdict in per cent; full from the allowed error on."""
     part = verdict.clearance
-    return 100.0 if part is None else round(min(100.0, 100 * part), 1)
-
-
-def _sheets(report: Report, place: str) -> list[CaseOutcome]:
-    """The cases whose sheets belong to a section; most belong to `cases`."""
-    return [case for case in report.cases if PLACES.get(case.name, "cases") == place]
+    return 100 if part is None else round(min(100.0, 100 * part))
 
 
 def _kinds(report: Report) -> dict[str, dict[Status, int]]:
@@ -171,7 +170,9 @@ def _references(case: CaseOutcome) -> dict[str, list[str]]:
             f"Reference: {v.reference_kind}; {v.source}. Tolerance {v.tolerance_kind}, relative to "
             f"{v.scale_name}: {v.because}."
         )
-        found.setdefault(text, []).append(f"{v.name}, {v.run}")
+        names = found.setdefault(text, [])
+        if v.name not in names:
+            names.append(v.name)
     return found
 
 

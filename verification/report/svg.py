@@ -5,11 +5,13 @@ from __future__ import annotations
 import io
 import re
 from html import escape
+from urllib.parse import quote
 
 import matplotlib
 
 from contact_results.figures import style
 from verification.exhibits.chart import Chart
+from verification.exhibits.picture import Picture
 from verification.report.compact_svg import compact
 from verification.report.drawing import GRID_COLOUR, INK, REFERENCE_COLOUR, draw
 
@@ -20,6 +22,8 @@ VARIABLES = {
     GRID_COLOUR: "--line",
     **{colour: f"--series-{n}" for n, colour in enumerate(style.LINE_COLOURS, 1)},
 }
+ROOT = '<svg xmlns="http://www.w3.org/2000/svg" font-family="DejaVu Sans,Verdana,sans-serif"'
+KEPT_AS_IT_IS = " =:/;,+()!*@$?[]"  # of an address within quotes
 NO_METADATA = {"Date": None, "Creator": None, "Format": None, "Type": None}
 
 
@@ -40,6 +44,15 @@ def inline_svg(chart: Chart, prefix: str = "") -> str:
     for colour, variable in VARIABLES.items():
         svg = re.sub(re.escape(colour), f"var({variable})", svg, flags=re.IGNORECASE)
     return _labelled(svg, chart, name)
+
+
+def image_address(picture: Picture) -> str:
+    """The picture as an address that holds all of it: an image is not a part of the page, so
+    nothing in it can run, refer to the page or ask for anything."""
+    svg = compact(picture.svg, picture.name)
+    if not svg.startswith("<svg "):  # no drawing: an image that a browser shows the text for
+        return "data:,"
+    return f"data:image/svg+xml,{quote(ROOT + svg.removeprefix('<svg'), safe=KEPT_AS_IT_IS)}"
 
 
 def _id(name: str) -> str:

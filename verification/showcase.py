@@ -1,0 +1,88 @@
+"""One contact drawn with its fields, for the front of a report: cases keep numbers, no fields.
+
+A rigid ball on a coating twice as stiff as the body below, pressed with friction and pushed:
+neither its pressure nor its stick zone is symmetric, and the coating bends.
+"""
+
+from __future__ import annotations
+
+import io
+
+import matplotlib
+from matplotlib.collections import QuadMesh, TriMesh
+from matplotlib.figure import Figure
+
+from contact_results.figures import style
+from contact_results.figures.pressure_map import pressure_map
+from contact_results.figures.shear_map import shear_map
+from contact_results.figures.stress_plot import section_plot
+from contact_results.stress.loaded_bodies import state_of_result
+from contact_results.stress.on_cells import stress_on_cells
+from contact_results.surface import Cells, surface_of
+from contact_scene import CoulombFriction, LoadStep, Scene
+from semi_analytical import solve
+from verification.exhibits.picture import Picture
+from verification.problems.layered_scene import coated, film, rigid_ball
+from verification.problems.paper_scene import HERTZ, NORMAL_FORCE, pressing, square_grid
+
+FRICTION, PUSH = 0.3, 0.7  # of µW
+MODULUS_RATIO, THICKNESS = 2.0, 0.5  # of Hertz's radius
+PRESSED_IN, PUSHED_IN = 8, 6  # increments
+CELLS, REACH = 64, 1.15  # of Hertz's radius
+TOLERANCE = 1e-6
+DOTS_PER_INCH = 56  # of the fields; lines and text are drawn as such
+NO_METADATA = {"Date": None, "Creator": None, "Format": None, "Type": None}
+
+
+def showcase() -> tuple[Picture, ...]:
+    """Pressure, shear and the stress below; equal libraries give equal bytes."""
+    result = solve(_scene(), square_grid(CELLS, REACH * HERTZ.contact_radius), TOLERANCE)
+    cells = surface_of(result)
+    assert isinstance(cells, Cells)
+    with style.figure_style():
+        matplotlib.rcParams["svg.fonttype"] = "none"
+        stress = stress_on_cells(state_of_result(result, None))
+        section = section_plot(stress, result.scene.body, "")
+        return (
+            _picture(
+                "pressure", "Pressure", pressure_map(result, cells),
+                f"A rigid ball pressed, µ = {FRICTION:g}, on a coating {MODULUS_RATIO:g} "
+                f"times as stiff as the body below and {THICKNESS:g} of Hertz's radius thick "
+                f"(step 1), then pushed by {PUSH:g} µW (step 2), on {CELLS} x {CELLS} cells.",
+            ),
+            _picture(
+                "shear", "Shear and the border of stick", shear_map(result, cells),
+                "The same contact: shear along and across the push; within the black line the "
+                "surfaces stick. Pressing alone already makes a ring slip.",
+            ),
+            _picture(
+                "section", "Stress below it", section,
+                "The same contact pushed, in the section y = 0: the dashed line is the interface; "
+                "behind the contact the coating is pulled, and it bends over the softer body.",
+            ),
+        )  # fmt: skip
+
+
+def _scene() -> Scene:
+    pushed = (PUSH * FRICTION * NORMAL_FORCE, 0.0)
+    return Scene(
+        title="A coated contact, pressed and pushed",
+        indenter=rigid_ball(),
+        body=coated(film(MODULUS_RATIO, THICKNESS)),
+        friction=CoulombFriction(coefficient=FRICTION),
+        loading=(
+            pressing(PRESSED_IN),
+            LoadStep(tangential_force=pushed, increments=PUSHED_IN),
+        ),
+    )
+
+
+def _picture(name: str, title: str, figure: Figure, caption: str) -> Picture:
+    """With its fields as images: thousands of cells are no lines."""
+    matplotlib.rcParams["svg.hashsalt"] = name
+    for fields in figure.findobj(lambda artist: isinstance(artist, QuadMesh | TriMesh)):
+        fields.set_rasterized(True)
+    buffer = io.StringIO()
+    figure.savefig(buffer, format="svg", dpi=DOTS_PER_INCH, metadata=NO_METADATA)
+    svg = buffer.getvalue()
+    return Picture(name=name, title=title, caption=caption, svg=svg[svg.index("<svg") :])
