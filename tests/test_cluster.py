@@ -1,22 +1,19 @@
 """Cases on a dask cluster: the same records as here, and only from the same sources."""
 
 import os
-import subprocess
-import sys
 from collections.abc import Iterator
 from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
 
 import pytest
+from command import outcome
 from study_cases import Killed, Number, Refusing, Square
 
 from verification.running import cluster
 from verification.running.case_pool import OTHER_CODE, run_cases
 from verification.running.case_store import CaseStore
 from verification.running.cluster import ClusterUnavailable, ClusterWorkers
-
-ROOT = Path(__file__).resolve().parents[1]
 
 
 def without(name: str) -> Any:
@@ -48,13 +45,9 @@ def test_silent_address_is_named(monkeypatch: pytest.MonkeyPatch) -> None:
 
 @pytest.mark.parametrize("command", [["verify"], ["study", "coated-tractions"]])
 def test_command_refuses_before_any_work(command: list[str], tmp_path: Path) -> None:
-    code = f"import sys; sys.path.insert(0, {str(ROOT)!r}); from slipstick.cli import main; main()"
-    outcome = subprocess.run(
-        [sys.executable, "-c", code, *command, "--scheduler", "localhost:8786"],
-        cwd=tmp_path, capture_output=True, text=True, check=False, timeout=120,
-    )  # fmt: skip
-    assert outcome.returncode == 2
-    assert "tcp://host:port" in outcome.stderr
+    ended = outcome(*command, "--scheduler", "localhost:8786", cwd=tmp_path)
+    assert ended.returncode == 2
+    assert "tcp://host:port" in ended.stderr
     assert list(tmp_path.iterdir()) == []
 
 

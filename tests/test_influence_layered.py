@@ -102,13 +102,13 @@ def test_layer_of_the_same_material_is_no_layer(material, decade, log_aspect):
 def test_cells_add_up(stack, size, aspect):
     """A cell of 3 x 3 cells is displaced at its centre by the sum of the nine."""
     dx, dy = size, size * aspect
-    fine = all_components(LayeredCoefficients(stack, (dx, dy), (45, 42)))
-    coarse = all_components(LayeredCoefficients(stack, (3 * dx, 3 * dy), (14, 13)))
+    fine = all_components(LayeredCoefficients(stack, (dx, dy), (27, 24)))
+    coarse = all_components(LayeredCoefficients(stack, (3 * dx, 3 * dy), (8, 7)))
     odd_x, odd_y = np.array([1, 1, 1, -1, -1, 1]), np.array([1, 1, 1, -1, 1, -1])
     total = np.zeros_like(coarse)
     for i in range(-1, 2):
         for j in range(-1, 2):
-            a, b = 3 * np.arange(14) + i, 3 * np.arange(13) + j
+            a, b = 3 * np.arange(8) + i, 3 * np.arange(7) + j
             part = fine[:, abs(a)[:, None], abs(b)]
             part *= np.where(a < 0, odd_x[:, None], 1)[:, :, None]
             part *= np.where(b < 0, odd_y[:, None], 1)[:, None, :]

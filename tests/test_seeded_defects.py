@@ -118,7 +118,12 @@ def test_healthy_contact_raises_no_alarm(family: str) -> None:
     record = HealthyRun(family, 0).compute()
     assert caught(record) == ()
     assert samples(record)
-    assert record.parts == HealthyRun(family, 0).compute().parts
+
+
+def test_a_drawn_contact_is_the_same_at_every_call() -> None:
+    first, again, other = (HealthyRun("hertz", number).compute() for number in (0, 0, 1))
+    assert first.parts == again.parts
+    assert first.parts != other.parts
 
 
 def test_truncated_file_is_named() -> None:
