@@ -15,6 +15,7 @@ from contact_results.stress.extremes import extremes
 from contact_results.stress.loaded_bodies import LoadedBodies, state_of_result
 from contact_results.stress.on_section import stress_on_section
 from contact_scene import RIGID, Body, FlatPunch, IsotropicMaterial, Layer, Scene
+from contact_scene.solver_errors import SolverError
 from contact_scene.stated_error import ErrorStatus
 from fem_reference import Method, solve
 from verification.closed_forms.cattaneo_mindlin import PartialSlip
@@ -44,6 +45,21 @@ def test_errors_hold_the_closed_form(per_radius: int, method: Method) -> None:
         if name != "contact_radius":  # its mesh is laid out for the exact one
             assert error(stated, name) < 10 * off
         assert stated.steps[0][name].status is ErrorStatus.ESTIMATED
+
+
+@pytest.mark.parametrize("method", Method)
+@pytest.mark.parametrize("times", [0.5, 8.0, 250.0])
+def test_a_radius_that_the_mesh_was_laid_out_for_in_vain_decides_no_answer(
+    times: float, method: Method
+) -> None:
+    """What is stated holds, or the contact is told to have been missed."""
+    try:
+        result = solve(SMOOTH, elements(16, contact_radius=times * A), method)
+    except SolverError:
+        assert times != 8.0
+        return
+    stated, exact = stated_errors(result), hertz()
+    assert abs(result.steps[0].approach - exact.approach) <= error(stated, "approach")
 
 
 @pytest.mark.parametrize("method", Method)

@@ -53,7 +53,8 @@ from contact_scene.stated_error import ErrorStatus, StatedError
 from semi_analytical import SurfaceGrid, plan, solve, solve_discretised
 from verification.closed_forms.cattaneo_mindlin import PartialSlip
 from verification.closed_forms.coated_indentation import paraboloid as pressed_coating
-from verification.closed_forms.moduli import tangential_modulus
+from verification.closed_forms.cone import ConeContact
+from verification.closed_forms.moduli import contact_modulus, tangential_modulus
 from verification.problems.layered_scene import surface_of
 
 FRETTING = (
@@ -258,6 +259,48 @@ def test_the_error_of_partial_slip_covers_what_is_wrong(cells: int) -> None:
     exact = PartialSlip(LOAD, contact_radius, MU, modulus, 60.0)
     assert abs(end.stick_radius - exact.stick_radius) <= size(errors["stick_radius"])
     assert abs(end.tangential_shift[0] - exact.shift) <= size(errors["tangential_shift"])
+
+
+@pytest.mark.parametrize("part", [0.99995, 0.99999])
+def test_stick_of_less_than_a_cell_has_not_converged_and_the_shift_is_known_still(
+    part: float,
+) -> None:
+    matter, force = steel(poisson_ratio=0.0), part * MU * LOAD
+    pushed = scene(
+        PRESS, {"tangential_force": (force, 0.0)}, indenter=paraboloid(matter), body=matter
+    )
+    result = solve(pushed, grid(64), 1e-8)
+    errors, end = stated_errors(result).steps[-1], result.steps[-1]
+    modulus = tangential_modulus((YOUNG, 0.0), (YOUNG, 0.0))
+    exact = PartialSlip(LOAD, hertz(poisson_ratio=0.0).contact_radius, MU, modulus, force)
+    assert exact.stick_radius < result.grid.spacing[0]
+    assert errors["stick_radius"].status is ErrorStatus.NOT_CONVERGED
+    assert end.tangential_shift is not None
+    assert abs(end.tangential_shift[0] - exact.shift) <= size(errors["tangential_shift"])
+
+
+@pytest.mark.parametrize("cells", [22, 24, 48])
+def test_the_error_of_stick_after_a_reversal_covers_what_is_wrong(cells: int) -> None:
+    """Seven and more cells over the radius; slip comes in to a (1 - (T₁ - T₂)/2µW)^(1/3)."""
+    matter, limit = steel(poisson_ratio=0.0), MU * LOAD
+    ways = ({"tangential_force": (part * limit, 0.0)} for part in (0.8, 0.3))
+    back = scene(PRESS, *ways, indenter=paraboloid(matter), body=matter)
+    result = solve(back, grid(cells), 1e-8)
+    errors, end = stated_errors(result).steps[-1], result.steps[-1]
+    exact = hertz(poisson_ratio=0.0).contact_radius * np.cbrt(1 - 0.5 * (0.8 - 0.3))
+    assert end.stick_radius is not None
+    assert abs(end.stick_radius - exact) <= size(errors["stick_radius"])
+
+
+@pytest.mark.parametrize("per_radius", [8, 10, 20])
+def test_the_error_of_the_radius_below_a_cone_covers_what_is_wrong(per_radius: int) -> None:
+    slope, matter = 0.02, steel()
+    contact = ConeContact(slope, contact_modulus((YOUNG, NU), (YOUNG, NU)), A)
+    cone = Cone(slope_angle=float(np.arctan(slope)), material=matter)
+    pressed = scene({"normal_force": contact.load}, indenter=cone, friction=None)
+    result = solve(pressed, grid(3 * per_radius), 1e-8)
+    (errors,), (end,) = stated_errors(result).steps, result.steps
+    assert abs(end.contact_radius - A) <= size(errors["contact_radius"]) < 0.3 * A
 
 
 @pytest.mark.parametrize("solver", ["semi-analytical", "fem-complementarity"])
