@@ -110,6 +110,6 @@ def _coarse(scene: Scene, radius: float) -> FiniteElementDiscretisation:
     to_radius = Scales(radius, outermost_modulus(scene)).dimensionless
     bodies = [to_radius(body) for body in (scene.body, scene.indenter)]
     deepest = max(sum(layer.thickness for layer in body.layers) for body in bodies)
-    enough = max(LARGEST_COARSE_BOX, 10.0 * deepest)
-    box = enough if max(map(sufficient_box, bodies)) > enough else None
+    short = 10.0 * deepest <= LARGEST_COARSE_BOX < max(map(sufficient_box, bodies))
+    box = LARGEST_COARSE_BOX if short else None
     return FiniteElementDiscretisation(elements_per_radius=COARSE, box=box)

@@ -9,6 +9,11 @@ from contact_scene.solver_errors import ResourceRefused
 FILL, FILL_WITH_PRESSURE = 5.0, 11.0
 BYTES_PER_ENTRY = 24  # values and indices, and a copy while the contact zone is cut out
 COPIES_OF_ELEMENTS = 8
+# Of a whole run: libraries, what figures take, and the part of the bound that factors have been
+# measured to take of sections from 2000 to 13 000 elements.
+LIBRARIES = 85 << 20
+DRAWING = 44 << 20
+PART_IN_USE = 0.62
 
 
 def required_bytes(elements: int, unknowns: int, components: int, with_pressure: bool) -> float:
@@ -17,6 +22,14 @@ def required_bytes(elements: int, unknowns: int, components: int, with_pressure:
     entries = fill * components * unknowns * np.log2(max(unknowns, 2))
     matrices = 8.0 * elements * (9 * components) ** 2
     return float(BYTES_PER_ENTRY * entries + COPIES_OF_ELEMENTS * matrices)
+
+
+def run_bytes(factoring: float) -> float:
+    """Largest memory of a process that runs, libraries and figures included [byte].
+
+    factoring  `required_bytes` of its largest section, a bound that nothing is refused below
+    """
+    return LIBRARIES + max(DRAWING, PART_IN_USE * factoring)
 
 
 def require_memory(needed: float) -> None:

@@ -20,6 +20,7 @@ from contact_scenes import (
 from fem_scenes import elements, end, solved
 
 from contact_scene import Body, IsotropicMaterial, Layer, LoadStep, Paraboloid, Scene
+from contact_scene.solver_errors import UnsupportedScene
 from fem_reference import ContactAtZoneEdge, Method, solve
 from fem_reference.expected_radius import expected_radius
 from verification.closed_forms.cone import ConeContact
@@ -178,6 +179,12 @@ def test_radius_on_a_very_stiff_film_needs_no_section_of_many_decades(
     short = expected_radius(asked)
     monkeypatch.setattr("fem_reference.expected_radius.LARGEST_COARSE_BOX", 1e20)
     assert short == pytest.approx(expected_radius(asked), rel=1e-6)
+
+
+def test_layers_that_are_too_thick_for_a_mesh_are_refused_by_name() -> None:
+    for ratio in (1e-6, 1.0, 1e6):
+        with pytest.raises(UnsupportedScene, match="leave the substrate out"):
+            expected_radius(on_film(ratio, 1e12))
 
 
 def test_same_bits_again() -> None:

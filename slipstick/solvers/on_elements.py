@@ -13,6 +13,7 @@ from contact_scene.standing import Keeper
 from contact_scene.stated_error import StatedErrors
 from fem_reference import Method, Path, Plan, Result
 from fem_reference.expected_radius import meshed_radius
+from fem_reference.memory import run_bytes
 from fem_reference.mesh.section_mesh import SectionMesh
 from fem_reference.model import ContactModel
 from slipstick.solvers.solver import Pairs, Progress, increments_text
@@ -89,7 +90,7 @@ class OnElements:
         text = "one per body and angular harmonic" if motions > 1 else "one per body"
         factored = f"{motions * len(distinct)}, {text}; no work where the cache has them"
         yield "factorisations", factored
-        needed = largest_bytes(distinct, motions > 1)
+        needed = run_bytes(largest_bytes(distinct, motions > 1))
         yield "memory", f"about {needed / 2**20:.0f} MiB"
 
     def reasons(self, plan: Plan) -> Sequence[tuple[str, str, str]]:

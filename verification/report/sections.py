@@ -22,6 +22,7 @@ TITLES = {
     "stability": "The stability map",
     "seeded-defects": "Seeded defects",
     "scoreboard": "Other codes on the same problems",
+    "promises": "Under attack: what was tried, how often, the outcome",
 }
 LEVELS = ("quick", "standard", "full")
 PLACES = (Path("reports/studies"), Path("out"))  # where records are looked for

@@ -1,0 +1,1 @@
+"""What the program promises under attack: each promise tried, counted and judged."""

@@ -1,0 +1,71 @@
+"""The command line in processes of its own: how it ends, what it takes and what it leaves."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+from dataclasses import dataclass
+from pathlib import Path
+
+# Told by the process itself: what the system says of a child begins with the memory of its parent.
+MAIN = """
+import atexit, re, sys, time
+def tell():
+    peak = re.search(r"VmHWM:\\s*([0-9]+) kB", open("/proc/self/status").read())[1]
+    print("took", time.process_time(), peak, file=sys.stderr)
+atexit.register(tell)
+from slipstick.cli import main
+main()
+"""
+# The same with a checkpoint after every increment.
+EAGER = f"""
+import contact_results.directory.checkpoint as checkpoint
+checkpoint.SECONDS_BETWEEN, checkpoint.SHARE = 0.0, float("inf")
+{MAIN}"""
+ENOUGH = 600.0  # seconds for any command
+MIB = 1024.0  # kB
+
+
+@dataclass(frozen=True)
+class Ended:
+    """How a command ended; CPU seconds and the largest memory [MiB], NaN if it was killed."""
+
+    code: int
+    out: str
+    said: str
+    seconds: float
+    memory: float
+
+
+def begun(
+    directory: Path, *words: str, program: str = MAIN, threads: int = 1
+) -> subprocess.Popen[str]:
+    """A command in a directory, with no cache but what is in it."""
+    own = {"SLIPSTICK_CACHE_DIR": str(directory / "cache"), "COLUMNS": "200"}
+    own |= {name: str(threads) for name in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS")}
+    path = os.pathsep.join(part for part in sys.path if part)
+    return subprocess.Popen(
+        [sys.executable, "-c", program, *words], cwd=directory, text=True,
+        env=os.environ | own | {"PYTHONPATH": path},
+        stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+    )  # fmt: skip
+
+
+def ended(process: subprocess.Popen[str]) -> Ended:
+    """Its end, waited for."""
+    out, err = process.communicate(timeout=ENOUGH)
+    said, mark, took = err.rpartition("took ")
+    seconds, memory = map(float, took.split()) if mark else (float("nan"), float("nan"))
+    return Ended(process.returncode, out, said if mark else err, seconds, memory / MIB)
+
+
+def run(directory: Path, *words: str, program: str = MAIN, threads: int = 1) -> Ended:
+    """A command from its begin to its end."""
+    return ended(begun(directory, *words, program=program, threads=threads))
+
+
+def results(directory: Path) -> dict[str, bytes]:
+    """All files of a run but the one that says how long it took."""
+    paths = directory.iterdir() if directory.is_dir() else ()
+    return {path.name: path.read_bytes() for path in paths if path.name != "timing.json"}
