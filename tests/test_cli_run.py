@@ -37,7 +37,7 @@ FILES = {
     "summary.json", "timing.json", "result.h5", "profiles.csv", "increments.csv",
     "columns.csv",
     "pressure.png", "shear.png", "profiles.png", "stick_slip.png", "hysteresis.png",
-    "dissipation.png",
+    "dissipation.png", "slip.png", "slip_map.png",
 }  # fmt: skip
 
 
@@ -121,6 +121,8 @@ def test_rerun_without_friction_removes_what_it_does_not_call_for(whole: Path, s
         "stick_slip.png",
         "hysteresis.png",
         "dissipation.png",
+        "slip.png",
+        "slip_map.png",
     }
 
 

@@ -36,7 +36,7 @@ class OnRings:
 
 
 class Step:
-    step, peak_pressure = 1, 1.0
+    step, peak_pressure, in_stick = 1, 1.0, None
 
     def __init__(self, radii: Any, pressure: Any, parts: tuple[str, ...], component: str) -> None:
         self.radii, self.pressure = radii, pressure

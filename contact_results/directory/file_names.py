@@ -14,6 +14,7 @@ SHEAR_FIGURE = "shear.png"
 PROFILE_FIGURE = "profiles.png"
 STICK_SLIP_FIGURE = "stick_slip.png"
 SLIP_FIGURE = "slip.png"
+SLIP_MAP_FIGURE = "slip_map.png"
 LOADING_FIGURE = "loading_curve.png"
 HYSTERESIS_FIGURE = "hysteresis.png"
 DISSIPATION_FIGURE = "dissipation.png"
@@ -32,6 +33,7 @@ RUN_FILES = (
     PROFILE_FIGURE,
     STICK_SLIP_FIGURE,
     SLIP_FIGURE,
+    SLIP_MAP_FIGURE,
     LOADING_FIGURE,
     HYSTERESIS_FIGURE,
     DISSIPATION_FIGURE,

@@ -18,6 +18,7 @@ from contact_scene.stated_error import StatedError
 if TYPE_CHECKING:
     from contact_results.surface import Result
 
+LINE = 0.14  # inches
 NARROW = 5.0  # inches; a line of two numbers is as wide
 # The scalars that are read off each figure.
 SHOWN: Mapping[str, tuple[str, ...]] = {
@@ -25,6 +26,7 @@ SHOWN: Mapping[str, tuple[str, ...]] = {
     file_names.PRESSURE_FIGURE: ("peak_pressure", "contact_radius"),
     file_names.SHEAR_FIGURE: ("stick_radius",),
     file_names.STICK_SLIP_FIGURE: ("contact_radius", "stick_radius"),
+    file_names.SLIP_MAP_FIGURE: ("stick_radius",),
     file_names.SLIP_FIGURE: ("stick_radius",),
     file_names.DISSIPATION_FIGURE: ("dissipated_energy",),
     file_names.FRETTING_FIGURE: ("dissipated_energy",),
@@ -47,6 +49,8 @@ def add_caption(
         if getattr(end, scalar) is not None
     ]
     if texts:
+        lines = len(texts) if figure.get_figwidth() < NARROW else 1
+        figure.set_figheight(figure.get_figheight() + LINE * (lines + 1))
         unstated = "" if errors is not None else "; errors not stated"
         between = ",\n" if figure.get_figwidth() < NARROW else ", "
         text = f"at the end: {between.join(texts)}{unstated}"

@@ -15,13 +15,16 @@ from contact_results.figures.dissipation_map import dissipating, dissipation_map
 from contact_results.figures.fretting_map import fretting_map
 from contact_results.figures.hysteresis_plot import hysteresis_plot, moved
 from contact_results.figures.loading_plot import loading_plot
+from contact_results.figures.map_panels import Above
 from contact_results.figures.pressure_map import pressure_map
 from contact_results.figures.profile_plot import profile_plot, slip_plot
+from contact_results.figures.rings_above import RingsAbove
 from contact_results.figures.shear_map import shear_map
 from contact_results.figures.shown_steps import vectors
+from contact_results.figures.slip_map import slip_map
 from contact_results.figures.stick_slip_map import stick_slip_map
 from contact_results.figures.style import figure_style, save
-from contact_results.surface import Cells, surface_of
+from contact_results.surface import Cells, Rings, surface_of
 from contact_scene.stated_error import StatedError
 
 if TYPE_CHECKING:
@@ -53,10 +56,15 @@ def _figures_called_for(
 ) -> Iterator[tuple[str, Figure]]:
     surface = surface_of(result)
     yield file_names.PROFILE_FIGURE, profile_plot(result, surface)
+    if (slips := slip_plot(result, surface)) is not None:
+        yield file_names.SLIP_FIGURE, slips
+    above = seen_from_above(result)
+    if result.steps[-1].in_stick is not None:
+        yield file_names.STICK_SLIP_FIGURE, stick_slip_map(result, above)
+    if vectors(above, result.steps, "slip"):
+        yield file_names.SLIP_MAP_FIGURE, slip_map(result, above)
     if isinstance(surface, Cells):
         yield from _maps(result, surface, cycles)
-    elif (slips := slip_plot(result, surface)) is not None:
-        yield file_names.SLIP_FIGURE, slips
     if len(moved(result.increments)) >= FEWEST_POINTS:
         yield file_names.HYSTERESIS_FIGURE, hysteresis_plot(result)
     if _different_approaches(result) >= FEWEST_POINTS:
@@ -69,11 +77,19 @@ def _maps(
     yield file_names.PRESSURE_FIGURE, pressure_map(result, cells)
     if vectors(cells, result.steps, "shear"):
         yield file_names.SHEAR_FIGURE, shear_map(result, cells)
-        yield file_names.STICK_SLIP_FIGURE, stick_slip_map(result, cells)
     if dissipating(result.steps, cells):
         yield file_names.DISSIPATION_FIGURE, dissipation_map(result, cells)
     if cycles:
         yield file_names.FRETTING_FIGURE, fretting_map(result, cells, cycles[-1])
+
+
+def seen_from_above(result: Result) -> Above:
+    """The cells of a result, or those through which a map looks at its rings."""
+    surface = surface_of(result)
+    if isinstance(surface, Cells):
+        return surface
+    assert isinstance(surface, Rings)
+    return RingsAbove.around_contact(result, surface)
 
 
 def _different_approaches(result: Result) -> int:

@@ -4,22 +4,27 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 from matplotlib.figure import FigureBase
 from numpy.typing import NDArray
 
+from contact_results.figures.rings_above import RingsAbove
+from contact_results.surface import Cells
 from contact_scene.engineering_units import EngineeringUnit, engineering_unit
 
 if TYPE_CHECKING:
-    from contact_results.surface import Cells, Result
+    from contact_results.surface import Result
 
+Above: TypeAlias = Cells | RingsAbove
 Field = NDArray[np.float64]
 
 PANEL = 2.4  # longer side in inches
 NARROWEST = 1.0
 COLUMNS = {1: 1, 2: 2, 4: 2}  # by number of panels; three of any other number
+ARROWS = 13  # at most, along the longer side
+SHORTEST = 0.03  # of the longest arrow; what is shorter is left out
 MARGIN = 1.15  # of the contact's extent, so that its edge is seen against the outside
 
 
@@ -27,14 +32,15 @@ MARGIN = 1.15  # of the contact's extent, so that its edge is seen against the o
 class MapFrame:
     """What all panels of a figure share: the cells, the part that is shown, the unit of length."""
 
-    cells: Cells
+    cells: Above
     shown: tuple[float, float]
     unit: EngineeringUnit
 
     @classmethod
-    def around_contact(cls, result: Result, cells: Cells) -> MapFrame:
+    def around_contact(cls, result: Result, cells: Above) -> MapFrame:
         """The frame that shows every cell that any step has in contact."""
-        touched = np.any([step.in_contact for step in result.steps], axis=0)
+        touching: list[Any] = [cells.scalar(step, "in_contact") for step in result.steps]
+        touched = np.any(touching, axis=0)
         shown = (
             _half_extent(cells.x, touched.any(axis=1)),
             _half_extent(cells.y, touched.any(axis=0)),
@@ -101,3 +107,26 @@ def outline(ax: Any, frame: MapFrame, inside: NDArray[np.bool_], colour: str) ->
     if inside.any() and not inside.all():
         x, y = frame.cells.x / frame.unit.size, frame.cells.y / frame.unit.size
         ax.contour(x, y, inside.T.astype(float), levels=[0.5], colors=[colour], linewidths=0.8)
+
+
+def draw_arrows(
+    ax: Any, frame: MapFrame, vector: Field, inside: NDArray[np.bool_], colour: str = "white"
+) -> None:
+    """Arrows as long as a vector field (2, nx, ny) on some of the cells in a set, at their centres;
+    the longest reaches to the next."""
+    size = np.where(inside, np.hypot(*vector), 0.0)
+    longest = float(size.max())
+    if longest == 0.0:
+        return
+    x, y = (centres / frame.unit.size for centres in (frame.cells.x, frame.cells.y))
+    apart = 2 * max(frame.shown) / frame.unit.size / ARROWS
+    every_x, every_y = (max(1, round(apart / (c[1] - c[0]))) for c in (x, y))
+    chosen = np.zeros(inside.shape, dtype=bool)
+    chosen[len(x) // 2 % every_x :: every_x, len(y) // 2 % every_y :: every_y] = True
+    i, j = np.nonzero(chosen & (size > SHORTEST * longest))
+    u, v = vector[:, i, j] * (apart / longest)
+    edge = "black" if colour == "white" else "none"
+    ax.quiver(
+        x[i], y[j], u, v, angles="xy", scale_units="xy", scale=1.0, pivot="mid", color=colour,
+        edgecolor=edge, linewidth=0.3, width=0.012, headwidth=3.5,
+    )  # fmt: skip

@@ -60,6 +60,8 @@ def slip_plot(result: Result, surface: Surface) -> Figure | None:
     length = _line_axis(axes[-1], result, surface)
     for ax, slip in zip(axes, slips, strict=True):
         _draw_component(ax, surface.line.places / length.size, slip)
+        _draw_stick(ax, surface.line.places / length.size, surface, slip)
+    axes[0].set_title("bars: where it sticks", loc="left", fontsize=style.CAPTION_SIZE)
     return figure
 
 
@@ -73,7 +75,11 @@ def _components(
     name, symbol, unit = named
     shown = selected(vectors(surface, steps, name))
     lines = {step.step: surface.vector_along(vector) for step, vector in shown}
-    sizes = [np.max(np.abs(vector), axis=1) for vector in lines.values()]
+    if name == "slip":  # there is none where nothing touches
+        for step, _ in shown:
+            apart = surface.along(_pressure(step, surface)) <= 0
+            lines[step.step] = np.where(apart, np.nan, lines[step.step])
+    sizes = [np.nanmax(np.abs(vector), axis=1, initial=0.0) for vector in lines.values()]
     largest = np.max([(0.0, 0.0), *sizes], axis=0).tolist()
     return [
         Component(
@@ -95,6 +101,19 @@ def _draw_component(ax: Any, x: Field, shown: Component) -> None:
     ax.axhline(0.0, color="black", linewidth=0.5)
     ax.set_ylabel(f"{shown.name} ({shown.unit.name})")
     style.legend_beside(ax)
+
+
+def _draw_stick(ax: Any, x: Field, surface: Surface, shown: Component) -> None:
+    """A bar for every step above the axis of places, over those that stick at its end."""
+    groups = runs_of_equal(shown.steps, lambda step: shown.lines[step.step])
+    for number, group in enumerate(groups):
+        sticking = surface.scalar(group[-1], "in_stick")
+        if sticking is None:
+            continue
+        height = np.full(len(x), 0.02 + 0.03 * number)
+        height[surface.along(sticking.astype(float)) <= 0.5] = np.nan
+        colour = style.LINE_COLOURS[number]
+        ax.plot(x, height, color=colour, linewidth=3.0, transform=ax.get_xaxis_transform())
 
 
 def _draw_pressure(ax: Any, x: Field, result: Result, surface: Surface) -> None:

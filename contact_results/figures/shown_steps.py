@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from typing import TYPE_CHECKING, TypeVar
+from typing import TYPE_CHECKING, Protocol, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
-from contact_results.surface import Surface
 from contact_scene.engineering_units import engineering_unit, quantity
 from contact_scene.increment import SCALARS
 
@@ -43,8 +42,15 @@ def runs_of_equal(
     return groups
 
 
+class HasVectors(Protocol):
+    """A surface, or rings seen from above."""
+
+    def vector(self, increment: Increment, name: str) -> Field | None:
+        """Components along x and y of shear or slip; None where an increment has none."""
+
+
 def vectors(
-    surface: Surface, steps: Sequence[Increment], name: str
+    surface: HasVectors, steps: Sequence[Increment], name: str
 ) -> list[tuple[Increment, Field]]:
     """The steps that end with shear or slip somewhere, with its x and y components (2, …)."""
     found = ((step, surface.vector(step, name)) for step in steps)
@@ -87,5 +93,7 @@ def _typeset(number: str) -> str:
 
 
 def _looks_same(one: Field, other: Field) -> bool:
-    largest = float(np.max(np.abs(one)))
-    return bool(np.max(np.abs(one - other)) <= SAME * largest)
+    largest = float(np.nanmax(np.abs(one)))
+    if not np.array_equal(np.isnan(one), np.isnan(other)):
+        return False
+    return bool(np.nanmax(np.abs(one - other)) <= SAME * largest)

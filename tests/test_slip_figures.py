@@ -1,0 +1,119 @@
+"""Figures of slip show what was computed, seen alike from cells and from rings."""
+
+from typing import Any
+
+import numpy as np
+import pytest
+from matplotlib.figure import Figure
+from matplotlib.quiver import Quiver
+from synthetic_result import synthetic_result
+
+from contact_results.figures.figure_files import seen_from_above
+from contact_results.figures.profile_plot import slip_plot
+from contact_results.figures.rings_above import RingsAbove
+from contact_results.figures.slip_map import slip_map
+from contact_results.figures.stick_slip_map import latest_slip, stick_slip_map
+from contact_results.figures.style import figure_style
+from contact_results.surface import Rings, surface_of
+
+RADII = np.linspace(0.0, 1.0, 201)
+CELLS = np.linspace(-0.9, 0.9, 31)
+
+
+class OnRings:
+    """One increment, whose slip has these components."""
+
+    def __init__(self, **components: Any) -> None:
+        for part in ("radial", "circumferential", "along_load"):
+            setattr(self, f"slip_{part}", components.get(part))
+
+
+def seen(direction: tuple[float, float], angles: Any = None, **components: Any) -> Any:
+    step: Any = OnRings(**components)
+    rings = Rings(RADII, angles, direction, polar="along_load" not in components)
+    return RingsAbove(rings, CELLS, CELLS).vector(step, "slip")
+
+
+def arrows(figure: Figure) -> list[tuple[Any, Quiver]]:
+    return [(ax, c) for ax in figure.axes for c in ax.collections if isinstance(c, Quiver)]
+
+
+def test_arrows_of_the_latest_slip_oppose_the_shear_where_it_slips() -> None:
+    result: Any = synthetic_result()
+    cells = seen_from_above(result)
+    with figure_style():
+        figure = stick_slip_map(result, cells)
+    found = arrows(figure)
+    sheared = [step for step in result.steps if step.shear is not None]
+    drawn = {ax.get_title().partition(":")[0]: arrow for ax, arrow in found}
+    assert drawn
+    for step in sheared:
+        arrow = drawn.get(f"step {step.step}")
+        if arrow is None:
+            continue
+        i, j = (
+            np.argmin(np.abs(np.subtract.outer(at, 1e3 * centres)), axis=1)
+            for at, centres in ((arrow.X, cells.x), (arrow.Y, cells.y))
+        )
+        q_x, q_y = step.shear[:, i, j]
+        assert np.all(arrow.U * q_x + arrow.V * q_y < 0)
+        assert np.all(step.in_contact[i, j] & ~step.in_stick[i, j])
+
+
+def test_arrows_of_slip_are_in_proportion_to_it() -> None:
+    result: Any = synthetic_result()
+    cells = seen_from_above(result)
+    with figure_style():
+        ((_, arrow), *_) = arrows(slip_map(result, cells))
+    step = next(step for step in result.steps if step.slip is not None and np.any(step.slip))
+    i, j = (
+        np.argmin(np.abs(np.subtract.outer(at, 1e3 * centres)), axis=1)
+        for at, centres in ((arrow.X, cells.x), (arrow.Y, cells.y))
+    )
+    ratio = np.asarray(arrow.U) / step.slip[0, i, j]
+    np.testing.assert_allclose(ratio, ratio[0])
+    assert ratio[0] > 0
+
+
+def test_slip_of_the_last_increment_is_what_it_added() -> None:
+    result: Any = synthetic_result()
+    cells, end = seen_from_above(result), result.steps[-1]
+    before = result.increments[-2]
+    np.testing.assert_array_equal(latest_slip(result, cells, end), end.slip - before.slip)
+
+
+def test_bars_lie_where_it_sticks_and_no_slip_is_drawn_beyond_the_contact() -> None:
+    result: Any = synthetic_result()
+    surface = surface_of(result)
+    with figure_style():
+        figure = slip_plot(result, surface)
+    assert figure is not None
+    ax, step = figure.axes[0], next(s for s in result.steps if s.slip is not None and s.slip.any())
+    slips, bars = (
+        [line for line in ax.lines if line.get_linewidth() == width] for width in (1.5, 3.0)
+    )
+    touching = surface.along(step.in_contact.astype(float)) > 0
+    np.testing.assert_array_equal(np.isfinite(slips[0].get_ydata()), touching)
+    sticking = surface.along(step.in_stick.astype(float)) > 0.5
+    np.testing.assert_array_equal(np.isfinite(bars[0].get_ydata()), sticking)
+
+
+@pytest.mark.parametrize("direction", [(1.0, 0.0), (0.6, 0.8)])
+def test_rings_seen_from_above_are_the_field_that_they_sample(
+    direction: tuple[float, float],
+) -> None:
+    """Slip outward, around, along the load, and one that depends on the angle."""
+    x, y = np.meshgrid(CELLS, CELLS, indexing="ij")
+    (c, s), near = direction, np.hypot(x, y) <= 1.0
+
+    def same(found: Any, x_expected: Any, y_expected: Any) -> None:
+        for one, other in zip(found, (x_expected, y_expected), strict=True):
+            np.testing.assert_allclose(one[near], (other + 0 * x)[near], atol=2e-4)
+
+    same(seen(direction, radial=RADII), x, y)
+    same(seen(direction, circumferential=RADII), -y, x)
+    same(seen(direction, along_load=np.ones_like(RADII)), c, s)
+    angles = np.linspace(0.0, np.pi, 181)
+    outward, around = RADII[:, None] * np.cos(angles), -RADII[:, None] * np.sin(angles)
+    along = np.hypot(x, y)  # r cos θ outward and −r sin θ around are r along the load
+    same(seen(direction, angles, radial=outward, circumferential=around), c * along, s * along)
