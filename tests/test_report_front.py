@@ -31,7 +31,7 @@ from verification.report.files import (
     set_aside_report,
     write_report,
 )
-from verification.report.front import COVERAGE, LOOP, front_charts
+from verification.report.front import LOOP, front_charts
 from verification.report.page import render_page, render_sheets
 from verification.report.prices import cost_sentence
 from verification.report.stability_map import ENDS, VIEW, legend, stability_map
@@ -167,10 +167,9 @@ def test_the_map_tells_how_much_dearer_than_usual_a_place_is_and_how_it_ended() 
 
 def test_the_front_shows_the_charts_that_there_are() -> None:
     loop = case("loop", {}, run_record(64, None)).model_copy(update={"charts": (chart(LOOP),)})
-    coverage = study("error-coverage")
-    shown = coverage.conclusion.model_copy(update={"charts": (chart(COVERAGE),)})
-    report = report_of((loop,), (coverage.model_copy(update={"conclusion": shown}),))
-    assert [one.name for one in front_charts(report)] == [LOOP, COVERAGE]
+    cost = study("work-precision")
+    report = report_of((loop,), (cost,))
+    assert [one.name for one in front_charts(report)] == [LOOP, cost.conclusion.charts[0].name]
     assert front_charts(report_of(())) == ()
 
 

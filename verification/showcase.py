@@ -9,12 +9,13 @@ from __future__ import annotations
 import io
 
 import matplotlib
-from matplotlib.collections import QuadMesh, TriMesh
+from matplotlib.collections import Collection
 from matplotlib.figure import Figure
 
 from contact_results.figures import style
 from contact_results.figures.pressure_map import pressure_map
 from contact_results.figures.shear_map import shear_map
+from contact_results.figures.stick_slip_map import stick_slip_map
 from contact_results.figures.stress_plot import section_plot
 from contact_results.stress.loaded_bodies import state_of_result
 from contact_results.stress.on_cells import stress_on_cells
@@ -30,12 +31,12 @@ MODULUS_RATIO, THICKNESS = 2.0, 0.5  # of Hertz's radius
 PRESSED_IN, PUSHED_IN = 8, 6  # increments
 CELLS, REACH = 64, 1.15  # of Hertz's radius
 TOLERANCE = 1e-6
-DOTS_PER_INCH = 56  # of the fields; lines and text are drawn as such
+DOTS_PER_INCH = 80  # of the fields; axes and text are drawn as such
 NO_METADATA = {"Date": None, "Creator": None, "Format": None, "Type": None}
 
 
 def showcase() -> tuple[Picture, ...]:
-    """Pressure, shear and the stress below; equal libraries give equal bytes."""
+    """Pressure, shear, stick and slip, and the stress below; equal libraries give equal bytes."""
     result = solve(_scene(), square_grid(CELLS, REACH * HERTZ.contact_radius), TOLERANCE)
     cells = surface_of(result)
     assert isinstance(cells, Cells)
@@ -53,7 +54,12 @@ def showcase() -> tuple[Picture, ...]:
             _picture(
                 "shear", "Shear and the border of stick", shear_map(result, cells),
                 "The same contact: shear along and across the push; within the black line the "
-                "surfaces stick. Pressing alone already makes a ring slip.",
+                "surfaces stick.",
+            ),
+            _picture(
+                "zones", "Stick and slip", stick_slip_map(result, cells),
+                "The same contact: pressed, its middle sticks and the ring around slips; pushed, "
+                "less sticks, and off the centre.",
             ),
             _picture(
                 "section", "Stress below it", section,
@@ -80,7 +86,7 @@ def _scene() -> Scene:
 def _picture(name: str, title: str, figure: Figure, caption: str) -> Picture:
     """With its fields as images: thousands of cells are no lines."""
     matplotlib.rcParams["svg.hashsalt"] = name
-    for fields in figure.findobj(lambda artist: isinstance(artist, QuadMesh | TriMesh)):
+    for fields in figure.findobj(Collection):
         fields.set_rasterized(True)
     buffer = io.StringIO()
     figure.savefig(buffer, format="svg", dpi=DOTS_PER_INCH, metadata=NO_METADATA)
