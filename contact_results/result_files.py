@@ -33,7 +33,7 @@ def write_result(
     errors: StatedErrors | None = None,
     accuracy: AccuracyReached | None = None,
 ) -> None:
-    """Write summary, fields, tables and figures into a directory that has none of them.
+    """Write summary, fields, tables, figures and their page into a directory that has none of them.
 
     surface_stress  also compute the stress at the surface that Ruiz's second parameter takes
     """
@@ -47,5 +47,8 @@ def write_result(
     write_fields(result, cycles, directory)
     if with_figures:
         from contact_results.figures.figure_files import write_figures
+        from contact_results.figures.run_page import write_page
 
-        write_figures(result, cycles, directory, errors.steps[-1] if errors else None)
+        of_last = errors.steps[-1] if errors else None
+        write_figures(result, cycles, directory, of_last)
+        write_page(result, directory, of_last)

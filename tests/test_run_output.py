@@ -164,7 +164,9 @@ def test_effects_that_are_off_have_no_dataset_and_no_figure(frictionless: Path) 
         assert "elastic_energy" in group
         assert "last_cycle" not in file
     assert not (frictionless / "cycles.csv").exists()
-    assert {path.name for path in frictionless.glob("*.png")} == {"pressure.png", "profiles.png"}
+    assert {path.name for path in frictionless.glob("*.png")} == {
+        *("overview.png", "pressure.png", "profiles.png")
+    }
 
 
 def test_a_force_beyond_any_friction_figure_is_drawn_for_many_steps(tmp_path: Path) -> None:

@@ -9,6 +9,8 @@ CYCLES = "cycles.csv"
 COLUMNS = "columns.csv"
 STRESS = "stress.json"  # of `slipstick stress`, which has a directory of its own
 
+PAGE = "index.html"
+OVERVIEW_FIGURE = "overview.png"
 PRESSURE_FIGURE = "pressure.png"
 SHEAR_FIGURE = "shear.png"
 PROFILE_FIGURE = "profiles.png"
@@ -28,6 +30,8 @@ RUN_FILES = (
     INCREMENTS,
     CYCLES,
     COLUMNS,
+    PAGE,
+    OVERVIEW_FIGURE,
     PRESSURE_FIGURE,
     SHEAR_FIGURE,
     PROFILE_FIGURE,

@@ -31,6 +31,7 @@ SHOWN: Mapping[str, tuple[str, ...]] = {
     file_names.DISSIPATION_FIGURE: ("dissipated_energy",),
     file_names.FRETTING_FIGURE: ("dissipated_energy",),
     file_names.HYSTERESIS_FIGURE: ("tangential_shift", "dissipated_energy"),
+    file_names.OVERVIEW_FIGURE: (),
     file_names.LOADING_FIGURE: ("approach", "contact_radius"),
 }
 
@@ -58,7 +59,7 @@ def add_caption(
 
 
 def _text(name: str, value: Any, error: StatedError | None) -> str:
-    """Of a vector the larger component."""
+    """A number with its name, error and unit; of a vector the larger component."""
     values = np.atleast_1d(value)
     k = int(np.argmax(np.abs(values)))
     unit = engineering_unit(abs(float(values[k])), SCALARS[name].unit)

@@ -16,6 +16,8 @@ from contact_results.figures.fretting_map import fretting_map
 from contact_results.figures.hysteresis_plot import hysteresis_plot, moved
 from contact_results.figures.loading_plot import loading_plot
 from contact_results.figures.map_panels import Above
+from contact_results.figures.overview import DOTS_PER_INCH as OF_OVERVIEW
+from contact_results.figures.overview import overview
 from contact_results.figures.pressure_map import pressure_map
 from contact_results.figures.profile_plot import profile_plot, slip_plot
 from contact_results.figures.rings_above import RingsAbove
@@ -23,7 +25,7 @@ from contact_results.figures.shear_map import shear_map
 from contact_results.figures.shown_steps import vectors
 from contact_results.figures.slip_map import slip_map
 from contact_results.figures.stick_slip_map import stick_slip_map
-from contact_results.figures.style import figure_style, save
+from contact_results.figures.style import DOTS_PER_INCH, figure_style, save
 from contact_results.surface import Cells, Rings, surface_of
 from contact_scene.stated_error import StatedError
 
@@ -46,19 +48,23 @@ def write_figures(
     errors  of the last step, for the captions
     """
     with figure_style():
-        for name, figure in _figures_called_for(result, cycles):
+        for name, figure in _figures_called_for(result, cycles, errors):
             add_caption(figure, name, result, errors)
-            save(figure, directory / name)
+            dots = DOTS_PER_INCH if name != file_names.OVERVIEW_FIGURE else OF_OVERVIEW
+            save(figure, directory / name, dots)
 
 
 def _figures_called_for(
-    result: Result, cycles: Sequence[FrettingCycle]
+    result: Result,
+    cycles: Sequence[FrettingCycle],
+    errors: Mapping[str, StatedError] | None,
 ) -> Iterator[tuple[str, Figure]]:
     surface = surface_of(result)
+    above = seen_from_above(result)
+    yield file_names.OVERVIEW_FIGURE, overview(result, above, errors)
     yield file_names.PROFILE_FIGURE, profile_plot(result, surface)
     if (slips := slip_plot(result, surface)) is not None:
         yield file_names.SLIP_FIGURE, slips
-    above = seen_from_above(result)
     if result.steps[-1].in_stick is not None:
         yield file_names.STICK_SLIP_FIGURE, stick_slip_map(result, above)
     if vectors(above, result.steps, "slip"):

@@ -27,6 +27,13 @@ def moved(increments: Sequence[Increment]) -> list[Increment]:
 
 
 def hysteresis_plot(result: Result) -> Figure:
+    """The loop by itself."""
+    figure = style.new_figure(5.2, 4.0)
+    draw_loop(figure.subplots(), result)
+    return figure
+
+
+def draw_loop(ax: Any, result: Result) -> None:
     """Force and shift of every increment along the direction of the largest force."""
     path = [i for i in result.increments if i.tangential_shift is not None]
     force = np.array([i.tangential_force for i in path])
@@ -35,8 +42,6 @@ def hysteresis_plot(result: Result) -> Figure:
     x, along = on_axis("tangential_shift", shift @ direction, _along(direction))
     y, upward = on_axis("tangential_force", force @ direction, _along(direction))
 
-    figure = style.new_figure(5.2, 4.0)
-    ax = figure.subplots()
     ax.axhline(0.0, color=style.GREY, linewidth=0.5)
     ax.axvline(0.0, color=style.GREY, linewidth=0.5)
     ax.plot(x, y, color=style.LINE_COLOURS[0], marker=".", markersize=3.5, linewidth=1.2)
@@ -52,7 +57,6 @@ def hysteresis_plot(result: Result) -> Figure:
     if energy is not None:
         ax.plot([], [], " ", label=f"dissipated in all: {quantity(energy, 'J')}")
     ax.legend(loc="upper left")
-    return figure
 
 
 def _number(ax: Any, x: Values, y: Values, steps: Sequence[int]) -> None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from matplotlib.figure import Figure
@@ -15,16 +15,22 @@ if TYPE_CHECKING:
 
 
 def loading_plot(result: Result) -> Figure:
+    """The curve by itself."""
+    figure = style.new_figure(5.0, 3.6)
+    draw_loading(figure.subplots(), result)
+    return figure
+
+
+def draw_loading(ax: Any, result: Result) -> None:
     """Force and approach of every increment, from first touch."""
     path = [(0.0, 0.0), *((i.approach, i.normal_force) for i in result.increments)]
     approach, force = np.array(path).T
-    figure = style.new_figure(5.0, 3.6)
-    ax = figure.subplots()
     x, along = on_axis("approach", approach)
     y, upward = on_axis("normal_force", force, "W")
-    ax.plot(x, y, color=style.LINE_COLOURS[0], marker="o", markersize=3.5)
+    # A line between touch and one end would be no path that the contact took.
+    line = "-" if len(path) > 3 else ""
+    ax.plot(x, y, color=style.LINE_COLOURS[0], linestyle=line, marker="o", markersize=3.5)
     ax.set_xlim(left=0.0)
     ax.set_ylim(bottom=0.0)
     ax.set_xlabel(along)
     ax.set_ylabel(upward)
-    return figure

@@ -50,6 +50,25 @@ def profile_plot(result: Result, surface: Surface) -> Figure:
     return figure
 
 
+def draw_end(ax: Any, result: Result, surface: Surface) -> None:
+    """Pressure at the end of the history, with shear over the coefficient of friction where that is
+    one number, so that they meet where it slips."""
+    length, end = _line_axis(ax, result, surface), result.steps[-1]
+    x, pressure = surface.line.places / length.size, surface.along(_pressure(end, surface))
+    unit = engineering_unit(end.peak_pressure, "Pa")
+    ax.plot(x, pressure / unit.size, label="pressure p", **style.line(0))
+    friction = result.scene.friction
+    coefficient = friction.uniform if friction is not None else None
+    if coefficient:
+        shears = _components(surface, [end], ("shear", "q", "Pa"))
+        for number, shear in enumerate(shears, 1):
+            scaled = shear.lines[end.step] / (coefficient * unit.size)
+            ax.plot(x, scaled, label=f"{shear.name.removeprefix('shear ')}/µ", **style.line(number))
+    ax.axhline(0.0, color="black", linewidth=0.5)
+    ax.set_ylabel(f"traction ({unit.name})")
+    ax.legend(loc="best", fontsize="small")
+
+
 def slip_plot(result: Result, surface: Surface) -> Figure | None:
     """Slip since the start of the history at the end of the loading steps; None without any."""
     slips = _components(surface, result.steps, ("slip", "s", "m"))

@@ -1,0 +1,130 @@
+"""Six panels that answer most questions about a run, at the end of its history."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+from textwrap import fill
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from matplotlib.figure import Figure
+
+from contact_results.figures import style
+from contact_results.figures.hysteresis_plot import draw_loop, moved
+from contact_results.figures.loading_plot import draw_loading
+from contact_results.figures.map_panels import Above, MapFrame, draw_cells, map_axes
+from contact_results.figures.profile_plot import draw_end
+from contact_results.figures.run_page import decision_numbers
+from contact_results.figures.section_panel import draw_section
+from contact_results.figures.stick_slip_map import add_zone_legend, draw_zones
+from contact_results.figures.stress_plot import draw_surface
+from contact_results.stress.loaded_bodies import LoadedBodies, state_of_result
+from contact_results.surface import Cells, surface_of
+from contact_scene.engineering_units import engineering_unit, quantity
+from contact_scene.stated_error import StatedError
+
+if TYPE_CHECKING:
+    from contact_results.stress.points import StressField
+    from contact_results.surface import Result
+
+LEAST_MOVES = 3  # for a loop instead of the loading curve
+# Of the cells that carry the load to the stress, so that it takes less than a second.
+MOST_CELLS = 64
+DOTS_PER_INCH = 90
+UNKNOWN = "not computed here:\nslipstick stress RUN_DIR -o DIR"
+
+
+def overview(
+    result: Result, above: Above, errors: Mapping[str, StatedError] | None = None
+) -> Figure:
+    """Profile, zones, history, stress on the section and along the surface, and the numbers; call
+    within `figure_style`.
+
+    errors  of the last step; None where they were left out
+    """
+    figure = style.new_figure(11.0, 7.2)
+    title = result.scene.title or "Contact"
+    figure.suptitle(
+        fill(f"{title}: end of step {result.steps[-1].step}", 120), fontsize=9.0, parse_math=False
+    )
+    panels = np.asarray(figure.subfigures(2, 3), dtype=object)
+    profile, zones, history, section, surface, numbers = panels.flat
+    draw_end(profile.subplots(), result, surface_of(result))
+    _draw_seen(zones, result, above)
+    if len(moved(result.increments)) >= LEAST_MOVES:
+        draw_loop(history.subplots(), result)
+    else:
+        draw_loading(history.subplots(), result)
+    _draw_stress(section, surface, result)
+    _write_numbers(numbers.subplots(), result, errors)
+    return figure
+
+
+def section_stress(result: Result) -> StressField | None:
+    """Stress in the body under the final tractions, on at most `MOST_CELLS` cells along a side,
+    means of those of the run; None of rings, whose mesh takes longer than the run, of a rigid body
+    and of a number of cells that has no such divisor."""
+    if not (isinstance(surface_of(result), Cells) and result.scene.body.deforms):
+        return None
+    state = coarser(state_of_result(result, None), MOST_CELLS)
+    if max(state.tractions["pressure"].shape) > MOST_CELLS:
+        return None
+    from contact_results.stress.on_cells import stress_on_cells
+
+    return stress_on_cells(state, see_edge=False)
+
+
+def coarser(state: LoadedBodies, most: int) -> LoadedBodies:
+    """The same load on cells in twos by twos, until there are few enough along a side or a number
+    is odd; forces and moments stay."""
+    while max(shape := state.tractions["pressure"].shape) > most and not any(n % 2 for n in shape):
+        axes = {name: (c[::2] + c[1::2]) / 2 for name, c in state.axes.items()}
+        tractions = {
+            name: (f[..., ::2, ::2] + f[..., 1::2, ::2] + f[..., ::2, 1::2] + f[..., 1::2, 1::2])
+            / 4
+            for name, f in state.tractions.items()
+        }
+        state = replace(state, axes=axes, tractions=tractions)
+    return state
+
+
+def _draw_seen(figure: Any, result: Result, above: Above) -> None:
+    end, frame = result.steps[-1], MapFrame.around_contact(result, above)
+    (ax,) = map_axes(figure, frame, 1)
+    if above.scalar(end, "in_stick") is not None:
+        draw_zones(ax, frame, result, end)
+        add_zone_legend(figure, loc="outside lower center", ncols=3, fontsize="small")
+        ax.set_title("arrows: slip in the last increment")
+        return
+    pressure = above.scalar(end, "pressure")
+    assert pressure is not None
+    unit = engineering_unit(float(np.max(pressure)), "Pa")
+    seen = np.where(pressure > 0, pressure / unit.size, np.nan)
+    image = draw_cells(ax, frame, seen, cmap=style.MAGNITUDE_MAP, vmin=0.0)
+    ax.set_facecolor(style.OUTSIDE_COLOUR)
+    figure.colorbar(image, ax=ax, label=f"pressure p ({unit.name})", shrink=0.8)
+
+
+def _draw_stress(left: Any, right: Any, result: Result) -> None:
+    field = section_stress(result)
+    axes, along = left.subplots(), right.subplots()
+    if field is None:
+        for ax, name in ((axes, "stress on the section"), (along, "stress along the surface")):
+            ax.set_axis_off()
+            ax.text(0.5, 0.5, f"{name}\n{UNKNOWN}", ha="center", va="center")
+        return
+    body, mises = result.scene.body, field.section.von_mises
+    length = draw_section(left, axes, field, body, mises, "von Mises")
+    axes.set_xlabel(f"{field.label} ({length.name})")
+    axes.set_ylabel(f"depth z ({length.name})")
+    draw_surface(along, field)
+    cell = float(np.diff(field.section.x.ravel()[:2])[0])
+    along.set_title(f"by cells of {quantity(cell, 'm', 3)}, errors not stated")
+
+
+def _write_numbers(ax: Any, result: Result, errors: Mapping[str, StatedError] | None) -> None:
+    ax.set_axis_off()
+    lines = [f"{name}: {text}" for name, text in decision_numbers(result, errors)]
+    lines += [] if errors else ["errors not stated"]
+    ax.text(0.0, 1.0, "\n".join(lines), va="top", linespacing=1.6, parse_math=False)

@@ -1,0 +1,119 @@
+"""`index.html`: a run on one page that needs no other file, no network and no script."""
+
+from __future__ import annotations
+
+from base64 import b64encode
+from collections.abc import Iterator, Mapping
+from html import escape
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from contact_results.directory import file_names
+from contact_results.number_text import number_text, uncertainty
+from contact_results.remarks import remarks
+from contact_scene.engineering_units import engineering_unit
+from contact_scene.increment import SCALARS, components, numbers
+from contact_scene.reported import Kind
+from contact_scene.stated_error import StatedError
+
+if TYPE_CHECKING:
+    from contact_results.surface import Result
+
+STYLE = (
+    "body{font:16px/1.5 sans-serif;max-width:72rem;margin:0 auto;padding:1rem;color:#1a1a1a;"
+    "background:#fff}img{max-width:100%;height:auto}td,th{text-align:left;padding:.15rem 1rem "
+    ".15rem 0}td{font-variant-numeric:tabular-nums}pre{overflow-x:auto;background:#f2f2f2;"
+    "padding:.5rem}"
+)
+POLICY = (
+    "default-src 'none'; img-src data:; style-src 'unsafe-inline'; base-uri 'none'; "
+    "form-action 'none'"
+)
+# What makes a force, a moment or a rotation negligible, beside the normal load on the contact.
+ROUND_OFF = 1e-9
+
+
+def write_page(
+    result: Result, directory: Path, errors: Mapping[str, StatedError] | None = None
+) -> None:
+    """Write the page of a run whose figures are in the directory; equal results give equal bytes.
+
+    errors  of the last step; None where they were left out
+    """
+    title = escape(result.scene.title or "Contact")
+    drawn = [directory / name for name in file_names.RUN_FILES if name.endswith(".png")]
+    parts = [
+        '<!doctype html><html lang="en"><head><meta charset="utf-8">',
+        f'<meta http-equiv="Content-Security-Policy" content="{POLICY}">',
+        '<meta name="viewport" content="width=device-width,initial-scale=1">',
+        f"<title>{title}</title><style>{STYLE}</style></head><body><h1>{title}</h1>",
+        f"<h2>At the end of step {result.steps[-1].step}</h2><table>",
+        *(_row(name, text) for name, text in decision_numbers(result, errors)),
+        "</table>" + ("" if errors is not None else "<p>Errors were left out.</p>"),
+        *(f"<p><strong>Remark:</strong> {escape(remark)}.</p>" for remark in remarks(result)),
+        *(_figure(path) for path in drawn if path.is_file()),
+        "<h2>Settings</h2><table>",
+        *(_row(name, text) for name, text in _settings(result)),
+        "</table><details><summary>The scene</summary><pre>",
+        escape(result.scene.model_dump_json(indent=2, exclude_none=True)),
+        "</pre></details></body></html>\n",
+    ]
+    (directory / file_names.PAGE).write_text("\n".join(parts), encoding="utf-8")
+
+
+def decision_numbers(
+    result: Result, errors: Mapping[str, StatedError] | None
+) -> Iterator[tuple[str, str]]:
+    """Names and texts of the key numbers at the end; of one unit what is called by one noun, and
+    nothing where a number is round-off beside the load."""
+    end = result.steps[-1]
+    values = numbers(end)
+    sizes: dict[str, float] = {}
+    keys = [name for name, mark in SCALARS.items() if mark.key]
+    for name in keys:
+        for part in components(name):
+            noun = name.rpartition("_")[2]
+            sizes[noun] = max(sizes.get(noun, 0.0), abs(values[part] or 0.0))
+    yield "status", end.status.value
+    for name in keys:
+        unit = engineering_unit(sizes[name.rpartition("_")[2]], SCALARS[name].unit)
+        for part in components(name):
+            value, axis = values[part], part[-1] if SCALARS[name].kind is Kind.VECTOR else "x"
+            if value is None:
+                continue
+            if abs(value) <= ROUND_OFF * _natural(result, SCALARS[name].unit):
+                value = 0.0
+            text = number_text(value, uncertainty((errors or {}).get(name), axis), unit.size)
+            yield part.replace("_", " "), f"{text} {unit.name}"
+
+
+def _natural(result: Result, unit: str) -> float:
+    """The size that a quantity of a unit has in this contact; 0 where the load does not tell."""
+    force, radius, approach = (
+        max(abs(getattr(end, name)) for end in result.steps)
+        for name in ("normal_force", "contact_radius", "approach")
+    )
+    slope = approach / radius if radius else 0.0
+    return {"N": force, "N m": force * radius, "m": approach, "rad": slope}.get(unit, 0.0)
+
+
+def _settings(result: Result) -> Iterator[tuple[str, str]]:
+    yield "solver", result.solver
+    yield "tolerance of every residual", f"{result.tolerance:.3g}"
+    grid = getattr(result, "grid", None)
+    if grid is not None:
+        yield "cells", " × ".join(map(str, grid.cells))
+        yield "window", " × ".join(engineering_unit(w, "m").text(w) for w in grid.window)
+    yield "increments", str(len(result.increments))
+    for effect in result.plan.effects:
+        yield effect.name, f"{'on' if effect.on else 'off'}: {effect.why}"
+
+
+def _row(name: str, text: str) -> str:
+    return f'<tr><th scope="row">{escape(name)}</th><td>{escape(text)}</td></tr>'
+
+
+def _figure(path: Path) -> str:
+    name = path.stem.replace("_", " ")
+    data = b64encode(path.read_bytes()).decode("ascii")
+    return f'<h2>{name}</h2><img alt="{name}" src="data:image/png;base64,{data}">'

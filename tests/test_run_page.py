@@ -1,0 +1,77 @@
+"""The page and the overview of a run say what it found, whatever its title."""
+
+import re
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from synthetic_result import synthetic_result
+
+from contact_results.figures.overview import coarser, section_stress
+from contact_results.figures.run_page import decision_numbers, write_page
+from contact_results.result_files import write_result
+from contact_results.stress.loaded_bodies import state_of_result
+from contact_scene.stated_error import ErrorStatus, StatedError
+
+HOSTILE = "<script>alert(1)</script><img src=http://example.invalid/x.png> $x_{y & \"'"
+
+
+def ended(result: Any, **changes: Any) -> Any:
+    last = replace(result.increments[-1], **changes)
+    return replace(result, increments=(*result.increments[:-1], last))
+
+
+def test_a_page_holds_all_figures_and_asks_for_nothing(tmp_path: Path) -> None:
+    result: Any = synthetic_result()
+    hostile = replace(result, scene=result.scene.model_copy(update={"title": HOSTILE}))
+    write_result(hostile, tmp_path)
+    page = (tmp_path / "index.html").read_text(encoding="utf-8")
+    assert page.count("<img") == len(list(tmp_path.glob("*.png")))
+    assert all(source.startswith("data:") for source in re.findall(r'src="([^"]*)', page))
+    assert "<script" not in page
+    assert "href=" not in page
+    assert "default-src 'none'" in page
+    assert (tmp_path / "overview.png").stat().st_size < 200_000
+
+
+def test_numbers_on_the_page_carry_their_errors(tmp_path: Path) -> None:
+    result = synthetic_result()
+    error = StatedError(error=2e6, parts={"cells": 2e6}, status=ErrorStatus.ESTIMATED)
+    write_page(result, tmp_path, {"peak_pressure": error})
+    assert "3.0000 ± 0.0020 GPa" in (tmp_path / "index.html").read_text(encoding="utf-8")
+
+
+def test_both_radii_have_one_unit() -> None:
+    found = dict(decision_numbers(ended(synthetic_result(), stick_area=1e-12), None))
+    units = {found[name].split()[-1] for name in ("contact radius", "stick radius")}
+    assert units == {"mm"}
+
+
+@pytest.mark.parametrize(("name", "tiny"), [("torque", 9.9e-22), ("twist", 1e-20)])
+def test_round_off_beside_the_load_is_nothing(name: str, tiny: float) -> None:
+    found = dict(decision_numbers(ended(synthetic_result(), **{name: tiny}), None))
+    assert found[name].split()[0] == "0"
+    told = dict(decision_numbers(ended(synthetic_result(), **{name: 1e-5}), None))
+    assert told[name].split()[0] == "10"
+
+
+def test_coarser_cells_carry_the_same_load_at_the_same_place() -> None:
+    state = state_of_result(synthetic_result((48, 40)), None)
+    fewer = coarser(state, 24)
+    assert fewer.tractions["pressure"].shape == (24, 20)
+    for name, field in state.tractions.items():
+        coarse = fewer.tractions[name]
+        near = 1e-12 * float(np.abs(field).sum())
+        difference = 4 * coarse.sum(axis=(-2, -1)) - field.sum(axis=(-2, -1))
+        assert np.max(np.abs(difference)) <= near
+    first = state.axes["x"][:, None] * state.tractions["shear"][0]
+    coarse_first = fewer.axes["x"][:, None] * fewer.tractions["shear"][0]
+    scale = np.abs(first).sum()
+    assert abs(4 * coarse_first.sum() - first.sum()) < 1e-2 * scale
+
+
+def test_stress_of_too_many_cells_without_a_divisor_is_left_to_its_command() -> None:
+    assert section_stress(synthetic_result((65, 65))) is None
+    assert section_stress(synthetic_result((24, 20))) is not None
