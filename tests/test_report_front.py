@@ -124,7 +124,7 @@ def test_the_front_shows_what_is_worse_and_the_table_only_what_moved() -> None:
     assert [row.name for row in worse_rows(report)] == ["dear"]
     header = render_page(report).split("</header>")[0]
     assert "worse than the recorded numbers" in header
-    assert "one/dear" in header
+    assert f'<a href="{SHEETS}#one">one/dear</a>' in header
     assert "one/moved" not in header
     calm = render_page(report_of((judged(compared("still", ChangeKind.UNCHANGED)),)))
     assert "nothing is worse" in calm.split("</header>")[0]
