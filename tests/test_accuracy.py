@@ -39,6 +39,8 @@ from contact_errors.price import Prices
 from contact_errors.rules import APPROACH as APPROACH_RULE
 from contact_errors.rules import SHIFT, Rule
 from contact_errors.solve_cost import Solved, Speed, seconds_like
+from contact_results import result_files
+from contact_results.directory import checkpoint
 from contact_results.directory.checkpoint_file import Unusable, packed, unpacked
 from contact_scene import (
     Body,
@@ -470,6 +472,32 @@ def test_a_killed_run_goes_on_with_the_round_it_was_killed_in(
     assert len(solved) == 1
     assert (out / "summary.json").read_bytes() == (whole / "summary.json").read_bytes()
     assert sorted(p.name for p in tmp_path.iterdir()) == ["out", "scene.toml", "whole"]
+
+
+def test_a_run_killed_while_it_writes_solves_its_last_round_once(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]
+) -> None:
+    path, out = written(tmp_path), tmp_path / "out"
+    asked = ("--no-figures", "--accuracy", "0.1%")
+
+    def killed(*given, **more):
+        signal.raise_signal(signal.SIGKILL)
+
+    monkeypatch.setattr(checkpoint, "SECONDS_BETWEEN", 0.0)
+    with monkeypatch.context() as writing:
+        writing.setattr(result_files, "write_result", killed)
+        run = get_context("fork").Process(target=slipstick, args=("run", path, "-o", out, *asked))
+        run.start()
+        run.join()
+    assert run.exitcode == -signal.SIGKILL
+    left = sorted(p.name for p in tmp_path.glob(".out.*"))
+    assert ".out.rounds" in left
+    assert sum(name.startswith(".out.checkpoint-") for name in left) == 1
+    capfd.readouterr()
+    assert slipstick("run", path, "-o", out, *asked) == 0
+    increments = len((out / "increments.csv").read_text(encoding="utf-8").splitlines()) - 1
+    assert f"going on after increment {increments} " in " ".join(capfd.readouterr().err.split())
+    assert sorted(p.name for p in tmp_path.iterdir()) == ["out", "scene.toml"]
 
 
 @pytest.mark.parametrize("solver", ["semi-analytical", "fem"])

@@ -13,6 +13,7 @@ from contact_results.directory.atomic_file import atomic_file
 from contact_results.directory.checkpoint_file import Unusable, packed, unpacked
 from contact_results.directory.refusal import OutputRefused
 from contact_results.directory.stop_signals import cleaned_up_when_stopped
+from contact_scene.solver_errors import SolverError
 
 
 @dataclass(frozen=True)
@@ -54,12 +55,17 @@ class KeptValue:
 def kept_value(
     target: Path, identity: str, say: Callable[[str], None], name: str
 ) -> Iterator[KeptValue]:
-    """A value beside the results in `target`; gone when the block has ended, whether it has given
-    an answer or an error, but not where the process is killed."""
+    """A value beside the results in `target`; gone when the block is done.
+
+    It stays where the process is killed, or where the results cannot be written. A solver that
+    gives up would give up again, so then it goes as well.
+    """
     target = Path(os.path.realpath(target))
     kept = KeptValue(target.parent / f".{target.name}.{name}", identity, say)
     with cleaned_up_when_stopped(kept=kept.how_to_go_on):
         try:
             yield kept
-        finally:
+        except SolverError:
             kept.path.unlink(missing_ok=True)
+            raise
+    kept.path.unlink(missing_ok=True)

@@ -1,7 +1,7 @@
 """An accuracy that is asked for, on the command line or in the scene, and the way to it."""
 
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, TypeAlias
 
@@ -92,7 +92,8 @@ def forget_rounds(output: Path) -> None:
         pass
 
 
-def climb_to(
+@contextmanager
+def climbed_to(
     request: "AccuracyRequest",
     solver: "Solver",
     contents: "SceneFile",
@@ -101,9 +102,10 @@ def climb_to(
     *,
     surface_stress: bool = False,
     step: int | None = None,
-) -> "Climb[Any]":
+) -> "Iterator[Climb[Any]]":
     """The scene solved ever finer until a request is met. Beside the results every round leaves
-    its own checkpoint if it is killed, and all of them where the next one goes on.
+    its own checkpoint if it is killed, and all of them where the next one goes on; those of the
+    last round stay until the block is done, in which the results are written.
 
     step  at whose end the stress below the surface is wanted; the last if absent
     """
@@ -121,8 +123,7 @@ def climb_to(
         nonlocal tried
         tried += 1
         identity = solve_identity(contents.scene, fineness, vars(solver))
-        with checkpointed(output, identity, tell, f"{OF_ROUND}{tried}") as keeper:
-            yield keeper
+        yield of_round.enter_context(checkpointed(output, identity, tell, f"{OF_ROUND}{tried}"))
 
     @contextmanager
     def watching(fineness: Any) -> "Iterator[Progress]":
@@ -140,14 +141,15 @@ def climb_to(
     )
     asked = (contents.scene, fineness, vars(solver), request, surface_stress, step)
     identity = solve_identity(*asked, code_digest((*SOLVERS, "contact_results", "contact_errors")))
-    with kept_value(output, identity, tell, ROUNDS) as kept:
+    with kept_value(output, identity, tell, ROUNDS) as kept, ExitStack() as of_round:
 
         def between(way: Any) -> None:
             nonlocal tried
             tried = 0
             kept.keep(way)
+            of_round.close()
 
         begun = kept.last()
         if begun is not None:
             tell(f"going on after round {begun.rounds} of an interrupted run ({kept.path})")
-        return climb(ladder, request, most_seconds, tell_round, begun, between)
+        yield climb(ladder, request, most_seconds, tell_round, begun, between)

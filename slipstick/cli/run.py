@@ -1,5 +1,6 @@
 """`slipstick run`: from a scene to a directory of results."""
 
+from contextlib import ExitStack
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
@@ -8,7 +9,7 @@ from slipstick.cli.asked_accuracy import (
     AccuracyOption,
     MostSecondsOption,
     asked_accuracy,
-    climb_to,
+    climbed_to,
     forget_rounds,
     leave_unless_met,
     refuse_beside_accuracy,
@@ -110,6 +111,7 @@ def run(
         cleaned_up_when_stopped(kept=lambda: NOTHING_KEPT),
         checkpointed(output, solve_identity(*asked), tell) as keeper,
         checkpointed(output, solve_identity(*asked, 2), tell, "doubled-checkpoint") as doubled,
+        ExitStack() as until_written,
         run_directory(output, overwrite=overwrite) as staging,
     ):
         decided = chosen.plan(contents.scene, fineness)
@@ -118,8 +120,15 @@ def run(
         stated = reached = None
         with stopwatch.phase("solve"):
             if request is not None:
-                climbed = climb_to(
-                    request, chosen, contents, output, most_seconds, surface_stress=surface_stress
+                climbed = until_written.enter_context(
+                    climbed_to(
+                        request,
+                        chosen,
+                        contents,
+                        output,
+                        most_seconds,
+                        surface_stress=surface_stress,
+                    )
                 )
                 result, stated = climbed.rung.result, climbed.rung.stated
                 reached = climbed.accuracy

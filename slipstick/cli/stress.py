@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from contextlib import ExitStack
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -93,43 +94,47 @@ def stress(
     from slipstick.cli.stress_source import state_of_run_directory, state_of_scene
 
     reached = None
-    if source.is_dir():
-        state = state_of_run_directory(source, step)
-    else:
-        contents = read_scene_file(source, overrides or ())
-        request = asked_accuracy(contents, accuracy, most_seconds)
-        if indenter and request is not None and request.binds_stress:
-            raise typer.BadParameter("an accuracy of max_principal is of the body, not --indenter")
-        if asked is not None and request is not None and request.binds_stress:
-            raise typer.BadParameter(
-                "an accuracy of max_principal is of the largest at all depths: leave --depths out, "
-                "or bind other quantities"
+    with ExitStack() as until_written:
+        if source.is_dir():
+            state = state_of_run_directory(source, step)
+        else:
+            contents = read_scene_file(source, overrides or ())
+            request = asked_accuracy(contents, accuracy, most_seconds)
+            if indenter and request is not None and request.binds_stress:
+                raise typer.BadParameter(
+                    "an accuracy of max_principal is of the body, not --indenter"
+                )
+            if asked is not None and request is not None and request.binds_stress:
+                raise typer.BadParameter(
+                    "an accuracy of max_principal is of the largest at all depths: leave --depths "
+                    "out, or bind other quantities"
+                )
+            state, reached = state_of_scene(
+                contents,
+                step,
+                chosen,
+                error=error,
+                request=request,
+                most_seconds=most_seconds,
+                output=output,
+                until_written=until_written,
             )
-        state, reached = state_of_scene(
-            contents,
-            step,
-            chosen,
-            error=error,
-            request=request,
-            most_seconds=most_seconds,
-            output=output,
+        which, body = ("indenter", state.indenter) if indenter else ("body", state.body)
+        if not body.deforms:
+            raise typer.BadParameter(f"the {which} is rigid: there is no stress in it")
+        field = _below(state, asked, indenter=indenter, volume=volume)
+        found = extremes(field, body)
+        errors = _errors(state, field, found, indenter) if error else None
+        write_stress(
+            state,
+            which,
+            field,
+            found,
+            output,
+            with_figures=figures,
+            errors=errors,
+            accuracy=reached,
         )
-    which, body = ("indenter", state.indenter) if indenter else ("body", state.body)
-    if not body.deforms:
-        raise typer.BadParameter(f"the {which} is rigid: there is no stress in it")
-    field = _below(state, asked, indenter=indenter, volume=volume)
-    found = extremes(field, body)
-    errors = _errors(state, field, found, indenter) if error else None
-    write_stress(
-        state,
-        which,
-        field,
-        found,
-        output,
-        with_figures=figures,
-        errors=errors,
-        accuracy=reached,
-    )
     _print(found, errors, state.by_increments, reached, field.how.get("edge"), output)
     leave_unless_met(reached)
 

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+from contextlib import ExitStack
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import typer
 
-from slipstick.cli.asked_accuracy import climb_to, refuse_beside_accuracy
+from slipstick.cli.asked_accuracy import climbed_to, refuse_beside_accuracy
 from slipstick.solvers.names import SolverName
 
 if TYPE_CHECKING:
@@ -39,9 +40,13 @@ def state_of_scene(
     request: AccuracyRequest | None,
     most_seconds: float | None,
     output: Path,
+    until_written: ExitStack,
 ) -> tuple[LoadedBodies, AccuracyReached | None]:
     """The same of a scene, solved as finely as it says or as a request needs; and how well that
-    was met."""
+    was met.
+
+    until_written  keeps where a climb stands until it is closed
+    """
     from contact_results.stress.loaded_bodies import state_of_result
 
     if step is not None and step > len(contents.scene.loading):
@@ -55,7 +60,9 @@ def state_of_scene(
     else:
         refuse_beside_accuracy({"--no-error": not error})
         output.parent.mkdir(parents=True, exist_ok=True)
-        climbed = climb_to(request, solver.solver, contents, output, most_seconds, step=step)
+        climbed = until_written.enter_context(
+            climbed_to(request, solver.solver, contents, output, most_seconds, step=step)
+        )
         result, stated = climbed.rung.result, climbed.rung.stated
         reached = climbed.accuracy
     return state_of_result(result, step, stated), reached
