@@ -43,3 +43,9 @@ def number_text(value: float | None, error: Uncertainty | None, unit: float) -> 
     decimals = ERROR_DIGITS - 1 - floor(log10(size)) if size else DIGITS
     decimals = max(0, min(decimals, MOST_DECIMALS))
     return f"{number:.{decimals}f} ± {size:.{decimals}f}{doubt}"
+
+
+def measured_like(name: str) -> str:
+    """What a quantity is put beside by a reader, in whose unit it is written: radii beside radii,
+    all else for itself."""
+    return "radius" if name.endswith("_radius") else name

@@ -22,7 +22,7 @@ from verification.judging.judgement import judge
 from verification.judging.outcome import CaseOutcome, Status
 from verification.laws import limit_laws, symmetry_laws
 from verification.laws.law import Law, worst_violation
-from verification.report.page import render_page
+from verification.report.page import render_page, render_sheets
 from verification.running.provenance import provenance
 from verification.running.report_record import Benchmark, Report, count
 
@@ -141,16 +141,16 @@ def test_tables_are_shown_and_cannot_become_markup() -> None:
     assert len(coefficients.rows) == 18
     hostile = frf.model_copy(update={"title": "<script>", "rows": (("<script>", "&"),)})
     cases = (outcome.model_copy(update={"tables": (hostile, coefficients)}),)
-    page = render_page(
-        Report(
-            level="quick", counts=count(cases), cases=cases, omissions=(),
-            provenance=provenance("", {}, [Benchmark(name="<b>", meaning="", unit="s", value=1,
-                                                     target=1)]),
-        )
+    report = Report(
+        level="quick", counts=count(cases), cases=cases, omissions=(),
+        provenance=provenance("", {}, [Benchmark(name="<b>", meaning="", unit="s", value=1,
+                                                 target=1)]),
     )  # fmt: skip
-    assert "<script" not in page
+    page, sheets = render_page(report), render_sheets(report)
+    assert "<script" not in page + sheets
     assert "&lt;b&gt;" in page
-    assert page.count("G₁/G₂ = 0.5") == 9
+    assert "&lt;script&gt;" in sheets
+    assert sheets.count("G₁/G₂ = 0.5") == 9
 
 
 @pytest.mark.parametrize("build", [classical_forms, sampling_route, frf_laws])

@@ -120,7 +120,9 @@ def _draw_stress(left: Any, right: Any, result: Result) -> None:
     axes.set_ylabel(f"depth z ({length.name})")
     draw_surface(along, field)
     cell = float(np.diff(field.section.x.ravel()[:2])[0])
-    along.set_title(f"by cells of {quantity(cell, 'm', 3)}, errors not stated")
+    along.set_title(
+        f"cells of {quantity(cell, 'm', 3)}: too low beside the edges (slipstick stress)"
+    )
 
 
 def _write_numbers(ax: Any, result: Result, errors: Mapping[str, StatedError] | None) -> None:

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from contact_results.directory import file_names
-from contact_results.number_text import number_text, uncertainty
+from contact_results.number_text import measured_like, number_text, uncertainty
 from contact_results.remarks import remarks
 from contact_scene.engineering_units import engineering_unit
 from contact_scene.increment import SCALARS, components, numbers
@@ -64,20 +64,22 @@ def write_page(
 def decision_numbers(
     result: Result, errors: Mapping[str, StatedError] | None
 ) -> Iterator[tuple[str, str]]:
-    """Names and texts of the key numbers at the end; of one unit what is called by one noun, and
-    nothing where a number is round-off beside the load."""
+    """Names and texts of the key numbers at the end; radii of one unit, zero
+    where a number is round-off beside the load, and no component that never acted."""
     end = result.steps[-1]
     values = numbers(end)
     sizes: dict[str, float] = {}
     keys = [name for name, mark in SCALARS.items() if mark.key]
     for name in keys:
         for part in components(name):
-            noun = name.rpartition("_")[2]
-            sizes[noun] = max(sizes.get(noun, 0.0), abs(values[part] or 0.0))
+            like = measured_like(name)
+            sizes[like] = max(sizes.get(like, 0.0), abs(values[part] or 0.0))
     yield "status", end.status.value
     for name in keys:
-        unit = engineering_unit(sizes[name.rpartition("_")[2]], SCALARS[name].unit)
+        unit = engineering_unit(sizes[measured_like(name)], SCALARS[name].unit)
         for part in components(name):
+            if part != components(name)[0] and not _acts(result, name, part):
+                continue
             value, axis = values[part], part[-1] if SCALARS[name].kind is Kind.VECTOR else "x"
             if value is None:
                 continue
@@ -85,6 +87,13 @@ def decision_numbers(
                 value = 0.0
             text = number_text(value, uncertainty((errors or {}).get(name), axis), unit.size)
             yield part.replace("_", " "), f"{text} {unit.name}"
+
+
+def _acts(result: Result, name: str, part: str) -> bool:
+    """Whether a further component of a vector has ever been more than round-off."""
+    history = [numbers(end) for end in result.steps]
+    largest = max(abs(of[each] or 0.0) for of in history for each in components(name))
+    return any(abs(of[part] or 0.0) > ROUND_OFF * largest for of in history)
 
 
 def _natural(result: Result, unit: str) -> float:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, NamedTuple, TypeVar
 import numpy as np
 
 from contact_results.difference import largest_difference
-from contact_results.number_text import Uncertainty, number_text, uncertainty
+from contact_results.number_text import Uncertainty, measured_like, number_text, uncertainty
 from contact_scene.engineering_units import engineering_unit
 from contact_scene.increment import SCALARS, State, components, numbers
 from contact_scene.path_error import DoubledQuantity, PathError
@@ -31,6 +31,7 @@ class _Column(NamedTuple):
     """Values of one number in all steps, with their errors."""
 
     heading: str
+    like: str  # those alike share their unit
     unit: str
     entries: list[tuple[float | None, Uncertainty | None]]
 
@@ -91,8 +92,10 @@ def outcome_columns(
     stated: Sequence[Errors] = errors if errors is not None else [{}] * len(ends)
     numbered, gap = _shown(list(enumerate(zip(ends, stated, strict=True), 1)))
     columns = {"step": [str(number) for number, _ in numbered]}
-    for column in _columns([end for _, end in numbered]):
-        sizes = [abs(value) for value, _ in column.entries if value is not None]
+    shown = list(_columns([end for _, end in numbered]))
+    for column in shown:
+        alike = [other.entries for other in shown if other.like == column.like]
+        sizes = [abs(value) for entries in alike for value, _ in entries if value is not None]
         scale = engineering_unit(float(np.max(sizes, initial=0.0)), column.unit)
         texts = [number_text(value, error, scale.size) for value, error in column.entries]
         columns[f"{column.heading}\n{scale.name}"] = texts
@@ -157,7 +160,8 @@ def _columns(steps: Sequence[tuple[State, Errors]]) -> Iterator[_Column]:
             if axis == "x" or any(cut):
                 heading = f"{first}\n{rest}{f' {axis}' if vector else ''}"
                 errors = [uncertainty(of_step.get(name), axis) for _, of_step in steps]
-                yield _Column(heading, mark.unit, list(zip(cut, errors, strict=True)))
+                like = measured_like(f"{name} {axis}" if vector else name)
+                yield _Column(heading, like, mark.unit, list(zip(cut, errors, strict=True)))
 
 
 def _cut(value: float | None, negligible: float) -> float | None:
