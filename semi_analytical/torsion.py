@@ -228,5 +228,5 @@ class _Shifted:
                 for one, a in zip(self.units, along, strict=True)
             ]
         )
-        damping = 1e-3 * np.trace(matrix) * np.sum(np.abs(self.defect)) / self.capacity
+        damping = 1e-3 * np.trace(matrix) * (np.sum(np.abs(self.defect)) / self.capacity) ** 2
         return -np.linalg.solve(matrix + damping * np.eye(len(matrix)), self.defect)

@@ -32,7 +32,7 @@ def test_example_keeps_its_promise(script: Path, tmp_path: Path) -> None:
 def test_python_in_the_readme_runs(tmp_path: Path) -> None:
     readme = (ROOT / "README.md").read_text(encoding="utf-8")
     (block,) = re.findall(r"^```python\n(.*?)^```", readme, re.MULTILINE | re.DOTALL)
-    fine = "cells=(128, 128)"
+    fine = "cells=(64, 64)"
     assert fine in block
     script = tmp_path / "readme.py"
     script.write_text(block.replace(fine, "cells=(24, 24)"), encoding="utf-8")

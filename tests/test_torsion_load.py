@@ -55,6 +55,17 @@ def test_projection_is_feasible(problem):
     np.testing.assert_allclose(forces(q), forces_of(load), atol=X.size * blur)
 
 
+def test_loads_a_hair_below_their_limit_are_carried_by_any_shear():
+    """Their multipliers are hundreds of times the shear."""
+    for seed in range(200):
+        rng = np.random.default_rng(seed)
+        bound = rng.random(SHAPE)
+        y = 10 ** rng.uniform(0, 4) * rng.standard_normal((2, *SHAPE))
+        load = load_of(forces(discs(bound, rng)))
+        load = load_of((1 - 1e-5) * load.limit(bound)[0] * forces_of(load))
+        np.testing.assert_allclose(forces(load.admissible(y, bound)), forces_of(load), atol=1e-8)
+
+
 @given(problems())
 def test_nothing_admissible_is_nearer(problem):
     """The variational inequality (y - q)·(z - q) <= 0 for every admissible z."""

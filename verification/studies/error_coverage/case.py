@@ -59,13 +59,15 @@ class CoverageCase:
 
 
 def _judged(known: KnownScene) -> Iterator[Row]:
-    """Rows of what the run gives of the truths."""
+    """Rows of what the run gives of the truths that have a size: shares of zero tell nothing."""
     tension = any(truth.quantity == F2 for truth in known.truths)
     result, errors = _run(known, tension)
     steps = values_of(result, fretting_cycles(result, surface_stress=tension))
     stressed = {truth.step for truth in known.truths if truth.quantity in STRESSES}
     stresses = {step: stress_maxima(result, step) for step in sorted(stressed)}
     for truth in known.truths:
+        if truth.reference.value == 0:
+            continue
         if truth.quantity in STRESSES:
             found, stated = stresses[truth.step][truth.quantity]
             yield judged(truth, found, stated)
