@@ -68,9 +68,9 @@ STICK = Rule(1.25, 0.25, 4, 3.2, 2.0, 1.0, Lengthscale.STICK)
 SHIFT = Rule(2, 0.06, 2, 1.35, 3.0, 0.3, Lengthscale.SLIP)
 TWIST = Rule(2, 0.24, 9, 1.3, 3.0, 0.3, Lengthscale.SLIP)
 ENERGY = Rule(2, 0.5, 2, 1.15, path_scatter=0.0, lengthscale=Lengthscale.ANNULUS)
-TILT = Rule(2, 0.1, 0.5, 1.65, path_factor=1.5)
+TILT = Rule(2, 0.15, 1, 1.9, path_factor=1.5)
 # Slip is largest at the edge of the contact, where a cell may lie within or beyond.
-AMPLITUDE = Rule(1.5, 1.0, 4, 1.3, lengthscale=Lengthscale.ANNULUS)
+AMPLITUDE = Rule(1.5, 1.0, 4, 2.4, lengthscale=Lengthscale.ANNULUS)
 RUIZ_F1 = Rule(2, 1.0, 1, 2.0, lengthscale=Lengthscale.ANNULUS)
 # Stress at the surface and near it, largest at an edge of the tractions.
 TENSION = Rule(0.5, 0.0, 0, 1.6)

@@ -9,8 +9,10 @@ from dataclasses import dataclass
 from pathlib import Path
 
 # Told by the process itself: what the system says of a child begins with the memory of its parent.
+# A worker ignores SIGINT and so would its children.
 MAIN = """
-import atexit, re, sys, time
+import atexit, re, signal, sys, time
+signal.signal(signal.SIGINT, signal.SIG_DFL)
 def tell():
     peak = re.search(r"VmHWM:\\s*([0-9]+) kB", open("/proc/self/status").read())[1]
     print("took", time.process_time(), peak, file=sys.stderr)
