@@ -68,6 +68,7 @@ def run(directory: Path, *words: str, program: str = MAIN, threads: int = 1) -> 
 
 
 def results(directory: Path) -> dict[str, bytes]:
-    """All files of a run but the one that says how long it took."""
+    """All files of a run but the one that says how long it took, and what hides while it lasts."""
     paths = directory.iterdir() if directory.is_dir() else ()
-    return {path.name: path.read_bytes() for path in paths if path.name != "timing.json"}
+    shown = (path for path in paths if not path.name.startswith("."))
+    return {path.name: path.read_bytes() for path in shown if path.name != "timing.json"}

@@ -72,6 +72,7 @@ def killed(count: int) -> Iterator[Attempt]:
             if sound and (results(folder / "out") != expected or "damaged" in end.said):
                 sound, told = False, f"{solver}: other bytes after kills: {end.said[-200:]}"
             left = {path.name for path in folder.iterdir()} - {"scene.toml", "out", "cache"}
+            left |= {path.name for path in (folder / "out").glob(".*")}
             if left:
                 sound, told = False, f"{solver}: left {sorted(left)}"
             yield from [Attempt(sound, told)] * min(5, count - number)
