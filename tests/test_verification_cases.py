@@ -10,12 +10,10 @@ from contact_scene import read_scene_file
 from semi_analytical import plan
 from verification.cases.catalogue import CASES, choose
 from verification.cases.paper_fretting_loop import paper_fretting_loop
-from verification.closed_forms.mindlin_deresiewicz import FrettingLoop
 from verification.judging.case import Case, Derived, Level
 from verification.judging.refinement import refinement
 from verification.judging.run import SectionRun
 from verification.problems import paper_scene as paper
-from verification.problems.loop_history import AMPLITUDE, ExactLoop
 
 SCENES = Path(__file__).resolve().parents[1] / "scenes"
 QUICK = {case.name: case for case in choose(Level.QUICK)}
@@ -76,17 +74,6 @@ def test_paper_scene_has_the_printed_contact() -> None:
     assert f"{paper.HERTZ.contact_radius * 1e3:.3f}" == "0.388"
     assert f"{paper.HERTZ.peak_pressure * 1e-9:.4f}" == "3.1684"
     assert paper.NU_ZERO.young_modulus == pytest.approx(2 * paper.CONTACT_MODULUS)
-
-
-@pytest.mark.parametrize("material", [paper.STEEL, paper.NU_ZERO], ids=["steel", "nu=0"])
-def test_loop_reference_is_mindlin_and_deresiewicz(material: object) -> None:
-    exact = ExactLoop(material)
-    virgin = exact.virgin.virgin
-    loop = FrettingLoop(
-        virgin.load, virgin.contact_radius, virgin.friction_coefficient,
-        virgin.tangential_modulus, AMPLITUDE * paper.FRICTION_LIMIT,
-    )  # fmt: skip
-    assert exact.energy_per_cycle == pytest.approx(loop.energy_per_cycle, rel=1e-12)
 
 
 def test_refinement_has_five_levels_per_octave_and_hits_the_doublings() -> None:
