@@ -106,34 +106,9 @@ class SmoothTip(ShapedBody):
         return power, power
 
 
-class Sphere(SmoothTip):
-    """A sphere, as the exact arc: r^2 / (R + sqrt(R^2 - r^2)) up to its silhouette."""
+class RoundTip(SmoothTip):
+    """The same curvature all around."""
 
-    shape: Literal["sphere"] = "sphere"
-    radius: PositiveLength
-    """Radius R [length]."""
-
-    @property
-    def is_of_revolution(self) -> bool:
-        """It is."""
-        return True
-
-    @property
-    def tip_radii(self) -> Pair:
-        """R along either."""
-        return self.radius, self.radius
-
-    def initial_gap(self, x: ArrayLike, y: ArrayLike) -> Gap:
-        """The arc, continued beyond the silhouette by the height R of the equator."""
-        R = self.radius
-        r = np.minimum(np.hypot(x, y), R)
-        return np.asarray(r * (r / (R + np.sqrt((R - r) * (R + r)))))
-
-
-class Paraboloid(SmoothTip):
-    """A paraboloid of revolution, r^2 / 2R: the shape of Hertz's closed form."""
-
-    shape: Literal["paraboloid"] = "paraboloid"
     radius: PositiveLength
     """Radius of curvature R at the tip [length]."""
 
@@ -146,6 +121,24 @@ class Paraboloid(SmoothTip):
     def tip_radii(self) -> Pair:
         """R along either."""
         return self.radius, self.radius
+
+
+class Sphere(RoundTip):
+    """A sphere, as the exact arc: r^2 / (R + sqrt(R^2 - r^2)) up to its silhouette."""
+
+    shape: Literal["sphere"] = "sphere"
+
+    def initial_gap(self, x: ArrayLike, y: ArrayLike) -> Gap:
+        """The arc, continued beyond the silhouette by the height R of the equator."""
+        R = self.radius
+        r = np.minimum(np.hypot(x, y), R)
+        return np.asarray(r * (r / (R + np.sqrt((R - r) * (R + r)))))
+
+
+class Paraboloid(RoundTip):
+    """A paraboloid of revolution, r^2 / 2R: the shape of Hertz's closed form."""
+
+    shape: Literal["paraboloid"] = "paraboloid"
 
     def initial_gap(self, x: ArrayLike, y: ArrayLike) -> Gap:
         """(x^2 + y^2) / 2R."""
