@@ -52,15 +52,18 @@ def fit_about(
     """
     reach = stencil.reach
     shift = np.arange(-reach, reach + 1)
-    dx, dy = (grid.ravel().astype(float) for grid in np.meshgrid(shift, shift, indexing="ij"))
-    at = (i[:, None] + dx.astype(int) + reach, j[:, None] + dy.astype(int) + reach)
-    given, believed = (np.pad(field, reach)[at] for field in (data, weight))
-    believed = believed * np.exp(-(dx**2 + dy**2) / (2 * stencil.width**2))
-    columns = (np.ones_like(dx), dx, dy, dx**2 / 2 + 1 / 24, dx * dy, dy**2 / 2 + 1 / 24)
+    dx, dy = (grid.ravel() for grid in np.meshgrid(shift, shift, indexing="ij"))
+    across = data.shape[1] + 2 * reach
+    at = ((i + reach) * across + j + reach)[:, None] + (dx * across + dy)
+    given, believed = (np.pad(field, reach).take(at) for field in (data, weight))
+    believed *= np.exp(-(dx**2 + dy**2) / (2 * stencil.width**2))
+    columns = (np.ones(len(dx)), dx, dy, dx**2 / 2 + 1 / 24, dx * dy, dy**2 / 2 + 1 / 24)
     basis = np.stack(columns[: 3 * degree], axis=-1)
     count = basis.shape[1]
-    products = (basis[:, :, None] * basis[:, None, :]).reshape(-1, count * count)
-    normal = (believed @ products).reshape(-1, count, count)
+    row, column = np.triu_indices(count)
+    normal = np.empty((len(i), count, count))
+    normal[:, row, column] = believed @ (basis[:, row] * basis[:, column])
+    normal[:, column, row] = normal[:, row, column]
     normal += RIDGE * np.eye(count) * (np.trace(normal, axis1=1, axis2=2)[:, None, None] + 1e-30)
     right = (believed * given) @ basis
     found = np.linalg.solve(normal, right[..., None])[..., 0]

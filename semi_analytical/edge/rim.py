@@ -10,7 +10,7 @@ from scipy.ndimage import distance_transform_edt
 
 from semi_analytical.edge.fit import Indices, Stencil
 from semi_analytical.edge.kernels import PARTS, part_centres
-from semi_analytical.edge.means import mean_power
+from semi_analytical.edge.means import Exponent, mean_power, power
 from semi_analytical.edge.quadratic import Quadratic
 from semi_analytical.edge.shape import Mask, edge_shape
 
@@ -20,10 +20,10 @@ Field = NDArray[np.float64]
 STENCIL = Stencil(4, 2.2)
 # Layers of cells inside and outside the edge. Farther in a traction is a slope within a cell, to
 # 1/500 of it; farther out it is zero.
-INSIDE, OUTSIDE = 5.5, 1.5
+INSIDE, OUTSIDE = 4.5, 1.5
 # So many times its slopes above zero, a part of a cell has the mean of a power by two terms of its
-# series, to 1e-6.
-SMOOTH = 8.0
+# series, to 2e-6.
+SMOOTH = 4.0
 # Radius of a region in cells that is thick enough to be fitted.
 THICK = 2.5
 
@@ -69,7 +69,7 @@ class Rim:
 
 
 def rim(
-    means: Field, loaded: Mask, before: Rim | None = None, exponent: float | Field = 0.5
+    means: Field, loaded: Mask, before: Rim | None = None, exponent: Exponent = 0.5
 ) -> Rim | None:
     """The rim of a region of tractions; None where it is too thin to have one.
 
@@ -91,8 +91,8 @@ def rim(
     outside = distance_transform_edt(~region)
     i, j = np.nonzero((layer + outside <= INSIDE) & (outside <= OUTSIDE))
     phi, safe = shape.about(i.astype(float), j.astype(float))
-    alpha = np.broadcast_to(exponent, means.shape)[i, j]
-    parts, covered = _in_parts(phi, alpha)
+    of_cells = np.broadcast_to(exponent, means.shape)[i, j] if np.ndim(exponent) else exponent
+    parts, covered = _in_parts(phi, of_cells)
     inside = region.copy()
     inside[i[safe], j[safe]] = phi.f[safe] > 0
     return Rim(
@@ -100,22 +100,27 @@ def rim(
     )
 
 
-def _in_parts(phi: Quadratic, exponent: Field) -> tuple[Field, Field]:
+def _in_parts(phi: Quadratic, exponent: Exponent) -> tuple[Field, Field]:
     """Mean of phi_+^exponent over the parts of each cell (n, PARTS, PARTS), and the part of each
     where phi is positive (n,)."""
-    x, y = (at[..., None] for at in np.meshgrid(part_centres(), part_centres(), indexing="ij"))
-    part = phi.about(phi.x + x, phi.y + y)
-    f = part.f + (part.f_xx + part.f_yy) / (24 * PARTS**2)
-    f_x, f_y = part.f_x / PARTS, part.f_y / PARTS
-    exponent = np.broadcast_to(exponent, f.shape)
+    x, y = np.meshgrid(part_centres(), part_centres(), indexing="ij")
+    monomials = np.stack([x**0, x, y, x**2 / 2, x * y, y**2 / 2])
+    bent = (phi.f_xx + phi.f_yy) / (24 * PARTS**2)
+    factors = np.stack([phi.f + bent, phi.f_x, phi.f_y, phi.f_xx, phi.f_xy, phi.f_yy])
+    # Not by matrix products, whose rounding depends on the number of threads.
+    f = np.einsum("kn,kab->nab", factors, monomials)
+    # Over a part of a cell the slope hardly changes.
+    f_x, f_y = (
+        np.broadcast_to((slope / PARTS)[:, None, None], f.shape) for slope in (phi.f_x, phi.f_y)
+    )
+    a = exponent[:, None, None] if isinstance(exponent, np.ndarray) else exponent
     slope = np.abs(f_x) + np.abs(f_y)
     smooth = f > SMOOTH * slope
-    parts, covered = np.zeros(f.shape), smooth.astype(float)
-    rise, a = f[smooth], exponent[smooth]
-    bend = a * (a - 1) * (f_x[smooth] ** 2 + f_y[smooth] ** 2) / rise**2
-    parts[smooth] = rise**a * (1 + bend / 24)
+    bend = a * (a - 1) / 24 * (f_x**2 + f_y**2) / np.where(smooth, f, np.inf) ** 2
+    parts = power(np.maximum(f, 0.0), a) * (1 + bend)
+    covered = smooth.astype(float)
     cut = ~smooth & (f > -slope)
-    slopes = f_x[cut], f_y[cut]
-    parts[cut] = mean_power(f[cut], *slopes, exponent[cut])
-    covered[cut] = mean_power(f[cut], *slopes, 0.0)
-    return np.moveaxis(parts, -1, 0), covered.mean(axis=(0, 1))
+    of_cut = f[cut], f_x[cut], f_y[cut]
+    parts[cut] = mean_power(*of_cut, np.broadcast_to(a, f.shape)[cut] if np.ndim(a) else a)
+    covered[cut] = mean_power(*of_cut, 0.0)
+    return parts, covered.mean(axis=(1, 2))

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from scipy.ndimage import distance_transform_edt
 
 from semi_analytical.edge.fit import Fits, Indices, Stencil, fit_about
-from semi_analytical.edge.means import centre_value
+from semi_analytical.edge.means import Exponent, centre_value, power
 from semi_analytical.edge.quadratic import Quadratic
 
 Field = NDArray[np.float64]
@@ -42,7 +42,7 @@ class EdgeShape:
     means: Field
     phi: Field
     weight: Field
-    exponent: float | Field
+    exponent: Exponent
     stencil: Stencil
     depth: Field
     nearest: Indices
@@ -105,7 +105,7 @@ def edge_shape(
     stencil: Stencil,
     *,
     rings: int = 1,
-    exponent: float | Field = 0.5,
+    exponent: Exponent = 0.5,
     trusted: Mask | None = None,
     rounds: int = 3,
 ) -> EdgeShape:
@@ -133,18 +133,19 @@ def edge_shape(
             f"the region is {np.max(depth):.3g} cells deep, {rings} rings are dropped: no cell is "
             "left to fit its edge to; take smaller cells"
         )
-    alpha = np.broadcast_to(exponent, means.shape)
-    band = np.argwhere(usable & (depth < ASKED + 1.5 * stencil.reach)).T
-    phi, weight = means ** (1 / alpha), inner.astype(float)
-    on_band = tuple(band)
+    band = usable & (depth < ASKED + 1.5 * stencil.reach)
+    # Farther in the differences of data tell the slope, which hardly matters there.
+    i, j = np.nonzero(band & (depth < max(rings, 1) + 2))
+    of_band = exponent[band] if isinstance(exponent, np.ndarray) else exponent
+    phi, weight = power(means, np.divide(1, exponent)), inner.astype(float)
     for _ in range(rounds - 1):
-        quadratic = fit_about(phi, weight, band[0], band[1], stencil).quadratic
-        slopes = quadratic.f_x, quadratic.f_y
-        phi = phi.copy()
-        phi[on_band] = centre_value(means[on_band], *slopes, alpha[on_band])
-        cut = np.abs(quadratic.mean) < (np.abs(slopes[0]) + np.abs(slopes[1])) / 2
+        quadratic = fit_about(phi, weight, i, j, stencil).quadratic
+        slopes = np.stack([np.gradient(phi, axis=axis) for axis in (0, 1)])
+        slopes[:, i, j] = quadratic.f_x, quadratic.f_y
+        phi[band] = centre_value(means[band], slopes[0][band], slopes[1][band], of_band)
+        cut = np.abs(quadratic.mean) < (np.abs(quadratic.f_x) + np.abs(quadratic.f_y)) / 2
         weight = data.astype(float)
-        weight[on_band] *= np.where(cut, CUT_WEIGHT, 1.0)
+        weight[i, j] *= np.where(cut, CUT_WEIGHT, 1.0)
     return EdgeShape(means, phi, weight, exponent, stencil, depth, nearest)
 
 

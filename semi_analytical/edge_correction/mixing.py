@@ -9,7 +9,7 @@ Field = NDArray[np.float64]
 
 DEPTH = 3
 # Of the first change, from which there is nothing to learn yet.
-DAMPED = 0.5
+DAMPED = 0.8
 # Squared part of a difference below which the others explain it.
 DEPENDENT = 1e-13
 
