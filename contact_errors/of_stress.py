@@ -1,5 +1,5 @@
 """Errors of the largest stresses: by another fit of the edge of the contact where there is
-one, else by the same tractions on cells twice as wide."""
+one, else by the same tractions on cells twice as wide, or by more orders and points."""
 
 from __future__ import annotations
 
@@ -38,6 +38,10 @@ def stress_errors(
     Of the tractions counts what increments leave wrong in them; what cells do is far less than what
     they leave wrong in the stress.
     """
+    if state.pressed is not None:
+        from contact_errors.stress_on_disc import disc_stress_errors
+
+        return disc_stress_errors(state, found, indenter=indenter)
     if state.on_rings:
         return ring_stress_errors(state, field, found, indenter=indenter)
     depths = np.unique(field.points.depth).tolist()

@@ -54,8 +54,8 @@ class Bodies:
     def waves(self, radius: float, reach: float = 1.0, fineness: int = 1) -> Waves:
         """All wavenumbers of which layers are felt in a contact of this radius [length], for places
         within `reach` radii."""
-        longest = LONGEST_WAVE * min(_longest(stack, radius) for stack in self.layered)
-        return waves(REACH * radius / self.thickness, longest, reach, fineness)
+        least = LONGEST_WAVE * min(longest(stack, radius) for stack in self.layered)
+        return waves(REACH * radius / self.thickness, least, reach, fineness)
 
     def excess(self, k: Array) -> Array:
         """X - 1 with X = k E* F_zz / 2 at wavenumbers k [1/length]: what the layers add to the
@@ -64,7 +64,7 @@ class Bodies:
         return np.asarray(0.5 * self.modulus * k * added)
 
 
-def _longest(stack: Stack, radius: float) -> float:
+def longest(stack: Stack, radius: float) -> float:
     """κ below which layers act as if they were not there, by order of magnitude."""
     moduli = _moduli(stack)
     total = sum(film.thickness for film in stack.layers)

@@ -28,7 +28,7 @@ from scipy.linalg import cho_factor, cho_solve
 from contact_scene.solver_errors import NotConverged, UnsupportedScene
 from radial.bodies import Bodies
 from radial.profile import Profile, profile
-from radial.quadrature import every_order, unit_gauss
+from radial.quadrature import every_order, shifted, unit_gauss
 from radial.wavenumbers import Waves
 
 if TYPE_CHECKING:
@@ -88,6 +88,17 @@ class Disc:
         """G at s = a t [length]."""
         changed = legendre.legval(t, every_order(self.layers))
         return np.asarray(self.approach - self.profile.at(t) + changed)
+
+    def rate(self, t: Array) -> Array:
+        """dG/dt [length]."""
+        changed = legendre.legval(t, legendre.legder(every_order(self.layers)))
+        return np.asarray(changed - shifted(self.profile.rate, t))
+
+    def wave_transform(self, waves: Waves) -> Array:
+        """G~ at every κ (n,) [length]: the pressure's Hankel transform is (E* a/π) G~."""
+        bases = waves.even_transforms(len(self.layers))
+        by_profile = waves.shifted_transform(self.profile.abel)
+        return np.asarray(self.approach * bases[0] - by_profile + self.layers @ bases)
 
 
 class _Galerkin:

@@ -82,8 +82,6 @@ def displacement(contact: Disc, x: Array) -> Array:
     reach = 2.0 ** np.ceil(np.log2(np.max(x)))  # few lengths, which contacts have in common
     waves = contact.bodies.waves(contact.radius, float(reach))
     places, weights = waves.rule
-    bases = waves.even_transforms(len(contact.layers))
-    transform = contact.approach * bases[0] - waves.shifted_transform(contact.profile.abel)
     felt = weights * contact.bodies.excess(places / contact.radius)
-    added = j0(np.multiply.outer(x, places)) @ (felt * (transform + contact.layers @ bases))
+    added = j0(np.multiply.outer(x, places)) @ (felt * contact.wave_transform(waves))
     return np.asarray(2 / pi * (direct + added))

@@ -87,7 +87,8 @@ ORDERS = {
         *("contact", "stress", "expected_radius", "solve"),
     ),
     "radial": (
-        *("quadrature", "wavenumbers", "bodies", "profile", "disc", "surface", "pressing"),
+        *("quadrature", "wavenumbers", "bodies", "profile", "disc", "surface", "half_space"),
+        *("below", "pressing"),
         *("plan", "fields", "history"),
     ),
     "fem_reference.mesh": ("section_outline", "section_mesh", "gmsh_mesh"),
@@ -130,7 +131,8 @@ ORDERS = {
     ),
     "contact_errors": (
         *("values", "rules", "estimate", "prescribed", "levels", "half_the_cells", "on_cells"),
-        *("on_radii", "element_rules", "on_elements", "stress_on_rings", "of_stress", "tension"),
+        *("on_radii", "element_rules", "on_elements", "stress_on_disc", "stress_on_rings"),
+        *("of_stress", "tension"),
         *("solve_cost", "ladder", "asked", "climb", "price", "ladder_on_cells"),
         "ladder_on_elements",
     ),

@@ -30,6 +30,8 @@ AXES = ("x", "y", "radii", "angles")
 SCALARS = ("pressure", "shear_radial", "shear_circumferential", "shear_along_load")
 VECTORS = ("shear",)
 
+RADIAL = "radial"  # the solver whose pressure is known at every radius
+
 OF_HEIGHTS = "the indenter is no smooth shape"
 OF_MAP = "the coefficient of friction varies"
 
@@ -53,6 +55,8 @@ class LoadedBodies:
     no_root         why the pressure need not fall like a root of the distance from the edge of the
                     contact, or the shear not like the pressure; None where it does
     direction       unit vector along which the rings' angles start
+    pressed         indenter, contact radius and approach, where they determine the pressure at
+                    every radius; None where it is known on cells or rings alone [length]
     by_increments   part of themselves by which increments may leave the tractions wrong; None where
                     nobody has stated it
     """
@@ -67,6 +71,7 @@ class LoadedBodies:
     no_root: str | None = None
     by_increments: float | None = None
     direction: tuple[float, float] = (1.0, 0.0)
+    pressed: tuple[ShapedBody, float, float] | None = None
 
     @property
     def on_rings(self) -> bool:
@@ -102,6 +107,9 @@ def state_of_result(
         _no_root(scene.indenter, scene.friction),
         None if errors is None else _by_increments(end, errors.steps[end.step - 1]),
         surface.direction,
+        (scene.indenter, end.contact_radius, end.approach or 0.0)
+        if result.solver == RADIAL
+        else None,
     )
 
 
@@ -174,7 +182,18 @@ def _read(file: h5py.File, step: int | None) -> LoadedBodies:
         asked,
         _no_root_of(scene),
         direction=_direction(file),
+        pressed=_pressed(file, scene, last),
     )
+
+
+def _pressed(
+    file: h5py.File, scene: Mapping[str, Any], at: int
+) -> tuple[ShapedBody, float, float] | None:
+    if file.attrs.get("solver") != RADIAL:
+        return None
+    group, indenter = file["increments"], scene["indenter"]
+    radius, approach = (float(values(group[n], at)) for n in ("contact_radius", "approach"))
+    return SHAPES[indenter["shape"]].model_validate(indenter), radius, approach
 
 
 def _direction(file: h5py.File) -> tuple[float, float]:

@@ -9,7 +9,6 @@ import numpy as np
 
 from contact_results.stress.loaded_bodies import LoadedBodies
 from contact_results.stress.points import StressField, StressPoints
-from contact_scene.solver_errors import UnsupportedScene
 
 if TYPE_CHECKING:
     from fem_reference.stress import SectionField
@@ -24,14 +23,10 @@ SHOWN = (2.0, 3.0)  # loaded radii to the sides and in depth
 
 def stress_on_section(state: LoadedBodies, *, indenter: bool = False) -> StressField:
     """Stress at the nodes of a mesh of its own, as fine over the loaded circle as the contact was
-    computed. Raises UnsupportedScene for tractions that no elements have found, and what
-    `fem_reference.stress.subsurface` raises."""
+    computed. Raises what `fem_reference.stress.subsurface` raises."""
     from fem_reference.stress import SurfaceTractions, subsurface
 
-    if state.discretisation is None:
-        raise UnsupportedScene(
-            "the radial solver has no stress below the surface; solve the scene with another solver"
-        )
+    assert state.discretisation is not None
     tractions = SurfaceTractions(
         radii=state.axes["radii"], angles=state.axes.get("angles"), **state.tractions
     )

@@ -87,7 +87,7 @@ def stress(
         given: dict[str, object] = {"--set": overrides, "--solver": solver}
         _refuse_beside_run(given | {"--accuracy": accuracy, "--most-seconds": most_seconds})
     else:
-        _refuse_beside_fem(chosen.is_fem, asked, volume)
+        _refuse_beside_section(chosen, asked, volume)
     from contact_results.stress.extremes import extremes
     from contact_results.stress_files import write_stress
     from contact_scene import read_scene_file
@@ -154,10 +154,15 @@ def _refuse_beside_run(given: dict[str, object]) -> None:
             )
 
 
-def _refuse_beside_fem(is_fem: bool, depths: list[float] | None, volume: bool) -> None:
-    if is_fem and (depths is not None or volume):
+def _refuse_beside_section(solver: SolverName, depths: list[float] | None, volume: bool) -> None:
+    if solver.is_fem and (depths is not None or volume):
         raise typer.BadParameter(
             "finite elements give the stress at their nodes in one plane: leave --depths and "
+            "--volume out"
+        )
+    if solver is SolverName.RADIAL and volume:
+        raise typer.BadParameter(
+            "of the radial solver the stress is the same in every plane through the axis: leave "
             "--volume out"
         )
 
@@ -166,12 +171,17 @@ def _below(
     state: LoadedBodies, depths: list[float] | None, *, indenter: bool, volume: bool
 ) -> StressField:
     from contact_results.stress.on_cells import stress_on_cells
+    from contact_results.stress.on_disc import stress_on_disc
     from contact_results.stress.on_section import stress_on_section
 
-    _refuse_beside_fem(state.on_rings, depths, volume)
-    if state.on_rings:
+    if state.pressed is not None:
+        _refuse_beside_section(SolverName.RADIAL, depths, volume)
+    elif state.on_rings:
+        _refuse_beside_section(SolverName.FEM, depths, volume)
         return stress_on_section(state, indenter=indenter)
     try:
+        if state.pressed is not None:
+            return stress_on_disc(state, indenter=indenter, depths=depths)
         return stress_on_cells(state, indenter=indenter, depths=depths, volume=volume)
     except ValueError as error:
         if depths is None:
