@@ -13,7 +13,7 @@ from semi_analytical.contact_area import stuck_cells
 from semi_analytical.edge.corrected import Corrected
 from semi_analytical.energy import NOTHING_YET
 from semi_analytical.fields import Increment
-from semi_analytical.increment import State, residuals_of, solve_increment
+from semi_analytical.increment import State, reached_moment, residuals_of, solve_increment
 from semi_analytical.load_targets import normal_target, tangential_target
 from semi_analytical.model import ContactModel
 from semi_analytical.plan import Coupling, Plan
@@ -140,7 +140,7 @@ def _increment(model: ContactModel, before: State | None, state: State, place: P
         convolutions=0,
     )
     if state.corrected is not None:
-        pressed = _with_edges(pressed, state.corrected, cell, force)
+        pressed = _with_edges(pressed, state.corrected, model, state.target)
     if sheared is None:
         return pressed
     stuck = stuck_cells(sheared.shear, model.friction.limit(p), sheared.in_stick)
@@ -173,18 +173,21 @@ def _increment(model: ContactModel, before: State | None, state: State, place: P
 
 
 def _with_edges(
-    increment: Increment, corrected: Corrected, cell: float, force: float | None
+    increment: Increment, corrected: Corrected, model: ContactModel, target: NormalTarget
 ) -> Increment:
     """With the contact as it is with its edge inside the cells; energies stay those of cells."""
-    p = corrected.pressure
+    p, tilt, cell = corrected.pressure, corrected.tilt, model.grid.cell_area
+    moment = reached_moment(model, target, p)
     return replace(
         increment,
         pressure=p,
         gap=corrected.gap,
-        normal_force=float(np.sum(p)) * cell if force is None else force,
+        normal_force=float(np.sum(p)) * cell if target.force is None else target.force,
         approach=corrected.approach,
+        moment=None if moment is None else np.array(moment),
+        tilt=None if tilt is None else np.array(tilt),
         contact_area=corrected.contact_cells * cell,
-        peak_pressure=float(np.max(p)),
+        peak_pressure=corrected.peak,
         edge_change=corrected.change,
     )
 

@@ -4,6 +4,8 @@ A load says which motion closes a gap, which pressures carry it, and what the co
 `semi_analytical.normal` must leave as it is.
 """
 
+from __future__ import annotations
+
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Protocol
@@ -43,6 +45,9 @@ class NormalLoad(Protocol):
 
     def constraint(self, inside: Field, precondition: Map) -> Constraint:
         """Keeps given forces as they are while the pressure changes; `inside` is 1 in contact."""
+
+    def less(self, carried: Field) -> NormalLoad:
+        """The load without pressures (nx, ny) that cells beside its own carry."""
 
     def free_motions(self, shape: tuple[int, ...]) -> tuple[Field, ...]:
         """Closures by unit motions whose forces are given, fields of this shape (nx, ny)."""
@@ -86,6 +91,10 @@ class PressureSum:
 
         return constrained
 
+    def less(self, carried: Field) -> NormalLoad:
+        """What is left of the sum."""
+        return PressureSum(self.total - float(np.sum(carried)))
+
     def free_motions(self, shape: tuple[int, ...]) -> tuple[Field, ...]:
         """The approach."""
         return (np.ones(shape),)
@@ -120,6 +129,10 @@ class FixedApproach:
     def constraint(self, inside: Field, precondition: Map) -> Constraint:
         """No force is given."""
         return lambda r, z: (r, z)
+
+    def less(self, carried: Field) -> NormalLoad:
+        """The same: no force is given."""
+        return self
 
     def free_motions(self, shape: tuple[int, ...]) -> tuple[Field, ...]:
         """None."""

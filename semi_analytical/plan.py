@@ -93,7 +93,7 @@ def plan(scene: Scene, path_accuracy: float = PATH_ACCURACY, edge: EdgeCorrectio
         Effect("torsion", torsion, _why_torsion(friction, torsion)),
         effect.coupled(scene, coupled, why),
         effect.load_history(len(scene.loading) > 1 and shear),
-        Effect("edge correction", *_edges(scene, edge, tilt, torsion, coupled)),
+        Effect("edge correction", *_edges(scene, edge, torsion, coupled)),
     )
     acting = Coupling.FULL if coupled else Coupling.NONE
     bodies = Bodies(coupled, dundurs_beta(scene), scene.friction or FRICTIONLESS)
@@ -133,16 +133,12 @@ def _why_torsion(friction: bool, torsion: bool) -> str:
     return "no step names a torque or a twist: the indenter is held from turning"
 
 
-def _edges(
-    scene: Scene, asked: EdgeCorrection, tilt: bool, torsion: bool, coupled: bool
-) -> tuple[bool, str]:
+def _edges(scene: Scene, asked: EdgeCorrection, torsion: bool, coupled: bool) -> tuple[bool, str]:
     """Whether edges are put inside the cells, and why (not)."""
     if asked == "off":
         return False, "not asked for: tractions are constant on cells up to their edges"
     if scene.indenter.rim is not None:
         return False, "below the rim of a flat punch the pressure rises to its edge"
-    if tilt:
-        return False, "not known of an indenter that tilts"
     if coupled:
         return False, "not known of bodies that couple"
     if torsion:

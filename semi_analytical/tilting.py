@@ -4,7 +4,7 @@ A given tilt only changes the gap. A given moment Σ p (y, x) Δ is a force like
 tilt is its multiplier, as the approach is that of Σp (CONVENTIONS, "generalised coordinates").
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from contact_scene.solver_errors import NotConverged
 from semi_analytical.multipliers import MOST_SWEEPS, find_multiplier
-from semi_analytical.normal_load import Constraint, Map, Motion
+from semi_analytical.normal_load import Constraint, Map, Motion, NormalLoad
 
 Field = NDArray[np.float64]
 Mask = NDArray[np.bool_]
@@ -137,6 +137,15 @@ class PressureMoments:
             return r, z
 
         return constrained
+
+    def less(self, carried: Field) -> NormalLoad:
+        """What is left of the sums."""
+        return replace(
+            self,
+            cells=self.cells & (carried == 0),
+            moments=self.moments - np.sum(carried * self.arms, axis=(1, 2)),
+            total=None if self.total is None else self.total - float(np.sum(carried)),
+        )
 
     def free_motions(self, shape: tuple[int, ...]) -> tuple[Field, ...]:
         """The shapes."""

@@ -6,10 +6,10 @@ import sys
 import numpy as np
 import pytest
 from cell_means import ellipse_means
-from contact_scenes import APPROACH, LIMIT, LOAD, MU, A, hertz, paraboloid, scene, steel
+from contact_scenes import APPROACH, LIMIT, LOAD, MU, RADIUS, A, hertz, paraboloid, scene, steel
 
 from contact_results.remarks import remarks
-from contact_scene import Cone, FlatPunch, Scene
+from contact_scene import Cone, FlatPunch, HeightMap, Scene
 from semi_analytical import SurfaceGrid, plan, solve
 from verification.closed_forms.cone import ConeContact
 from verification.closed_forms.moduli import contact_modulus
@@ -42,6 +42,7 @@ def test_the_pressure_of_hertz_is_right_to_a_ten_thousandth_wherever_the_cells_l
     assert np.linalg.norm(end.pressure - exact) < 1.5e-4 * np.linalg.norm(exact)
     assert end.contact_radius == pytest.approx(A, rel=5e-5)
     assert end.approach == pytest.approx(APPROACH, rel=1e-5)
+    assert end.peak_pressure == pytest.approx(hertz().peak_pressure, rel=1e-5)
 
 
 def test_an_approach_takes_the_force_of_hertz():
@@ -56,6 +57,58 @@ def test_the_pressure_carries_the_load():
     assert np.sum(end.pressure) * cell == pytest.approx(LOAD, rel=1e-9)
     assert np.min(end.pressure) >= 0
     assert np.min(end.gap) >= 0
+
+
+@pytest.mark.parametrize("led_by", ["tilt", "moment"])
+def test_a_tilted_paraboloid_is_one_beside_the_origin(led_by):
+    """x²/2R - φ x = (x - Rφ)²/2R - Rφ²/2, right to some 1e-4 without cells cut by the edge."""
+    x, y = 0.11 * A, -0.07 * A
+    given = {
+        "tilt": (y / RADIUS, x / RADIUS),
+        "moment": (LOAD * y, LOAD * x),
+    }
+    end = solved(frictionless({**PRESS, led_by: given[led_by]})).steps[-1]
+    assert end.edge_change is not None
+    assert end.contact_radius == pytest.approx(A, rel=5e-5)
+    assert end.approach == pytest.approx(APPROACH - (x**2 + y**2) / (2 * RADIUS), rel=1e-5)
+    np.testing.assert_allclose(end.tilt, given["tilt"], rtol=1e-4)
+    np.testing.assert_allclose(end.moment, given["moment"], rtol=1e-4)
+    closed = end.gap[end.in_contact & (end.gap == 0)]
+    assert len(closed) > 0.9 * np.pi * (A * CELLS / WINDOW) ** 2
+
+
+def bumps(cells: int, *places: tuple[float, float, float, float]) -> tuple[Scene, SurfaceGrid]:
+    """Paraboloids side by side: x, y and radius of each over those of the others, and its depth
+    below the highest over the approach."""
+    side = 6 * A
+    at = (np.arange(cells) - (cells - 1) / 2) * side / cells
+    X, Y = np.meshgrid(at, at, indexing="ij")
+    heights = np.min(
+        [
+            ((X - x * A) ** 2 + (Y - y * A) ** 2) / (2 * RADIUS * r) + deep * APPROACH
+            for x, y, r, deep in places
+        ],
+        axis=0,
+    )
+    indenter = HeightMap(file=heights, spacing=side / cells, material=steel())
+    return frictionless(PRESS, indenter=indenter), SurfaceGrid((cells, cells), (side, side))
+
+
+PATCHES = (-1.2, 0.1, 1, 0), (1.25, -0.2, 0.3, 0.45)
+
+
+def test_every_patch_has_its_edge_inside_the_cells():
+    """What three times the cells find, who are 4e-3 apart otherwise."""
+    ends = [solved(of, "last", grid) for of, grid in (bumps(n, *PATCHES) for n in (72, 120))]
+    few, many = (end.steps[-1].contact_radius for end in ends)
+    assert few == pytest.approx(many, rel=2e-4)
+
+
+def test_beside_a_patch_that_is_too_thin_the_pressure_stays():
+    of, grid = bumps(48, *PATCHES)
+    plain, asked = (solved(of, edge, grid).steps[-1] for edge in ("off", "last"))
+    assert asked.edge_change is None
+    np.testing.assert_array_equal(plain.pressure, asked.pressure)
 
 
 def test_below_a_cone_the_edge_is_found_although_the_apex_is_not_smooth():
@@ -194,7 +247,6 @@ def test_a_pressure_that_is_not_smooth_at_its_edge_is_left_as_it_is():
     ("of", "because"),
     [
         (frictionless(PRESS, indenter=FlatPunch(radius=A, material=steel())), "flat punch"),
-        (frictionless({**PRESS, "tilt": (1e-5, 0.0)}), "tilts"),
         (scene(PRESS, body=steel(0.1)), "couple"),
         (scene(PRESS, {"twist": 1e-4}), "twist"),
     ],

@@ -78,7 +78,7 @@ ORDERS = {
     "semi_analytical": ORDER,
     "semi_analytical.edge": (
         *("means", "quadratic", "fit", "shape"),
-        *("kernels", "displacement", "rim", "corrected"),
+        *("kernels", "displacement", "rim", "peak", "corrected"),
     ),
     "semi_analytical.edge_correction": ("mixing", "operators", "pressure", "shear", "state"),
     "fem_reference": (

@@ -44,16 +44,20 @@ class Corrected:
 
     pressure       (nx, ny) its mean over each cell, also over those that the contact reaches into
                    from outside their centre [force/length^2]
+    peak           the largest pressure at a point [force/length^2]
     gap            (nx, ny) at the centres of the cells [length]
     approach       of the bodies [length]
     contact_cells  area of the contact in cells
     change         of the pressure in the last round, Σ|Δp|/Σp
+    tilt           of the indenter (x, y); None where nothing tilts
     sheared        the tangential part; None where no shear arises
     """
 
     pressure: Field
+    peak: float
     gap: Field
     approach: float
     contact_cells: float
     change: float
+    tilt: tuple[float, float] | None = None
     sheared: CorrectedShear | None = None

@@ -8,7 +8,9 @@ moves the surface, and the pressure is solved for again, until it fits what it i
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
+from functools import cached_property
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,12 +19,13 @@ from contact_scene.solver_errors import NotConverged
 from semi_analytical.box import Box
 from semi_analytical.edge.corrected import Corrected
 from semi_analytical.edge.displacement import Within
+from semi_analytical.edge.peak import peak_of
 from semi_analytical.edge.rim import Rim, rim
 from semi_analytical.edge_correction.mixing import Mixing
 from semi_analytical.edge_correction.operators import EdgeOperators
 from semi_analytical.model import ContactModel
 from semi_analytical.normal import solve_normal
-from semi_analytical.normal_load import NormalLoad, PressureSum
+from semi_analytical.normal_load import Motion, NormalLoad
 from semi_analytical.pressing import NormalTarget
 
 Field = NDArray[np.float64]
@@ -35,7 +38,7 @@ ENOUGH = 0.1
 # To be accepted: the change that the rounds leave, and its part of the first; the part of the edge
 # that could not be fitted.
 LEAST_SETTLED, LEAST_FALL = 1e-3, 0.1
-MOST_UNSAFE = 0.15
+MOST_UNSAFE = 0.03
 
 
 def edge_pressure(
@@ -49,7 +52,7 @@ def edge_pressure(
         if edge is None or edge.unsafe > MOST_UNSAFE:
             return None
         try:
-            answer, gap, approach = problem.solve(p, edge)
+            answer, solved = problem.solve(p, edge)
         except NotConverged:
             return None
         change = answer - p
@@ -60,8 +63,7 @@ def edge_pressure(
         edge = rim(p, p > 0, edge)
     if edge is None or not settles(changes):
         return None
-    gap = np.where(edge.region, 0.0, np.maximum(gap, 0.0))
-    return Corrected(answer, gap, approach, edge.area, changes[-1]), edge
+    return problem.corrected(answer, solved, edge, changes[-1]), edge
 
 
 def settles(changes: list[float]) -> bool:
@@ -79,8 +81,16 @@ class _Problem:
     def model(self) -> ContactModel:
         return self.operators.model
 
-    def solve(self, p: Field, edge: Rim) -> tuple[Field, Field, float]:
-        """Pressure, gap and approach with the edge where it is.
+    @cached_property
+    def load(self) -> NormalLoad:
+        return self.target.on(self.model, Box.whole(self.model.grid.cells))
+
+    @cached_property
+    def gap(self) -> Field:
+        return self.target.gap(self.model)
+
+    def solve(self, p: Field, edge: Rim) -> tuple[Field, _Solved]:
+        """The pressure with the edge where it is, and the solution of its cells.
 
         Cells that the contact only reaches into carry what the fit says of them, and the load
         that is left to the others is theirs to find.
@@ -89,20 +99,26 @@ class _Problem:
         operator = model.normal_operator(model.grid.cells)
         reached = np.where(edge.outer, edge.means, 0.0)
         within = Within.of(p, edge.i, edge.j, edge.parts)
-        gap = self.target.gap(model) + self.operators["zz"](within) + operator(reached)
+        gap = self.gap + self.operators["zz"](within) + operator(reached)
         solution = solve_normal(
             operator,
             operator.precondition,
             np.where(edge.outer, np.inf, gap),
-            _less(self.target.on(model, Box.whole(model.grid.cells)), float(np.sum(reached))),
+            self.load.less(reached),
             np.where(edge.outer, 0.0, p),
             self.tolerance,
             ENOUGH,
         )
-        approach, _ = self.target.reached(model, solution.motion)
-        return solution.pressure + reached, gap + solution.displacement - approach, approach
+        gap += solution.displacement - self.load.closure(solution.motion)
+        return solution.pressure + reached, _Solved(gap, solution.motion)
+
+    def corrected(self, p: Field, solved: _Solved, edge: Rim, change: float) -> Corrected:
+        """The pressure of the last round, as a state."""
+        approach, tilt = self.target.reached(self.model, solved.motion)
+        gap = np.where(edge.region, 0.0, np.maximum(solved.gap, 0.0))
+        return Corrected(p, peak_of(p), gap, approach, edge.area, change, tilt)
 
 
-def _less(load: NormalLoad, carried: float) -> NormalLoad:
-    """The load without a sum of pressures that others carry."""
-    return replace(load, total=load.total - carried) if isinstance(load, PressureSum) else load
+class _Solved(NamedTuple):
+    gap: Field
+    motion: Motion
