@@ -2,9 +2,13 @@
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.ndimage import distance_transform_edt
+from scipy.ndimage import binary_erosion
+
+# So many cells at most are equally far from one, up to eight cells away.
+EQUALLY_FAR = 12
 
 Field = NDArray[np.float64]
+Mask = NDArray[np.bool_]
 
 
 def touching_share(before: Field, after: Field, gap: Field) -> Field:
@@ -12,9 +16,10 @@ def touching_share(before: Field, after: Field, gap: Field) -> Field:
 
     Particles slip past each other from their touch on. Behind an edge that moves on, p² grows as
     the way of the edge since, at all places alike (below a paraboloid p² ~ a² - r²). What a cell
-    has of the growth of p² at the nearest cell that touched before is therefore its part of the
-    motion: to first order in the increment, in which the motion follows the edge. Before first
-    touch the nearest is the place of the largest pressure; there all that has no gap meets at once.
+    has of the growth of p² at the nearest cell that touched before (the mean of those equally near,
+    for mirrored contacts to have mirrored slip) is therefore its part of the motion: to first order
+    in the increment, in which the motion follows the edge. Before first touch the nearest is the
+    place of the largest pressure; there all that has no gap meets at once.
 
     before, after  pressure at start and end (nx, ny)
     gap            undeformed (nx, ny)
@@ -28,10 +33,21 @@ def touching_share(before: Field, after: Field, gap: Field) -> Field:
     largest = np.max(after)
     p, grown = after / largest, (after / largest) ** 2 - (before / largest) ** 2
     if np.any(touched):
-        nearest = distance_transform_edt(~touched, return_distances=False, return_indices=True)
-        growth = grown[tuple(part[meets] for part in nearest)]
+        growth = _at_nearest(grown, touched & ~binary_erosion(touched), meets)
     else:
         growth = np.ones(np.count_nonzero(meets))
     own = p[meets] ** 2
     share[meets] = np.divide(own, growth, out=np.ones_like(own), where=own < growth)
     return share
+
+
+def _at_nearest(values: Field, known: Mask, wanted: Mask) -> Field:
+    """The mean of the values at the known cells that are nearest to each wanted one (wanted,)."""
+    from scipy.spatial import KDTree  # as long to import as a small contact takes
+
+    tree = KDTree(np.argwhere(known))
+    distance, which = tree.query(np.argwhere(wanted), k=EQUALLY_FAR)
+    nearest = distance < distance[:, :1] * (1 + 1e-9)
+    # Where fewer are known than asked for, the tree names one behind the last, infinitely far.
+    found = np.where(nearest, np.append(values[known], 0.0)[which], 0.0)
+    return np.asarray(np.sum(found, axis=1) / np.count_nonzero(nearest, axis=1))

@@ -38,6 +38,15 @@ def test_a_lower_summit_touches_later():
     assert share[farther < 0.04].max() == pytest.approx(0.04 / 0.16)
 
 
+def test_the_mirror_of_a_contact_has_the_mirror_of_its_share():
+    """Also where p² has not grown alike in cells that are equally near."""
+    before, after = hertz(0.52), hertz(1.0) * (1 + 0.2 * X[:, None] + 0.1 * X)
+    share = touching_share(before, after, SQUARED)
+    for mirror in (np.flipud, np.fliplr, np.transpose):
+        seen = touching_share(mirror(before), mirror(after), SQUARED)
+        np.testing.assert_allclose(seen, mirror(share), rtol=1e-12)
+
+
 def test_where_the_contact_does_not_grow_all_of_the_motion_is_slip():
     shrinks = touching_share(hertz(1.0), hertz(0.8), SQUARED)
     falls = touching_share(np.where(SQUARED < 0.64, 2.0, 0.0), hertz(1.0), SQUARED)
