@@ -140,7 +140,9 @@ ORDERS = {
         *("halves", "asked", "cases", "toml_text", "export", "answer", "reading"),
         *("verdicts", "judgement", "door"),
     ),
-    "slipstick": ("solvers", "path_errors", "solving", "stored_run", "cli", "__main__"),
+    "slipstick": (
+        *("solvers", "path_errors", "solving", "stored_run", "tables", "cli", "__main__"),
+    ),
     # Its floors: what judges stands on what is known, what is shown on what was judged.
     "verification": (
         *("closed_forms", "references", "baselines", "norms", "solver", "convergence", "exhibits"),

@@ -33,6 +33,7 @@ COMMANDS: dict[str, LazyCommand] = {
         "run": "Solve a scene and write its results, tables and figures.",
         "frf": "Tabulate and plot the surface FRF of the lower body of a scene.",
         "stress": "Compute displacement and stress below the surface.",
+        "table": "Print a table of reference numbers with their uncertainty.",
         "export": "Write a run or a stress for MATLAB, Excel or ParaView.",
         "verify": "Measure the accuracy against closed forms and write the report.",
         "compare": "Say what changed since the numbers that were accepted, or since a report.",

@@ -135,7 +135,9 @@ def stress(
             errors=errors,
             accuracy=reached,
         )
-    _print(found, errors, state.by_increments, reached, field.how.get("edge"), output)
+    # Frictionless contacts on a disc have no path.
+    by_increments = state.by_increments if state.pressed is None else 0.0
+    _print(found, errors, by_increments, reached, field.how.get("edge"), output)
     leave_unless_met(reached)
 
 

@@ -1,0 +1,103 @@
+"""`slipstick table`: reference numbers of contacts, to the last digits that there are."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from slipstick.cli.optional import optional
+
+if TYPE_CHECKING:
+    from slipstick.tables.table import Table
+
+
+def table(
+    name: Annotated[
+        str | None,
+        typer.Argument(help="Which; all are listed if absent.", show_default=False),
+    ] = None,
+    over: Annotated[
+        list[str] | None,
+        optional(
+            "--over",
+            metavar="PARAMETER=V,V,...",
+            help="Other values of a parameter than those of the table; any number of times.",
+        ),
+    ] = None,
+    as_json: Annotated[bool, typer.Option("--json", help="Print JSON instead of CSV.")] = False,
+) -> None:
+    """Print reference numbers, each with its uncertainty, and where they come from.
+
+    CSV begins with the provenance in lines that start with '#'.
+    """
+    from slipstick.tables.catalogue import TABLES
+
+    if name is None:
+        _list(TABLES)
+        return
+    if name not in TABLES:
+        from slipstick.cli.name_mistakes import unknown_names
+
+        raise typer.BadParameter(unknown_names("table", [name], TABLES, "slipstick table"))
+    chosen = TABLES[name]
+    rows = list(chosen.rows(_values(chosen, over or ())))
+    provenance = _provenance(chosen)
+    if as_json:
+        document = {**provenance, "columns": chosen.columns, "rows": rows}
+        typer.echo(json.dumps(document, indent=1, allow_nan=False, ensure_ascii=False))
+        return
+    for key, text in {**provenance, **chosen.columns}.items():
+        typer.echo(f"# {key}: {text}")
+    typer.echo(",".join(chosen.columns))
+    for row in rows:
+        typer.echo(",".join(_digits(column, value) for column, value in row.items()))
+
+
+def _list(tables: Mapping[str, Table]) -> None:
+    for name, one in tables.items():
+        typer.echo(f"{name}: {', '.join(one.quantities)} over {', '.join(one.axes)}")
+        typer.echo(f"  {one.problem}.")
+
+
+def _values(chosen: Table, given: Sequence[str]) -> dict[str, list[float]]:
+    """Of the parameters that were named; raises BadParameter."""
+    found: dict[str, list[float]] = {}
+    for text in given:
+        name, _, numbers = text.partition("=")
+        if name not in chosen.axes:
+            names = ", ".join(chosen.axes)
+            raise typer.BadParameter(f"--over {text!r}: '{chosen.name}' has {names}")
+        axis = chosen.axes[name]
+        try:
+            found[name] = [float(number) for number in numbers.split(",")]
+        except ValueError:
+            raise typer.BadParameter(
+                f"--over {text!r}: expected numbers such as {name}=0.5,1"
+            ) from None
+        for value in found[name]:
+            if not (axis.least < value <= axis.most and value < float("inf")):
+                most = "" if axis.most == float("inf") else f" and at most {axis.most:g}"
+                raise typer.BadParameter(
+                    f"--over {text!r}: got {value:g}, expected more than {axis.least:g}{most}"
+                )
+    return found
+
+
+def _provenance(chosen: Table) -> dict[str, Any]:
+    from contact_results.directory.machine import program_version
+    from slipstick.tables.table import UNCERTAINTY
+
+    return {
+        "table": chosen.name,
+        "made_by": f"slipstick {program_version()}, radial solver",
+        "problem": chosen.problem,
+        "source": chosen.source,
+        "uncertainty": UNCERTAINTY,
+    }
+
+
+def _digits(column: str, value: float) -> str:
+    return f"{value:.1e}" if column.endswith("_uncertainty") else f"{value:.15g}"

@@ -1,0 +1,1 @@
+"""Tables of reference numbers, each with its uncertainty."""

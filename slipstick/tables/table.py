@@ -1,0 +1,77 @@
+"""A table over dimensionless parameters, and how uncertain its numbers are."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from itertools import product
+
+ROUND_OFF = 1e-13
+TIMES = 2.0
+UNCERTAINTY = (
+    "twice the change of a number by twice as many orders and points, what is left of the load, "
+    f"and {ROUND_OFF:g} of the number for round-off"
+)
+
+
+@dataclass(frozen=True)
+class Axis:
+    """A parameter.
+
+    meaning  in words
+    values   that are tabulated unless somebody names others
+    least    values are larger than this
+    most     and at most this
+    """
+
+    meaning: str
+    values: tuple[float, ...]
+    least: float = 0.0
+    most: float = float("inf")
+
+
+@dataclass(frozen=True)
+class Found:
+    """Quantities at one point, in the order of the table, and by what part of itself the load was
+    missed."""
+
+    values: tuple[float, ...]
+    missed: float = 0.0
+
+
+@dataclass(frozen=True)
+class Table:
+    """What is tabulated.
+
+    axes        parameters by name, the first varies slowest
+    quantities  meanings by name
+    problem     what is solved
+    source      of the equations
+    at          quantities at parameters, in the order of the axes, with so many times as many
+                orders and points as it takes
+    """
+
+    name: str
+    axes: Mapping[str, Axis]
+    quantities: Mapping[str, str]
+    problem: str
+    source: str
+    at: Callable[[Sequence[float], int], Found]
+
+    @property
+    def columns(self) -> dict[str, str]:
+        """Meanings by name: parameters, quantities, and the uncertainty of each of these."""
+        parameters = {name: axis.meaning for name, axis in self.axes.items()}
+        uncertain = {f"{name}_uncertainty": f"of {name}, absolute" for name in self.quantities}
+        return {**parameters, **self.quantities, **uncertain}
+
+    def rows(self, chosen: Mapping[str, Sequence[float]]) -> Iterator[dict[str, float]]:
+        """A row by column for all combinations, of chosen values or those of the axes."""
+        grid = [chosen.get(name, axis.values) for name, axis in self.axes.items()]
+        for place in product(*grid):
+            found, finer = self.at(place, 1), self.at(place, 2)
+            uncertainties = (
+                TIMES * abs(value - other) + (found.missed + ROUND_OFF) * abs(value)
+                for value, other in zip(found.values, finer.values, strict=True)
+            )
+            yield dict(zip(self.columns, (*place, *found.values, *uncertainties), strict=True))
