@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import json
+import tomllib
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
@@ -11,14 +12,16 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from contact_scene import load_scene
+from contact_scene import Body, load_scene
 from slipstick.cli import main
 from verification import Answer, CannotDo, Field, Solver, judge
 from verification.adapters import surface
 from verification.challenge.asked import Challenge
 from verification.challenge.cases import challenges
+from verification.challenge.cases_at_places import PLACES
 from verification.challenge.door import Posed
 from verification.challenge.judgement import judged
+from verification.challenge.round_table import RoundTable
 from verification.challenge.toml_text import toml_text
 from verification.judging.outcome import Status
 from verification.problems.elliptical import EXACT as ELLIPSE
@@ -32,17 +35,22 @@ NAMES = sorted(challenges())
 def exact_field(challenge: Challenge, step: int = 1, cells: int = 400) -> Field:
     """The reference at the centres of cells, coarse enough to carry the load to 1e-3."""
     (asked,) = (f for f in challenge.fields if f.step == step)
-    half = 1.05 * max(max(term.semi_axes) for term in asked.halves.terms)
+    half = 1.05 * asked.traction.reach
     x = (np.arange(cells) + 0.5) * 2 * half / cells - half
     x, y = (part.ravel() for part in np.meshgrid(x, x, indexing="ij"))
     area = np.full(x.size, (2 * half / cells) ** 2)
-    return Field(x, y, asked.halves.at(x, y), area)
+    return Field(x, y, asked.traction.at(x, y), area)
 
 
-def exact(challenge: Challenge, off: float = 0.0, h: float = 1e-5) -> Answer:
-    """All numbers, off by a part of their scale, and the first field."""
+def exact(challenge: Challenge, off: float = 0.0, h: float = 1e-5, cells: int = 0) -> Answer:
+    """All numbers, off by a part of their scale; fields where cells are given, off likewise."""
     scalars = {(v.quantity, v.step): v.value + off * v.scale for v in challenge.values}
-    return Answer(h, scalars)
+    points = {(p.quantity, p.step): p.values + off * p.scale for p in challenge.points}
+    fields = {}
+    for asked in challenge.fields if cells else ():
+        field = exact_field(challenge, asked.step, cells)
+        fields[asked.quantity, asked.step] = replace(field, value=field.value * (1 + off))
+    return Answer(h, scalars, fields, points=points)
 
 
 def statuses(
@@ -58,21 +66,33 @@ def statuses(
 @pytest.mark.parametrize("name", NAMES)
 def test_a_scene_written_for_others_reads_back_as_itself(name: str, tmp_path: Path) -> None:
     file = tmp_path / "scene.toml"
-    file.write_text(toml_text(challenges()[name].scene), encoding="utf-8")
-    assert load_scene(file) == challenges()[name].scene
+    scene = challenges()[name].scene
+    file.write_text(toml_text(scene), encoding="utf-8")
+    if isinstance(scene, Body):
+        assert Body.model_validate(tomllib.loads(file.read_text())["body"]) == scene
+    else:
+        assert load_scene(file) == scene
 
 
 @pytest.mark.parametrize("name", NAMES)
 def test_a_field_for_others_carries_the_load_of_its_step(name: str) -> None:
     for field in challenges()[name].fields:
-        assert field.halves.total == pytest.approx(field.total, rel=1e-10, abs=1e-9 * field.scale)
+        assert field.traction.total == pytest.approx(field.total, rel=1e-10, abs=1e-9 * field.scale)
+
+
+def test_a_twisting_shear_for_others_has_the_torque_of_its_step() -> None:
+    challenge = challenges()["torsion"]
+    for field in challenge.fields:
+        assert isinstance(field.traction, RoundTable)
+        torque = challenge.ramps[field.step - 1].twisting.end
+        assert field.traction.torque == pytest.approx(torque, rel=5e-5)
 
 
 def test_a_field_for_others_is_that_of_the_closed_form() -> None:
     a, b = ELLIPSE.semi_axes
     x, y = np.array([0.0, 0.3 * a, 0.9 * a]), np.array([0.0, 0.5 * b, 0.1 * b])
     (field,) = challenges()["hertz_elliptical"].fields
-    assert field.halves.at(x, y) == pytest.approx(ELLIPSE.pressure(x, y), rel=1e-12)
+    assert field.traction.at(x, y) == pytest.approx(ELLIPSE.pressure(x, y), rel=1e-12)
 
 
 def test_a_version_changes_with_what_is_asked() -> None:
@@ -87,8 +107,39 @@ def test_a_version_changes_with_what_is_asked() -> None:
 def test_the_right_numbers_pass_and_a_bias_of_one_per_cent_is_found(name: str) -> None:
     challenge = challenges()[name]
     assert judged(challenge, Solver("exact"), (exact(challenge),)).exit_code() == 0
-    biased = judged(challenge, Solver("biased"), (exact(challenge, 1.01e-2),))
-    assert biased.count(Status.FAIL) == len(challenge.values)
+    bias = 1.01e-2 + 2 * max(number.uncertainty for number in challenge.numbers)
+    biased = judged(challenge, Solver("biased"), (exact(challenge, bias),))
+    assert biased.count(Status.FAIL) == len(challenge.numbers)
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_by_either_door_the_right_answer_passes_and_five_per_cent_off_fails(
+    name: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    challenge = challenges()[name]
+    for off, code in ((0.0, 0), (0.05, 1)):
+        answer = exact(challenge, off, cells=48)
+        found = judge(name, lambda *_, given=answer: given, levels=1)
+        folder = tmp_path / str(code)
+        assert slipstick("challenge", "export", name, "-o", folder, "--blind") == 0
+        fill(folder, answer, challenge)
+        assert (found.exit_code(strict=code == 0), slipstick("judge", folder)) == (code, code)
+        assert found.line.replace(found.solver.name, "stranger <b>") in capsys.readouterr().out
+        answered = [row for row in found.rows if row.grade or row.status is Status.FAIL]
+        judged_ones = {(row.quantity, row.step) for row in answered}
+        assert judged_ones >= {
+            (v.quantity, v.step) for v in (*challenge.numbers, *challenge.fields)
+        }
+
+
+def test_one_place_that_is_wrong_is_found() -> None:
+    challenge = challenges()["sliding_stress"]
+    right = exact(challenge)
+    for number in range(len(PLACES)):
+        points = {key: values.copy() for key, values in right.points.items()}
+        points["stress_zz", 2][number] += 0.002 * HERTZ.peak_pressure
+        found = statuses(challenge, replace(right, points=points))
+        assert [name for name, status in found.items() if status is Status.FAIL] == ["stress_zz"]
 
 
 def test_exchanged_axes_are_seen() -> None:
@@ -198,20 +249,46 @@ def filled(tmp_path: Path) -> Path:
     """The challenge, answered rightly."""
     folder = tmp_path / "challenge"
     assert slipstick("challenge", "export", "hertz_point", "-o", folder) == 0
-    solver = folder / "solver.toml"
-    solver.write_text(solver.read_text().replace('name = ""', 'name = "stranger <b>"'))
-    (folder / "levels.csv").write_text(
-        "level,status,reason,h,h_unit,unknowns,cpu_seconds\n1,solved,,4.5,um,100,0.1\n"
-    )
+    named(folder)
     write(folder, ("1", "1", "approach", f"{HERTZ.approach * 1e6!r}", "um", ""),
           ("1", "1", "contact_radius", f"{HERTZ.contact_radius!r}", "m", ""))  # fmt: skip
     return folder
 
 
+def named(folder: Path) -> None:
+    solver = folder / "solver.toml"
+    solver.write_text(solver.read_text().replace('name = ""', 'name = "stranger <b>"'))
+    (folder / "levels.csv").write_text(
+        "level,status,reason,h,h_unit,unknowns,cpu_seconds\n1,solved,,4.5,um,100,0.1\n"
+    )
+
+
 def write(folder: Path, *rows: tuple[str, ...]) -> None:
     with (folder / "answers.csv").open("w", newline="") as file:
         csv.writer(file).writerows(
-            (("level", "load_step", "quantity", "value", "unit", "u"), *rows)
+            (("level", "load_step", "quantity", "value", "unit", "u", "point"), *rows)
+        )
+
+
+def fill(folder: Path, answer: Answer, challenge: Challenge) -> None:
+    """Write an answer as a stranger would."""
+    named(folder)
+    rows = [
+        ("1", str(v.step), v.quantity, repr(float(answer.value((v.quantity, v.step)) or 0)), v.unit)
+        for v in challenge.values
+    ]
+    rows += [
+        ("1", str(p.step), p.quantity, repr(float(value)), p.unit, "", str(n))
+        for p in challenge.points
+        for n, value in enumerate(answer.points[p.quantity, p.step], start=1)
+    ]
+    write(folder, *rows)
+    (folder / "fields").mkdir()
+    for (quantity, step), field in answer.fields.items():
+        columns = np.stack([field.x, field.y, field.area, field.value], axis=1)
+        header = f"x [m],y [m],area [m^2],{quantity} [Pa]"
+        np.savetxt(
+            folder / "fields" / f"1_{step}.csv", columns, "%.17g", ",", header=header, comments=""
         )
 
 
@@ -247,6 +324,7 @@ def test_what_is_required_and_missing_is_no_class(
         (("1", "1", "approach", "8.37", "um", "-1"), "u is -1, expected"),
         (("1", "x", "approach", "8.37", "um", ""), "load_step 'x'"),
         (("1", "1", "approach", "", "um", ""), "nothing to judge"),
+        (("1", "1", "approach", "8.37", "um", "", "1"), "approach is one number"),
     ],
 )  # fmt: skip
 def test_a_mistake_in_the_answers_is_named_by_file_and_line(
@@ -257,13 +335,34 @@ def test_a_mistake_in_the_answers_is_named_by_file_and_line(
     assert said in capsys.readouterr().err
 
 
+@pytest.mark.parametrize(
+    ("point", "said"),
+    [("1", "has no value at point 2, 3"), ("12", "point '12', expected 1 to 11 of points.csv"),
+     ("", "point '', expected 1 to 11"), ("9" * 5000, "expected 1 to 11")],
+)  # fmt: skip
+def test_numbers_at_places_are_all_given_each_at_its_own(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], point: str, said: str
+) -> None:
+    slipstick("challenge", "export", "sliding_stress", "-o", tmp_path)
+    named(tmp_path)
+    write(tmp_path, ("1", "2", "stress_xx", "1", "GPa", "", point))
+    assert slipstick("judge", tmp_path) == 2
+    assert said in capsys.readouterr().err
+
+
+def test_a_function_answers_at_every_place_or_none() -> None:
+    key = ("stress_xx", 2)
+    with pytest.raises(ValueError, match="2 numbers, expected one at each of the 11 places"):
+        judge("sliding_stress", lambda *_: Answer(1e-5, points={key: np.zeros(2)}), levels=1)
+
+
 def test_a_value_given_twice_is_refused(filled: Path, capsys: pytest.CaptureFixture[str]) -> None:
     write(filled, *2 * [("1", "1", "approach", "8.37", "um", "")])
     assert slipstick("judge", filled) == 2
     assert "answers.csv:3: approach of step 1 twice" in capsys.readouterr().err
 
 
-@pytest.mark.parametrize("name", ["scene.toml", "asked.csv"])
+@pytest.mark.parametrize("name", ["scene.toml", "asked.csv", "points.csv"])
 def test_a_changed_problem_is_refused(
     filled: Path, capsys: pytest.CaptureFixture[str], name: str
 ) -> None:
@@ -287,11 +386,15 @@ def test_answers_are_not_overwritten(filled: Path, capsys: pytest.CaptureFixture
     assert "exists: take another folder" in capsys.readouterr().err
 
 
-def test_a_blind_export_does_not_print_the_answer(tmp_path: Path) -> None:
-    assert slipstick("challenge", "export", "cone_contact", "-o", tmp_path, "--blind") == 0
-    values = {f"{v.value:.6g}" for v in challenges()["cone_contact"].values}
+@pytest.mark.parametrize("name", NAMES)
+def test_a_blind_export_does_not_print_the_answer(name: str, tmp_path: Path) -> None:
+    assert slipstick("challenge", "export", name, "-o", tmp_path, "--blind") == 0
+    challenge = challenges()[name]
+    numbers = [v.value for v in challenge.values]
+    numbers += [float(value) for p in challenge.points for value in p.values]
+    values = {f"{number:.9e}"[: 7 + (number < 0)].lstrip("-") for number in numbers if number}
     text = "".join(file.read_text() for file in tmp_path.iterdir())
-    digits = {value.partition("e")[0].replace(".", "") for value in values}
+    digits = {value.replace(".", "") for value in values}
     assert not any(d in text.replace(".", "") for d in digits)
     assert not (tmp_path / "reference.json").exists()
 

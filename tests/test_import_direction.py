@@ -137,7 +137,8 @@ ORDERS = {
         "ladder_on_elements",
     ),
     "verification.challenge": (
-        *("halves", "asked", "cases", "toml_text", "export", "answer", "reading"),
+        *("halves", "round_table", "asked", "often_asked", "frictional_cases", "cases_at_places"),
+        *("paper_figure", "cases", "toml_text", "export", "answer", "reading"),
         *("verdicts", "judgement", "door"),
     ),
     "slipstick": (

@@ -42,7 +42,8 @@ class Answer:
 
     h         size of a cell or element at the contact's edge; √area where it is oblong [m]
     scalars   a value [SI], or a value with its standard uncertainty
-    fields    `pressure` [Pa] and `shear_x` [Pa] on the lower body
+    fields    tractions on the lower body [Pa]
+    points    numbers at the places that are asked, in their order [SI]
     gave_up   reasons by loading step, where there is no answer
     unknowns, seconds  of the whole level; None where nobody counted
     """
@@ -54,11 +55,16 @@ class Answer:
     unknowns: int | None = None
     seconds: float | None = None
     label: str = ""
+    points: Mapping[Key, Vector] = field(default_factory=dict)
 
     def value(self, key: Key) -> float | None:
         """Of a number; None where it is not answered."""
         found = self.scalars.get(key)
         return found[0] if isinstance(found, tuple) else found
+
+    def has(self, key: Key) -> bool:
+        """Whether a number, or the numbers at places, are answered."""
+        return key in self.scalars or key in self.points
 
     def uncertainty(self, key: Key) -> float | None:
         """That the answerer claims, standard."""

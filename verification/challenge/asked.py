@@ -6,12 +6,19 @@ import hashlib
 import json
 from dataclasses import dataclass
 from enum import StrEnum
-from typing import Any
+from math import nan
+from typing import Any, TypeVar
 
-from contact_scene import Scene
+import numpy as np
+from numpy.typing import NDArray
+
+from contact_scene import Body, Scene
+from contact_scene.load_path import Control, ControlKind, LoadRamp
 from verification.challenge.halves import Halves
+from verification.challenge.round_table import RoundTable
 from verification.problems.reference import ROUNDING
 
+Value = TypeVar("Value", float, tuple[float, float])
 DIGITS = 10  # of the references, by which versions are told apart
 
 
@@ -63,7 +70,7 @@ class AskedField:
     quantity: str
     step: int
     meaning: str
-    halves: Halves
+    traction: Halves | RoundTable
     norm: str
     scale: float
     total: float
@@ -72,11 +79,35 @@ class AskedField:
     limit: float | None = 1.0
 
 
+@dataclass(frozen=True, eq=False)
+class AskedPoints:
+    """Numbers at given places at the end of a loading step: the largest error is judged.
+
+    places       (points, 3): x, y and depth z [length]
+    values       there [unit]
+    scale        what errors are divided by, and `over` in words
+    uncertainty  standard, over the scale
+    """
+
+    quantity: str
+    step: int
+    unit: str
+    meaning: str
+    places: NDArray[np.float64]
+    values: NDArray[np.float64]
+    scale: float
+    over: str
+    par: Grade = Grade.C
+    required: bool = True
+    uncertainty: float = ROUNDING
+
+
 @dataclass(frozen=True)
 class Challenge:
     """A problem for others.
 
     problem  in words
+    scene    a contact; a body alone where the tractions are given
     window   side of a square in which all of it happens, with room [length]
     shares   what its reference has in common with our own solvers; empty: nothing
     """
@@ -84,12 +115,13 @@ class Challenge:
     name: str
     title: str
     problem: str
-    scene: Scene
+    scene: Scene | Body
     source: str
     values: tuple[AskedValue, ...]
     fields: tuple[AskedField, ...]
     window: float
     shares: str = ""
+    points: tuple[AskedPoints, ...] = ()
 
     @property
     def version(self) -> str:
@@ -99,7 +131,7 @@ class Challenge:
 
     def reference(self) -> dict[str, Any]:
         """What is right, as it is written for others."""
-        return {
+        answers = {
             "case": self.name,
             "source": self.source,
             "shares": self.shares,
@@ -114,22 +146,48 @@ class Challenge:
             "fields": [
                 {
                     "quantity": f.quantity, "load_step": f.step, "unit": "Pa", "norm": f.norm,
-                    "scale": _digits(f.scale), "halves": _digits(f.halves.document()),
+                    "scale": _digits(f.scale), **_digits(f.traction.document()),
                 }
                 for f in self.fields
             ],
         }  # fmt: skip
+        if not self.points:
+            return answers
+        return answers | {
+            "points": [
+                {
+                    "quantity": p.quantity, "load_step": p.step, "unit": p.unit,
+                    "values": _digits(p.values.tolist()), "u": _digits(p.uncertainty * p.scale),
+                    "scale": _digits(p.scale), "places": _digits(p.places.tolist()),
+                }
+                for p in self.points
+            ]
+        }  # fmt: skip
+
+    @property
+    def ramps(self) -> tuple[LoadRamp, ...]:
+        """The loading steps; none where the tractions are given."""
+        return self.scene.load_path() if isinstance(self.scene, Scene) else ()
 
     @property
     def loads(self) -> list[tuple[float, tuple[float, float]]]:
-        """Normal and tangential force at the end of every loading step [force]."""
-        ramps = self.scene.load_path()
-        return [(ramp.normal.end, ramp.tangential.end) for ramp in ramps]
+        """Normal and tangential force at the end of every loading step, NaN where a motion is
+        prescribed [force]."""
+        return [(_force(r.normal, nan), _force(r.tangential, (nan, nan))) for r in self.ramps]
 
-    def value(self, quantity: str, step: int) -> AskedValue | None:
-        """What is asked under this name; None where nothing is."""
-        found = (v for v in self.values if (v.quantity, v.step) == (quantity, step))
+    def one(self, quantity: str, step: int) -> AskedValue | AskedPoints | None:
+        """The number or numbers that are asked under this name; None where none are."""
+        found = (v for v in self.numbers if (v.quantity, v.step) == (quantity, step))
         return next(found, None)
+
+    @property
+    def numbers(self) -> tuple[AskedValue | AskedPoints, ...]:
+        """All that is asked but fields."""
+        return (*self.values, *self.points)
+
+
+def _force(control: Control[Value], unknown: Value) -> Value:
+    return control.end if control.kind is ControlKind.FORCE else unknown
 
 
 def _digits(value: Any) -> Any:

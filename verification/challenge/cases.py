@@ -7,8 +7,12 @@ from collections.abc import Iterator
 from functools import cache
 from typing import Any
 
-from verification.challenge.asked import AskedField, AskedValue, Challenge, Grade
+from verification.challenge.asked import AskedField, AskedValue, Challenge
+from verification.challenge.cases_at_places import at_places
+from verification.challenge.frictional_cases import frictional
 from verification.challenge.halves import Half, Halves, fitted, round_halves
+from verification.challenge.often_asked import LARGE, SMALL, approach, contact_radius, stick_radius
+from verification.challenge.paper_figure import paper_figure
 from verification.closed_forms.cattaneo_mindlin import PartialSlip
 from verification.closed_forms.tangential_history import TangentialHistory
 from verification.problems import paper_scene as paper
@@ -24,16 +28,16 @@ from verification.problems.sheared import sheared
 PARTS = (0.3, 0.6, 0.9, 0.99)  # of µW
 QUARTERS = (0.25, 0.5, 0.75, 1.0)  # of the largest force of the loop
 SERIES = 24  # of a coated pressure: 1e-13 in all rows
-# Sides of windows in which all of it fits, round on purpose: what is a multiple of the contact
-# radius knows the answer [length].
-SMALL, LARGE = 1.2e-3, 2.4e-3
 
 
 @cache
 def challenges() -> dict[str, Challenge]:
     """All, by name."""
-    found = (hertz_point(), hertz_elliptical(), cone(), punch(), cattaneo_mindlin(), loop())
-    return {one.name: one for one in (*found, *coated())}
+    classical = (hertz_point(), hertz_elliptical(), cone(), punch(), cattaneo_mindlin(), loop())
+    return {
+        one.name: one
+        for one in (*classical, *coated(), *frictional(), paper_figure(), *at_places())
+    }
 
 
 def hertz_point() -> Challenge:
@@ -68,7 +72,7 @@ def punch() -> Challenge:
     exact = PUNCH.ends[0]
     return Challenge(
         "flat_punch", "A flat punch on a half-space", _words(PUNCH), PUNCH.scene, PUNCH.source,
-        (_approach(exact.approach),), (), SMALL,
+        (approach(exact.approach),), (), SMALL,
     )  # fmt: skip
 
 
@@ -88,7 +92,7 @@ def coated() -> Iterator[Challenge]:
 def cattaneo_mindlin() -> Challenge:
     """Pressed, then sheared in steps."""
     problem = sheared("Ball pressed and sheared, ν = 0", PARTS)
-    values, fields = [_approach(HERTZ.approach)], []
+    values, fields = [approach(HERTZ.approach)], []
     for step, end in enumerate(problem.ends[1:], start=2):
         values += _tangential(step, end, end.sliding_shift)
         fields.append(_shear(step, _cattaneo(end), end.tangential_force))
@@ -140,13 +144,9 @@ def _pressed(
 ) -> Challenge:
     """One loading step under the paper's force."""
     exact, u = problem.ends[0], problem.uncertainty
-    values = [_approach(exact.approach, u), *more]
+    values = [approach(exact.approach, u), *more]
     if not more:
-        a = exact.contact_radius
-        meaning = "radius of the contact, or √(contact area / π)"
-        values.append(
-            AskedValue("contact_radius", 1, "m", meaning, a, a, "itself", uncertainty=u, limit=1)
-        )
+        values.append(contact_radius(exact.contact_radius, u))
     fields = []
     if pressure is not None:
         peak = float(pressure.terms[0].coefficient)
@@ -169,23 +169,13 @@ def _words(problem: Problem) -> str:
     return f"{problem.scene.title}."
 
 
-def _approach(value: float, uncertainty: float = 1e-12) -> AskedValue:
-    meaning = "approach of points far from the contact in both bodies; positive when pressed"
-    return AskedValue("approach", 1, "m", meaning, value, value, "itself", uncertainty=uncertainty,
-                      limit=2)  # fmt: skip
-
-
 def _tangential(step: int, end: Any, sliding: float) -> Iterator[AskedValue]:
     yield AskedValue(
         "shift_x", step, "m",
         "tangential shift of the indenter along +x, relative to far points of the body",
         end.shift, sliding, "the shift at gross sliding", limit=2,
     )  # fmt: skip
-    yield AskedValue(
-        "stick_radius", step, "m", "radius of the zone that has not slipped since the last turn",
-        end.stick_radius, HERTZ.contact_radius, "the contact radius", Grade.C, required=False,
-        limit=1,
-    )  # fmt: skip
+    yield stick_radius(end.stick_radius, step)
 
 
 def _shear(step: int, halves: Halves, force: float) -> AskedField:

@@ -7,7 +7,8 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from typing import Any
 
-from verification.challenge.answer import Answer, Solver
+from contact_scene import Scene
+from verification.challenge.answer import Answer, Key, Solver, Vector
 from verification.challenge.asked import Grade
 from verification.challenge.cases import challenges
 from verification.challenge.judgement import Judgement, judged
@@ -24,8 +25,10 @@ class Posed:
     """A challenge without its reference.
 
     scene   SI numbers, as in a scene file
-    loads   at the end of every loading step: normal and tangential force [N]
+    loads   at the end of every loading step: normal and tangential force [N], NaN where a motion
+            is prescribed; `scene["loading"]` has the rest
     asked   quantity and loading step, with its unit
+    places  (points, 3) where numbers are asked at x, y and depth z, by quantity and step [m]
     fields  tractions that are wanted at own points
     window  side of a square in which all of it happens, with room [m]
     """
@@ -33,8 +36,9 @@ class Posed:
     name: str
     scene: Mapping[str, Any]
     loads: tuple[tuple[float, tuple[float, float]], ...]
-    asked: Mapping[tuple[str, int], str]
-    fields: tuple[tuple[str, int], ...]
+    asked: Mapping[Key, str]
+    places: Mapping[Key, Vector]
+    fields: tuple[Key, ...]
     window: float
 
 
@@ -43,11 +47,13 @@ def posed(name: str) -> Posed:
     if name not in challenges():
         raise KeyError(f"no challenge {name!r}; there are {', '.join(challenges())}")
     challenge = challenges()[name]
+    scene = challenge.scene.model_dump(mode="json")
     return Posed(
         name,
-        challenge.scene.model_dump(mode="json"),
+        scene if isinstance(challenge.scene, Scene) else {"body": scene},
         tuple(challenge.loads),
         {(v.quantity, v.step): v.unit for v in challenge.values},
+        {(p.quantity, p.step): p.places for p in challenge.points},
         tuple((f.quantity, f.step) for f in challenge.fields),
         challenge.window,
     )

@@ -6,24 +6,30 @@ import csv
 import hashlib
 import io
 import json
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from contact_results.directory.atomic_file import atomic_file
 from contact_results.directory.refusal import Refused
+from contact_scene.load_path import ControlKind, LoadRamp
 from verification.challenge.asked import Challenge
 from verification.challenge.toml_text import toml_text
 
+POINTS = "points.csv"
 SCHEMA = "slipstick-challenge/1"
 MANIFEST, ANSWERS, LEVELS, SOLVER, FIELDS = (
     "manifest.json", "answers.csv", "levels.csv", "solver.toml", "fields",
 )  # fmt: skip
 ANSWER_COLUMNS = ("level", "load_step", "quantity", "value", "unit", "u")
+POINT_COLUMNS = ("quantity", "load_step", "point", "x [m]", "y [m]", "z [m]")
+POINT = "point"  # a column more, where numbers at places are asked
 LEVEL_COLUMNS = ("level", "status", "reason", "h", "h_unit", "unknowns", "cpu_seconds")
 FIELD_COLUMNS = ("x [m]", "y [m]", "area [m^2]")
 TEMPLATES = Path(__file__).parent / "templates"
-GIVEN = ("scene.toml", "asked.csv")  # must come back as they went
+GIVEN = ("scene.toml", "asked.csv", POINTS)  # must come back as they went
 
 
 def export(challenge: Challenge, directory: Path, *, blind: bool) -> None:
@@ -34,10 +40,11 @@ def export(challenge: Challenge, directory: Path, *, blind: bool) -> None:
     files = {
         "scene.toml": toml_text(challenge.scene),
         "asked.csv": _asked(challenge, blind=blind),
+        POINTS: _csv([POINT_COLUMNS, *_points(challenge)]),
         "problem.md": _problem(challenge),
         SOLVER: _template_text(SOLVER),
         LEVELS: _csv([LEVEL_COLUMNS]),
-        ANSWERS: _csv([ANSWER_COLUMNS, *_empty_answers(challenge)]),
+        ANSWERS: _csv([(*ANSWER_COLUMNS, POINT), *_empty_answers(challenge)]),
     }
     manifest = {
         "schema": SCHEMA,
@@ -69,6 +76,13 @@ def _asked(challenge: Challenge, *, blind: bool) -> str:
         scale = "" if blind else f"{v.scale:.10g}"
         required = "yes" if v.required else "no"
         rows.append((v.quantity, v.step, v.unit, "abs", scale, v.over, v.par, required, v.meaning))
+    for p in challenge.points:
+        scale = "" if blind else f"{p.scale:.10g}"
+        required = "yes" if p.required else "no"
+        meaning = f"{p.meaning}, at the places of {POINTS}"
+        rows.append(
+            (p.quantity, p.step, p.unit, "largest", scale, p.over, p.par, required, meaning)
+        )
     for f in challenge.fields:
         over = "its own norm" if f.norm == "L2" else "µW"
         rows.append((f.quantity, f.step, "Pa", f.norm, "", over, f.par, "no", f.meaning))
@@ -76,19 +90,45 @@ def _asked(challenge: Challenge, *, blind: bool) -> str:
 
 
 def _empty_answers(challenge: Challenge) -> list[Sequence[Any]]:
-    return [("1", v.step, v.quantity, "", v.unit, "") for v in challenge.values]
+    rows = [("1", v.step, v.quantity, "", v.unit, "", "") for v in challenge.values]
+    return rows + [
+        ("1", p.step, p.quantity, "", p.unit, "", n)
+        for p in challenge.points for n in range(1, 1 + len(p.places))
+    ]  # fmt: skip
+
+
+def _points(challenge: Challenge) -> Iterator[Sequence[Any]]:
+    """Numbered from 1 for each quantity."""
+    for p in challenge.points:
+        for n, place in enumerate(p.places, start=1):
+            yield p.quantity, p.step, n, *(f"{x:.10g}" for x in place)
 
 
 def _problem(challenge: Challenge) -> str:
-    steps = [
-        f"{n}. W = {normal:.17g} N, T = ({x:.17g}, {y:.17g}) N"
-        for n, (normal, (x, y)) in enumerate(challenge.loads, start=1)
-    ]
+    steps = [f"{ramp.step}. {', '.join(_ends(ramp))}" for ramp in challenge.ramps]
     return _template_text("problem.md").format(
-        title=challenge.title, problem=challenge.problem, steps="\n".join(steps),
+        title=challenge.title, problem=challenge.problem,
+        steps="\n".join(steps) or "1. the tractions as told above",
         window=f"{challenge.window * 1e3:g} mm square", source=challenge.source,
         shares=challenge.shares or "nothing",
     )  # fmt: skip
+
+
+def _ends(ramp: LoadRamp) -> Iterator[str]:
+    """What is prescribed at the end of a step, but rotations that are held."""
+    for words, control in (
+        (("W", "N", "approach", "m"), ramp.normal),
+        (("T", "N", "tangential shift", "m"), ramp.tangential),
+        (("torque about z", "N m", "twist", "rad"), ramp.twisting),
+        (("moments", "N m", "tilt", "rad"), ramp.tilting),
+    ):
+        rotates = control in (ramp.twisting, ramp.tilting)
+        if rotates and control.kind is ControlKind.DISPLACEMENT and not np.any(control.end):
+            continue
+        name, unit = words[:2] if control.kind is ControlKind.FORCE else words[2:]
+        end = control.end
+        number = f"({end[0]:.17g}, {end[1]:.17g})" if isinstance(end, tuple) else f"{end:.17g}"
+        yield f"{name} = {number} {unit}"
 
 
 def _template_text(name: str) -> str:

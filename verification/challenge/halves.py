@@ -18,7 +18,6 @@ from numpy.typing import NDArray
 
 Field = NDArray[np.float64]
 
-SUB_CELLS = 8  # along a side, where the mean over a cell is meant
 NODES = 64
 
 
@@ -72,13 +71,6 @@ class Halves:
         """At positions [length]."""
         return np.asarray(sum(term(x, y) for term in self.terms))
 
-    def mean(self, x: Field, y: Field, area: Field) -> Field:
-        """Over square cells of these areas around positions."""
-        side = np.sqrt(area)
-        offsets = (np.arange(SUB_CELLS) + 0.5) / SUB_CELLS - 0.5
-        parts = [self.at(x + i * side, y + j * side) for i in offsets for j in offsets]
-        return np.asarray(np.mean(parts, axis=0))
-
     @property
     def total(self) -> float:
         """The force carried."""
@@ -94,12 +86,13 @@ class Halves:
         """The largest semi-axis [length]."""
         return max(max(term.semi_axes) for term in self.terms)
 
-    def document(self) -> list[dict[str, Any]]:
+    def document(self) -> dict[str, Any]:
         """As it is written for others."""
-        return [
+        terms = [
             {"b": list(t.semi_axes), "coef": t.coefficient, "cheb": list(t.series)}
             for t in self.terms
         ]
+        return {"halves": terms}
 
 
 def round_halves(*terms: tuple[float, float]) -> Halves:

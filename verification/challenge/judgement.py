@@ -52,7 +52,7 @@ class Judgement:
             for status in (Status.PASS, Status.FAIL, Status.INCONCLUSIVE)
         )
         grade = self.grade if self.grade in ("none", "partial") else f"class {self.grade}"
-        left_out = f"{len(self.omitted)} of {len(self.challenge.values)} omitted"
+        left_out = f"{len(self.omitted)} of {len(self.challenge.numbers)} omitted"
         return f"{self.challenge.name} | {self.solver.name} | {grade} | {counts}, {left_out}"
 
     def exit_code(self, *, strict: bool = False) -> int:

@@ -15,9 +15,9 @@ from typing import Any
 import numpy as np
 
 from contact_results.directory.refusal import Refused
-from contact_scene.units import LENGTH, PRESSURE, Kind, UnknownUnit
-from verification.challenge.answer import SAMPLINGS, Answer, Field, Key, Solver
-from verification.challenge.asked import Challenge, Grade
+from contact_scene.units import LENGTH, PRESSURE, ROTATION, Kind, UnknownUnit
+from verification.challenge.answer import SAMPLINGS, Answer, Field, Key, Solver, Vector
+from verification.challenge.asked import AskedPoints, Challenge, Grade
 from verification.challenge.cases import challenges
 from verification.challenge.export import (
     ANSWER_COLUMNS,
@@ -28,6 +28,8 @@ from verification.challenge.export import (
     LEVEL_COLUMNS,
     LEVELS,
     MANIFEST,
+    POINT,
+    POINTS,
     SCHEMA,
     SOLVER,
     digest,
@@ -35,7 +37,7 @@ from verification.challenge.export import (
 
 _ENERGIES = {"J": "1", "mJ": "1e-3", "uJ": "1e-6", "µJ": "1e-6", "N m": "1", "N mm": "1e-3"}
 ENERGY = Kind("J", '"3 uJ"', MappingProxyType({unit: Decimal(f) for unit, f in _ENERGIES.items()}))
-KINDS = {"m": LENGTH, "Pa": PRESSURE, "J": ENERGY}
+KINDS = {"m": LENGTH, "Pa": PRESSURE, "J": ENERGY, "rad": ROTATION}
 MOST_BYTES = 100_000_000
 EXACT = Context(prec=40)
 SOLVED, GAVE_UP = "solved", "gave up"
@@ -50,19 +52,38 @@ def read_answers(directory: Path) -> tuple[Challenge, Solver, tuple[Answer, ...]
     solver = _solver(directory / SOLVER)
     levels = dict(_levels(directory / LEVELS))
     values: dict[str, dict[Key, float | tuple[float, float]]] = {name: {} for name in levels}
-    for where, level, key, value in _values(directory / ANSWERS, challenge):
+    at_places: dict[str, dict[Key, Vector]] = {name: {} for name in levels}
+    filled: set[tuple[str, Key, int]] = set()
+    for where, level, key, point, value in _values(directory / ANSWERS, challenge):
         if level not in levels:
             known = ", ".join(levels) or "none"
             raise Refused(f"{where}: level {level!r} is not in {LEVELS}; there are {known}")
-        if key in values[level]:
+        if (level, key, point) in filled:
             raise Refused(f"{where}: {key[0]} of step {key[1]} twice on level {level}")
-        values[level][key] = value
+        filled.add((level, key, point))
+        asked = challenge.one(*key)
+        if isinstance(asked, AskedPoints):
+            each = at_places[level].setdefault(key, np.zeros(len(asked.places)))
+            each[point - 1] = value
+        else:
+            values[level][key] = value
+    for level, found in at_places.items():
+        for key, each in found.items():
+            open_ones = [n for n in range(1, 1 + len(each)) if (level, key, n) not in filled]
+            if open_ones:
+                raise Refused(
+                    f"{directory / ANSWERS}: {key[0]} of step {key[1]} on level {level} has no "
+                    f"value at point {', '.join(map(str, open_ones))}; fill in all or none"
+                )
     fields = _fields(directory / FIELDS, challenge, levels)
     answers = tuple(
-        Answer(scalars=values[name], fields=fields.get(name, {}), label=name, **level)
+        Answer(
+            scalars=values[name], points=at_places[name], fields=fields.get(name, {}),
+            label=name, **level,
+        )
         for name, level in levels.items()
-    )
-    if not any(a.scalars or a.fields or a.gave_up for a in answers):
+    )  # fmt: skip
+    if not any(a.scalars or a.points or a.fields or a.gave_up for a in answers):
         raise Refused(f"{directory / ANSWERS}: no value is filled in; there is nothing to judge")
     return challenge, solver, answers
 
@@ -140,27 +161,38 @@ def _levels(path: Path) -> Iterator[tuple[str, dict[str, Any]]]:
 
 def _values(
     path: Path, challenge: Challenge
-) -> Iterator[tuple[str, str, Key, float | tuple[float, float]]]:
+) -> Iterator[tuple[str, str, Key, int, float | tuple[float, float]]]:
+    """Place in the file, level, key, point (0: none), value with u if one is given."""
     for where, row in _rows(path, ANSWER_COLUMNS):
         if not row["value"]:
             continue
         step = _step(where, row["load_step"])
-        asked = challenge.value(row["quantity"], step)
+        asked = challenge.one(row["quantity"], step)
         if asked is None:
-            known = ", ".join(v.quantity for v in challenge.values if v.step == step) or "nothing"
+            known = ", ".join(v.quantity for v in challenge.numbers if v.step == step) or "nothing"
             raise Refused(
                 f"{where}: {row['quantity']!r} is not asked in step {step}; asked: {known}"
             )
         kind = KINDS[asked.unit]
         value = _si(where, row["value"], row["unit"], kind)
         key = asked.quantity, step
-        if row["u"]:
+        if isinstance(asked, AskedPoints):
+            yield where, row["level"], key, _point(where, row.get(POINT, ""), asked), value
+        elif row.get(POINT):
+            raise Refused(f"{where}: {asked.quantity} is one number and has no points")
+        elif row["u"]:
             u = _si(where, row["u"], row["unit"], kind)
             if not 0 <= u < math.inf:
                 raise Refused(f"{where}: u is {row['u']}, expected a positive uncertainty, or none")
-            yield where, row["level"], key, (value, u)
+            yield where, row["level"], key, 0, (value, u)
         else:
-            yield where, row["level"], key, value
+            yield where, row["level"], key, 0, value
+
+
+def _point(where: str, text: str, asked: AskedPoints) -> int:
+    if not text.isdigit() or len(text) > 6 or not 1 <= int(text) <= len(asked.places):
+        raise Refused(f"{where}: point {text!r}, expected 1 to {len(asked.places)} of {POINTS}")
+    return int(text)
 
 
 def _fields(

@@ -9,14 +9,17 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from verification.challenge.answer import Answer, Key, Solver
-from verification.challenge.asked import AskedField, AskedValue, Challenge, Grade
+from verification.challenge.answer import Answer, Field, Key, Solver, Vector
+from verification.challenge.asked import AskedField, AskedPoints, AskedValue, Challenge, Grade
+from verification.challenge.halves import Halves
+from verification.challenge.round_table import RoundTable
 from verification.convergence.observed_order import observed_order
 from verification.judging.outcome import Status
 
 STALLS_BELOW = 0.5  # upper end of the order's interval
 ORDER_OFF = 0.1
 FEWEST_LEVELS = 3
+SUB_CELLS = 8  # along a side, where the mean over a cell is meant
 KNOWN = 1e-13  # error that no discretisation has by itself
 WHOLE = "–"  # in place of a loading step
 
@@ -61,6 +64,8 @@ def rows_of(
         yield from _of_value(value, solver, levels, demanded or value.par)
     for field in challenge.fields:
         yield from _of_field(field, solver, levels, demanded or field.par)
+    for points in challenge.points:
+        yield from _of_points(points, solver, levels, demanded or points.par)
 
 
 def omitted(challenge: Challenge, answers: Sequence[Answer]) -> list[tuple[str, int, bool]]:
@@ -71,8 +76,8 @@ def omitted(challenge: Challenge, answers: Sequence[Answer]) -> list[tuple[str, 
         return []
     return [
         (v.quantity, v.step, v.required)
-        for v in challenge.values
-        if finest.value((v.quantity, v.step)) is None and v.step not in finest.gave_up
+        for v in challenge.numbers
+        if not finest.has((v.quantity, v.step)) and v.step not in finest.gave_up
     ]
 
 
@@ -115,9 +120,9 @@ def _of_field(
     errors, carried, spread = [], 0.0, 0.0
     for one, field in found:
         if solver.sampling == "cell":
-            exact = asked.halves.mean(field.x, field.y, field.area)
+            exact = _cell_means(asked.traction, field)
         else:
-            exact = asked.halves.at(field.x, field.y)
+            exact = asked.traction.at(field.x, field.y)
         off = np.abs(field.value - exact)
         if asked.norm == "L2":
             own = np.sqrt(np.sum(field.area * exact**2))
@@ -133,10 +138,10 @@ def _of_field(
     yield from _convergence(key, solver, errors, asked.uncertainty)
     # Points that stand for others than those around them carry the load, but not where it is.
     bound = max(grade.bound, Grade.B.bound)
-    reach = asked.scale * asked.halves.reach**2
+    reach = asked.scale * asked.traction.reach**2
     for name, has, should, scale in (
         ("load carried", carried, asked.total, asked.scale),
-        ("spread of the load", spread, asked.halves.spread, reach),
+        ("spread of the load", spread, asked.traction.spread, reach),
     ):
         missed = abs(has - should) / scale
         yield Row(
@@ -145,6 +150,33 @@ def _of_field(
             "Σ value·area" if name == "load carried" else "Σ value·area·r²",
             has, should, missed, bound,
         )  # fmt: skip
+
+
+def _of_points(
+    asked: AskedPoints, solver: Solver, levels: Sequence[Answer], grade: Grade
+) -> Iterator[Row]:
+    key = asked.quantity, asked.step
+    found = [(one, np.asarray(one.points[key])) for one in levels if key in one.points]
+    if not found:
+        return
+    errors = []
+    for one, values in found:
+        if values.shape != asked.values.shape:
+            raise ValueError(
+                f"{asked.quantity} of step {asked.step}: {values.size} numbers, expected one at "
+                f"each of the {len(asked.places)} places"
+            )
+        errors.append((one.h, float(np.max(np.abs(values - asked.values)) / asked.scale)))
+    yield _judged(key, found[-1][0].label, None, None, errors, grade, asked.uncertainty, "")
+    yield from _convergence(key, solver, errors, asked.uncertainty)
+
+
+def _cell_means(traction: Halves | RoundTable, field: Field) -> Vector:
+    """Over square cells of a field's areas."""
+    side = np.sqrt(field.area)
+    offsets = (np.arange(SUB_CELLS) + 0.5) / SUB_CELLS - 0.5
+    parts = [traction.at(field.x + i * side, field.y + j * side) for i in offsets for j in offsets]
+    return np.asarray(np.mean(parts, axis=0))
 
 
 def _judged(
