@@ -13,8 +13,7 @@ import numpy as np
 import semi_analytical
 from contact_errors.half_the_cells import Progress
 from contact_errors.ladder import Growth, Rung, unkept
-from contact_errors.on_cells import stated_errors
-from contact_errors.rules import rules_for
+from contact_errors.on_cells import rules_at, stated_errors
 from contact_errors.solve_cost import Solved, machine_speed, seconds_like
 from contact_errors.tension import largest_tension
 from contact_errors.values import values_of
@@ -25,7 +24,7 @@ from contact_scene.accuracy_reached import AccuracySettings
 from contact_scene.free_memory import available_bytes
 from contact_scene.solver_errors import ContactAtWindowEdge, ContactNotResolved
 from contact_scene.standing import Keeper
-from semi_analytical import Coupling, Plan, Result, SurfaceGrid
+from semi_analytical import Plan, Result, SurfaceGrid
 from semi_analytical.memory import estimated_bytes
 from semi_analytical.resolution import refuse_unresolved
 
@@ -84,7 +83,7 @@ class CellLadder:
         below = None
         if self.stress_at is not None:
             below = largest_tension(result, stated, self.stress_at)
-        rules = rules_for(self.scene.indenter, result.plan.coupling is not Coupling.NONE)
+        rules = rules_at(result, *result.steps)
         return Rung(
             fineness=replace(fineness, grid=result.grid),
             result=result,

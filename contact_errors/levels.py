@@ -73,7 +73,7 @@ class Ground(Protocol):
 class Levels:
     """A result beside its companions, step by step.
 
-    rules      of the numbers that have an error
+    rules      of the numbers that have an error, at the end of every step
     values     of the result
     change     |values - those on twice the spacing|
     ratio      of the spacings
@@ -85,7 +85,7 @@ class Levels:
 
     scene: Scene
     ground: Ground
-    rules: Mapping[str, Rule]
+    rules: Sequence[Mapping[str, Rule]]
     values: Sequence[Values]
     change: Sequence[Values]
     ratio: float
@@ -106,7 +106,7 @@ class Levels:
 
     def _error(self, step: int, name: str, largest: Numbers) -> StatedError:
         """Of one number at the end of a step."""
-        rule, change = self.rules.get(name), self.change[step].get(name)
+        rule, change = self.rules[step].get(name), self.change[step].get(name)
         if rule is None or change is None or not self.ground.carries(step):
             return estimate.UNKNOWN
         beside = self.ground.beside(step, name, rule, largest)

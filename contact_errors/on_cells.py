@@ -23,15 +23,12 @@ from contact_results.cycles import fretting_cycles
 from contact_results.remarks import left_out
 from contact_scene.stated_error import Part, StatedErrors
 from contact_scene.summary import ContactStatus
-from semi_analytical import Result
+from semi_analytical import Increment, Result
 from semi_analytical.plan import Coupling
 from semi_analytical.resolution import Resolution, resolution
 
 # In cells: below them a number has not converged, however small its differences are.
 LEAST = {Lengthscale.CONTACT: 3.0, Lengthscale.STICK: 1.0, Lengthscale.ANNULUS: 0.5}
-# Of the peak, over the square of the cells in a radius: what the mean over the cell nearest to
-# Hertz's peak lacks, a quarter by its place and a twelfth by its width.
-MEAN_AT_PEAK = 1 / 3
 LEAST_LAYER, LEAST_WAVE = 1.0, 4.0
 # A film that is much stiffer than its base bends and stands on its rim, within its thickness t of
 # the edge: there the largest mean of a cell exceeds the peak by this part of it times t^-5/2 at
@@ -72,7 +69,7 @@ def stated_errors(
     levels = Levels(
         scene=result.scene,
         ground=_Cells(result),
-        rules=rules_for(result.scene.indenter, plan.coupling is not Coupling.NONE),
+        rules=[rules_at(result, *ends) for ends in zip(result.steps, wide.steps, strict=True)],
         values=fine,
         change=estimate.differences(fine, coarse),
         ratio=wide.grid.spacing[0] / result.grid.spacing[0],
@@ -82,6 +79,16 @@ def stated_errors(
         charged=charged_by_increments(result, cycles),
     )
     return StatedErrors(tuple(levels.errors()), tuple(companions))
+
+
+def rules_at(result: Result, *states: Increment) -> Mapping[str, Rule]:
+    """The laws of the errors of a result at the end of a step; states there, on its cells and
+    others: whether all have their edges inside the cells."""
+    return rules_for(
+        result.scene.indenter,
+        cusp=result.plan.coupling is not Coupling.NONE,
+        edges=all(state.edge_change is not None for state in states),
+    )
 
 
 @dataclass(frozen=True)
@@ -107,8 +114,6 @@ class _Cells:
         if name != "peak_pressure":
             return {}
         left_out = HIGHEST * self._left_out + self._rim_of_film(step)
-        if self.result.steps[step].edge_change is not None:  # the largest mean of a cell
-            left_out += MEAN_AT_PEAK / self._at[step].contact ** 2
         return {"cells": left_out * largest}
 
     def _rim_of_film(self, step: int) -> float:

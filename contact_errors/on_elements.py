@@ -83,7 +83,7 @@ def stated_errors(
     levels = Levels(
         scene=scene,
         ground=_Elements(result, by_harmonics),
-        rules=rules_of(result),
+        rules=[rules_of(result)] * len(fine),
         values=fine,
         change=estimate.differences(fine, base),
         ratio=result.discretisation.elements_per_radius / mesh.elements_per_radius,

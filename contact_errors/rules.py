@@ -121,6 +121,15 @@ RULES = with_their_likes(
     }
 )
 
+# Of states with their edges inside the cells, on these as on those of the companion.
+EDGES = with_their_likes(
+    {
+        "approach": Rule(2, 0.0025, 1, 1.5, path_factor=1.5),
+        "contact_radius": Rule(1.5, 0.005, 2, 1.1, 1.5, lengthscale=Lengthscale.FILM),
+        "peak_pressure": Rule(2, 0.0025, 2, 1.1, path_factor=2.0),
+        "tilt": Rule(1.5, 0.001, 1, 2.2, path_factor=1.5),
+    }
+)
 # Where friction acts back on a pressing contact its pressure has a cusp on the axis.
 CUSP = {"peak_pressure": replace(PEAK, order=1, factor=1.65, lengthscale=Lengthscale.CUSP)}
 # A rim lies within cells: whatever holds the indenter is off as the radius a that the cells make of
@@ -142,12 +151,13 @@ CONE = with_their_likes({"contact_radius": Rule(1.25, 1.0, 4, 1.2, path_factor=1
 INFINITE = frozenset({"peak_pressure"})
 
 
-def rules_for(indenter: ShapedBody, cusp: bool) -> Mapping[str, Rule]:
+def rules_for(indenter: ShapedBody, cusp: bool, edges: bool = False) -> Mapping[str, Rule]:
     """The rule of every quantity below an indenter; none of what is infinite in the exact answer.
 
-    cusp  whether friction acts back on the pressure
+    cusp   whether friction acts back on the pressure
+    edges  whether they are inside the cells
     """
-    rules = RULES | (CUSP if cusp else {})
+    rules = RULES | (EDGES if edges else CUSP if cusp else {})
     if indenter.rim is not None:
         rules = RULES | FLAT
     elif indenter.gap_exponent == 1:
