@@ -6,11 +6,15 @@ from math import sqrt
 
 import numpy as np
 
-from contact_scene import Scene, SurfaceDiscretisation
+from contact_results.quantities import shear_of
+from contact_scene import SurfaceDiscretisation
 from contact_scene.discretisation import EdgeCorrection
-from semi_analytical import Increment, SurfaceGrid, solve_discretised
-from verification.challenge.answer import Answer, Field, Key, Solver
+from semi_analytical import Increment, Result, SurfaceGrid, solve_discretised
+from verification.adapters.own_numbers import number, scene_of
+from verification.adapters.surface_places import COMPONENTS, stress_at, under_a_patch
+from verification.challenge.answer import Answer, Field, Key, Solver, Vector
 from verification.challenge.door import Posed
+from verification.observed.radial_profile import along_radii, outward
 
 ON_CELLS = Solver("slipstick, semi-analytical")
 WITH_EDGES = Solver("slipstick, edges inside the cells", sampling="cell")
@@ -29,35 +33,50 @@ def answer_with_edges(posed: Posed, level: int) -> Answer:
 
 
 def _answer(posed: Posed, level: int, edge: EdgeCorrection) -> Answer:
+    if "indenter" not in posed.scene:
+        return under_a_patch(posed)
     cells = COARSEST * 2**level
     on = SurfaceDiscretisation(
         cells=(cells, cells), window=(posed.window, posed.window), tolerance=TOLERANCE, edge=edge
     )
-    result = solve_discretised(Scene.model_validate(posed.scene), on)
+    result = solve_discretised(scene_of(posed), on)
     grid = result.grid
-    scalars: dict[Key, float] = {}
-    for quantity, step in posed.asked:
-        value = _scalar(quantity, result.steps[step - 1], grid)
-        if quantity == "energy_per_cycle":
-            first = min(s for q, s in posed.asked if q == "shift_x") + 3
-            before, after = (result.steps[s - 1].dissipated_energy for s in (first, step))
-            value = None if before is None or after is None else after - before
-        if value is not None:
-            scalars[quantity, step] = value
+    scalars = {
+        key: value for key in posed.asked if (value := _number(posed, key, result)) is not None
+    }
     x, y = grid.coordinates()
-    fields = {}
+    fields, points = {}, {}
     for quantity, step in posed.fields:
         end = result.steps[step - 1]
         contact = end.pressure > 0
-        traction = end.pressure if quantity == "pressure" or end.shear is None else end.shear[0]
         area = np.full(int(np.sum(contact)), grid.cell_area)
-        fields[quantity, step] = Field(x[contact], y[contact], traction[contact], area)
-    return Answer(sqrt(grid.cell_area), scalars, fields, unknowns=cells**2)
+        traction = _traction(quantity, end, grid)[contact]
+        fields[quantity, step] = Field(x[contact], y[contact], traction, area)
+    for key, places in posed.places.items():
+        points[key] = _at(places, key, result)
+    return Answer(sqrt(grid.cell_area), scalars, fields, unknowns=cells**2, points=points)
 
 
-def _scalar(quantity: str, end: Increment, grid: SurfaceGrid) -> float | None:
-    if quantity == "shift_x":
-        return None if end.tangential_shift is None else end.tangential_shift[0]
+def _traction(quantity: str, end: Increment, grid: SurfaceGrid) -> Vector:
+    x, y = grid.coordinates()
+    q_x, q_y = shear_of(end)
+    r = np.hypot(x, y)
+    of = {"pressure": end.pressure, "shear_x": q_x, "shear_radial": outward(shear_of(end), grid)}
+    of["shear_around"] = (x * q_y - y * q_x) / np.where(r > 0, r, 1.0)
+    return np.asarray(of[quantity])
+
+
+def _at(places: Vector, key: Key, result: Result) -> Vector:
+    """Tractions at radii of a round contact, or stress below the surface."""
+    quantity, end, grid = key[0], result.steps[key[1] - 1], result.grid
+    if quantity.startswith("stress"):
+        return stress_at(result, end, places)[COMPONENTS.index(quantity.removeprefix("stress_"))]
+    along = along_radii(_traction(quantity, end, grid), grid, np.hypot(*places[:, :2].T))
+    return np.asarray(np.mean(along, axis=1))
+
+
+def _number(posed: Posed, key: Key, result: Result) -> float | None:
+    quantity, end, grid = key[0], result.steps[key[1] - 1], result.grid
     if quantity.startswith("semi_axis"):
         x, y = grid.coordinates()
         axes = [float(np.sum(end.pressure * s**2) / np.sum(end.pressure)) for s in (x, y)]
@@ -65,5 +84,4 @@ def _scalar(quantity: str, end: Increment, grid: SurfaceGrid) -> float | None:
     if quantity == "central_pressure":
         i, j = (n // 2 for n in grid.cells)
         return float(np.mean(end.pressure[i - 1 : i + 1, j - 1 : j + 1]))
-    found = getattr(end, quantity, None)
-    return None if found is None else float(found)
+    return number(posed, key, result.steps)

@@ -78,6 +78,7 @@ class Solver:
 
     sampling      whether a field's value is that at the point or the mean over its area
     knows_answer  quantities that the discretisation is given, as a radius that a mesh is cut to
+    meshless      whether numbers may be right to rounding on every level, as those of series are
     claims        grade, and orders by quantity
     """
 
@@ -88,6 +89,7 @@ class Solver:
     knows_answer: tuple[str, ...] = ()
     claimed_grade: str | None = None
     claimed_orders: Mapping[str, float] = field(default_factory=dict)
+    meshless: bool = False
 
     def document(self) -> dict[str, Any]:
         """As a sheet shows it."""

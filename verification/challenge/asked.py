@@ -42,7 +42,7 @@ class AskedValue:
     step     from 1
     scale    what its error is divided by, and `over` in words
     par      the grade that is asked where nothing else is
-    between  the steps whose difference it is; None where it is a state
+    since    the loading step from whose end it counts; None where it is a state
     """
 
     quantity: str
@@ -56,6 +56,7 @@ class AskedValue:
     required: bool = True
     uncertainty: float = ROUNDING  # standard, over the scale
     limit: float | None = None  # order that collocated constants reach
+    since: int | None = None
 
 
 @dataclass(frozen=True)
@@ -103,11 +104,29 @@ class AskedPoints:
 
 
 @dataclass(frozen=True)
+class Patch:
+    """No contact: a uniform traction on a square of a body's surface around the origin.
+
+    side      [length]
+    traction  [force/length²]
+    """
+
+    body: Body
+    side: float
+    traction: float
+
+    def document(self, *, exclude_defaults: bool = False) -> dict[str, Any]:
+        """As tables of a file."""
+        body = self.body.model_dump(mode="json", exclude_defaults=exclude_defaults)
+        return {"body": body, "patch": {"side": self.side, "traction": self.traction}}
+
+
+@dataclass(frozen=True)
 class Challenge:
     """A problem for others.
 
     problem  in words
-    scene    a contact; a body alone where the tractions are given
+    scene    a contact, or a body under a given traction
     window   side of a square in which all of it happens, with room [length]
     shares   what its reference has in common with our own solvers; empty: nothing
     """
@@ -115,7 +134,7 @@ class Challenge:
     name: str
     title: str
     problem: str
-    scene: Scene | Body
+    scene: Scene | Patch
     source: str
     values: tuple[AskedValue, ...]
     fields: tuple[AskedField, ...]
@@ -126,7 +145,7 @@ class Challenge:
     @property
     def version(self) -> str:
         """Digest of what is asked and of what is right, to digits that all machines agree on."""
-        text = json.dumps([self.scene.model_dump(mode="json"), self.reference()], sort_keys=True)
+        text = json.dumps([self.document, self.reference()], sort_keys=True)
         return hashlib.sha256(text.encode()).hexdigest()[:16]
 
     def reference(self) -> dict[str, Any]:
@@ -163,6 +182,13 @@ class Challenge:
                 for p in self.points
             ]
         }  # fmt: skip
+
+    @property
+    def document(self) -> dict[str, Any]:
+        """The scene as in a scene file, with all that is usual."""
+        if isinstance(self.scene, Patch):
+            return self.scene.document()
+        return self.scene.model_dump(mode="json")
 
     @property
     def ramps(self) -> tuple[LoadRamp, ...]:

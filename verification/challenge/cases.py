@@ -124,7 +124,7 @@ def loop() -> Challenge:
         AskedValue(
             "energy_per_cycle", 1 + len(turns), "J",
             f"energy lost to friction between the ends of load steps {first} and {1 + len(turns)}",
-            energy, energy, "itself",
+            energy, energy, "itself", since=first,
         )
     )  # fmt: skip
     return Challenge(

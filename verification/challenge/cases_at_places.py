@@ -8,7 +8,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from contact_scene import Body, CoulombFriction, IsotropicMaterial, Layer, LoadStep, Scene
-from verification.challenge.asked import AskedPoints, Challenge, Grade
+from verification.challenge.asked import AskedPoints, Challenge, Grade, Patch
 from verification.challenge.often_asked import SMALL
 from verification.closed_forms.hamilton_stress import hamilton_stress
 from verification.problems import paper_scene as paper
@@ -73,7 +73,7 @@ def layered_patches() -> Iterator[Challenge]:
     rows = load_reference("influence_coefficients")["rows"]
     for ratio in dict.fromkeys(row["G1"] / row["G2"] for row in rows):
         own = [row for row in rows if row["G1"] / row["G2"] == ratio]
-        body, side = _body(own[0]), own[0]["d"] * THICKNESS
+        side = own[0]["d"] * THICKNESS
         places = THICKNESS * np.array([(row["x"], row["y"], 0.0) for row in own])
         moved = THICKNESS * TRACTION / SUBSTRATE
         values = {key: moved * np.array([row["colloc"][key] for row in own]) for key in MOVED}
@@ -83,8 +83,8 @@ def layered_patches() -> Iterator[Challenge]:
             f"A patch of traction on a layer, G1/G2 = {ratio:g}",
             f"A layer of {THICKNESS:g} m on a half-space. No contact: on the square "
             f"|x|, |y| < {side / 2:g} m of its surface acts a uniform traction of {TRACTION:g} Pa, "
-            "pressure along +z or shear along +x or +y, one at a time.", body, PATCH_SOURCE, (), (),
-            SMALL, points=tuple(
+            "pressure along +z or shear along +x or +y, one at a time.",
+            Patch(_body(own[0]), side, TRACTION), PATCH_SOURCE, (), (), SMALL, points=tuple(
                 AskedPoints(name, 1, "m", meaning, places, values[key], scale,
                             "the largest u_z_by_pressure", Grade.B)
                 for key, (name, meaning) in MOVED.items()

@@ -7,7 +7,6 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from typing import Any
 
-from contact_scene import Scene
 from verification.challenge.answer import Answer, Key, Solver, Vector
 from verification.challenge.asked import Grade
 from verification.challenge.cases import challenges
@@ -24,10 +23,11 @@ class CannotDo(Exception):
 class Posed:
     """A challenge without its reference.
 
-    scene   SI numbers, as in a scene file
+    scene   SI numbers, as in a scene file; a body and a `patch` where the traction is given
     loads   at the end of every loading step: normal and tangential force [N], NaN where a motion
             is prescribed; `scene["loading"]` has the rest
     asked   quantity and loading step, with its unit
+    since   of what is counted from the end of an earlier loading step: which
     places  (points, 3) where numbers are asked at x, y and depth z, by quantity and step [m]
     fields  tractions that are wanted at own points
     window  side of a square in which all of it happens, with room [m]
@@ -37,6 +37,7 @@ class Posed:
     scene: Mapping[str, Any]
     loads: tuple[tuple[float, tuple[float, float]], ...]
     asked: Mapping[Key, str]
+    since: Mapping[Key, int]
     places: Mapping[Key, Vector]
     fields: tuple[Key, ...]
     window: float
@@ -47,12 +48,12 @@ def posed(name: str) -> Posed:
     if name not in challenges():
         raise KeyError(f"no challenge {name!r}; there are {', '.join(challenges())}")
     challenge = challenges()[name]
-    scene = challenge.scene.model_dump(mode="json")
     return Posed(
         name,
-        scene if isinstance(challenge.scene, Scene) else {"body": scene},
+        challenge.document,
         tuple(challenge.loads),
         {(v.quantity, v.step): v.unit for v in challenge.values},
+        {(v.quantity, v.step): v.since for v in challenge.values if v.since is not None},
         {(p.quantity, p.step): p.places for p in challenge.points},
         tuple((f.quantity, f.step) for f in challenge.fields),
         challenge.window,

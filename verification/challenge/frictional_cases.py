@@ -94,7 +94,7 @@ def torsion_loop() -> Challenge:
     last, energy = len(TO_AND_FRO.ends), TO_AND_FRO.ends[-1].energy_per_cycle
     values.append(
         AskedValue("energy_per_cycle", last, "J", "energy lost to friction between the ends of "
-                   f"load steps 2 and {last}", energy, energy, "itself", uncertainty=1e-9)
+                   f"load steps 2 and {last}", energy, energy, "itself", uncertainty=1e-9, since=2)
     )  # fmt: skip
     return Challenge(
         "torsion_loop", "A ball twisted to and fro", f"{TO_AND_FRO.scene.title}.",

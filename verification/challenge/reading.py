@@ -135,6 +135,7 @@ def _solver(path: Path) -> Solver:
     return Solver(
         name, str(who.get("version", "")), str(who.get("url", "")), sampling,
         tuple(map(str, convention.get("knows_answer", ()))), grade, orders,
+        convention.get("meshless") is True,
     )  # fmt: skip
 
 

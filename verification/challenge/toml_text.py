@@ -6,14 +6,15 @@ import json
 from collections.abc import Iterator, Mapping
 from typing import Any
 
-from contact_scene import Body, Scene
+from contact_scene import Scene
+from verification.challenge.asked import Patch
 
 
-def toml_text(scene: Scene | Body) -> str:
+def toml_text(scene: Scene | Patch) -> str:
     """All that is not usual."""
-    if isinstance(scene, Body):
-        body = scene.model_dump(mode="json", exclude_defaults=True)
-        return "\n".join(_table({"body": body}, ())).lstrip("\n") + "\n"
+    if isinstance(scene, Patch):
+        tables = scene.document(exclude_defaults=True)
+        return "\n".join(_table(tables, ())).lstrip("\n") + "\n"
     content = scene.model_dump(mode="json", exclude_defaults=True, exclude_none=True)
     shape = scene.model_dump(mode="json")["indenter"]["shape"]
     content["indenter"] = {"shape": shape, **content["indenter"]}

@@ -90,7 +90,8 @@ def _of_value(
         return
     errors = [(one.h, abs(value - asked.value) / asked.scale) for one, value in found]
     finest, value = found[-1]
-    if asked.quantity in solver.knows_answer or _known(asked, errors):
+    known = not solver.meshless and _known(asked, errors)
+    if known or asked.quantity in solver.knows_answer:
         yield Row(
             *key, finest.label, Status.INCONCLUSIVE,
             "not judged: the mesh knows it", value, asked.value, errors[-1][1],

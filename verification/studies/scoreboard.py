@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from math import inf
 
-from verification.adapters import surface
+from verification.adapters import radius, section, surface
 from verification.adapters.half_spaces import answering
 from verification.challenge.answer import Solver
 from verification.challenge.cases import challenges
@@ -24,6 +24,8 @@ from verification.running.study import Conclusion, Records, Settings, Statement,
 OURS = {
     surface.ON_CELLS.name: (surface.ON_CELLS, surface.answer),
     surface.WITH_EDGES.name: (surface.WITH_EDGES, surface.answer_with_edges),
+    section.ON_ELEMENTS.name: (section.ON_ELEMENTS, section.answer),
+    radius.ON_RADII.name: (radius.ON_RADII, radius.answer),
 }
 LEVELS = {Level.QUICK: 3, Level.STANDARD: 4, Level.FULL: 4}
 CANNOT, LINE, GRADE = "cannot", "line", "grade"

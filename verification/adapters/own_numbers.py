@@ -1,0 +1,31 @@
+"""What our solvers have in common: scenes of challenges, and numbers of increments."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from contact_scene import Scene
+from contact_scene.increment import State
+from verification.challenge.answer import Key
+from verification.challenge.door import CannotDo, Posed
+
+
+def scene_of(posed: Posed) -> Scene:
+    """As our solvers read it; raises CannotDo where the tractions are given."""
+    if "indenter" not in posed.scene:
+        raise CannotDo("contacts only, no given tractions")
+    return Scene.model_validate(posed.scene)
+
+
+def number(posed: Posed, key: Key, steps: Sequence[State]) -> float | None:
+    """By the name that a result has for it; None where it has none."""
+    quantity, step = key
+    end = steps[step - 1]
+    if quantity == "shift_x":
+        return None if end.tangential_shift is None else float(end.tangential_shift[0])
+    if quantity == "energy_per_cycle":
+        lost = end.dissipated_energy
+        before = steps[posed.since[key] - 1].dissipated_energy
+        return None if lost is None or before is None else lost - before
+    found = getattr(end, quantity, None)
+    return None if found is None else float(found)

@@ -1,0 +1,25 @@
+"""Our solver of functions of the radius as anybody's code."""
+
+from __future__ import annotations
+
+from contact_scene import RadialDiscretisation
+from contact_scene.solver_errors import UnsupportedScene
+from radial import solve
+from verification.adapters.own_numbers import scene_of
+from verification.adapters.rings import answer_on_rings
+from verification.challenge.answer import Answer, Solver
+from verification.challenge.door import CannotDo, Posed
+
+ON_RADII = Solver("slipstick, radial", meshless=True)
+COARSEST = 32  # rings: the fields are linear between them, the numbers need none
+
+
+def answer(posed: Posed, level: int) -> Answer:
+    """On COARSEST rings over the contact, twice as many, …; CannotDo with friction or without an
+    axis."""
+    rings = COARSEST * 2**level
+    try:
+        steps = solve(scene_of(posed), RadialDiscretisation(rings=rings)).steps
+    except UnsupportedScene as error:
+        raise CannotDo(str(error)) from error
+    return answer_on_rings(posed, steps, steps[-1].contact_radius / rings)

@@ -1,0 +1,33 @@
+"""Our finite elements as anybody's code."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from contact_scene import FiniteElementDiscretisation
+from contact_scene.solver_errors import UnsupportedScene
+from fem_reference import solve
+from verification.adapters.own_numbers import scene_of
+from verification.adapters.rings import answer_on_rings
+from verification.challenge.answer import Answer, Solver
+from verification.challenge.door import CannotDo, Posed
+
+ON_ELEMENTS = Solver("slipstick, finite elements")
+COARSEST = 16  # elements over the contact radius
+HARMONICS = 8
+
+
+def answer(posed: Posed, level: int) -> Answer:
+    """On COARSEST elements over the contact radius, twice as many, …; CannotDo where there is no
+    axis."""
+    elements = COARSEST * 2**level
+    on = FiniteElementDiscretisation(elements_per_radius=elements, harmonics=HARMONICS)
+    try:
+        result = solve(scene_of(posed), on)
+    except UnsupportedScene as error:
+        raise CannotDo(str(error)) from error
+    end = result.steps[-1]
+    sides = np.diff(end.radii)
+    at_edge = int(np.searchsorted(end.radii, end.contact_radius))
+    h = float(sides[min(at_edge, sides.size) - 1])
+    return answer_on_rings(posed, result.steps, h)
