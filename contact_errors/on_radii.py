@@ -1,8 +1,10 @@
-"""Errors of a radial result, from one with twice as many orders and points."""
+"""Errors of a radial result, from one with twice as many orders and points; with friction, from one
+with half the rings and half the increments."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 
 import numpy as np
 
@@ -14,11 +16,17 @@ from contact_scene.solver_errors import SolverError
 from contact_scene.stated_error import EXACT, Companion, Part, StatedError, StatedErrors
 from radial import Increment, Result, solve
 
-# Both levels are at the end of what double precision gives: errors are as large as their
-# difference, or as what residuals and round-off leave.
+# Without friction both levels are at the end of what double precision gives: errors are as large as
+# their difference, or as what residuals and round-off leave. With friction they fall at least as
+# the inverse of the increments: the run's are at most as large as the difference.
 TIMES = 2.0
 ROUND_OFF = 1e-13
-TWICE = 2
+TWICE, HALF = 2, 0.5
+# Of the contact radius: as well as rings tell a front, and half increments where it stands at
+# their end.
+FRONT = 1e-3
+_QUADRATURE: Part = "quadrature"
+_INCREMENTS: Part = "increments"
 
 
 def stated_errors(
@@ -26,9 +34,14 @@ def stated_errors(
 ) -> StatedErrors:
     """Errors of all numbers at the ends of all steps; solves the companion."""
     fine = values_of(result, ())
-    made = Companion(differs="twice the orders and points", increments=result.plan.increments)
+    plan, fineness = result.plan, float(TWICE)
+    differs, part = "twice the orders and points", _QUADRATURE
+    if plan.coupled:
+        plan, fineness = replace(plan, increments=_recut(plan.increments)), HALF
+        differs, part = "half the rings, other increments", _INCREMENTS
+    made = Companion(differs=differs, increments=plan.increments)
     try:
-        finer = solve(result.scene, result.fineness, progress, result.plan, fineness=TWICE)
+        finer = solve(result.scene, result.fineness, progress, plan, fineness=fineness)
     except SolverError as error:
         made = made.model_copy(update={"refused": str(error)})
         changes: Sequence[Values | None] = [None] * len(fine)
@@ -38,7 +51,7 @@ def stated_errors(
         changes = differences(fine, values_of(finer, ()))
     charged = charged_by_increments(result, ())
     steps = zip(result.steps, result.scene.load_path(), fine, changes, charged, strict=True)
-    finite = rules_for(result.scene.indenter, cusp=False).keys()
+    finite = rules_for(result.scene.indenter, cusp=plan.coupled).keys()
     return StatedErrors(
         tuple(
             {
@@ -46,7 +59,9 @@ def stated_errors(
                 if name in prescribed(ramp)
                 else UNKNOWN
                 if changed is None or name not in finite
-                else _stated(name, step.worst_residual, values, changed[name], open_.get(name))
+                else _stated(
+                    name, part, step.worst_residual, values, changed[name], open_.get(name)
+                )
                 for name in values
             }
             for step, ramp, values, changed, open_ in steps
@@ -55,14 +70,31 @@ def stated_errors(
     )
 
 
+def _recut(increments: tuple[int, ...]) -> tuple[int, ...]:
+    """Half as many; of histories whose steps are not cut twice as many."""
+    if max(increments) == 1:
+        return tuple(2 * count for count in increments)
+    return tuple(max(count // 2, 1) for count in increments)
+
+
 def _stated(
-    name: str, residual: float, values: Values, changed: Numbers, by_increments: float | None
-) -> StatedError:
+    name: str, part: Part, residual: float, values: Values, changed: Numbers,
+    by_increments: float | None,
+) -> StatedError:  # fmt: skip
     size = np.maximum(np.abs(values[name]), scale(name, values))
+    front = _of_front(name, values)
     parts: dict[Part, Numbers] = {
-        "quadrature": TIMES * changed + ROUND_OFF * size,
+        part: front + TIMES * changed + ROUND_OFF * size,
         "tolerance": unsolved(residual, np.abs(values[name]), scale(name, values)),
     }
     if by_increments is not None:
-        parts["increments"] = np.atleast_1d(by_increments)
+        parts["increments"] = parts.get("increments", 0.0) + np.atleast_1d(by_increments)
     return stated(parts, converged=True)
+
+
+def _of_front(name: str, values: Values) -> Numbers | float:
+    """By what rings leave a radius of the stick, and the area within, uncertain."""
+    uncertain = FRONT * values["contact_radius"]
+    if name == "stick_area":
+        return np.asarray(2 * np.pi * values["stick_radius"] * uncertain + np.pi * uncertain**2)
+    return uncertain if name == "stick_radius" else 0.0

@@ -2,32 +2,27 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from contact_scene import ControlKind, LoadRamp, RadialDiscretisation, Scene
+from contact_scene import LoadRamp, RadialDiscretisation, Scene
 from contact_scene.march import Reached, marked_increments
 from contact_scene.residuals import Residuals
-from contact_scene.solver_errors import UnsupportedScene
 from contact_scene.standing import Keeper, Standing
 from radial.bodies import Bodies
-from radial.disc import Disc
 from radial.fields import Increment, Result
-from radial.plan import ELSEWHERE, Plan
+from radial.plan import Plan
 from radial.plan import plan as plan_of
 from radial.pressing import Pressed, Target, pressed
+from radial.shown import largest_targets, refuse_no_disc, shown_radii
 from radial.surface import displacement, largest_pressure, pressure
 
 Array = NDArray[np.float64]
 Progress = Callable[[Increment], None]
-
-# Rings outside over those inside, out to so many radii of the largest contact.
-OUTSIDE, REACH = 4, 2.0
-# Of the largest pressure, or of the approach: less tension or overlap is round-off.
-NO_DISC = 1e-9
 
 
 def solve(
@@ -36,7 +31,7 @@ def solve(
     progress: Progress | None = None,
     plan: Plan | None = None,
     keeper: Keeper | None = None,
-    fineness: int = 1,
+    fineness: float = 1,
 ) -> Result:
     """Contact of a scene of revolution, every increment of its load history.
 
@@ -53,7 +48,8 @@ def solve(
     keeper
         Of this very solve: what it has kept is not computed again.
     fineness
-        How many times as many orders and points as the solver chooses: to see what they cost.
+        How many times as many orders and points as the solver chooses, with friction rings: to see
+        what they cost.
 
     Raises
     ------
@@ -65,7 +61,7 @@ def solve(
     """
     asked = discretisation or RadialDiscretisation()
     decided = plan_of(scene) if plan is None else plan
-    solver = _Solver.of(scene, asked, fineness)
+    solver = _solver(scene, asked, decided, fineness)
     last = keeper.last() if keeper else None
     increments = [*last.increments] if last else []
     if progress is not None:
@@ -78,6 +74,14 @@ def solve(
         if progress is not None:
             progress(increment)
     return Result(scene, asked, decided, tuple(increments))
+
+
+def _solver(scene: Scene, asked: RadialDiscretisation, plan: Plan, fineness: float) -> Any:
+    if plan.coupled:
+        from radial.rubbing import Rubbing
+
+        return Rubbing.of(scene, asked, fineness)
+    return _Solver.of(scene, asked, round(fineness))
 
 
 @dataclass(frozen=True)
@@ -101,10 +105,9 @@ class _Solver:
     def of(cls, scene: Scene, asked: RadialDiscretisation, fineness: int) -> _Solver:
         bodies = Bodies.of(scene)
         largest = tuple(
-            pressed(bodies, scene.indenter, target, fineness) for target in _largest(scene)
+            pressed(bodies, scene.indenter, target, fineness) for target in largest_targets(scene)
         )
-        widest = max((found.contact for found in largest), key=lambda contact: contact.radius)
-        rings = _rings(asked.rings, widest, scene.indenter.rim)
+        rings = shown_radii(asked.rings, largest, scene.indenter.rim)
         return cls(scene, bodies, asked.tolerance, fineness, rings, largest)
 
     def spent(self) -> float:
@@ -132,7 +135,7 @@ class _Solver:
         apart = x > 1
         undeformed = self.scene.indenter.initial_gap(self.radii[apart], 0.0)
         gap[apart] = undeformed + displacement(contact, x[apart]) - contact.approach
-        _refuse_no_disc(self.radii, p, gap / contact.approach)
+        refuse_no_disc(self.radii, p, gap / contact.approach)
         force = state.target.force
         residuals = Residuals(
             complementarity=contact.missed,
@@ -159,37 +162,3 @@ class _Solver:
             pressure=p,
             gap=gap,
         )
-
-
-def _largest(scene: Scene) -> Iterator[Target]:
-    """The largest force and the largest approach that steps of the history end with."""
-    for kind in ControlKind:
-        ends = [ramp.normal.end for ramp in scene.load_path() if ramp.normal.kind is kind]
-        if ends:
-            force = kind is ControlKind.FORCE
-            yield Target(max(ends) if force else None, None if force else max(ends))
-
-
-def _rings(count: int, widest: Disc, rim: float | None) -> Array:
-    """Radii, denser towards the edge of the widest contact and out to twice its radius; none where
-    the pressure is infinite [length]."""
-    inside = np.sin(0.5 * np.pi * np.arange(count + 1) / count)
-    inside = inside[1 if widest.profile.apex else 0 : None if rim is None else -1]
-    beside = np.arange(1, count // OUTSIDE + 1) / (count // OUTSIDE)
-    return np.asarray(widest.radius * np.concatenate([inside, 1 + (REACH - 1) * beside**2]))
-
-
-def _refuse_no_disc(radii: Array, p: Array, gap: Array) -> None:
-    """Raise UnsupportedScene where the surfaces part within the contact or meet again outside.
-
-    gap  over the approach
-    """
-    for wrong, what in (
-        (p < -NO_DISC * np.max(p), "part within the contact"),
-        (gap < -NO_DISC, "touch again outside the contact"),
-    ):
-        if np.any(wrong):
-            raise UnsupportedScene(
-                f"the surfaces {what}, {radii[np.argmax(wrong)]:.4g} m from the axis, and this "
-                f"solver takes contacts on one disc; {ELSEWHERE}"
-            )

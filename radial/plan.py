@@ -13,17 +13,21 @@ from contact_scene.solver_errors import UnsupportedScene
 
 # Of the shear moduli within a body: beyond, round-off is felt in the numbers.
 MOST_CONTRAST = 1e8
+# Of a step whose path matters: the shear is then right to some 1e-4 of its limit.
+PATH_INCREMENTS = 64
 ELSEWHERE = "solve it with the semi-analytical solver"
 
 
 @dataclass(frozen=True)
 class Plan:
-    """What is computed for a scene: pressure.
+    """What is computed for a scene: pressure, and the shear that it brings with it.
 
+    coupled     whether pressure moves the surfaces past each other against friction
     increments  how many each loading step takes
     effects     every effect with its reason, as shown to people
     """
 
+    coupled: bool
     increments: tuple[int, ...]
     effects: tuple[Effect, ...]
     direction: ClassVar[tuple[float, float]] = (1.0, 0.0)
@@ -36,16 +40,27 @@ def plan(scene: Scene) -> Plan:
         scene, MOST_CONTRAST, f", and this solver carries a ratio up to {MOST_CONTRAST:.0e}"
     )
     couples, why = coupling(scene)
-    _refuse_loads(scene, couples)
+    _refuse_loads(scene)
+    rubs = couples and scene.friction is not None and scene.friction.uniform != 0
+    if rubs:
+        _refuse_rubbing(scene)
     effects = (
         effect.PRESSURE,
         effect.second_body(scene),
         effect.layers(scene, "a layer"),
         effect.friction(scene),
-        effect.coupled(scene, False, why),
-        effect.load_history(False),
+        effect.coupled(scene, rubs, why),
+        effect.load_history(rubs),
     )
-    return Plan(tuple(step.increments or 1 for step in scene.loading), effects)
+    return Plan(rubs, _increments(scene, rubs), effects)
+
+
+def _increments(scene: Scene, rubs: bool) -> tuple[int, ...]:
+    """As asked for; else one wherever the end of the step does not depend on its path."""
+    return tuple(
+        ramp.increments or (PATH_INCREMENTS if rubs and ramp.normal.start != ramp.normal.end else 1)
+        for ramp in scene.load_path()
+    )
 
 
 def _refuse_shape(scene: Scene) -> None:
@@ -57,8 +72,22 @@ def _refuse_shape(scene: Scene) -> None:
         )
 
 
-def _refuse_loads(scene: Scene, couples: bool) -> None:
-    """couples  whether pressure moves the surfaces past each other"""
+def _refuse_rubbing(scene: Scene) -> None:
+    """What pressing without friction can do and with friction cannot."""
+    assert scene.friction is not None
+    if scene.friction.varying is not None:
+        raise UnsupportedScene(
+            "friction is given as a map, and this solver takes one coefficient; name one number, "
+            f"or {ELSEWHERE}"
+        )
+    if scene.indenter.rim is not None:
+        raise UnsupportedScene(
+            "there is friction below an indenter with a rim, where tractions are infinite, and "
+            f"this solver takes smooth edges; leave [friction] out, or {ELSEWHERE}"
+        )
+
+
+def _refuse_loads(scene: Scene) -> None:
     ramps = scene.load_path()
     if any(any(ramp.tilting.end) or ramp.tilting.kind is ControlKind.FORCE for ramp in ramps):
         raise UnsupportedScene(
@@ -75,9 +104,4 @@ def _refuse_loads(scene: Scene, couples: bool) -> None:
     if any(ramp.twisting.end for ramp in ramps):
         raise UnsupportedScene(
             f"a step names a torque or twist, and this solver has pressure alone; {ELSEWHERE}"
-        )
-    if couples:
-        raise UnsupportedScene(
-            "there is friction where pressure moves the surfaces past each other, and this solver "
-            f"has pressure alone; leave [friction] out, or {ELSEWHERE}"
         )

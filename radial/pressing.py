@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from math import exp, inf, isfinite, log
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Protocol
 
 from contact_scene.solver_errors import NotConverged, UnsupportedScene
 from radial.bodies import Bodies
@@ -23,6 +23,19 @@ LEAST_RADIUS = 1e-12  # [m]
 LEAST_POWER = 0.5  # of the radius, with which force and approach rise
 
 
+class Loaded(Protocol):
+    """What a contact has of its radius [length], load [force] and approach [length]."""
+
+    @property
+    def radius(self) -> float: ...
+
+    @property
+    def load(self) -> float: ...
+
+    @property
+    def approach(self) -> float: ...
+
+
 @dataclass(frozen=True)
 class Target:
     """Either the normal force [force] or the approach [length]."""
@@ -30,7 +43,7 @@ class Target:
     force: float | None
     approach: float | None
 
-    def missed(self, contact: Disc) -> float:
+    def missed(self, contact: Loaded) -> float:
         """Logarithm of what a contact has over what is asked; raises UnsupportedScene where a
         contact of this radius would pull: beyond the end of the shape."""
         has, asked = contact.load, self.force

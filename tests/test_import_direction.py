@@ -88,8 +88,8 @@ ORDERS = {
     ),
     "radial": (
         *("quadrature", "wavenumbers", "bodies", "profile", "disc", "surface", "half_space"),
-        *("below", "pressing"),
-        *("plan", "fields", "history"),
+        *("below", "pressing", "rings", "coupling", "stick_slip", "sheared"),
+        *("plan", "fields", "shown", "rubbing", "history"),
     ),
     "fem_reference.mesh": ("section_outline", "section_mesh", "gmsh_mesh"),
     "fem_reference.elasticity": (

@@ -306,7 +306,7 @@ REFUSED = {
         "loading": (LoadStep(normal_force=1e3, torque=1e-3),),
     },
     "moment or a tilt": {"loading": (LoadStep(normal_force=1e3, moment=(1e-3, 0)),)},
-    "past each other": {"friction": RUB},
+    "rim": {"indenter": FlatPunch(radius=1e-3, material=RIGID), "friction": RUB},
     "part within the contact": {
         "indenter": FlatPunch(radius=1e-3, material=RIGID),
         "body": coated(1e3, 5e-5),

@@ -11,8 +11,8 @@ _OPTION = typer.Option(
     metavar="NAME",
     help="'semi-analytical', or finite elements, 'fem' with a penalty and "
     "'fem-complementarity' without one; these read the table fem_reference and ignore "
-    "semi_analytical; or 'radial', for bodies of revolution that are pressed without friction: "
-    "nearly exact, in milliseconds.",
+    "semi_analytical; or 'radial', for bodies of revolution that are pressed: nearly exact, in "
+    "milliseconds; with friction in a second.",
     show_default=SolverName.SEMI_ANALYTICAL.value,
 )
 

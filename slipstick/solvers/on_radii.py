@@ -44,10 +44,10 @@ class OnRadii:
         return stated_errors(result, progress)
 
     def ladder(self, scene: Scene, fineness: RadialDiscretisation, **asked: Any) -> Any:
-        """There is none: what the solver takes depends on no fineness."""
+        """There is none: what the solver takes depends on no fineness but the increments."""
         raise UnsupportedScene(
-            "the radial solver is as accurate as it can be in one run, which states its errors; "
-            "leave --accuracy, and the table [accuracy], out"
+            "the radial solver is as accurate as its increments let it be in one run, which states "
+            "its errors; leave --accuracy, and the table [accuracy], out"
         )
 
     def work(self, scene: Scene, fineness: RadialDiscretisation, plan: Plan) -> Pairs:

@@ -1,0 +1,244 @@
+"""Pressing with friction as the march sees it: every increment from the one before."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from math import exp, inf, log
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.interpolate import CubicSpline
+
+from contact_scene import LoadRamp, RadialDiscretisation, Scene
+from contact_scene.march import Reached
+from contact_scene.residuals import Residuals
+from contact_scene.solver_errors import NotConverged
+from contact_scene.summary import ContactStatus
+from radial.coupling import Coupling
+from radial.fields import Increment
+from radial.pressing import LARGEST_STEP, LEAST_POWER, NEAR, ROUND_OFF, Pressed, Target, pressed
+from radial.rings import Rings, place_of, rings_about
+from radial.sheared import Sheared, finite_pressure, sheared, stick_share
+from radial.shown import largest_targets, refuse_no_disc, shown_radii
+from radial.stick_slip import Rubbed, Signs, rubbed
+from radial.surface import displacement, pressure
+
+Array = NDArray[np.float64]
+
+COUNT = 64  # rings, apart from those about the front and at the ends
+MOST_TRIED = 40
+MOST_LAID = 3  # times that rings are laid anew for a front that has moved
+REST = 1e-11  # of the approach: less slip is round-off
+MIDDLE = 0.5  # of the radius: where a front is sought first
+
+
+@dataclass(frozen=True)
+class Rubbing:
+    """See `contact_scene.march.Solver`.
+
+    largest  contacts without friction that were solved to lay out the rings at which fields are
+             told
+    """
+
+    scene: Scene
+    coupling: Coupling
+    friction: float
+    tolerance: float
+    fineness: float
+    radii: Array
+    largest: tuple[Pressed, ...]
+    most_spent: float = inf
+
+    @classmethod
+    def of(cls, scene: Scene, asked: RadialDiscretisation, fineness: float) -> Rubbing:
+        """That of a scene.
+
+        fineness  how many times as many rings as it takes
+        """
+        coupling = Coupling.of(scene)
+        largest = tuple(
+            pressed(coupling.bodies, scene.indenter, target) for target in largest_targets(scene)
+        )
+        radii = shown_radii(asked.rings, largest, scene.indenter.rim)
+        assert scene.friction is not None
+        assert scene.friction.uniform is not None
+        return cls(
+            scene, coupling, scene.friction.uniform, asked.tolerance, fineness, radii, largest
+        )
+
+    def spent(self) -> float:
+        """Nothing that halves would save."""
+        return 0.0
+
+    def advance(
+        self, ramp: LoadRamp, start: Sheared | None, before: Sheared | None, fraction: float
+    ) -> Sheared:
+        """The contact at a fraction of the ramp; raises NotConverged."""
+        reached = (start.normal_force, start.approach) if start else (0.0, 0.0)
+        target = Target(*ramp.normal.led(fraction, reached))
+        radius, tried = self._first_radius(target, before)
+        share = before.middling / before.end.radius if before else MIDDLE
+        count = round(COUNT * self.fineness)
+        for _ in range(MOST_LAID):
+            rings = rings_about(share, count)
+            end, more, power = self._reach(target, radius, rings, before)
+            tried, radius = tried + more, end.radius
+            laid, share = share, stick_share(end)
+            if abs(place_of(share) - place_of(laid)) <= 1:
+                break
+        return sheared(self.friction, end, target, before, power, tried)
+
+    def _first_radius(self, target: Target, before: Sheared | None) -> tuple[float, int]:
+        """Near that of the target, from the contact before or from that without friction."""
+        if before is None:
+            found = pressed(self.coupling.bodies, self.scene.indenter, target)
+            return found.contact.radius, found.tried
+        further = -target.missed(before.end) / self._power(target, before)
+        return before.end.radius * exp(min(max(further, -LARGEST_STEP), LARGEST_STEP)), 0
+
+    @staticmethod
+    def _power(target: Target, before: Sheared | None) -> float:
+        """Of the radius, with which force or approach rises."""
+        if before is not None and (before.target.force is None) == (target.force is None):
+            return before.power
+        return 3.0 if target.approach is None else 2.0
+
+    def _reach(
+        self, target: Target, radius: float, rings: Rings, before: Sheared | None
+    ) -> tuple[Rubbed, int, float]:
+        """The contact at the target by the secant method on the radius, how many were tried, and
+        the power of the radius."""
+        moved = _moved(before)
+        sliding = _sliding(before, rings)
+        x, power = log(radius), self._power(target, before)
+        best: Rubbed | None = None
+        nearest, last_x, last = inf, x, inf
+        for tried in range(1, MOST_TRIED + 1):
+            a = exp(x)
+            now = rubbed(
+                self.coupling, self.scene.indenter, a, rings, self.friction,
+                moved(a * rings.places), sliding,
+            )  # fmt: skip
+            sliding = now.sliding
+            missed = target.missed(now)
+            if best is not None and nearest <= NEAR and abs(missed) >= nearest:
+                return best, tried, power
+            if abs(missed) < nearest:
+                best, nearest = now, abs(missed)
+            if best is not None and nearest <= 10 * ROUND_OFF:
+                return best, tried, power
+            if last < inf and x != last_x:
+                power = max((missed - last) / (x - last_x), LEAST_POWER)
+            last_x, last = x, missed
+            x -= min(max(missed / power, -LARGEST_STEP), LARGEST_STEP)
+        raise NotConverged("the contact radius", MOST_TRIED, nearest, ROUND_OFF)
+
+    def report(self, reached: Reached[Sheared], last: Increment | None) -> Increment:
+        """The contact at the rings; raises UnsupportedScene where it is no disc, NotConverged above
+        the tolerance."""
+        state = reached.state
+        end, indenter, r = state.end, self.scene.indenter, self.radii
+        places = end.radius * end.rings.places
+        n = end.rings.count
+        bare = indenter.initial_gap(places, 0.0)
+        clear = bare[n + 1 :] + displacement(end.contact, end.rings.places[n + 1 :])
+        clear += end.raised[n + 1 :] - end.approach
+        refuse_no_disc(places[1 : n + 1], end.pressure[1:], np.zeros(n))
+        refuse_no_disc(places[n + 1 :], np.ones_like(clear), clear / end.approach)
+        force = state.target.force
+        limit, q = self.friction * end.pressure[1:], np.abs(end.shear[1:])
+        residuals = Residuals(
+            complementarity=max(end.contact.missed, end.missed),
+            penetration=max(end.contact.missed, end.missed),
+            normal_equilibrium=None if force is None else abs(end.load / force - 1),
+            friction_cone=max(0.0, float(np.max(q - limit) / np.max(limit))),
+            slip_direction=_against(end, self.friction),
+        )
+        residuals.require(self.tolerance, "the contact radius", state.tried)
+        x = r / end.radius
+        p = pressure(end.contact, x) + end.rings.at(end.changed, x)
+        gap = np.zeros_like(r)
+        apart = x > 1
+        raised = _beyond(places, end.raised - end.deeper, -end.deeper)
+        gap[apart] = indenter.initial_gap(r[apart], 0.0) - end.contact.approach
+        gap[apart] += displacement(end.contact, x[apart]) + raised(r[apart])
+        worked = 0.0 if last is None else last.input_work or 0.0
+        begun = (0.0, 0.0) if last is None else (last.normal_force, last.approach)
+        sticks = np.asarray(state.at(np.abs(end.sliding), r) < 0.5) & (x < 1)
+        return Increment(
+            step=reached.place.step,
+            index=reached.place.index,
+            increments_in_step=reached.place.increments_in_step,
+            residuals=residuals,
+            iterations=state.tried,
+            halvings=reached.halvings,
+            normal_force=state.normal_force,
+            approach=state.approach,
+            contact_radius=end.radius,
+            peak_pressure=float(np.max(p)),
+            status=_status(state),
+            stick_radius=state.front,
+            tangential_force=(0.0, 0.0),
+            tangential_shift=(0.0, 0.0),
+            dissipated_energy=state.lost,
+            dissipation_uncertainty=state.uncertain,
+            elastic_energy=end.elastic_energy(bare[: n + 1]),
+            input_work=worked + 0.5 * (begun[0] + state.normal_force) * (state.approach - begun[1]),
+            largest_slip_increment=state.largest[0],
+            largest_dissipation_increment=state.largest[1],
+            radii=r,
+            pressure=p,
+            gap=np.maximum(gap, 0.0),
+            shear_radial=self._shear(state, p, r),
+            slip_radial=state.at(state.slip, r),
+            in_stick=sticks,
+        )
+
+    def _shear(self, state: Sheared, p: Array, r: Array) -> Array:
+        """At the rings: where it is µp, of the pressure there, which hats would cut short."""
+        end = state.end
+        share = end.shear[1:-1] / (self.friction * end.pressure[1:-1])
+        share = np.concatenate([[0.0], share, share[-1:]])
+        return np.asarray(self.friction * p * state.at(share, r))
+
+
+def _moved(before: Sheared | None) -> Callable[[Array], Array]:
+    """u_r of the state before, by radius."""
+    if before is None:
+        return np.zeros_like
+    end = before.end
+    return _beyond(end.radius * end.rings.places, end.moved, 0.0)
+
+
+def _beyond(r: Array, field: Array, limit: float) -> Callable[[Array], Array]:
+    """A field of the rows at any radius: far away it goes to its limit as 1/r."""
+    spline, last = CubicSpline(r, field), r[-1]
+
+    def at(radii: Array) -> Array:
+        near = spline(np.minimum(radii, last))
+        return np.asarray(limit + (near - limit) * last / np.maximum(radii, last))
+
+    return at
+
+
+def _sliding(before: Sheared | None, rings: Rings) -> Signs:
+    """What slid at the same share of the radius."""
+    if before is None:
+        return np.zeros(len(rings.x), dtype=np.int64)
+    was = before.end
+    return np.rint(np.interp(rings.x, was.rings.x, was.sliding)).astype(np.int64)
+
+
+def _against(end: Rubbed, friction: float) -> float:
+    """∫(µp|Δs| + q Δs) dA / ∫µp|Δs| dA over what slides by more than round-off."""
+    slipped = end.slipped * (end.sliding != 0) * (np.abs(end.slipped) > REST * end.approach)
+    most = end.over(friction * finite_pressure(end) * np.abs(slipped))
+    return abs(most + end.over(end.shear * slipped)) / most if most > 0 else 0.0
+
+
+def _status(state: Sheared) -> ContactStatus:
+    sticks = state.end.sliding[1:-1] == 0
+    if np.all(sticks):
+        return ContactStatus.FULL_STICK
+    return ContactStatus.PARTIAL_SLIP if np.any(sticks) else ContactStatus.NO_STICK_AREA_LEFT

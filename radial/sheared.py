@@ -1,0 +1,128 @@
+"""What an increment of pressing with friction leaves: slip, the front of the stick, energies."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import sqrt
+
+import numpy as np
+from numpy.typing import NDArray
+
+from radial.pressing import Target
+from radial.stick_slip import Rubbed
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Sheared:
+    """A contact with friction at the end of an increment.
+
+    end        the contact, with what slipped in the increment
+    target     what was asked of it
+    slip       since two particles touched, at the nodes [length]
+    begun      contact radius at the start of the increment; 0 from first touch [length]
+    middling   stick radius of the increment as a whole, which is that half way [length]
+    front      stick radius at the end [length]
+    lost       energy dissipated since the start of the history [force length]
+    uncertain  by how much finite increments leave that uncertain [force length]
+    power      of the radius with which what is asked for rises
+    largest    slip within the increment, and energy per area that it dissipated, where largest
+    tried      contact radii
+    """
+
+    end: Rubbed
+    target: Target
+    slip: Array
+    begun: float
+    middling: float
+    front: float
+    lost: float
+    uncertain: float
+    power: float
+    largest: tuple[float, float]
+    tried: int
+
+    @property
+    def radii(self) -> Array:
+        """Of the nodes [length]."""
+        return np.asarray(self.end.radius * self.end.rings.x)
+
+    @property
+    def normal_force(self) -> float:
+        """As it was asked for, or what came out [force]."""
+        return self.end.load if self.target.force is None else self.target.force
+
+    @property
+    def approach(self) -> float:
+        """As it was asked for, or what came out [length]."""
+        return self.end.approach if self.target.approach is None else self.target.approach
+
+    def at(self, field: Array, r: Array) -> Array:
+        """A field of the nodes at radii r, zero outside of the contact."""
+        return np.asarray(np.interp(r, self.radii, field, right=0.0))
+
+
+def sheared(
+    friction: float, end: Rubbed, target: Target, before: Sheared | None, power: float, tried: int
+) -> Sheared:
+    """Slip, front and energies after an increment."""
+    x, a = end.rings.x, end.radius
+    begun = before.end.radius if before else 0.0
+    r, nothing = a * x, np.zeros_like(x)
+    slip, shear, limit = nothing, nothing, nothing
+    if before is not None:
+        slip, shear = before.at(before.slip, r), before.at(before.end.shear, r)
+        limit = before.at(finite_pressure(before.end), r)
+    # What the contact has grown over has rubbed since the edge went by.
+    touching = np.clip((a - r) / (a - begun), 0.0, 1.0) if a > begun else np.ones_like(r)
+    touching[r <= begun] = 1.0
+    slipped = touching * end.slipped * (end.sliding != 0)
+    rubbing = 0.5 * friction * (limit + finite_pressure(end)) * np.abs(slipped)
+    open_ = np.abs(end.shear - shear) * np.abs(slipped)
+    middling = stick_share(end) * a
+    return Sheared(
+        end, target, slip + slipped, begun, middling, _front(end, begun, middling, before),
+        (before.lost if before else 0.0) + end.over(rubbing),
+        (before.uncertain if before else 0.0) + end.over(open_),
+        power, (float(np.max(np.abs(slipped))), float(np.max(rubbing))),
+        tried,
+    )  # fmt: skip
+
+
+def stick_share(end: Rubbed) -> float:
+    """Radius of the circle of what sticks over that of the contact [1]. Slip rises from the front
+    as a power of three halves."""
+    x, slides = end.rings.x, end.sliding != 0
+    slides[0] = False
+    if not slides[1:-1].any():
+        return 1.0
+    rise = np.abs(end.slipped) ** (2 / 3)
+    area, sign = 0.0, 1.0
+    for i in np.flatnonzero(slides[1:] != slides[:-1]):
+        near, next_ = (i + 1, i + 2) if slides[i + 1] else (i, i - 1)
+        front = 0.5 * (x[i] + x[i + 1])
+        if 0 < next_ < len(x) and slides[next_] and rise[next_] > rise[near]:
+            slope = (x[next_] - x[near]) / (rise[next_] - rise[near])
+            front = min(max(x[near] - rise[near] * slope, x[i]), x[i + 1])
+        area, sign = area + sign * front**2, -sign
+    return sqrt(max(area + (1.0 if sign > 0 else 0.0), 0.0))
+
+
+def _front(end: Rubbed, begun: float, middling: float, before: Sheared | None) -> float:
+    """Stick radius at the end of an increment [length]: what sticks through it is the disc half
+    way, so that half an increment more is on the line through this one and the one before, unless
+    the load has turned between them."""
+    if before is None:
+        return middling
+    half, last = 0.5 * (end.radius - begun), 0.5 * (begun - before.begun)
+    if half * last <= 0:
+        return middling
+    front = middling + (middling - before.middling) * half / (half + last)
+    return min(max(front, 0.0), end.radius)
+
+
+def finite_pressure(end: Rubbed) -> Array:
+    """The pressure, on an apex that of the next node."""
+    p = end.pressure
+    return p if np.isfinite(p[0]) else np.concatenate([p[1:2], p[1:]])

@@ -1,0 +1,55 @@
+"""Where fields are told: rings over the largest contact of a history; and what no disc is."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from contact_scene import ControlKind, Scene
+from contact_scene.solver_errors import UnsupportedScene
+from radial.plan import ELSEWHERE
+from radial.pressing import Pressed, Target
+
+Array = NDArray[np.float64]
+
+# Rings outside over those inside, out to so many radii of the largest contact.
+OUTSIDE, REACH = 4, 2.0
+# Of the largest pressure, or of the approach: less tension or overlap is round-off.
+NO_DISC = 1e-9
+
+
+def largest_targets(scene: Scene) -> Iterator[Target]:
+    """The largest force and the largest approach that steps of the history end with."""
+    for kind in ControlKind:
+        ends = [ramp.normal.end for ramp in scene.load_path() if ramp.normal.kind is kind]
+        if ends:
+            force = kind is ControlKind.FORCE
+            yield Target(max(ends) if force else None, None if force else max(ends))
+
+
+def shown_radii(count: int, largest: Sequence[Pressed], rim: float | None) -> Array:
+    """Radii, denser towards the edge of the widest contact and out to twice its radius; none where
+    the pressure is infinite [length]."""
+    widest = max((found.contact for found in largest), key=lambda contact: contact.radius)
+    inside = np.sin(0.5 * np.pi * np.arange(count + 1) / count)
+    inside = inside[1 if widest.profile.apex else 0 : None if rim is None else -1]
+    beside = np.arange(1, count // OUTSIDE + 1) / (count // OUTSIDE)
+    return np.asarray(widest.radius * np.concatenate([inside, 1 + (REACH - 1) * beside**2]))
+
+
+def refuse_no_disc(radii: Array, p: Array, gap: Array) -> None:
+    """Raise UnsupportedScene where the surfaces part within the contact or meet again outside.
+
+    gap  over the approach
+    """
+    for wrong, what in (
+        (p < -NO_DISC * np.max(p), "part within the contact"),
+        (gap < -NO_DISC, "touch again outside the contact"),
+    ):
+        if np.any(wrong):
+            raise UnsupportedScene(
+                f"the surfaces {what}, {radii[np.argmax(wrong)]:.4g} m from the axis, and this "
+                f"solver takes contacts on one disc; {ELSEWHERE}"
+            )

@@ -1,0 +1,266 @@
+"""Pressing with friction by the radial solver: reference contacts, laws, and other solvers."""
+
+from __future__ import annotations
+
+import math
+import pickle
+from functools import cache
+from typing import Any
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+
+import fem_reference
+import radial
+from contact_errors.on_radii import stated_errors
+from contact_scene import (
+    RIGID,
+    Body,
+    Cone,
+    CoulombFriction,
+    FiniteElementDiscretisation,
+    IsotropicMaterial,
+    Layer,
+    LoadStep,
+    Paraboloid,
+    Scene,
+)
+from contact_scene.solver_errors import UnsupportedScene
+from contact_scene.standing import Standing
+from contact_scene.summary import ContactStatus
+from radial.rings import OUTSIDE, rings_about
+from radial.sheared import Sheared
+from verification.problems.indentation import COATED, NU_ZERO, STRONG, WEAK, Indentation
+from verification.problems.paper_scene import HERTZ
+
+# Of half-spaces with E* = 1 below a ball with R = 1, so that a = W = 1 are of a kind.
+SOFT = IsotropicMaterial(young_modulus=0.91, poisson_ratio=0.3)
+BALL = Paraboloid(radius=1.0, material=RIGID)
+
+
+def scene(
+    *steps: LoadStep, body: Body | None = None, friction: float = 0.2, indenter: Any = BALL
+) -> Scene:
+    return Scene(
+        indenter=indenter,
+        body=body or Body(material=SOFT),
+        friction=CoulombFriction(coefficient=friction),
+        loading=steps or (LoadStep(normal_force=1e-3, increments=4),),
+    )
+
+
+def coated(stiffness: float, thickness: float) -> Body:
+    film = IsotropicMaterial(young_modulus=0.91 * stiffness, poisson_ratio=0.3)
+    return Body(material=SOFT, layers=(Layer(thickness=thickness, material=film),))
+
+
+# ---- rings ------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("front", [0.001, 0.2, 0.95])
+def test_half_spaces_answer_the_pressure_of_hertz_as_hertz_says(front: float) -> None:
+    """√(1-x²) is among the tractions of the rings, whatever these are."""
+    rings = rings_about(front, 64)
+    x = rings.places
+    p = np.sqrt(np.maximum(1 - x[: rings.count] ** 2, 0.0))
+    inside, outside = x <= 1, x > 1
+    lifted, drawn = rings.logarithmic[0] @ p, rings.sideways[1] @ p
+    assert_allclose(lifted[inside], math.pi / 8 * (2 - x[inside] ** 2), rtol=2e-8)
+    y = OUTSIDE
+    beyond = ((2 - y**2) * np.arcsin(1 / y) + np.sqrt(y**2 - 1)) / 4
+    assert_allclose(lifted[outside], beyond, rtol=2e-8)
+    carried = -np.expm1(1.5 * np.log1p(-(np.minimum(x, 1 - 1e-16) ** 2))) / 3
+    assert_allclose(drawn[1:], carried[1:] / x[1:], rtol=1e-7)
+
+
+# ---- references -------------------------------------------------------------------------------
+
+
+@cache
+def _ended(name: str, increments: int) -> radial.Increment:
+    one = {each.file_name: each for each in (WEAK, STRONG, NU_ZERO, COATED)}[name]
+    return radial.solve(one.problem(increments).scene).steps[-1]
+
+
+@pytest.mark.parametrize("one", [WEAK, NU_ZERO, COATED], ids=lambda one: one.file_name)
+def test_it_ends_as_integral_equations_say(one: Indentation) -> None:
+    end = _ended(one.file_name, 16)
+    assert_allclose(end.approach, one.approach, rtol=1e-6)
+    assert_allclose(end.contact_radius, one.contact_radius, rtol=1e-6)
+    front = one.stick_part * one.contact_radius
+    assert_allclose(end.stick_radius, front, atol=1.5e-3 * HERTZ.contact_radius)
+
+
+def test_errors_fall_faster_than_the_inverse_of_the_increments() -> None:
+    """Where nearly all sticks, which is where the path is felt."""
+    few, more = (abs(_ended("strong", n).approach / STRONG.approach - 1) for n in (8, 32))
+    assert more < few / 8
+    front = STRONG.stick_part * STRONG.contact_radius
+    assert_allclose(_ended("strong", 32).stick_radius, front, rtol=1e-3)
+
+
+def test_finite_elements_unload_to_the_same_shear() -> None:
+    history = (LoadStep(normal_force=1e-3, increments=12),
+               LoadStep(normal_force=4e-4, increments=6))  # fmt: skip
+    asked = scene(*history, body=coated(2.0, 0.1), friction=0.2)
+    ours = radial.solve(asked).steps
+    theirs = fem_reference.solve(
+        asked, FiniteElementDiscretisation(elements_per_radius=24, contact_radius=0.12)
+    ).steps
+    for one, other in zip(ours, theirs, strict=True):
+        assert_allclose(one.approach, other.approach, rtol=2e-3)
+        r = np.linspace(0.1, 0.8, 15) * one.contact_radius
+        by_us, by_them = (np.interp(r, end.radii, end.shear_radial) for end in (one, other))
+        limit = 0.2 * one.peak_pressure
+        assert np.mean(np.abs(by_us - by_them)) < 1e-2 * limit
+
+
+# ---- laws -------------------------------------------------------------------------------------
+
+UP_AND_DOWN = (LoadStep(normal_force=1e-3, increments=8), LoadStep(normal_force=3e-4, increments=4),
+               LoadStep(approach=0.01, increments=4))  # fmt: skip
+
+
+def test_scenes_that_are_alike_have_results_that_are_alike() -> None:
+    """Lengths by 1e-3 and stresses by 1e11."""
+    small = coated(2.0, 0.1 * 1e-3)
+    stiff = Body(
+        material=SOFT.model_copy(update={"young_modulus": 0.91e11}),
+        layers=tuple(
+            layer.model_copy(
+                update={"material": SOFT.model_copy(update={"young_modulus": 1.82e11})}
+            )
+            for layer in small.layers
+        ),
+    )
+    tiny = Paraboloid(radius=1e-3, material=RIGID)
+    one = radial.solve(scene(body=coated(2.0, 0.1))).steps[0]
+    other = radial.solve(
+        scene(LoadStep(normal_force=1e2, increments=4), body=stiff, indenter=tiny)
+    ).steps[0]
+    assert_allclose(other.approach, 1e-3 * one.approach, rtol=1e-9)
+    assert_allclose(other.stick_radius, 1e-3 * (one.stick_radius or 0), rtol=1e-6)
+    assert_allclose(other.dissipated_energy, 1e2 * (one.dissipated_energy or 0), rtol=1e-6)
+
+
+def test_bodies_that_change_places_have_shear_of_the_other_sign() -> None:
+    """A rigid body below an elastic ball is the mirror image."""
+    elastic = Paraboloid(radius=1.0, material=SOFT)
+    below = radial.solve(scene()).steps[0]
+    above = radial.solve(scene(body=Body(material=RIGID), indenter=elastic)).steps[0]
+    assert_allclose(above.approach, below.approach, rtol=1e-12)
+    assert below.shear_radial is not None
+    assert above.shear_radial is not None
+    assert_allclose(above.shear_radial, -below.shear_radial, atol=1e-12)
+    assert np.max(below.shear_radial) > 0
+
+
+def test_a_layer_like_its_substrate_changes_nothing() -> None:
+    bare, same = (radial.solve(scene(body=body)).steps[0] for body in (None, coated(1.0, 0.1)))
+    assert_allclose(same.approach, bare.approach, rtol=1e-12)
+    assert_allclose(same.shear_radial, bare.shear_radial, atol=1e-10 * bare.peak_pressure)
+
+
+@pytest.mark.parametrize("body", [None, coated(2.0, 0.1)], ids=["bare", "coated"])
+def test_shear_is_within_its_limit_and_energy_is_lost_whatever_the_load_does(
+    body: Body | None,
+) -> None:
+    result = radial.solve(scene(*UP_AND_DOWN, body=body))
+    lost = 0.0
+    for end in result.increments:
+        assert end.shear_radial is not None
+        assert end.dissipated_energy is not None
+        assert end.in_stick is not None
+        limit = 0.2 * end.pressure
+        assert np.all(np.abs(end.shear_radial) <= limit + 1e-9 * end.peak_pressure)
+        slides = end.in_contact & ~end.in_stick
+        missed = np.abs(np.abs(end.shear_radial[slides]) / limit[slides] - 1) > 1e-6
+        assert np.sum(missed) <= 2  # between rings there are fronts
+        assert end.dissipated_energy >= lost
+        assert np.all(end.gap >= 0)
+        assert end.status is ContactStatus.PARTIAL_SLIP
+        lost = end.dissipated_energy
+    unloaded = result.steps[1]
+    assert unloaded.shear_radial is not None
+    assert np.min(unloaded.shear_radial) < 0 < np.max(unloaded.shear_radial)
+
+
+def test_what_goes_in_is_stored_or_lost_the_better_the_finer_the_increments() -> None:
+    left = []
+    for count in (4, 8, 16):
+        end = radial.solve(scene(LoadStep(normal_force=1e-3, increments=count))).steps[0]
+        assert end.elastic_energy is not None
+        assert end.dissipated_energy is not None
+        left.append(abs(end.input_work - end.elastic_energy - end.dissipated_energy))  # type: ignore[operator]
+    assert left[0] > 3.5 * left[1] > 12 * left[2]
+
+
+def test_held_loads_change_nothing() -> None:
+    history = (LoadStep(normal_force=1e-3, increments=4), LoadStep(normal_force=1e-3, increments=2))
+    loaded, held = radial.solve(scene(*history)).steps
+    assert_allclose(held.approach, loaded.approach, rtol=1e-9)
+    assert_allclose(held.dissipated_energy, loaded.dissipated_energy, rtol=1e-6)
+
+
+def test_friction_without_end_sticks_all_over() -> None:
+    end = radial.solve(scene(friction=1.5)).steps[0]
+    assert end.stick_radius == pytest.approx(end.contact_radius, rel=1e-2)
+
+
+def test_a_cone_of_half_the_load_is_the_same_cone() -> None:
+    """Radius and approach go with the root of the load, and the stick with them."""
+    cone = Cone(slope_angle=0.05, material=RIGID)
+    ends = radial.solve(scene(LoadStep(normal_force=1e-3, increments=16), indenter=cone)).increments
+    shares = np.array([end.stick_radius / end.contact_radius for end in ends[8:]])  # type: ignore[operator]
+    assert_allclose(shares, shares[-1], rtol=5e-3)
+    depths = np.array([end.approach / end.contact_radius for end in ends[8:]])
+    assert_allclose(depths, depths[-1], rtol=1e-5)
+
+
+# ---- errors, standing and refusals ------------------------------------------------------------
+
+
+@pytest.mark.parametrize("one", [WEAK, STRONG], ids=lambda one: one.file_name)
+def test_stated_errors_hold_the_true_ones(one: Indentation) -> None:
+    result = radial.solve(one.problem(16).scene)
+    end, errors = result.steps[0], stated_errors(result).steps[0]
+    assert errors["normal_force"].status == "exact"
+    front = one.stick_part * one.contact_radius
+    for name, exact in (
+        ("approach", one.approach), ("contact_radius", one.contact_radius), ("stick_radius", front)
+    ):  # fmt: skip
+        error = errors[name].error
+        assert isinstance(error, float)
+        assert abs(getattr(end, name) - exact) < error < 0.1 * exact
+
+
+class _Kept:
+    """Keeps one standing, as a file would."""
+
+    def __init__(self, after: int) -> None:
+        self.after, self.bytes = after, b""
+
+    def last(self) -> Standing | None:
+        return pickle.loads(self.bytes) if self.bytes else None
+
+    def keep(self, standing: Standing) -> None:
+        assert isinstance(standing.mark.state, Sheared)
+        if len(standing.increments) == self.after:
+            self.bytes = pickle.dumps(standing)
+
+
+def test_a_solve_that_goes_on_has_the_same_bits() -> None:
+    kept = _Kept(10)
+    whole = radial.solve(scene(*UP_AND_DOWN), keeper=kept).steps[-1]
+    again = radial.solve(scene(*UP_AND_DOWN), keeper=kept).steps[-1]
+    assert again.approach == whole.approach
+    assert np.array_equal(again.shear_radial, whole.shear_radial)  # type: ignore[arg-type]
+
+
+def test_a_map_of_friction_is_refused_by_name() -> None:
+    friction = CoulombFriction.model_validate(
+        {"coefficient": {"map": np.full((4, 4), 0.2), "spacing": 1.0}}
+    )
+    with pytest.raises(UnsupportedScene, match="map"):
+        radial.plan(scene().model_copy(update={"friction": friction}))
