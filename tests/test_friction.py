@@ -8,7 +8,7 @@ from hypothesis.extra.numpy import arrays
 from pydantic import ValidationError
 
 from contact_scene import CoulombFriction, FrictionMap
-from contact_scene.friction import FRICTIONLESS
+from contact_scene.friction import FRICTIONLESS, sliding_friction
 
 CELLS = (6, 5)
 PRESSURES = arrays(np.float64, CELLS, elements=st.floats(0.0, 1e9))
@@ -91,3 +91,9 @@ def test_beyond_its_extent_a_map_says_nothing() -> None:
         placed.on((8, 8), (0.25, 1.01 * 1.25))
     with pytest.raises(ValidationError, match="does not reach the origin"):
         mapped(np.ones(CELLS), origin=(1.5, 0.0))
+
+
+def test_friction_while_sliding_is_the_mean_of_both_limits_along_the_shear_at_the_end() -> None:
+    shear = np.array([[3.0, 0.0, -6.0], [4.0, 0.0, 0.0]])
+    found = sliding_friction(shear, np.array([1.0, 2.0, 0.0]), np.array([4.0, 2.0, 3.0]))
+    np.testing.assert_allclose(found, [[1.5, 0.0, -1.5], [2.0, 0.0, 0.0]], rtol=1e-15)
