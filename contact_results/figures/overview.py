@@ -32,6 +32,7 @@ LEAST_MOVES = 3  # for a loop instead of the loading curve
 # Of the cells that carry the load to the stress, so that it takes less than a second.
 MOST_CELLS = 64
 DOTS_PER_INCH = 90
+BAR = {"shrink": 0.55, "aspect": 14}
 UNKNOWN = "not computed here:\nslipstick stress RUN_DIR -o DIR"
 
 
@@ -115,13 +116,15 @@ def _draw_stress(left: Any, right: Any, result: Result) -> None:
             ax.text(0.5, 0.5, f"{name}\n{UNKNOWN}", ha="center", va="center")
         return
     body, mises = result.scene.body, field.section.von_mises
-    length = draw_section(left, axes, field, body, mises, "von Mises")
+    length = draw_section(left, axes, field, body, mises, "von Mises", bar=BAR)
     axes.set_xlabel(f"{field.label} ({length.name})")
     axes.set_ylabel(f"depth z ({length.name})")
     draw_surface(along, field)
     cell = float(np.diff(field.section.x.ravel()[:2])[0])
     along.set_title(
-        f"cells of {quantity(cell, 'm', 3)}: too low beside the edges (slipstick stress)"
+        f"by cells of {quantity(cell, 'm', 3)}: too low beside\n"
+        "the edges, which 'slipstick stress' fits",
+        fontsize="medium",
     )
 
 

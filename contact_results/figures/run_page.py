@@ -23,7 +23,8 @@ STYLE = (
     "body{font:16px/1.5 sans-serif;max-width:72rem;margin:0 auto;padding:1rem;color:#1a1a1a;"
     "background:#fff}img{max-width:100%;height:auto}td,th{text-align:left;padding:.15rem 1rem "
     ".15rem 0}td{font-variant-numeric:tabular-nums}pre{overflow-x:auto;background:#f2f2f2;"
-    "padding:.5rem}"
+    "padding:.5rem}@media(prefers-color-scheme:dark){body{color:#e8e8e8;background:#16181b}"
+    "pre{background:#24272c}img{background:#fff;border-radius:.3rem}}"
 )
 POLICY = (
     "default-src 'none'; img-src data:; style-src 'unsafe-inline'; base-uri 'none'; "
@@ -46,6 +47,7 @@ def write_page(
         '<!doctype html><html lang="en"><head><meta charset="utf-8">',
         f'<meta http-equiv="Content-Security-Policy" content="{POLICY}">',
         '<meta name="viewport" content="width=device-width,initial-scale=1">',
+        '<meta name="color-scheme" content="light dark">',
         f"<title>{title}</title><style>{STYLE}</style></head><body><h1>{title}</h1>",
         f"<h2>At the end of step {result.steps[-1].step}</h2><table>",
         *(_row(name, text) for name, text in decision_numbers(result, errors)),
@@ -123,6 +125,6 @@ def _row(name: str, text: str) -> str:
 
 
 def _figure(path: Path) -> str:
-    name = path.stem.replace("_", " ")
+    name = path.stem.replace("_", " ").capitalize()
     data = b64encode(path.read_bytes()).decode("ascii")
     return f'<h2>{name}</h2><img alt="{name}" src="data:image/png;base64,{data}">'

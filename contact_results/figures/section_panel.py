@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from math import floor, log10
 from typing import Any
 
@@ -37,11 +38,13 @@ def draw_section(
     name: str,
     *,
     from_zero: bool = False,
+    bar: Mapping[str, Any] | None = None,
 ) -> EngineeringUnit:
     """Draw values at the points of the section, z downward; returns the unit of length.
 
     from_zero  whether the levels are 1, 2, 5, 10 … up to the largest value, which shows a tail
                beside a peak; else they are evenly spaced
+    bar        how the colour bar differs from matplotlib's
     """
     points, (reach, depth) = field.section, field.shown
     length = engineering_unit(reach, "m")
@@ -58,7 +61,8 @@ def draw_section(
         triangles, drawn / unit.size, levels=levels, colors="black", linewidths=0.3,
         linestyles="solid",
     )  # fmt: skip
-    figure.colorbar(image, ax=ax, ticks=levels, label=f"{name} ({unit.name})", format="%g")
+    label = f"{name} ({unit.name})"
+    figure.colorbar(image, ax=ax, ticks=levels, label=label, format="%g", **(bar or {}))
     draw_interfaces(ax, body, depth, length)
     ax.set_aspect("equal")
     ax.set_xlim(max(-reach, float(points.x.min())) / length.size, reach / length.size)

@@ -6,8 +6,10 @@ from pathlib import Path
 from typing import Any
 
 import matplotlib
+import numpy as np
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
+from PIL import Image
 
 # Okabe and Ito (2008): distinct for every common kind of colour vision; no yellow on white.
 LINE_COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#56B4E9", "#000000")
@@ -37,6 +39,7 @@ STYLE: Any = {
 DOTS_PER_INCH = 150
 OF_SECTIONS = 120  # many small contours, which take twice the bytes of lines on white
 CAPTION_SIZE = 7.5
+COLOURS = 256
 
 
 @contextmanager
@@ -66,6 +69,14 @@ def legend_beside(ax: Any) -> None:
 
 
 def save(figure: Figure, path: Path, dots_per_inch: int = DOTS_PER_INCH) -> None:
-    """Write the figure without date and program version, which would change its bytes."""
-    nothing = {".png": {"Software": None}, ".svg": {"Date": None, "Creator": None}}
-    figure.savefig(path, dpi=dots_per_inch, metadata=nothing[path.suffix])
+    """Write the figure without date and program version, which would change its bytes; a PNG with
+    the 256 colours nearest to its own, in a third of the bytes."""
+    if path.suffix == ".svg":
+        figure.savefig(path, metadata={"Date": None, "Creator": None})
+        return
+    figure.set_dpi(dots_per_inch)
+    canvas = FigureCanvasAgg(figure)
+    canvas.draw()
+    drawn = Image.fromarray(np.asarray(canvas.buffer_rgba())).convert("RGB")
+    few = drawn.quantize(COLOURS, method=Image.Quantize.MEDIANCUT, dither=Image.Dither.NONE)
+    few.save(path, "png", optimize=True, dpi=(dots_per_inch, dots_per_inch))
