@@ -260,3 +260,14 @@ def test_a_run_and_a_stress_are_told_apart(place: Path) -> None:
         (other / "stress.json").write_bytes(content)
         with pytest.raises(ValueError, match=complaint):
             slipstick.load_stress(other)
+
+
+@pytest.mark.parametrize(("to", "suffix"), [("matlab", ".mat"), ("excel", ".xlsx")])
+def test_an_output_that_is_named_like_the_file_is_the_file(
+    place: Path, tmp_path: Path, to: str, suffix: str
+) -> None:
+    for output in (tmp_path / f"mine{suffix}", tmp_path / "folder.of.mine"):
+        told = outcome("export", "stress", "-o", output, "--to", to, cwd=place)
+        file = output if output.suffix == suffix else output / f"stress{suffix}"
+        assert file.is_file()
+        assert str(file) in told.stdout

@@ -8,8 +8,6 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from slipstick.cli.optional import OutputOption
-
 if TYPE_CHECKING:
     from contact_results.export.sheets import Stored
 
@@ -31,7 +29,16 @@ def export(
             show_default=False,
         ),
     ],
-    output: OutputOption,
+    output: Annotated[
+        Path,
+        typer.Option(
+            "--output",
+            "-o",
+            metavar="DIR|FILE",
+            help="A directory, made if absent, or of the first two a file by its name: m.mat, "
+            "m.xlsx.",
+        ),
+    ],
     to: Annotated[
         Format,
         typer.Option(
@@ -76,13 +83,15 @@ def _written(stored: Stored, name: str, output: Path, to: Format) -> list[Path]:
         if to is Format.MATLAB:
             from contact_results.export.matlab import write_matlab
 
-            write_matlab(stored, output / f"{name}.mat")
-            return [output / f"{name}.mat"]
+            file = _file(output, name, ".mat")
+            write_matlab(stored, file)
+            return [file]
         if to is Format.EXCEL:
             from contact_results.export.excel import write_excel
 
-            write_excel(stored, output / f"{name}.xlsx")
-            return [output / f"{name}.xlsx"]
+            file = _file(output, name, ".xlsx")
+            write_excel(stored, file)
+            return [file]
         from contact_results.export.paraview import COLLECTION, write_paraview
         from contact_results.files.stored_run import StoredRun
 
@@ -92,3 +101,10 @@ def _written(stored: Stored, name: str, output: Path, to: Format) -> list[Path]:
         return [output / COLLECTION]
     except (ValueError, KeyError) as error:
         raise Refused(str(error)) from None
+
+
+def _file(output: Path, name: str, suffix: str) -> Path:
+    """The output itself if it is named like such a file and is no directory, else one in it."""
+    if output.suffix == suffix and not output.is_dir():
+        return output
+    return output / f"{name}{suffix}"
