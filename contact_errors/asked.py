@@ -41,7 +41,7 @@ def asked_of(request: AccuracyRequest, rung: Rung[Any]) -> Asked:
     """What a request binds, by a first result; raises AccuracyOutOfReach for a quantity that is
     named and that the scene has not, or not finite."""
     left_out = {name: why for name in request.shares() if (why := _why_left_out(name, rung))}
-    for name in sorted(request.named):
+    for name in request.named:
         if left_out.get(name, PRESCRIBED) is not PRESCRIBED:
             raise AccuracyOutOfReach(f"no accuracy of {name} can be had: {left_out[name]}")
     shares = {name: share for name, share in request.shares().items() if name not in left_out}

@@ -66,9 +66,9 @@ class AccuracyRequest(_Named):
         return self
 
     @property
-    def named(self) -> frozenset[str]:
-        """Quantities that are bound by name."""
-        return frozenset(name for name in BOUND if getattr(self, name) is not None)
+    def named(self) -> tuple[str, ...]:
+        """Quantities that are bound by name, in the order of the results."""
+        return tuple(name for name in BOUND if getattr(self, name) is not None)
 
     def shares(self) -> Mapping[str, float]:
         """Largest relative error of every quantity that is bound; a name counts more than

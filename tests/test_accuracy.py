@@ -97,6 +97,13 @@ def test_names_have_their_shares(text: str, shares: dict[str, float]) -> None:
     assert request(text).shares() == pytest.approx(shares)
 
 
+def test_what_is_bound_is_listed_in_the_order_of_the_results() -> None:
+    """Equal requests give equal summaries: no order of a set, which changes from run to run."""
+    names = ("approach", "contact_area", "peak_pressure", "torque", "tilt", "slip_amplitude")
+    text = ", ".join(f"{name} 1%" for name in reversed(names))
+    assert tuple(request(text).shares()) == names
+
+
 def test_a_name_counts_more_than_the_share_of_all() -> None:
     shares = request("1%, approach 0.1%").shares()
     assert shares["approach"] == 1e-3
