@@ -1,4 +1,5 @@
-"""The tools that read the code agree with it: ruff on everything, mypy on the packages."""
+"""The tools that read the code agree with it: ruff and codespell on everything, mypy on the
+packages."""
 
 import subprocess
 import sys
@@ -12,6 +13,7 @@ COMMANDS = {
     "lint": ("ruff", "check", "--no-fix", "."),
     "format": ("ruff", "format", "--check", "."),
     "types": ("mypy",),
+    "spelling": ("codespell_lib",),
 }
 
 
