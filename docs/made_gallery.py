@@ -10,6 +10,7 @@ from pathlib import Path
 
 from gallery_claims import SCENES, Entry, Found, Verdict, found
 from gallery_entries import ENTRIES
+from made_notebooks import notebook
 from made_reference import table
 
 from slipstick import save
@@ -39,6 +40,7 @@ def write_gallery(folder: Path) -> None:
         (folder / f"{entry.scene}.md").write_text(
             page(entry, judged, spent[entry.scene]), encoding="utf-8"
         )
+        (folder / f"{entry.scene}.ipynb").write_text(notebook(entry), encoding="utf-8")
     (folder / "index.md").write_text(_index(spent), encoding="utf-8")
 
 
@@ -80,6 +82,7 @@ def page(entry: Entry, judged: list[Found], seconds: float) -> str:
             f"## Again, in {max(1, round(seconds))} s\n",
             f"    slipstick run docs/gallery/{entry.scene}.toml{solver} --output "
             f"out/{entry.scene}\n",
+            f"or in a {{download}}`notebook <{entry.scene}.ipynb>`.\n",
             *([f"and for the other rows of the table with\n\n{more}"] if more else []),
             f"```toml\n{scene}\n```\n",
         )

@@ -1,7 +1,9 @@
 """The gallery: every verdict is the one that its page speaks of."""
 
+import json
 import sys
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 
@@ -11,6 +13,7 @@ sys.path.append(str(DOCS))
 from gallery_claims import SCENES, Claim, Found, Verdict, found  # noqa: E402
 from gallery_entries import ENTRIES  # noqa: E402
 from made_gallery import Unexpected, refuse_unexpected  # noqa: E402
+from made_notebooks import notebook  # noqa: E402
 
 
 @pytest.mark.parametrize("entry", ENTRIES, ids=lambda entry: entry.scene)
@@ -49,3 +52,34 @@ def test_another_verdict_than_the_page_speaks_of_is_refused() -> None:
     one = Found(claim(2.0, 0.1), 1.0, 0.01)
     with pytest.raises(Unexpected, match=r"ours 1 ± 0\.01, somebody 2 .*differs, expected: agrees"):
         refuse_unexpected(ENTRIES[0], [one])
+
+
+def code_of(entry) -> list[str]:
+    contents = json.loads(notebook(entry))
+    assert (contents["nbformat"], contents["nbformat_minor"]) == (4, 5)
+    assert len({cell["id"] for cell in contents["cells"]}) == len(contents["cells"])
+    return ["".join(c["source"]) for c in contents["cells"] if c["cell_type"] == "code"]
+
+
+@pytest.mark.parametrize("entry", ENTRIES, ids=lambda entry: entry.scene)
+def test_every_notebook_holds_its_scene_and_code_that_compiles(entry) -> None:
+    cells = code_of(entry)
+    for cell in cells:
+        compile(cell, entry.scene, "exec")
+    names: dict[str, str] = {}
+    exec(cells[0], names)
+    assert names["SCENE"] == (SCENES / f"{entry.scene}.toml").read_text(encoding="utf-8")
+
+
+def test_a_notebook_solves_its_scene_and_shows_its_figures(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    shown: list[Path] = []
+    stub = SimpleNamespace(Image=lambda path: path, display=shown.append)
+    monkeypatch.setitem(sys.modules, "IPython.display", stub)
+    monkeypatch.chdir(tmp_path)
+    names: dict[str, object] = {}
+    for cell in code_of(next(entry for entry in ENTRIES if entry.scene == "paper_ball")):
+        exec(cell, names)
+    assert {path.name for path in shown} >= {"overview.png", "profiles.png"}
+    assert "peak_pressure: 3168" in capsys.readouterr().out
