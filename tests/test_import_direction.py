@@ -139,7 +139,7 @@ ORDERS = {
     "verification.challenge": (
         *("halves", "round_table", "asked", "often_asked", "frictional_cases", "cases_at_places"),
         *("paper_figure", "cases", "toml_text", "export", "answer", "reading"),
-        *("verdicts", "judgement", "door"),
+        *("verdicts", "judgement", "door", "named_solver"),
     ),
     "slipstick": (
         *("solvers", "path_errors", "solving", "stored_run", "tables", "cli", "__main__"),
@@ -151,7 +151,7 @@ ORDERS = {
         "judging",
         *("running", "regression"),
         *("cases", "defects", "peers", "challenge", "adapters", "studies", "benchmarks"),
-        *("showcase", "report"),
+        *("showcase", "report", "judged_by_pytest"),
     ),
     "verification.cases.both_solvers": (
         *("left_out", "contacts", "sides", "differences", "stress", "line", "charts", "tables"),

@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
+import traceback
 from enum import StrEnum
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from slipstick.cli.optional import optional
+
+if TYPE_CHECKING:
+    from verification.challenge.judgement import Judgement
 
 
 class GradeName(StrEnum):
@@ -20,7 +24,19 @@ class GradeName(StrEnum):
 
 
 def judge(
-    folder: Annotated[Path, typer.Argument(metavar="DIR", help="A challenge, filled in.")],
+    answers: Annotated[
+        str,
+        typer.Argument(
+            metavar="DIR|FILE.py:FUNCTION",
+            help="A challenge, filled in; or a function that solves.",
+        ),
+    ],
+    case: Annotated[
+        str | None, optional("--case", metavar="CASE", help="What the function is to solve.")
+    ] = None,
+    levels: Annotated[
+        int, typer.Option("--levels", metavar="N", help="Of a function: 0, 1, …, N - 1.", min=1)
+    ] = 4,
     page: Annotated[
         Path | None,
         optional("--page", metavar="FILE", help="Write the sheet as HTML, badge.json beside it."),
@@ -39,16 +55,23 @@ def judge(
     Per number and field: the error against class A, B or C; whether it stalls under refinement;
     whether the uncertainty that it claims is honest; whether fields carry the load; the order, if
     one is claimed. Exit code 0 if nothing failed, 1 if a verdict did, 2 if the files cannot be
-    read, 3 if the solver gave up, 6 with --strict if something is inconclusive or missing.
+    read, 3 if the solver gave up or raised, 6 with --strict if something is inconclusive or
+    missing. FILE.py is run: judge only what you trust.
     """
     from contact_results.directory.atomic_file import atomic_file
     from slipstick.cli.terminal import print_table
     from verification.challenge.asked import Grade
     from verification.challenge.judgement import judged
+    from verification.challenge.named_solver import names_a_solver
     from verification.challenge.reading import read_answers
     from verification.report.judgement_sheet import COLUMNS, render_sheet, row_texts
 
-    found = judged(*read_answers(folder), None if grade is None else Grade(grade))
+    if names_a_solver(answers):
+        found = _solved(answers, case, levels, grade, strict)
+    elif case is not None:
+        raise typer.BadParameter("--case is for a function; a folder knows its challenge")
+    else:
+        found = judged(*read_answers(Path(answers)), None if grade is None else Grade(grade))
     print_table(COLUMNS, [row_texts(row) for row in found.rows])
     for quantity, step, required in found.omitted:
         typer.echo(f"omitted: {quantity}, step {step}{' (required)' if required else ''}")
@@ -61,3 +84,31 @@ def judge(
         typer.echo(f"sheet: {page}")
     if code := found.exit_code(strict=strict):
         raise typer.Exit(code)
+
+
+def _solved(
+    name: str, case: str | None, levels: int, grade: GradeName | None, strict: bool
+) -> Judgement:
+    """Of a function; ends the command where it cannot or raises."""
+    from slipstick.cli.errors import ExitCode
+    from slipstick.cli.name_mistakes import unknown_names
+    from verification.challenge.answer import Solver
+    from verification.challenge.cases import challenges
+    from verification.challenge.door import CannotDo
+    from verification.challenge.door import judge as judge_solver
+    from verification.challenge.named_solver import named_solver
+
+    if case is None:
+        raise typer.BadParameter("a function needs --case; 'slipstick challenge list' names them")
+    if problem := unknown_names("challenge", [case], challenges(), "slipstick challenge list"):
+        raise typer.BadParameter(problem)
+    solve = named_solver(name)
+    try:
+        return judge_solver(case, solve, levels, grade, Solver(name))
+    except CannotDo as reason:
+        typer.echo(f"{case} | {name} | cannot: {reason}")
+        raise typer.Exit(ExitCode.INCONCLUSIVE if strict else ExitCode.PASS) from None
+    except Exception:
+        traceback.print_exc()
+        typer.echo(f"{case}: {name} raised; see above", err=True)
+        raise typer.Exit(ExitCode.NOT_CONVERGED) from None

@@ -1,0 +1,88 @@
+"""`slipstick judge FILE.py:FUNCTION --case CASE`: exit codes say how it went."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from slipstick.cli import main
+
+FILE = """
+from verification import Answer, CannotDo
+from verification.problems.paper_scene import HERTZ
+
+def right(problem, level):
+    values = {("approach", 1): HERTZ.approach, ("contact_radius", 1): HERTZ.contact_radius}
+    return Answer(1e-5, values)
+
+def off(problem, level):
+    return Answer(1e-5, {("approach", 1): 1.05 * HERTZ.approach})
+
+def gives_up(problem, level):
+    return Answer(1e-5, gave_up={0: "too steep"})
+
+def raises(problem, level):
+    raise RuntimeError("singular matrix")
+
+def cannot(problem, level):
+    raise CannotDo("balls only")
+
+number = 3
+"""
+
+
+def judge(*arguments: object) -> int:
+    try:
+        main(["judge", *map(str, arguments)])
+    except SystemExit as end:
+        return int(end.code or 0)
+    return 0
+
+
+@pytest.mark.parametrize(
+    ("function", "options", "code", "said"),
+    [
+        ("right", (), 0, "hertz_point"),
+        ("right", ("--strict", "--class", "A"), 0, "class A"),
+        ("off", (), 1, "beyond class B"),
+        ("gives_up", (), 3, "too steep"),
+        ("raises", (), 3, "singular matrix"),
+        ("cannot", (), 0, "cannot: balls only"),
+        ("cannot", ("--strict",), 6, "cannot: balls only"),
+        ("missing", (), 2, "has no function 'missing'"),
+        ("number", (), 2, "has no function 'number'"),
+    ],
+)
+def test_the_exit_code_says_how_a_function_did(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], function: str,
+    options: tuple[str, ...], code: int, said: str,
+) -> None:  # fmt: skip
+    file = tmp_path / "mine.py"
+    file.write_text(FILE)
+    case = ("--case", "hertz_point", "--levels", "1")
+    assert judge(f"{file}:{function}", *case, *options) == code
+    told = capsys.readouterr()
+    assert said in told.out + told.err
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        (("none.py:solve", "--case", "hertz_point"), "none.py: no such file"),
+        (("no_module:solve", "--case", "hertz_point"), "No module named 'no_module'"),
+        (("none.py:solve",), "needs --case"),
+        (("none.py:solve", "--case", "hertz_pont"), "hertz_point"),
+        (("folder", "--case", "hertz_point"), "--case is for a function"),
+    ],
+)
+def test_what_names_no_solver_is_refused(
+    capsys: pytest.CaptureFixture[str], arguments: tuple[str, ...], said: str
+) -> None:
+    assert judge(*arguments) == 2
+    assert said in capsys.readouterr().err.replace("\n", " ")
+
+
+def test_our_own_solvers_are_named_by_their_module() -> None:
+    solver = "verification.adapters.radius:answer"
+    assert judge(solver, "--case", "coated_paraboloid/E1_over_E2=2", "--levels", "2") == 0

@@ -1,0 +1,66 @@
+"""The action judges solvers in workflows, and its exit code is that of the command."""
+
+from __future__ import annotations
+
+import os
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+ACTION = Path(__file__).resolve().parents[1] / ".github" / "actions" / "judge"
+SLIPSTICK = Path(sys.executable).with_name("slipstick")
+FILE = """
+from verification import Answer
+from verification.problems.paper_scene import HERTZ
+
+def right(problem, level):
+    values = {("approach", 1): HERTZ.approach, ("contact_radius", 1): HERTZ.contact_radius}
+    return Answer(1e-5, values)
+
+def off(problem, level):
+    return Answer(1e-5, {("approach", 1): 1.05 * HERTZ.approach})
+"""
+
+
+def act(folder: Path, **inputs: str) -> tuple[int, str]:
+    """Exit code, and what the page of the job shows."""
+    summary = folder / "summary.md"
+    given = {"SLIPSTICK": str(SLIPSTICK), "GITHUB_STEP_SUMMARY": str(summary), "LEVELS": "1"}
+    done = subprocess.run(
+        ["bash", ACTION / "judge.sh"], cwd=folder, env={**os.environ, **given, **inputs},
+        capture_output=True, text=True, check=False,
+    )  # fmt: skip
+    return done.returncode, summary.read_text() if summary.exists() else done.stderr
+
+
+def test_a_failure_on_any_case_is_that_of_the_action(tmp_path: Path) -> None:
+    (tmp_path / "mine.py").write_text(FILE)
+    code, page = act(
+        tmp_path, SOLVER="mine.py:off", CASES="hertz_point coated_paraboloid/E1_over_E2=2"
+    )
+    assert code == 1
+    assert re.findall(r"^- (\S+) \| mine.py:off", page, re.MULTILINE) == [
+        "hertz_point", "coated_paraboloid/E1_over_E2=2"
+    ]  # fmt: skip
+    code, page = act(
+        tmp_path, SOLVER="mine.py:right", CASES="hertz_point", STRICT="true", GRADE="A"
+    )
+    assert (code, "class A" in page) == (0, True)
+    assert (tmp_path / "judged" / "hertz_point" / "badge.json").is_file()
+
+
+@pytest.mark.parametrize("inputs", [{}, {"SOLVER": "a.py:f", "ANSWERS": "b"}, {"ANSWERS": "none"}])
+def test_inputs_that_name_nothing_to_judge_are_refused(
+    tmp_path: Path, inputs: dict[str, str]
+) -> None:
+    assert act(tmp_path, **inputs)[0] == 2
+
+
+def test_no_input_is_pasted_into_the_shell() -> None:
+    text = (ACTION / "action.yml").read_text(encoding="utf-8")
+    runs = re.findall(r"^ +run: (.+)$", text, re.MULTILINE)
+    assert runs
+    assert not any("${{" in run for run in runs)

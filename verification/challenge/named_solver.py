@@ -1,0 +1,50 @@
+"""A solver by its name: FILE.py:FUNCTION or a module's."""
+
+from __future__ import annotations
+
+import importlib
+import importlib.util
+from collections.abc import Callable
+from pathlib import Path
+from types import ModuleType
+
+from contact_results.directory.refusal import Refused
+from verification.challenge.answer import Answer
+from verification.challenge.door import Posed
+
+EXPECTED = "expected FILE.py:FUNCTION or MODULE:FUNCTION"
+
+
+def names_a_solver(text: str) -> bool:
+    """Rather than a folder."""
+    return ":" in text and not Path(text).exists()
+
+
+def named_solver(text: str) -> Callable[[Posed, int], Answer]:
+    """The function; runs the file that it is in. Raises Refused where there is none, and what the
+    file raises."""
+    place, _, name = text.rpartition(":")
+    module = module_of(Path(place)) if place.endswith(".py") else _imported(place, text)
+    found: object = getattr(module, name, None)
+    if not callable(found):
+        raise Refused(f"{text}: {place} has no function {name!r}; {EXPECTED}")
+    return found
+
+
+def module_of(path: Path) -> ModuleType:
+    """A file run as a module of its own; raises Refused where it cannot be read."""
+    if not path.is_file():
+        raise Refused(f"{path}: no such file; {EXPECTED}")
+    spec = importlib.util.spec_from_file_location(path.stem, path)
+    assert spec is not None
+    assert spec.loader is not None
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+def _imported(place: str, text: str) -> ModuleType:
+    try:
+        return importlib.import_module(place)
+    except (ImportError, ValueError) as error:
+        raise Refused(f"{text}: {error}; {EXPECTED}") from None
