@@ -19,7 +19,7 @@ RADIUS = Rule(2, 0.2, 4, 4.8, path_factor=1.5, lengthscale=Lengthscale.FILM)
 STICK = Rule(1, 0.06, 2, 2.4, 2.0, 1.0, Lengthscale.STICK)
 SHIFT = Rule(2, 0.1, 1, 5.0, 3.0, 0.3, Lengthscale.SLIP)
 TWIST = Rule(2, 1.8, 4, 2.0, 3.0, 0.3, Lengthscale.SLIP)
-ENERGY = Rule(1.5, 0.27, 8, 1.9, lengthscale=Lengthscale.ANNULUS)
+ENERGY = Rule(1.5, 0.27, 8, 1.9, 2.0, 0.0, Lengthscale.ANNULUS, charge=0.1)
 
 RULES = with_their_likes(
     {
@@ -47,7 +47,7 @@ AT_GAUSS_POINTS = with_their_likes(
         "stick_radius": Rule(1, 0.06, 4, 2.6, 2.0, 1.0, Lengthscale.STICK),
         "tangential_shift": Rule(2, 0.05, 1, 1.4, 3.0, 0.3, Lengthscale.SLIP),
         "twist": Rule(2, 0.15, 4, 1.7, 3.0, 0.3, Lengthscale.SLIP),
-        "dissipated_energy": Rule(1.5, 0.05, 4, 2.3, lengthscale=Lengthscale.ANNULUS),
+        "dissipated_energy": Rule(1.5, 0.05, 4, 2.3, 2.0, 0.0, Lengthscale.ANNULUS, charge=0.1),
         "slip_amplitude": Rule(1, 0.15, 8, 1.45, lengthscale=Lengthscale.ANNULUS),
     }
 )

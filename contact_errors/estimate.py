@@ -60,6 +60,17 @@ def by_increments(rule: Rule, difference: Numbers, scatter: Numbers) -> Numbers:
     return rule.path_factor * np.hypot(difference, rule.path_scatter * scatter)
 
 
+def charged(rule: Rule, charge: Numbers, difference: Numbers | None) -> Numbers:
+    """Error of a number by the increments, which tell themselves what they leave open of it.
+
+    charge      what they tell
+    difference  by other increments; None where they gave no result
+    """
+    if difference is None:
+        return charge
+    return np.minimum(charge, np.hypot(rule.path_factor * difference, rule.charge * charge))
+
+
 def unsolved(tolerance: float, largest: Numbers, size: float) -> Numbers:
     """What residuals of the tolerance leave.
 

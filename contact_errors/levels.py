@@ -81,6 +81,7 @@ class Levels:
     matters    whether the state at the end depends on how finely the steps so far are cut
     by_path    what other increments tell; None where they do not matter or gave no result
     charged    what increments tell of themselves; None of a number of which nobody tells
+    lost       of energies that add up over steps what each of these has lost
     """
 
     scene: Scene
@@ -93,6 +94,7 @@ class Levels:
     matters: Sequence[bool]
     by_path: Sequence[Values] | None
     charged: Sequence[Mapping[str, float | None]]
+    lost: Sequence[Mapping[str, Mapping[int, float]]]
 
     def errors(self) -> Iterator[Mapping[str, StatedError]]:
         """Of every step."""
@@ -112,7 +114,7 @@ class Levels:
         beside = self.ground.beside(step, name, rule, largest)
         if beside is None:
             return estimate.UNKNOWN
-        scatter = largest * rule.scatter(self.ground.per(step, rule))
+        scatter = self._scatter(step, name, rule, largest)
         unsolved = estimate.unsolved(self.tolerance, largest, scale(name, self.values[step]))
         parts: dict[Part, Numbers] = {
             self.ground.part: estimate.by_cells(rule, change, self.ratio, scatter),
@@ -124,7 +126,10 @@ class Levels:
             if charged is None:
                 return estimate.UNKNOWN
             if charged or self.matters[step]:
-                parts["increments"] = np.full_like(largest, charged)
+                by_path = None if self.by_path is None else self.by_path[step].get(name)
+                parts["increments"] = estimate.charged(
+                    rule, np.full_like(largest, charged), by_path
+                )
         elif self.matters[step]:
             if self.by_path is None or name not in self.by_path[step]:
                 return estimate.UNKNOWN
@@ -134,3 +139,12 @@ class Levels:
         for part, size in beside.items():
             parts[part] = parts.get(part, 0.0) + size
         return estimate.stated(parts, self.ground.resolved(step, rule, largest) and not apart)
+
+    def _scatter(self, step: int, name: str, rule: Rule, largest: Numbers) -> Numbers:
+        """By where borders lie in cells; what was lost in a step has the scatter of its end."""
+        lost = self.lost[step].get(name)
+        if lost is None:
+            return largest * rule.scatter(self.ground.per(step, rule))
+        ends = lost.items()
+        found = sum(size * rule.scatter(self.ground.per(end, rule)) for end, size in ends)
+        return np.full_like(largest, found)

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
-from math import sqrt
+from math import pi, sqrt
 
 import numpy as np
 from numpy.typing import NDArray
@@ -24,8 +24,12 @@ Field = NDArray[np.float64]
 # Cells from the surface within which a stress feels the edges of the tractions.
 NEAR = 2.0
 # Of stress at a fitted edge, over itself: what the pressure of a solver that knows no edge leaves
-# wrong, in sliding contacts, coated or not, of 8 to 45 cells per radius.
-BY_PRESSURE = 2e-3
+# wrong grows with the m cells per radius, .0006 + .00004 m, at most .002; few leave 4/m⁴ in the fit
+# (Hertz's, sliding and coated contacts of 5 to 50 cells).
+BY_PRESSURE, BY_CELL, MOST_BY_PRESSURE = 6e-4, 4e-5, 2e-3
+FEW_CELLS = 4.0
+# Two fits of a smooth edge are as far apart however right they are; what is beyond counts.
+ALWAYS_APART = 7e-4
 # Of what parabolas find between the points; points are too few for them to be exact.
 BETWEEN = 1.1
 
@@ -53,7 +57,9 @@ def stress_errors(
         between = 0.0 if e.on_edge else beyond(field.points, e)
         rule, by_increments = rule_of(state, field.edge, e), state.by_increments or 0.0
         if field.edge is not None and rule is AT_EDGE:
-            errors.append(_at_edge(e, field.edge.apart, between, by_increments))
+            per_radius = sqrt(np.count_nonzero(state.tractions["pressure"]) / pi)
+            by_edge = _by_edge(per_radius, field.edge.apart)
+            errors.append(_at_edge(e, by_edge, between, by_increments))
         else:
             errors.append(_error(e, between, there.get((e.region, e.measure)), rule, by_increments))
     return tuple(errors)
@@ -127,10 +133,20 @@ def above_the_middle(x: Field, f: Field) -> float:
     return float(-(slope**2) / (4 * bend)) if bend < 0 else 0.0
 
 
-def _at_edge(extreme: Extreme, apart: float, between: float, by_increments: float) -> StatedError:
+def _by_edge(per_radius: float, apart: float) -> float:
+    """Error of a stress at a fitted edge, over itself.
+
+    per_radius  cells per contact radius
+    apart       of two fits, see `FittedEdge`
+    """
+    by_pressure = min(BY_PRESSURE + BY_CELL * per_radius, MOST_BY_PRESSURE)
+    by_fit = AT_EDGE.factor * max(apart - ALWAYS_APART, 0.0)
+    return by_pressure + FEW_CELLS / per_radius**4 + by_fit
+
+
+def _at_edge(extreme: Extreme, by_edge: float, between: float, by_increments: float) -> StatedError:
     size = np.array([abs(extreme.value)])
-    by_fit = estimate.by_cells(AT_EDGE, apart * size, 2.0, np.zeros(1))
-    parts: dict[Part, Field] = {"cells": BETWEEN * between + BY_PRESSURE * size + by_fit}
+    parts: dict[Part, Field] = {"cells": BETWEEN * between + by_edge * size}
     if by_increments:
         parts["increments"] = by_increments * size
     return estimate.stated(parts, not extreme.at_window_edge)

@@ -18,7 +18,7 @@ from contact_errors.half_the_cells import Progress, on_wide_cells, recut_plan
 from contact_errors.levels import Levels, path_changes
 from contact_errors.prescribed import prescribed
 from contact_errors.rules import Lengthscale, Rule, rules_for
-from contact_errors.values import Values, charged_by_increments, values_of
+from contact_errors.values import Values, charged_by_increments, lost_by_steps, values_of
 from contact_results.cycles import fretting_cycles
 from contact_results.remarks import left_out
 from contact_scene.stated_error import Part, StatedErrors
@@ -77,6 +77,7 @@ def stated_errors(
         matters=tuple(accumulate(matters, or_)),
         by_path=by_path,
         charged=charged_by_increments(result, cycles),
+        lost=lost_by_steps(fine, cycles),
     )
     return StatedErrors(tuple(levels.errors()), tuple(companions))
 
@@ -139,6 +140,8 @@ class _Cells:
         annulus = max(cells.annulus, NARROWEST)
         if lengthscale is Lengthscale.ANNULUS:
             return float(np.sqrt(cells.contact * annulus))
+        if lengthscale is Lengthscale.LOST:
+            return float((cells.contact * annulus**4) ** 0.2)
         if lengthscale is Lengthscale.SLIP:
             return float(cells.contact / np.sqrt(1 + 1 / annulus))
         return cells.contact
@@ -159,6 +162,6 @@ class _Cells:
             return True
         if lengthscale in (Lengthscale.STICK, Lengthscale.CUSP):
             return cells.stick is not None and cells.stick >= LEAST[Lengthscale.STICK]
-        if lengthscale in (Lengthscale.SLIP, Lengthscale.ANNULUS):
+        if lengthscale in (Lengthscale.SLIP, Lengthscale.ANNULUS, Lengthscale.LOST):
             return cells.annulus is None or cells.annulus >= LEAST[Lengthscale.ANNULUS]
         return True

@@ -26,7 +26,7 @@ from contact_errors.estimate import Numbers
 from contact_errors.levels import Levels, path_changes, recut
 from contact_errors.prescribed import prescribed
 from contact_errors.rules import Lengthscale, Rule
-from contact_errors.values import Values, charged_by_increments, values_of
+from contact_errors.values import Values, charged_by_increments, lost_by_steps, values_of
 from contact_results.cycles import fretting_cycles
 from contact_scene import FiniteElementDiscretisation, Scene
 from contact_scene.solver_errors import SolverError
@@ -91,6 +91,7 @@ def stated_errors(
         matters=tuple(accumulate(result.plan.path_matters, or_)),
         by_path=by_path,
         charged=charged_by_increments(result, cycles),
+        lost=lost_by_steps(fine, cycles),
     )
     return StatedErrors(tuple(levels.errors()), companions)
 

@@ -19,7 +19,8 @@ if TYPE_CHECKING:
 Values: TypeAlias = Mapping[str, NDArray[np.float64]]
 
 PHYSICAL = tuple(name for name, mark in reported(State).items() if mark.physical)
-OF_CYCLES = ("energy_per_cycle", "slip_amplitude", "ruiz_f1", "ruiz_f2")
+LOST, LOST_IN_CYCLE = "dissipated_energy", "energy_per_cycle"
+OF_CYCLES = (LOST_IN_CYCLE, "slip_amplitude", "ruiz_f1", "ruiz_f2")
 
 
 def values_of(result: Result, cycles: Sequence[FrettingCycle]) -> tuple[Values, ...]:
@@ -37,6 +38,26 @@ def values_of(result: Result, cycles: Sequence[FrettingCycle]) -> tuple[Values, 
     )
 
 
+def lost_by_steps(
+    values: Sequence[Values], cycles: Sequence[FrettingCycle]
+) -> tuple[Mapping[str, Mapping[int, float]], ...]:
+    """Of every step the energies lost in it and before, by the steps, from 0, that they add up
+    over [force length]; nothing of one that is not known."""
+    starts = {cycle.cycle.end: cycle.cycle.start for cycle in cycles}
+    lost: dict[int, float] = {}
+    found: list[Mapping[str, Mapping[int, float]]] = []
+    before = 0.0
+    for n, here in enumerate(values):
+        if LOST not in here:
+            found.append({})
+            continue
+        now = float(here[LOST][0])
+        lost[n], before = abs(now - before), now
+        of_cycle = {k: size for k, size in lost.items() if k >= starts.get(n + 1, n + 1)}
+        found.append({LOST: dict(lost)} | ({LOST_IN_CYCLE: of_cycle} if of_cycle else {}))
+    return tuple(found)
+
+
 def charged_by_increments(
     result: Result, cycles: Sequence[FrettingCycle]
 ) -> tuple[Mapping[str, float | None], ...]:
@@ -48,10 +69,10 @@ def charged_by_increments(
     for end, after in zip(result.steps, uncertain, strict=True):
         known: dict[str, float | None] = {"input_work": _open_work(end)}
         if after is not None:
-            known["dissipated_energy"] = after
+            known[LOST] = after
         before = uncertain[starts[end.step] - 1] if end.step in starts else None
         if after is not None and before is not None:
-            known["energy_per_cycle"] = after - before
+            known[LOST_IN_CYCLE] = after - before
         found.append(known)
     return tuple(found)
 

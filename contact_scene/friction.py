@@ -134,15 +134,21 @@ class CoulombFriction(Description):
 FRICTIONLESS = CoulombFriction(coefficient=0.0)
 
 
-def sliding_friction(shear: Field, before: Field, after: Field) -> Field:
+def sliding_friction(start: Field, end: Field, passed: Field, before: Field, after: Field) -> Field:
     """Friction along the way that surfaces slip in an increment, as the shear (c, …)
     [force/length^2]: along the shear at the end, as large as the mean of the limits at both ends.
 
-    Exact where the pressure stays, and where tractions and slip grow in proportion.
+    Exact where the pressure stays, and where tractions and slip grow in proportion. What parts in
+    the increment has no shear at its end: there friction is along the way, and half the shear at
+    the start, for it may have stuck until then.
 
-    shear          at the end, its components first (c, …)
+    start, end     shear, its components first (c, …)
+    passed         how far the indenter's particles moved past the body's (c, …) [length]
     before, after  friction limits at start and end (…)
     """
-    size = np.abs(np.hypot.reduce(shear, axis=0))
-    direction = np.divide(shear, size, out=np.zeros_like(shear), where=size > 0)
-    return np.asarray(0.5 * (before + after) * direction)
+    parts = (before > 0) & (after == 0)
+    along = np.where(parts, passed, end)
+    length = np.abs(np.hypot.reduce(along, axis=0))
+    direction = np.divide(along, length, out=np.zeros_like(along), where=length > 0)
+    size = np.where(parts, np.abs(np.hypot.reduce(start, axis=0)), before + after)
+    return np.asarray(0.5 * size * direction)

@@ -11,6 +11,8 @@ and with p g = 0, it follows that
                     of the increment for which a cell touches
     unresolved work  ½ Σ (p₁ g₀ - p₀ g₁) Δ + Σ (κf - ½ (q₀ + q₁))·(s₁ - s₀) Δ
 
+Where surfaces part in the increment they lose until then, f is along their way and ½|q₀|.
+
 Friction while slipping is at its limit, which follows the pressure: hence the mean of both limits,
 along the shear at the end, for which slip was solved. Where the pressure stays, or all grows in
 proportion, that is exact; friction q₁ at the end would charge a first contact for twice its slip.
@@ -174,9 +176,12 @@ def unresolved_work(before: Configuration, after: Configuration, cell_area: floa
     begins, ends = (p0 == 0) & (p1 > 0), (p0 > 0) & (p1 == 0)
     closing = float(np.sum(p1[begins] * before.gap[begins]))
     opening = float(np.sum(p0[ends] * after.gap[ends]))
-    friction = sliding_friction(after.shear, before.friction_limit, after.friction_limit)
+    slipped = after.slipped - before.slipped
+    friction = sliding_friction(
+        before.shear, after.shear, -slipped, before.friction_limit, after.friction_limit
+    )
     missed = after.touching * friction - 0.5 * (before.shear + after.shear)
-    sliding = float(np.sum(missed * (after.slipped - before.slipped)))
+    sliding = float(np.sum(missed * slipped))
     return (0.5 * (closing - opening) + sliding) * cell_area
 
 

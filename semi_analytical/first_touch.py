@@ -1,4 +1,4 @@
-"""Cells that meet within an increment: for what part of it they are in contact."""
+"""Cells that meet or part within an increment: for what part of it they are in contact."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,33 +12,39 @@ Mask = NDArray[np.bool_]
 
 
 def touching_share(before: Field, after: Field, gap: Field) -> Field:
-    """Part of an increment for which each cell is in contact, of those that are at its end.
+    """Part of an increment for which each cell is in contact, of those that are at either end.
 
-    Particles slip past each other from their touch on. Behind an edge that moves on, p² grows as
-    the way of the edge since, at all places alike (below a paraboloid p² ~ a² - r²). What a cell
-    has of the growth of p² at the nearest cell that touched before (the mean of those equally near,
-    for mirrored contacts to have mirrored slip) is therefore its part of the motion: to first order
-    in the increment, in which the motion follows the edge. Before first touch the nearest is the
-    place of the largest pressure; there all that has no gap meets at once.
+    Particles slip past each other from their touch on and until they part. Behind an edge that
+    moves on, p² grows as the way of the edge since, at all places alike (below a paraboloid
+    p² ~ a² - r²). What a cell has of the growth of p² at the nearest cell that touches at both ends
+    (the mean of those equally near, for mirrored contacts to have mirrored slip) is therefore its
+    part of the motion: to first order in the increment, in which the motion follows the edge.
+    Before first touch the nearest is the place of the largest pressure; there all that has no gap
+    meets at once. Parting is meeting backwards.
 
     before, after  pressure at start and end (nx, ny)
     gap            undeformed (nx, ny)
     """
     share = np.ones_like(after)
-    touched = before > 0
-    apart = ~touched if np.any(touched) else gap > 0
-    meets = (after > 0) & apart
-    if not np.any(meets):
-        return share
-    largest = np.max(after)
-    p, grown = after / largest, (after / largest) ** 2 - (before / largest) ** 2
-    if np.any(touched):
-        growth = _at_nearest(grown, touched & ~binary_erosion(touched), meets)
-    else:
-        growth = np.ones(np.count_nonzero(meets))
-    own = p[meets] ** 2
-    share[meets] = np.divide(own, growth, out=np.ones_like(own), where=own < growth)
+    for less, more in ((before, after), (after, before)):
+        touched = less > 0
+        apart = ~touched if np.any(touched) else gap > 0
+        changes = (more > 0) & apart
+        if np.any(changes):
+            share[changes] = _own_part(less, more, changes)
     return share
+
+
+def _own_part(less: Field, more: Field, changes: Mask) -> Field:
+    """Of cells that touch at one end only, with the pressure `more`: their p² over its growth."""
+    touched, largest = less > 0, np.max(more)
+    p, grown = more / largest, (more / largest) ** 2 - (less / largest) ** 2
+    if np.any(touched):
+        growth = _at_nearest(grown, touched & ~binary_erosion(touched), changes)
+    else:
+        growth = np.ones(np.count_nonzero(changes))
+    own = p[changes] ** 2
+    return np.divide(own, growth, out=np.ones_like(own), where=own < growth)
 
 
 def _at_nearest(values: Field, known: Mask, wanted: Mask) -> Field:

@@ -118,7 +118,7 @@ def unresisted(
     )
     passed = rigid(model, after.motion) - rigid(model, last.motion)
     passed = passed + last.displacement - displacement
-    slipped = np.where(pressure > 0, touching * passed, 0.0)
+    slipped = np.where((pressure > 0) | (last.pressure > 0), touching * passed, 0.0)
     return replace(
         after,
         slip=last.slip - slipped,

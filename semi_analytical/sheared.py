@@ -23,7 +23,7 @@ class Sheared:
 
     pressure           p that the shear is below (nx, ny) [force/length^2]
     touching           part of the increment for which cells are in contact (nx, ny), of those that
-                       are at its end
+                       are at either end
     displacement       u_t by the shear; less the motion it remembers where particles met
     shift              of the indenter; None at the friction limit under force control
     twist, torque      of the indenter; None where nothing twists

@@ -141,8 +141,9 @@ def advanced(
     backward = q[0] * passed[0] + q[1] * passed[1] < 0
     in_stick = (bound > 0) & (~solution.in_slip | backward)
     touching = touching_share(last.pressure, pressure, model.gap)
-    slipped = np.where((pressure > 0) & ~in_stick, touching * passed, 0.0)
-    friction = sliding_friction(q, model.friction.limit(last.pressure), bound)
+    slips = ((pressure > 0) | (last.pressure > 0)) & ~in_stick
+    slipped = np.where(slips, touching * passed, 0.0)
+    friction = sliding_friction(last.shear, q, passed, model.friction.limit(last.pressure), bound)
     lost = np.sum(friction * slipped, axis=0)
     force = np.sum(q, axis=(1, 2)) * cell
     assert last.dissipated_energy is not None

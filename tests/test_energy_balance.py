@@ -248,8 +248,7 @@ def test_slip_is_uncertain_by_what_friction_changes_along_it(described):
             changed += float(np.sum(np.hypot(*(i.shear - shear)) * np.hypot(*(i.slip - slip))))
         shear, slip = i.shear, i.slip
     uncertain = result.increments[-1].dissipation_uncertainty
-    # Of cells that open it counts the way of the free surface, which is no slip.
-    assert 1 - 1e-9 <= uncertain / (changed * GRID.cell_area) <= 1.05
+    assert uncertain == pytest.approx(changed * GRID.cell_area, rel=1e-6)
 
 
 def test_where_the_path_does_not_matter_the_energy_lost_is_not_uncertain():

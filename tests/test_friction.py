@@ -94,6 +94,13 @@ def test_beyond_its_extent_a_map_says_nothing() -> None:
 
 
 def test_friction_while_sliding_is_the_mean_of_both_limits_along_the_shear_at_the_end() -> None:
-    shear = np.array([[3.0, 0.0, -6.0], [4.0, 0.0, 0.0]])
-    found = sliding_friction(shear, np.array([1.0, 2.0, 0.0]), np.array([4.0, 2.0, 3.0]))
+    start, shear = np.ones((2, 3)), np.array([[3.0, 0.0, -6.0], [4.0, 0.0, 0.0]])
+    limits = np.array([1.0, 2.0, 0.0]), np.array([4.0, 2.0, 3.0])
+    found = sliding_friction(start, shear, np.ones((2, 3)), *limits)
     np.testing.assert_allclose(found, [[1.5, 0.0, -1.5], [2.0, 0.0, 0.0]], rtol=1e-15)
+
+
+def test_friction_of_what_parts_is_along_its_way_and_half_the_shear_that_it_had() -> None:
+    start, passed = np.array([[0.3], [-0.4]]), np.array([[0.0], [-7.0]])
+    found = sliding_friction(start, 0 * start, passed, np.array([1.0]), np.array([0.0]))
+    np.testing.assert_allclose(found, [[0.0], [-0.25]], rtol=1e-15)

@@ -2,6 +2,7 @@
 
 import json
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -32,7 +33,7 @@ from contact_errors.levels import path_changes, recut
 from contact_errors.of_stress import on_wide_cells, stress_errors
 from contact_errors.on_cells import stated_errors
 from contact_errors.rules import RULES, Rule
-from contact_errors.values import OF_CYCLES, PHYSICAL
+from contact_errors.values import OF_CYCLES, PHYSICAL, lost_by_steps
 from contact_results.cycles import fretting_cycles
 from contact_results.directory import file_names
 from contact_results.figures.caption import SHOWN, add_caption
@@ -105,6 +106,33 @@ def test_a_worked_example_of_a_stated_error() -> None:
     assert increments == pytest.approx(0.10198, abs=1e-5)
     error = estimate.stated({"cells": cells, "increments": increments}, converged=True)
     assert error.error == pytest.approx(0.29251, abs=1e-5)
+
+
+def test_a_charge_counts_where_other_increments_say_nothing_less() -> None:
+    # Charged with 1: by a change of 0.03, √((2·0.03)² + (0.1·1)²) = 0.11662; by none, all of it;
+    # by a change of 2, no more than all of it.
+    rule = Rule(2, 0.25, 0.5, 1.1, path_factor=2.0, charge=0.1)
+    for change, expected in ((np.array([0.03]), 0.11662), (None, 1.0), (np.array([2.0]), 1.0)):
+        found = estimate.charged(rule, np.ones(1), change)
+        assert found == pytest.approx(expected, abs=1e-5)
+
+
+def test_energies_add_up_over_the_steps_that_lost_them() -> None:
+    """And of a cycle over its own."""
+    (cycle,), lost = [SimpleNamespace(cycle=SimpleNamespace(start=2, end=4))], [0.0, 1.0, 1.5, 4.0]
+    values = [{"dissipated_energy": np.array([size])} for size in lost]
+    *_, last = lost_by_steps(values, [cycle])
+    assert last["dissipated_energy"] == {0: 0.0, 1: 1.0, 2: 0.5, 3: 2.5}
+    assert last["energy_per_cycle"] == {2: 0.5, 3: 2.5}
+
+
+def test_what_was_lost_keeps_the_error_that_it_had() -> None:
+    """A push over a wide annulus and a little way back over a narrow one, which loses little."""
+    matter, limit = steel(poisson_ratio=0.0), MU * LOAD
+    ways = ({"tangential_force": (part * limit, 0.0)} for part in (0.9, 0.6))
+    there_and_back = scene(PRESS, *ways, indenter=paraboloid(matter), body=matter)
+    _, there, back = stated_errors(solve(there_and_back, grid(48), 1e-8)).steps
+    assert size(back["dissipated_energy"]) < 1.5 * size(there["dissipated_energy"])
 
 
 @pytest.mark.parametrize("cells", [16, 23, 48, 64])

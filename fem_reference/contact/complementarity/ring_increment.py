@@ -107,7 +107,7 @@ def _touching_share(problem: ContactProblem, before: State | None, p: Field) -> 
     if before is not None:
         pressure, gap = before.pressure, before.gap
     edges = (contact_edge(problem.radii, pressed) for pressed in (pressure, p))
-    return touching_share(problem.radii, (pressure == 0) & (gap > 0), *edges)
+    return touching_share(problem.radii, (pressure == 0) & (gap > 0), p == 0, *edges)
 
 
 def _with_shear(state: State, sideways: Sideways, after: Slid, step: Field | None) -> State:

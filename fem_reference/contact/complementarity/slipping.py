@@ -31,12 +31,12 @@ def slid(
     if sideways.motion is not None:
         offset -= motion * sideways.motion
     step = offset - last.offset
-    # Without friction there are no sides, and all that touches slips.
+    # Without friction there are no sides, and all that touches slips; what parts always does.
     slips = sides != 0 if sideways.friction.largest > 0 else sideways.limited(p) > 0
-    slipped = np.where(slips, share * step, 0.0)
+    slipped = np.where(slips | (p == 0), share * step, 0.0)
     assert last.dissipated is not None
     limit = sideways.friction.limit(sideways.limited(p))
-    friction = sliding_friction(q[None], last.limit, limit)[0]
+    friction = sliding_friction(last.shear[None], q[None], -step[None], last.limit, limit)[0]
     after = Slid(
         shear=q,
         limit=limit,

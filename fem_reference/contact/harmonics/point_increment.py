@@ -159,11 +159,11 @@ class _Trial:
         problem, before, solution = self.problem, self.before, self.solution
         p, q, w = solution.pressure, solution.shear, problem.compliance.areas
         in_stick = (problem.friction.limit(p) > 0) & ~solution.in_slip
-        slipped = np.where((p > 0) & ~in_stick, self._touching_share() * self.passed, 0.0)
+        slipped = np.where(in_stick, 0.0, self._touching_share() * self.passed)
         energy = None
         if solution.shift is not None and before.dissipated_energy is not None:
             bounds = problem.bound(before.pressure), problem.bound(p)
-            friction = sliding_friction(q, *bounds)
+            friction = sliding_friction(before.shear, q, self.passed, *bounds)
             energy = before.dissipated_energy + float(np.sum(w * friction * slipped))
         return PointState(
             compliance=problem.compliance,
@@ -188,7 +188,7 @@ class _Trial:
     def _touching_share(self) -> Vector:
         """See `touching_share`; at the points (points,), ray by ray."""
         compliance, before = self.problem.compliance, self.before
-        starts, ends, apart = (
+        starts, ends, open_before = (
             compliance.scalar_on_grid(values).T
             for values in (
                 before.pressure,
@@ -198,8 +198,10 @@ class _Trial:
         )
         radii = compliance.rings.radii
         rays = [
-            touching_share(radii, open_ray, contact_edge(radii, start), contact_edge(radii, end))
-            for start, end, open_ray in zip(starts, ends, apart, strict=True)
+            touching_share(
+                radii, apart, end == 0, contact_edge(radii, start), contact_edge(radii, end)
+            )
+            for start, end, apart in zip(starts, ends, open_before, strict=True)
         ]
         axis, *rings = np.stack(rays, axis=1)
         return np.concatenate([axis[:1], *rings])

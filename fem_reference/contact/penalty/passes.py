@@ -142,14 +142,15 @@ def _advanced(
         share = touching_share(
             problem.points.radii,
             ~last.in_contact & (last.overlap[0] < 0),
+            ~response.in_contact,
             problem.contact_radius(last.edges[0]),
             problem.contact_radius(edges[0]),
         )
-        grown = np.where(response.in_contact, share * grown, 0.0)
+        grown = share * grown
         assert dissipated is not None
         slip = slip - grown
         bounds = (problem.friction.limit(state[NORMAL]) for state in (last.traction, traction))
-        friction = sliding_friction(traction[1:], *bounds)[0]
+        friction = sliding_friction(last.traction[1:], traction[1:], grown[None], *bounds)[0]
         dissipated += 2 * pi * float(np.sum(surface.weights * friction * grown))
     first = passes[0].reached
     return PenaltyState(
