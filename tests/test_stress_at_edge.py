@@ -162,3 +162,11 @@ def test_a_field_says_whether_the_edge_was_fitted(reason: str | None) -> None:
         assert field.how["edge"] == {"fitted": False, "because": reason}
         assert not tension.on_edge
         assert tension.value < 0.95 * exact
+
+
+def test_an_edge_that_is_compressed_all_around_is_found_too() -> None:
+    """Below a stiff film that bends: no stress of the surface at the edge is tension."""
+    grid, pressure = pressed_on()
+    found = near_edge(Stack([(8.0, 0.49, 2 * RADIUS)], (1.0, NU)), grid, pressure, None)
+    assert np.max(found.stress()[:2]) < 0
+    assert found.apart < 0.02

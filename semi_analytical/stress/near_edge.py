@@ -143,7 +143,8 @@ def near_edge(stack: Stack, grid: SurfaceGrid, pressure: Field, shear: Field | N
         _largest(_at_surface(replace(found, tractions=tractions), _on_edge(points)))
         for tractions, points in ((one, some), (other, again))
     )
-    large = tension >= LARGE * np.max(tension)
+    most = np.max(tension)
+    large = tension >= most - (1 - LARGE) * abs(most)  # or all of the edge is compressed
     apart = float(np.max(np.abs(tension - by_other)[large]) / np.max(np.abs(tension)))
     if not apart <= TOO_FAR_APART:
         raise EdgeNotSeen(
