@@ -132,8 +132,11 @@ class CellLadder:
         return estimated_bytes(fineness.grid, self._plan().cut_into(fineness.increments))
 
     def most_growth(self, fineness: CellFineness) -> float:
-        by_memory = float(np.sqrt(max(1.0, available_bytes() / self.memory(fineness))))
-        return min(by_memory, MOST_CELLS / max(fineness.grid.cells))
+        # Libraries apart, memory goes with the cells; on few of them libraries are all of it.
+        most = MOST_CELLS / max(fineness.grid.cells)
+        here, there = (self.memory(self.refined(fineness, Growth(by, 1.0))) for by in (1.0, most))
+        share = min(1.0, max(0.0, (available_bytes() - here) / (there - here)))
+        return float(np.sqrt(1.0 + share * (most**2 - 1.0)))
 
     def settings(self, fineness: CellFineness) -> AccuracySettings:
         return AccuracySettings(

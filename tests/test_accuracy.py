@@ -237,6 +237,19 @@ def test_what_no_grid_can_meet_is_refused_after_the_first_round() -> None:
     assert rounds == []
 
 
+@pytest.mark.parametrize("loading", [(PRESS,), (PRESS, push(0.6))], ids=["pressed", "pushed"])
+@pytest.mark.parametrize("gigabytes", [0.5, 4, 64])
+def test_the_finest_grid_that_fits_fills_the_memory(
+    monkeypatch: pytest.MonkeyPatch, gigabytes: float, loading: tuple[object, ...]
+) -> None:
+    """However little of it the first round takes, where libraries are most of it."""
+    monkeypatch.setattr(ladder_on_cells, "available_bytes", lambda: int(gigabytes * 1e9))
+    ladder = CellLadder(scene(*loading), SurfaceDiscretisation())
+    first = ladder.first()
+    finest = ladder.refined(first, Growth(ladder.most_growth(first), 1.0))
+    assert ladder.memory(finest) == pytest.approx(gigabytes * 1e9, rel=0.2)
+
+
 def test_the_largest_tension_is_as_accurate_as_was_asked() -> None:
     pressed = scene(PRESS, friction=None)
     made = climb(CellLadder(pressed, SurfaceDiscretisation(), stress_at=1), request(TENSION))
