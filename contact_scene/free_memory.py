@@ -1,6 +1,7 @@
 """Memory that can still be had on this machine."""
 
 import os
+import sys
 from pathlib import Path
 
 
@@ -12,4 +13,6 @@ def available_bytes() -> int:
                 return int(line.split()[1]) << 10
     except OSError:
         pass
+    if not hasattr(os, "sysconf"):  # Windows does not tell
+        return sys.maxsize
     return os.sysconf("SC_PHYS_PAGES") * os.sysconf("SC_PAGE_SIZE")

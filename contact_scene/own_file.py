@@ -2,14 +2,14 @@
 
 import os
 import stat
+from io import BufferedReader
 from pathlib import Path
-from typing import BinaryIO
 
 # Of systems that have either: a queue is not waited for, and bytes are not taken for text.
 NEITHER_WAITING_NOR_TEXT = getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_BINARY", 0)
 
 
-def open_own(path: Path) -> BinaryIO:
+def open_own(path: Path) -> BufferedReader:
     """Open for reading what this user, or the system's administrator, has put there.
 
     Raises OSError, also for what is no plain file, which might never end, and for a file of

@@ -9,6 +9,7 @@ from semi_analytical.operator import (
     CouplingOperator,
     NormalOperator,
     PaddedTransform,
+    Spectrum,
     TangentialOperator,
 )
 
@@ -37,20 +38,19 @@ class CoupledOperator:
         self.normal, self.tangential, self.coupling = normal, tangential, coupling
         one = tangential.transform
         self._transform = PaddedTransform(one.shape, one.counter, components=3)
-        self._work = self._transform.empty_spectrum()
 
     def __call__(self, tractions: Tractions) -> Field:
         """Displacements caused by tractions."""
-        work = self._work
+        work = self._transform.spectra()
         self._transform.forward(tractions, work)
         lines = max(1, BLOCK // work.shape[2])
         for first in range(0, work.shape[1], lines):
-            self._multiply(slice(first, first + lines))
+            self._multiply(work[:, first : first + lines], slice(first, first + lines))
         return self._transform.inverse(work)
 
-    def _multiply(self, rows: slice) -> None:
+    def _multiply(self, spectra: Spectrum, rows: slice) -> None:
         """Tractions to displacements in some rows of the spectra."""
-        q_x, q_y, p = self._work[:, rows]
+        q_x, q_y, p = spectra
         xx, yy, xy = (symbol[rows] for symbol in self.tangential.symbols)
         zx, zy = (symbol[rows] for symbol in self.coupling.symbols)
         p *= 1j

@@ -48,10 +48,11 @@ def least_residual(
 
     Not by matrix products, whose rounding depends on the number of threads.
     """
-    inside = Orthonormal(free)
-    k = len(inside.rows)
+    rows, turn = orthonormal(free)
+    k = len(rows)
     basis, along = np.empty((k + most + 1, right.size)), np.empty((most, right.size))
-    basis[:k] = inside.rows
+    basis[:k] = rows
+    del free, rows  # as large as many vectors
     first, r = _orthogonal(right.ravel(), basis[:k])
     size = float(np.sqrt(np.sum(r * r)))
     hessenberg, shares = np.zeros((k + most + 1, most)), np.zeros(0)
@@ -76,7 +77,7 @@ def least_residual(
     return LeastResidual(
         np.einsum("i,ik->k", shares, basis[k : k + count]).reshape(right.shape),
         np.einsum("i,ik->k", shares, along[:count]).reshape(right.shape),
-        inside.combination(first - hessenberg[:k, :count] @ shares),
+        turn @ (first - hessenberg[:k, :count] @ shares),
         count,
     )
 
@@ -91,15 +92,10 @@ def _orthogonal(v: Vector, basis: Matrix) -> tuple[Vector, Vector]:
     return shares, left
 
 
-class Orthonormal:
-    """Orthonormal rows (j, n) that span the same as k given ones, j <= k."""
-
-    def __init__(self, given: Matrix) -> None:
-        sizes, turns = np.linalg.eigh(np.einsum("ik,jk->ij", given, given))
-        kept = sizes > ROUND_OFF * np.max(sizes, initial=0.0)
-        self._turn = turns[:, kept] / np.sqrt(sizes[kept])
-        self.rows = np.einsum("ij,ik->jk", self._turn, given)
-
-    def combination(self, shares: Vector) -> Vector:
-        """Which combination of the given rows one of the orthonormal ones is."""
-        return np.asarray(self._turn @ shares)
+def orthonormal(given: Matrix) -> tuple[Matrix, Matrix]:
+    """Orthonormal rows (j, n) that span the same as k given ones, j <= k, and of which
+    combinations of those they are (k, j)."""
+    sizes, turns = np.linalg.eigh(np.einsum("ik,jk->ij", given, given))
+    kept = sizes > ROUND_OFF * np.max(sizes, initial=0.0)
+    turn = turns[:, kept] / np.sqrt(sizes[kept])
+    return np.einsum("ij,ik->jk", turn, given), turn

@@ -1,5 +1,6 @@
 """A coupled increment linearised in its zones of contact, stick and slip, and its solution."""
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -39,27 +40,35 @@ class LinearisedIncrement:
         self._problem, self._zones = problem, zones
         self._precondition = GradedPreconditioner(zones, problem)
         shape = problem.gap.shape
-        shifts = problem.tangential_load.free_motions((2, *shape))
+        self._shifts = problem.tangential_load.free_motions((2, *shape))
         self._closures = problem.normal_load.free_motions(shape)
-        self._shifts = len(shifts)
-        units = np.zeros((self._shifts + len(self._closures), 3, *shape))
-        for unit, shift in zip(units, shifts, strict=False):
-            unit[:2] = shift
-        for unit, closure in zip(units[self._shifts :], self._closures, strict=True):
-            unit[2] = closure
-        free, images, forces = np.empty((3, *units.shape))
-        for number, unit in enumerate(units):
-            free[number] = zones.free(unit)
-            images[number] = (
-                zones.free(last._images[number]) if last else self._precondition(free[number])
+        count = len(self._shifts) + len(self._closures)
+        # Forces of free unknowns are the product with these.
+        forces = np.empty((count, 3 * problem.gap.size))
+        self._images: Field = np.empty((count, 3, *shape))
+        for number, unit in enumerate(self._units()):
+            forces[number] = zones.forces_on(unit).ravel()
+            self._images[number] = (
+                zones.free(last._images[number]) if last else self._precondition(zones.free(unit))
             )
-            # Forces of free unknowns are the product with these.
-            forces[number] = zones.forces_on(unit)
-        self._images: Field = images
-        flat = (len(units), 3 * problem.gap.size)
-        self._free, images, forces = (part.reshape(flat) for part in (free, images, forces))
+        images = self._images.reshape(forces.shape)
         inverse = np.linalg.pinv(np.einsum("ik,jk->ij", forces, images), rcond=UNDETERMINED)
         self._excess = np.einsum("ij,jk->ik", inverse, forces)
+
+    def _units(self) -> Iterator[Field]:
+        """Unit motions whose forces are given (3, nx, ny)."""
+        for parts, motions in ((slice(2), self._shifts), (slice(2, 3), self._closures)):
+            for motion in motions:
+                unit = np.zeros((3, *self._problem.gap.shape))
+                unit[parts] = motion
+                yield unit
+
+    def _free_units(self) -> Matrix:
+        """The free parts of these (k, 3 nx ny)."""
+        units = np.empty((len(self._excess), 3 * self._problem.gap.size))
+        for row, unit in zip(units, self._units(), strict=True):
+            row[:] = self._zones.free(unit).ravel()
+        return units
 
     def admissible(self, tractions: Tractions) -> Tractions:
         """Tractions in the zones that friction allows and that carry the loads, near given ones.
@@ -72,9 +81,9 @@ class LinearisedIncrement:
         if load.exhausts(bound):
             raise NotConverged("the coupled increment", 0, np.inf, 0.0)
         t = zones.tractions(np.concatenate([tractions[:2] * zones.stick, p[None]]))
-        images = self._images[: self._shifts, :2]
+        images = self._images[: len(self._shifts), :2]
         forces = np.array([load.forces(image) for image in images])
-        forces = forces.reshape(self._shifts, self._shifts)
+        forces = forces.reshape(len(images), len(images))
         missing = load.given - load.forces(t[:2])
         shares = np.linalg.pinv(forces.T, rcond=UNDETERMINED) @ missing
         t[:2] += np.einsum("i,icjk->cjk", shares, images)
@@ -96,8 +105,9 @@ class LinearisedIncrement:
             u = problem.together(zones.tractions(free))
             return zones.rows(free, u), u
 
-        found = least_residual(apply, zones.free(missing), self._free, depth, MOST_ITERATIONS)
-        closing = zip(found.motion[self._shifts :], self._closures, strict=True)
+        right = zones.free(missing)
+        found = least_residual(apply, right, self._free_units(), depth, MOST_ITERATIONS)
+        closing = zip(found.motion[len(self._shifts) :], self._closures, strict=True)
         return Step(
             zones.tractions(self._unknowns(found.solution)),
             found.along,

@@ -7,18 +7,17 @@ from semi_analytical.grid import SurfaceGrid
 from semi_analytical.plan import Coupling, Plan
 
 DOUBLE = 8
-# Arrays of the size of the window held at once: coefficients, spectra of the padded grid (four
-# cells each) with their work space, solver vectors. Measured of whole runs on fitted windows, of
-# which the contact takes two thirds along each side.
-PRESSURE_ARRAYS = 40
+# Arrays of the size of the window held at once: coefficients, spectra of the padded grid (two cells
+# each) for the window and the box around the contact, one work space, solver vectors. Measured of
+# whole runs on fitted windows, of which the contact takes nine tenths along each side.
+PRESSURE_ARRAYS = 30
 HISTORY_ARRAYS = 4
-SHEAR_ARRAYS = 82
+SHEAR_ARRAYS = 58
 # Arms and unit motions, and what they are multiplied with.
 TILT_ARRAYS = 10
 TORSION_ARRAYS = 36
-# Spectra of the coupling, and the pressures that the alternation remembers: more of them, and two
-# per cent more memory, where coupling is strong.
-COUPLING_ARRAYS = {Coupling.NONE: 0, Coupling.ONE_WAY: 33, Coupling.FULL: 60}
+# Spectra of the coupling, and the Krylov vectors of a Newton step with their displacements.
+COUPLING_ARRAYS = {Coupling.NONE: 0, Coupling.ONE_WAY: 33, Coupling.FULL: 143}
 # Spectra of what tractions do within the cells, and that along the edge, in about as many cells as
 # a side has.
 EDGE_ARRAYS = 28
@@ -30,7 +29,7 @@ PRESSURE_RESULT = 2
 SHEAR_RESULT = 7
 LIGHT = 4500  # bytes of an increment without its fields
 LIBRARIES = 80 << 20  # of the process that solves and writes
-DRAWING = 44 << 20  # libraries of the figures, and arrays for them
+DRAWING = 60 << 20  # libraries of the figures, and arrays for them
 DRAWING_ARRAYS = 20
 
 

@@ -46,25 +46,26 @@ def solve_by_newton(
     increment: LinearisedIncrement | None = None
     best, idle, iterations = np.inf, 0, 0
     for number in range(1, MOST_STEPS + 1):
-        zones, last = Zones.of(natural, problem), zones
-        settled = zones.changes(last) <= SETTLED * np.sqrt(np.sum(zones.contact))
+        found = Zones.of(natural, problem)
+        settled = found.changes(zones) <= SETTLED * np.sqrt(np.sum(found.contact))
+        zones = found
         increment = LinearisedIncrement(problem, zones, increment if settled else None)
-        tractions = increment.admissible(point.tractions)
-        base, closing = _at(problem, tractions, natural.motion)
-        found = _natural(problem, base)
-        residual = _residual(problem, base, found, closing)
+        point, closing = _at(problem, increment.admissible(point.tractions), natural.motion)
+        natural = _natural(problem, point)
+        residual = _residual(problem, point, natural, closing)
         if residual <= tolerance:
-            in_slip = found.slip & (found.bound > 0)
-            q, p = tractions[:2], tractions[2]
-            return CoupledSolution(p, q, closing, found.motion, in_slip, False, iterations, number)
+            in_slip = natural.slip & (natural.bound > 0)
+            q, p, w = point.tractions[:2], point.tractions[2], natural.motion
+            return CoupledSolution(p, q, closing, w, in_slip, False, iterations, number)
         idle = 0 if residual < 0.9 * best else idle + 1
         best = min(best, residual)
         if idle >= MOST_IDLE:
             break
-        depth = min(ROUGHLY, found.merit) if settled else ROUGHLY
-        step = increment.solved(base, found, min(ROUGHLY, max(depth, FINE * tolerance / residual)))
+        depth = min(ROUGHLY, natural.merit) if settled else ROUGHLY
+        depth = min(ROUGHLY, max(depth, FINE * tolerance / residual))
+        step = increment.solved(point, natural, depth)
         iterations += step.iterations
-        point, natural = _toward(problem, base, step, found.merit)
+        point, natural = _toward(problem, point, step, natural.merit)
     raise NotConverged("the coupled increment", iterations, best, tolerance)
 
 
@@ -107,14 +108,15 @@ def _toward(
 ) -> tuple[Point, Natural]:
     """As far along a step as lowers the merit enough, else as far as lowers it most. Displacements
     are linear in tractions: no part of the way takes a product."""
-    tried: list[tuple[float, Point, Natural]] = []
+    lowest: tuple[Point, Natural] | None = None
     for part, (point, natural) in _on_the_way(problem, base, step):
         if natural.merit <= (1 - 0.1 * part) * merit:
             return point, natural
-        tried.append((natural.merit, point, natural))
-    if not tried:
+        if lowest is None or natural.merit < lowest[1].merit:
+            lowest = point, natural
+    if lowest is None:
         raise NotConverged("the coupled increment", step.iterations, merit, 0.0)
-    return min(tried, key=lambda one: one[0])[1:]
+    return lowest
 
 
 def _on_the_way(

@@ -6,7 +6,10 @@ coefficients are even or odd along each side, so their transforms are purely rea
 imaginary and one real array stores each.
 """
 
-from dataclasses import dataclass
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, field
+from math import prod
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,14 +21,28 @@ Field = NDArray[np.float64]
 Spectrum = NDArray[np.complex128]
 
 
+# Entries of a spectrum that are transformed at a time along x, or along y on the way back.
+BLOCK = 1 << 20
+
+
 @dataclass
 class Convolutions:
     """Counts scalar convolutions: one forward and one inverse transform of a padded grid each.
 
     Grids of all sizes count alike; transforms of the unpadded grid (preconditioners) do not count.
+    Operators that are counted together work one after the other, and in the same memory.
     """
 
     count: float = 0.0
+    _memory: Spectrum = field(default_factory=lambda: np.empty(0, dtype=np.complex128))
+
+    def spectrum(self, shape: tuple[int, ...]) -> Spectrum:
+        """Work space, until the next operator asks for it; as much as any has needed is held."""
+        size = prod(shape)
+        if self._memory.size < size:
+            self._memory = np.empty(0, dtype=np.complex128)  # both at once would be more
+            self._memory = np.empty(size, dtype=np.complex128)
+        return self._memory[:size].reshape(shape)
 
 
 def offsets_for(shape: tuple[int, int]) -> tuple[int, int]:
@@ -34,7 +51,7 @@ def offsets_for(shape: tuple[int, int]) -> tuple[int, int]:
 
 
 class PaddedTransform:
-    """Real FFT of a zero-padded grid with preallocated work space.
+    """Real FFT of a zero-padded grid.
 
     Only the rows that are not zero are transformed along the last axis, and only the rows that
     are read are transformed back.
@@ -51,28 +68,42 @@ class PaddedTransform:
         self.reach = (slice(nx), slice(ny))
         self.period = (nx - 1, ny - 1)
         self.padded = (2 * self.period[0], 2 * self.period[1])
-        self._rows = np.empty((*self._lead, shape[0], self.padded[1]))
 
-    def empty_spectrum(self) -> Spectrum:
-        """Work space for the half spectra of a field."""
-        half = (*self._lead, self.padded[0], self.padded[1] // 2 + 1)
-        return np.empty(half, dtype=np.complex128)
+    def spectra(self, *count: int) -> Spectrum:
+        """Work space for the half spectra of a field, or of so many; see Convolutions."""
+        half = (*count, *self._lead, self.padded[0], self.padded[1] // 2 + 1)
+        return self.counter.spectrum(half)
 
     def forward(self, values: Field, out: Spectrum) -> None:
         """Transform `values` (…, nx, ny), zero beyond, into the half spectra `out`."""
         nx = self.shape[0]
         np.fft.rfft(values, n=self.padded[1], axis=-1, out=out[..., :nx, :])
         out[..., nx:, :] = 0
-        np.fft.fft(out, axis=-2, out=out)
+        self._along_x(np.fft.fft, out)
         self.counter.count += self._count
 
     def inverse(self, spectrum: Spectrum) -> Field:
         """Values on the grid (…, nx, ny) of half spectra, which are overwritten."""
         nx, ny = self.shape
-        np.fft.ifft(spectrum, axis=-2, out=spectrum)
-        np.fft.irfft(spectrum[..., :nx, :], n=self.padded[1], axis=-1, out=self._rows)
+        self._along_x(np.fft.ifft, spectrum)
+        values = np.empty((*self._lead, nx, ny))
+        for rows in _blocks(nx, spectrum.size // self.padded[0]):
+            lines = np.fft.irfft(spectrum[..., rows, :], n=self.padded[1], axis=-1)
+            values[..., rows, :] = lines[..., :ny]
         self.counter.count += self._count
-        return self._rows[..., :ny].copy()
+        return values
+
+    def _along_x(self, transform: Callable[..., Any], spectrum: Spectrum) -> None:
+        """Transform in place, but for the copy that numpy makes of what it overwrites."""
+        for columns in _blocks(spectrum.shape[-1], spectrum.size // spectrum.shape[-1]):
+            part = spectrum[..., columns]
+            transform(part, axis=-2, out=part)
+
+
+def _blocks(lines: int, length: int) -> Iterator[slice]:
+    """All lines, a block of entries at a time."""
+    step = max(1, BLOCK // length)
+    return (slice(first, min(first + step, lines)) for first in range(0, lines, step))
 
 
 def even_transform(coefficients: Field, padded: tuple[int, int]) -> Field:
@@ -128,13 +159,13 @@ class NormalOperator:
         # negative; conjugate gradients need a positive preconditioner.
         size = np.abs(zz[::2, ::2])
         self.inverse = 1 / np.maximum(size, np.finfo(float).eps * np.max(size))
-        self._work = self._transform.empty_spectrum()
 
     def __call__(self, pressure: Field) -> Field:
         """Normal displacement caused by a pressure."""
-        self._transform.forward(pressure, self._work)
-        self._work *= self.symbols[0]
-        return self._transform.inverse(self._work)
+        spectrum = self._transform.spectra()
+        self._transform.forward(pressure, spectrum)
+        spectrum *= self.symbols[0]
+        return self._transform.inverse(spectrum)
 
     def precondition(self, displacement: Field) -> Field:
         """Roughly the pressure that causes a displacement.
@@ -171,19 +202,19 @@ class TangentialOperator:
         self.symbols = xx, yy, xy
         self.inverse = _inverse_2x2(*(s[::2, ::2] for s in self.symbols))
         self.mean = np.abs(0.5 * (xx + yy)[::2, ::2])
-        self._work = self.transform.empty_spectrum()
 
     def __call__(self, shear: Field) -> Field:
         """Tangential displacement caused by a shear traction."""
-        self.transform.forward(shear, self._work)
-        q_x, q_y = self._work
+        spectra = self.transform.spectra()
+        self.transform.forward(shear, spectra)
+        q_x, q_y = spectra
         xx, yy, xy = self.symbols
         across = xy * q_x
         q_x *= xx
         q_x += xy * q_y
         q_y *= yy
         q_y += across
-        return self.transform.inverse(self._work)
+        return self.transform.inverse(spectra)
 
     def precondition(self, displacement: Field) -> Field:
         """Roughly the shear that causes a tangential displacement, both (2, nx, ny)."""
@@ -215,11 +246,10 @@ class CouplingOperator:
             mixed_transform(coefficients.zx[reach], padded, odd_axis=0),
             mixed_transform(coefficients.zy[reach], padded, odd_axis=1),
         )
-        self._work = [self._transform.empty_spectrum() for _ in range(2)]
 
     def normal_by_shear(self, shear: Field) -> Field:
         """u_z (nx, ny) caused by a shear (2, nx, ny)."""
-        u, q = self._work
+        u, q = self._transform.spectra(2)
         self._transform.forward(shear[0], u)
         self._transform.forward(shear[1], q)
         u *= self.symbols[0]
@@ -230,7 +260,7 @@ class CouplingOperator:
 
     def tangential_by_pressure(self, pressure: Field) -> Field:
         """(u_x, u_y), shape (2, nx, ny), caused by a pressure (nx, ny)."""
-        u, p = self._work
+        u, p = self._transform.spectra(2)
         self._transform.forward(pressure, p)
         p *= 1j
         displacement = np.empty((2, *pressure.shape))

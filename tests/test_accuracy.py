@@ -41,7 +41,7 @@ from contact_errors.rules import SHIFT, Rule
 from contact_errors.solve_cost import Solved, Speed, seconds_like
 from contact_results import result_files
 from contact_results.directory import checkpoint
-from contact_results.directory.checkpoint_file import Unusable, packed, unpacked
+from contact_results.directory.checkpoint_file import Unusable, pack, unpacked
 from contact_scene import (
     Body,
     Cone,
@@ -526,7 +526,7 @@ def test_where_a_climb_stands_is_the_same_after_it_was_kept(tmp_path: Path, solv
     first = chosen.ladder(scene(PRESS), chosen.default()).first()
     way = Way(Asked({"approach": 0.1}, {}), 1, 2.0, first, np.inf, first, None)
     path = tmp_path / "kept"
-    path.write_bytes(packed(way, "of this"))
+    pack(way, "of this", path)
     assert unpacked(path, "of this") == way
     with pytest.raises(Unusable):
         unpacked(path, "of another")

@@ -7,6 +7,7 @@ from collections.abc import Callable, Iterator
 from contextlib import nullcontext
 from dataclasses import dataclass, field, fields, is_dataclass
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import Any
 
 import numpy as np
@@ -15,7 +16,7 @@ import pytest
 import fem_reference
 import semi_analytical
 from contact_results.directory.checkpoint import Checkpoint, checkpointed
-from contact_results.directory.checkpoint_file import FORMAT, Unusable, packed, unpacked
+from contact_results.directory.checkpoint_file import FORMAT, Unusable, pack, unpacked
 from contact_scene import (
     Body,
     CoulombFriction,
@@ -150,7 +151,7 @@ def test_going_on_after_any_increment_gives_the_same_bits(name: str, tmp_path: P
     assert len(every.kept) == len(whole.increments)
     for standing in every.kept:
         path = tmp_path / "standing"
-        path.write_bytes(packed(standing, "this solve"))
+        pack(standing, "this solve", path)
         resumed = All(unpacked(path, "this solve"))
         again = solve(resumed)
         assert len(resumed.kept) == len(whole.increments) - standing.mark.done
@@ -212,6 +213,12 @@ def changed(content: bytes) -> bytes:
     return content[:-40] + bytes([content[-40] ^ 1]) + content[-39:]
 
 
+def packed(value: Any) -> bytes:
+    with TemporaryDirectory() as folder:
+        pack(value, "this solve", Path(folder) / "part")
+        return (Path(folder) / "part").read_bytes()
+
+
 @pytest.mark.parametrize(
     ("damage", "problem"),
     [
@@ -220,7 +227,7 @@ def changed(content: bytes) -> bytes:
         (lambda content: b"", "is no checkpoint of this version"),
         (lambda content: b"PK" + content, "is no checkpoint of this version"),
         (lambda content: content.replace(b"this solve", b"that solve", 1), "is of another scene"),
-        (lambda content: packed(np.ones(3), "this solve"), "holds something else"),
+        (lambda content: packed(np.ones(3)), "holds something else"),
     ],
 )
 @pytest.mark.parametrize("number", [0, 2])
@@ -331,7 +338,7 @@ def test_planted_link_is_named_and_what_it_leads_to_is_left_alone(tmp_path: Path
 def test_part_of_another_user_is_not_believed(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    (tmp_path / "part").write_bytes(packed(3.0, "this solve"))
+    pack(3.0, "this solve", tmp_path / "part")
     assert unpacked(tmp_path / "part", "this solve") == 3.0
     monkeypatch.setattr(os, "geteuid", lambda: 4242)
     os.chown(tmp_path / "part", 4243, -1) if os.getuid() == 0 else None

@@ -291,6 +291,17 @@ def test_failure_ends_with_its_code_one_message_and_no_files(
     assert os.listdir(scene.parent) == [scene.name]
 
 
+def test_environment_without_a_package_is_to_be_renewed(
+    scene: Path, solver: Any, capsys: pytest.CaptureFixture[str]
+) -> None:
+    solver(ModuleNotFoundError("No module named 'added_since'", name="added_since.inner"))
+    assert slipstick("run", scene, "--output", scene.parent / "out") == 70
+    (said,) = capsys.readouterr().err.splitlines()
+    assert "'added_since'" in said
+    assert "./run" in said
+    assert "report it" not in said
+
+
 def test_debugging_shows_the_traceback(
     scene: Path,
     solver: Any,

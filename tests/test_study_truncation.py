@@ -223,7 +223,7 @@ def test_sampled_response_tends_to_the_exact_one_with_the_period(scene_file: Pat
 def test_wrong_exact_coefficients_are_seen(
     scene_file: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    right: Callable[[HalfSpaceCoefficients], np.ndarray] = HalfSpaceCoefficients.zz.func
+    right: Callable[[HalfSpaceCoefficients], np.ndarray] = HalfSpaceCoefficients.zz.fget
     monkeypatch.setattr(HalfSpaceCoefficients, "zz", property(lambda self: 1.005 * right(self)))
     assert of_sampling(scene_file)[EXACT] is not Status.PASS
 

@@ -16,7 +16,7 @@ from pathlib import Path
 from typing import Any
 
 from contact_results.directory.atomic_file import atomic_file
-from contact_results.directory.checkpoint_file import Unusable, packed, unpacked
+from contact_results.directory.checkpoint_file import Unusable, pack, unpacked
 from contact_results.directory.directory_lock import acquire, release
 from contact_results.directory.refusal import OutputRefused
 from contact_results.directory.stop_signals import cleaned_up_when_stopped
@@ -109,7 +109,7 @@ class Checkpoint:
             whole = first + at_once >= len(new)
             part = _Part(self._kept, some, replace(standing, increments=()) if whole else None)
             with atomic_file(self._path(self._parts)) as temporary:
-                temporary.write_bytes(packed(part, self._identity))
+                pack(part, self._identity, temporary)
             self._parts += 1
             self._kept += len(some)
 

@@ -9,11 +9,10 @@ from __future__ import annotations
 
 import hashlib
 import importlib
-import io
 import pickle
 from enum import Enum
 from pathlib import Path
-from typing import Any
+from typing import Any, BinaryIO
 
 from contact_scene import FiniteElementDiscretisation
 from contact_scene.free_memory import available_bytes
@@ -43,10 +42,27 @@ class Unusable(Exception):
     """The file is not what is looked for; the message names it and says why."""
 
 
-def packed(value: Any, identity: str) -> bytes:
-    """The content of a file."""
-    content = pickle.dumps(value, PROTOCOL)
-    return b"\n".join([FORMAT, identity.encode(), _digest(content), content])
+def pack(value: Any, identity: str, path: Path) -> None:
+    """Write a file; one array at a time is copied. May raise OSError."""
+    with open(path, "wb") as file:
+        file.write(FORMAT + b"\n" + identity.encode() + b"\n")
+        before, content = file.tell(), _Digested(file)
+        file.write(bytes(2 * content.digest.digest_size) + b"\n")
+        pickle.Pickler(content, PROTOCOL).dump(value)
+        file.seek(before)
+        file.write(content.digest.hexdigest().encode())
+
+
+class _Digested:
+    """Writes to a file, and digests what it writes."""
+
+    def __init__(self, file: BinaryIO) -> None:
+        self.file, self.digest = file, hashlib.sha256()
+
+    def write(self, content: bytes) -> int:
+        """All of it."""
+        self.digest.update(content)
+        return self.file.write(content)
 
 
 def unpacked(path: Path, identity: str) -> Any:
@@ -58,15 +74,17 @@ def unpacked(path: Path, identity: str) -> Any:
                 raise Unusable(f"{path} is no checkpoint of this version")
             if path.stat().st_size > available_bytes():
                 raise Unusable(f"{path} is larger than the memory that can be had")
-            content = file.read()
+            start = file.tell()
+            if digest != hashlib.file_digest(file, "sha256").hexdigest().encode():
+                raise Unusable(f"{path} is damaged")
+            if whose != identity.encode():
+                raise Unusable(f"{path} is of another scene, solver, discretisation or version")
+            file.seek(start)
+            return _Reader(file).load()
+    except Unusable:
+        raise
     except OSError as error:
         raise Unusable(f"{path} cannot be read: {error.strerror}") from error
-    if digest != _digest(content):
-        raise Unusable(f"{path} is damaged")
-    if whose != identity.encode():
-        raise Unusable(f"{path} is of another scene, solver, discretisation or version")
-    try:
-        return _Reader(io.BytesIO(content)).load()
     except Exception as error:  # whatever a pickle may raise that somebody has made
         raise Unusable(f"{path} is damaged: {error}") from error
 
@@ -89,7 +107,3 @@ def _is_value(found: Any) -> bool:
         fields = hasattr(found, "__dataclass_fields__")
         return fields or issubclass(found, Enum | FiniteElementDiscretisation)
     return bool(found.__module__ == FAR_FIELDS)
-
-
-def _digest(content: bytes) -> bytes:
-    return hashlib.sha256(content).hexdigest().encode()

@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from contact_results.directory.atomic_file import atomic_file
-from contact_results.directory.checkpoint_file import Unusable, packed, unpacked
+from contact_results.directory.checkpoint_file import Unusable, pack, unpacked
 from contact_results.directory.refusal import OutputRefused
 from contact_results.directory.stop_signals import cleaned_up_when_stopped
 from contact_scene.solver_errors import SolverError
@@ -42,7 +42,7 @@ class KeptValue:
         """In the place of what was kept before; a disk that is full costs only that."""
         try:
             with atomic_file(self.path) as temporary:
-                temporary.write_bytes(packed(value, self.identity))
+                pack(value, self.identity, temporary)
         except (OSError, OutputRefused) as error:
             self.say(f"{self.path} could not be written: {error}")
 

@@ -4,13 +4,13 @@ A hidden file is locked and names the process. The system drops the lock when th
 however it ends: the file that a killed one leaves is taken over by the next.
 """
 
-import fcntl
 import os
 import socket
 from collections.abc import Iterator
 from contextlib import ExitStack, contextmanager, suppress
 from pathlib import Path
 
+from contact_results.directory.directory_lock import NO_LINK, NO_WAITING, lock
 from contact_results.directory.refusal import OutputRefused
 from contact_results.directory.stop_signals import cleaned_up_when_stopped
 
@@ -64,7 +64,7 @@ def _lock(path: Path, target: Path) -> int | None:
         if descriptor is None:
             return None
         try:
-            fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            lock(descriptor, wait=False)
         except BlockingIOError:
             holder = os.pread(descriptor, LONGEST_NAME, 0).decode(errors="replace").strip()
             os.close(descriptor)
@@ -72,7 +72,7 @@ def _lock(path: Path, target: Path) -> int | None:
                 f"{target} is in use by {holder or 'another process'}; wait for its end, or choose "
                 "another directory with --output"
             ) from None
-        except OSError:  # the file system knows no locks
+        except OSError:  # there are no locks
             os.close(descriptor)
             with suppress(OSError):
                 path.unlink()
@@ -88,9 +88,9 @@ def _lock(path: Path, target: Path) -> int | None:
 def _opened(path: Path) -> int | None:
     """The file, made if need be; for reading alone where it is another user's. None without one:
     of a directory that cannot be written others speak."""
-    for access in (os.O_RDWR | os.O_CREAT, os.O_RDONLY | os.O_NONBLOCK):
+    for access in (os.O_RDWR | os.O_CREAT, os.O_RDONLY | NO_WAITING):
         with suppress(OSError):
-            return os.open(path, access | os.O_NOFOLLOW, 0o666)
+            return os.open(path, access | NO_LINK, 0o666)
     return None
 
 

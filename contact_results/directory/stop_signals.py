@@ -10,7 +10,10 @@ from typing import Any
 
 Handler = Callable[[int, FrameType | None], Any]
 
-STOPS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
+# Windows has no hangup.
+STOPS = tuple(
+    getattr(signal, name) for name in ("SIGINT", "SIGTERM", "SIGHUP") if hasattr(signal, name)
+)
 STDERR = 2
 NOTHING_KEPT = "nothing is kept yet: the same command begins anew"
 SHOW_CURSOR = b"\x1b[?25h"  # a progress bar hides it

@@ -1,7 +1,6 @@
 """`timing.json`: seconds, machine and versions; everything that differs between equal runs."""
 
 import json
-import resource
 import sys
 import time
 from collections.abc import Iterator
@@ -45,6 +44,10 @@ def write_timing(stopwatch: Stopwatch, directory: Path) -> None:
     (directory / TIMING).write_text(json.dumps(record, indent=2) + "\n", encoding="utf-8")
 
 
-def _peak_memory() -> int:
+def _peak_memory() -> int | None:
+    try:
+        import resource
+    except ImportError:  # on Windows
+        return None
     peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
     return peak if sys.platform == "darwin" else 1024 * peak  # macOS counts bytes, Linux kibibytes

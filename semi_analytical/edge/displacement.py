@@ -80,12 +80,11 @@ class EdgeOperator:
             for moment, parity in zip(kernels.moments, ((-x, y), (x, -y)), strict=True)
         ]
         self._odd = x * y > 0
-        self._work = [self._transform.empty_spectrum() for _ in range(2)]
 
     def __call__(self, within: Within) -> Field:
         """The displacement at the centres of the cells [length]."""
-        total, other = self._work
-        for slope, spectrum, work in zip(within.slopes, self._spectra, self._work, strict=True):
+        total, other = works = self._transform.spectra(2)
+        for slope, spectrum, work in zip(within.slopes, self._spectra, works, strict=True):
             self._transform.forward(slope, work)
             work *= spectrum
         total += other

@@ -83,32 +83,32 @@ class HalfSpaceCoefficients:
     def _c(self) -> float:
         return 1 / (2 * pi * self.shear_modulus)
 
-    @cached_property
+    @property
     def zz(self) -> Field:
         """u_z by pressure."""
         return self._c * (1 - self.poisson_ratio) * (self.integrals.xx_r3 + self.integrals.yy_r3)
 
-    @cached_property
+    @property
     def xx(self) -> Field:
         """u_x by q_x."""
         return self._c * (self.integrals.xx_r3 + (1 - self.poisson_ratio) * self.integrals.yy_r3)
 
-    @cached_property
+    @property
     def yy(self) -> Field:
         """u_y by q_y."""
         return self._c * (self.integrals.yy_r3 + (1 - self.poisson_ratio) * self.integrals.xx_r3)
 
-    @cached_property
+    @property
     def xy(self) -> Field:
         """u_x by q_y."""
         return self._c * self.poisson_ratio * self.integrals.xy_r3
 
-    @cached_property
+    @property
     def zx(self) -> Field:
         """u_z by q_x."""
         return self._c * (0.5 - self.poisson_ratio) * self.integrals.x_r2
 
-    @cached_property
+    @property
     def zy(self) -> Field:
         """u_z by q_y."""
         return self._c * (0.5 - self.poisson_ratio) * self.integrals.y_r2

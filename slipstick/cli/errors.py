@@ -4,6 +4,7 @@ import errno
 import os
 import traceback
 from enum import IntEnum
+from importlib.util import find_spec
 
 
 class ExitCode(IntEnum):
@@ -64,12 +65,23 @@ def message(error: Exception) -> str:
         return f"not enough memory; use fewer cells or increments ({str(error) or 'no details'})"
     if isinstance(error, OSError) and error.strerror:
         return f"{error.filename or 'output'}: {error.strerror}"
+    if package := _missing_package(error):
+        return (
+            f"the package {package!r} is not installed: this environment is older than the "
+            "program; './run' in its folder renews it, or 'pip install -e .'"
+        )
     if exit_code(error) is ExitCode.INTERNAL:
         return (
             f"internal error, please report it: {type(error).__name__}: {error}\n"
             "  (SLIPSTICK_DEBUG=1 shows where it happened)"
         )
     return str(error)
+
+
+def _missing_package(error: Exception) -> str:
+    """The package that could not be imported because it is nowhere; empty if none."""
+    package = ((isinstance(error, ModuleNotFoundError) and error.name) or "").partition(".")[0]
+    return package if package and find_spec(package) is None else ""
 
 
 def explain(error: Exception) -> ExitCode:

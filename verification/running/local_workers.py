@@ -70,6 +70,8 @@ def _remove_semaphores_silently() -> None:
 
     What a person is told at the end of a stopped command shall stand alone.
     """
+    if os.name == "nt":
+        return  # the system removes them
     before = os.environ.get("PYTHONWARNINGS")
     ignored = "ignore:resource_tracker:UserWarning"
     os.environ["PYTHONWARNINGS"] = ignored if before is None else f"{before},{ignored}"
@@ -84,7 +86,9 @@ def _remove_semaphores_silently() -> None:
 
 def cores() -> int:
     """Processors that this process may use."""
-    return len(os.sched_getaffinity(0))
+    if hasattr(os, "sched_getaffinity"):
+        return len(os.sched_getaffinity(0))
+    return os.cpu_count() or 1  # macOS and Windows
 
 
 def _obey_parent() -> None:

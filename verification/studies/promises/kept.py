@@ -12,7 +12,7 @@ from tempfile import TemporaryDirectory
 
 import numpy as np
 
-from contact_results.directory.checkpoint_file import Unusable, packed, unpacked
+from contact_results.directory.checkpoint_file import Unusable, pack, unpacked
 from contact_scene.kept_arrays import log, remembered
 from verification.running.case_pool import run_cases
 from verification.running.case_store import CaseStore, DamagedRecord
@@ -97,7 +97,7 @@ def _remember(folder: Path) -> None:
 
 def _checkpoint(folder: Path) -> Path:
     path = folder / "part-000000"
-    path.write_bytes(packed(VALUE, "this solve"))
+    pack(VALUE, "this solve", path)
     return path
 
 

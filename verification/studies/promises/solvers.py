@@ -13,7 +13,7 @@ from typing import Any
 
 import numpy as np
 
-from contact_results.directory.checkpoint_file import packed, unpacked
+from contact_results.directory.checkpoint_file import pack, unpacked
 from contact_scene import (
     Body,
     CoulombFriction,
@@ -155,7 +155,7 @@ def soak(count: int) -> Iterator[Attempt]:
             cycle, rest = divmod(number, 2)
             if rest or not cycle:
                 continue
-            kept.write_bytes(packed(mark, "soak"))
+            pack(mark, "soak", kept)
             unpacked(kept, "soak")
             assert increment.dissipated_energy is not None
             lost.append(increment.dissipated_energy)
