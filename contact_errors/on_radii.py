@@ -38,7 +38,7 @@ def stated_errors(
     differs, part = "twice the orders and points", _QUADRATURE
     if plan.coupled:
         plan, fineness = replace(plan, increments=_recut(plan.increments)), HALF
-        differs, part = "half the rings, other increments", _INCREMENTS
+        differs, part = "half the rings and increments", _INCREMENTS
     made = Companion(differs=differs, increments=plan.increments)
     try:
         finer = solve(result.scene, result.fineness, progress, plan, fineness=fineness)
@@ -71,9 +71,7 @@ def stated_errors(
 
 
 def _recut(increments: tuple[int, ...]) -> tuple[int, ...]:
-    """Half as many; of histories whose steps are not cut twice as many."""
-    if max(increments) == 1:
-        return tuple(2 * count for count in increments)
+    """Half as many, as far as that goes: what the solver puts between them is halved as well."""
     return tuple(max(count // 2, 1) for count in increments)
 
 

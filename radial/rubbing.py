@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from math import exp, inf, log
+from math import ceil, exp, inf, log
 
 import numpy as np
 from numpy.typing import NDArray
@@ -28,6 +28,8 @@ Array = NDArray[np.float64]
 
 COUNT = 64  # rings, apart from those about the front and at the ends
 MOST_TRIED = 40
+# How much a contact grows or shrinks at once at most, and from what part of the first radius on.
+GROWTH, FIRST = 1.1, 0.03
 MOST_LAID = 3  # times that rings are laid anew for a front that has moved
 REST = 1e-11  # of the approach: less slip is round-off
 MIDDLE = 0.5  # of the radius: where a front is sought first
@@ -54,7 +56,7 @@ class Rubbing:
     def of(cls, scene: Scene, asked: RadialDiscretisation, fineness: float) -> Rubbing:
         """That of a scene.
 
-        fineness  how many times as many rings as it takes
+        fineness  how many times as many rings, and radii on the way, as it takes
         """
         coupling = Coupling.of(scene)
         largest = tuple(
@@ -78,10 +80,13 @@ class Rubbing:
         reached = (start.normal_force, start.approach) if start else (0.0, 0.0)
         target = Target(*ramp.normal.led(fraction, reached))
         radius, tried = self._first_radius(target, before)
+        begun = before.end.radius if before else FIRST * radius
+        for passed in _on_the_way(begun, radius, GROWTH ** (1 / self.fineness)):
+            before = self._passed(passed, before)
+            tried += 1
         share = before.middling / before.end.radius if before else MIDDLE
-        count = round(COUNT * self.fineness)
         for _ in range(MOST_LAID):
-            rings = rings_about(share, count)
+            rings = rings_about(share, self._count)
             end, more, power = self._reach(target, radius, rings, before)
             tried, radius = tried + more, end.radius
             laid, share = share, stick_share(end)
@@ -89,13 +94,38 @@ class Rubbing:
                 break
         return sheared(self.friction, end, target, before, power, tried)
 
+    @property
+    def _count(self) -> int:
+        return round(COUNT * self.fineness)
+
+    def _passed(self, radius: float, before: Sheared | None) -> Sheared:
+        """The contact of this radius, on the way to the end of an increment."""
+        share = before.middling / before.end.radius if before else MIDDLE
+        like = before.end if before else None
+        end = self._at(radius, rings_about(share, self._count), _moved(before), like)
+        target = Target(None, None)
+        return sheared(self.friction, end, target, before, self._power(target, before), 0)
+
+    def _at(
+        self, radius: float, rings: Rings, moved: Callable[[Array], Array], like: Rubbed | None
+    ) -> Rubbed:
+        """The contact of this radius.
+
+        moved  u_r of the state before, by radius
+        like   a contact in which much the same slides
+        """
+        return rubbed(
+            self.coupling, self.scene.indenter, radius, rings, self.friction,
+            moved(radius * rings.places), _sliding(like, rings),
+        )  # fmt: skip
+
     def _first_radius(self, target: Target, before: Sheared | None) -> tuple[float, int]:
         """Near that of the target, from the contact before or from that without friction."""
         if before is None:
             found = pressed(self.coupling.bodies, self.scene.indenter, target)
             return found.contact.radius, found.tried
         further = -target.missed(before.end) / self._power(target, before)
-        return before.end.radius * exp(min(max(further, -LARGEST_STEP), LARGEST_STEP)), 0
+        return before.end.radius * exp(further), 0
 
     @staticmethod
     def _power(target: Target, before: Sheared | None) -> float:
@@ -110,17 +140,12 @@ class Rubbing:
         """The contact at the target by the secant method on the radius, how many were tried, and
         the power of the radius."""
         moved = _moved(before)
-        sliding = _sliding(before, rings)
+        like = before.end if before else None
         x, power = log(radius), self._power(target, before)
         best: Rubbed | None = None
         nearest, last_x, last = inf, x, inf
         for tried in range(1, MOST_TRIED + 1):
-            a = exp(x)
-            now = rubbed(
-                self.coupling, self.scene.indenter, a, rings, self.friction,
-                moved(a * rings.places), sliding,
-            )  # fmt: skip
-            sliding = now.sliding
+            now = like = self._at(exp(x), rings, moved, like)
             missed = target.missed(now)
             if best is not None and nearest <= NEAR and abs(missed) >= nearest:
                 return best, tried, power
@@ -163,8 +188,6 @@ class Rubbing:
         raised = _beyond(places, end.raised - end.deeper, -end.deeper)
         gap[apart] = indenter.initial_gap(r[apart], 0.0) - end.contact.approach
         gap[apart] += displacement(end.contact, x[apart]) + raised(r[apart])
-        worked = 0.0 if last is None else last.input_work or 0.0
-        begun = (0.0, 0.0) if last is None else (last.normal_force, last.approach)
         sticks = np.asarray(state.at(np.abs(end.sliding), r) < 0.5) & (x < 1)
         return Increment(
             step=reached.place.step,
@@ -184,9 +207,7 @@ class Rubbing:
             dissipated_energy=state.lost,
             dissipation_uncertainty=state.uncertain,
             elastic_energy=end.elastic_energy(bare[: n + 1]),
-            input_work=worked + 0.5 * (begun[0] + state.normal_force) * (state.approach - begun[1]),
-            largest_slip_increment=state.largest[0],
-            largest_dissipation_increment=state.largest[1],
+            input_work=state.worked,
             radii=r,
             pressure=p,
             gap=np.maximum(gap, 0.0),
@@ -222,11 +243,20 @@ def _beyond(r: Array, field: Array, limit: float) -> Callable[[Array], Array]:
     return at
 
 
-def _sliding(before: Sheared | None, rings: Rings) -> Signs:
+def _on_the_way(begun: float, end: float, growth: float) -> Array:
+    """Radii between those at the start of an increment and at its end, as what sticks remembers
+    them.
+
+    growth  largest ratio of neighbours
+    """
+    steps = max(ceil(abs(log(end / begun)) / log(growth)), 1)
+    return np.geomspace(begun, end, steps + 1)[1:-1]
+
+
+def _sliding(was: Rubbed | None, rings: Rings) -> Signs:
     """What slid at the same share of the radius."""
-    if before is None:
+    if was is None:
         return np.zeros(len(rings.x), dtype=np.int64)
-    was = before.end
     return np.rint(np.interp(rings.x, was.rings.x, was.sliding)).astype(np.int64)
 
 

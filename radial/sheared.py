@@ -24,10 +24,10 @@ class Sheared:
     begun      contact radius at the start of the increment; 0 from first touch [length]
     middling   stick radius of the increment as a whole, which is that half way [length]
     front      stick radius at the end [length]
+    worked     work of the load since the start of the history [force length]
     lost       energy dissipated since the start of the history [force length]
     uncertain  by how much finite increments leave that uncertain [force length]
     power      of the radius with which what is asked for rises
-    largest    slip within the increment, and energy per area that it dissipated, where largest
     tried      contact radii
     """
 
@@ -37,10 +37,10 @@ class Sheared:
     begun: float
     middling: float
     front: float
+    worked: float
     lost: float
     uncertain: float
     power: float
-    largest: tuple[float, float]
     tried: int
 
     @property
@@ -68,7 +68,9 @@ def sheared(
 ) -> Sheared:
     """Slip, front and energies after an increment."""
     x, a = end.rings.x, end.radius
-    begun = before.end.radius if before else 0.0
+    begun, force, depth = 0.0, 0.0, 0.0
+    if before is not None:
+        begun, force, depth = before.end.radius, before.end.load, before.end.approach
     r, nothing = a * x, np.zeros_like(x)
     slip, shear, limit = nothing, nothing, nothing
     if before is not None:
@@ -83,9 +85,10 @@ def sheared(
     middling = stick_share(end) * a
     return Sheared(
         end, target, slip + slipped, begun, middling, _front(end, begun, middling, before),
+        (before.worked if before else 0.0) + 0.5 * (force + end.load) * (end.approach - depth),
         (before.lost if before else 0.0) + end.over(rubbing),
         (before.uncertain if before else 0.0) + end.over(open_),
-        power, (float(np.max(np.abs(slipped))), float(np.max(rubbing))),
+        power,
         tried,
     )  # fmt: skip
 

@@ -94,10 +94,15 @@ def test_it_ends_as_integral_equations_say(one: Indentation) -> None:
 
 def test_errors_fall_faster_than_the_inverse_of_the_increments() -> None:
     """Where nearly all sticks, which is where the path is felt."""
-    few, more = (abs(_ended("strong", n).approach / STRONG.approach - 1) for n in (8, 32))
+    few, more = (abs(_ended("strong", n).approach / STRONG.approach - 1) for n in (32, 128))
     assert more < few / 8
     front = STRONG.stick_part * STRONG.contact_radius
     assert_allclose(_ended("strong", 32).stick_radius, front, rtol=1e-3)
+
+
+def test_one_increment_goes_all_the_way() -> None:
+    """What sticks remembers the contacts on the way, whether they are told or not."""
+    assert_allclose(_ended("strong", 1).approach, STRONG.approach, rtol=5e-5)
 
 
 def test_finite_elements_unload_to_the_same_shear() -> None:

@@ -45,6 +45,7 @@ CASES = (
     "spence_example",
     "subsurface_stress",
     "radial_pressing",
+    "radial_indentation",
     "edge_stress",
     "fem_hertz",
     "fem_classical",
