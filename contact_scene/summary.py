@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from enum import StrEnum
 from typing import Annotated, Any, TypeAlias
 
-from pydantic import ConfigDict, Field, field_validator
+from pydantic import ConfigDict, Field, ValidationError, field_validator
 from pydantic.dataclasses import dataclass as pydantic_dataclass
 
 from contact_scene import residuals
@@ -173,8 +173,14 @@ def dump_summary(summary: RunSummary) -> str:
 
 
 def load_summary(text: str) -> RunSummary:
-    """The summary back from its JSON text; ValueError for anything else."""
-    return RunSummary.model_validate_json(text)
+    """The summary back from its JSON text; ValueError for anything else, with the first mistake."""
+    try:
+        return RunSummary.model_validate_json(text)
+    except ValidationError as error:
+        first = error.errors(include_url=False)[0]
+        key = ".".join(map(str, first["loc"]))
+        told = key, first["msg"].removeprefix("Value error, ")
+        raise ValueError(": ".join(filter(None, told))) from None
 
 
 def summary_schema() -> dict[str, Any]:
