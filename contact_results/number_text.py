@@ -41,7 +41,9 @@ def number_text(value: float | None, error: Uncertainty | None, unit: float) -> 
     number, size = value / unit, error.size / unit
     # Two digits of the error, and the number as far (JCGM 100:2008, 7.2.6).
     decimals = ERROR_DIGITS - 1 - floor(log10(size)) if size else DIGITS
-    decimals = max(0, min(decimals, MOST_DECIMALS))
+    if decimals > MOST_DECIMALS:
+        return f"{number:.{MOST_DECIMALS}f} ± {size:.0e}{doubt}"
+    decimals = max(0, decimals)
     return f"{number:.{decimals}f} ± {size:.{decimals}f}{doubt}"
 
 

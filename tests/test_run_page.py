@@ -9,8 +9,11 @@ import numpy as np
 import pytest
 from synthetic_result import synthetic_result
 
-from contact_results.figures.overview import coarser, section_stress
+from contact_results.figures.figure_files import seen_from_above
+from contact_results.figures.overview import coarser, overview, section_stress
 from contact_results.figures.run_page import decision_numbers, write_page
+from contact_results.figures.style import figure_style
+from contact_results.number_text import Uncertainty, number_text
 from contact_results.result_files import write_result
 from contact_results.stress.loaded_bodies import state_of_result
 from contact_scene.stated_error import ErrorStatus, StatedError
@@ -41,6 +44,23 @@ def test_numbers_on_the_page_carry_their_errors(tmp_path: Path) -> None:
     error = StatedError(error=2e6, parts={"cells": 2e6}, status=ErrorStatus.ESTIMATED)
     write_page(result, tmp_path, {"peak_pressure": error})
     assert "3.0000 ± 0.0020 GPa" in (tmp_path / "index.html").read_text(encoding="utf-8")
+
+
+@pytest.mark.parametrize("error", [3.2e-5, 4e-13, 4e-16])
+def test_an_error_however_small_does_not_read_as_zero(error: float) -> None:
+    text = number_text(0.3177303649, Uncertainty(error, True), 1.0)
+    assert float(text.split(" ± ")[1]) == pytest.approx(error, rel=0.1)
+
+
+def test_the_overview_of_one_increment_shows_the_stress_down_the_axis() -> None:
+    result: Any = synthetic_result()
+    last = replace(result.increments[-1], tangential_force=(0.0, 0.0))
+    once = replace(result, increments=(last,))
+    with figure_style():
+        figure = overview(once, seen_from_above(once))
+    names = [ax.get_ylabel() for ax in figure.get_axes()]
+    assert any(name.startswith("depth z on the axis") for name in names)
+    assert not any(name.startswith("normal force") for name in names)
 
 
 def test_both_radii_have_one_unit() -> None:

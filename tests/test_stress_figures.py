@@ -1,5 +1,6 @@
 """Figures of stress show what was computed: interfaces at their depths, jumps, both edges."""
 
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -9,7 +10,7 @@ from matplotlib.figure import Figure
 from contact_results.figures.section_panel import even_levels, rising_levels
 from contact_results.figures.stress_plot import axis_plot, section_plot, surface_plot
 from contact_results.figures.style import figure_style
-from contact_results.stress.points import StressField, StressPoints
+from contact_results.stress.points import FittedEdge, StressField, StressPoints
 from contact_scene import Body, IsotropicMaterial, Layer
 
 STEEL = IsotropicMaterial(young_modulus=210e9, poisson_ratio=0.3)
@@ -47,10 +48,27 @@ def field() -> StressField:
     )  # fmt: skip
 
 
-def drawn(draw: Any) -> Figure:
+def drawn(draw: Any, of: StressField | None = None) -> Figure:
     with figure_style():
-        figure: Figure = draw(field(), BODY, "title")
+        figure: Figure = draw(of or field(), BODY, "title")
     return figure
+
+
+def with_edge(middle: float) -> StressField:
+    """The field with an edge fitted around a contact that is not about the origin."""
+    around = np.linspace(0.0, 2 * np.pi, 60, endpoint=False) + 0.01
+    nothing = np.zeros(around.shape)
+    stress = np.stack([7e9 * np.cos(around), *np.zeros((5, len(around)))])
+    points = StressPoints(
+        middle + RADIUS * np.cos(around),
+        RADIUS * np.sin(around),
+        nothing,
+        nothing.astype(np.int64),
+        np.full((3, len(around)), np.nan),
+        stress,
+        nothing > 0,
+    )
+    return replace(field(), edge=FittedEdge(points, 0.0))
 
 
 @pytest.mark.parametrize("draw", [section_plot, axis_plot])
@@ -82,6 +100,16 @@ def test_the_line_along_the_surface_is_the_stress_there() -> None:
     assert along.get_label() == "$σ_{xx}$"
     np.testing.assert_allclose(along.get_xdata(), 1e3 * X)
     np.testing.assert_allclose(along.get_ydata(), field().section.components["xx"][0] / 1e9)
+
+
+def test_the_line_along_the_surface_runs_over_the_fitted_edge() -> None:
+    middle = 0.05e-3
+    (ax,) = drawn(surface_plot, with_edge(middle)).axes
+    along, ends = ax.lines[0], 1e3 * (middle + np.array([-RADIUS, RADIUS]))
+    assert np.max(along.get_ydata()) == pytest.approx(7.0, rel=1e-3)
+    assert np.all(np.diff(along.get_xdata()) >= 0)
+    dotted = [line.get_xdata()[0] for line in ax.lines if line.get_linestyle() == ":"]
+    np.testing.assert_allclose(dotted, ends, rtol=1e-3)
 
 
 @pytest.mark.parametrize(("low", "high"), [(-4.17, 1.13), (0.3, 2.71), (0.0, 0.0), (-3.0, -1.0)])

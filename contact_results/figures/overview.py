@@ -18,9 +18,10 @@ from contact_results.figures.profile_plot import draw_end
 from contact_results.figures.run_page import decision_numbers
 from contact_results.figures.section_panel import draw_section
 from contact_results.figures.stick_slip_map import add_zone_legend, draw_zones
-from contact_results.figures.stress_plot import draw_surface
+from contact_results.figures.stress_plot import draw_depth, draw_surface
 from contact_results.stress.loaded_bodies import LoadedBodies, state_of_result
 from contact_results.surface import Cells, surface_of
+from contact_scene import Body
 from contact_scene.engineering_units import engineering_unit, quantity
 from contact_scene.stated_error import StatedError
 
@@ -31,6 +32,7 @@ if TYPE_CHECKING:
 LEAST_MOVES = 3  # for a loop instead of the loading curve
 # Of the cells that carry the load to the stress, so that it takes less than a second.
 MOST_CELLS = 64
+EVERY = 2  # of the depths that stand in the files
 DOTS_PER_INCH = 90
 BAR = {"shrink": 0.55, "aspect": 14}
 UNKNOWN = "not computed here:\nslipstick stress RUN_DIR -o DIR"
@@ -39,8 +41,8 @@ UNKNOWN = "not computed here:\nslipstick stress RUN_DIR -o DIR"
 def overview(
     result: Result, above: Above, errors: Mapping[str, StatedError] | None = None
 ) -> Figure:
-    """Profile, zones, history, stress on the section and along the surface, and the numbers; call
-    within `figure_style`.
+    """Profile, zones, history, stress on the section and along the surface, and the numbers; of a
+    single increment the stress down the axis instead of a history. Call within `figure_style`.
 
     errors  of the last step; None where they were left out
     """
@@ -53,27 +55,43 @@ def overview(
     profile, zones, history, section, surface, numbers = panels.flat
     draw_end(profile.subplots(), result, surface_of(result))
     _draw_seen(zones, result, above)
+    field = section_stress(result)
     if len(moved(result.increments)) >= LEAST_MOVES:
         draw_loop(history.subplots(), result)
+    elif field is not None and len(result.increments) == 1:
+        _draw_axis(history.subplots(), field, result.scene.body)
     else:
         draw_loading(history.subplots(), result)
-    _draw_stress(section, surface, result)
+    _draw_stress(section, surface, result, field)
     _write_numbers(numbers.subplots(), result, errors)
     return figure
 
 
 def section_stress(result: Result) -> StressField | None:
-    """Stress in the body under the final tractions, on at most `MOST_CELLS` cells along a side,
-    means of those of the run; None of rings, whose mesh takes longer than the run, of a rigid body
-    and of a number of cells that has no such divisor."""
-    if not (isinstance(surface_of(result), Cells) and result.scene.body.deforms):
+    """Stress in the body under the final tractions, with the edge of the contact where it can be
+    fitted: on at most `MOST_CELLS` cells along a side, means of those of the run, or of the radial
+    solver; None of elements, whose mesh takes longer than the run, of a rigid body, of a number of
+    cells that has no such divisor, and of the radial solver's shear."""
+    if not result.scene.body.deforms:
         return None
-    state = coarser(state_of_result(result, None), MOST_CELLS)
+    state = state_of_result(result, None)
+    if state.pressed is not None:
+        if len(state.tractions) > 1:
+            return None
+        from contact_results.stress.on_disc import stress_on_disc
+
+        return stress_on_disc(state)
+    if not isinstance(surface_of(result), Cells):
+        return None
+    state = coarser(state, MOST_CELLS)
     if max(state.tractions["pressure"].shape) > MOST_CELLS:
         return None
     from contact_results.stress.on_cells import stress_on_cells
+    from semi_analytical.stress import default_depths
 
-    return stress_on_cells(state, see_edge=False)
+    radius = result.steps[-1].contact_radius
+    depths = [level.depth for level in default_depths(state.body, radius)]
+    return stress_on_cells(state, depths=sorted(set(depths))[::EVERY])
 
 
 def coarser(state: LoadedBodies, most: int) -> LoadedBodies:
@@ -107,8 +125,15 @@ def _draw_seen(figure: Any, result: Result, above: Above) -> None:
     figure.colorbar(image, ax=ax, label=f"pressure p ({unit.name})", shrink=0.8)
 
 
-def _draw_stress(left: Any, right: Any, result: Result) -> None:
-    field = section_stress(result)
+def _draw_axis(ax: Any, field: StressField, body: Body) -> None:
+    depth = field.shown[1]
+    length = engineering_unit(depth, "m")
+    draw_depth(ax, field.axis, body, depth, length)
+    ax.set_ylabel(f"depth z on the axis ({length.name})")
+    ax.legend(loc="lower left", fontsize="small")
+
+
+def _draw_stress(left: Any, right: Any, result: Result, field: StressField | None) -> None:
     axes, along = left.subplots(), right.subplots()
     if field is None:
         for ax, name in ((axes, "stress on the section"), (along, "stress along the surface")):
@@ -120,12 +145,11 @@ def _draw_stress(left: Any, right: Any, result: Result) -> None:
     axes.set_xlabel(f"{field.label} ({length.name})")
     axes.set_ylabel(f"depth z ({length.name})")
     draw_surface(along, field)
-    cell = float(np.diff(field.section.x.ravel()[:2])[0])
-    along.set_title(
-        f"by cells of {quantity(cell, 'm', 3)}: too low beside\n"
-        "the edges, which 'slipstick stress' fits",
-        fontsize="medium",
-    )
+    if field.edge is None and isinstance(surface_of(result), Cells):
+        cell = float(np.diff(field.section.x.ravel()[:2])[0])
+        along.set_title(
+            f"by cells of {quantity(cell, 'm', 3)}: too low beside the edges", fontsize="medium"
+        )
 
 
 def _write_numbers(ax: Any, result: Result, errors: Mapping[str, StatedError] | None) -> None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from textwrap import fill
 from typing import Any
@@ -71,10 +71,8 @@ def axis_plot(field: StressField, body: Body, title: str) -> Figure:
     figure = _titled(4.6 * len(lines) + 0.8, 4.8, title)
     axes = figure.subplots(1, len(lines), sharey=True, squeeze=False)[0]
     for ax, (where, points) in zip(axes, lines.items(), strict=True):
-        _draw_depth(ax, points.chosen(points.depth <= depth), length)
-        draw_interfaces(ax, body, depth, length)
+        draw_depth(ax, points, body, depth, length)
         ax.set_title(where)
-        ax.set_ylim(depth / length.size, 0.0)
     axes[0].set_ylabel(f"depth z ({length.name})")
     style.legend_beside(axes[-1])
     return figure
@@ -88,22 +86,50 @@ def surface_plot(field: StressField, body: Body, title: str) -> Figure:
 
 
 def draw_surface(ax: Any, field: StressField) -> None:
-    """σ_xx and σ_yy at z = 0, and where the contact ends."""
+    """σ_xx and σ_yy at z = 0, on a fitted edge of the contact, too, and where the contact ends."""
     reach = field.shown[0]
     length = engineering_unit(reach, "m")
-    surface = _at_surface(field)
-    near = surface.chosen(np.abs(surface.x) <= reach)
-    lines = {_named(name): near.components[name] for name in ("xx", "yy")}
+    surface, ends = _at_surface(field), _ends(field)
+    parts = [surface.chosen(np.abs(surface.x) <= reach), *([ends] if ends else [])]
+    x = np.concatenate([part.x for part in parts])
+    order = np.argsort(x, kind="stable")
+    lines = {
+        _named(name): np.concatenate([part.components[name] for part in parts])[order]
+        for name in ("xx", "yy")
+    }
     unit = engineering_unit(float(max(np.abs(v).max() for v in lines.values())), "Pa")
     for number, (name, values) in enumerate(lines.items()):
-        ax.plot(near.x / length.size, values / unit.size, label=name, **style.line(number))
+        ax.plot(x[order] / length.size, values / unit.size, label=name, **style.line(number))
     ax.axhline(0.0, color="black", linewidth=0.5)
-    for edge in {-_radius(field), _radius(field)}:
-        if edge >= near.x.min():
+    for edge in _places_of_ends(field):
+        if edge >= surface.x.min():
             ax.axvline(edge / length.size, color=style.GREY, linewidth=0.7, linestyle=":")
-    ax.set_xlabel(f"{field.label}, z = 0 ({length.name}); dotted: contact radius")
+    dotted = "edge of the contact" if ends else "contact radius"
+    ax.set_xlabel(f"{field.label}, z = 0 ({length.name}); dotted: {dotted}")
     ax.set_ylabel(f"stress ({unit.name})")
     ax.legend(loc="best")
+
+
+def _ends(field: StressField) -> StressPoints | None:
+    """Where the fitted edge crosses y = 0, along x: the points beside it, whose stresses are
+    the same by symmetry or nearly so; None without such an edge."""
+    if field.edge is None:
+        return None
+    points = field.edge.points
+    spacing = np.diff(np.unique(_at_surface(field).x)).max()
+    crossing = points.chosen(np.abs(points.y) < spacing)
+    order = np.argsort(crossing.x, kind="stable")
+    groups = np.split(order, np.flatnonzero(np.diff(crossing.x[order]) > spacing) + 1)
+    nearest = [group[np.argmin(np.abs(crossing.y[group]))] for group in groups if len(group)]
+    return crossing.chosen(np.array(nearest)) if nearest else None
+
+
+def _places_of_ends(field: StressField) -> Sequence[float]:
+    """x of where the contact ends along y = 0, else of ± its radius, smallest first."""
+    ends = _ends(field)
+    if ends is None:
+        return (-_radius(field), _radius(field))
+    return tuple(float(x) for x in ends.x)
 
 
 def _radius(field: StressField) -> float:
@@ -121,7 +147,7 @@ def _at_surface(field: StressField) -> StressPoints:
 def _below_edge(field: StressField) -> dict[str, StressPoints]:
     """The points below the place of the section next to the edge, downward, by what it is."""
     surface, points = _at_surface(field), field.section
-    ends = [int(np.argmin(np.abs(surface.x - side * _radius(field)))) for side in (-1, 1)]
+    ends = [int(np.argmin(np.abs(surface.x - x))) for x in _places_of_ends(field)]
     edge = float(surface.x[max(ends, key=lambda k: surface.components["xx"][k])])
     below = np.flatnonzero(np.abs(points.x - edge) <= 1e-9 * _radius(field))
     order = np.lexsort([points.material.flat[below], points.depth.flat[below]])
@@ -129,7 +155,11 @@ def _below_edge(field: StressField) -> dict[str, StressPoints]:
     return {where: points.chosen(below[order])}
 
 
-def _draw_depth(ax: Any, line: StressPoints, length: EngineeringUnit) -> None:
+def draw_depth(
+    ax: Any, points: StressPoints, body: Body, deepest: float, length: EngineeringUnit
+) -> None:
+    """Stresses at points below each other, z downward, one line per material."""
+    line = points.chosen(points.depth <= deepest)
     lines = {_named(name): line.components[name] for name in ("xx", "yy", "zz", "xz")}
     lines["von Mises"] = line.von_mises
     unit = engineering_unit(float(max(np.abs(v).max() for v in lines.values())), "Pa")
@@ -144,6 +174,8 @@ def _draw_depth(ax: Any, line: StressPoints, length: EngineeringUnit) -> None:
             )
     ax.axvline(0.0, color="black", linewidth=0.5)
     ax.set_xlabel(f"stress ({unit.name})")
+    draw_interfaces(ax, body, deepest, length)
+    ax.set_ylim(deepest / length.size, 0.0)
 
 
 def interface_plot(field: StressField, body: Body, title: str) -> Figure:
