@@ -80,7 +80,7 @@ def _stated(
     by_increments: float | None,
 ) -> StatedError:  # fmt: skip
     size = np.maximum(np.abs(values[name]), scale(name, values))
-    front = _of_front(name, values)
+    front = _of_front(name, values) if part == _INCREMENTS else 0.0
     parts: dict[Part, Numbers] = {
         part: front + TIMES * changed + ROUND_OFF * size,
         "tolerance": unsolved(residual, np.abs(values[name]), scale(name, values)),

@@ -158,7 +158,7 @@ def disc(
     if not bodies.layered:
         depth = shape.at_edge if approach is None else approach
         return Disc(bodies, shape, radius, depth, np.zeros(1), 0.0)
-    count = _orders(bodies.thickness / radius, shape.apex) * fineness
+    count = orders(bodies.thickness / radius, shape.apex) * fineness
     waves = bodies.waves(radius, fineness=fineness)
     places, weights = waves.rule
     excess = weights * bodies.excess(places / radius)
@@ -183,7 +183,7 @@ def disc(
             raise NotConverged("the contact on a disc", count // 2, made.missed, ROUND_OFF)
 
 
-def _orders(thickness: float, apex: bool) -> int:
+def orders(thickness: float, apex: bool) -> int:
     """How many the images of the edge, and of an apex, in the underside of a layer call for: C has
     its singularities at t = ±1 ± 2ih/a and at ± 2ih/a. A multiple of eight.
 

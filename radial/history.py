@@ -81,7 +81,14 @@ def _solver(scene: Scene, asked: RadialDiscretisation, plan: Plan, fineness: flo
         from radial.rubbing import Rubbing
 
         return Rubbing.of(scene, asked, fineness)
-    return _Solver.of(scene, asked, round(fineness))
+    pressing = _Solver.of(scene, asked, round(fineness))
+    if not plan.twists:
+        return pressing
+    from radial.twisting import Twisting
+
+    assert scene.friction is not None
+    assert scene.friction.uniform is not None
+    return Twisting(scene, pressing, scene.friction.uniform, pressing.fineness, asked.tolerance)
 
 
 @dataclass(frozen=True)

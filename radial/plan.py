@@ -20,14 +20,16 @@ ELSEWHERE = "solve it with the semi-analytical solver"
 
 @dataclass(frozen=True)
 class Plan:
-    """What is computed for a scene: pressure, and the shear that it brings with it.
+    """What is computed for a scene: pressure, and the shear that it brings with it or torsion.
 
     coupled     whether pressure moves the surfaces past each other against friction
+    twists      whether there is torsion
     increments  how many each loading step takes
     effects     every effect with its reason, as shown to people
     """
 
     coupled: bool
+    twists: bool
     increments: tuple[int, ...]
     effects: tuple[Effect, ...]
     direction: ClassVar[tuple[float, float]] = (1.0, 0.0)
@@ -42,17 +44,21 @@ def plan(scene: Scene) -> Plan:
     couples, why = coupling(scene)
     _refuse_loads(scene)
     rubs = couples and scene.friction is not None and scene.friction.uniform != 0
+    twists = scene.friction is not None and any(ramp.twisting.end for ramp in scene.load_path())
     if rubs:
         _refuse_rubbing(scene)
+    if twists:
+        _refuse_twists(scene, rubs)
     effects = (
         effect.PRESSURE,
         effect.second_body(scene),
         effect.layers(scene, "a layer"),
         effect.friction(scene),
+        Effect("torsion", twists, "a step twists" if twists else "no step twists"),
         effect.coupled(scene, rubs, why),
-        effect.load_history(rubs),
+        effect.load_history(rubs or twists),
     )
-    return Plan(rubs, _increments(scene, rubs), effects)
+    return Plan(rubs, twists, _increments(scene, rubs), effects)
 
 
 def _increments(scene: Scene, rubs: bool) -> tuple[int, ...]:
@@ -98,10 +104,28 @@ def _refuse_loads(scene: Scene) -> None:
         return
     if any(any(ramp.tangential.end) for ramp in ramps):
         raise UnsupportedScene(
-            "a step names a tangential force or shift, and this solver has pressure alone; "
-            f"{ELSEWHERE}"
+            f"a step names a tangential force or shift, and this solver has none; {ELSEWHERE}"
         )
-    if any(ramp.twisting.end for ramp in ramps):
+
+
+def _refuse_twists(scene: Scene, rubs: bool) -> None:
+    """What torsion under constant pressure and one coefficient of friction does not reach."""
+    assert scene.friction is not None
+    if rubs:
         raise UnsupportedScene(
-            f"a step names a torque or twist, and this solver has pressure alone; {ELSEWHERE}"
+            "a step names a torque or twist where pressing alone already brings shear, and this "
+            f"solver has one or the other; {ELSEWHERE}"
         )
+    if scene.friction.varying is not None:
+        raise UnsupportedScene(
+            "friction is given as a map, and this solver takes one coefficient; name one number, "
+            f"or {ELSEWHERE}"
+        )
+    begun = False
+    for ramp in scene.load_path():
+        begun = begun or bool(ramp.twisting.end)
+        if begun and ramp.normal.start != ramp.normal.end:
+            raise UnsupportedScene(
+                f"step {ramp.step} presses while or after the contact is twisted, and this solver "
+                f"twists under constant pressure; press in a step before, or {ELSEWHERE}"
+            )

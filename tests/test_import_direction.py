@@ -89,7 +89,8 @@ ORDERS = {
     "radial": (
         *("quadrature", "wavenumbers", "bodies", "profile", "disc", "surface", "half_space"),
         *("below", "pressing", "rings", "coupling", "stick_slip", "sheared"),
-        *("plan", "fields", "shown", "rubbing", "history"),
+        *("friction_limit", "torsion", "twist_path"),
+        *("plan", "fields", "shown", "rubbing", "twisting", "history"),
     ),
     "fem_reference.mesh": ("section_outline", "section_mesh", "gmsh_mesh"),
     "fem_reference.elasticity": (

@@ -300,7 +300,7 @@ REFUSED = {
         "friction": RUB,
         "loading": (LoadStep(normal_force=1e3, tangential_force=(10, 0)),),
     },
-    "torque or twist": {
+    "presses while": {
         "indenter": LIKE,
         "friction": RUB,
         "loading": (LoadStep(normal_force=1e3, torque=1e-3),),
