@@ -17,9 +17,10 @@ def love(x, y):
 
 def modulus(scene):
     """E* of both bodies [Pa]."""
-    pair = [scene["indenter"]["material"], scene["body"]["material"]]
-    if scene["body"]["layers"] or scene["indenter"]["shape"] != "paraboloid":
-        raise CannotDo("balls on homogeneous bodies only")
+    ball, body = scene.get("indenter", {}), scene["body"]
+    if body["layers"] or ball.get("shape") != "paraboloid" or ball["material"] == "rigid":
+        raise CannotDo("elastic balls on homogeneous bodies only")
+    pair = [ball["material"], body["material"]]
     return 1 / sum((1 - m["poisson_ratio"] ** 2) / m["young_modulus"] for m in pair)
 
 

@@ -3,14 +3,22 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from contextlib import suppress
+from typing import Any
 
+import numpy as np
 import pytest
 
 from verification import Answer, CannotDo, Solver, judge
-from verification.adapters import radius, section, surface
-from verification.challenge.door import Posed
+from verification.adapters import calculix, half_spaces, radius, section, surface
+from verification.challenge.cases import challenges
+from verification.challenge.door import Posed, posed
 from verification.challenge.judgement import Judgement
+from verification.external_codes.calculix_deck import Fineness
+from verification.external_codes.coated_scene import CoatedScene
 from verification.judging.outcome import Status
+from verification.peers.environment import PEERS
+from verification.problems.paper_scene import HERTZ
 
 Solve = Callable[[Posed, int], Answer]
 CELLS = (surface.answer, surface.ON_CELLS)
@@ -62,3 +70,56 @@ def test_shear_between_rings_is_what_pulls() -> None:
     found = judge("cattaneo_mindlin", section.answer, 1, solver=section.ON_ELEMENTS)
     assert {"shear_x", "shear_x: load carried", "shift_x"} <= {row.quantity for row in found.rows}
     assert "shear_x: load carried" not in failed(found)
+
+
+def test_a_code_that_is_not_installed_says_so_in_one_line(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("PATH", "")
+    with pytest.raises(CannotDo, match=r"^ccx is not installed: apt-get install calculix-ccx$"):
+        judge("hertz_point", calculix.answer, 1)
+
+
+def test_codes_for_half_spaces_are_asked_for_what_they_have_alone() -> None:
+    aspher = next(peer for peer in PEERS if peer.friction)
+    asked = set()
+    for name in challenges():
+        with suppress(CannotDo):
+            half_spaces._request(posed(name), 32, aspher)
+            asked.add(name)
+    assert asked == {
+        "hertz_point", "hertz_elliptical", "cone_contact", "cattaneo_mindlin", "fretting_loop"
+    }  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    ("name", "said"),
+    [("cattaneo_mindlin", "a ball that is pressed"), ("frictional_indentation/nu_zero", "ν = 0.3")],
+)
+def test_what_the_decks_do_not_tell_is_refused(
+    monkeypatch: pytest.MonkeyPatch, name: str, said: str
+) -> None:
+    monkeypatch.setattr(calculix.shutil, "which", lambda name: name)
+    with pytest.raises(CannotDo, match=said):
+        judge(name, calculix.answer, 1)
+
+
+def test_the_approach_at_which_a_deck_has_the_force_is_found(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    def run(scene: CoatedScene, fineness: Fineness) -> dict[str, Any]:
+        """Hertz's contact, 3 % too stiff."""
+        approach = scene.approach
+        r = np.linspace(1e-3, 1.0, 60) * np.sqrt(approach)
+        pressure = np.sqrt(approach) * np.sqrt(np.maximum(1 - r**2 / approach, 0))
+        return {
+            "normal_force": 1.03 * approach**1.5, "radii": r, "pressure": pressure, "shear": 0 * r
+        }  # fmt: skip
+
+    monkeypatch.setattr(calculix.shutil, "which", lambda name: name)
+    monkeypatch.setattr(calculix, "run_calculix", run)
+    found = calculix.answer(posed("hertz_point"), 0)
+    approach = found.value(("approach", 1))
+    assert approach == pytest.approx(HERTZ.approach / 1.03 ** (2 / 3), rel=1e-9)
+    radius = found.value(("contact_radius", 1))
+    assert radius == pytest.approx(HERTZ.contact_radius / 1.03 ** (1 / 3), rel=1e-6)
+    pressure = found.fields["pressure", 1].value
+    assert pressure[0] == pytest.approx(HERTZ.peak_pressure / 1.03 ** (1 / 3), rel=1e-5)

@@ -46,6 +46,11 @@ def answering(python: Path, peer: Peer) -> Callable[[Posed, int], Answer]:
 def _request(posed: Posed, cells: int, peer: Peer) -> tuple[dict[str, Any], float, float]:
     """What its driver reads, with the units of length and stress: tamaas is sensitive to them."""
     scene = posed.scene
+    if "indenter" not in scene:
+        raise CannotDo("contacts only, no given tractions")
+    named = {name for step in scene["loading"] for name, end in step.items() if end is not None}
+    if others := sorted(named - {"normal_force", "tangential_force", "increments"}):
+        raise CannotDo(f"forces only, no {', '.join(others)}")
     bodies = [scene["indenter"], scene["body"]]
     if any(body.get("layers") for body in bodies):
         raise CannotDo("homogeneous bodies only")

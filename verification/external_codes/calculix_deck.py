@@ -25,7 +25,7 @@ from verification.external_codes.coated_scene import (
 BOX = 100.0  # Hertz radii
 GROWTH = 1.3  # from one element to the next
 BORE = 1e-3  # Hertz radii; with nodes on the axis the faces of the expanded wedge degenerate
-FINE = 1.0  # Hertz radii of equal elements; the contact must end within
+FINE = 1.0  # Hertz radii of equal elements, unless told otherwise
 
 # Nodes of a CAX8 by column and row, counterclockwise with rows downwards; its upper face is S3 and
 # its lower S1.
@@ -40,10 +40,12 @@ class Fineness:
 
     elements   per Hertz radius
     stiffness  of the contact springs k in k E*/a_H per area, normal and tangential
+    reach      of the equal elements, in Hertz radii; the contact must end within
     """
 
     elements: int
     stiffness: float
+    reach: float = FINE
 
 
 class _Section:
@@ -68,7 +70,7 @@ class _Section:
 def calculix_deck(scene: CoatedScene, fineness: Fineness) -> str:
     """The whole input file; its lines depend on nothing but the arguments."""
     first = 1 / fineness.elements
-    equal = round(FINE * fineness.elements)
+    equal = round(fineness.reach * fineness.elements)
     radii = _grown([n * first for n in range(equal + 1)])
     radii[0] = BORE
     film = _until([0.0], first, scene.thickness)

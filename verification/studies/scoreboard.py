@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from math import inf
 
-from verification.adapters import radius, section, surface
+from verification.adapters import calculix, radius, section, surface
 from verification.adapters.half_spaces import answering
 from verification.challenge.answer import Solver
 from verification.challenge.cases import challenges
@@ -27,6 +27,9 @@ OURS = {
     section.ON_ELEMENTS.name: (section.ON_ELEMENTS, section.answer),
     radius.ON_RADII.name: (radius.ON_RADII, radius.answer),
 }
+# Minutes on three levels, so not at the quick one; and on two.
+SLOW = {calculix.CALCULIX.name: (calculix.CALCULIX, calculix.answer)}
+SLOW_LEVELS = 2
 LEVELS = {Level.QUICK: 3, Level.STANDARD: 4, Level.FULL: 4}
 CANNOT, LINE, GRADE = "cannot", "line", "grade"
 
@@ -56,8 +59,8 @@ class ScoredRun:
             return CaseRecord(parameters=asked, words={CANNOT: str(error)})
 
     def _judged(self) -> Judgement:
-        if self.code in OURS:
-            solver, answer = OURS[self.code]
+        if self.code in (known := OURS | SLOW):
+            solver, answer = known[self.code]
             return judge(self.challenge, answer, self.levels, solver=solver)
         (peer,) = (peer for peer in PEERS if peer.module == self.code)
         installed = made_environment(peers_directory())
@@ -71,8 +74,13 @@ class ScoredRun:
 def cases(settings: Settings) -> tuple[ScoredRun, ...]:
     """Every code on every challenge."""
     codes = (*OURS, *(peer.module for peer in PEERS))
+    codes += tuple(SLOW) if settings.level > Level.QUICK else ()
     levels = settings.levels or LEVELS[settings.level]
-    return tuple(ScoredRun(code, name, levels) for name in challenges() for code in codes)
+    return tuple(
+        ScoredRun(code, name, min(levels, SLOW_LEVELS) if code in SLOW else levels)
+        for name in challenges()
+        for code in codes
+    )
 
 
 def conclude(settings: Settings, records: Records) -> Conclusion:
