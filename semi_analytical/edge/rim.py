@@ -25,7 +25,7 @@ INSIDE, OUTSIDE = 4.5, 1.5
 # series, to 2e-6.
 SMOOTH = 4.0
 # Radius of a region in cells that is thick enough to be fitted.
-THICK = 2.5
+THICK = 1.9
 
 
 @dataclass(frozen=True)
@@ -75,9 +75,7 @@ def rim(
 
     means     (nx, ny) mean of the traction over each cell [force/length^2]
     loaded    (nx, ny) cells where it is positive
-    before    the rim of about the same region: cells outside it are no data, but what comes of
-              it. Without, the cut cells carry the error of a solver that knows no edge, and are
-              no data either
+    before    the rim of about the same region: cells outside it are no data, but what comes of it
     exponent  the traction goes with this power of the distance from the edge
     """
     region = loaded if before is None else loaded & ~before.outer
@@ -85,9 +83,7 @@ def rim(
     if np.max(layer) <= THICK:
         return None
     scale = np.max(means)
-    shape = edge_shape(
-        means / scale, region, STENCIL, rings=before is None, exponent=exponent, rounds=2
-    )
+    shape = edge_shape(means / scale, region, STENCIL, rings=0, exponent=exponent, rounds=2)
     outside = distance_transform_edt(~region)
     i, j = np.nonzero((layer + outside <= INSIDE) & (outside <= OUTSIDE))
     phi, safe = shape.about(i.astype(float), j.astype(float))
