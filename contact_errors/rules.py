@@ -138,7 +138,7 @@ EDGES = with_their_likes(
     {
         "approach": Rule(2, 0.0025, 1, 1.5, path_factor=1.5),
         "contact_radius": Rule(1.5, 0.005, 2, 1.1, 1.5, lengthscale=Lengthscale.FILM),
-        "peak_pressure": Rule(2, 0.0025, 2, 1.1, path_factor=2.0),
+        "peak_pressure": Rule(2.5, 0.022, 2, 1.2, path_factor=2.0),
         "tilt": Rule(1.5, 0.001, 1, 2.2, path_factor=1.5),
     }
 )

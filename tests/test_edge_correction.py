@@ -45,6 +45,13 @@ def test_the_pressure_of_hertz_is_right_to_a_ten_thousandth_wherever_the_cells_l
     assert end.peak_pressure == pytest.approx(hertz().peak_pressure, rel=1e-5)
 
 
+@pytest.mark.parametrize("seed", [1, 4])
+def test_three_cells_per_radius_give_it_to_a_thousandth(seed):
+    offset = tuple(np.random.default_rng(seed).uniform(-0.5, 0.5, 2))
+    end = solved(frictionless(PRESS), grid=ShiftedGrid((11, 11), (3.6 * A, 3.6 * A), offset))
+    assert end.steps[-1].contact_radius == pytest.approx(A, rel=1e-3)
+
+
 def test_an_approach_takes_the_force_of_hertz():
     end = solved(frictionless({"approach": APPROACH})).steps[-1]
     assert end.normal_force == pytest.approx(LOAD, rel=2e-5)

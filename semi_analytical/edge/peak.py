@@ -15,12 +15,14 @@ NEXT = Stencil(1, 1.0)
 def peak_of(means: Field) -> float:
     """The largest pressure at a point, from means over cells (nx, ny) with their edge inside.
 
-    That of the quadratic fitted to the squares of the largest mean and those about it (below a
-    paraboloid the square is quadratic: Hertz); the largest mean where these are not all in
-    contact, or have no peak between them.
+    That of the quadratic fitted to the means of the square over its cell and those about it (below
+    a paraboloid the square is quadratic: Hertz), which exceed the squares of the means by a twelfth
+    of the square of the slope; the largest mean where these are not all in contact, or have no peak
+    between them.
     """
     i, j = np.unravel_index(np.argmax(means), means.shape)
-    fit = fit_about(means**2, (means > 0).astype(float), np.array([i]), np.array([j]), NEXT)
+    squares = means**2 + sum(np.gradient(means, axis=axis) ** 2 for axis in (0, 1)) / 12
+    fit = fit_about(squares, (means > 0).astype(float), np.array([i]), np.array([j]), NEXT)
     q = fit.quadratic
     determinant = q.f_xx * q.f_yy - q.f_xy**2
     if fit.count[0] < (2 * NEXT.reach + 1) ** 2 or q.f_xx[0] >= 0 or determinant[0] <= 0:

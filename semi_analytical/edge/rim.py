@@ -20,7 +20,10 @@ Field = NDArray[np.float64]
 STENCIL = Stencil(4, 2.2)
 # Layers of cells inside and outside the edge. Farther in a traction is a slope within a cell, to
 # 1/500 of it; farther out it is zero.
-INSIDE, OUTSIDE = 4.5, 1.5
+INSIDE, OUTSIDE = 5.5, 1.5
+# Layers up to which it is all that the fit says: what it says beside the slope fades out from here
+# on, as an end of it would show in the pressure of the next cells.
+WHOLE = 2.5
 # So many times its slopes above zero, a part of a cell has the mean of a power by two terms of its
 # series, to 2e-6.
 SMOOTH = 4.0
@@ -89,6 +92,8 @@ def rim(
     phi, safe = shape.about(i.astype(float), j.astype(float))
     of_cells = np.broadcast_to(exponent, means.shape)[i, j] if np.ndim(exponent) else exponent
     parts, covered = _in_parts(phi, of_cells)
+    fade = np.clip((layer[i, j] - WHOLE) / (INSIDE - WHOLE), 0, 1)[:, None, None]
+    parts = (1 - fade) * parts + fade * _slopes_alone(means / scale, i, j)
     inside = region.copy()
     inside[i[safe], j[safe]] = phi.f[safe] > 0
     return Rim(
@@ -120,3 +125,10 @@ def _in_parts(phi: Quadratic, exponent: Exponent) -> tuple[Field, Field]:
     parts[cut] = mean_power(*of_cut, np.broadcast_to(a, f.shape)[cut] if np.ndim(a) else a)
     covered[cut] = mean_power(*of_cut, 0.0)
     return parts, covered.mean(axis=(1, 2))
+
+
+def _slopes_alone(means: Field, i: Indices, j: Indices) -> Field:
+    """Parts (n, PARTS, PARTS) of a traction with the slopes of central differences."""
+    along_x, along_y = (np.gradient(means, axis=axis)[i, j, None, None] for axis in (0, 1))
+    x = part_centres()
+    return np.asarray(means[i, j, None, None] + along_x * x[:, None] + along_y * x)
