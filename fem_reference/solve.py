@@ -1,8 +1,11 @@
 """Solve a scene: plan, mesh, model, march."""
 
 from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from dataclasses import replace
 from typing import Any
+
+from threadpoolctl import threadpool_limits
 
 from contact_scene import FiniteElementDiscretisation, Scene
 from contact_scene.solver_errors import ContactAtZoneEdge
@@ -23,6 +26,14 @@ MOST_ENLARGEMENTS = 8
 TOO_LARGE = 1.5
 
 
+@contextmanager
+def _one_thread() -> Iterator[None]:
+    """Of linear algebra, whatever the environment says: two threads add in another order."""
+    with threadpool_limits(1, "blas"):
+        yield
+
+
+@_one_thread()
 def solve(
     scene: Scene,
     discretisation: FiniteElementDiscretisation,

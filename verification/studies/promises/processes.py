@@ -35,7 +35,7 @@ def _scene(text: str) -> Iterator[Path]:
 def repeated(count: int) -> Iterator[Attempt]:
     """The same run in a fresh process, with one thread and with two, by solver in turn."""
     for number in range(count):
-        solver, threads = SOLVERS[number % 3], 1 + number // 3 % 2
+        solver, threads = SOLVERS[number % 3], 2 - number // 3 % 2
         files = []
         with _scene(fretting(layer=FILM if number % 2 else "", pushes=2)) as folder:
             for out, used in (("one", 1), ("other", threads)):

@@ -60,7 +60,7 @@ PROMISES = {
         Promise(
             "bits", "the same run gives the same bytes",
             "again in a fresh process, with one thread and two, by three solvers",
-            (2, 12), processes.repeated,
+            (3, 12), processes.repeated,
         ),
         Promise(
             "memory", f"planned memory is within {100 * processes.WITHIN:g} % of the peak",
