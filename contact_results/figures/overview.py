@@ -35,34 +35,38 @@ MOST_CELLS = 64
 EVERY = 2  # of the depths that stand in the files
 DOTS_PER_INCH = 90
 BAR = {"shrink": 0.55, "aspect": 14}
-UNKNOWN = "not computed here:\nslipstick stress RUN_DIR -o DIR"
 
 
 def overview(
     result: Result, above: Above, errors: Mapping[str, StatedError] | None = None
 ) -> Figure:
     """Profile, zones, history, stress on the section and along the surface, and the numbers; of a
-    single increment the stress down the axis instead of a history. Call within `figure_style`.
+    single increment the stress down the axis instead of a history; no stress where it would take
+    longer than the run. Call within `figure_style`.
 
     errors  of the last step; None where they were left out
     """
-    figure = style.new_figure(11.0, 7.2)
+    field = section_stress(result)
+    figure = style.new_figure(11.0 if field else 7.6, 7.2)
     title = result.scene.title or "Contact"
     figure.suptitle(
-        fill(f"{title}: end of step {result.steps[-1].step}", 120), fontsize=9.0, parse_math=False
+        fill(f"{title}: end of step {result.steps[-1].step}", 120 if field else 80),
+        fontsize=9.0,
+        parse_math=False,
     )
-    panels = np.asarray(figure.subfigures(2, 3), dtype=object)
-    profile, zones, history, section, surface, numbers = panels.flat
+    panels = np.asarray(figure.subfigures(2, 3 if field else 2), dtype=object)
+    profile, zones, history, *stressed, numbers = panels.flat
     draw_end(profile.subplots(), result, surface_of(result))
     _draw_seen(zones, result, above)
-    field = section_stress(result)
     if len(moved(result.increments)) >= LEAST_MOVES:
         draw_loop(history.subplots(), result)
-    elif field is not None and len(result.increments) == 1:
+    elif field and len(result.increments) == 1:
         _draw_axis(history.subplots(), field, result.scene.body)
     else:
         draw_loading(history.subplots(), result)
-    _draw_stress(section, surface, result, field)
+    if field:
+        section, surface = stressed
+        _draw_stress(section, surface, result, field)
     _write_numbers(numbers.subplots(), result, errors)
     return figure
 
@@ -133,13 +137,8 @@ def _draw_axis(ax: Any, field: StressField, body: Body) -> None:
     ax.legend(loc="lower left", fontsize="small")
 
 
-def _draw_stress(left: Any, right: Any, result: Result, field: StressField | None) -> None:
+def _draw_stress(left: Any, right: Any, result: Result, field: StressField) -> None:
     axes, along = left.subplots(), right.subplots()
-    if field is None:
-        for ax, name in ((axes, "stress on the section"), (along, "stress along the surface")):
-            ax.set_axis_off()
-            ax.text(0.5, 0.5, f"{name}\n{UNKNOWN}", ha="center", va="center")
-        return
     body, mises = result.scene.body, field.section.von_mises
     length = draw_section(left, axes, field, body, mises, "von Mises", bar=BAR)
     axes.set_xlabel(f"{field.label} ({length.name})")
