@@ -55,7 +55,6 @@ def test_each_solver_reaches_its_class(
 @pytest.mark.parametrize(
     ("answer", "name", "said"),
     [
-        (radius.answer, "cattaneo_mindlin", "pressure alone"),
         (radius.answer, "hertz_elliptical", "not the same all around"),
         (section.answer, "hertz_elliptical", "not the same all around"),
         (section.answer, "layered_patch/G1_over_G2=2", "contacts only"),

@@ -15,8 +15,7 @@ COARSEST = 32  # rings: the fields are linear between them, the numbers need non
 
 
 def answer(posed: Posed, level: int) -> Answer:
-    """On COARSEST rings over the contact, twice as many, …; CannotDo with friction or without an
-    axis."""
+    """On COARSEST rings over the contact, twice as many, …; CannotDo where it refuses."""
     rings = COARSEST * 2**level
     try:
         steps = solve(scene_of(posed), RadialDiscretisation(rings=rings)).steps
