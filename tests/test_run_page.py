@@ -49,7 +49,7 @@ def test_numbers_on_the_page_carry_their_errors(tmp_path: Path) -> None:
 @pytest.mark.parametrize("error", [3.2e-5, 4e-13, 4e-16])
 def test_an_error_however_small_does_not_read_as_zero(error: float) -> None:
     text = number_text(0.3177303649, Uncertainty(error, True), 1.0)
-    assert float(text.split(" ± ")[1]) == pytest.approx(error, rel=0.1)
+    assert float(text.split(" ± ")[1]) == pytest.approx(error, rel=0.1, abs=0.0)
 
 
 def test_the_overview_of_one_increment_shows_the_stress_down_the_axis() -> None:
