@@ -109,6 +109,7 @@ class SmoothTip(ShapedBody):
 class RoundTip(SmoothTip):
     """The same curvature all around."""
 
+    shape: Literal["sphere", "paraboloid"]
     radius: PositiveLength
     """Radius of curvature R at the tip [length]."""
 
