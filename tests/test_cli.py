@@ -296,7 +296,8 @@ def test_environment_without_a_package_is_to_be_renewed(
 ) -> None:
     solver(ModuleNotFoundError("No module named 'added_since'", name="added_since.inner"))
     assert slipstick("run", scene, "--output", scene.parent / "out") == 70
-    (said,) = capsys.readouterr().err.splitlines()
+    said = capsys.readouterr().err
+    assert said.count("error: ") == 1
     assert "'added_since'" in said
     assert "./run" in said
     assert "report it" not in said
