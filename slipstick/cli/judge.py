@@ -35,7 +35,7 @@ def judge(
         str | None, optional("--case", metavar="CASE", help="What the function is to solve.")
     ] = None,
     levels: Annotated[
-        int, typer.Option("--levels", metavar="N", help="Of a function: 0, 1, …, N - 1.", min=1)
+        int, typer.Option("--levels", metavar="N", help="Of a function: 0 to N - 1.", min=1)
     ] = 4,
     page: Annotated[
         Path | None,
