@@ -10,6 +10,7 @@ import pytest
 from synthetic_result import synthetic_result
 
 from contact_results.figures.figure_files import seen_from_above
+from contact_results.figures.hysteresis_plot import hysteresis_plot, moved
 from contact_results.figures.overview import coarser, overview, section_stress
 from contact_results.figures.run_page import decision_numbers, write_page
 from contact_results.figures.style import figure_style
@@ -95,3 +96,16 @@ def test_coarser_cells_carry_the_same_load_at_the_same_place() -> None:
 def test_stress_of_too_many_cells_without_a_divisor_is_left_to_its_command() -> None:
     assert section_stress(synthetic_result((65, 65))) is None
     assert section_stress(synthetic_result((24, 20))) is not None
+
+
+@pytest.mark.parametrize(("twist", "axes"), [(1e-9, "shift along x"), (1.0, "twist")])
+def test_the_loop_is_that_of_the_load_that_does_the_work(twist: float, axes: str) -> None:
+    result = synthetic_result()
+    turned = tuple(
+        replace(i, torque=0.1 * i.index, twist=twist * i.index) for i in result.increments
+    )
+    (ax,) = hysteresis_plot(replace(result, increments=turned)).axes
+    assert axes in ax.get_xlabel()
+    assert moved(turned) == len(turned)
+    still = tuple(replace(i, tangential_force=(0.0, 0.0)) for i in result.increments)
+    assert moved(still) == 0

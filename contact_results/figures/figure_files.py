@@ -71,7 +71,7 @@ def _figures_called_for(
         yield file_names.SLIP_MAP_FIGURE, slip_map(result, above)
     if isinstance(surface, Cells):
         yield from _maps(result, surface, cycles)
-    if len(moved(result.increments)) >= FEWEST_POINTS:
+    if moved(result.increments) >= FEWEST_POINTS:
         yield file_names.HYSTERESIS_FIGURE, hysteresis_plot(result)
     if _different_approaches(result) >= FEWEST_POINTS:
         yield file_names.LOADING_FIGURE, loading_plot(result)

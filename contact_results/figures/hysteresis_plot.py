@@ -1,9 +1,9 @@
-"""Tangential force against shift: the fretting loop."""
+"""Tangential force against shift, or torque against twist: the fretting loop."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from matplotlib.figure import Figure
@@ -21,9 +21,29 @@ Values = NDArray[np.float64]
 SAME_PLACE = 0.02  # of the axis: points whose numbers would cover each other
 
 
-def moved(increments: Sequence[Increment]) -> list[Increment]:
-    """The increments that end with a tangential force and a defined shift."""
-    return [i for i in increments if i.tangential_shift is not None and np.any(i.tangential_force)]
+class Loop(NamedTuple):
+    """A load and its motion at the ends of all increments that have both, by name.
+
+    along  in which direction, in words
+    """
+
+    path: list[Increment]
+    force: str
+    forces: Values
+    motion: str
+    motions: Values
+    along: str
+
+    @property
+    def work(self) -> float:
+        """Put in and taken out."""
+        return float(np.sum(np.abs((self.forces[1:] + self.forces[:-1]) * np.diff(self.motions))))
+
+
+def moved(increments: Sequence[Increment]) -> int:
+    """How many increments end with a tangential load and its defined motion."""
+    loops = _loops(increments)
+    return max((int(np.count_nonzero(loop.forces)) for loop in loops), default=0)
 
 
 def hysteresis_plot(result: Result) -> Figure:
@@ -34,13 +54,13 @@ def hysteresis_plot(result: Result) -> Figure:
 
 
 def draw_loop(ax: Any, result: Result) -> None:
-    """Force and shift of every increment along the direction of the largest force."""
-    path = [i for i in result.increments if i.tangential_shift is not None]
-    force = np.array([i.tangential_force for i in path])
-    direction = _direction(force)
-    shift = np.array([i.tangential_shift for i in path])
-    x, along = on_axis("tangential_shift", shift @ direction, _along(direction))
-    y, upward = on_axis("tangential_force", force @ direction, _along(direction))
+    """Force and shift of every increment along the direction of the largest force, or torque and
+    twist where they do more work."""
+    path, force, forces, motion, motions, along = max(
+        _loops(result.increments), key=lambda loop: loop.work
+    )
+    x, across = on_axis(motion, motions, along)
+    y, upward = on_axis(force, forces, along)
 
     ax.axhline(0.0, color=style.GREY, linewidth=0.5)
     ax.axvline(0.0, color=style.GREY, linewidth=0.5)
@@ -51,12 +71,33 @@ def draw_loop(ax: Any, result: Result) -> None:
     if len(ends) <= AT_MOST:
         _number(ax, x[ends], y[ends], [path[n].step for n in ends])
     ax.margins(0.08)
-    ax.set_xlabel(along)
+    ax.set_xlabel(across)
     ax.set_ylabel(upward)
     energy = path[-1].dissipated_energy
     if energy is not None:
         ax.plot([], [], " ", label=f"dissipated in all: {quantity(energy, 'J')}")
-    ax.legend(loc="upper left")
+    ax.legend(loc="best")
+
+
+def _loops(increments: Sequence[Increment]) -> list[Loop]:
+    found = []
+    path = [i for i in increments if i.tangential_shift is not None]
+    force = np.array([i.tangential_force for i in path])
+    if np.any(force):
+        direction = _direction(force)
+        shift = np.array([i.tangential_shift for i in path]) @ direction
+        found.append(
+            Loop(
+                path, "tangential_force", force @ direction, "tangential_shift", shift,
+                _along(direction),
+            )
+        )  # fmt: skip
+    path = [i for i in increments if i.torque is not None and i.twist is not None]
+    torque = np.array([i.torque for i in path])
+    if np.any(torque):
+        twist = np.array([i.twist for i in path])
+        found.append(Loop(path, "torque", torque, "twist", twist, ""))
+    return found
 
 
 def _number(ax: Any, x: Values, y: Values, steps: Sequence[int]) -> None:

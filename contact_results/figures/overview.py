@@ -58,7 +58,7 @@ def overview(
     profile, zones, history, *stressed, numbers = panels.flat
     draw_end(profile.subplots(), result, surface_of(result))
     _draw_seen(zones, result, above)
-    if len(moved(result.increments)) >= LEAST_MOVES:
+    if moved(result.increments) >= LEAST_MOVES:
         draw_loop(history.subplots(), result)
     elif field and len(result.increments) == 1:
         _draw_axis(history.subplots(), field, result.scene.body)
