@@ -32,7 +32,8 @@ html_theme_options = {
     "font_family": "Georgia, 'DejaVu Serif', serif",
 }
 html_show_sourcelink = False
-html_static_path: list[str] = []
+html_static_path = ["_static"]
+html_css_files = ["narrow.css"]
 
 
 def setup(app) -> None:

@@ -128,5 +128,5 @@ def draw_arrows(
     edge = "black" if colour == "white" else "none"
     ax.quiver(
         x[i], y[j], u, v, angles="xy", scale_units="xy", scale=1.0, pivot="mid", color=colour,
-        edgecolor=edge, linewidth=0.3, width=0.012, headwidth=3.5,
+        edgecolor=edge, linewidth=0.6, width=0.012, headwidth=3.5,
     )  # fmt: skip
