@@ -74,10 +74,15 @@ def _missing(
     assert after.passed is not None
     w, p, q = after.weights, (start.pressure, after.pressure), (start.shear, after.shear)
     passed = after.passed - start.passed
-    # Along the shear, which slip opposes, and as large as the mean of the limits.
+    slipped, limits = after.slip - start.slip, start.limit + after.limit
+    # Along the shear, which slip opposes, and as large as the mean of the limits; what parts may
+    # have stuck until then, and loses half its shear at the start along its way.
     size = np.abs(np.hypot.reduce(q[1], axis=0))
     along = np.divide(q[1], size, out=np.zeros_like(q[1]), where=size > 0)
-    own = -0.5 * float(np.sum(w * (start.limit + after.limit) * along * (after.slip - start.slip)))
+    lost = -0.5 * limits * np.sum(along * slipped, axis=0)
+    parts = (p[0] > 0) & (p[1] == 0)
+    lost[parts] = 0.5 * (np.hypot.reduce(q[0], axis=0) * np.hypot.reduce(slipped, axis=0))[parts]
+    own = float(np.sum(w * lost))
     closing = 0.5 * w * (p[1] * start.gap - p[0] * after.gap)
     if after.yields:
         closing = closing + 0.5 * w * (p[0] * start.gap - p[1] * after.gap)

@@ -139,8 +139,10 @@ def _missing(
     last = (0.0, 0.0, 0.0) if before is None else _told(before)
     told = tuple(end - start for end, start in zip(_told(now), last, strict=True))
     work = float(np.sum(forces * motions))
-    # Slip opposes the shear (`surfaces`), so that friction takes its limit times the way.
-    friction = 0.5 * (state.limit + after.limit)
+    # Slip opposes the shear (`surfaces`), so that friction takes its limit times the way; what
+    # parts may have stuck until then, and loses half its shear at the start.
+    parts = (state.tractions[2] > 0) & (after.tractions[2] == 0)
+    friction = 0.5 * np.where(parts, np.hypot(*state.tractions[:2]), state.limit + after.limit)
     dissipated = float(np.sum(friction * np.hypot(*slipped))) * cell
     stored = now.elastic_energy - (0.0 if before is None else before.elastic_energy)
     shrunk = np.any(state.tractions[:2] * (after.tractions[2] == 0))
