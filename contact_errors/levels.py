@@ -11,7 +11,7 @@ import numpy as np
 from contact_errors import estimate
 from contact_errors.estimate import Numbers
 from contact_errors.prescribed import prescribed
-from contact_errors.rules import Rule
+from contact_errors.rules import Lengthscale, Rule
 from contact_errors.values import Values, scale
 from contact_scene import Scene
 from contact_scene.stated_error import EXACT, Part, StatedError
@@ -144,7 +144,10 @@ class Levels:
         """By where borders lie in cells; what was lost in a step has the scatter of its end."""
         lost = self.lost[step].get(name)
         if lost is None:
-            return largest * rule.scatter(self.ground.per(step, rule))
+            size = largest
+            if rule.lengthscale is Lengthscale.TURN:
+                size = np.sqrt(largest * scale(name, self.values[step]))
+            return size * rule.scatter(self.ground.per(step, rule))
         ends = lost.items()
         found = sum(size * rule.scatter(self.ground.per(end, rule)) for end, size in ends)
         return np.full_like(largest, found)

@@ -28,7 +28,12 @@ from semi_analytical.plan import Coupling
 from semi_analytical.resolution import Resolution, resolution
 
 # In cells: below them a number has not converged, however small its differences are.
-LEAST = {Lengthscale.CONTACT: 3.0, Lengthscale.STICK: 1.0, Lengthscale.ANNULUS: 0.5}
+LEAST = {
+    Lengthscale.CONTACT: 3.0,
+    Lengthscale.TURN: 8.0,
+    Lengthscale.STICK: 1.0,
+    Lengthscale.ANNULUS: 0.5,
+}
 LEAST_LAYER, LEAST_WAVE = 1.0, 4.0
 # A film that is much stiffer than its base bends and stands on its rim, within its thickness t of
 # the edge: there the largest mean of a cell exceeds the peak by this part of it times t^-5/2 at
@@ -158,6 +163,8 @@ class _Cells:
             return False
         if cells.wave is not None and cells.wave < LEAST_WAVE:
             return False
+        if lengthscale is Lengthscale.TURN:
+            return cells.contact >= LEAST[Lengthscale.TURN]
         if lengthscale is Lengthscale.CUSP and self._slides(step):
             return True
         if lengthscale in (Lengthscale.STICK, Lengthscale.CUSP):
