@@ -82,8 +82,8 @@ TWIST = Rule(2, 0.24, 9, 1.3, 3.0, 0.3, Lengthscale.SLIP)
 ENERGY = Rule(2.5, 0.3, 4, 1.65, 2.0, 0.0, Lengthscale.LOST, charge=0.1)
 TILT = Rule(2.5, 0.4, 1, 1.0, path_factor=1.5, lengthscale=Lengthscale.TURN)
 # Slip is largest at the edge of the contact, where a cell may lie within or beyond.
-AMPLITUDE = Rule(1, 0.5, 8, 1.1, lengthscale=Lengthscale.ANNULUS)
-RUIZ_F1 = Rule(1.5, 0.5, 4, 1.4, lengthscale=Lengthscale.ANNULUS)
+AMPLITUDE = Rule(1, 0.5, 8, 1.38, lengthscale=Lengthscale.ANNULUS)
+RUIZ_F1 = Rule(1.5, 0.5, 4, 1.75, lengthscale=Lengthscale.ANNULUS)
 # Tension at the edge of the contact times slip; on few cells always too low, and by chance alike.
 RUIZ_F2 = Rule(1, 3.0, 4, 2.2)
 # Stress at the surface and near it, largest at an edge of the tractions.

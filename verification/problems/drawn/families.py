@@ -32,7 +32,7 @@ FAMILIES = {
     "hertz": Family(homogeneous.hertz, 78),
     "shapes": Family(homogeneous.shapes, 8),
     "ellipse": Family(homogeneous.ellipse, 8),
-    "cattaneo": Family(homogeneous.cattaneo, 32),
+    "cattaneo": Family(homogeneous.cattaneo, 36),
     "sliding": Family(homogeneous.sliding, 6),
     "twisted": Family(homogeneous.twisted, 6),
     "indented": Family(homogeneous.indented, 10),
