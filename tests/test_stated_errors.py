@@ -514,3 +514,12 @@ def test_a_peak_above_a_stick_zone_of_less_than_a_cell_has_not_converged(
     (errors,) = errors_of(pressed, grid(20, radius=0.8 * A))
     assert errors["approach"].status is ErrorStatus.ESTIMATED
     assert errors["peak_pressure"].status == status
+
+
+def test_components_of_a_vector_share_one_size_unless_they_are_round_off_of_a_zero():
+    both, one = ({"tangential_shift": np.array([3.0, y])} for y in (-1.0, 1e-12))
+    first, second = estimate.largest_so_far([one, both])
+    np.testing.assert_array_equal(first["tangential_shift"], [3.0, 1e-12])
+    np.testing.assert_array_equal(second["tangential_shift"], [3.0, 3.0])
+    (alone,) = estimate.largest_so_far([{"tangential_shift": np.array([1e-6, 1e-5])}])
+    np.testing.assert_array_equal(alone["tangential_shift"], [1e-5, 1e-5])
