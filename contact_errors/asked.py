@@ -59,7 +59,10 @@ def refuse_unreachable(asked: Asked, rung: Rung[Any], most_growth: float) -> Non
         if not sizes:
             continue
         space = (_largest(parts.get(part, 0.0)) for parts in sizes for part in SPACE)
-        order = rung.rules[name].order
+        order, floor = rung.rules[name].order, rung.rules[name].floor
+        if share < floor:
+            told.append(f"{name} to {_percent(share)}: about {_percent(floor)} stay on any grid")
+            continue
         reach = SPARE * max(space) / rung.largest(name) / most_growth**order
         if reach > DOUBT * share:
             told.append(

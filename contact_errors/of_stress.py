@@ -26,7 +26,7 @@ NEAR = 2.0
 # Of stress at a fitted edge, over itself: what the pressure of a solver that knows no edge leaves
 # wrong grows with the m cells per radius, .0006 + .00004 m, at most .002; few leave 4/m⁴ in the fit
 # (Hertz's, sliding and coated contacts of 5 to 50 cells).
-BY_PRESSURE, BY_CELL, MOST_BY_PRESSURE = 6e-4, 4e-5, 2e-3
+BY_CELL, MOST_BY_PRESSURE = 4e-5, 2e-3
 FEW_CELLS = 4.0
 # Two fits of a smooth edge are as far apart however right they are; what is beyond counts.
 ALWAYS_APART = 7e-4
@@ -139,7 +139,7 @@ def _by_edge(per_radius: float, apart: float) -> float:
     per_radius  cells per contact radius
     apart       of two fits, see `FittedEdge`
     """
-    by_pressure = min(BY_PRESSURE + BY_CELL * per_radius, MOST_BY_PRESSURE)
+    by_pressure = min(AT_EDGE.floor + BY_CELL * per_radius, MOST_BY_PRESSURE)
     by_fit = AT_EDGE.factor * max(apart - ALWAYS_APART, 0.0)
     return by_pressure + FEW_CELLS / per_radius**4 + by_fit
 

@@ -55,6 +55,7 @@ class Rule:
     path_factor      P
     path_scatter     s
     charge           c; 1 where g alone counts
+    floor            of the number over itself, what no number of cells takes away
     lengthscale      what m counts
     """
 
@@ -66,6 +67,7 @@ class Rule:
     path_scatter: float = 0.1
     lengthscale: Lengthscale = Lengthscale.CONTACT
     charge: float = 1.0
+    floor: float = 0.0
 
     def scatter(self, cells: float) -> float:
         """The envelope with so many cells per length scale [1]."""
@@ -89,7 +91,7 @@ RUIZ_F2 = Rule(1, 3.0, 4, 2.2)
 # Stress at the surface and near it, largest at an edge of the tractions.
 TENSION = Rule(0.5, 0.0, 0, 1.6)
 # Stress at an edge that was fitted, by what two fits differ beyond what they always do.
-AT_EDGE = Rule(1, 0.0, 0, 3.0)
+AT_EDGE = Rule(1, 0.0, 0, 3.0, floor=6e-4)
 # Stress inside, where it would be largest between the points.
 INTERIOR = Rule(2, 0.0, 0, 0.6)
 

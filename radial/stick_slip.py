@@ -30,7 +30,7 @@ Array = NDArray[np.float64]
 Signs = NDArray[np.int64]
 
 MOST_STEPS = 60
-TIE = 1e-11  # of the largest limit
+TIE = 1e-9  # of the largest limit
 ALL_AT_ONCE = 8  # steps of Newton's method; then the node that is most in the wrong changes alone
 
 

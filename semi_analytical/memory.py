@@ -29,7 +29,7 @@ PRESSURE_RESULT = 2
 SHEAR_RESULT = 7
 LIGHT = 4500  # bytes of an increment without its fields
 LIBRARIES = 80 << 20  # of the process that solves and writes
-DRAWING = 60 << 20  # libraries of the figures, and arrays for them
+DRAWING = 90 << 20  # libraries of the figures and of the stress in them, and arrays
 DRAWING_ARRAYS = 20
 
 

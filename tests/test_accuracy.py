@@ -232,7 +232,7 @@ def test_what_no_grid_can_meet_is_refused_after_the_first_round() -> None:
     rounds: list[int] = []
     looped = scene(PRESS, push(0.6), push(-0.6), push(0.6))
     ladder = CellLadder(looped, SurfaceDiscretisation(), surface_stress=True)
-    with pytest.raises(AccuracyOutOfReach, match=r"ruiz_f2.* 0.5, and about \d.* % is all"):
+    with pytest.raises(AccuracyOutOfReach, match=r"ruiz_f2.* 1, and about \d.* % is all"):
         climb(ladder, request("ruiz_f2 1e-6"), None, lambda k, *_: rounds.append(k))
     assert rounds == []
 
