@@ -34,6 +34,11 @@ class Plan:
     effects: tuple[Effect, ...]
     direction: ClassVar[tuple[float, float]] = (1.0, 0.0)
 
+    @property
+    def sheared(self) -> bool:
+        """Whether there is shear beside the pressure."""
+        return self.coupled or self.twists
+
 
 def plan(scene: Scene) -> Plan:
     """Whether a scene is one of pressure on a disc; raises UnsupportedScene where it is not."""

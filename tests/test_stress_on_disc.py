@@ -6,11 +6,13 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from command import outcome
 from hypothesis import given
 from hypothesis import strategies as st
 from numpy.testing import assert_allclose
 
 import radial
+import radial.history
 import semi_analytical
 import slipstick
 from contact_errors.of_stress import stress_errors
@@ -165,6 +167,40 @@ def test_a_run_that_was_written_has_the_same_stress(tmp_path: Path) -> None:
     at_once = stress_on_disc(state_of_result(result, None))
     again = stress_on_disc(state_of_run(tmp_path / "run", None))
     assert np.array_equal(again.points.stress, at_once.points.stress)
+
+
+SHEARED = {  # what brings shear: pressing a body that couples, or a twist
+    "rubs": """
+        [body]
+        material = { young_modulus = 1, poisson_ratio = 0.3 }
+        [[loading]]
+        normal_force = 1e-3
+    """,
+    "twists": """
+        [body]
+        material = { young_modulus = 1, poisson_ratio = 0.5 }
+        [[loading]]
+        normal_force = 1e-3
+        [[loading]]
+        twist = 1e-3
+    """,
+}
+
+
+@pytest.mark.parametrize("loads", SHEARED)
+def test_shear_is_refused_before_anything_is_solved(
+    loads: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.delattr(radial.history, "solve")
+    ball = """
+        indenter = { shape = "paraboloid", radius = 1, material = "rigid" }
+        friction = { coefficient = 0.1 }
+    """
+    (tmp_path / "scene.toml").write_text(ball + SHEARED[loads])
+    asked = ("stress", "scene.toml", "--solver", "radial", "-o", "out")
+    said = outcome(*asked, cwd=tmp_path)
+    assert said.returncode == 2
+    assert "there is shear" in said.stderr
 
 
 @pytest.mark.parametrize(

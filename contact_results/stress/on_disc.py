@@ -27,11 +27,7 @@ def stress_on_disc(
             contact and layers
     Raises ValueError for a depth that is not in the body, UnsupportedScene where there is shear.
     """
-    if len(state.tractions) > 1:
-        raise UnsupportedScene(
-            "the radial solver has the stress below pressure alone, and there is shear; solve the "
-            "scene with another solver"
-        )
+    refuse_shear(len(state.tractions) > 1)
     body = DiscBody.of(state, indenter)
     grid = body.points(tuple(body.levels(depths)), body.radii)
     section, points = _both_sides(grid), grid.chosen(np.ones(grid.x.shape, dtype=bool))
@@ -50,6 +46,15 @@ def stress_on_disc(
     found = extremes(field, state.indenter if indenter else state.body)
     nearer = [body.largest(extreme) for extreme in found if extreme.region in body.regions]
     return replace(field, points=_joined([points, *nearer]))
+
+
+def refuse_shear(sheared: bool) -> None:
+    """Raises UnsupportedScene where there is shear beside the pressure."""
+    if sheared:
+        raise UnsupportedScene(
+            "the radial solver has the stress below pressure alone, and there is shear; solve the "
+            "scene with another solver"
+        )
 
 
 def _joined(parts: Sequence[StressPoints]) -> StressPoints:

@@ -18,7 +18,6 @@ if TYPE_CHECKING:
     from contact_scene.accuracy import AccuracyRequest
     from contact_scene.accuracy_reached import AccuracyReached
     from contact_scene.stated_error import StatedErrors
-    from slipstick.solvers.solver import Solver
 
 
 def state_of_run_directory(directory: Path, step: int | None) -> LoadedBodies:
@@ -55,7 +54,7 @@ def state_of_scene(
         )
     stated: StatedErrors | None
     if request is None:
-        result, stated = _solved(contents, solver.solver, error)
+        result, stated = _solved(contents, solver, error)
         reached = None
     else:
         refuse_beside_accuracy({"--no-error": not error})
@@ -68,11 +67,18 @@ def state_of_scene(
     return state_of_result(result, step, stated), reached
 
 
-def _solved(contents: SceneFile, chosen: Solver, error: bool) -> tuple[Result, StatedErrors | None]:
+def _solved(
+    contents: SceneFile, name: SolverName, error: bool
+) -> tuple[Result, StatedErrors | None]:
     from slipstick.cli.progress import companion_progress, solve_progress
 
+    chosen = name.solver
     fineness = chosen.fineness(contents)
     decided: Any = chosen.plan(contents.scene, fineness)
+    if name is SolverName.RADIAL:
+        from contact_results.stress.on_disc import refuse_shear
+
+        refuse_shear(decided.sheared)
     with solve_progress(decided.increments) as observe:
         result = chosen.solve(contents.scene, fineness, decided, observe)
     if not error:
