@@ -46,6 +46,7 @@ CASES = (
     "subsurface_stress",
     "radial_pressing",
     "radial_indentation",
+    "radial_torsion",
     "edge_stress",
     "fem_hertz",
     "fem_classical",
