@@ -57,8 +57,8 @@ class Ground(Protocol):
     def carries(self, step: int) -> bool:
         """Whether the contact at the end of a step, from 0, is as wide as one of them."""
 
-    def per(self, step: int, rule: Rule) -> float:
-        """How many there are on the length scale of a rule."""
+    def scatter(self, step: int, rule: Rule) -> Numbers | float:
+        """The envelope of a rule with so many as there are on its length scale."""
 
     def resolved(self, step: int, rule: Rule, largest: Numbers) -> bool:
         """Whether differences between levels mean anything."""
@@ -144,10 +144,9 @@ class Levels:
         """By where borders lie in cells; what was lost in a step has the scatter of its end."""
         lost = self.lost[step].get(name)
         if lost is None:
-            size = largest
-            if rule.lengthscale is Lengthscale.TURN:
-                size = np.sqrt(largest * scale(name, self.values[step]))
-            return size * rule.scatter(self.ground.per(step, rule))
+            turned = rule.lengthscale is Lengthscale.TURN
+            size = scale(name, self.values[step]) if turned else largest
+            return np.full_like(largest, size * self.ground.scatter(step, rule))
         ends = lost.items()
-        found = sum(size * rule.scatter(self.ground.per(end, rule)) for end, size in ends)
+        found = sum(size * self.ground.scatter(end, rule) for end, size in ends)
         return np.full_like(largest, found)

@@ -21,6 +21,7 @@ from contact_errors.rules import Lengthscale, Rule, rules_for
 from contact_errors.values import Values, charged_by_increments, lost_by_steps, values_of
 from contact_results.cycles import fretting_cycles
 from contact_results.remarks import left_out
+from contact_scene.geometry import SmoothTip
 from contact_scene.stated_error import Part, StatedErrors
 from contact_scene.summary import ContactStatus
 from semi_analytical import Increment, Result
@@ -39,6 +40,8 @@ LEAST_LAYER, LEAST_WAVE = 1.0, 4.0
 # the edge: there the largest mean of a cell exceeds the peak by this part of it times t^-5/2 at
 # most, t in cells (films 8 to 80 times as stiff, of 1 to 13 cells).
 RIM_OF_FILM, ORDER_OF_RIM = 0.45, 2.5
+# What a turn scatters with its load on a middle or an edge of cells, over the most.
+BESIDE_MIRRORS = 0.3
 # What stands out of a random surface, in root mean squares: one place in a thousand.
 HIGHEST = 3.0
 # A slip annulus that is narrower scatters no less by its width.
@@ -133,7 +136,21 @@ class _Cells:
             return 0.0
         return float(RIM_OF_FILM * max(cells.layer, LEAST_LAYER) ** -ORDER_OF_RIM)
 
-    def per(self, step: int, rule: Rule) -> float:
+    def scatter(self, step: int, rule: Rule) -> Numbers | float:
+        found = rule.scatter(self._per(step, rule))
+        return found * self._off_mirrors(step) if rule.lengthscale is Lengthscale.TURN else found
+
+    def _off_mirrors(self, step: int) -> Numbers | float:
+        """|sin 2πf| along y and x of a load at the part f of a cell: a contact that is its own
+        mirror image and has its middle on a middle or an edge of cells turns by no error."""
+        result, end = self.result, self.result.steps[step]
+        mirrored = isinstance(result.scene.indenter, SmoothTip)
+        if not mirrored or result.plan.coupling is not Coupling.NONE or end.moment is None:
+            return 1.0
+        place = end.moment / (end.normal_force * np.array(result.grid.spacing[::-1]))
+        return np.hypot(np.sin(2 * np.pi * place), BESIDE_MIRRORS)
+
+    def _per(self, step: int, rule: Rule) -> float:
         """Fewer than there are where the length scale is a combination."""
         cells, lengthscale = self._at[step], rule.lengthscale
         if lengthscale is Lengthscale.STICK:

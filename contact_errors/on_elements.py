@@ -160,7 +160,10 @@ class _Elements:
     def carries(self, step: int) -> bool:
         return self._contact(step) >= 1
 
-    def per(self, step: int, rule: Rule) -> float:
+    def scatter(self, step: int, rule: Rule) -> float:
+        return rule.scatter(self._per(step, rule))
+
+    def _per(self, step: int, rule: Rule) -> float:
         contact, stick, lengthscale = self._contact(step), self._stick(step), rule.lengthscale
         if lengthscale is Lengthscale.FILM:
             return float(np.sqrt(contact * min(contact, self._layer)))

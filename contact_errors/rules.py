@@ -38,7 +38,7 @@ class Lengthscale(Enum):
     CUSP = auto()  # contact radius; the stick zone has to be resolved, which rounds off the cusp
     SLIP = auto()  # contact radius, and width w of the slip annulus: m/√(1 + 1/w)
     ANNULUS = auto()  # the same two alike: √(m w)
-    TURN = auto()  # contact radius; what scatters is the place of the load in the contact
+    TURN = auto()  # contact radius; what scatters is the place of the load in a cell
     LOST = auto()  # m places around an annulus of w: (m w⁴)^1/5
 
 
@@ -48,8 +48,8 @@ class Rule:
 
     order            p of the error in h
     envelope         coefficient of the scatter e = envelope m^-p, m cells per length scale,
-                     relative to the largest value so far, of a turn to its geometric mean with the
-                     natural size: of a tilt the approach over the contact radius
+                     relative to the largest value so far, of a turn to its natural size: of a tilt
+                     the approach over the contact radius
     weight           w, how much the envelope counts beside the difference
     factor           C
     path_factor      P
@@ -82,7 +82,7 @@ SHIFT = Rule(2, 0.06, 2, 1.35, 3.0, 0.3, Lengthscale.SLIP)
 TWIST = Rule(2, 0.24, 9, 1.3, 3.0, 0.3, Lengthscale.SLIP)
 # The scatter of a ring w wide, 1/w², averages over the m cells around it.
 ENERGY = Rule(2.5, 0.3, 4, 1.65, 2.0, 0.0, Lengthscale.LOST, charge=0.1)
-TILT = Rule(2.5, 0.4, 1, 1.0, path_factor=1.5, lengthscale=Lengthscale.TURN)
+TILT = Rule(2.25, 0.12, 9, 0.9, path_factor=1.5, lengthscale=Lengthscale.TURN)
 # Slip is largest at the edge of the contact, where a cell may lie within or beyond.
 AMPLITUDE = Rule(1, 0.5, 8, 1.38, lengthscale=Lengthscale.ANNULUS)
 RUIZ_F1 = Rule(1.5, 0.5, 4, 1.75, lengthscale=Lengthscale.ANNULUS)

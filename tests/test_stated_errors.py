@@ -179,6 +179,23 @@ def test_the_error_below_a_rim_covers_what_is_wrong(
         assert abs(getattr(end, energy) - work) <= size(errors[energy]), energy
 
 
+def test_a_tilt_is_sure_where_the_load_is_on_a_mirror_of_the_cells() -> None:
+    """x²/2R - φx = (x - Rφ)²/2R - Rφ²/2: the contact is a mirror image of itself about the load."""
+    cells = grid(32)
+    beside, along = 3.25 * cells.spacing[1], 3.5 * cells.spacing[0]
+    pushed = scene(PRESS | {"moment": (LOAD * beside, LOAD * along)})
+    result = solve(pushed, cells, 1e-10)
+    (errors,), (end,) = stated_errors(result).steps, result.steps
+    assert end.tilt is not None
+    (off_mirror, on_mirror), stated = (
+        end.tilt - np.array([beside, along]) / RADIUS,
+        errors["tilt"].error,
+    )
+    assert isinstance(stated, tuple)
+    assert abs(off_mirror) <= stated[0]
+    assert abs(on_mirror) <= stated[1] < stated[0] / 2
+
+
 def test_what_the_load_prescribes_is_exact() -> None:
     by_force, by_shift = errors_of(
         scene({"normal_force": 1e3}, {"tangential_shift": (1e-7, 0.0)}), grid(16)
