@@ -261,6 +261,14 @@ def test_plan_says_mesh_and_factorisations(place: Path, capsys: pytest.CaptureFi
         assert word in shown
 
 
+def test_plan_says_how_long_many_factorisations_take(capsys: pytest.CaptureFixture[str]) -> None:
+    """Of thirteen harmonics before minutes go by without a word, but not of one."""
+    scenes = Path(__file__).resolve().parents[1] / "scenes"
+    for name, said in (("hertz", False), ("coated_fretting", True)):
+        assert slipstick("plan", scenes / f"{name}.toml", "--solver", "fem") == 0
+        assert ("s for them" in capsys.readouterr().out) is said
+
+
 def test_stress_of_a_run_keeps_both_sides_of_an_interface(place: Path) -> None:
     assert slipstick("stress", place / "fem-complementarity", "-o", place / "stress") == 0
     record = json.loads((place / "stress/stress.json").read_text(encoding="utf-8"))
