@@ -6,6 +6,7 @@ import pickle
 from collections.abc import Callable, Iterator
 from contextlib import nullcontext
 from dataclasses import dataclass, field, fields, is_dataclass
+from itertools import pairwise
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
@@ -128,7 +129,7 @@ def differences(one: Any, other: Any, where: str = "") -> Iterator[str]:
         for member in fields(one):
             name = member.name
             yield from differences(getattr(one, name), getattr(other, name), f"{where}.{name}")
-    elif isinstance(one, tuple):
+    elif isinstance(one, tuple | list):
         for number, pair in enumerate(zip(one, other, strict=True)):
             yield from differences(*pair, f"{where}[{number}]")
     elif repr(one) != repr(other):
@@ -146,16 +147,20 @@ def _every_increment(monkeypatch: pytest.MonkeyPatch) -> None:
 
 @pytest.mark.parametrize("name", SOLVES)
 def test_going_on_after_any_increment_gives_the_same_bits(name: str, tmp_path: Path) -> None:
+    """The next increment from each, and so all; from the first to the end."""
     solve, every = SOLVES[name], All()
     whole = solve(every)
     assert len(every.kept) == len(whole.increments)
-    for standing in every.kept:
-        path = tmp_path / "standing"
+    path = tmp_path / "standing"
+    for standing, following in pairwise(every.kept):
         pack(standing, "this solve", path)
         resumed = All(unpacked(path, "this solve"))
-        again = solve(resumed)
-        assert len(resumed.kept) == len(whole.increments) - standing.mark.done
-        assert [*differences(whole.increments, again.increments)] == []
+        with pytest.raises(Killed):
+            solve(Ending(resumed, 1))
+        assert [*differences([following], resumed.kept)] == []
+    resumed = All(every.kept[0])
+    assert [*differences(whole.increments, solve(resumed).increments)] == []
+    assert len(resumed.kept) == len(whole.increments) - 1
 
 
 @pytest.mark.parametrize("name", ["similar", "similar by penalty"])
