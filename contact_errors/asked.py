@@ -7,8 +7,10 @@ from dataclasses import dataclass
 from typing import Any
 
 from contact_errors.ladder import SPACE, SPARE, Rung
-from contact_errors.values import scale
+from contact_errors.values import OF_CYCLES, scale
+from contact_scene import Scene
 from contact_scene.accuracy import LARGEST_TENSION, AccuracyRequest
+from contact_scene.cycles import load_cycles
 from contact_scene.solver_errors import AccuracyOutOfReach
 from contact_scene.stated_error import ErrorStatus
 
@@ -21,6 +23,14 @@ NONE_STATED = {
     "ruiz_f2": "the scene has none without --surface-stress",
     LARGEST_TENSION: "the body is rigid, or the solver states no errors of stress",
 }
+NO_CYCLE = "no load cycle closes in the scene"
+NO_FRICTION = "the scene has no friction"
+OF_FRICTION = frozenset(
+    {
+        *("tangential_force", "tangential_shift", "torque", "twist"),
+        *("stick_area", "stick_radius", "dissipated_energy", *OF_CYCLES),
+    }
+)
 PRESCRIBED = "the load prescribes it"
 INFINITE = "it is infinite in the exact answer"
 
@@ -35,6 +45,21 @@ class Asked:
 
     shares: Mapping[str, float]
     left_out: Mapping[str, str]
+
+
+def refuse_absent(request: AccuracyRequest, scene: Scene) -> None:
+    """Raise AccuracyOutOfReach for a quantity that is named and that, to judge by the scene alone,
+    no result will have."""
+    absent = dict.fromkeys(OF_FRICTION, NO_FRICTION) if scene.friction is None else {}
+    if not load_cycles(scene.load_path()):
+        absent |= dict.fromkeys(OF_CYCLES, NO_CYCLE)
+    if not any(step.torque is not None or step.twist for step in scene.loading):
+        absent |= dict.fromkeys(("torque", "twist"), "no step of the scene twists")
+    if not any(step.moment is not None or any(step.tilt or ()) for step in scene.loading):
+        absent |= dict.fromkeys(("moment", "tilt"), "no step of the scene tilts")
+    for name in request.named:
+        if name in absent:
+            raise AccuracyOutOfReach(f"no accuracy of {name} can be had: {absent[name]}")
 
 
 def asked_of(request: AccuracyRequest, rung: Rung[Any]) -> Asked:

@@ -8,7 +8,7 @@ from typing import Generic, TypeVar
 
 import numpy as np
 
-from contact_errors.asked import Asked, asked_of, refuse_unreachable
+from contact_errors.asked import Asked, asked_of, refuse_absent, refuse_unreachable
 from contact_errors.ladder import FIRST_GROWTH, LATER_GROWTH, Ladder, Rung, growth
 from contact_scene.accuracy import AccuracyRequest
 from contact_scene.accuracy_reached import AccuracyReached
@@ -92,6 +92,7 @@ def climb(
     best: Rung[F] | None = None
     while way is None or not met:
         if way is None:
+            refuse_absent(request, ladder.scene)
             rung = ladder.climbed(ladder.first())
             asked = asked_of(request, rung)
             refuse_unreachable(asked, rung, ladder.most_growth(rung.fineness))

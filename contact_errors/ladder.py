@@ -14,6 +14,7 @@ from contact_errors.estimate import largest_so_far
 from contact_errors.rules import Rule
 from contact_errors.tension import Tension
 from contact_errors.values import Values
+from contact_scene import Scene
 from contact_scene.accuracy import LARGEST_TENSION
 from contact_scene.accuracy_reached import AccuracySettings
 from contact_scene.stated_error import Amount, ErrorStatus, Part, StatedError, StatedErrors
@@ -26,8 +27,11 @@ AIM = 0.8
 SPARE = 1.15
 # Of the request, at most so much for the increments.
 HALF = 0.5
-# Cells and increments of the next rung over those of this: an error far away says little.
+# Cells of the next rung over those of this: an error far away says little.
 FIRST_GROWTH, LATER_GROWTH, LEAST_GROWTH = 8.0, 3.0, 1.15
+# Increments over those of this: they cost in proportion, so that steps on the way are dearer than
+# a few too many.
+GROWTH_OF_INCREMENTS = 8.0
 # Where a number has not converged nothing follows from its error.
 UNCONVERGED_GROWTH = 2.0
 SPACE: tuple[Part, ...] = ("cells", "elements")
@@ -115,8 +119,9 @@ class Growth:
     less: Mapping[Part, float] = field(default_factory=dict)
 
     def bounded(self, most: float) -> Growth:
-        """At most so much finer, and a little finer at least."""
-        cells, increments = min(self.cells, most), min(self.increments, most)
+        """At most so many times the cells along a side, and a little finer at least."""
+        cells = min(self.cells, most)
+        increments = min(self.increments, GROWTH_OF_INCREMENTS)
         if max(cells, increments) < LEAST_GROWTH and not self.less:
             cells = LEAST_GROWTH
         return Growth(cells, increments, self.less)
@@ -132,6 +137,9 @@ class Ladder(Protocol[F]):
 
     F  how fine: what the solver takes
     """
+
+    @property
+    def scene(self) -> Scene: ...
 
     def first(self) -> F:
         """The coarsest that says anything."""

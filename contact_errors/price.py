@@ -10,8 +10,16 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import Generic, TypeVar
 
-from contact_errors.asked import asked_of, refuse_unreachable
-from contact_errors.ladder import FIRST_GROWTH, LATER_GROWTH, Growth, Ladder, Rung, growth
+from contact_errors.asked import asked_of, refuse_absent, refuse_unreachable
+from contact_errors.ladder import (
+    FIRST_GROWTH,
+    GROWTH_OF_INCREMENTS,
+    LATER_GROWTH,
+    Growth,
+    Ladder,
+    Rung,
+    growth,
+)
 from contact_scene.accuracy import AccuracyRequest
 from contact_scene.accuracy_reached import AccuracySettings
 
@@ -57,6 +65,7 @@ class Prices(Generic[F]):
     def of_request(self, request: AccuracyRequest) -> Price[F]:
         """What a request costs; raises AccuracyOutOfReach."""
         ladder, first = self.ladder, self.first
+        refuse_absent(request, ladder.scene)
         asked = asked_of(request, first)
         refuse_unreachable(asked, first, ladder.most_growth(first.fineness))
         seconds, rounds, fineness = first.processor_seconds, 1, first.fineness
@@ -80,12 +89,15 @@ def _rungs(by_first: Growth, needed: Growth) -> Iterator[Growth]:
     that is too far, others as far as they have to, and none far above the one before."""
     reached = by_first.bounded(FIRST_GROWTH)
     yield reached
-    if max(by_first.cells, by_first.increments) <= FIRST_GROWTH:
+    if by_first.cells <= FIRST_GROWTH and by_first.increments <= GROWTH_OF_INCREMENTS:
         return
     while reached.cells < needed.cells or reached.increments < needed.increments:
         reached = Growth(
             max(reached.cells, min(needed.cells, LATER_GROWTH * reached.cells)),
-            max(reached.increments, min(needed.increments, LATER_GROWTH * reached.increments)),
+            max(
+                reached.increments,
+                min(needed.increments, GROWTH_OF_INCREMENTS * reached.increments),
+            ),
             needed.less,
         )
         yield reached

@@ -221,9 +221,25 @@ def test_what_is_infinite_is_left_out_and_refused_by_name(indenter) -> None:
         climbed(of, "peak_pressure 10%")
 
 
-def test_what_the_scene_has_not_is_refused_by_name() -> None:
-    with pytest.raises(AccuracyOutOfReach, match=r"twist.*none"):
-        climbed(scene(PRESS), "twist 1%")
+@pytest.mark.parametrize(
+    ("of", "asked", "why"),
+    [
+        (scene(PRESS), "twist 1%", "no step of the scene twists"),
+        (scene(PRESS), "approach 1%, torque 1%", "no step of the scene twists"),
+        (scene(PRESS), "tilt 1%", "no step of the scene tilts"),
+        (scene(PRESS, push(0.6)), "energy_per_cycle 1%", "no load cycle closes"),
+        (scene(PRESS, friction=None), "stick_radius 1%", "no friction"),
+    ],
+)
+def test_what_a_scene_cannot_have_is_refused_before_it_is_solved(
+    monkeypatch: pytest.MonkeyPatch, of: Scene, asked: str, why: str
+) -> None:
+    monkeypatch.setattr(CellLadder, "climbed", lambda *_: pytest.fail("it was solved"))
+    with pytest.raises(AccuracyOutOfReach, match=why):
+        climbed(of, asked)
+
+
+def test_what_a_result_has_not_is_refused_by_name() -> None:
     with pytest.raises(AccuracyOutOfReach, match=r"ruiz_f2.*--surface-stress"):
         climbed(scene(PRESS, push(0.6), push(-0.6), push(0.6)), "ruiz_f2 1%")
 
@@ -336,6 +352,15 @@ def test_whoever_does_not_meet_a_request_gets_finer() -> None:
     assert not rung.meets({"approach": 0.01})
     assert growth(rung, {"approach": 0.01}).bounded(3.0).cells > 1
     assert Growth(1.0, 1.0).bounded(3.0).cells > 1
+
+
+def test_increments_of_a_known_error_take_one_round_on_the_way_to_fifty_times_as_many() -> None:
+    """Each of them costs as much as any other: what is solved on the way is paid on top."""
+    by, rounds, times = 50.0, 0, 1.0
+    while times < by:
+        times *= Growth(1.0, by / times).bounded(3.0).increments
+        rounds += 1
+    assert (rounds, times) == (2, by)
 
 
 @given(st.floats(1, 16000))

@@ -180,6 +180,26 @@ def test_a_summary_is_not_paired_with_the_fields_of_another_run(
         slipstick.load(tmp_path / "one")
 
 
+@pytest.mark.parametrize(
+    ("changed", "complaint"),
+    [
+        ({"loading": SCENE.loading[:2]}, r"there are \d+ and \d+ increments"),
+        ({"friction": slipstick.CoulombFriction(coefficient=0.2)}, "tangential_shift differs"),
+    ],
+)
+def test_tables_of_another_run_are_not_exported(
+    changed: dict[str, Any], complaint: str, tmp_path: Path
+) -> None:
+    for name, scene in (("one", SCENE.model_copy(update=changed)), ("other", SCENE)):
+        result = slipstick.solve(scene, discretisation=COARSE["semi-analytical"])
+        slipstick.save(result, tmp_path / name, figures=False)
+    assert slipstick.load(tmp_path / "one").tables["increments"]
+    (tmp_path / "other" / "increments.csv").replace(tmp_path / "one" / "increments.csv")
+    tables = slipstick.load(tmp_path / "one").tables
+    with pytest.raises(ValueError, match=rf"are of different runs: {complaint}"):
+        dict(tables)
+
+
 @pytest.mark.parametrize("mark", ["unit", "description"])
 def test_values_without_unit_or_meaning_are_refused_by_name(mark: str, tmp_path: Path) -> None:
     run = stored(tmp_path)

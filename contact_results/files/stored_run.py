@@ -21,10 +21,10 @@ from contact_results.directory.file_names import (
     STRESS,
     SUMMARY,
 )
-from contact_results.files.stored_table import StoredTables, StoredValues
+from contact_results.files.stored_table import StoredTable, StoredTables, StoredValues
 from contact_results.files.stored_values import MISREAD, text, values
 from contact_scene import Scene
-from contact_scene.increment import SCALARS
+from contact_scene.increment import SCALARS, components
 from contact_scene.reported import Kind
 from contact_scene.summary import RunSummary, load_summary
 
@@ -64,6 +64,26 @@ class StoredGroup(Mapping[str, StoredValues]):
 
     def __len__(self) -> int:
         return len(self._names)
+
+
+class TablesOfRun(StoredTables):
+    """Tables beside the fields of a run; ValueError for increments of another, which have other
+    numbers."""
+
+    def __init__(self, directory: Path, increments: StoredGroup) -> None:
+        super().__init__(directory, (PROFILES, INCREMENTS, CYCLES), COLUMNS)
+        self._directory, self._increments = directory, increments
+
+    def __getitem__(self, name: str) -> StoredTable:
+        table = super().__getitem__(name)
+        if name == Path(INCREMENTS).stem:
+            strange = next(_other_numbers(table, self._increments), None)
+            if strange:
+                raise ValueError(
+                    f"{self._directory / INCREMENTS} and {self._directory / FIELDS} are of "
+                    f"different runs: {strange}; run again"
+                )
+        return table
 
 
 @dataclass(frozen=True)
@@ -121,8 +141,8 @@ def load(directory: str | PathLike[str]) -> StoredRun:
         raise ValueError(f"{fields} is not the {FIELDS} of a run: {error}") from None
     if strange:
         raise ValueError(f"{summary} and {fields} are of different runs: {strange}; run again")
-    tables = StoredTables(Path(directory), (PROFILES, INCREMENTS, CYCLES), COLUMNS)
     places, increments, cycle = groups
+    tables = TablesOfRun(Path(directory), increments)
     return StoredRun(record, scene, places, increments, cycle, tables, (float(x), float(y)))
 
 
@@ -148,3 +168,17 @@ def _strange(summary: RunSummary, scene: Scene, file: h5py.File) -> Iterator[str
         known = np.array([nothing if value is None else value for value in told])
         if not np.array_equal(known, stored, equal_nan=True):
             yield f"{name} differs at the end of loading steps"
+
+
+def _other_numbers(table: StoredTable, increments: StoredGroup) -> Iterator[str]:
+    """What a table and fields say differently: numbers are in both to the last bit."""
+    for name in ("step", *SCALARS):
+        if name not in increments:
+            continue
+        parts = ("step",) if name == "step" else components(name)
+        told = np.transpose([table[part].array for part in parts if part in table])
+        stored = increments[name].array.reshape(len(increments[name].array), -1)
+        if told.shape != stored.shape:
+            yield f"there are {len(told)} and {len(stored)} increments"
+        elif not np.array_equal(told.astype(float), stored.astype(float), equal_nan=True):
+            yield f"{name} differs"
