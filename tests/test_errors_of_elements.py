@@ -136,14 +136,28 @@ def test_the_error_of_the_radius_below_a_film_counts_its_elements(
         assert errors["approach"].status is ErrorStatus.ESTIMATED
 
 
-def test_parts_say_what_they_are_of() -> None:
-    asked = Scene(
-        indenter=RIGID_BALL,
-        body=COATED,
-        friction={"coefficient": 0.1},
-        loading=[{**PRESS, "increments": 4}, {**push(0.5), "increments": 4}],
+PUSHED_ON_A_COATING = Scene(
+    indenter=RIGID_BALL,
+    body=COATED,
+    friction={"coefficient": 0.1},
+    loading=[{**PRESS, "increments": 4}, {**push(0.5), "increments": 4}],
+)
+
+
+def test_errors_by_harmonics_hold_what_four_times_as_many_change() -> None:
+    few, many = (
+        solve(PUSHED_ON_A_COATING, elements(8, harmonics=n), Method.PENALTY) for n in (2, 8)
     )
-    result = solve(asked, elements(8, harmonics=4), Method.PENALTY)
+    errors = stated_errors(few).steps[1]
+    one, other = few.steps[1], many.steps[1]
+    moved = abs(shift_along_x(one) - shift_along_x(other))
+    assert 1e-3 * shift_along_x(other) < moved <= errors["tangential_shift"].parts["harmonics"][0]
+    grown = abs(one.stick_radius - other.stick_radius)
+    assert grown <= errors["stick_radius"].parts["harmonics"]
+
+
+def test_parts_say_what_they_are_of() -> None:
+    result = solve(PUSHED_ON_A_COATING, elements(8, harmonics=4), Method.PENALTY)
     stated = stated_errors(result)
     made = [companion.differs for companion in stated.companions]
     assert made == [

@@ -59,6 +59,17 @@ def indentation() -> tuple[Scene, dict[str, float]]:
     return COATED.problem(COATED.increments).scene, exact
 
 
+MOTIONS = ("approach", "tangential_shift")
+
+
+@pytest.mark.parametrize(
+    "known", [coated, *(pytest.param(known, marks=NIGHTLY) for known in (loop, indentation))]
+)
+def test_motions_are_met_to_a_ten_thousandth(known) -> None:
+    of, exact = known()
+    assert_met(of, {name: value for name, value in exact.items() if name in MOTIONS}, "0.01%")
+
+
 @pytest.mark.parametrize(
     ("known", "share"),
     [
@@ -69,7 +80,10 @@ def indentation() -> tuple[Scene, dict[str, float]]:
     ids=lambda given: getattr(given, "__name__", given),
 )
 def test_a_request_is_met_in_truth(known, share: str) -> None:
-    of, exact = known()
+    assert_met(*known(), share)
+
+
+def assert_met(of: Scene, exact: dict[str, float], share: str) -> None:
     asked = ", ".join(f"{name} {share}" for name in exact)
     request = read_accuracy(asked, "--accuracy")
     made = climb(CellLadder(of, SurfaceDiscretisation()), request)

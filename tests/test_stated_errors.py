@@ -51,8 +51,9 @@ from contact_scene import (
     SurfaceDiscretisation,
 )
 from contact_scene.stated_error import ErrorStatus, StatedError
-from semi_analytical import SurfaceGrid, plan, solve, solve_discretised
+from semi_analytical import Result, SurfaceGrid, plan, solve, solve_discretised
 from verification.closed_forms.cattaneo_mindlin import PartialSlip
+from verification.closed_forms.coated_indentation import LayeredIndentation
 from verification.closed_forms.coated_indentation import paraboloid as pressed_coating
 from verification.closed_forms.cone import ConeContact
 from verification.closed_forms.moduli import contact_modulus, tangential_modulus
@@ -464,11 +465,8 @@ def test_errors_with_edges_inside_the_cells_cover_what_is_wrong(cells: int) -> N
         assert size(of_edged["contact_radius"]) < 0.05 * size(of_plain["contact_radius"])
 
 
-@pytest.mark.parametrize(("cells", "stiffer"), [(37, 40.0), (56, 30.0)])
-def test_the_error_of_a_peak_at_the_rim_of_a_stiff_film_covers_what_is_wrong(
-    cells: int, stiffer: float
-) -> None:
-    """The film bends and stands on the edge of its contact, on a ring as wide as it is thick."""
+def below_a_stiff_film(cells: int, stiffer: float) -> tuple[Result, LayeredIndentation]:
+    """A contact twelve times as wide as the film is thick, and what is known of it."""
     base, thickness = steel(), 0.083 * A
     matter = steel(young_modulus=stiffer * base.young_modulus)
     body = Body(material=base, layers=(Layer(thickness=thickness, material=matter),))
@@ -476,12 +474,28 @@ def test_the_error_of_a_peak_at_the_rim_of_a_stiff_film_covers_what_is_wrong(
     pressed = Scene(
         indenter=paraboloid(RIGID), body=body, loading=({"normal_force": contact.load},)
     )
-    result = solve(pressed, grid(cells, contacts=1.2), 1e-8)
+    return solve(pressed, grid(cells, contacts=1.2), 1e-8), contact
+
+
+@pytest.mark.parametrize(("cells", "stiffer"), [(37, 40.0), (56, 30.0)])
+def test_the_error_of_a_peak_at_the_rim_of_a_stiff_film_covers_what_is_wrong(
+    cells: int, stiffer: float
+) -> None:
+    """The film bends and stands on the edge of its contact, on a ring as wide as it is thick."""
+    result, contact = below_a_stiff_film(cells, stiffer)
     (errors,) = stated_errors(result).steps
     r = np.linspace(0, A, 2001)
     peak = float(np.max(contact.pressure(r)))
     wrong = abs(result.steps[0].peak_pressure - peak)
     assert 0.02 * peak < wrong <= size(errors["peak_pressure"])
+
+
+def test_the_error_of_the_radius_below_a_stiff_film_covers_what_is_wrong() -> None:
+    """Three cells over its thickness leave more wrong than forty over the radius would."""
+    result, _ = below_a_stiff_film(100, 30.0)
+    (errors,) = stated_errors(result).steps
+    wrong = abs(result.steps[0].contact_radius - A)
+    assert 0.01 * A < wrong <= size(errors["contact_radius"])
 
 
 def test_increments_tell_of_tractions_whose_peak_is_infinite() -> None:
