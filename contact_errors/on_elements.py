@@ -230,8 +230,8 @@ class _Elements:
     @property
     def _layer(self) -> float:
         """Elements over the thickness of the thinnest layer; infinite without one."""
-        layers = (*self.result.scene.body.layers, *self.result.scene.indenter.layers)
-        return self._per_length * min((layer.thickness for layer in layers), default=np.inf)
+        scene = self.result.scene
+        return self._per_length * min(scene.body.thinnest, scene.indenter.thinnest)
 
     @property
     def _per_length(self) -> float:

@@ -32,7 +32,7 @@ class Resolution:
              of however small a contact; 0 without contact
     stick    the same of the stick zone, 0 where nothing sticks; None without shear
     annulus  width of what slips around it, `contact` − `stick`; None where nothing slips
-    layer    thickness of the thinnest layer
+    layer    thickness of the thinnest layer, of those that hardly differ together
     wave     of a height map, the mean wavelength of the heights about the contact
     """
 
@@ -117,9 +117,8 @@ def _semi_axis(marked: Mask, load: Field, area: float) -> float:
 
 
 def _layer(result: Result) -> float | None:
-    layers = (*result.scene.body.layers, *result.scene.indenter.layers)
-    cell = max(result.grid.spacing)
-    return min((layer.thickness / cell for layer in layers), default=None)
+    thinnest = min(result.scene.body.thinnest, result.scene.indenter.thinnest)
+    return thinnest / max(result.grid.spacing) if np.isfinite(thinnest) else None
 
 
 def _wave(result: Result, touched: Mask) -> float | None:

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from contact_scenes import PRESS, RADIUS, A, bump, grid, push, scene, steel
+from contact_scenes import PRESS, RADIUS, YOUNG, A, bump, grid, push, scene, steel
 
 from contact_scene import Body, Ellipsoid, HeightMap, Layer, Paraboloid
 from semi_analytical import SurfaceGrid, solve
@@ -71,8 +71,22 @@ def test_the_stick_zone_shrinks_as_cattaneo_says_and_slip_takes_the_rest():
     assert (free.stick, free.annulus) == (None, None)
 
 
+def test_layers_that_hardly_differ_are_resolved_as_one():
+    """Of a coating cut in 50, all; of a gradient what varies by a tenth; of the base none."""
+
+    def graded(last: float) -> float:
+        moduli = np.linspace(2, last, 50) * YOUNG
+        layers = [Layer(thickness=A / 50, material=steel(young_modulus=E)) for E in moduli]
+        return Body(material=steel(), layers=layers).thinnest
+
+    assert graded(2) == pytest.approx(A)
+    assert A / 20 < graded(1.2) < A / 5
+    assert Body(material=steel(), layers=[Layer(thickness=A, material=steel())]).thinnest == np.inf
+
+
 def test_the_thinnest_layer_is_counted_in_cells():
-    layers = [Layer(thickness=t * A, material=steel()) for t in (0.5, 0.25)]
+    of = {0.5: steel(young_modulus=2 * YOUNG), 0.25: steel(poisson_ratio=0.4)}
+    layers = [Layer(thickness=t * A, material=material) for t, material in of.items()]
     coated = Body(material=steel(), layers=layers)
     made = scene(PRESS, friction=None).model_copy(update={"body": coated})
     assert resolution(solve(made, grid(), TOLERANCE))[0].layer == pytest.approx(0.25 * 32 / 3)
