@@ -82,8 +82,7 @@ def _answer(
         "pressure": np.array(found["pressure"]) * p0, "shear_radial": np.array(found["shear"]) * p0
     }  # fmt: skip
     h = a / fineness.elements
-    own: dict[str, Any] = {"approach": approach * hertz.approach}
-    own["contact_radius"] = _edge(r, of["pressure"])
+    own = {"approach": approach * hertz.approach, "contact_radius": _edge(r, of["pressure"])}
     scalars: dict[Key, float] = {(q, s): own[q] for q, s in posed.asked if q in own}
     inner, outer = np.maximum(r - h / 2, 0), r + h / 2
     area = pi * (outer**2 - inner**2)

@@ -1,11 +1,7 @@
-"""Codes for homogeneous half-spaces on cells, through the drivers that `slipstick bench` asks too:
-aspher, tamaas and ContactMechanics, each in its own environment."""
+"""Codes for half-spaces on cells: aspher, tamaas, ContactMechanics, by the drivers of the bench."""
 
 from __future__ import annotations
 
-import json
-import os
-import subprocess
 from collections.abc import Callable
 from math import pi, sqrt, tan
 from pathlib import Path
@@ -13,14 +9,12 @@ from typing import Any
 
 import numpy as np
 
-from contact_results.one_thread import VARIABLES
+from verification.adapters.driven import driven
 from verification.challenge.answer import Answer, Field, Key
 from verification.challenge.door import CannotDo, Posed
 from verification.peers.environment import Peer
 
 COARSEST, TOLERANCE = 32, 1e-8
-SECONDS_ALLOWED = 240
-SOURCES = Path(__file__).parents[2]
 
 
 def answering(python: Path, peer: Peer) -> Callable[[Posed, int], Answer]:
@@ -28,16 +22,7 @@ def answering(python: Path, peer: Peer) -> Callable[[Posed, int], Answer]:
 
     def solve(posed: Posed, level: int) -> Answer:
         request, length, stress = _request(posed, COARSEST * 2**level, peer)
-        done = subprocess.run(
-            [str(python), "-m", peer.driver], input=json.dumps(request), capture_output=True,
-            text=True, check=False, timeout=SECONDS_ALLOWED,
-            env={**os.environ, **dict.fromkeys(VARIABLES, "1"), "PYTHONPATH": str(SOURCES)},
-        )  # fmt: skip
-        if done.returncode:
-            raise RuntimeError(f"{peer.module}: {done.stderr.strip().splitlines()[-1:]}")
-        found = json.loads(done.stdout)
-        if "cannot" in found:
-            raise CannotDo(found["cannot"])
+        found = driven(python, peer, request)
         return _answer(posed, request, found, length, stress)
 
     return solve
@@ -62,8 +47,7 @@ def _request(posed: Posed, cells: int, peer: Peer) -> tuple[dict[str, Any], floa
     pair = [body["material"] for body in bodies]
     modulus = 1 / sum((1 - m["poisson_ratio"] ** 2) / m["young_modulus"] for m in pair)
     length = posed.window / 3
-    force = modulus * length**2
-    shape = scene["indenter"]
+    force, shape = modulus * length**2, scene["indenter"]
     gap: dict[str, Any] = {"radius": 1.0}
     if shape["shape"] == "cone":
         gap["slope"] = tan(shape["slope_angle"])
@@ -73,13 +57,11 @@ def _request(posed: Posed, cells: int, peer: Peer) -> tuple[dict[str, Any], floa
         gap["radius"] = shape["radius"] / length
     else:
         raise CannotDo(f"no {shape['shape']}")
+    rubbed = {"tangential_forces": [t[0] / force for _, t in posed.loads[1:]]} if friction else {}
     request = {
-        "cells": cells, "window": 3.0, "modulus": 1.0, **gap,
+        "cells": cells, "window": 3.0, "modulus": 1.0, **gap, "tangential_force": 0.0, **rubbed,
         "force": posed.loads[0][0] / force, "friction": friction, "tolerance": TOLERANCE,
-        "tangential_force": 0.0,
     }  # fmt: skip
-    if friction:
-        request["tangential_forces"] = [t[0] / force for _, t in posed.loads[1:]]
     return request, length, modulus
 
 
@@ -114,5 +96,4 @@ def _answer(
         fields[quantity, step] = Field(x[contact], y[contact], traction[contact], area)
     if not found["converged"]:
         gave_up[len(posed.loads)] = "did not converge"
-    seconds = float(found["seconds"])
-    return Answer(h, scalars, fields, gave_up, unknowns=n * n, seconds=seconds)
+    return Answer(h, scalars, fields, gave_up, unknowns=n * n, seconds=float(found["seconds"]))

@@ -32,7 +32,7 @@ def answer_on_rings(posed: Posed, steps: Any, h: float) -> Answer:
     for key in posed.fields:
         traction = _traction(steps, key)
         if traction is not None:
-            fields[key] = _between(steps[key[1] - 1], traction)
+            fields[key] = between(steps[key[1] - 1], traction)
     for key, places in posed.places.items():
         traction = _traction(steps, key)
         if traction is not None:
@@ -49,7 +49,7 @@ def _traction(steps: Any, key: Key) -> Vector | None:
     return None if found is None or np.ndim(found) != 1 else found
 
 
-def _between(end: Any, traction: Vector) -> Field:
+def between(end: Any, traction: Vector) -> Field:
     """At points of Gauss between the rings, each standing for its part of the ring."""
     inside = end.radii <= 1.05 * end.contact_radius
     r0 = end.radii[:-1][inside[:-1]]

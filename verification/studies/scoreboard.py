@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from math import inf
 
-from verification.adapters import calculix, radius, section, surface
+from verification.adapters import calculix, getfem, radius, section, surface
 from verification.adapters.half_spaces import answering
 from verification.challenge.answer import Solver
 from verification.challenge.cases import challenges
@@ -28,7 +28,10 @@ OURS = {
     radius.ON_RADII.name: (radius.ON_RADII, radius.answer),
 }
 # Minutes on three levels, so not at the quick one; and on two.
-SLOW = {calculix.CALCULIX.name: (calculix.CALCULIX, calculix.answer)}
+SLOW = {
+    calculix.CALCULIX.name: (calculix.CALCULIX, calculix.answer),
+    getfem.GETFEM.name: (getfem.GETFEM, getfem.answer),
+}
 SLOW_LEVELS = 2
 LEVELS = {Level.QUICK: 3, Level.STANDARD: 4, Level.FULL: 4}
 CANNOT, LINE, GRADE = "cannot", "line", "grade"
