@@ -1,4 +1,4 @@
-"""Our own solvers answer challenges by the door of all, each what it can."""
+"""Our own solvers and other codes answer challenges by the door of all, each what it can."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from verification import Answer, CannotDo, Solver, judge
-from verification.adapters import calculix, half_spaces, radius, section, surface
+from verification.adapters import calculix, getfem, half_spaces, radius, section, surface
 from verification.challenge.cases import challenges
 from verification.challenge.door import Posed, posed
 from verification.challenge.judgement import Judgement
@@ -75,6 +75,39 @@ def test_a_code_that_is_not_installed_says_so_in_one_line(monkeypatch: pytest.Mo
     monkeypatch.setenv("PATH", "")
     with pytest.raises(CannotDo, match=r"^ccx is not installed: apt-get install calculix-ccx$"):
         judge("hertz_point", calculix.answer, 1)
+    monkeypatch.setattr(getfem, "_installed", lambda: False)
+    with pytest.raises(
+        CannotDo, match=r"^GetFEM is not installed: apt-get install python3-getfem$"
+    ):
+        judge("hertz_point", getfem.answer, 1)
+
+
+def test_getfem_has_balls_and_cones_without_friction(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Asked in units in which the body's modulus and a third of the window are one."""
+
+    def driven(python: object, peer: object, request: dict[str, Any]) -> dict[str, Any]:
+        """Hertz's contact, whatever is asked."""
+        curvature = request["curvature"]
+        if curvature == 0 or request["moduli"][0] != request["moduli"][1]:
+            raise CannotDo("asked")
+        a = np.cbrt(0.75 * request["force"] / curvature)
+        r = np.linspace(0, 1.5, 300)[::-1]
+        pressure = 2 / np.pi * curvature * np.sqrt(np.maximum(a**2 - r**2, 0))
+        return {"radii": r, "pressure": pressure, "approach": curvature * a**2, "converged": True,
+                "seconds": 1.0}  # fmt: skip
+
+    monkeypatch.setattr(getfem, "_installed", lambda: True)
+    monkeypatch.setattr(getfem, "driven", driven)
+    found = judge("hertz_point", getfem.answer, 1, "C", getfem.GETFEM)
+    assert not failed(found)
+    assert not found.omitted
+    asked = set()
+    for name in challenges():
+        try:
+            getfem.answer(posed(name), 0)
+        except CannotDo as error:
+            asked |= {name} if str(error) == "asked" else set()
+    assert asked == {"cone_contact", *(name for name in challenges() if "coated_par" in name)}
 
 
 def test_codes_for_half_spaces_are_asked_for_what_they_have_alone() -> None:

@@ -15,7 +15,13 @@ from verification.cases.hertz_point import hertz_on
 from verification.judging.case import Level
 from verification.judging.change import ChangeKind
 from verification.judging.judgement import judge
-from verification.judging.outcome import CaseOutcome, FindingRecord, Status, Verdict
+from verification.judging.outcome import (
+    FOUND_IN_A_RUN,
+    CaseOutcome,
+    FindingRecord,
+    Status,
+    Verdict,
+)
 from verification.judging.refinement import refinement
 from verification.judging.verdict_text import failure_line
 from verification.regression import baseline_files
@@ -23,6 +29,7 @@ from verification.regression.acceptance import accept, baselines_of
 from verification.regression.baseline import COUNTERS, key_of
 from verification.regression.baseline_files import BASELINES, dump_baseline, read_baselines
 from verification.regression.comparison import compared
+from verification.regression.number_change import NOISE
 from verification.regression.refusal import BaselineRefused
 from verification.report.changes import change_counts, change_rows
 from verification.report.files import RECORD, write_report
@@ -30,8 +37,9 @@ from verification.report.junit import render_junit
 from verification.report.page import render_page
 from verification.report.summary_text import MOST_LINES, render_summary
 from verification.running.calibration import in_loops
-from verification.running.report_record import Provenance, Report, count
+from verification.running.report_record import Provenance, Report, count, load_report
 
+FULL_REPORT = Path(__file__).resolve().parents[1] / "reports/full/report.json.xz"
 COMMIT = "1a2b3c4d5e6f708192a3b4c5d6e7f8091a2b3c4d"
 REASON = "first numbers | of <b>this</b> test"
 MACHINE: dict[str, str | int | None] = {"processor": "one", "python": "3.11.7"}
@@ -157,8 +165,8 @@ def test_how_far_below_its_tolerance_a_solve_ends_says_nothing(healthy: CaseOutc
         (0.2, 0.31, ChangeKind.WORSE),
         (-0.2, 0.4, ChangeKind.WORSE),
         (0.4, 0.8, ChangeKind.WORSE),
-        (0.01, 0.04, ChangeKind.DRIFT),
-        (0.01, 0.07, ChangeKind.WORSE),
+        (0.01, 0.014, ChangeKind.UNCHANGED),
+        (0.01, 0.03, ChangeKind.WORSE),
         (0.2, 1.1, ChangeKind.OUTSIDE),
     ],
 )
@@ -172,8 +180,48 @@ def test_an_error_that_grows_by_half_is_worse_though_it_is_allowed(
     )
     assert kind_of(here, then, "approach") is kind
     report = compared(report_of(here), baselines_of(report_of(then), REASON))
-    code = {ChangeKind.DRIFT: 5, ChangeKind.WORSE: 7, ChangeKind.OUTSIDE: 1}[kind]
+    code = {
+        ChangeKind.UNCHANGED: 0,
+        ChangeKind.DRIFT: 5,
+        ChangeKind.WORSE: 7,
+        ChangeKind.OUTSIDE: 1,
+    }[kind]
     assert exit_code_of(report) == code
+
+
+def test_an_error_twice_as_large_is_red_whatever_is_allowed() -> None:
+    """Of every kept verdict whose error is above the noise of machines."""
+    kept = load_report(FULL_REPORT)
+    guarded = 0
+    for case in kept.cases:
+        judged = {
+            key_of(v): v for v in case.verdicts
+            if v.error is not None and v.error > NOISE and v.tolerance_kind != "order"
+            and v.name not in FOUND_IN_A_RUN
+        }  # fmt: skip
+        twice = tuple(doubled(v) if key_of(v) in judged else v for v in case.verdicts)
+        now = compare(case.model_copy(update={"verdicts": twice}), case)
+        kinds = {key_of(v): v.regression.kind for v in now.verdicts if v.regression is not None}
+        missed = [key for key in judged if kinds[key] not in (ChangeKind.WORSE, ChangeKind.OUTSIDE)]
+        assert not missed, case.name
+        guarded += len(judged)
+    assert guarded > 300
+
+
+def doubled(verdict: Verdict) -> Verdict:
+    """As it is judged with twice the error; derived tolerances grow with it."""
+    assert verdict.value is not None
+    assert verdict.error is not None
+    allowed = (2 if verdict.tolerance_kind == "derived" else 1) * verdict.allowed
+    error = 2 * verdict.error
+    return verdict.model_copy(
+        update={
+            "value": 2 * verdict.value - verdict.reference,
+            "error": error,
+            "allowed": allowed,
+            "status": Status.PASS if error <= allowed else Status.FAIL,
+        }
+    )
 
 
 def test_other_machine_is_said_by_what_differs(healthy: CaseOutcome) -> None:

@@ -42,13 +42,13 @@ def compare(
 
     Nothing is computed. Exit code 0 if nothing changed; 5 if something did and is within what
     its reference allows (also: new, gone, not recorded yet, suspiciously better, cheaper); 7 if
-    within it an error has grown by half and by a twentieth of what is allowed, or a case takes
-    a twentieth more iterations, convolutions or factorisations, or a solver half as long again;
-    1 if something fails that did not or has moved away from its reference by more than is
-    allowed at all; 2 if the report contradicts itself, or if only chosen cases ran and others
-    are recorded: such a report never stands for a whole one, unless --chosen says that it need
-    not. What other processors and versions leave is no change: a hundredth of what is allowed,
-    a millionth of what errors are divided by.
+    within it an error has grown by half, or a case takes a twentieth more iterations, convolutions
+    or factorisations, or a solver half as long again; 1 if something fails that did not or has
+    moved away from its reference by more than is allowed at all; 2 if the report contradicts
+    itself, or if only chosen cases ran and others are recorded: such a report never stands for a
+    whole one, unless --chosen says that it need not. What other processors and versions leave
+    is no change: a millionth of what errors are divided by, and a hundredth of what is allowed
+    where the error has not grown by half.
 
     Baselines are recorded by level, and those of the report's level are taken.
     """  # fmt: skip

@@ -11,8 +11,8 @@ class ChangeKind(StrEnum):
     """How a number compares with the recorded one."""
 
     UNCHANGED = "unchanged"
-    """Also what other processors and versions leave: a hundredth of what is allowed, or a millionth
-    of what errors are divided by; of counts, a twentieth over a case."""
+    """Also what other processors and versions leave: a millionth of what errors are divided by, or
+    a hundredth of what is allowed; of counts, a twentieth over a case."""
 
     DRIFT = "drift"
     """Differs, and is still within what its reference allows, or has none."""
@@ -21,8 +21,8 @@ class ChangeKind(StrEnum):
     """The error has fallen far without a reason on record."""
 
     WORSE = "worse"
-    """The error has grown by half or more, and by a part of what is allowed that somebody must
-    answer for, though it is still allowed."""
+    """The error has grown by half or more, and by more than the noise of machines, though it is
+    still allowed."""
 
     DEARER = "dearer"
     """More iterations, convolutions or factorisations for the same, or more seconds."""

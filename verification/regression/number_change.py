@@ -22,9 +22,9 @@ NOISE_OF_TOLERANCE = 0.01
 SAME_COUNT = 0.05  # an iteration sooner or later
 TOLERANCE_KEPT = 0.01  # relative; derived tolerances follow the last digits of small differences
 
-# Worse: an error that has become this many times larger, by at least that part of the tolerance.
+# Worse: an error that has become this many times larger, by more than the noise of machines: what
+# is far inside a wide tolerance has no other guard.
 WORSE_BY = 1.5
-WORSE_BY_PART = 0.05
 # How far below its tolerance a solve ends says nothing of its answer.
 ENDS_OF_SOLVES = FOUND_IN_A_RUN
 
@@ -71,12 +71,15 @@ def _kind(verdict: Verdict, was: RecordedQuantity, difference: float, allowed: f
         return ChangeKind.BETTER
     if difference > allowed and _is_farther(verdict, was):
         return ChangeKind.OUTSIDE
+    # Before what is judged otherwise: derived tolerances grow with the error.
+    ends = verdict.name in ENDS_OF_SOLVES
+    now = verdict.model_copy(update={"reference": was.reference})
+    if not ends and _grows(was, now, WORSE_BY, NOISE * verdict.scale):
+        return ChangeKind.WORSE
     if any(_remarks(verdict, was)):
         return ChangeKind.DRIFT
-    if verdict.name in ENDS_OF_SOLVES:
+    if ends:
         return ChangeKind.UNCHANGED
-    if _grows(was, verdict, WORSE_BY, WORSE_BY_PART * allowed):
-        return ChangeKind.WORSE
     if difference <= max(NOISE * verdict.scale, NOISE_OF_TOLERANCE * allowed):
         return ChangeKind.UNCHANGED
     better = _grows(verdict, was, BETTER_BY, BETTER_BY_PART * allowed)

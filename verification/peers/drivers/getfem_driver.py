@@ -45,7 +45,8 @@ def solve(request: Request) -> Answer:
     touching = linear.basic_dof_on_region(TOUCHES)
     surface, points = gf.MeshFem("partial", linear, touching), gf.MeshIm(mesh, gf.Integ(POINTS))
     coated = parts.basic_dof_nodes()[1] > -request["thickness"]
-    nu, young = (np.where(coated, *request[name]) for name in ("poisson_ratios", "moduli"))
+    both = request["poisson_ratios"], request["moduli"]
+    nu, young = (np.where(coated, above, below) for above, below in both)
     radii = linear.basic_dof_nodes()[0]
     model = gf.Model("real")
     model.add_fem_variable("u", displaced)
@@ -88,8 +89,8 @@ def _mesh(gf: Any, thickness: float, side: float) -> Any:
         (TOUCHES, (0.0, 0.0), (REACH, 0.0)), (AXIS, (0.0, deep), (0.0, 0.0)),
         (FAR[0], (0.0, deep), (wide, deep)), (FAR[1], (wide, deep), (wide, 0.0)),
     ):  # fmt: skip
-        inside = np.add(low, -side / 9), np.add(high, side / 9)
-        mesh.set_region(region, mesh.outer_faces_in_box(*inside))
+        corners = np.add(low, -side / 9), np.add(high, side / 9)
+        mesh.set_region(region, mesh.outer_faces_in_box(*corners))
     return mesh
 
 
