@@ -29,3 +29,19 @@ def rows(path: Path) -> list[dict[str, str]]:
     """The rows of a CSV file, by column."""
     with open(path, newline="", encoding="utf-8") as file:
         return list(csv.DictReader(file))
+
+
+def signalled(name: str, *, saved: int) -> str:
+    """Text of a program that gets a signal once it has saved so many cases, however busy the
+    machine is: some are done then and some are not."""
+    return f"""
+import signal
+from verification.running.case_store import CaseStore
+kept, save = [], CaseStore.save
+def save_and_signal(*arguments):
+    save(*arguments)
+    kept.append(arguments)
+    if len(kept) == {saved}:
+        signal.raise_signal(signal.{name})
+CaseStore.save = save_and_signal
+"""

@@ -67,7 +67,7 @@ def test_slip_of_what_parts_is_lost_until_then():
         path = solve(scene(loaded, unloads, body=bulk()), grid(32), 1e-7).increments
         return path[-1].dissipated_energy - path[19].dissipated_energy
 
-    five, ten, many = (lost(n) for n in (5, 10, 80))
+    five, ten, many = (lost(n) for n in (5, 10, 40))
     assert five == pytest.approx(many, rel=0.06)
     assert ten == pytest.approx(many, rel=0.06)
 
@@ -80,6 +80,6 @@ def test_slip_and_its_energy_count_from_touch():
             scene(press(increments=increments), body=bulk(0.3)), grid(40, 1.25), 1e-7
         ).increments[-1]
 
-    few, many = pressed(10), pressed(80)
+    few, many = pressed(10), pressed(40)
     assert np.max(np.hypot(*few.slip)) == pytest.approx(np.max(np.hypot(*many.slip)), rel=0.06)
     assert few.dissipated_energy == pytest.approx(many.dissipated_energy, rel=0.03)

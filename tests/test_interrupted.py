@@ -9,6 +9,7 @@ import time
 from pathlib import Path
 
 import pytest
+from command import signalled
 
 ROOT = Path(__file__).resolve().parents[1]
 SCENE = """
@@ -28,22 +29,23 @@ increments = 50000
 [semi_analytical]
 cells = [16, 16]
 """
-# With a checkpoint after every increment.
+# With a checkpoint after every increment; "INTERRUPTED" stands for what interrupts it.
 PROGRAM = f"""
 import sys
 sys.path.insert(0, {str(ROOT)!r})
 import contact_results.directory.checkpoint as checkpoint
 checkpoint.SECONDS_BETWEEN, checkpoint.SHARE = 0.0, float("inf")
+INTERRUPTED
 from slipstick.cli import main
 main()
 """
 CASES = ("classical_forms", "cattaneo_mindlin")
 
 
-def started(directory: Path, *arguments: str) -> "subprocess.Popen[str]":
+def started(directory: Path, *arguments: str, by: str = "") -> "subprocess.Popen[str]":
     return subprocess.Popen(
-        [sys.executable, "-c", PROGRAM, *arguments], cwd=directory, text=True,
-        stdout=subprocess.DEVNULL, stderr=subprocess.PIPE,
+        [sys.executable, "-c", PROGRAM.replace("INTERRUPTED", by), *arguments],
+        cwd=directory, text=True, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE,
     )  # fmt: skip
 
 
@@ -53,10 +55,11 @@ def wait_for(directory: Path, pattern: str, count: int) -> None:
         time.sleep(0.01)
 
 
-def interrupted(process: "subprocess.Popen[str]") -> list[str]:
+def interrupted(process: "subprocess.Popen[str]", *, by_itself: bool = False) -> list[str]:
     """What it says on the terminal."""
-    process.send_signal(signal.SIGINT)
-    _, said = process.communicate(timeout=100)
+    if not by_itself:
+        process.send_signal(signal.SIGINT)
+    _, said = process.communicate(timeout=170)
     assert process.returncode == 130, said
     return said.splitlines()
 
@@ -83,9 +86,11 @@ def test_interrupted_run_says_from_where_it_goes_on(tmp_path: Path) -> None:
 @pytest.mark.parametrize("fresh", [False, True], ids=["", "fresh"])
 def test_interrupted_verification_counts_what_it_keeps(fresh: bool, tmp_path: Path) -> None:
     options = ("--fresh",) if fresh else ()
-    process = started(tmp_path, "verify", *CASES, "-o", "out", "--workers", "1", *options)
-    wait_for(tmp_path, "out/cases/[a-z]*.json", 1)
+    process = started(
+        tmp_path, "verify", *CASES, "-o", "out", "--workers", "1", *options,
+        by=signalled("SIGINT", saved=1),
+    )  # fmt: skip
     again = "the same command without --fresh" if fresh else "the same command"
-    last = interrupted(process)[-1]
+    last = interrupted(process, by_itself=True)[-1]
     assert last == f"interrupted; 1 of 2 cases are kept in out/cases; {again} computes the others"
     assert os.listdir(tmp_path / "out") == ["cases"]

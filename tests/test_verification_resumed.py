@@ -13,7 +13,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from command import outcome
+from command import outcome, signalled
 
 from verification.cases.catalogue import choose
 from verification.cases.judged_case import lost
@@ -28,18 +28,6 @@ PROGRAM = f"""
 import sys
 sys.path.insert(0, {str(ROOT)!r})
 from slipstick.cli import main
-"""
-# However busy the machine is, some cases are done then and some are not.
-KILLED_AFTER_TWO = """
-import os, signal
-from verification.running.case_store import CaseStore
-saved, save = [], CaseStore.save
-def save_and_die(*arguments):
-    save(*arguments)
-    saved.append(arguments)
-    if len(saved) == 2:
-        os.kill(os.getpid(), signal.SIGKILL)
-CaseStore.save = save_and_die
 """
 
 
@@ -90,7 +78,7 @@ def uninterrupted(tmp_path_factory: pytest.TempPathFactory) -> Path:
 def test_killed_verification_goes_on_where_it_stopped(uninterrupted: Path, tmp_path: Path) -> None:
     for name in FILES:  # an earlier report, which must not pass for that of the killed one
         shutil.copy(uninterrupted / name, tmp_path)
-    ended(started(tmp_path, "--workers", "1", dying=KILLED_AFTER_TWO))
+    ended(started(tmp_path, "--workers", "1", dying=signalled("SIGKILL", saved=2)))
     kept = records(tmp_path)
     assert len(kept) == 2
     assert not any((tmp_path / name).exists() for name in FILES)
