@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from contact_results.directory.file_names import STRESS
+from contact_results.directory.run_directory import files_at_once
 from contact_results.files import surface_file
 from contact_results.files.csv_file import write_meanings
 from contact_results.files.surface_file import write_surface
@@ -48,18 +49,29 @@ def write_stress(
     errors: Sequence[StatedError] | None = None,
     accuracy: AccuracyReached | None = None,
 ) -> None:
-    """Write tables, their meanings, meshes, figures and summary of the `body` or the `indenter`.
+    """Write tables, their meanings, meshes, figures and summary of the `body` or the `indenter`,
+    all or none.
 
     errors    of what was found; None where they were left out
     accuracy  that was asked for and reached; None where none was asked for
     """
+    with files_at_once(directory, STRESS, (VOLUME,)) as staging:
+        _write_all(state, which, field, found, staging, with_figures, errors, accuracy)
+
+
+def _write_all(
+    state: LoadedBodies,
+    which: str,
+    field: StressField,
+    found: Sequence[Extreme],
+    directory: Path,
+    with_figures: bool,
+    errors: Sequence[StatedError] | None,
+    accuracy: AccuracyReached | None,
+) -> None:
     of_indenter = which == "indenter"
     body = state.indenter if of_indenter else state.body
     convention = OF_THE_INDENTER if of_indenter else CONVENTION
-    # Last to come and first to go: a directory with a summary is complete, and all its files are
-    # of one stress.
-    for name in (STRESS, VOLUME):
-        (directory / name).unlink(missing_ok=True)
     write_maxima(found, errors, directory)
     write_axis(field, body, directory)
     write_interfaces(field, body, directory)

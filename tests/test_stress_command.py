@@ -1,6 +1,9 @@
 """`slipstick stress` from end to end: from a scene, from a run, and what it refuses."""
 
+import errno
 import json
+import os
+import shutil
 import subprocess
 import sys
 from pathlib import Path
@@ -9,6 +12,7 @@ import numpy as np
 import pytest
 from command import outcome, rows
 
+from contact_results import stress_files
 from contact_results.files.mesh_file import read_mesh
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -57,6 +61,31 @@ def place(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 def test_every_file_is_written(place: Path) -> None:
     assert {path.name for path in (place / "out").iterdir()} == FILES
+
+
+@pytest.mark.parametrize("before", [False, True], ids=["new", "over another"])
+def test_a_full_disk_leaves_what_was_there(
+    place: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, before: bool
+) -> None:
+    """The tables fit, the tractions do not."""
+
+    def full(surface: object, fields: object, path: Path, *_: object) -> None:
+        path.write_bytes(b"begun")
+        raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+
+    monkeypatch.setattr(stress_files, "write_surface", full)
+    out = tmp_path / "out"
+    if before:
+        shutil.copytree(place / "out", out)
+    asked = ("stress", place / "run", "-o", out, "--step", "1", "--no-error", "--no-figures")
+    ended = outcome(*asked, cwd=ROOT)
+    assert ended.returncode == 4
+    assert f"{out / 'stress_surface.vtu'}: No space left" in ended.stderr
+    assert os.listdir(tmp_path) == (["out"] if before else [])
+    if before:
+        assert set(os.listdir(out)) == FILES
+        for name in FILES:
+            assert (out / name).read_bytes() == (place / "out" / name).read_bytes()
 
 
 def test_maxima_name_both_sides_of_the_interface(place: Path) -> None:

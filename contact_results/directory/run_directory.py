@@ -11,7 +11,7 @@ import json
 import os
 import secrets
 import shutil
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 
@@ -45,9 +45,28 @@ def run_directory(target: Path, *, overwrite: bool = False) -> Iterator[Path]:
         ):
             yield staging
             with stop_signals_held():
-                _publish(staging, target)
+                _publish(staging, target, SUMMARY, RUN_FILES)
     finally:
         remove_created()
+
+
+@contextmanager
+def files_at_once(target: Path, summary: str, earlier: Sequence[str]) -> Iterator[Path]:
+    """Give an empty directory to write into; when the block ends without error its files go into
+    `target` over those of their names, which stay as they were if it does not.
+
+    summary  the first of the old ones to go, the last of the new ones to come
+    earlier  what goes even where nothing new has its name
+    """
+    target = Path(os.path.realpath(target))
+    created = _create_parents(target)
+    try:
+        with _staging(target) as staging:
+            yield staging
+            with stop_signals_held():
+                _publish(staging, target, summary, earlier)
+    finally:
+        _remove_empty(created)
 
 
 @contextmanager
@@ -153,7 +172,7 @@ def _remove_abandoned(place: Path, prefix: str) -> None:
             release(lock)
 
 
-def _publish(staging: Path, target: Path) -> None:
+def _publish(staging: Path, target: Path, summary: str, earlier: Sequence[str]) -> None:
     for path in staging.iterdir():
         _flush(path)
     _flush(staging)
@@ -165,21 +184,20 @@ def _publish(staging: Path, target: Path) -> None:
         except OSError as error:
             if error.errno not in (errno.ENOTEMPTY, errno.EEXIST):
                 raise  # else another run into the same directory was faster
-    _replace_files(staging, target)
+    _replace_files(staging, target, summary, earlier)
 
 
-def _replace_files(staging: Path, target: Path) -> None:
-    """Replace the files of an earlier run, with the new summary as the sign of completeness."""
+def _replace_files(staging: Path, target: Path, summary: str, earlier: Sequence[str]) -> None:
+    """Replace earlier files, with the new summary as the sign of completeness."""
     new = {path.name for path in staging.iterdir()}
-    earlier_run = _is_earlier_run(target)
+    ours = summary != SUMMARY or _is_earlier_run(target)
     lock = acquire(target, wait=True)
     try:
-        if SUMMARY in new:
-            (target / SUMMARY).unlink(missing_ok=True)
-        if earlier_run:
-            for name in set(RUN_FILES) - new:
-                (target / name).unlink(missing_ok=True)
-        for name in sorted(new, key=lambda name: (name == SUMMARY, name != TIMING, name)):
+        if summary in new:
+            (target / summary).unlink(missing_ok=True)
+        for name in set(earlier) - new if ours else ():
+            (target / name).unlink(missing_ok=True)
+        for name in sorted(new, key=lambda name: (name == summary, name != TIMING, name)):
             os.replace(staging / name, target / name)
         _flush(target)
     finally:
