@@ -43,12 +43,14 @@ class Coupling:
     bodies   as pressure alone feels them
     stacks   of the lower body and the indenter, each with its sign in what couples
     direct   Σ (1-ν)/G of the outermost materials [length²/force]
+    across   Σ 1/G
     crossed  Σ ± (1-2ν)/2G
     """
 
     bodies: Bodies
     stacks: tuple[tuple[Stack, float], ...]
     direct: float
+    across: float
     crossed: float
 
     @classmethod
@@ -60,6 +62,7 @@ class Coupling:
             Bodies.of(scene),
             stacks,
             sum((1 - nu) / G for (G, nu), _ in outer),
+            sum(1 / G for (G, _), _ in outer),
             sum(sign * (1 - 2 * nu) / (2 * G) for (G, nu), sign in outer),
         )
 
@@ -74,7 +77,7 @@ class Coupling:
         if self.bodies.layered:
             waves = self.bodies.waves(radius, fineness=fineness)
             p, q, at_zeroth, at_first = rings.transforms(waves)
-            c11, c12, c22 = radius * waves.rule[1] * self._added(waves, radius)
+            c11, c12, c22, _ = radius * waves.rule[1] * self.added(waves, radius)
             zz, rr = zz + (at_zeroth * c22) @ p, rr + (at_first * c11) @ q
             zr, rz = zr - (at_zeroth * c12) @ q, rz - (at_first * c12) @ p
         return Response(zz, zr, rz, rr)
@@ -86,18 +89,18 @@ class Coupling:
         if self.bodies.layered:
             waves = self.bodies.waves(a, fineness=fineness)
             transform = contact.bodies.modulus / pi * contact.wave_transform(waves)
-            c12 = waves.rule[1] * self._added(waves, a)[1]
+            c12 = waves.rule[1] * self.added(waves, a)[1]
             found -= rings.transforms(waves)[3] @ (c12 * transform)
         return np.asarray(found)
 
-    def _added(self, waves: Waves, radius: float) -> Array:
-        """k C11, k C12 and k C22 that layers add to half-spaces (3, κ) [length²/force]."""
+    def added(self, waves: Waves, radius: float) -> Array:
+        """k times c11, c12, c22 and csh that layers add to half-spaces (4, κ) [length²/force]."""
         k = waves.rule[0] / radius
-        total = np.zeros((3, len(k)))
+        total = np.zeros((4, len(k)))
         for stack, sign in self.stacks:
             if stack.layers:
                 added = remainder_scalars(stack, k)
-                total += (added.c11, sign * added.c12, added.c22)
+                total += (added.c11, sign * added.c12, added.c22, added.csh)
         return k * total
 
 

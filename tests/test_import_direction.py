@@ -89,6 +89,7 @@ ORDERS = {
     "radial": (
         *("quadrature", "wavenumbers", "bodies", "profile", "disc", "surface", "half_space"),
         *("below", "pressing", "rings", "coupling", "stick_slip", "sheared"),
+        *("harmonic_kernels", "ring_energies", "ring_compliance"),
         *("friction_limit", "torsion", "twist_path"),
         *("plan", "fields", "shown", "rubbing", "twisting", "history"),
     ),

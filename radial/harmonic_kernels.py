@@ -1,0 +1,67 @@
+"""What rings of tractions of harmonic m do to each other on a half-space, in closed form.
+
+G_m(r, s) = ∫₀^∞ J_m(kr) J_m(ks) dk = Q_{m-½}(χ)/(π√(rs)), χ = (r² + s²)/(2rs) (Watson, Bessel
+Functions 13.22), logarithmic at r = s, by the recurrence of Q in its stable direction. With it
+
+    ∫₀^∞ J_{m-1}(kr) J_{m+1}(ks) dk = (2m-1) G_{m-1} - 2m (r/s) G_m
+    ∫₀^∞ J_m(kr) J_{m+1}(ks) dk     = r^m / s^{m+1} for r < s, else 0
+"""
+
+from __future__ import annotations
+
+from math import ceil
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.special import ellipe, ellipkm1
+
+Array = NDArray[np.float64]
+
+# Where the highest order times arccosh χ is below, the recurrence upwards loses some 1e-13; down
+# from where it goes on to fall below round-off it loses nothing.
+UPWARDS, ROUND_OFF = 3.0, 18.0
+
+
+def alike(highest: int, r: Array, s: Array, apart: Array) -> Array:
+    """G_m for m = 0 … highest, r > 0 and s > 0, shape (highest + 1, …) [1/length].
+
+    apart  |r - s|, which must not be formed from r and s where they are near
+    """
+    total = r + s
+    small = (apart / total) ** 2
+    found = np.empty((highest + 1, *r.shape))
+    whole = ellipkm1(small)
+    found[0] = 2 / np.pi * whole / total
+    chi = 1 + apart * (apart / (2 * r * s))
+    border = UPWARDS / max(highest, 9)
+    near = chi < np.cosh(border)
+    _upwards(found, near, chi[near], (r * s)[near], total[near], whole[near], small[near])
+    far = ~near
+    x = chi[far]
+    ratio = np.exp(-np.arccosh(x))
+    ratios = np.empty((highest + 1, *x.shape))
+    for m in range(highest + ceil(ROUND_OFF / border), 0, -1):
+        ratio = (m - 0.5) / (2 * m * x - (m + 0.5) * ratio)
+        if m <= highest:
+            ratios[m] = ratio
+    for m in range(1, highest + 1):
+        found[m, far] = found[m - 1, far] * ratios[m]
+    return found
+
+
+def _upwards(
+    found: Array,
+    near: NDArray[np.bool_],
+    chi: Array,
+    moment: Array,
+    total: Array,
+    whole: Array,
+    small: Array,
+) -> None:
+    """Fills G_m, m ≥ 1, where r and s are near: (m+½) Q_{m+½} = 2mχ Q_{m-½} - (m-½) Q_{m-3/2}."""
+    if len(found) > 1:
+        once = 2 * chi * moment / total * whole - total * ellipe(1 - small)
+        found[1, near] = once / (np.pi * moment)
+    for m in range(1, len(found) - 1):
+        up = 2 * m * chi * found[m, near] - (m - 0.5) * found[m - 1, near]
+        found[m + 1, near] = up / (m + 0.5)

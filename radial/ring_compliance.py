@@ -1,0 +1,66 @@
+"""Energies of tractions of every harmonic on rings, of both bodies and all their layers.
+
+p and q_r go as cos mθ, q_θ as sin mθ. P = q_r - q_θ is transformed by J_{m-1}, Q = q_r + q_θ by
+J_{m+1}, p by J_m; in these the half-space is that of `ring_energies`, and layers add
+
+    ∫ k dk ¼[(F_11 + F_sh)(P² + Q²) + 2 (F_sh - F_11) P Q] + ½ C (P - Q) p + F_22 p²
+
+with every letter for its transform. The closed forms and the combination are this project's;
+Weber–Schafheitlin integrals (DLMF 10.22.56) check them.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from radial.coupling import Coupling
+from radial.ring_energies import transforms, unit_energies
+
+Array = NDArray[np.float64]
+
+
+def ring_compliance(
+    coupling: Coupling, nodes: tuple[float, ...], radius: float, highest: int
+) -> Array:
+    """Energies of hats (M + 1, 3, 3, n + 1, n + 1) [length^6/force], symmetric: displacement along
+    the row's direction, weighted with its hat and r dr, by the column's traction. Directions are r,
+    θ, z; of harmonic 0, r and z alone, the rest zero.
+
+    nodes    x = r/radius, from 0 on
+    highest  M
+    """
+    unit = unit_energies(nodes, highest)
+    found = np.zeros((highest + 1, 3, 3, len(nodes), len(nodes)))
+    mean, difference = (
+        (coupling.direct + coupling.across) / 4,
+        (coupling.across - coupling.direct) / 4,
+    )
+    crossed = coupling.crossed / 2
+    fields = None
+    if coupling.bodies.layered:
+        waves = coupling.bodies.waves(radius, max(1.0, nodes[-1]))
+        fields = transforms(nodes, highest, waves)
+        along, c12, c22, across = waves.rule[1] * coupling.added(waves, radius)
+    for m, block in enumerate(found):
+        below = abs(m - 1)
+        pp, qq = mean * unit.alike[below], mean * unit.alike[m + 1]
+        pq, zz = difference * unit.shifted[m], coupling.direct * unit.alike[m]
+        # Of m = 0 only J_{-1} = -J_1 is left to P.
+        zp = crossed * unit.stepped[below].T if m else -crossed * unit.stepped[0]
+        zq = -crossed * unit.stepped[m]
+        if fields is not None:
+            sign = 1 if m else -1
+            p, q, z = sign * fields[below].T, fields[m + 1].T, fields[m].T
+            added, apart = (along + across) / 4, (across - along) / 4
+            pp, qq, pq = pp + (p * added) @ p.T, qq + (q * added) @ q.T, pq + (p * apart) @ q.T
+            zz = zz + (z * c22) @ z.T
+            zp, zq = zp + (z * c12 / 2) @ p.T, zq - (z * c12 / 2) @ q.T
+        block[0, 0] = pp + qq + pq + pq.T
+        block[2, 2], block[2, 0] = zz, zp + zq
+        block[0, 2] = block[2, 0].T
+        if m:
+            block[1, 1] = pp + qq - pq - pq.T
+            block[0, 1], block[2, 1] = qq - pp + pq - pq.T, zq - zp
+            block[1, 0], block[1, 2] = block[0, 1].T, block[2, 1].T
+    return radius**3 * found

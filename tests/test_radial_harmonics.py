@@ -1,0 +1,197 @@
+"""Energies of tractions on rings, harmonic by harmonic: closed forms, layers and known contacts."""
+
+from __future__ import annotations
+
+import math
+from functools import cache
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+from scipy.integrate import dblquad
+from scipy.special import hyp2f1
+
+from contact_scene import RIGID, Body, IsotropicMaterial, Layer, LoadStep, Paraboloid, Scene
+from radial.coupling import Coupling
+from radial.harmonic_kernels import alike
+from radial.ring_compliance import ring_compliance
+from radial.ring_energies import unit_energies
+
+NODES = (0.0, 0.1, 0.22, 0.3, 0.5, 0.8, 0.95, 1.0, 1.3)
+HIGHEST = 6
+
+
+def material(young_modulus: float, poisson_ratio: float) -> IsotropicMaterial:
+    return IsotropicMaterial(young_modulus=young_modulus, poisson_ratio=poisson_ratio)
+
+
+SOFT = material(0.91, 0.3)
+
+
+def weber_schafheitlin(mu: int, nu: int, a: float, b: float) -> float:
+    """∫₀^∞ J_µ(at) J_ν(bt) dt for a < b (DLMF 10.22.56)."""
+    first = a**mu * math.gamma((mu + nu + 1) / 2) / b ** (mu + 1) / math.gamma(mu + 1)
+    upper = (nu - mu + 1) / 2
+    if upper <= 0 and upper == int(upper):
+        return 0.0
+    return float(
+        first / math.gamma(upper)
+        * hyp2f1((1 + mu + nu) / 2, (1 + mu - nu) / 2, mu + 1, (a / b) ** 2)
+    )  # fmt: skip
+
+
+def kernel(name: str, m: int, r: float, s: float) -> float:
+    before, behind = {"alike": (m, m), "shifted": (m - 1, m + 1), "stepped": (m, m + 1)}[name]
+    if r < s:
+        return weber_schafheitlin(before, behind, r, s)
+    return weber_schafheitlin(behind, before, s, r)
+
+
+def hat(i: int, r: float) -> float:
+    return float(np.interp(r, NODES, np.arange(len(NODES)) == i))
+
+
+@pytest.mark.parametrize("ratio", [1e-4, 0.3, 0.69, 0.72, 0.97])
+def test_what_rings_of_a_harmonic_do_to_each_other_is_a_legendre_function(ratio: float) -> None:
+    found = alike(12, np.array([ratio]), np.array([1.0]), np.array([1 - ratio]))[:, 0]
+    assert_allclose(
+        found, [weber_schafheitlin(m, m, ratio, 1.0) for m in range(13)], rtol=3e-13, atol=0
+    )
+
+
+@pytest.mark.parametrize("ratio", [0.3, 0.97, 0.999999])
+def test_rings_answer_each_other_alike(ratio: float) -> None:
+    r, s, apart = np.array([ratio]), np.array([1.0]), np.array([1 - ratio])
+    assert_allclose(alike(9, r, s, apart), alike(9, s, r, apart), rtol=1e-14)
+
+
+@pytest.mark.parametrize("name", ["alike", "shifted", "stepped"])
+@pytest.mark.parametrize(("m", "i", "j"), [(1, 2, 3), (2, 1, 7), (4, 4, 4)])
+def test_energies_of_hats_are_their_kernels_integrated(name: str, m: int, i: int, j: int) -> None:
+    def weighted(s: float, r: float) -> float:
+        return hat(i, r) * hat(j, s) * kernel(name, m, r, s) * r * s
+
+    total = 0.0
+    for e in (i - 1, i):
+        for f in (j - 1, j):
+            r, s = (NODES[e], NODES[e + 1]), (NODES[f], NODES[f + 1])
+            if e != f:
+                total += dblquad(weighted, *r, *s, epsabs=1e-10, epsrel=1e-8)[0]
+                continue
+            for below in (lambda r: r, lambda _, end=s[1]: end), (
+                lambda _, end=s[0]: end, lambda r: r,
+            ):  # fmt: skip
+                total += dblquad(weighted, *r, *below, epsabs=1e-10, epsrel=1e-8)[0]
+    found = getattr(unit_energies(NODES, HIGHEST), name)[m][i, j]
+    assert_allclose(found, total, rtol=2e-8, atol=1e-10)
+
+
+def pair(base: IsotropicMaterial, *films: tuple[IsotropicMaterial, float]) -> Coupling:
+    """A rigid ball and a body; films by material and thickness, outermost first."""
+    layers = tuple(Layer(material=film, thickness=thickness) for film, thickness in films)
+    ball, body = Paraboloid(radius=1.0, material=RIGID), Body(material=base, layers=layers)
+    return Coupling.of(Scene(indenter=ball, body=body, loading=(LoadStep(normal_force=1.0),)))
+
+
+@cache
+def homogeneous() -> np.ndarray:
+    return ring_compliance(pair(SOFT), NODES, 1.0, HIGHEST)
+
+
+def test_work_is_the_same_both_ways() -> None:
+    """Betti: energies are symmetric, of layers, too."""
+    coated = pair(SOFT, (material(2.0, 0.4), 0.5))
+    whole = ring_compliance(coated, NODES, 1.3, HIGHEST)
+    for found in (homogeneous(), whole):
+        assert_allclose(found, found.transpose(0, 2, 1, 4, 3), atol=1e-14)
+
+
+def test_energies_are_positive() -> None:
+    for m, block in enumerate(homogeneous()):
+        directions = [0, 1, 2] if m else [0, 2]
+        whole = block[np.ix_(directions, directions)].transpose(0, 2, 1, 3)
+        size = len(directions) * len(NODES)
+        # A hat about the axis is no field of m > 0 and costs next to nothing, but never less.
+        assert np.linalg.eigvalsh(whole.reshape(size, size)).min() > 0
+
+
+def test_larger_rings_are_softer_by_the_cube_of_their_radius() -> None:
+    larger = ring_compliance(pair(SOFT), NODES, 2.0, HIGHEST)
+    assert_allclose(larger, 8 * homogeneous(), rtol=1e-14)
+
+
+def test_a_layer_of_the_material_below_it_changes_nothing() -> None:
+    same = ring_compliance(pair(SOFT, (SOFT, 0.4)), NODES, 1.0, HIGHEST)
+    assert_allclose(same, homogeneous(), atol=1e-13)
+
+
+def test_a_thick_layer_is_a_half_space() -> None:
+    stiff = material(2.0, 0.2)
+    thick = ring_compliance(pair(SOFT, (stiff, 1e4)), NODES, 1.0, HIGHEST)
+    whole = ring_compliance(pair(stiff), NODES, 1.0, HIGHEST)
+    assert_allclose(thick, whole, atol=3e-4 * np.abs(whole).max())
+
+
+@pytest.mark.parametrize("nu", [0.0, 0.3, 0.5])
+def test_a_film_in_two_parts_is_one(nu: float) -> None:
+    film, base = material(2.0, nu), material(1.0, 0.3)
+    once = ring_compliance(pair(base, (film, 0.6)), NODES, 1.0, HIGHEST)
+    twice = pair(base, (film, 0.25), (film, 0.35))
+    assert_allclose(ring_compliance(twice, NODES, 1.0, HIGHEST), once, atol=1e-11)
+
+
+def test_below_a_thin_film_the_base_answers() -> None:
+    """What layers add takes all of the film's closed form away again, with every sign."""
+    film, base = material(1.5, 0.0), material(2.0, 0.45)
+    thin, bare, whole = (
+        ring_compliance(coupling, NODES, 1.0, 3)
+        for coupling in (pair(base, (film, 0.02)), pair(base), pair(film))
+    )
+    for row in range(3):
+        for column in range(3):
+            changed = np.abs(thin[:, row, column] - bare[:, row, column]).max()
+            assert changed < 0.2 * np.abs(whole[:, row, column] - bare[:, row, column]).max()
+
+
+def test_pressure_of_a_tilted_plane_draws_the_surface_by_the_derivative_of_a_dome() -> None:
+    """A dome of pressure 1 - r² draws by -C (r/2 - r³/4), C = (1-2ν)/2G, by the pressure within r;
+    2r cos θ is that dome's derivative along x, and so is what it draws."""
+    x = np.array([node for node in NODES if node <= 1])
+    block = ring_compliance(pair(material(2.4, 0.2)), tuple(x), 1.0, 1)[1]
+    crossed = (1 - 2 * 0.2) / 2  # G = 1
+    assert_allclose(block[0, 2] @ (2 * x), crossed * on_hats(x, (1 / 2, -3 / 4)), atol=1e-12)
+    assert_allclose(block[1, 2] @ (2 * x), -crossed * on_hats(x, (1 / 2, -1 / 4)), atol=1e-12)
+
+
+def on_hats(x: np.ndarray, coefficients: tuple[float, float]) -> np.ndarray:
+    """∫ φ (A + B r²) r dr of the hats."""
+    rule, weights = np.polynomial.legendre.leggauss(4)
+    length = np.diff(x)[:, None]
+    r = x[:-1, None] + length * (1 + rule) / 2
+    field = (coefficients[0] + coefficients[1] * r**2) * r * length * weights / 2
+    found = np.zeros(len(x))
+    found[:-1] += field @ ((1 - rule) / 2)
+    found[1:] += field @ ((1 + rule) / 2)
+    return found
+
+
+@pytest.mark.parametrize("nu", [0.0, 0.3, 0.5])
+def test_shear_like_that_of_gross_slip_draws_the_disc_as_in_print(nu: float) -> None:
+    """q_x = √(1 - r²) draws the disc by u_x = π/(32G) [4(2-ν) - (4-3ν) x² - (4-ν) y²],
+    u_y = π/(16G) ν xy (Johnson 1985, eq. 3.91)."""
+    nodes = tuple(np.sin(np.linspace(0, np.pi / 2, 81)))
+    x = np.array(nodes)
+    block = ring_compliance(pair(material(2 * (1 + nu), nu)), nodes, 1.0, 2)
+    q = np.sqrt((1 - x) * (1 + x))
+    # q_r = q cos θ, q_θ = -q sin θ; every energy below is over π, of cos² and sin².
+    radial = block[1, 0, 0] @ q - block[1, 0, 1] @ q
+    hoop = block[1, 1, 0] @ q - block[1, 1, 1] @ q
+    level, along, beside, across = (
+        math.pi / 32 * part for part in (4 * (2 - nu), 4 - 3 * nu, 4 - nu, 2 * nu)
+    )
+    # cos θ cos θ u_x + …, cos³θ and cos θ sin²θ over their shares of the first harmonic.
+    of_r = (level, -(3 * along + beside - across) / 4)
+    of_t = (-level, (along + 3 * beside + across) / 4)
+    for found, exact in ((radial, of_r), (hoop, of_t)):
+        expected = on_hats(x, exact)
+        assert_allclose(found, expected, atol=3e-4 * np.abs(expected).max())
