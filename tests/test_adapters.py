@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+from contact_scene import Scene
 from verification import Answer, CannotDo, Solver, judge
 from verification.adapters import calculix, getfem, half_spaces, radius, section, surface
 from verification.challenge.cases import challenges
@@ -155,3 +156,20 @@ def test_the_approach_at_which_a_deck_has_the_force_is_found(
     assert radius == pytest.approx(HERTZ.contact_radius / 1.03 ** (1 / 3), rel=1e-6)
     pressure = found.fields["pressure", 1].value
     assert pressure[0] == pytest.approx(HERTZ.peak_pressure / 1.03 ** (1 / 3), rel=1e-5)
+
+
+def test_increments_are_refined_with_the_cells_where_the_way_matters(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """Or shifts of the paper's figure would stall at the error of the path, some 0.3 %."""
+    taken: list[list[int | None]] = []
+
+    def solve(scene: Scene, on: object) -> None:
+        taken.append([step.increments for step in scene.loading])
+        raise CannotDo("enough")
+
+    monkeypatch.setattr(surface, "solve_discretised", solve)
+    for name, level in (("paper_figure_4", 0), ("paper_figure_4", 2), ("torsion", 2)):
+        with pytest.raises(CannotDo, match="enough"):
+            surface.answer(posed(name), level)
+    assert taken == [[10] * 4, [40] * 4, [1] * 4]

@@ -17,6 +17,15 @@ def scene_of(posed: Posed) -> Scene:
     return Scene.model_validate(posed.scene)
 
 
+def in_increments(scene: Scene, number: int) -> Scene:
+    """With friction the way matters: steps that name no increments take this many, so that finer
+    levels do not stall at the error of the path."""
+    if scene.friction is None:
+        return scene
+    steps = (s.model_copy(update={"increments": s.increments or number}) for s in scene.loading)
+    return scene.model_copy(update={"loading": tuple(steps)})
+
+
 def number(posed: Posed, key: Key, steps: Sequence[State]) -> float | None:
     """By the name that a result has for it; None where it has none."""
     quantity, step = key
