@@ -88,7 +88,8 @@ def _even_transforms(chosen: Waves, count: int) -> Array:
         found[order, ~near] = last
         last = (4 * order + 3) / far * now - last
         now = (4 * order + 5) / far * last - now
-    return np.asarray((-1.0) ** orders * found)
+    found[1::2] *= -1
+    return found
 
 
 @lru_cache(maxsize=KEPT)
