@@ -144,7 +144,7 @@ class Levels:
         """By where borders lie in cells; what was lost in a step has the scatter of its end."""
         lost = self.lost[step].get(name)
         if lost is None:
-            turned = rule.lengthscale is Lengthscale.TURN
+            turned = rule.lengthscale in (Lengthscale.TURN, Lengthscale.TURN_WITHIN)
             size = scale(name, self.values[step]) if turned else largest
             return np.full_like(largest, size * self.ground.scatter(step, rule))
         ends = lost.items()

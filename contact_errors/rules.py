@@ -39,6 +39,7 @@ class Lengthscale(Enum):
     SLIP = auto()  # contact radius, and width w of the slip annulus: m/√(1 + 1/w)
     ANNULUS = auto()  # the same two alike: √(m w)
     TURN = auto()  # contact radius; what scatters is the place of the load in a cell
+    TURN_WITHIN = auto()  # the same of states with their edges inside the cells
     LOST = auto()  # m places around an annulus of w: (m w⁴)^1/5
 
 
@@ -143,7 +144,7 @@ EDGES = with_their_likes(
         "approach": Rule(2, 0.0025, 1, 1.5, path_factor=1.5),
         "contact_radius": Rule(1.5, 0.005, 2, 1.1, 1.5, lengthscale=Lengthscale.FILM),
         "peak_pressure": Rule(2.5, 0.022, 2, 1.2, path_factor=2.0),
-        "tilt": Rule(1.5, 0.001, 1, 2.2, path_factor=1.5),
+        "tilt": Rule(3, 0.03, 0.25, 1.6, path_factor=1.5, lengthscale=Lengthscale.TURN_WITHIN),
     }
 )
 # Where friction acts back on a pressing contact its pressure has a cusp on the axis.

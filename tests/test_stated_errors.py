@@ -465,6 +465,20 @@ def test_errors_with_edges_inside_the_cells_cover_what_is_wrong(cells: int) -> N
         assert size(of_edged["contact_radius"]) < 0.05 * size(of_plain["contact_radius"])
 
 
+@pytest.mark.parametrize("cells", [16, 24, 48])
+def test_the_error_of_a_tilt_with_edges_inside_the_cells_covers_what_is_wrong(cells: int) -> None:
+    """Not by a hundred times: it falls with the third power of the cells, as the tilt does."""
+    beside, along = 0.11 * A, -0.07 * A
+    asked = SurfaceDiscretisation(cells=(cells, cells), window=(3 * A, 3 * A), edge="last")
+    pushed = scene(PRESS | {"moment": (LOAD * beside, LOAD * along)})
+    result = solve_discretised(pushed, asked)
+    (errors,), (end,) = stated_errors(result).steps, result.steps
+    assert end.edge_change is not None
+    assert end.tilt is not None
+    missed = np.max(np.abs(end.tilt - np.array([beside, along]) / RADIUS))
+    assert missed <= size(errors["tilt"]) < 30 * missed
+
+
 def below_a_stiff_film(cells: int, stiffer: float) -> tuple[Result, LayeredIndentation]:
     """A contact twelve times as wide as the film is thick, and what is known of it."""
     base, thickness = steel(), 0.083 * A
