@@ -42,7 +42,7 @@ class ContactAtWindowEdge(SolverError):
 
 
 class ContactAtZoneEdge(SolverError):
-    """The contact reached the end of the zone of fine elements, so its tractions are cut off."""
+    """The contact reached the end of fine elements or of rings, so its tractions are cut off."""
 
 
 class ContactNotResolved(SolverError):

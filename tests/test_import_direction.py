@@ -89,7 +89,7 @@ ORDERS = {
     "radial": (
         *("quadrature", "wavenumbers", "bodies", "profile", "disc", "surface", "half_space"),
         *("below", "pressing", "rings", "coupling", "stick_slip", "sheared"),
-        *("harmonic_kernels", "ring_energies", "ring_compliance"),
+        *("harmonic_kernels", "ring_energies", "ring_compliance", "ring_friction"),
         *("friction_limit", "torsion", "twist_path"),
         *("plan", "fields", "shown", "rubbing", "twisting", "history"),
     ),

@@ -1,0 +1,171 @@
+"""Coulomb's law on rings and angles: Cattaneo and Mindlin, Masing, and a coated reference."""
+
+from __future__ import annotations
+
+import math
+from functools import cache
+from typing import Any
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+
+from contact_scene import (
+    RIGID,
+    Body,
+    IsotropicMaterial,
+    Layer,
+    LoadStep,
+    Paraboloid,
+    Scene,
+)
+from contact_scene.solver_errors import ContactAtZoneEdge, GrossSliding
+from radial.coupling import Coupling
+from radial.ring_compliance import ring_compliance
+from radial.ring_friction import Held, Points, _Laws, held, stick_area
+from verification.closed_forms.cattaneo_mindlin import PartialSlip
+from verification.closed_forms.tangential_history import TangentialHistory
+from verification.references import load_reference
+
+Array = np.ndarray
+TOLERANCE = 1e-9
+LOAD, FRICTION = 4 / 3, 0.3  # of a ball with R = 1 on E* = 1: a = 1
+LIMIT = LOAD * FRICTION
+VIRGIN = PartialSlip(LOAD, 1.0, FRICTION, 1.0, 0.0)
+
+
+def points_on(indenter: Any, body: Body, radii: Array, count: int) -> Points:
+    """Below a paraboloid with R = 1."""
+    ball = Paraboloid(radius=1.0, material=indenter)
+    scene = Scene(indenter=ball, body=body, loading=(LoadStep(normal_force=1.0),))
+    largest = float(radii[-1])
+    nodes = tuple(radii / largest)
+    energies = ring_compliance(Coupling.of(scene), nodes, largest, count)
+    rule, weights = np.polynomial.legendre.leggauss(4)
+    length = np.diff(radii)[:, None]
+    r = radii[:-1, None] + length * (1 + rule) / 2
+    areas = []
+    for field in (r, r**3 / 2):
+        part = field * length * weights / 2
+        inner, outer = part @ ((1 - rule) / 2), part @ ((1 + rule) / 2)
+        areas.append(np.append(inner, 0.0) + np.append(0.0, outer))
+    return Points(energies, *areas)
+
+
+def rings(count: int, radius: float) -> Array:
+    """Evenly to the edge of the contact, graded there, and three beyond."""
+    inside = np.arange(count) / count
+    graded = 1 - 0.5 ** np.arange(1, 5) / count
+    return radius * np.concatenate([inside, graded, 1 + np.arange(4) / count])
+
+
+COUNT = 32
+RADII = rings(COUNT, 1.0)
+OF_SHIFT = 2e-4  # of that at which all slides, by 32 rings; 16 leave 1.2e-3, 24 leave 3.5e-4
+
+
+@cache
+def alike() -> Points:
+    """Two bodies of one material without lateral contraction: uncoupled, and slip along shear."""
+    material = IsotropicMaterial(young_modulus=2.0, poisson_ratio=0.0)
+    return points_on(material, Body(material=material), RADII, 4)
+
+
+@cache
+def after(*shares: float) -> Held:
+    """Pressed at once, then pushed to shares of µW, one after another."""
+    if not shares:
+        return held(alike(), FRICTION, LOAD, 0.0, None, TOLERANCE)
+    before = after(*shares[:-1])
+    return held(alike(), FRICTION, LOAD, shares[-1] * LIMIT, before, TOLERANCE)
+
+
+@pytest.mark.parametrize(("harmonic", "way"), [(0, 2), (1, 0), (3, 2), (4, 1)])
+def test_points_move_as_the_harmonics_of_their_tractions(harmonic: int, way: int) -> None:
+    points, nodes = alike(), len(RADII)
+    count = points.count
+    cos, sin = np.cos(harmonic * points.angles), np.sin(harmonic * points.angles)
+    ways = np.array([cos, sin, cos])
+    tractions = np.zeros((3, nodes, count))
+    tractions[way] = RADII[:, None] * ways[way]
+    moved = (points.compliance @ tractions.ravel()).reshape(3, nodes, count)
+    exact = points.energies[harmonic, :, way] @ RADII
+    exact = 2 * math.pi / count * exact[..., None] * ways[:, None]
+    assert_allclose(moved, exact, atol=1e-14)
+
+
+def test_newtons_method_knows_how_the_laws_change() -> None:
+    laws = _Laws.of(alike(), FRICTION, LOAD, 0.7 * LIMIT, after(0.3))
+    state = after(0.6)
+    x = np.concatenate([state.tractions, [1.02 * state.shift, 1.01 * state.approach]])
+    step = 1e-7 * np.sin(np.arange(len(x)))
+    found = laws.derivative(laws.at(x)) @ step
+    changed = (laws.at(x + step).missed - laws.at(x - step).missed) / 2
+    assert_allclose(found, changed, atol=1e-5 * np.abs(found).max())
+
+
+@pytest.mark.parametrize("share", [0.3, 0.6, 0.9])
+def test_a_pushed_ball_sticks_and_shifts_by_cattaneo_and_mindlin(share: float) -> None:
+    state = after(share)
+    exact = PartialSlip(LOAD, 1.0, FRICTION, 1.0, share * LIMIT)
+    assert_allclose(state.shift, exact.shift, atol=OF_SHIFT * VIRGIN.sliding_shift)
+    radius = math.sqrt(stick_area(alike(), RADII, state) / math.pi)
+    assert_allclose(radius, exact.stick_radius, atol=0.25 / COUNT)  # between two rings
+
+
+def test_shear_is_that_of_cattaneo_and_mindlin_all_around() -> None:
+    nodes, count = len(RADII), alike().count
+    q_r, q_t, _ = after(0.6).tractions.reshape(3, nodes, count)
+    cos, sin = np.cos(alike().angles), np.sin(alike().angles)
+    along, across = q_r * cos - q_t * sin, q_r * sin + q_t * cos
+    exact = PartialSlip(LOAD, 1.0, FRICTION, 1.0, 0.6 * LIMIT).shear(np.minimum(RADII, 1.0))
+    peak = FRICTION * 2 / math.pi
+    inside = RADII < 1
+    assert np.mean(np.abs(along - exact[:, None])[inside]) < 0.005 * peak
+    assert np.max(np.abs(across)) < 1e-6 * peak
+
+
+@pytest.mark.parametrize(
+    "path", [(0.9, 0.6), (0.9, 0.0), (0.9, -0.6), (0.9, -0.9), (0.9, -0.9, 0.0)]
+)
+def test_pushed_to_and_fro_the_shift_follows_masing(path: tuple[float, ...]) -> None:
+    exact = TangentialHistory(VIRGIN)
+    for share in path:
+        exact = exact.loaded_to(share * LIMIT)
+    assert_allclose(after(*path).shift, exact.shift, atol=OF_SHIFT * VIRGIN.sliding_shift)
+
+
+def test_a_loop_that_is_closed_comes_back() -> None:
+    assert_allclose(after(0.9, -0.9).shift, -after(0.9).shift, rtol=1e-9)
+
+
+def test_little_force_shifts_as_if_all_stuck() -> None:
+    """ω = T/2aG* (Mindlin 1949)."""
+    assert_allclose(after(1e-3).shift, 1e-3 * LIMIT / 2, rtol=3e-3)
+
+
+def test_a_coated_body_pressed_with_friction_approaches_as_in_the_reference() -> None:
+    known = load_reference("frictional_indentation_coated")
+    base, film = (
+        IsotropicMaterial(young_modulus=stiffness * math.pi / 2 * 0.91, poisson_ratio=0.3)
+        for stiffness in (1.0, 2.0)
+    )
+    body = Body(material=base, layers=(Layer(material=film, thickness=1.0),))
+    points = points_on(RIGID, body, rings(20, known["a_over_aH"]), 2)
+    load, state = 2 * math.pi / 3, None
+    for k in range(1, 21):
+        state = held(points, known["mu"], load * k / 20, 0.0, state, TOLERANCE)
+    assert state is not None
+    assert_allclose(state.approach, known["delta_over_deltaH"], rtol=2e-6)
+    assert abs(state.shift) < 1e-9
+
+
+@pytest.mark.parametrize("share", [1.0, -1.2])
+def test_more_than_friction_carries_slides(share: float) -> None:
+    with pytest.raises(GrossSliding, match="µW"):
+        after(share)
+
+
+def test_a_contact_beyond_the_rings_is_refused() -> None:
+    with pytest.raises(ContactAtZoneEdge, match="last ring"):
+        held(alike(), FRICTION, 2 * LOAD, 0.0, None, TOLERANCE)
