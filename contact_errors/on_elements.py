@@ -205,6 +205,8 @@ class _Elements:
         parts: dict[Part, Numbers] = {"section": self._section(name) * largest}
         if rule.lengthscale is Lengthscale.STICK:
             parts["elements"] = self._missed(step) * largest
+        if name == "peak_pressure" and self._layer < LEAST_LAYER:
+            parts["elements"] = np.full_like(largest, self._rim_of_film(end))
         if end.overlap is not None and end.approach:
             overlap = end.overlap / abs(end.approach)
             cusp = self.result.plan.path in CUSPED
@@ -246,6 +248,14 @@ class _Elements:
         """Part of the stick radius that a slip annulus of less than an element takes, unseen."""
         contact, stick = self._contact(step), self._stick(step)
         return 1 / contact if stick is not None and contact - stick < LEAST_ANNULUS else 0.0
+
+    def _rim_of_film(self, end: Increment) -> float:
+        """Pressure at the rim beyond the largest inside, which elements that are coarse against a
+        film cannot tell from a film that stands on its rim [pressure]."""
+        inside = end.radii < end.contact_radius - LEAST_LAYER / self._per_length
+        if not np.any(inside):
+            return 0.0
+        return end.peak_pressure - float(np.max(end.pressure[inside]))
 
     def _by_sectors(self, name: str, end: Increment) -> float:
         """Error of the stick radius [length] or area [length^2] by sectors."""

@@ -8,6 +8,7 @@ from contact_scenes import INDENTERS, LOAD, PRESS, RIGID_BALL, A, hertz, push, s
 from fem_scenes import elements
 
 import contact_errors.on_elements as on_elements
+import radial
 from contact_errors.of_stress import stress_errors
 from contact_errors.on_elements import stated_errors
 from contact_results.quantities import shift_along_x
@@ -134,6 +135,18 @@ def test_the_error_of_the_radius_below_a_film_counts_its_elements(
         assert (of_radius.status is ErrorStatus.ESTIMATED) is known
         assert abs(result.steps[0].contact_radius - A) <= of_radius.error
         assert errors["approach"].status is ErrorStatus.ESTIMATED
+
+
+def test_the_error_of_the_peak_covers_what_springs_press_on_the_rim_of_a_film() -> None:
+    """A third of an element thick and a hundred times as stiff, it stands on its last ring."""
+    film = Layer(thickness=0.0137 * A, material=steel(young_modulus=100 * LOOSE.young_modulus))
+    body = Body(material=LOOSE, layers=(film,))
+    asked = Scene(indenter=RIGID_BALL, body=body, loading=({"normal_force": LOAD},))
+    exact = radial.solve(asked).steps[0].peak_pressure
+    result = solve(asked, elements(16), Method.PENALTY)
+    off = abs(result.steps[0].peak_pressure - exact)
+    assert off > 0.2 * exact
+    assert off <= error(stated_errors(result), "peak_pressure")
 
 
 PUSHED_ON_A_COATING = Scene(
