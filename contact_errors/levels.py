@@ -60,7 +60,7 @@ class Ground(Protocol):
     def scatter(self, step: int, rule: Rule) -> Numbers | float:
         """The envelope of a rule with so many as there are on its length scale."""
 
-    def resolved(self, step: int, rule: Rule, largest: Numbers) -> bool:
+    def resolved(self, step: int, name: str, rule: Rule, largest: Numbers) -> bool:
         """Whether differences between levels mean anything."""
 
     def beside(
@@ -138,7 +138,7 @@ class Levels:
             apart = apart or estimate.contradicts(by_path, largest, unsolved)
         for part, size in beside.items():
             parts[part] = parts.get(part, 0.0) + size
-        return estimate.stated(parts, self.ground.resolved(step, rule, largest) and not apart)
+        return estimate.stated(parts, self.ground.resolved(step, name, rule, largest) and not apart)
 
     def _scatter(self, step: int, name: str, rule: Rule, largest: Numbers) -> Numbers:
         """By where borders lie in cells; what was lost in a step has the scatter of its end."""

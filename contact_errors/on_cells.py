@@ -172,7 +172,7 @@ class _Cells:
         """Whether all slips, along the force, which leaves the pressure no cusp."""
         return self.result.steps[step].status is ContactStatus.GROSS_SLIDING
 
-    def resolved(self, step: int, rule: Rule, largest: Numbers) -> bool:
+    def resolved(self, step: int, name: str, rule: Rule, largest: Numbers) -> bool:
         cells, lengthscale = self._at[step], rule.lengthscale
         if cells.contact < LEAST[Lengthscale.CONTACT]:
             return False

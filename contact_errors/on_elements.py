@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from itertools import accumulate
+from itertools import accumulate, pairwise
 from math import pi
 from operator import or_
 
@@ -44,6 +44,8 @@ FEWEST_ELEMENTS = 3  # of a companion, over the contact radius
 # In elements: below them a number has not converged, however small its differences are.
 LEAST = {Lengthscale.CONTACT: 3.0, Lengthscale.STICK: 1.0, Lengthscale.ANNULUS: 0.5}
 LEAST_LAYER = 2.0  # of what the layers blur
+# A film so many times as stiff as what it lies on bends over that.
+BENDS = 3.0
 
 
 def stated_errors(
@@ -180,12 +182,14 @@ class _Elements:
         """Whether all slips, along the force, which leaves the pressure no cusp."""
         return self.result.steps[step].status is ContactStatus.GROSS_SLIDING
 
-    def resolved(self, step: int, rule: Rule, largest: Numbers) -> bool:
+    def resolved(self, step: int, name: str, rule: Rule, largest: Numbers) -> bool:
         contact, stick, lengthscale = self._contact(step), self._stick(step), rule.lengthscale
         if contact < LEAST[Lengthscale.CONTACT]:
             return False
-        if lengthscale is Lengthscale.FILM and self._layer < LEAST_LAYER:
-            return False
+        if self._layer < LEAST_LAYER:
+            stands_on_rim = name == "peak_pressure" and self._stiff_film
+            if lengthscale is Lengthscale.FILM or stands_on_rim:
+                return False
         if lengthscale is Lengthscale.CUSP and self._slides(step):
             return True
         if lengthscale in (Lengthscale.STICK, Lengthscale.CUSP):
@@ -234,6 +238,16 @@ class _Elements:
         """Elements over the thickness of the thinnest layer; infinite without one."""
         scene = self.result.scene
         return self._per_length * min(scene.body.thinnest, scene.indenter.thinnest)
+
+    @property
+    def _stiff_film(self) -> bool:
+        """Whether a layer bends over what is below it and presses most at its rim."""
+        bodies = self.result.scene.body, self.result.scene.indenter
+        return any(
+            upper.young_modulus > BENDS * lower.young_modulus
+            for body in bodies
+            for upper, lower in pairwise(body.elastic_materials)
+        )
 
     @property
     def _per_length(self) -> float:
