@@ -1,7 +1,11 @@
 """Stress that sees the edge of the contact between the cells."""
 
+import json
+from pathlib import Path
+
 import numpy as np
 import pytest
+from command import slipstick
 from numpy.typing import NDArray
 
 from contact_results.stress.extremes import extremes
@@ -23,6 +27,8 @@ Field = NDArray[np.float64]
 
 NU, MU = 0.3, 0.1
 STACK = Stack((), (1.0, NU))
+# Tension at the trailing edge of the coated example, by cells from 64² to 256² [Pa].
+LIMIT, UNCERTAIN = 1.17e9, 2e6
 # The contact within its grid: radius in cells, and its centre off every symmetry.
 CELLS, RADIUS, CENTRE = 48, 15.0, (23.61, 23.28)
 
@@ -170,3 +176,21 @@ def test_an_edge_that_is_compressed_all_around_is_found_too() -> None:
     found = near_edge(Stack([(8.0, 0.49, 2 * RADIUS)], (1.0, NU)), grid, pressure, None)
     assert np.max(found.stress()[:2]) < 0
     assert found.apart < 0.02
+
+
+@pytest.mark.slow
+def test_both_solvers_state_the_tension_at_the_trailing_edge_of_a_coating(tmp_path: Path) -> None:
+    """By cells on their fitted edge it is 1.17 GPa; by rings far below, as they say."""
+    scene = Path(__file__).resolve().parents[1] / "scenes" / "coated_fretting.toml"
+    few = {
+        "semi-analytical": "semi_analytical.cells=[64,64]",
+        "fem-complementarity": "fem_reference.elements_per_radius=16",
+    }
+    for solver, setting in few.items():
+        run, stress = tmp_path / solver, tmp_path / f"{solver} stress"
+        options = ("--solver", solver, "--set", setting, "--no-figures", "--no-error")
+        assert slipstick("run", scene, *options, "-o", run) == 0
+        assert slipstick("stress", run, "-o", stress) == 0
+        maxima = json.loads((stress / "stress.json").read_text(encoding="utf-8"))["maxima"]
+        tension = next(found for found in maxima if found["measure"] == "max_principal")
+        assert abs(tension["value"] - LIMIT) <= tension["error"]["error"] + UNCERTAIN, solver
