@@ -41,6 +41,8 @@ def number_text(value: float | None, error: Uncertainty | None, unit: float) -> 
     number, size = value / unit, error.size / unit
     # Two digits of the error, and the number as far (JCGM 100:2008, 7.2.6).
     decimals = ERROR_DIGITS - 1 - floor(log10(size)) if size else DIGITS
+    if round(number, decimals) == 0:
+        return f"0 ± {size:.{ERROR_DIGITS}g}{doubt}"
     if decimals > MOST_DECIMALS:
         return f"{number:.{MOST_DECIMALS}f} ± {size:.0e}{doubt}"
     decimals = max(0, decimals)

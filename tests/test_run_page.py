@@ -53,6 +53,12 @@ def test_an_error_however_small_does_not_read_as_zero(error: float) -> None:
     assert float(text.split(" ± ")[1]) == pytest.approx(error, rel=0.1, abs=0.0)
 
 
+@pytest.mark.parametrize("value", [0.0, -4e-12, 3e-12])
+@pytest.mark.parametrize(("error", "text"), [(7.5e-4, "0 ± 0.00075"), (7.5e-10, "0 ± 7.5e-10")])
+def test_what_its_error_rounds_away_is_zero(value: float, error: float, text: str) -> None:
+    assert number_text(value, Uncertainty(error, True), 1.0) == text
+
+
 def test_the_overview_of_one_increment_shows_the_stress_down_the_axis() -> None:
     result: Any = synthetic_result()
     last = replace(result.increments[-1], tangential_force=(0.0, 0.0))
