@@ -126,6 +126,14 @@ def test_cases_of_another_level_are_not_missed(places: tuple[Path, Path]) -> Non
     assert slipstick("compare", report, "--baseline", baselines) == 2
 
 
+def test_a_page_of_chosen_cases_leaves_out_what_is_known_of_the_whole() -> None:
+    whole = report_of(three_cases().cases)
+    chosen = chosen_of(whole.cases[:1]).model_copy(update={"studies": ()})
+    for section in ("stability", "defects", "paper", "answers"):
+        assert f'id="{section}"' in render_page(whole)
+        assert f'id="{section}"' not in render_page(chosen)
+
+
 def test_chosen_cases_are_compared_on_demand_and_say_so(
     places: tuple[Path, Path], capsys: pytest.CaptureFixture[str]
 ) -> None:

@@ -120,8 +120,9 @@ def _verified(
     refuse_if_unwritable(directory)
     with in_sole_use(directory):
         baselines = read_baselines()  # a damaged one is better known before hours of work
+        kept = () if names else PLACES  # what is asked of a case is no report of the whole
         try:
-            studies = stored_records(*((PLACES, _left_out) if places is None else (places,)))
+            studies = stored_records(*((kept, _left_out) if places is None else (places,)))
         except ValueError as error:
             typer.echo(f"error: {error}", err=True)
             raise typer.Exit(ExitCode.INVALID) from None
