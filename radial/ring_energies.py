@@ -49,7 +49,7 @@ def unit_energies(nodes: tuple[float, ...], highest: int) -> Unit:
     """Of hats at nodes 0 = x_0 < … < x_n, harmonics 0 … M = highest."""
     x = np.array(nodes)
     size = (len(x), len(x))
-    alikes = np.zeros((highest + 2, *size))
+    products = np.zeros((highest + 2, *size))
     squares = np.zeros((highest + 2, *size))  # of (r/s) G_m
     steps = np.zeros((highest + 1, *size))
     for inner, outer, r, s, apart, weights in _pairs(x):
@@ -59,15 +59,15 @@ def unit_energies(nodes: tuple[float, ...], highest: int) -> Unit:
             for j, at_s in enumerate(_shapes(x, outer, s)):
                 row, column, both = inner + i, outer + j, at_r * at_s
                 part = (kernel * (both * r * s)).sum(-1)
-                alikes[:, row, column] += part
-                alikes[:, column, row] += part
+                products[:, row, column] += part
+                products[:, column, row] += part
                 squares[:, row, column] += (kernel * (both * r * r)).sum(-1)
                 squares[:, column, row] += (kernel * (both * s * s)).sum(-1)
                 steps[:, row, column] += (power * both).sum(-1)
     m = np.arange(1.0, highest + 1)[:, None, None]
-    shifted = (2 * m - 1) * alikes[:highest] - 2 * m * squares[1 : highest + 1]
-    shifted = np.concatenate([-alikes[1:2], shifted])
-    return Unit(alikes, shifted, steps)
+    shifted = (2 * m - 1) * products[:highest] - 2 * m * squares[1 : highest + 1]
+    shifted = np.concatenate([-products[1:2], shifted])
+    return Unit(products, shifted, steps)
 
 
 def _shapes(x: Array, element: Numbers, r: Array) -> tuple[Array, Array]:
