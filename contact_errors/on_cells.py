@@ -30,7 +30,7 @@ from semi_analytical.resolution import Resolution, resolution
 
 # In cells: below them a number has not converged, however small its differences are.
 LEAST = {
-    Lengthscale.CONTACT: 3.0,
+    Lengthscale.CONTACT: 4.0,
     Lengthscale.TURN: 8.0,
     Lengthscale.STICK: 1.0,
     Lengthscale.ANNULUS: 0.5,

@@ -76,7 +76,7 @@ class Rule:
 
 
 PEAK = Rule(2, 0.25, 0.5, 1.2, path_factor=2.0)
-APPROACH = Rule(2, 0.05, 1, 1.65, path_factor=1.5)
+APPROACH = Rule(2, 0.05, 1, 1.8, path_factor=1.5)
 RADIUS = Rule(1.25, 0.22, 4, 1.5, path_factor=1.5, lengthscale=Lengthscale.FILM)
 STICK = Rule(1.25, 0.25, 4, 3.2, 2.0, 1.0, Lengthscale.STICK)
 SHIFT = Rule(2, 0.06, 2, 1.35, 3.0, 0.3, Lengthscale.SLIP)

@@ -211,8 +211,8 @@ def test_all_numbers_of_the_contact_have_a_rule() -> None:
     assert set(RULES) == {*PHYSICAL, *OF_CYCLES}
 
 
-def test_a_contact_of_less_than_three_cells_has_not_converged() -> None:
-    (errors,) = errors_of(scene({"normal_force": 1e3}), SurfaceGrid((16, 16), (8 * A, 8 * A)))
+def test_a_contact_of_less_than_four_cells_has_not_converged() -> None:
+    (errors,) = errors_of(scene({"normal_force": 1e3}), SurfaceGrid((16, 16), (4.2 * A, 4.2 * A)))
     assert errors["normal_force"].status is ErrorStatus.EXACT
     assert {errors[name].status for name in ("approach", "peak_pressure", "contact_radius")} == {
         ErrorStatus.NOT_CONVERGED
