@@ -3,6 +3,7 @@
 import errno
 import json
 import os
+import re
 import subprocess
 import threading
 from collections.abc import Callable
@@ -124,6 +125,18 @@ def test_cases_of_another_level_are_not_missed(places: tuple[Path, Path]) -> Non
     assert slipstick("compare", report, "--baseline", baselines) == 0
     write_report(chosen_of((one,)), report)
     assert slipstick("compare", report, "--baseline", baselines) == 2
+
+
+def test_a_badge_has_the_class_of_its_word() -> None:
+    def ending(one: CaseOutcome, status: Status) -> CaseOutcome:
+        verdict = one.verdicts[0].model_copy(update={"status": status})
+        return one.model_copy(update={"verdicts": (verdict,)})
+
+    ends = (Status.PASS, Status.FAIL, Status.INCONCLUSIVE)
+    page = render_page(report_of(tuple(map(ending, three_cases().cases, ends))))
+    badges = re.findall(r'class="badge (\w+)"><span[^>]*>[^<]*</span> (\w+)', page)
+    assert {kind for kind, _ in badges} >= {"pass", "fail", "inconclusive"}
+    assert all(kind == word.lower() for kind, word in badges)
 
 
 def test_a_page_of_chosen_cases_leaves_out_what_is_known_of_the_whole() -> None:

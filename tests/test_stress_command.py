@@ -97,8 +97,24 @@ def test_maxima_name_both_sides_of_the_interface(place: Path) -> None:
         assert found[f"interface 1 {side}", "von_mises"]["depth"] == pytest.approx(0.1e-3)
     parts = [found[region, "von_mises"]["value"] for region in ("layer 1", "base")]
     assert found["body", "von_mises"]["value"] == max(parts)
+    # A side of an interface is part of the layer that ends there: exchanged, one would exceed it.
+    for region, side in (("layer 1", "above"), ("base", "below")):
+        for measure in ("von_mises", "max_shear"):
+            at_side = found[f"interface 1 {side}", measure]["value"]
+            assert at_side <= found[region, measure]["value"]
+    sides = [found[f"interface 1 {side}", "von_mises"]["value"] for side in ("above", "below")]
+    assert sides[0] > 1.05 * sides[1]
     table = rows(place / "out" / "stress_maxima.csv")
     assert [float(row["value [Pa]"]) for row in table] == [e["value"] for e in record["maxima"]]
+
+
+def test_a_push_along_x_shears_the_section_along_x_alone(place: Path) -> None:
+    table = rows(place / "out" / "stress_interfaces.csv")
+    assert {float(row["y [m]"]) for row in table} == {0.0}
+    along, across = (
+        max(abs(float(row[f"sigma_{plane} [Pa]"])) for row in table) for plane in ("xz", "yz")
+    )
+    assert across < 1e-6 * along
 
 
 def test_axis_is_continuous_where_it_must_be_and_jumps_where_it_must(place: Path) -> None:
