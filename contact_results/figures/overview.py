@@ -99,13 +99,16 @@ def section_stress(result: Result) -> StressField | None:
 
 
 def coarser(state: LoadedBodies, most: int) -> LoadedBodies:
-    """The same load on cells in twos by twos, until there are few enough along a side or a number
-    is odd; forces and moments stay."""
-    while max(shape := state.tractions["pressure"].shape) > most and not any(n % 2 for n in shape):
-        axes = {name: (c[::2] + c[1::2]) / 2 for name, c in state.axes.items()}
+    """The same load on means of cells, until there are few enough along a side or the numbers have
+    no small divisor in common; forces and moments stay."""
+    while max(shape := state.tractions["pressure"].shape) > most:
+        by = next((p for p in (2, 3, 5, 7) if not any(n % p for n in shape)), None)
+        if by is None:
+            break
+        nx, ny = (n // by for n in shape)
+        axes = {name: c.reshape(-1, by).mean(axis=1) for name, c in state.axes.items()}
         tractions = {
-            name: (f[..., ::2, ::2] + f[..., 1::2, ::2] + f[..., ::2, 1::2] + f[..., 1::2, 1::2])
-            / 4
+            name: f.reshape(*f.shape[:-2], nx, by, ny, by).mean(axis=(-3, -1))
             for name, f in state.tractions.items()
         }
         state = replace(state, axes=axes, tractions=tractions)
