@@ -183,7 +183,7 @@ def stopped_run(scene: Path, number: signal.Signals, after: float) -> tuple[int,
         assert process.stderr.readline().startswith(b"step 1/3")
         time.sleep(after)
         process.send_signal(number)
-        said = process.communicate(timeout=30)[1].decode()
+        said = process.communicate(timeout=600)[1].decode()
         return process.returncode, "".join(
             line for line in said.splitlines(True) if not line.startswith("step ")
         )

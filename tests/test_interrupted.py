@@ -50,7 +50,7 @@ def started(directory: Path, *arguments: str, by: str = "") -> "subprocess.Popen
 
 
 def wait_for(directory: Path, pattern: str, count: int) -> None:
-    deadline = time.monotonic() + 150
+    deadline = time.monotonic() + 600
     while len(list(directory.glob(pattern))) < count and time.monotonic() < deadline:
         time.sleep(0.01)
 
@@ -59,7 +59,7 @@ def interrupted(process: "subprocess.Popen[str]", *, by_itself: bool = False) ->
     """What it says on the terminal."""
     if not by_itself:
         process.send_signal(signal.SIGINT)
-    _, said = process.communicate(timeout=170)
+    _, said = process.communicate(timeout=600)
     assert process.returncode == 130, said
     return said.splitlines()
 

@@ -51,7 +51,7 @@ def test_results_appear_and_are_replaced_without_locks(tmp_path: Path) -> None:
     (tmp_path / "scene.toml").write_text(SCENE, encoding="utf-8")
     ended = subprocess.run(
         [sys.executable, "-c", WITHOUT + RUN_TWICE], cwd=tmp_path, text=True, capture_output=True,
-        timeout=100, check=False, env=os.environ | {"PYTHONPATH": str(ROOT)},
+        timeout=600, check=False, env=os.environ | {"PYTHONPATH": str(ROOT)},
     )  # fmt: skip
     assert ended.returncode == 0, ended.stderr
     assert sorted(os.listdir(tmp_path)) == ["out", "scene.toml"]

@@ -148,7 +148,7 @@ def test_run_survives_kills_at_any_time(options: tuple[str, ...], tmp_path: Path
         if (killed / "out" / "summary.json").exists():
             assert visible(killed) == expected
     process = started(killed, *options)
-    _, log = process.communicate(timeout=170)
+    _, log = process.communicate(timeout=600)
     assert process.returncode == 0, log
     assert "damaged" not in log
     assert results(killed) == expected

@@ -186,9 +186,9 @@ def test_a_long_history_takes_no_more_than_its_share(tmp_path: Path) -> None:
     steps = "".join(f"[[loading]]\nnormal_force = {n}\n" for n in range(1, 20_001))
     path = tmp_path / "scene.toml"
     path.write_text(head + steps)
-    start = time.perf_counter()
+    start = time.process_time()
     assert len(load_scene(path).loading) == 20_000
-    parsing = time.perf_counter()
+    parsing = time.process_time()
     tomllib.loads(head + steps)
     # Relative to the parser of the standard library: the machine drops out.
-    assert parsing - start < 6 * (time.perf_counter() - parsing) + 1.0
+    assert parsing - start < 6 * (time.process_time() - parsing) + 1.0

@@ -40,7 +40,7 @@ def started(directory: Path, *options: str, dying: str = "") -> "subprocess.Pope
 
 
 def ended(process: "subprocess.Popen[str]") -> tuple[str, str]:
-    return process.communicate(timeout=170)
+    return process.communicate(timeout=600)
 
 
 def records(directory: Path) -> dict[str, int]:
