@@ -24,8 +24,8 @@ from semi_analytical.shearing import TangentialTarget
 Advance = Callable[
     [ContactModel, State | None, NormalTarget, TangentialTarget | None, float], State
 ]
-# A state, after the one before and under its load, with its edges inside the cells.
-Correct = Callable[[State | None, State, TangentialTarget | None, float], Corrected | None]
+# A state, after the one before, with its edges inside the cells.
+Correct = Callable[[State | None, State, float], Corrected | None]
 
 # An increment that has taken more without converging is not cut any further. The last attempt that
 # fails before the halves converge is over after at most 17 200 in the stability map.
@@ -104,7 +104,9 @@ class _Solver:
         after = balanced(self.model, before, after, path_matters=matters)
         if self.correct is None or (self.plan.edge == "last" and fraction < 1):
             return after
-        return replace(after, corrected=self.correct(before, after, tangential, self.tolerance))
+        # Where only ends are known inside the cells, and the way between them is all one.
+        last = before if matters or self.plan.edge == "all" else start
+        return replace(after, corrected=self.correct(last, after, self.tolerance))
 
     def report(self, reached: Reached[State], last: Increment | None) -> Increment:
         """The state, with what the increment has changed and cost."""
@@ -147,13 +149,8 @@ def _increment(model: ContactModel, before: State | None, state: State, place: P
     if state.corrected is not None and state.corrected.sheared is not None:
         edges = state.corrected.sheared
         stuck = edges.stick_cells
-        sheared = replace(
-            sheared,
-            shear=edges.shear,
-            shift=edges.shift,
-            in_stick=edges.stick,
-            force=edges.force,
-        )
+        # Force and shift stay those of cells, as does the work that they do along the history.
+        sheared = replace(sheared, shear=edges.shear, in_stick=edges.stick)
     increment = replace(
         pressed,
         status=sheared.status if model.scene.friction else pressed.status,

@@ -6,10 +6,23 @@ import sys
 import numpy as np
 import pytest
 from cell_means import ellipse_means
-from contact_scenes import APPROACH, LIMIT, LOAD, MU, RADIUS, A, hertz, paraboloid, scene, steel
+from contact_scenes import (
+    APPROACH,
+    LIMIT,
+    LOAD,
+    MU,
+    RADIUS,
+    A,
+    hertz,
+    paraboloid,
+    push,
+    scene,
+    slide,
+    steel,
+)  # fmt: skip
 
 from contact_results.remarks import remarks
-from contact_scene import Cone, FlatPunch, HeightMap, Scene
+from contact_scene import Cone, Ellipsoid, FlatPunch, HeightMap, Scene
 from semi_analytical import SurfaceGrid, plan, solve
 from verification.closed_forms.cone import ConeContact
 from verification.closed_forms.moduli import contact_modulus
@@ -201,6 +214,61 @@ def test_no_later_shear_knows_of_the_correction():
         np.testing.assert_array_equal(one.slip, other.slip)
 
 
+def test_a_step_of_many_increments_is_corrected_from_where_it_began():
+    """Where the path does not matter they lead to what one leads to."""
+    one, many = (
+        solved(
+            scene(
+                PRESS,
+                *({**push(part), "increments": count} for part in (0.8, -0.5)),
+                indenter=paraboloid(ALIKE),
+                body=ALIKE,
+            )
+        ).steps[-1]
+        for count in (1, 4)
+    )
+    assert many.edge_change is not None
+    assert many.stick_radius == pytest.approx(one.stick_radius, rel=1e-5)
+    np.testing.assert_allclose(many.shear, one.shear, atol=1e-4 * np.max(one.shear))
+
+
+@pytest.mark.parametrize("led", [push(0.6), slide(0.5)], ids=["force", "shift"])
+def test_force_and_shift_stay_those_of_cells(led):
+    """As does the work that they do along the history; the shear carries the force."""
+    plain, edged = (solved(scene(PRESS, led), edge) for edge in ("off", "last"))
+    for one, other in zip(plain.steps, edged.steps, strict=True):
+        assert other.edge_change is not None
+        np.testing.assert_array_equal(one.tangential_shift, other.tangential_shift)
+        np.testing.assert_array_equal(one.tangential_force, other.tangential_force)
+        carried = np.sum(other.shear, axis=(1, 2)) * edged.grid.cell_area
+        np.testing.assert_allclose(carried, other.tangential_force, atol=1e-8 * LIMIT)
+
+
+@pytest.mark.parametrize("back", [-0.5, 0.6])
+def test_after_sliding_the_edges_are_inside_the_cells_too(back):
+    """Moved far, and back by Masing's rule: the stick radius is that of half the change."""
+    far = {"tangential_shift": (2e-3, 0.0)}
+    of = scene(PRESS, far, push(back), indenter=paraboloid(ALIKE), body=ALIKE)
+    slid, end = solved(of).steps[-2:]
+    assert end.edge_change is not None
+    assert slid.stick_area == 0
+    np.testing.assert_array_equal(slid.shear[0], MU * slid.pressure)
+    assert np.sum(slid.shear[0]) * (WINDOW / CELLS) ** 2 == pytest.approx(LIMIT, rel=1e-9)
+    stick = ((1 + back) / 2) ** (1 / 3) * EXACT.contact_radius
+    assert end.stick_radius == pytest.approx(stick, rel=1e-4)
+
+
+def test_a_mirrored_contact_has_a_mirrored_edge():
+    """Cells on the mirror have two neighbours alike, of which none may be preferred."""
+    ellipsoid = Ellipsoid(radii=(RADIUS, 2 * RADIUS), material=steel())
+    of, grid = scene(PRESS, push(0.7), indenter=ellipsoid), (32, 28)
+    end = solved(of, grid=SurfaceGrid(grid, (3.3 * A, 4.0 * A))).steps[-1]
+    assert end.edge_change is not None
+    for field in (end.pressure, end.shear[0]):
+        for image in (field[::-1], field[:, ::-1]):
+            np.testing.assert_allclose(field, image, atol=1e-8 * np.max(field))
+
+
 def test_where_the_normal_force_changes_under_shear_the_tractions_stay():
     loading = PRESS, {"tangential_force": (0.5 * LIMIT, 0.0)}, {"normal_force": 1.2 * LOAD}
     of = scene(*loading, indenter=paraboloid(ALIKE), body=ALIKE)
@@ -212,10 +280,11 @@ def test_where_the_normal_force_changes_under_shear_the_tractions_stay():
 
 def test_not_asked_for_it_is_not_even_imported():
     code = (
-        "import sys; from semi_analytical import SurfaceGrid, solve\n"
+        "import sys; from semi_analytical import SurfaceGrid, plan, solve\n"
         "from contact_scene import load_scene\n"
         "of = load_scene('scenes/hertz.toml')\n"
-        "solve(of, SurfaceGrid((16, 16), (1.2e-3, 1.2e-3)), 1e-6)\n"
+        "grid = SurfaceGrid((16, 16), (1.2e-3, 1.2e-3))\n"
+        "solve(of, grid, 1e-6, plan=plan(of, edge='off'))\n"
         "print([name for name in sys.modules if 'edge_correction' in name])"
     )
     run = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)

@@ -240,7 +240,7 @@ def test_what_finite_increments_leave_uncertain_covers_what_they_miss(described)
 @pytest.mark.parametrize("described", UNCERTAIN.values(), ids=UNCERTAIN)
 def test_slip_is_uncertain_by_what_friction_changes_along_it(described):
     """Σ |Δq| |Δs| Δ over the increments of steps whose path matters, whatever they miss of it."""
-    result = solve(described(6), GRID, TOLERANCE)
+    result = solve(described(6), GRID, TOLERANCE, plan=plan(described(6), edge="off"))
     matters = [step.path_matters for step in result.plan.path]
     changed, shear, slip = 0.0, 0.0, 0.0
     for i in result.increments:
@@ -317,7 +317,8 @@ def test_at_the_limit_under_force_control_work_and_slip_are_undefined():
 
 
 def test_increments_add_up_to_what_they_have_led_to():
-    result = solve(contact_scenes.scene(PRESS, push(0.9), push(-0.9)), GRID, TOLERANCE)
+    of = contact_scenes.scene(PRESS, push(0.9), push(-0.9))
+    result = solve(of, GRID, TOLERANCE, plan=plan(of, edge="off"))
     last = result.increments[-1]
     slips = [i.slip_increment for i in result.increments]
     lost = [i.dissipation_increment for i in result.increments]

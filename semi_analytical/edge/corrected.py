@@ -21,7 +21,6 @@ class CorrectedShear:
     slip          (2, nx, ny) its direction where cells slip, and there nearest to where they stick
     displacement  (2, nx, ny) u_t at the centres of the cells [length]
     shift         (2,) of the indenter [length]; None at the friction limit under force control
-    force         (2,) tangential [force]
     stick         (nx, ny) cells whose centre sticks
     stick_cells   area of the stick zone in cells
     change        of the shear in the last round, Σ|Δq|/Σµp
@@ -32,7 +31,6 @@ class CorrectedShear:
     slip: Field
     displacement: Field
     shift: Field | None
-    force: Field
     stick: NDArray[np.bool_]
     stick_cells: float
     change: float

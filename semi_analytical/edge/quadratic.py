@@ -31,7 +31,7 @@ class Quadratic:
         """|grad phi| there."""
         return np.hypot(self.f_x, self.f_y)
 
-    def chosen(self, which: NDArray[np.bool_] | slice) -> Quadratic:
+    def chosen(self, which: NDArray[np.bool_] | NDArray[np.intp] | slice) -> Quadratic:
         """Some of the places."""
         return Quadratic(*(part[which] for part in vars(self).values()))
 

@@ -89,7 +89,7 @@ def rim(
     shape = edge_shape(means / scale, region, STENCIL, rings=0, exponent=exponent, rounds=2)
     outside = distance_transform_edt(~region)
     i, j = np.nonzero((layer + outside <= INSIDE) & (outside <= OUTSIDE))
-    phi, safe = shape.about(i.astype(float), j.astype(float))
+    phi, safe = shape.about_cells(i, j)
     of_cells = np.broadcast_to(exponent, means.shape)[i, j] if np.ndim(exponent) else exponent
     parts, covered = _in_parts(phi, of_cells)
     fade = np.clip((layer[i, j] - WHOLE) / (INSIDE - WHOLE), 0, 1)[:, None, None]

@@ -24,6 +24,8 @@ ASKED = 3.5
 # Of a step to the edge, and of all of them, in cells.
 LONGEST_STEP, FARTHEST = 1.0, 2.0
 REFITS = 3
+# Steps to the cells that touch one at a side, then at a corner.
+TOUCHING = np.array([[1, -1, 0, 0, 1, 1, -1, -1], [0, 0, 1, -1, 1, -1, 1, -1]])
 
 
 @dataclass(frozen=True)
@@ -65,6 +67,26 @@ class EdgeShape:
         """
         fits = self.fits(*self.nearest_to(x, y))
         return fits.quadratic.about(x, y), believed(fits)
+
+    def about_cells(self, i: Indices, j: Indices) -> tuple[Quadratic, Mask]:
+        """phi about cells of the region and all that touch them, shape (n,), and whether to believe
+        it: outside of it the mean of what the nearest say, as a mirror image would have it."""
+        inside = self.depth[i, j] > 0
+        fits = self.fits(i[inside], j[inside])
+        row = np.full(np.add(self.means.shape, 2), -1)
+        row[i[inside] + 1, j[inside] + 1] = np.arange(len(fits.count))
+        beside = row[i[~inside, None] + 1 + TOUCHING[0], j[~inside, None] + 1 + TOUCHING[1]]
+        share = (beside >= 0).astype(float)
+        share[np.any(share[:, :4] > 0, axis=1), 4:] = 0.0
+        share /= np.sum(share, axis=1, keepdims=True)
+        x, y, safe = i.astype(float), j.astype(float), believed(fits)
+        at = fits.quadratic.chosen(beside).about(x[~inside, None], y[~inside, None])
+        parts = np.empty((8, len(i)))
+        parts[:, inside] = list(vars(fits.quadratic).values())
+        parts[:, ~inside] = [np.sum(share * part, axis=1) for part in vars(at).values()]
+        trusted = np.empty(len(i), dtype=bool)
+        trusted[inside], trusted[~inside] = safe, np.all(safe[beside] | (share == 0), axis=1)
+        return Quadratic(*parts), trusted
 
     def edge_points(self, i: Indices, j: Indices) -> tuple[Quadratic, Mask]:
         """phi about the points of the edge nearest to cells (n,), and whether to believe it.

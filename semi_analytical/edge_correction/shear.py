@@ -13,10 +13,10 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.ndimage import distance_transform_edt
+from scipy.ndimage import correlate1d, distance_transform_edt
 
 from contact_scene.solver_errors import NotConverged
-from semi_analytical.admissible_shear import magnitude
+from semi_analytical.admissible_shear import ShearSum, Vector, magnitude
 from semi_analytical.edge.corrected import CorrectedShear
 from semi_analytical.edge.displacement import Within
 from semi_analytical.edge.rim import Rim, rim
@@ -30,13 +30,18 @@ from semi_analytical.edge_correction.pressure import (
     settles,
 )
 from semi_analytical.sheared import Sheared
-from semi_analytical.shearing import TangentialTarget
 from semi_analytical.tangential import TangentialSolution, solve_tangential
 
 Field = NDArray[np.float64]
 VectorField = NDArray[np.float64]
 Mask = NDArray[np.bool_]
 WithinVector = tuple[Within, Within]
+
+# Layers of cells that a fit of the border of stick may ask for the slip of.
+LAYERS = 12
+BESIDE = np.ones(3)
+# Of the sum of the directions of neighbours, below which they point against each other.
+LEAST_COMMON = 1e-3
 
 
 @dataclass(frozen=True)
@@ -51,13 +56,61 @@ class Missing:
     edge: Rim
 
 
+def direction_of_slip(q: VectorField, slips: Mask) -> VectorField:
+    """Of cells that slip (2, nx, ny), and of the others as those next to them have it, layer by
+    layer; far from all the nearest cell's."""
+    size = magnitude(q)
+    known = slips & (size > 0)
+    n = np.where(known, q / np.where(known, size, 1.0), 0.0)
+    for _ in range(LAYERS):
+        about = correlate1d(correlate1d(n, BESIDE, 1, mode="constant"), BESIDE, 2, mode="constant")
+        size = magnitude(about)
+        new = ~known & (size > LEAST_COMMON)
+        n = np.where(new, about / np.where(new, size, 1.0), n)
+        known |= new
+    nearest = distance_transform_edt(~known, return_distances=False, return_indices=True)
+    return np.asarray(n[:, nearest[0], nearest[1]])
+
+
+def displacement_within(of: EdgeOperators, within: WithinVector) -> VectorField:
+    """u_t (2, nx, ny) by what a shear is within the cells [length]."""
+    x, y = within
+    return np.stack([of["xx"](x) + of["xy"](y), of["xy"](x) + of["yy"](y)])
+
+
+def sliding_shear(
+    operators: EdgeOperators, bound: Field, limit: Within, solved: Sheared
+) -> CorrectedShear:
+    """The shear where all slips: the limit, along the slip.
+
+    bound, limit  see `ShearProblem`
+    """
+    slip = direction_of_slip(solved.shear, magnitude(solved.shear) > 0)
+    shear, nowhere = bound * slip, np.zeros(bound.shape, dtype=bool)
+    x, y = (
+        Within.together(n * limit.slopes + np.stack(np.gradient(n)) * bound, [limit.times(n)])
+        for n in slip
+    )
+    operator = operators.model.tangential_operator(bound.shape)
+    return CorrectedShear(
+        shear=shear,
+        within=(x, y),
+        slip=slip,
+        displacement=operator(shear) + displacement_within(operators, (x, y)),
+        shift=solved.shift,
+        stick=nowhere,
+        stick_cells=0.0,
+        change=0.0,
+    )
+
+
 @dataclass(frozen=True)
 class ShearProblem:
     """An increment at its corrected pressure.
 
     bound    µp (nx, ny) [force/length^2]
     limit    µp within the cells, in `contact.parts` along the edge of the contact
-    load     of the increment
+    force    (2,) that the shear carries, that of cells however the shear is led
     target   u_t - shift of the state before (2, nx, ny) [length]
     before   its shear (2, nx, ny), and what that is within the cells
     turned   direction of its slip (2, nx, ny) where it is turned round; None where it goes on
@@ -67,7 +120,7 @@ class ShearProblem:
     bound: Field
     contact: Rim
     limit: Within
-    load: TangentialTarget
+    force: Vector
     target: VectorField
     before: tuple[VectorField, WithinVector]
     turned: VectorField | None
@@ -90,9 +143,7 @@ class ShearProblem:
         slips = (bound > 0) & ~(stick & ~reached)
         if not np.any(slips) or not np.any(stick):
             return None
-        nearest = distance_transform_edt(~slips, return_distances=False, return_indices=True)
-        slip = q[:, nearest[0], nearest[1]]
-        slip = slip / magnitude(slip)
+        slip = direction_of_slip(q, slips)
         full = self.full(bound, slip, before)
         shear = np.where(stick, full - q, 0.0)
         border = rim(magnitude(shear), stick, edge)
@@ -129,11 +180,6 @@ class ShearProblem:
             found.append(Within.together(np.where(deep, since, outer), parts))
         return found[0], found[1]
 
-    def displacement(self, within: WithinVector) -> VectorField:
-        """u_t (2, nx, ny) by what a shear is within the cells [length]."""
-        of, (x, y) = self.operators, within
-        return np.stack([of["xx"](x) + of["xy"](y), of["xy"](x) + of["yy"](y)])
-
     def solve(
         self, q: VectorField, motion: Field, missing: Missing, u: VectorField
     ) -> TangentialSolution:
@@ -149,7 +195,7 @@ class ShearProblem:
             operator.precondition,
             np.where(missing.edge.outer, np.minimum(reached, self.bound), self.bound),
             self.target - u,
-            self.load.on(model.grid.cell_area, None),
+            ShearSum(self.force / model.grid.cell_area),
             q,
             motion,
             model.self_compliance,
@@ -177,7 +223,7 @@ def edge_shear(
     mixing, changes = Mixing(), []
     for number in range(MOST_ROUNDS):
         within = problem.within(q, missing)
-        u = problem.displacement(within)
+        u = displacement_within(problem.operators, within)
         try:
             solution = problem.solve(q, motion, missing, u)
         except NotConverged:
@@ -197,14 +243,12 @@ def edge_shear(
         missing = next_missing
     if not settles(changes):
         return None
-    force, cell = problem.load.force, problem.operators.model.grid.cell_area
     return CorrectedShear(
         shear=answer,
         within=within,
         slip=missing.slip,
         displacement=solution.displacement + u,
         shift=motion,
-        force=np.sum(answer, axis=(1, 2)) * cell if force is None else force,
         stick=edge.region,
         stick_cells=edge.area,
         change=changes[-1],

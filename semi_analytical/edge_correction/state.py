@@ -12,11 +12,10 @@ from semi_analytical.edge.displacement import Within
 from semi_analytical.edge.rim import Rim
 from semi_analytical.edge_correction.operators import EdgeOperators
 from semi_analytical.edge_correction.pressure import edge_pressure
-from semi_analytical.edge_correction.shear import ShearProblem, edge_shear
+from semi_analytical.edge_correction.shear import ShearProblem, edge_shear, sliding_shear
 from semi_analytical.increment import State
 from semi_analytical.model import ContactModel
 from semi_analytical.sheared import rigid
-from semi_analytical.shearing import TangentialTarget
 
 Field = NDArray[np.float64]
 
@@ -28,20 +27,16 @@ class EdgeCorrection:
         self._operators = EdgeOperators(model)
         self._last: tuple[Field, tuple[Corrected, Rim] | None] | None = None
 
-    def __call__(
-        self, before: State | None, state: State, load: TangentialTarget | None, tolerance: float
-    ) -> Corrected | None:
+    def __call__(self, before: State | None, state: State, tolerance: float) -> Corrected | None:
         """The state with its edges inside the cells; None where that is not safe.
 
-        before  the state before, the corrected one where there is one: surfaces remember it
-        load    that the shear carries; None where no shear arises
+        before  a state before, the corrected one where there is one: surfaces remember it
         """
         pressed = self._pressed(state, tolerance)
         if pressed is None or state.sheared is None:
             return None if pressed is None else pressed[0]
-        assert load is not None
         corrected, contact = pressed
-        sheared = self._sheared(before, state, load, corrected.pressure, contact, tolerance)
+        sheared = self._sheared(before, state, corrected.pressure, contact, tolerance)
         return None if sheared is None else replace(corrected, sheared=sheared)
 
     def _pressed(self, state: State, tolerance: float) -> tuple[Corrected, Rim] | None:
@@ -55,7 +50,6 @@ class EdgeCorrection:
         self,
         before: State | None,
         state: State,
-        load: TangentialTarget,
         pressure: Field,
         contact: Rim,
         tolerance: float,
@@ -72,29 +66,31 @@ class EdgeCorrection:
                 slip=nothing,
                 displacement=nothing,
                 shift=solved.shift,
-                force=solved.force,
                 stick=contact.region,
                 stick_cells=contact.area,
                 change=0.0,
             )
+        mu = model.friction.uniform
+        assert mu is not None
+        limit = Within.of(bound, contact.i, contact.j, mu * contact.parts)
+        if not np.any(solved.in_stick):
+            return sliding_shear(self._operators, bound, limit, solved)
         slips = (bound > 0) & ~solved.in_stick
         last = before.corrected.sheared if before and before.corrected else None
-        if last is None or solved.shift is None or not np.any(slips) or not np.any(solved.in_stick):
+        if last is None or solved.shift is None or not np.any(slips):
             return None
         assert before is not None
         assert before.sheared is not None
         assert last.shift is not None
         if before.target != state.target and np.any(last.shear):
             return None  # nobody knows how the border of stick lies to the one before
-        mu = model.friction.uniform
-        assert mu is not None
         turned = np.sum(last.slip * solved.shear * slips) < 0
         problem = ShearProblem(
             operators=self._operators,
             bound=bound,
             contact=contact,
-            limit=Within.of(bound, contact.i, contact.j, mu * contact.parts),
-            load=load,
+            limit=limit,
+            force=solved.force,
             target=last.displacement - rigid(model, last.shift),
             before=(last.shear, last.within),
             turned=last.slip if turned else None,
