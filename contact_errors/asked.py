@@ -107,7 +107,7 @@ def _why_left_out(name: str, rung: Rung[Any]) -> str:
     if name not in rung.rules:
         return INFINITE
     largest_contact = max(scale(name, step) for step in rung.values)
-    found = [error.status for error, size in ends if size > ROUND_OFF * largest_contact]
+    found = [end.error.status for end in ends if end.size > ROUND_OFF * largest_contact]
     if any(status is not ErrorStatus.EXACT for status in found):
         return ""
     return PRESCRIBED if found else "it is zero throughout"

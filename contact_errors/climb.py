@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import time
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Generic, TypeVar
@@ -9,7 +10,8 @@ from typing import Generic, TypeVar
 import numpy as np
 
 from contact_errors.asked import Asked, asked_of, refuse_absent, refuse_unreachable
-from contact_errors.ladder import FIRST_GROWTH, LATER_GROWTH, Ladder, Rung, growth
+from contact_errors.growth import growth
+from contact_errors.ladder import FIRST_GROWTH, LATER_GROWTH, Ladder, Rung
 from contact_scene.accuracy import AccuracyRequest
 from contact_scene.accuracy_reached import AccuracyReached
 from contact_scene.solver_errors import SolverError
@@ -55,16 +57,18 @@ class Way(Generic[F]):
 
         timed  whether it is to be known how long the next one takes
         """
-        shares, rounds = self.asked.shares, self.rounds + 1
+        began, shares, rounds = time.perf_counter(), self.asked.shares, self.rounds + 1
         most = FIRST_GROWTH if rounds == 1 else LATER_GROWTH
         shortfall = rung.shortfall(shares)
         better = shortfall <= self.shortfall
-        finer = ladder.refined(rung.fineness, growth(rung, shares).bounded(most))
+        finer = rung.fineness
+        if not rung.meets(shares):
+            finer = ladder.refined(rung.fineness, growth(rung, shares).bounded(most))
         shared = max(1.0, rung.seconds / max(rung.processor_seconds, 1e-3))
         return Way(
             asked=self.asked,
             rounds=rounds,
-            spent=self.spent + rung.seconds,
+            spent=self.spent + rung.seconds + time.perf_counter() - began,
             best=rung.fineness if better else self.best,
             shortfall=shortfall if better else self.shortfall,
             next=finer,

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from contact_errors.levels import recut
 from contact_scene.solver_errors import ContactAtWindowEdge, ResourceRefused, SolverError
 from contact_scene.stated_error import Companion
 from semi_analytical import Increment, Plan, Result, SurfaceGrid, solve
@@ -57,11 +56,6 @@ def on_wide_cells(
             return coarse, asked.model_copy(update=counts)
     assert refused is not None
     return None, refused
-
-
-def recut_plan(plan: Plan) -> Plan:
-    """Other increments where the path matters."""
-    return plan.cut_into([recut(s.count) if s.path_matters else s.count for s in plan.path])
 
 
 def _widened(grid: SurfaceGrid, room: float) -> SurfaceGrid:

@@ -1,15 +1,16 @@
-"""A scene solved ever finer: the rungs, what a ladder is, and how much finer the next rung is."""
+"""A scene solved ever finer: the rungs, and what a ladder is."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass, field
-from types import MappingProxyType
-from typing import Any, Generic, Protocol, TypeVar
+from math import ceil
+from typing import Any, Generic, NamedTuple, Protocol, TypeVar
 
 import numpy as np
 
+from contact_errors.by_step import ByStep
 from contact_errors.estimate import largest_so_far
 from contact_errors.rules import Rule
 from contact_errors.tension import Tension
@@ -21,24 +22,23 @@ from contact_scene.stated_error import Amount, ErrorStatus, Part, StatedError, S
 
 F = TypeVar("F")
 
-# Errors on the next rung are aimed at this part of the request, and have to be below one over
-# `SPARE` of it: whoever stops at the first error below a bound prefers errors that are too small.
-AIM = 0.8
+# Errors have to be below one over this of the request: whoever stops at the first error below a
+# bound prefers errors that are too small.
 SPARE = 1.15
-# Of the request, at most so much for the increments.
-HALF = 0.5
 # Cells of the next rung over those of this: an error far away says little.
 FIRST_GROWTH, LATER_GROWTH, LEAST_GROWTH = 8.0, 3.0, 1.15
 # Increments over those of this: they cost in proportion, so that steps on the way are dearer than
 # a few too many.
 GROWTH_OF_INCREMENTS = 8.0
-# Where a number has not converged nothing follows from its error.
-UNCONVERGED_GROWTH = 2.0
 SPACE: tuple[Part, ...] = ("cells", "elements")
-# What neither lessens may take so much of the request, each.
-REST: Mapping[Part, float] = MappingProxyType(
-    {"tolerance": 0.05, "section": 0.1, "penalty": 0.1, "harmonics": 0.15}
-)
+
+
+class End(NamedTuple):
+    """A number at the end of a step, from 0: its error and its size."""
+
+    step: int
+    error: StatedError
+    size: float
 
 
 @dataclass(frozen=True)
@@ -49,6 +49,7 @@ class Rung(Generic[F]):
     stated    the errors of its numbers
     values    its numbers
     rules     laws of their errors
+    by_step   whose increments leave them
     seconds   that it took with its companions
     processor_seconds
               of these, those that the machine worked for it
@@ -60,6 +61,7 @@ class Rung(Generic[F]):
     stated: StatedErrors
     values: Sequence[Values]
     rules: Mapping[str, Rule]
+    by_step: ByStep
     seconds: float
     processor_seconds: float
     below: Tension | None = None
@@ -72,15 +74,17 @@ class Rung(Generic[F]):
 
     def errors(self, name: str) -> Iterator[StatedError]:
         """Of a number at the ends of all steps that have it."""
-        return (error for error, _ in self.ends(name))
+        return (end.error for end in self.ends(name))
 
-    def ends(self, name: str) -> Sequence[tuple[StatedError, float]]:
-        """Its error and its size at the ends of all steps that have it."""
+    def ends(self, name: str) -> Sequence[End]:
+        """Of a number, for all steps that have it."""
+        steps = self.stated.steps
         if name == LARGEST_TENSION:
-            return [] if self.below is None else [(self.below.error, self.below.value)]
+            below = self.below
+            return [] if below is None else [End(len(steps) - 1, below.error, below.value)]
         return [
-            (step[name], float(np.max(np.abs(values[name]))))
-            for step, values in zip(self.stated.steps, self.values, strict=True)
+            End(number, step[name], float(np.max(np.abs(values[name]))))
+            for number, (step, values) in enumerate(zip(steps, self.values, strict=True))
             if name in step
         ]
 
@@ -91,7 +95,7 @@ class Rung(Generic[F]):
         for error in self.errors(name):
             if error.error is None or error.status is ErrorStatus.NOT_CONVERGED:
                 return None
-            found = max(found, _size(error.error))
+            found = max(found, largest_of(error.error))
         return found / self.largest(name)
 
     def shortfall(self, shares: Mapping[str, float]) -> float:
@@ -110,19 +114,32 @@ class Growth:
     """How much finer.
 
     cells       factor of the cells along a side, or of the elements over the radius
-    increments  of the increments, where they matter
+    increments  of the increments of steps, from 0; 1 of those that are not named
     less        what is to be left of the errors that neither lessens
     """
 
     cells: float
-    increments: float
+    increments: Mapping[int, float] = field(default_factory=dict)
     less: Mapping[Part, float] = field(default_factory=dict)
+
+    def increments_of(self, counts: Sequence[int], matters: Sequence[bool]) -> tuple[int, ...]:
+        """Of steps that have had so many; those whose path does not matter keep them."""
+        return tuple(
+            ceil(self.increments.get(step, 1.0) * count) if grows else count
+            for step, (count, grows) in enumerate(zip(counts, matters, strict=True))
+        )
+
+    def covers(self, needed: Growth) -> bool:
+        """Whether it is no less, of cells and of the increments of any step."""
+        mine = self.increments
+        enough = all(mine.get(step, 1.0) >= by for step, by in needed.increments.items())
+        return enough and self.cells >= needed.cells
 
     def bounded(self, most: float) -> Growth:
         """At most so many times the cells along a side, and a little finer at least."""
         cells = min(self.cells, most)
-        increments = min(self.increments, GROWTH_OF_INCREMENTS)
-        if max(cells, increments) < LEAST_GROWTH and not self.less:
+        increments = {n: min(by, GROWTH_OF_INCREMENTS) for n, by in self.increments.items()}
+        if max(cells, *increments.values(), 1.0) < LEAST_GROWTH and not self.less:
             cells = LEAST_GROWTH
         return Growth(cells, increments, self.less)
 
@@ -166,44 +183,12 @@ class Ladder(Protocol[F]):
         """How fine, for the summary."""
 
 
-def growth(rung: Rung[Any], shares: Mapping[str, float]) -> Growth:
-    """How much finer a rung has to be for these errors, relative to the largest of each number."""
-    cells = increments = 1.0
-    less: dict[Part, float] = {}
-    for name, share in shares.items():
-        rule, largest = rung.rules[name], rung.largest(name)
-        for error in rung.errors(name):
-            if error.status is ErrorStatus.EXACT:
-                continue
-            if error.error is None or error.status is ErrorStatus.NOT_CONVERGED:
-                cells = max(cells, UNCONVERGED_GROWTH)
-                increments = max(increments, UNCONVERGED_GROWTH)
-                continue
-            parts = {part: _size(size) / largest for part, size in error.parts.items()}
-            space = sum(parts.get(part, 0.0) for part in SPACE)
-            path = parts.get("increments", 0.0)
-            by_path, of_space = _path_alone(rule, path, space)
-            rest = {part: parts[part] / (REST[part] * share) for part in REST if part in parts}
-            for part, ratio in rest.items():
-                if ratio > 1:
-                    less[part] = min(less.get(part, 1.0), 1 / ratio)
-            of_path = min(path, HALF * AIM * share)
-            of_rest = sum(min(ratio, 1.0) * REST[part] * share for part, ratio in rest.items())
-            left = AIM * share - of_path - of_rest
-            cells = max(cells, (max(space, of_space) / left) ** (1 / rule.order))
-            increments = max(increments, by_path / of_path if of_path else 1.0)
-    return Growth(cells, increments, less)
+def larger(*factors: Mapping[int, float]) -> dict[int, float]:
+    """The larger one of every step."""
+    steps = sorted(set().union(*factors))
+    return {step: max(by.get(step, 1.0) for by in factors) for step in steps}
 
 
-def _path_alone(rule: Rule, path: float, space: float) -> tuple[float, float]:
-    """The error by increments without, and at most with nothing but, the scatter by cells that it
-    contains: more increments do not lessen that."""
-    if rule.weight == 0:
-        return path, 0.0
-    per_space = rule.factor * (rule.weight / (rule.weight + 1)) ** 0.5
-    scatter = min(path, rule.path_factor * rule.path_scatter * space / per_space)
-    return (path**2 - scatter**2) ** 0.5, scatter
-
-
-def _size(amount: Amount) -> float:
-    return max(amount) if isinstance(amount, tuple) else amount
+def largest_of(amount: Amount) -> float:
+    """The error of a number, the larger one of a vector."""
+    return float(max(amount) if isinstance(amount, tuple) else amount)

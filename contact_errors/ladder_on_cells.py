@@ -13,7 +13,7 @@ import numpy as np
 import semi_analytical
 from contact_errors.half_the_cells import Progress
 from contact_errors.ladder import Growth, Rung, unkept
-from contact_errors.on_cells import rules_at, stated_errors
+from contact_errors.on_cells import judged, rules_at
 from contact_errors.solve_cost import Solved, machine_speed, seconds_like
 from contact_errors.tension import largest_tension
 from contact_errors.values import values_of
@@ -79,7 +79,7 @@ class CellLadder:
     def climbed(self, fineness: CellFineness) -> Rung[CellFineness]:
         began, began_processor = time.perf_counter(), time.process_time()
         result = self._solved(fineness)
-        stated = stated_errors(result, surface_stress=self.surface_stress)
+        stated, by_step = judged(result, surface_stress=self.surface_stress)
         below = None
         if self.stress_at is not None:
             below = largest_tension(result, stated, self.stress_at)
@@ -90,6 +90,7 @@ class CellLadder:
             stated=stated,
             values=values_of(result, fretting_cycles(result, surface_stress=self.surface_stress)),
             rules={**rules, **({LARGEST_TENSION: below.rule} if below else {})},
+            by_step=by_step,
             seconds=time.perf_counter() - began,
             processor_seconds=time.process_time() - began_processor,
             below=below,
@@ -97,18 +98,19 @@ class CellLadder:
 
     def refined(self, fineness: CellFineness, by: Growth) -> CellFineness:
         grid = SurfaceGrid(_scaled(fineness.grid.cells, by.cells), fineness.grid.window)
-        path = zip(fineness.increments, self._plan().path, strict=True)
-        increments = (
-            ceil(by.increments * number) if step.path_matters else number for number, step in path
-        )
+        matters = [step.path_matters for step in self._plan().path]
+        increments = by.increments_of(fineness.increments, matters)
         tolerance = max(LEAST_TOLERANCE, fineness.tolerance * by.less.get("tolerance", 1.0))
-        return CellFineness(grid, tuple(increments), tolerance)
+        return CellFineness(grid, increments, tolerance)
 
     def seconds(self, fineness: CellFineness, like: Rung[CellFineness]) -> float:
         finer = fineness.grid.cells[0] / like.fineness.grid.cells[0]
-        more = sum(fineness.increments) / sum(like.fineness.increments)
-        counts = sum(increment.convolutions for increment in like.result.increments)
-        solved = [Solved(like.result.grid.cells, counts)]
+        counts = [0] * len(fineness.increments)  # of convolutions in every step
+        for increment in like.result.increments:
+            counts[increment.step - 1] += increment.convolutions
+        finer_steps = np.divide(fineness.increments, like.fineness.increments)
+        more = float(np.average(finer_steps, weights=counts))
+        solved = [Solved(like.result.grid.cells, sum(counts))]
         for companion in like.stated.companions:
             if companion.convolutions and companion.cells:
                 solved.append(Solved(companion.cells, companion.convolutions))
@@ -134,7 +136,7 @@ class CellLadder:
     def most_growth(self, fineness: CellFineness) -> float:
         # Libraries apart, memory goes with the cells; on few of them libraries are all of it.
         most = MOST_CELLS / max(fineness.grid.cells)
-        here, there = (self.memory(self.refined(fineness, Growth(by, 1.0))) for by in (1.0, most))
+        here, there = (self.memory(self.refined(fineness, Growth(by))) for by in (1.0, most))
         share = min(1.0, max(0.0, (available_bytes() - here) / (there - here)))
         return float(np.sqrt(1.0 + share * (most**2 - 1.0)))
 

@@ -10,7 +10,7 @@ from math import ceil, sqrt
 
 import fem_reference
 from contact_errors.ladder import Growth, Rung, unkept
-from contact_errors.on_elements import Progress, rules_of, stated_errors
+from contact_errors.on_elements import Progress, cut, judged, rules_of
 from contact_errors.values import values_of
 from contact_results.cycles import fretting_cycles
 from contact_scene import FiniteElementDiscretisation, Scene
@@ -77,15 +77,16 @@ class ElementLadder:
     def climbed(self, fineness: ElementFineness) -> Rung[ElementFineness]:
         began, began_processor = time.perf_counter(), time.process_time()
         with self.keeping(fineness) as keeper, self.watching(fineness) as progress:
-            scene = self._cut(fineness.increments)
+            scene = cut(self.scene, fineness.increments)
             result = fem_reference.solve(scene, fineness.mesh, self.method, progress, keeper)
-        stated = stated_errors(result)
+        stated, by_step = judged(result)
         return Rung(
             fineness=fineness,
             result=result,
             stated=stated,
             values=values_of(result, fretting_cycles(result)),
             rules=rules_of(result),
+            by_step=by_step,
             seconds=time.perf_counter() - began,
             processor_seconds=time.process_time() - began_processor,
         )
@@ -105,11 +106,7 @@ class ElementLadder:
         if "section" in less:
             box = max(section.outline.box for section in self._sections(fineness))
             finer = _updated(finer, box=min(LARGEST_BOX, box / sqrt(less["section"])))
-        increments = (
-            ceil(by.increments * count) if matter else count
-            for count, matter in zip(fineness.increments, matters, strict=True)
-        )
-        return ElementFineness(finer, tuple(increments))
+        return ElementFineness(finer, by.increments_of(fineness.increments, matters))
 
     def seconds(self, fineness: ElementFineness, like: Rung[ElementFineness]) -> float:
         return like.processor_seconds * self._work(fineness) / self._work(like.fineness)
@@ -153,14 +150,6 @@ class ElementLadder:
         radius = meshed_radius(self.scene, mesh.contact_radius)
         sections = ContactModel.of(self.scene, mesh, radius).sections
         return [section for section in sections if section is not None]
-
-    def _cut(self, increments: Iterable[int]) -> Scene:
-        """The scene with these increments."""
-        steps = [
-            step.model_copy(update={"increments": count})
-            for step, count in zip(self.scene.loading, increments, strict=True)
-        ]
-        return self.scene.model_copy(update={"loading": tuple(steps)})
 
 
 def largest_bytes(sections: Iterable[SectionMesh], several_motions: bool) -> float:

@@ -4,7 +4,7 @@ increments on these."""
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import accumulate
 from operator import or_
@@ -13,16 +13,17 @@ import numpy as np
 from scipy import ndimage
 
 from contact_errors import estimate
+from contact_errors.by_step import ByStep
 from contact_errors.estimate import Numbers
-from contact_errors.half_the_cells import Progress, on_wide_cells, recut_plan
-from contact_errors.levels import Levels, path_changes
+from contact_errors.half_the_cells import Progress, on_wide_cells
+from contact_errors.levels import Levels
 from contact_errors.prescribed import prescribed
 from contact_errors.rules import Lengthscale, Rule, rules_for
 from contact_errors.values import Values, charged_by_increments, lost_by_steps, values_of
 from contact_results.cycles import fretting_cycles
 from contact_results.remarks import left_out
 from contact_scene.geometry import SmoothTip
-from contact_scene.stated_error import Part, StatedErrors
+from contact_scene.stated_error import Companion, Part, StatedErrors
 from contact_scene.summary import ContactStatus
 from semi_analytical import Increment, Result
 from semi_analytical.plan import Coupling
@@ -55,25 +56,39 @@ def stated_errors(
 
     surface_stress  also of what takes the stress at the surface
     """
+    return judged(result, surface_stress=surface_stress, progress=progress)[0]
+
+
+def judged(
+    result: Result, *, surface_stress: bool = False, progress: Progress | None = None
+) -> tuple[StatedErrors, ByStep]:
+    """The same, and the step whose increments leave them; further companions if that is asked."""
 
     def values(of: Result) -> tuple[Values, ...]:
         return values_of(of, fretting_cycles(of, surface_stress=surface_stress))
 
-    cycles = fretting_cycles(result, surface_stress=surface_stress)
+    def otherwise_cut(counts: Sequence[int]) -> tuple[tuple[Values, ...] | None, Companion]:
+        differs = "half the cells, other increments"
+        found, made = on_wide_cells(result, result.plan.cut_into(counts), differs, progress)
+        return (None if found is None else values(found)), made
+
+    plan, cycles = result.plan, fretting_cycles(result, surface_stress=surface_stress)
+    matters = tuple(step.path_matters for step in plan.path)
+    by_step = ByStep(plan.increments, matters)
     fine = values_of(result, cycles)
     wide, half_the_cells = on_wide_cells(result, result.plan, "half the cells", progress)
     if wide is None:
         exact = map(prescribed, result.scene.load_path())
-        return StatedErrors(tuple(map(estimate.unknown, fine, exact)), (half_the_cells,))
+        unknown = StatedErrors(tuple(map(estimate.unknown, fine, exact)), (half_the_cells,))
+        return unknown, by_step
     companions = [half_the_cells]
-    plan, coarse, by_path = result.plan, values(wide), None
-    matters = [step.path_matters for step in plan.path]
+    coarse = values(wide)
     if any(matters):
-        differs = "half the cells, other increments"
-        other, made = on_wide_cells(result, recut_plan(plan), differs, progress)
+        other, made = otherwise_cut(by_step.recut_from(0))
         companions.append(made)
         if other is not None:
-            by_path = path_changes(coarse, values(other), plan.increments, matters)
+            solved = (coarse, other)
+            by_step = replace(by_step, companions=solved, solved=lambda n: otherwise_cut(n)[0])
     levels = Levels(
         scene=result.scene,
         ground=_Cells(result),
@@ -83,11 +98,11 @@ def stated_errors(
         ratio=wide.grid.spacing[0] / result.grid.spacing[0],
         tolerance=result.tolerance,
         matters=tuple(accumulate(matters, or_)),
-        by_path=by_path,
+        by_path=by_step.together,
         charged=charged_by_increments(result, cycles),
         lost=lost_by_steps(fine, cycles),
     )
-    return StatedErrors(tuple(levels.errors()), tuple(companions))
+    return StatedErrors(tuple(levels.errors()), tuple(companions)), by_step
 
 
 def rules_at(result: Result, *states: Increment) -> Mapping[str, Rule]:

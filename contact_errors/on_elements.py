@@ -4,7 +4,7 @@ on these and, with harmonics, one with half as many again."""
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import accumulate, pairwise
 from math import pi
 from operator import or_
@@ -12,6 +12,7 @@ from operator import or_
 import numpy as np
 
 from contact_errors import estimate
+from contact_errors.by_step import ByStep
 from contact_errors.element_rules import (
     HARMONICS,
     LEAST_ANNULUS,
@@ -23,7 +24,7 @@ from contact_errors.element_rules import (
     rules_of_elements,
 )
 from contact_errors.estimate import Numbers
-from contact_errors.levels import Levels, path_changes, recut
+from contact_errors.levels import Levels
 from contact_errors.prescribed import prescribed
 from contact_errors.rules import Lengthscale, Rule
 from contact_errors.values import Values, charged_by_increments, lost_by_steps, values_of
@@ -55,16 +56,32 @@ def stated_errors(
 
     surface_stress  also of what takes the stress at the surface
     """
+    return judged(result, surface_stress=surface_stress, progress=progress)[0]
+
+
+def judged(
+    result: Result, *, surface_stress: bool = False, progress: Progress | None = None
+) -> tuple[StatedErrors, ByStep]:
+    """The same, and the step whose increments leave them; further companions if that is asked."""
 
     def values(of: Result) -> tuple[Values, ...]:
         return values_of(of, fretting_cycles(of, surface_stress=surface_stress))
 
     cycles = fretting_cycles(result, surface_stress=surface_stress)
     fine, mesh, scene = values_of(result, cycles), _half(result), result.scene
+    plan = result.plan
+
+    def otherwise_cut(increments: Sequence[int]) -> tuple[Values, ...] | None:
+        other = _Companion("half the elements, other increments", cut(scene, increments), mesh)
+        found, _ = other.solved(result, progress)
+        return None if found is None else values(found)
+
+    by_step = ByStep(plan.increments, plan.path_matters)
     asked = [_Companion("half the elements", scene, mesh)]
-    path_matters = any(result.plan.path_matters)
+    path_matters = any(plan.path_matters)
     if path_matters:
-        asked.append(_Companion("half the elements, other increments", _recut(result), mesh))
+        recut = cut(scene, by_step.recut_from(0))
+        asked.append(_Companion("half the elements, other increments", recut, mesh))
     if result.plan.path is Path.HARMONICS:
         more = mesh.model_copy(update={"harmonics": -(-3 * mesh.harmonics // 2)})
         asked.append(_Companion("half the elements, half as many harmonics again", scene, more))
@@ -73,13 +90,12 @@ def stated_errors(
     coarse = solved[0][0]
     if coarse is None:
         exact = map(prescribed, scene.load_path())
-        return StatedErrors(tuple(map(estimate.unknown, fine, exact)), companions)
+        return StatedErrors(tuple(map(estimate.unknown, fine, exact)), companions), by_step
     base = values(coarse)
     others = [other and values(other) for other, _ in solved[1:]]
-    by_path = by_harmonics = None
+    by_harmonics = None
     if path_matters and others[0]:
-        plan = result.plan
-        by_path = path_changes(base, others[0], plan.increments, plan.path_matters)
+        by_step = replace(by_step, companions=(base, others[0]), solved=otherwise_cut)
     if result.plan.path is Path.HARMONICS and others[-1]:
         by_harmonics = estimate.differences(base, others[-1])
     levels = Levels(
@@ -91,11 +107,11 @@ def stated_errors(
         ratio=result.discretisation.elements_per_radius / mesh.elements_per_radius,
         tolerance=result.tolerance,
         matters=tuple(accumulate(result.plan.path_matters, or_)),
-        by_path=by_path,
+        by_path=by_step.together,
         charged=charged_by_increments(result, cycles),
         lost=lost_by_steps(fine, cycles),
     )
-    return StatedErrors(tuple(levels.errors()), companions)
+    return StatedErrors(tuple(levels.errors()), companions), by_step
 
 
 def rules_of(result: Result) -> Mapping[str, Rule]:
@@ -138,14 +154,13 @@ def _half(result: Result) -> FiniteElementDiscretisation:
     return asked.model_copy(update=update)
 
 
-def _recut(result: Result) -> Scene:
-    """Half the increments where the path matters, twice as many where these are few."""
-    plan, steps = result.plan, []
-    for step, count, matters in zip(
-        result.scene.loading, plan.increments, plan.path_matters, strict=True
-    ):
-        steps.append(step.model_copy(update={"increments": recut(count) if matters else count}))
-    return result.scene.model_copy(update={"loading": tuple(steps)})
+def cut(scene: Scene, increments: Sequence[int]) -> Scene:
+    """A scene with these increments."""
+    steps = [
+        step.model_copy(update={"increments": count})
+        for step, count in zip(scene.loading, increments, strict=True)
+    ]
+    return scene.model_copy(update={"loading": tuple(steps)})
 
 
 @dataclass(frozen=True)

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from typing import Generic, TypeVar
 
 from contact_errors.asked import asked_of, refuse_absent, refuse_unreachable
+from contact_errors.growth import growth
 from contact_errors.ladder import (
     FIRST_GROWTH,
     GROWTH_OF_INCREMENTS,
@@ -18,7 +19,7 @@ from contact_errors.ladder import (
     Growth,
     Ladder,
     Rung,
-    growth,
+    larger,
 )
 from contact_scene.accuracy import AccuracyRequest
 from contact_scene.accuracy_reached import AccuracySettings
@@ -59,7 +60,7 @@ class Prices(Generic[F]):
     def of(cls, ladder: Ladder[F]) -> Prices[F]:
         """Solves the rungs; raises a SolverError."""
         first = ladder.climbed(ladder.first())
-        second = ladder.climbed(ladder.refined(first.fineness, Growth(APART, 1.0)))
+        second = ladder.climbed(ladder.refined(first.fineness, Growth(APART)))
         return cls(ladder, first, second)
 
     def of_request(self, request: AccuracyRequest) -> Price[F]:
@@ -89,15 +90,16 @@ def _rungs(by_first: Growth, needed: Growth) -> Iterator[Growth]:
     that is too far, others as far as they have to, and none far above the one before."""
     reached = by_first.bounded(FIRST_GROWTH)
     yield reached
-    if by_first.cells <= FIRST_GROWTH and by_first.increments <= GROWTH_OF_INCREMENTS:
+    if by_first.cells <= FIRST_GROWTH and by_first.increments == reached.increments:
         return
-    while reached.cells < needed.cells or reached.increments < needed.increments:
+    while not reached.covers(needed):
+        further = {
+            step: min(by, GROWTH_OF_INCREMENTS * reached.increments.get(step, 1.0))
+            for step, by in needed.increments.items()
+        }
         reached = Growth(
             max(reached.cells, min(needed.cells, LATER_GROWTH * reached.cells)),
-            max(
-                reached.increments,
-                min(needed.increments, GROWTH_OF_INCREMENTS * reached.increments),
-            ),
+            larger(reached.increments, further),
             needed.less,
         )
         yield reached

@@ -31,8 +31,10 @@ from hypothesis import strategies as st
 
 from contact_errors import ladder_on_cells
 from contact_errors.asked import Asked
+from contact_errors.by_step import ByStep
 from contact_errors.climb import Climb, Way, climb
-from contact_errors.ladder import AIM, Growth, Rung, growth, unkept
+from contact_errors.growth import AIM, growth
+from contact_errors.ladder import Growth, Rung, unkept
 from contact_errors.ladder_on_cells import CellFineness, CellLadder, even_smooth
 from contact_errors.ladder_on_elements import ElementFineness, ElementLadder
 from contact_errors.price import Prices
@@ -163,11 +165,11 @@ def test_elements_are_as_accurate_as_was_asked(method: Method) -> None:
 def test_a_larger_section_and_less_overlap_follow_from_their_errors() -> None:
     asked = FiniteElementDiscretisation()
     ladder = ElementLadder(scene(PRESS), asked, Method.PENALTY, unkept, unkept)
-    by = Growth(1.0, 1.0, {"section": 0.25, "penalty": 0.1, "harmonics": 0.5})
+    by = Growth(1.0, less={"section": 0.25, "penalty": 0.1, "harmonics": 0.5})
     first = ladder.first()
     box = ladder.refined(first, by).mesh.box
     finer = ladder.refined(ladder.refined(first, by), by).mesh
-    far = ladder.refined(first, Growth(1.0, 1.0, {"harmonics": 1 / 9})).mesh
+    far = ladder.refined(first, Growth(1.0, less={"harmonics": 1 / 9})).mesh
     assert far.harmonics == 3 * asked.harmonics  # what they change falls with their square
     assert finer.box == pytest.approx(2 * box)
     assert finer.overlap == pytest.approx(asked.overlap / 100)
@@ -262,7 +264,7 @@ def test_the_finest_grid_that_fits_fills_the_memory(
     monkeypatch.setattr(ladder_on_cells, "available_bytes", lambda: int(gigabytes * 1e9))
     ladder = CellLadder(scene(*loading), SurfaceDiscretisation())
     first = ladder.first()
-    finest = ladder.refined(first, Growth(ladder.most_growth(first), 1.0))
+    finest = ladder.refined(first, Growth(ladder.most_growth(first)))
     assert ladder.memory(finest) == pytest.approx(gigabytes * 1e9, rel=0.2)
 
 
@@ -301,7 +303,8 @@ def rung_of(parts: dict[str, float], rule: Rule, status=ErrorStatus.ESTIMATED) -
     error = StatedError(error=sum(parts.values()), parts=parts, status=status)
     values = ({"approach": np.array([2.0])},)
     stated = StatedErrors(({"approach": error},), ())
-    return Rung(None, None, stated, values, {"approach": rule}, 1.0, 1.0)
+    by_step = ByStep(increments=(10,), matters=(True,))
+    return Rung(None, None, stated, values, {"approach": rule}, by_step, 1.0, 1.0)
 
 
 @given(
@@ -316,7 +319,7 @@ def test_cells_grow_until_a_power_law_meets_what_was_asked(
     by = growth(rung_of({"cells": 2 * error}, rule), {"approach": share})
     left = error / by.cells**order
     assert left == pytest.approx(min(error, AIM * share))
-    assert by.increments == 1
+    assert not by.increments
 
 
 def test_a_worked_example_of_growth() -> None:
@@ -326,10 +329,10 @@ def test_a_worked_example_of_growth() -> None:
     # only cells grow, by √(2/0.4) = 2.236.
     by = growth(rung_of({"cells": 0.04, "increments": 0.02}, rule), {"approach": 0.01})
     assert by.cells == pytest.approx(2.2361, abs=1e-4)
-    assert by.increments == 1
+    assert not by.increments
     # Increments of 4 % and scatter of 1.6957 %: √(16 - 2.8754) = 3.6228 % fall as 1/n.
     by = growth(rung_of({"cells": 0.04, "increments": 0.08}, rule), {"approach": 0.01})
-    assert by.increments == pytest.approx(3.6228 / 0.4, abs=1e-3)
+    assert by.increments == pytest.approx({0: 3.6228 / 0.4}, abs=1e-3)
 
 
 def test_what_cells_do_not_lessen_takes_its_share_and_is_lessened_on_its_own() -> None:
@@ -351,14 +354,14 @@ def test_whoever_does_not_meet_a_request_gets_finer() -> None:
     rung = rung_of({"cells": 2 * 0.0095}, APPROACH_RULE)
     assert not rung.meets({"approach": 0.01})
     assert growth(rung, {"approach": 0.01}).bounded(3.0).cells > 1
-    assert Growth(1.0, 1.0).bounded(3.0).cells > 1
+    assert Growth(1.0).bounded(3.0).cells > 1
 
 
 def test_increments_of_a_known_error_take_one_round_on_the_way_to_fifty_times_as_many() -> None:
     """Each of them costs as much as any other: what is solved on the way is paid on top."""
     by, rounds, times = 50.0, 0, 1.0
     while times < by:
-        times *= Growth(1.0, by / times).bounded(3.0).increments
+        times *= Growth(1.0, {0: by / times}).bounded(3.0).increments[0]
         rounds += 1
     assert (rounds, times) == (2, by)
 
@@ -494,7 +497,7 @@ def test_a_killed_run_goes_on_with_the_round_it_was_killed_in(
     assert slipstick("run", path, "-o", whole, *asked) == 0
     last = summary(whole).accuracy.rounds
     assert last > 1
-    stated, solved = ladder_on_cells.stated_errors, []
+    stated, solved = ladder_on_cells.judged, []
 
     def counted(*given, **more):
         solved.append(given)
@@ -505,14 +508,14 @@ def test_a_killed_run_goes_on_with_the_round_it_was_killed_in(
             signal.raise_signal(stop)
         return counted(*given, **more)
 
-    monkeypatch.setattr(ladder_on_cells, "stated_errors", killed)
+    monkeypatch.setattr(ladder_on_cells, "judged", killed)
     run = get_context("fork").Process(target=slipstick, args=("run", path, "-o", out, *asked))
     run.start()
     run.join()
     assert run.exitcode in (128 + stop, -stop)
     assert not out.exists()
     assert (tmp_path / ".out.rounds").exists()
-    monkeypatch.setattr(ladder_on_cells, "stated_errors", counted)
+    monkeypatch.setattr(ladder_on_cells, "judged", counted)
     assert slipstick("run", path, "-o", out, *asked) == 0
     assert len(solved) == 1
     assert (out / "summary.json").read_bytes() == (whole / "summary.json").read_bytes()

@@ -132,10 +132,19 @@ ORDERS = {
         *("files", "stress", "figures", "result_files", "stress_files", "export"),
     ),
     "contact_errors": (
-        *("values", "rules", "estimate", "prescribed", "levels", "half_the_cells", "on_cells"),
+        *(
+            "values",
+            "rules",
+            "estimate",
+            "prescribed",
+            "levels",
+            "by_step",
+            "half_the_cells",
+            "on_cells",
+        ),
         *("on_radii", "element_rules", "on_elements", "stress_on_disc", "stress_on_rings"),
         *("of_stress", "tension"),
-        *("solve_cost", "ladder", "asked", "climb", "price", "ladder_on_cells"),
+        *("solve_cost", "ladder", "growth", "asked", "climb", "price", "ladder_on_cells"),
         "ladder_on_elements",
     ),
     "verification.challenge": (

@@ -28,7 +28,7 @@ from scene_texts import COARSE, STEEL_BALL_PRESSED
 
 import fem_reference
 from contact_errors import estimate, on_elements
-from contact_errors.half_the_cells import recut_plan
+from contact_errors.by_step import ByStep
 from contact_errors.levels import path_changes, recut
 from contact_errors.of_stress import on_wide_cells, stress_errors
 from contact_errors.on_cells import stated_errors
@@ -286,8 +286,9 @@ def test_few_increments_are_doubled_where_many_are_halved() -> None:
     )
     decided = plan(steps)
     assert [step.path_matters for step in decided.path] == [False, True]
-    assert recut_plan(decided).increments == (3, 4)
-    assert recut_plan(decided.cut_into((3, 2))).increments == (3, 4)
+    matters = tuple(step.path_matters for step in decided.path)
+    assert ByStep(decided.increments, matters).recut_from(0) == [3, 4]
+    assert ByStep((3, 2), matters).recut_from(0) == [3, 4]
 
 
 @pytest.mark.parametrize("cells", [20, 32, 47])
