@@ -31,7 +31,7 @@ class ArrayFile:
     digest: str
 
     def __str__(self) -> str:
-        return shown(self.name) if self.name else "in memory"
+        return _named(self.name)
 
     @property
     def shape(self) -> tuple[int, int]:
@@ -49,13 +49,15 @@ def array_file(value: Any, info: ValidationInfo) -> ArrayFile:
     if isinstance(value, ArrayFile):
         return value
     if isinstance(value, np.ndarray):
+        _check_plain(value)
         _check_shape(value.shape, "")
         return _checked(np.array(value, dtype=np.float64, order="C"), "")
     folder = (info.context or {}).get("folder")
     if isinstance(value, Path) and folder is None:
         value = str(value)
     if not isinstance(value, str) or not value:
-        raise refusal(f"got {shown(value)}", 'the name of a .npy file such as "heights.npy"')
+        hint = "hand over numpy.asarray(...) of it, in SI" if hasattr(value, "__array__") else ""
+        raise refusal(f"got {shown(value)}", 'the name of a .npy file such as "heights.npy"', hint)
     path = Path(value) if folder is None else _inside(folder, value)
     return _checked(_read(path, value), value)
 
@@ -128,11 +130,27 @@ def _header(stream: BinaryIO, size: int, name: str) -> tuple[tuple[int, ...], bo
         raise ValueError(f"version {version} of the format")
     shape, by_columns, dtype = read_header(stream)
     _check_shape(shape, name)
-    if dtype.kind not in "fiu":
-        raise refusal(f"the array {shown(name)} holds values of type {dtype}", "real numbers")
+    _check_type(dtype, name)
     if size - stream.tell() != shape[0] * shape[1] * dtype.itemsize:
         raise refusal(f"the file {shown(name)} is cut short or has a tail", "a whole .npy file")
     return shape, by_columns, dtype
+
+
+def _named(name: str) -> str:
+    return shown(name) if name else "in memory"
+
+
+def _check_plain(value: NDArray[Any]) -> None:
+    """Refuse what is more than its numbers: units and masks would be lost."""
+    if type(value) not in (np.ndarray, np.memmap):
+        hint = "hand over its numbers in SI, without gaps, as a plain array"
+        raise refusal(f"got {shown(value)}", "a plain numpy array or the name of a .npy file", hint)
+    _check_type(value.dtype, "")
+
+
+def _check_type(dtype: np.dtype[Any], name: str) -> None:
+    if dtype.kind not in "fiu":
+        raise refusal(f"the array {_named(name)} holds values of type {dtype}", "real numbers")
 
 
 def _check_shape(shape: tuple[int, ...], name: str) -> None:
@@ -142,14 +160,14 @@ def _check_shape(shape: tuple[int, ...], name: str) -> None:
         expected = f"at most {_MOST_VALUES} values in all, as 4096 x 4096 are"
     else:
         return
-    raise refusal(f"the array {shown(name)} has shape {tuple(shape)}", expected)
+    raise refusal(f"the array {_named(name)} has shape {tuple(shape)}", expected)
 
 
 def _checked(values: NDArray[np.float64], name: str) -> ArrayFile:
     if not np.all(np.isfinite(values)):
         i, j = np.argwhere(~np.isfinite(values))[0]
         raise refusal(
-            f"the array {shown(name)} holds {values[i, j]} at [{i}, {j}]", "finite numbers"
+            f"the array {_named(name)} holds {values[i, j]} at [{i}, {j}]", "finite numbers"
         )
     values.flags.writeable = False
     digest = hashlib.sha256(repr(values.shape).encode())

@@ -1,6 +1,10 @@
 """The base of every part of a scene: a frozen value that admits no unknown key."""
 
-from pydantic import BaseModel, ConfigDict
+from typing import Any
+
+from pydantic import BaseModel, ConfigDict, model_validator
+
+from contact_scene.refusal import refusal
 
 
 class Description(BaseModel):
@@ -13,3 +17,12 @@ class Description(BaseModel):
         use_attribute_docstrings=True,
         json_schema_serialization_defaults_required=True,
     )
+
+    @model_validator(mode="before")
+    @classmethod
+    def _keeps_the_order(cls, given: Any) -> Any:
+        """Steps, layers and components in a set come in any order."""
+        for name, value in given.items() if isinstance(given, dict) else ():
+            if isinstance(value, set | frozenset):
+                raise refusal(f"got a set for {name}", "a tuple or list, which has an order")
+        return given

@@ -8,6 +8,7 @@ from contact_scene.locator import locate
 from contact_scene.problem import Path, Problem, SceneError
 from contact_scene.refusal import shown
 
+_MOST_PARTS = 20  # far more than any key of a scene has
 _PART = re.compile(r"([A-Za-z0-9_-]+)((?:\[[0-9]{1,6}\])*)")
 _EXPECTED = "key=value such as semi_analytical.cells=[128,128] or loading[2].increments=5"
 
@@ -39,13 +40,13 @@ def override(document: dict[str, Any], assignment: str) -> Path:
 
 def _path(key: str) -> Path:
     path: list[str | int] = []
-    for part in key.split(".")[:100]:
+    for part in key.split(".", _MOST_PARTS):
         match = _PART.fullmatch(part.strip())
         if match is None:
             return ()
         path.append(match[1])
         path += [int(index) - 1 for index in re.findall(r"[0-9]+", match[2])]
-    return tuple(path)
+    return tuple(path) if len(path) <= _MOST_PARTS else ()
 
 
 def _check_steps(document: dict[str, Any], path: Path, assignment: str) -> None:
@@ -63,9 +64,8 @@ def _check_step(holder: Any, part: str | int, path: Path, assignment: str) -> No
         if not isinstance(holder, list):
             raise _refused(assignment, f"there is no array for entry {part + 1}", "", "", path)
         if not 0 <= part < len(holder):
-            raise _refused(
-                assignment, f"there is no entry {part + 1}", f"1 to {len(holder)}", "", path
-            )
+            there = f"1 to {len(holder)}" if holder else "none: the array is empty"
+            raise _refused(assignment, f"there is no entry {part + 1}", there, "", path)
 
 
 def _value(text: str) -> Any:

@@ -10,6 +10,7 @@ from typing import Annotated, Any
 from pydantic import GetCoreSchemaHandler, GetJsonSchemaHandler, ValidationInfo
 from pydantic_core import CoreSchema, core_schema
 
+from contact_scene.plain_number import has_unit, is_plain
 from contact_scene.refusal import refusal, shown
 from contact_scene.units import (
     ANGLE,
@@ -86,12 +87,20 @@ class Quantity:
     def _in_si(self, value: Any) -> float:
         if isinstance(value, str):
             return self._from_text(value)
-        if isinstance(value, bool) or not hasattr(value, "__float__"):
-            raise refusal(f"got {shown(value)}", self.expected)
+        if not is_plain(value):
+            raise refusal(f"got {shown(value)}", self.expected, self._instead_of(value))
         try:
             return float(value)
         except (TypeError, ValueError, OverflowError):
             raise refusal(f"got {shown(value)}", self.expected) from None
+
+    def _instead_of(self, value: Any) -> str:
+        """What a script should hand over."""
+        if has_unit(value):
+            text = f"write a text such as {self.kind.example}, or " if self.kind.units else ""
+            return f"{text}hand over its number{f' in {self.kind.si}' if self.kind.si else ''}"
+        is_of_a_library = hasattr(value, "__float__") and not isinstance(value, bool)
+        return "hand over one plain float" if is_of_a_library else ""
 
     def _from_text(self, text: str) -> float:
         match = _QUANTITY.match(text.strip())

@@ -7,6 +7,7 @@ from typing import Any
 from pydantic import GetCoreSchemaHandler, GetJsonSchemaHandler
 from pydantic_core import CoreSchema, core_schema
 
+from contact_scene.plain_number import is_plain
 from contact_scene.refusal import refusal, shown
 
 
@@ -20,7 +21,7 @@ class WholeNumber:
     def __call__(self, value: Any) -> int:
         """The number; raises a refusal for anything else, 5.0 and true included."""
         try:
-            number = None if isinstance(value, bool) else index(value)
+            number = index(value) if is_plain(value) else None
         except TypeError:
             number = None
         if number is None or not self.at_least <= number <= self.at_most:
