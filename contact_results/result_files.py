@@ -36,6 +36,8 @@ def write_result(
     """Write summary, fields, tables, figures and their page into a directory that has none of them.
 
     surface_stress  also compute the stress at the surface that Ruiz's second parameter takes
+    accuracy        that the result was refined to: its increments, often thousands, are then those
+                    that numbers need, and fields are kept at the ends of the loading steps
     """
     cycles = fretting_cycles(result, surface_stress=surface_stress)
     write_summary(result, cycles, directory, path_errors, errors, accuracy)
@@ -44,7 +46,7 @@ def write_result(
     write_cycles(cycles, surface_of(result), directory)
     tables = {PROFILES: profile_table.COLUMNS, INCREMENTS: increment_table.COLUMNS}
     write_meanings(directory / COLUMNS, tables | ({CYCLES: cycle_table.COLUMNS} if cycles else {}))
-    write_fields(result, cycles, directory)
+    write_fields(result, cycles, directory, ends_only=accuracy is not None)
     if with_figures:
         from contact_results.figures.figure_files import write_figures
         from contact_results.figures.run_page import write_page

@@ -4,10 +4,9 @@ from __future__ import annotations
 
 from pathlib import Path
 
-import numpy as np
-
 from contact_results.directory.atomic_file import atomic_file
 from contact_results.files.stored_run import StoredRun
+from contact_results.files.stored_values import ends_of_steps
 from contact_results.files.surface_file import POLAR, SCALARS, VECTORS, write_surface
 from contact_results.surface import surface_on
 
@@ -19,7 +18,7 @@ def write_paraview(run: StoredRun, directory: Path) -> None:
     """Write `surface_step_1.vtu` and so on, and `surface.pvd` with the steps for times."""
     places = {name: values.array for name, values in run.coordinates.items()}
     surface, steps = surface_on(places, run.direction), run.increments["step"].array
-    ends = np.flatnonzero(np.diff(steps, append=steps[-1] + 1))
+    ends = ends_of_steps(steps)
     there = [name for name in NAMES if name in run.increments]
     entries = []
     for row in ends.tolist():

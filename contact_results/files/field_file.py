@@ -1,4 +1,4 @@
-"""`result.h5`: every field and scalar at every increment, with units and meaning next to them."""
+"""`result.h5`: fields and scalars at every increment, with units and meaning next to them."""
 
 from __future__ import annotations
 
@@ -12,6 +12,7 @@ import h5py
 import numpy as np
 
 from contact_results.directory.file_names import FIELDS
+from contact_results.files.stored_values import STEP
 from contact_results.surface import Rings, surface_of
 from contact_scene.convention import CONVENTION
 from contact_scene.increment import SCALARS
@@ -31,20 +32,25 @@ AXES = {
     "radii": ("m", "radii of the rings"),
     "angles": ("rad", "from the direction of the tangential load"),
 }
-PER_INCREMENT, COMPONENT = ("increment",), ("component",)
+PER_INCREMENT, PER_STEP, COMPONENT = ("increment",), (STEP,), ("component",)
 PLACES = {"step": "loading step, from 1", "increment": "increment within the step, from 1"}
 
 
-def write_fields(result: Result, cycles: Sequence[FrettingCycle], directory: Path) -> None:
+def write_fields(
+    result: Result, cycles: Sequence[FrettingCycle], directory: Path, *, ends_only: bool = False
+) -> None:
     """Write scene, axes, fields and scalars, and of the last cycle the fields; equal results give
     equal bytes.
 
-    Every dataset of `increments` has the increment as its first index, and a field one chunk per
-    increment, so that one of them can be read without the others. Effects that are off have no
-    dataset. Where some increments have angles, all have: a field of the radius alone is the same
-    at every angle.
+    ends_only  fields at the ends of the loading steps alone
+
+    Every dataset of `increments` has the increment as its first index, or the step where fields are
+    those at the ends of steps; and a field one chunk per increment, so that one of them can be read
+    without the others. Effects that are off have no dataset. Where some increments have angles, all
+    have: a field of the radius alone is the same at every angle.
     """
     surface = surface_of(result)
+    increments: Sequence[Increment] = result.increments
     with _fields_file(directory / FIELDS) as file:
         axes = ", ".join(surface.axes)
         file.attrs["description"] = f"slipstick, SI units; fields are [increment, (x, y), {axes}]"
@@ -61,10 +67,11 @@ def write_fields(result: Result, cycles: Sequence[FrettingCycle], directory: Pat
         for name, values in surface.axes.items():
             _write(file, name, values, Reported(*AXES[name]), (name,))
         group = file.create_group("increments", track_order=False)
-        for name, mark in reported(type(result.increments[0])).items():
+        shown, counted = (result.steps, PER_STEP) if ends_only else (increments, PER_INCREMENT)
+        for name, mark in reported(type(increments[0])).items():
             if mark.kind is Kind.FIELD:
-                _write_field(group, name, mark, surface, result.increments)
-        _write_scalars(group, result.increments)
+                _write_field(group, name, mark, surface, shown, counted)
+        _write_scalars(group, increments)
         if cycles:
             places = tuple(surface.axes)
             _write_cycle(file.create_group("last_cycle", track_order=False), cycles[-1], places)
@@ -114,9 +121,17 @@ def _write_scalars(group: h5py.Group, increments: Sequence[Increment]) -> None:
 
 
 def _write_field(
-    group: h5py.Group, name: str, mark: Reported, surface: Surface, increments: Sequence[Increment]
+    group: h5py.Group,
+    name: str,
+    mark: Reported,
+    surface: Surface,
+    increments: Sequence[Increment],
+    counted: tuple[str, ...],
 ) -> None:
-    """One increment after the other; nothing where none has the field."""
+    """One increment after the other; nothing where none has the field.
+
+    counted  what their index counts
+    """
     dataset = None
     for index, increment in enumerate(increments):
         field = surface.scalar(increment, name)
@@ -133,7 +148,7 @@ def _write_field(
             )
             places = tuple(surface.axes)
             of_vector = COMPONENT * (field.ndim - len(places))
-            _describe(dataset, mark, (*PER_INCREMENT, *of_vector, *places))
+            _describe(dataset, mark, (*counted, *of_vector, *places))
         dataset[index] = field
 
 

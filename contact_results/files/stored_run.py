@@ -22,7 +22,7 @@ from contact_results.directory.file_names import (
     SUMMARY,
 )
 from contact_results.files.stored_table import StoredTable, StoredTables, StoredValues
-from contact_results.files.stored_values import MISREAD, text, values
+from contact_results.files.stored_values import MISREAD, ends_of_steps, row_of, text, values
 from contact_scene import Scene
 from contact_scene.increment import SCALARS, components
 from contact_scene.reported import Kind
@@ -54,10 +54,11 @@ class StoredGroup(Mapping[str, StoredValues]):
             indices = tuple(dim.label for dim in dataset.dims)
             return StoredValues(values(dataset), unit, meaning, indices if all(indices) else ())
 
-    def at(self, name: str, row: int) -> NDArray[Any]:
-        """The array at one increment, alone."""
+    def at(self, name: str, increment: int) -> NDArray[Any]:
+        """The array at one increment, counted from 0, alone; KeyError where it is not kept."""
         with h5py.File(self._path) as file:
-            return values(file[self._group][name], row)
+            dataset = file[self._group][name]
+            return values(dataset, row_of(dataset, increment))
 
     def __iter__(self) -> Iterator[str]:
         return iter(self._names)
@@ -93,7 +94,8 @@ class StoredRun:
     summary      state at the end of every step, effects, remarks
     scene        what was solved
     coordinates  of the fields: x and y of cells, or radii and angles of rings
-    increments   every field and scalar, the increment as the first index
+    increments   every field and scalar, the increment as the first index; of a run with an accuracy
+                 fields have the loading step instead, at whose end they are
     last_cycle   fields of the last closed load cycle; empty if there is none
     tables       profiles, increments and, where load cycles close, cycles
     direction    unit vector from which angles count, that of the tangential load
@@ -155,7 +157,7 @@ def _strange(summary: RunSummary, scene: Scene, file: h5py.File) -> Iterator[str
         if (one := getattr(summary, name)) != (other := marks[name]):
             yield f"{name} is {one} and {other}"
     steps = values(group["step"])
-    ends = np.flatnonzero(np.diff(steps, append=steps[-1] + 1))
+    ends = ends_of_steps(steps)
     if len(summary.steps) != len(ends):
         yield f"there are {len(summary.steps)} and {len(ends)} loading steps"
         return

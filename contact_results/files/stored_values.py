@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import Any
 
 import h5py
+import numpy as np
 from numpy.typing import NDArray
 
 from contact_scene.free_memory import available_bytes
@@ -23,6 +24,30 @@ LARGEST_RATIO = 4096
 MOST_CHUNKS = 10_000  # in one reading; our fields have one per increment
 # What h5py raises where something else stands in the place of a value, or what follows from it.
 MISREAD = (OSError, KeyError, ValueError, TypeError, AttributeError, IndexError, RecursionError)
+
+# Name of the first index of fields at the ends of loading steps.
+STEP = "step"
+
+
+def ends_of_steps(steps: NDArray[Any]) -> NDArray[np.intp]:
+    """The last increment of every step, from the step of every increment."""
+    return np.flatnonzero(np.diff(steps, append=steps[-1] + 1))
+
+
+def row_of(dataset: h5py.Dataset, increment: int) -> int:
+    """Where a dataset beside `step` has the values at an increment, counted from 0.
+
+    Raises KeyError for fields at the ends of steps and an increment within one.
+    """
+    if dataset.dims[0].label != STEP:
+        return increment
+    found = np.flatnonzero(ends_of_steps(values(dataset.parent["step"])) == increment)
+    if not len(found):
+        raise KeyError(
+            f"{dataset.file.filename} has {dataset.name} at the ends of loading steps alone, as "
+            "of every run with an accuracy; name its increments instead for all of them"
+        )
+    return int(found[0])
 
 
 def refuse_other_shape(dataset: h5py.Dataset, expected: tuple[int, ...]) -> None:

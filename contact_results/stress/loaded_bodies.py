@@ -13,7 +13,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from contact_results.directory.file_names import FIELDS, SUMMARY
-from contact_results.files.stored_values import MISREAD, refuse_other_shape, text, values
+from contact_results.files.stored_values import (
+    MISREAD,
+    STEP,
+    ends_of_steps,
+    refuse_other_shape,
+    row_of,
+    text,
+    values,
+)
 from contact_results.surface import Surface, surface_of, surface_on
 from contact_scene import Body, CoulombFriction, FiniteElementDiscretisation
 from contact_scene.geometry import SHAPES, HeightMap, ShapedBody
@@ -162,11 +170,12 @@ def _read(file: h5py.File, step: int | None) -> LoadedBodies:
     axes = [name for name in AXES if name in file]
     shape = tuple(n for name in axes for n in file[name].shape)
     fields = {name: group[name] for name in (*SCALARS, *VECTORS) if name in group}
-    for name, field in fields.items():
-        inner = (2, *shape) if name in VECTORS else shape
-        refuse_other_shape(field, (*group["step"].shape, *inner))
     scene = json.loads(text(file["scene"]))
     steps = values(group["step"]).astype(int)
+    for name, field in fields.items():
+        inner = (2, *shape) if name in VECTORS else shape
+        kept = len(ends_of_steps(steps)) if field.dims[0].label == STEP else len(steps)
+        refuse_other_shape(field, (kept, *inner))
     chosen = _existing(step, sorted(set(steps.tolist())))
     last = int(np.flatnonzero(steps == chosen)[-1])
     asked = None
@@ -178,7 +187,7 @@ def _read(file: h5py.File, step: int | None) -> LoadedBodies:
         _body(scene["indenter"]),
         chosen,
         {name: values(file[name]) for name in axes},
-        {name: values(field, last) for name, field in fields.items()},
+        {name: values(field, row_of(field, last)) for name, field in fields.items()},
         asked,
         _no_root_of(scene),
         direction=_direction(file),

@@ -78,7 +78,8 @@ def run(
 
     With --accuracy, or a table [accuracy] in the scene, the scene is solved on ever finer cells and
     increments until the errors are as small as asked; cells and increments of the scene are where
-    that begins, not where it ends.
+    that begins, not where it ends. Fields are then kept at the ends of the loading steps, scalars
+    at every increment.
     """
     from contact_results.directory.checkpoint import checkpointed
     from contact_results.directory.code_digest import solve_identity

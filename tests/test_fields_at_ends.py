@@ -1,0 +1,111 @@
+"""A run with an accuracy takes thousands of increments for its numbers: fields are kept at the ends
+of the loading steps, and every reader finds them there or says that there are none."""
+
+from pathlib import Path
+from typing import Any
+
+import h5py
+import numpy as np
+import pytest
+
+import slipstick
+from contact_results.directory.file_names import FIELDS
+from contact_results.export.paraview import write_paraview
+from contact_results.result_files import write_result
+from contact_results.stress.loaded_bodies import state_of_result, state_of_run
+from contact_scene.accuracy_reached import AccuracyReached, AccuracySettings
+from contact_scene.increment import SCALARS
+
+STEEL = slipstick.IsotropicMaterial(young_modulus=210e9, poisson_ratio=0.3)
+COUNTS = (1, 40, 40, 40)
+SCENE = slipstick.Scene(
+    indenter=slipstick.Paraboloid(radius=18e-3, material=STEEL),
+    body=slipstick.Body(material=STEEL),
+    friction=slipstick.CoulombFriction(coefficient=0.1),
+    loading=(
+        slipstick.LoadStep(normal_force=1e3),
+        *(
+            slipstick.LoadStep(tangential_force=(force, 0.0), increments=count)
+            for force, count in zip((60.0, -60.0, 60.0), COUNTS[1:], strict=True)
+        ),
+    ),
+)
+REACHED = AccuracyReached(
+    asked={"approach": 0.1}, reached={"approach": 0.01}, met=True, rounds=1, left_out={},
+    stopped=None, settings=AccuracySettings(cells=(16, 16), increments=COUNTS, tolerance=1e-6),
+)  # fmt: skip
+ENDS = np.cumsum(COUNTS) - 1
+
+
+@pytest.fixture(scope="module")
+def result() -> Any:
+    return slipstick.solve(SCENE, discretisation=slipstick.SurfaceDiscretisation(cells=(16, 16)))
+
+
+@pytest.fixture(scope="module")
+def directories(result: Any, tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, Path]:
+    """The same result as of a plain run, and as of one with an accuracy."""
+    plain, asked = (tmp_path_factory.mktemp(name) for name in ("plain", "asked"))
+    write_result(result, plain, with_figures=False)
+    write_result(result, asked, with_figures=False, accuracy=REACHED)
+    return plain, asked
+
+
+def test_fields_are_those_at_the_ends_and_scalars_all(directories: tuple[Path, Path]) -> None:
+    plain, asked = map(slipstick.load, directories)
+    assert set(asked.increments) == set(plain.increments)
+    for name in plain.increments:
+        whole, kept = plain.increments[name], asked.increments[name]
+        if name in SCALARS or name in ("step", "increment"):
+            assert np.array_equal(kept.array, whole.array, equal_nan=True)
+            continue
+        assert whole.indices[0] == "increment"
+        assert kept.indices == ("step", *whole.indices[1:])
+        assert np.array_equal(kept.array, whole.array[ENDS])
+    for name in plain.last_cycle:
+        assert np.array_equal(asked.last_cycle[name].array, plain.last_cycle[name].array)
+
+
+def test_the_file_grows_with_the_steps(directories: tuple[Path, Path]) -> None:
+    def stored(path: Path) -> int:
+        with h5py.File(path / FIELDS) as file:
+            group = file["increments"]
+            return sum(
+                group[n].id.get_storage_size()
+                for n in group
+                if n not in SCALARS and group[n].chunks
+            )
+
+    plain, asked = map(stored, directories)
+    assert asked < 2 * len(COUNTS) / sum(COUNTS) * plain
+
+
+def test_one_increment_is_found_or_refused(directories: tuple[Path, Path]) -> None:
+    plain, asked = map(slipstick.load, directories)
+    for row in ENDS.tolist():
+        assert np.array_equal(asked.increments.at("shear", row), plain.increments.at("shear", row))
+        assert asked.increments.at("approach", row) == plain.increments.at("approach", row)
+    with pytest.raises(KeyError, match="at the ends of loading steps alone"):
+        asked.increments.at("shear", int(ENDS[1]) - 1)
+
+
+@pytest.mark.parametrize("step", [1, 2, 4, None])
+def test_stress_is_of_the_same_tractions(
+    result: Any, directories: tuple[Path, Path], step: int | None
+) -> None:
+    expected, found = state_of_result(result, step), state_of_run(directories[1], step)
+    assert found.step == expected.step
+    assert set(found.tractions) == set(expected.tractions)
+    for name, field in expected.tractions.items():
+        assert np.array_equal(found.tractions[name], field)
+
+
+def test_paraview_shows_the_same_steps(directories: tuple[Path, Path], tmp_path: Path) -> None:
+    written = []
+    for directory in directories:
+        out = tmp_path / directory.name
+        out.mkdir()
+        write_paraview(slipstick.load(directory), out)
+        written.append({path.name: path.read_bytes() for path in out.iterdir()})
+    assert written[0] == written[1]
+    assert len(written[0]) == 1 + len(COUNTS)
