@@ -25,6 +25,7 @@ FIRST_LINE = b"slipstick array, format 1\n"
 SUFFIX = ".array"
 # All entries together; one alone may take a quarter. The least recently used ones go first.
 LARGEST_CACHE = 1 << 30
+OF_CLOCKS_APART = 3600.0  # seconds by which machines that share a cache may differ
 
 # Without a handler of the caller's, a warning is one line on stderr.
 log = logging.getLogger(__name__)
@@ -110,11 +111,13 @@ def _header(key: str, body: bytes) -> bytes:
 
 def _make_room(newest: Path) -> None:
     """Delete the least recently used entries beyond LARGEST_CACHE; other files are not touched."""
-    entries = []
+    entries, latest = [], newest.stat().st_mtime + OF_CLOCKS_APART
     for path in newest.parent.glob("*" + SUFFIX):
         with contextlib.suppress(OSError):  # another process may be making room as well
             status = path.stat()
-            entries.append((path != newest, -status.st_mtime, status.st_size, path))
+            # One of a clock that was wrong would be the last to go for as long as that was ahead.
+            used = status.st_mtime if status.st_mtime <= latest else 0.0
+            entries.append((path != newest, -used, status.st_size, path))
     total = 0
     for _, _, size, path in sorted(entries):
         total += size

@@ -27,6 +27,7 @@ from contact_scene.stored_fields import FieldStore, stored_bytes
 # A run of seconds leaves nothing, and one of hours spends a twentieth of them on checkpoints.
 SECONDS_BETWEEN = 5.0
 SHARE = 0.05
+MOST_BETWEEN = 3600.0  # a machine that slept while it wrote says that writing takes a night
 MOST_IN_PART = 16 << 20  # bytes of fields, so that few are in memory at once
 
 
@@ -83,7 +84,8 @@ class Checkpoint:
         """Write a part if the last one is long enough ago; a disk that is full costs only that."""
         self.last()
         began = time.monotonic()
-        if not self._open or began - self._written < self._pause:
+        # A clock that was set back tells nothing.
+        if not self._open or 0 <= began - self._written < self._pause:
             return
         try:
             self._directory.mkdir(mode=0o700, exist_ok=True)
@@ -98,7 +100,8 @@ class Checkpoint:
             self._open = False
             return
         self._written = time.monotonic()
-        self._pause = max(self._seconds_between, (self._written - began) / SHARE)
+        taken = max(0.0, self._written - began)
+        self._pause = max(self._seconds_between, min(taken / SHARE, MOST_BETWEEN))
 
     def _write(self, standing: Standing) -> None:
         new = standing.increments[self._kept :]

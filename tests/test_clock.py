@@ -1,0 +1,191 @@
+"""Clocks that jump, and files of 1970 or of the next century: no number and no file depends on
+what time it is."""
+
+import itertools
+import os
+import time
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from command import outcome
+from test_checkpoint import SOLVES, All, Ending, Killed, checkpoint, differences
+
+from contact_results.directory.checkpoint import Checkpoint
+from contact_scene import kept_arrays
+from contact_scene.kept_arrays import SUFFIX, remembered
+
+SCENE = """
+[indenter]
+shape = "sphere"
+radius = "18 mm"
+material = "rigid"
+[body]
+material = { young_modulus = "210 GPa", poisson_ratio = 0.3 }
+[friction]
+coefficient = 0.1
+[[loading]]
+normal_force = "1 kN"
+[[loading]]
+tangential_force = ["60 N", 0]
+increments = 2
+[semi_analytical]
+cells = [16, 16]
+"""
+YEAR = 3.15e7
+AGES = {"1970": 1.0, "before 1970": -YEAR, "the next century": 4.2e9, "far ahead": 3e10}
+
+
+def jumping(*jumps: float) -> Callable[[], float]:
+    """A clock that is set by so much, again and again, whenever it is looked at."""
+    steps, now = itertools.cycle(jumps), [1e9]
+
+    def clock() -> float:
+        now[0] += next(steps)
+        return now[0]
+
+    return clock
+
+
+CLOCKS = {
+    "forward by years": jumping(YEAR),
+    "back by years": jumping(-YEAR),
+    "to and fro": jumping(-3 * YEAR, 0.0, 5 * YEAR, -YEAR, 1e-3),
+    "standing still": jumping(0.0),
+}
+
+
+def set_clocks(monkeypatch: pytest.MonkeyPatch, clock: Callable[[], float]) -> None:
+    for name in ("time", "monotonic", "perf_counter", "process_time"):
+        monkeypatch.setattr(time, name, clock)
+
+
+def files(directory: Path) -> dict[str, bytes]:
+    paths = (path for path in directory.rglob("*") if path.is_file())
+    return {path.name: path.read_bytes() for path in paths if path.name != "timing.json"}
+
+
+@pytest.fixture(scope="module")
+def expected(tmp_path_factory: pytest.TempPathFactory) -> dict[str, bytes]:
+    return run(tmp_path_factory.mktemp("expected"), "--no-figures")
+
+
+def run(directory: Path, *options: str) -> dict[str, bytes]:
+    (directory / "scene.toml").write_text(SCENE, encoding="utf-8")
+    ended = outcome("run", "scene.toml", "-o", "out", "--no-error", *options, cwd=directory)
+    assert ended.returncode == 0, ended.stderr
+    assert {path.name for path in directory.iterdir()} == {"scene.toml", "out"}
+    return files(directory / "out")
+
+
+@pytest.fixture(autouse=True)
+def _no_cache(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Its hits are counted in the results."""
+    monkeypatch.setenv("SLIPSTICK_CACHE_DIR", os.devnull)
+
+
+@pytest.mark.parametrize("name", CLOCKS)
+def test_a_run_writes_the_same_bytes_whatever_the_clocks_do(
+    name: str, expected: dict[str, bytes], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    set_clocks(monkeypatch, CLOCKS[name])
+    assert run(tmp_path, "--no-figures") == expected
+
+
+def test_so_it_does_with_figures(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    written = []
+    for name in ("before", "after"):
+        (tmp_path / name).mkdir()
+        written.append(run(tmp_path / name))
+        set_clocks(monkeypatch, CLOCKS["to and fro"])
+    assert any(name.endswith(".png") for name in written[0])
+    assert written[0] == written[1]
+
+
+@pytest.mark.parametrize("age", AGES)
+def test_what_a_run_finds_may_be_of_any_time(
+    age: str, expected: dict[str, bytes], tmp_path: Path
+) -> None:
+    """Results of before, a lock that nobody holds, and what a killed run has left."""
+    run(tmp_path, "--no-figures")
+    (tmp_path / ".out.in-use").write_text("process 1 on nowhere", encoding="utf-8")
+    (tmp_path / "out" / ".out.partial-0").mkdir()
+    for path in (tmp_path, *tmp_path.rglob("*")):
+        os.utime(path, (AGES[age], AGES[age]))
+    assert run(tmp_path, "--no-figures") == expected
+
+
+def all_of(age: float, directory: Path) -> None:
+    for path in (directory, *directory.rglob("*")):
+        os.utime(path, (age, age))
+
+
+@pytest.mark.parametrize("age", AGES)
+def test_a_checkpoint_of_any_time_is_gone_on_from(age: str, tmp_path: Path) -> None:
+    solve, said = SOLVES["similar"], []  # type: tuple[Any, list[str]]
+    whole = solve(None)
+    first = checkpoint(tmp_path, said)
+    with pytest.raises(Killed):
+        solve(Ending(first, 4))
+    first.close()
+    all_of(AGES[age], tmp_path)
+    following, after = checkpoint(tmp_path, said), All()
+    found = following.last()
+    assert found is not None
+    after.since = found
+    assert [*differences(whole.increments, solve(after).increments)] == []
+    following.close()
+    assert "going on after increment" in said[-1]
+
+
+@pytest.mark.parametrize("name", ["forward by years", "back by years"])
+def test_checkpoints_are_still_written_after_a_jump(
+    name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Also where it comes while one is being written."""
+    set_clocks(monkeypatch, CLOCKS[name])
+    every = All()
+    SOLVES["similar"](every)
+    kept = Checkpoint(tmp_path / "checkpoint", "this solve", lambda told: None, 5.0)
+    for standing in every.kept:
+        kept.keep(standing)
+    kept.close()
+    parts = len(list((tmp_path / "checkpoint").glob("part-*")))
+    assert parts == len(every.kept)
+
+
+@pytest.mark.parametrize("age", AGES)
+def test_entries_of_any_time_are_believed_and_do_not_stay_for_ever(
+    age: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("SLIPSTICK_CACHE_DIR", str(tmp_path))
+    monkeypatch.setattr(kept_arrays, "LARGEST_CACHE", 4000)
+
+    def computed(identity: str) -> bool:
+        called = []
+
+        def compute() -> Any:
+            called.append(identity)
+            return np.full(60, float(len(identity)))
+
+        assert np.all(remembered(identity, (60,), compute) == len(identity))
+        return bool(called)
+
+    assert [computed(name) for name in ("strange", "other")] == [True, True]
+    all_of(AGES[age], tmp_path)
+    assert [computed(name) for name in ("strange", "other")] == [False, False]
+    all_of(AGES[age], tmp_path)
+    fresh = [f"fresh {'x' * number}" for number in range(8)]
+    assert all(computed(name) for name in fresh)
+    assert sum(path.stat().st_size for path in tmp_path.glob("*" + SUFFIX)) <= 4000
+    assert [computed(name) for name in ("strange", "other")] == [True, True]
+
+
+def test_the_clocks_do_jump() -> None:
+    def seen(clock: Callable[[], float]) -> Iterator[float]:
+        yield from (clock() for _ in range(3))
+
+    assert np.all(np.diff([*seen(CLOCKS["forward by years"])]) > 1e7)
+    assert np.all(np.diff([*seen(CLOCKS["back by years"])]) < -1e7)
