@@ -28,6 +28,7 @@ def write_result(
     directory: Path,
     *,
     with_figures: bool = True,
+    normalised: bool = False,
     surface_stress: bool = False,
     path_errors: tuple[PathError, ...] | None = None,
     errors: StatedErrors | None = None,
@@ -35,6 +36,7 @@ def write_result(
 ) -> None:
     """Write summary, fields, tables, figures and their page into a directory that has none of them.
 
+    normalised      figures on axes over the natural sizes of the contact, tables still in SI
     surface_stress  also compute the stress at the surface that Ruiz's second parameter takes
     accuracy        that the result was refined to: its increments, often thousands, are then those
                     that numbers need, and fields are kept at the ends of the loading steps
@@ -50,7 +52,9 @@ def write_result(
     if with_figures:
         from contact_results.figures.figure_files import write_figures
         from contact_results.figures.run_page import write_page
+        from contact_results.natural_sizes import SI, natural_units
 
         of_last = errors.steps[-1] if errors else None
-        write_figures(result, cycles, directory, of_last)
+        units = natural_units(result) if normalised else SI
+        write_figures(result, cycles, directory, of_last, units)
         write_page(result, directory, of_last)

@@ -16,6 +16,10 @@ class EngineeringUnit:
     size: float
     name: str
 
+    def labelled(self, text: str) -> str:
+        """What an axis says of numbers in this unit: `x (mm)`."""
+        return f"{text} ({self.name})"
+
     def text(self, value: float, digits: int = 4) -> str:
         """The value with the unit, to this many significant digits."""
         return f"{value / self.size:.{digits}g} {self.name}"

@@ -151,6 +151,7 @@ def save(
     directory: str | PathLike[str],
     *,
     figures: bool = True,
+    normalised: bool = False,
     errors: StatedErrors | None = None,
 ) -> None:
     """Write the files that `slipstick run` writes: summary, tables, fields and figures.
@@ -158,13 +159,14 @@ def save(
     The directory appears whole or not at all; an earlier run in it is replaced. Raises
     OutputRefused where other files are in the way.
 
-    errors  of the result, from `stated_errors`; they are left out if absent
+    normalised  figures on axes x/a, p/p0, q/µp0, as `slipstick run --normalised` draws them
+    errors      of the result, from `stated_errors`; they are left out if absent
     """
     from contact_results.directory.run_directory import run_directory
     from contact_results.result_files import write_result
 
     with run_directory(Path(directory)) as staging:
-        write_result(result, staging, with_figures=figures, errors=errors)
+        write_result(result, staging, with_figures=figures, normalised=normalised, errors=errors)
 
 
 def _solved_to(

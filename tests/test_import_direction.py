@@ -125,6 +125,7 @@ ORDERS = {
             "directory",
             "quantities",
             "surface",
+            "natural_sizes",
             "remarks",
             "cycles",
             "path_error",

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from textwrap import wrap
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -10,6 +11,7 @@ from matplotlib.figure import Figure
 
 from contact_results.directory import file_names
 from contact_results.figures import style
+from contact_results.natural_sizes import without_round_off
 from contact_results.number_text import number_text, uncertainty
 from contact_scene.engineering_units import engineering_unit
 from contact_scene.increment import SCALARS
@@ -19,6 +21,7 @@ if TYPE_CHECKING:
     from contact_results.surface import Result
 
 LINE = 0.14  # inches
+PER_INCH = 16  # letters
 NARROW = 5.0  # inches; a line of two numbers is as wide
 # The scalars that are read off each figure.
 SHOWN: Mapping[str, tuple[str, ...]] = {
@@ -37,33 +40,41 @@ SHOWN: Mapping[str, tuple[str, ...]] = {
 
 
 def add_caption(
-    figure: Figure, name: str, result: Result, errors: Mapping[str, StatedError] | None
+    figure: Figure,
+    name: str,
+    result: Result,
+    errors: Mapping[str, StatedError] | None,
+    note: str = "",
 ) -> None:
     """Write below a figure the numbers at the end of the history that it shows.
 
     errors  of the last step; None where they were left out
+    note    a further line
     """
     end = result.steps[-1]
     texts = [
-        _text(scalar, getattr(end, scalar), (errors or {}).get(scalar))
+        _text(scalar, getattr(end, scalar), (errors or {}).get(scalar), result)
         for scalar in SHOWN[name]
         if getattr(end, scalar) is not None
     ]
+    lines = []
     if texts:
-        lines = len(texts) if figure.get_figwidth() < NARROW else 1
-        figure.set_figheight(figure.get_figheight() + LINE * (lines + 1))
         unstated = "" if errors is not None else "; errors not stated"
         between = ",\n" if figure.get_figwidth() < NARROW else ", "
-        text = f"at the end: {between.join(texts)}{unstated}"
-        figure.supxlabel(text, fontsize=style.CAPTION_SIZE, x=0.01, ha="left")
+        lines = f"at the end: {between.join(texts)}{unstated}".split("\n")
+    lines += wrap(note, int(PER_INCH * figure.get_figwidth()))
+    if lines:
+        figure.set_figheight(figure.get_figheight() + LINE * (len(lines) + 1))
+        figure.supxlabel("\n".join(lines), fontsize=style.CAPTION_SIZE, x=0.01, ha="left")
 
 
-def _text(name: str, value: Any, error: StatedError | None) -> str:
+def _text(name: str, value: Any, error: StatedError | None, result: Result) -> str:
     """A number with its name, error and unit; of a vector the larger component."""
     values = np.atleast_1d(value)
     k = int(np.argmax(np.abs(values)))
-    unit = engineering_unit(abs(float(values[k])), SCALARS[name].unit)
+    shown = without_round_off(float(values[k]), result.steps, SCALARS[name].unit)
+    unit = engineering_unit(abs(shown), SCALARS[name].unit)
     axis = "xy"[k]
     of_vector = f" {axis}" if len(values) > 1 else ""
-    number = number_text(float(values[k]), uncertainty(error, axis), unit.size)
+    number = number_text(shown, uncertainty(error, axis), unit.size)
     return f"{name.replace('_', ' ')}{of_vector} {number} {unit.name}"

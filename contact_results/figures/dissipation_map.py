@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from contact_results.figures import style
 from contact_results.figures.map_panels import MapFrame, draw_cells, map_axes
 from contact_results.figures.shown_steps import selected, span
+from contact_results.natural_sizes import SI, Units
 from contact_scene.engineering_units import engineering_unit, quantity
 
 if TYPE_CHECKING:
@@ -31,9 +32,9 @@ def dissipating(steps: Sequence[Increment], cells: Cells) -> list[tuple[Incremen
     return [(step, lost) for step, lost in within if np.any(lost)]
 
 
-def dissipation_map(result: Result, cells: Cells) -> Figure:
+def dissipation_map(result: Result, cells: Cells, units: Units = SI) -> Figure:
     """Energy per area dissipated within the loading steps, not since the start."""
-    frame = MapFrame.around_contact(result, cells)
+    frame = MapFrame.around_contact(result, cells, units)
     lost = {step.step: field for step, field in dissipating(result.steps, cells)}
     steps = selected([step for step in result.steps if step.step in lost])
     peak = max(float(np.max(lost[step.step])) for step in steps)

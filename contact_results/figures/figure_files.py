@@ -26,6 +26,7 @@ from contact_results.figures.shown_steps import vectors
 from contact_results.figures.slip_map import slip_map
 from contact_results.figures.stick_slip_map import stick_slip_map
 from contact_results.figures.style import DOTS_PER_INCH, figure_style, save
+from contact_results.natural_sizes import SI, Units
 from contact_results.surface import Cells, Rings, surface_of
 from contact_scene.stated_error import StatedError
 
@@ -41,15 +42,17 @@ def write_figures(
     cycles: Sequence[FrettingCycle],
     directory: Path,
     errors: Mapping[str, StatedError] | None = None,
+    units: Units = SI,
 ) -> None:
     """Draw what the scene calls for, and the last cycle if there is one; equal results give equal
     bytes on equal libraries.
 
     errors  of the last step, for the captions
+    units   of the axes
     """
     with figure_style():
-        for name, figure in _figures_called_for(result, cycles, errors):
-            add_caption(figure, name, result, errors)
+        for name, figure in _figures_called_for(result, cycles, errors, units):
+            add_caption(figure, name, result, errors, units.note)
             dots = DOTS_PER_INCH if name != file_names.OVERVIEW_FIGURE else OF_OVERVIEW
             save(figure, directory / name, dots)
 
@@ -58,35 +61,36 @@ def _figures_called_for(
     result: Result,
     cycles: Sequence[FrettingCycle],
     errors: Mapping[str, StatedError] | None,
+    units: Units,
 ) -> Iterator[tuple[str, Figure]]:
     surface = surface_of(result)
     above = seen_from_above(result)
-    yield file_names.OVERVIEW_FIGURE, overview(result, above, errors)
-    yield file_names.PROFILE_FIGURE, profile_plot(result, surface)
-    if (slips := slip_plot(result, surface)) is not None:
+    yield file_names.OVERVIEW_FIGURE, overview(result, above, errors, units)
+    yield file_names.PROFILE_FIGURE, profile_plot(result, surface, units)
+    if (slips := slip_plot(result, surface, units)) is not None:
         yield file_names.SLIP_FIGURE, slips
     if result.steps[-1].in_stick is not None:
-        yield file_names.STICK_SLIP_FIGURE, stick_slip_map(result, above)
+        yield file_names.STICK_SLIP_FIGURE, stick_slip_map(result, above, units)
     if vectors(above, result.steps, "slip"):
-        yield file_names.SLIP_MAP_FIGURE, slip_map(result, above)
+        yield file_names.SLIP_MAP_FIGURE, slip_map(result, above, units)
     if isinstance(surface, Cells):
-        yield from _maps(result, surface, cycles)
+        yield from _maps(result, surface, cycles, units)
     if moved(result.increments) >= FEWEST_POINTS:
-        yield file_names.HYSTERESIS_FIGURE, hysteresis_plot(result)
+        yield file_names.HYSTERESIS_FIGURE, hysteresis_plot(result, units)
     if _different_approaches(result) >= FEWEST_POINTS:
-        yield file_names.LOADING_FIGURE, loading_plot(result)
+        yield file_names.LOADING_FIGURE, loading_plot(result, units)
 
 
 def _maps(
-    result: Result, cells: Cells, cycles: Sequence[FrettingCycle]
+    result: Result, cells: Cells, cycles: Sequence[FrettingCycle], units: Units
 ) -> Iterator[tuple[str, Figure]]:
-    yield file_names.PRESSURE_FIGURE, pressure_map(result, cells)
+    yield file_names.PRESSURE_FIGURE, pressure_map(result, cells, units)
     if vectors(cells, result.steps, "shear"):
-        yield file_names.SHEAR_FIGURE, shear_map(result, cells)
+        yield file_names.SHEAR_FIGURE, shear_map(result, cells, units)
     if dissipating(result.steps, cells):
-        yield file_names.DISSIPATION_FIGURE, dissipation_map(result, cells)
+        yield file_names.DISSIPATION_FIGURE, dissipation_map(result, cells, units)
     if cycles:
-        yield file_names.FRETTING_FIGURE, fretting_map(result, cells, cycles[-1])
+        yield file_names.FRETTING_FIGURE, fretting_map(result, cells, cycles[-1], units)
 
 
 def seen_from_above(result: Result) -> Above:

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from contact_results.cycles import FrettingCycle
 from contact_results.figures import style
 from contact_results.figures.map_panels import MapFrame, draw_cells, map_axes
+from contact_results.natural_sizes import SI, Units
 from contact_scene.engineering_units import EngineeringUnit, engineering_unit
 
 if TYPE_CHECKING:
@@ -21,9 +22,9 @@ if TYPE_CHECKING:
 Field = NDArray[np.float64]
 
 
-def fretting_map(result: Result, cells: Cells, cycle: FrettingCycle) -> Figure:
+def fretting_map(result: Result, cells: Cells, cycle: FrettingCycle, units: Units = SI) -> Figure:
     """Maps of one cycle, each with its own scale."""
-    frame = MapFrame.around_contact(result, cells)
+    frame = MapFrame.around_contact(result, cells, units)
     panels = list(_panels(cycle))
     width, height = frame.figure_size(len(panels))
     columns = 2 if len(panels) == 4 else 3

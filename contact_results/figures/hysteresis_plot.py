@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from contact_results.figures import style
 from contact_results.figures.shown_steps import AT_MOST, on_axis
+from contact_results.natural_sizes import SI, Units
 from contact_scene.engineering_units import quantity
 
 if TYPE_CHECKING:
@@ -46,21 +47,21 @@ def moved(increments: Sequence[Increment]) -> int:
     return max((int(np.count_nonzero(loop.forces)) for loop in loops), default=0)
 
 
-def hysteresis_plot(result: Result) -> Figure:
+def hysteresis_plot(result: Result, units: Units = SI) -> Figure:
     """The loop by itself."""
     figure = style.new_figure(5.2, 4.0)
-    draw_loop(figure.subplots(), result)
+    draw_loop(figure.subplots(), result, units)
     return figure
 
 
-def draw_loop(ax: Any, result: Result) -> None:
+def draw_loop(ax: Any, result: Result, units: Units = SI) -> None:
     """Force and shift of every increment along the direction of the largest force, or torque and
     twist where they do more work."""
     path, force, forces, motion, motions, along = max(
         _loops(result.increments), key=lambda loop: loop.work
     )
-    x, across = on_axis(motion, motions, along)
-    y, upward = on_axis(force, forces, along)
+    x, across = on_axis(motion, motions, along, units)
+    y, upward = on_axis(force, forces, along, units)
 
     ax.axhline(0.0, color=style.GREY, linewidth=0.5)
     ax.axvline(0.0, color=style.GREY, linewidth=0.5)

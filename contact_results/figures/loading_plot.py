@@ -9,24 +9,25 @@ from matplotlib.figure import Figure
 
 from contact_results.figures import style
 from contact_results.figures.shown_steps import on_axis
+from contact_results.natural_sizes import SI, Units
 
 if TYPE_CHECKING:
     from contact_results.surface import Result
 
 
-def loading_plot(result: Result) -> Figure:
+def loading_plot(result: Result, units: Units = SI) -> Figure:
     """The curve by itself."""
     figure = style.new_figure(5.0, 3.6)
-    draw_loading(figure.subplots(), result)
+    draw_loading(figure.subplots(), result, units)
     return figure
 
 
-def draw_loading(ax: Any, result: Result) -> None:
+def draw_loading(ax: Any, result: Result, units: Units = SI) -> None:
     """Force and approach of every increment, from first touch."""
     path = [(0.0, 0.0), *((i.approach, i.normal_force) for i in result.increments)]
     approach, force = np.array(path).T
-    x, along = on_axis("approach", approach)
-    y, upward = on_axis("normal_force", force, "W")
+    x, along = on_axis("approach", approach, units=units)
+    y, upward = on_axis("normal_force", force, "W", units)
     # A line between touch and one end would be no path that the contact took.
     line = "-" if len(path) > 3 else ""
     ax.plot(x, y, color=style.LINE_COLOURS[0], linestyle=line, marker="o", markersize=3.5)

@@ -11,8 +11,9 @@ from matplotlib.figure import FigureBase
 from numpy.typing import NDArray
 
 from contact_results.figures.rings_above import RingsAbove
+from contact_results.natural_sizes import SI, Units
 from contact_results.surface import Cells
-from contact_scene.engineering_units import EngineeringUnit, engineering_unit
+from contact_scene.engineering_units import EngineeringUnit
 
 if TYPE_CHECKING:
     from contact_results.surface import Result
@@ -37,7 +38,7 @@ class MapFrame:
     unit: EngineeringUnit
 
     @classmethod
-    def around_contact(cls, result: Result, cells: Above) -> MapFrame:
+    def around_contact(cls, result: Result, cells: Above, units: Units = SI) -> MapFrame:
         """The frame that shows every cell that any step has in contact."""
         touching: list[Any] = [cells.scalar(step, "in_contact") for step in result.steps]
         touched = np.any(touching, axis=0)
@@ -45,7 +46,7 @@ class MapFrame:
             _half_extent(cells.x, touched.any(axis=1)),
             _half_extent(cells.y, touched.any(axis=0)),
         )
-        return cls(cells, shown, engineering_unit(max(shown), "m"))
+        return cls(cells, shown, units.of("length", max(shown), "m"))
 
     @property
     def extent(self) -> tuple[float, float, float, float]:
@@ -88,9 +89,9 @@ def map_axes(figure: FigureBase, frame: MapFrame, count: int) -> list[Any]:
         ax.set_xlim(-frame.shown[0] / frame.unit.size, frame.shown[0] / frame.unit.size)
         ax.set_ylim(-frame.shown[1] / frame.unit.size, frame.shown[1] / frame.unit.size)
         if position % columns == 0:
-            ax.set_ylabel(f"y ({frame.unit.name})")
+            ax.set_ylabel(frame.unit.labelled("y"))
         if position + columns >= count:
-            ax.set_xlabel(f"x ({frame.unit.name})")
+            ax.set_xlabel(frame.unit.labelled("x"))
             ax.tick_params(labelbottom=True)
     return panels[:count]
 

@@ -19,10 +19,11 @@ from contact_results.figures.run_page import decision_numbers
 from contact_results.figures.section_panel import draw_section
 from contact_results.figures.stick_slip_map import add_zone_legend, draw_zones
 from contact_results.figures.stress_plot import draw_depth, draw_surface
+from contact_results.natural_sizes import SI, Units
 from contact_results.stress.loaded_bodies import LoadedBodies, state_of_result
 from contact_results.surface import Cells, surface_of
 from contact_scene import Body
-from contact_scene.engineering_units import engineering_unit, quantity
+from contact_scene.engineering_units import quantity
 from contact_scene.stated_error import StatedError
 
 if TYPE_CHECKING:
@@ -38,7 +39,10 @@ BAR = {"shrink": 0.55, "aspect": 14}
 
 
 def overview(
-    result: Result, above: Above, errors: Mapping[str, StatedError] | None = None
+    result: Result,
+    above: Above,
+    errors: Mapping[str, StatedError] | None = None,
+    units: Units = SI,
 ) -> Figure:
     """Profile, zones, history, stress on the section and along the surface, and the numbers; of a
     single increment the stress down the axis instead of a history; no stress where it would take
@@ -56,17 +60,17 @@ def overview(
     )
     panels = np.asarray(figure.subfigures(2, 3 if field else 2), dtype=object)
     profile, zones, history, *stressed, numbers = panels.flat
-    draw_end(profile.subplots(), result, surface_of(result))
-    _draw_seen(zones, result, above)
+    draw_end(profile.subplots(), result, surface_of(result), units)
+    _draw_seen(zones, result, above, units)
     if moved(result.increments) >= LEAST_MOVES:
-        draw_loop(history.subplots(), result)
+        draw_loop(history.subplots(), result, units)
     elif field and len(result.increments) == 1:
-        _draw_axis(history.subplots(), field, result.scene.body)
+        _draw_axis(history.subplots(), field, result.scene.body, units)
     else:
-        draw_loading(history.subplots(), result)
+        draw_loading(history.subplots(), result, units)
     if field:
         section, surface = stressed
-        _draw_stress(section, surface, result, field)
+        _draw_stress(section, surface, result, field, units)
     _write_numbers(numbers.subplots(), result, errors)
     return figure
 
@@ -115,8 +119,8 @@ def coarser(state: LoadedBodies, most: int) -> LoadedBodies:
     return state
 
 
-def _draw_seen(figure: Any, result: Result, above: Above) -> None:
-    end, frame = result.steps[-1], MapFrame.around_contact(result, above)
+def _draw_seen(figure: Any, result: Result, above: Above, units: Units) -> None:
+    end, frame = result.steps[-1], MapFrame.around_contact(result, above, units)
     (ax,) = map_axes(figure, frame, 1)
     if above.scalar(end, "in_stick") is not None:
         draw_zones(ax, frame, result, end)
@@ -125,28 +129,28 @@ def _draw_seen(figure: Any, result: Result, above: Above) -> None:
         return
     pressure = above.scalar(end, "pressure")
     assert pressure is not None
-    unit = engineering_unit(float(np.max(pressure)), "Pa")
+    unit = units.of("pressure", float(np.max(pressure)), "Pa")
     seen = np.where(pressure > 0, pressure / unit.size, np.nan)
     image = draw_cells(ax, frame, seen, cmap=style.MAGNITUDE_MAP, vmin=0.0)
     ax.set_facecolor(style.OUTSIDE_COLOUR)
-    figure.colorbar(image, ax=ax, label=f"pressure p ({unit.name})", shrink=0.8)
+    figure.colorbar(image, ax=ax, label=unit.labelled("pressure p"), shrink=0.8)
 
 
-def _draw_axis(ax: Any, field: StressField, body: Body) -> None:
+def _draw_axis(ax: Any, field: StressField, body: Body, units: Units) -> None:
     depth = field.shown[1]
-    length = engineering_unit(depth, "m")
-    draw_depth(ax, field.axis, body, depth, length)
-    ax.set_ylabel(f"depth z on the axis ({length.name})")
+    length = units.of("length", depth, "m")
+    draw_depth(ax, field.axis, body, depth, length, units)
+    ax.set_ylabel(length.labelled("depth z on the axis"))
     ax.legend(loc="lower left", fontsize="small")
 
 
-def _draw_stress(left: Any, right: Any, result: Result, field: StressField) -> None:
+def _draw_stress(left: Any, right: Any, result: Result, field: StressField, units: Units) -> None:
     axes, along = left.subplots(), right.subplots()
     body, mises = result.scene.body, field.section.von_mises
-    length = draw_section(left, axes, field, body, mises, "von Mises", bar=BAR)
-    axes.set_xlabel(f"{field.label} ({length.name})")
-    axes.set_ylabel(f"depth z ({length.name})")
-    draw_surface(along, field)
+    length = draw_section(left, axes, field, body, mises, "von Mises", bar=BAR, units=units)
+    axes.set_xlabel(length.labelled(field.label))
+    axes.set_ylabel(length.labelled("depth z"))
+    draw_surface(along, field, units)
     if field.edge is None and isinstance(surface_of(result), Cells):
         cell = float(np.diff(field.section.x.ravel()[:2])[0])
         along.set_title(

@@ -10,18 +10,18 @@ from matplotlib.figure import Figure
 from contact_results.figures import style
 from contact_results.figures.map_panels import MapFrame, draw_cells, map_axes
 from contact_results.figures.shown_steps import normal_load, runs_of_equal, selected, span
-from contact_scene.engineering_units import engineering_unit
+from contact_results.natural_sizes import SI, Units
 
 if TYPE_CHECKING:
     from contact_results.surface import Cells, Result
 
 
-def pressure_map(result: Result, cells: Cells) -> Figure:
+def pressure_map(result: Result, cells: Cells, units: Units = SI) -> Figure:
     """Pressure at the end of the loading steps; neighbours of equal pressure share a panel."""
-    frame = MapFrame.around_contact(result, cells)
+    frame = MapFrame.around_contact(result, cells, units)
     groups = runs_of_equal(selected(result.steps), lambda step: step.pressure)
     peak = max(step.peak_pressure for step in result.steps)
-    unit = engineering_unit(peak, "Pa")
+    unit = units.of("pressure", peak, "Pa")
     figure = style.new_figure(*frame.figure_size(len(groups)))
     axes = map_axes(figure, frame, len(groups))
     for ax, group in zip(axes, groups, strict=True):
@@ -30,5 +30,5 @@ def pressure_map(result: Result, cells: Cells) -> Figure:
         image = draw_cells(ax, frame, pressure, **colours)
         ax.set_facecolor(style.OUTSIDE_COLOUR)
         ax.set_title(f"{span(group)}: {normal_load(group[0])}")
-    figure.colorbar(image, ax=axes, label=f"pressure p ({unit.name})", shrink=0.9)
+    figure.colorbar(image, ax=axes, label=unit.labelled("pressure p"), shrink=0.9)
     return figure

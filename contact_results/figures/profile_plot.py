@@ -11,7 +11,8 @@ from matplotlib.figure import Figure
 
 from contact_results.figures import style
 from contact_results.figures.shown_steps import SAME, runs_of_equal, selected, span, vectors
-from contact_scene.engineering_units import EngineeringUnit, engineering_unit
+from contact_results.natural_sizes import SI, Units
+from contact_scene.engineering_units import EngineeringUnit
 from contact_scene.friction import FRICTIONLESS
 
 if TYPE_CHECKING:
@@ -36,47 +37,47 @@ class Component:
     unit: EngineeringUnit
 
 
-def profile_plot(result: Result, surface: Surface) -> Figure:
+def profile_plot(result: Result, surface: Surface, units: Units = SI) -> Figure:
     """Pressure, and where there is any shear, at the end of the loading steps."""
-    shears = _components(surface, result.steps, ("shear", "q", "Pa"))
+    shears = _components(surface, result.steps, ("shear", "q", "Pa"), units)
     figure = style.new_figure(6.0, 3.2 + 2.4 * len(shears))
     axes = figure.subplots(1 + len(shears), 1, sharex=True, squeeze=False)[:, 0]
-    length = _line_axis(axes[-1], result, surface)
+    length = _line_axis(axes[-1], result, surface, units)
     x = surface.line.places / length.size
-    _draw_pressure(axes[0], x, result, surface)
+    _draw_pressure(axes[0], x, result, surface, units)
     for ax, shear in zip(axes[1:], shears, strict=True):
         _draw_bound(ax, x, result, surface, shear)
         _draw_component(ax, x, shear)
     return figure
 
 
-def draw_end(ax: Any, result: Result, surface: Surface) -> None:
+def draw_end(ax: Any, result: Result, surface: Surface, units: Units = SI) -> None:
     """Pressure at the end of the history, with shear over the coefficient of friction where that is
     one number, so that they meet where it slips."""
-    length, end = _line_axis(ax, result, surface), result.steps[-1]
+    length, end = _line_axis(ax, result, surface, units), result.steps[-1]
     x, pressure = surface.line.places / length.size, surface.along(_pressure(end, surface))
-    unit = engineering_unit(end.peak_pressure, "Pa")
+    unit = units.of("pressure", end.peak_pressure, "Pa")
     ax.plot(x, pressure / unit.size, label="pressure p", **style.line(0))
     friction = result.scene.friction
     coefficient = friction.uniform if friction is not None else None
     if coefficient:
-        shears = _components(surface, [end], ("shear", "q", "Pa"))
+        shears = _components(surface, [end], ("shear", "q", "Pa"), units)
         for number, shear in enumerate(shears, 1):
             scaled = shear.lines[end.step] / (coefficient * unit.size)
             ax.plot(x, scaled, label=f"{shear.name.removeprefix('shear ')}/µ", **style.line(number))
     ax.axhline(0.0, color="black", linewidth=0.5)
-    ax.set_ylabel(f"traction ({unit.name})")
+    ax.set_ylabel(unit.labelled("traction"))
     ax.legend(loc="best", fontsize="small")
 
 
-def slip_plot(result: Result, surface: Surface) -> Figure | None:
+def slip_plot(result: Result, surface: Surface, units: Units = SI) -> Figure | None:
     """Slip since the start of the history at the end of the loading steps; None without any."""
-    slips = _components(surface, result.steps, ("slip", "s", "m"))
+    slips = _components(surface, result.steps, ("slip", "s", "m"), units)
     if not slips:
         return None
     figure = style.new_figure(6.0, 0.8 + 2.4 * len(slips))
     axes = figure.subplots(len(slips), 1, sharex=True, squeeze=False)[:, 0]
-    length = _line_axis(axes[-1], result, surface)
+    length = _line_axis(axes[-1], result, surface, units)
     for ax, slip in zip(axes, slips, strict=True):
         _draw_component(ax, surface.line.places / length.size, slip)
         _draw_stick(ax, surface.line.places / length.size, surface, slip)
@@ -85,7 +86,7 @@ def slip_plot(result: Result, surface: Surface) -> Figure | None:
 
 
 def _components(
-    surface: Surface, steps: Sequence[Increment], named: tuple[str, str, str]
+    surface: Surface, steps: Sequence[Increment], named: tuple[str, str, str], units: Units
 ) -> list[Component]:
     """Those along and across the line that are more than round-off.
 
@@ -105,7 +106,7 @@ def _components(
             f"{name} ${symbol}_{{{surface.line.components[k]}}}$",
             [step for step, _ in shown],
             {step: vector[k] for step, vector in lines.items()},
-            engineering_unit(largest[k], unit),
+            units.of(name, largest[k], unit),
         )
         for k in (0, 1)
         if largest[k] > SAME * max(largest)
@@ -118,7 +119,7 @@ def _draw_component(ax: Any, x: Field, shown: Component) -> None:
         values = shown.lines[group[0].step] / shown.unit.size
         ax.plot(x, values, label=span(group), **style.line(number))
     ax.axhline(0.0, color="black", linewidth=0.5)
-    ax.set_ylabel(f"{shown.name} ({shown.unit.name})")
+    ax.set_ylabel(shown.unit.labelled(shown.name))
     style.legend_beside(ax)
 
 
@@ -135,14 +136,14 @@ def _draw_stick(ax: Any, x: Field, surface: Surface, shown: Component) -> None:
         ax.plot(x, height, color=colour, linewidth=3.0, transform=ax.get_xaxis_transform())
 
 
-def _draw_pressure(ax: Any, x: Field, result: Result, surface: Surface) -> None:
-    unit = engineering_unit(max(step.peak_pressure for step in result.steps), "Pa")
+def _draw_pressure(ax: Any, x: Field, result: Result, surface: Surface, units: Units) -> None:
+    unit = units.of("pressure", max(step.peak_pressure for step in result.steps), "Pa")
     groups = runs_of_equal(selected(result.steps), lambda step: _pressure(step, surface))
     for number, group in enumerate(groups):
         pressure = surface.along(_pressure(group[0], surface)) / unit.size
         ax.plot(x, pressure, label=span(group), **style.line(number))
     ax.set_ylim(bottom=0.0)
-    ax.set_ylabel(f"pressure p ({unit.name})")
+    ax.set_ylabel(unit.labelled("pressure p"))
     style.legend_beside(ax)
 
 
@@ -158,15 +159,15 @@ def _draw_bound(ax: Any, x: Field, result: Result, surface: Surface, shear: Comp
         ax.plot(x, -bound, color=style.GREY, linewidth=0.8)
 
 
-def _line_axis(ax: Any, result: Result, surface: Surface) -> EngineeringUnit:
+def _line_axis(ax: Any, result: Result, surface: Surface, units: Units) -> EngineeringUnit:
     """Label the line and cut it to the contact; returns the unit of length."""
     places = surface.line.places
     touched = [surface.along(_pressure(step, surface)) > 0 for step in result.steps]
     inside = np.flatnonzero(np.any(touched, axis=0))
     ends = [max(inside[0] - 1, 0), min(inside[-1] + 1, len(places) - 1)]
     reach = float(min(MARGIN * np.max(np.abs(places[ends])), np.max(places)))
-    length = engineering_unit(reach, "m")
-    ax.set_xlabel(f"{surface.line.label} ({length.name})")
+    length = units.of("length", reach, "m")
+    ax.set_xlabel(length.labelled(surface.line.label))
     ax.set_xlim(-reach / length.size if places[0] < 0 else 0.0, reach / length.size)
     return length
 

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from contact_results.directory import file_names
+from contact_results.natural_sizes import ROUND_OFF, without_round_off
 from contact_results.number_text import measured_like, number_text, uncertainty
 from contact_results.remarks import remarks
 from contact_scene.engineering_units import engineering_unit
@@ -30,8 +31,6 @@ POLICY = (
     "default-src 'none'; img-src data:; style-src 'unsafe-inline'; base-uri 'none'; "
     "form-action 'none'"
 )
-# What makes a force, a moment or a rotation negligible, beside the normal load on the contact.
-ROUND_OFF = 1e-9
 
 
 def write_page(
@@ -85,8 +84,7 @@ def decision_numbers(
             value, axis = values[part], part[-1] if SCALARS[name].kind is Kind.VECTOR else "x"
             if value is None:
                 continue
-            if abs(value) <= ROUND_OFF * _natural(result, SCALARS[name].unit):
-                value = 0.0
+            value = without_round_off(value, result.steps, SCALARS[name].unit)
             text = number_text(value, uncertainty((errors or {}).get(name), axis), unit.size)
             yield part.replace("_", " "), f"{text} {unit.name}"
 
@@ -96,16 +94,6 @@ def _acts(result: Result, name: str, part: str) -> bool:
     history = [numbers(end) for end in result.steps]
     largest = max(abs(of[each] or 0.0) for of in history for each in components(name))
     return any(abs(of[part] or 0.0) > ROUND_OFF * largest for of in history)
-
-
-def _natural(result: Result, unit: str) -> float:
-    """The size that a quantity of a unit has in this contact; 0 where the load does not tell."""
-    force, radius, approach = (
-        max(abs(getattr(end, name)) for end in result.steps)
-        for name in ("normal_force", "contact_radius", "approach")
-    )
-    slope = approach / radius if radius else 0.0
-    return {"N": force, "N m": force * radius, "m": approach, "rad": slope}.get(unit, 0.0)
 
 
 def _settings(result: Result) -> Iterator[tuple[str, str]]:

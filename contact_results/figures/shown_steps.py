@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Protocol, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
+from contact_results.natural_sizes import SI, Units
 from contact_scene.engineering_units import engineering_unit, quantity
 from contact_scene.increment import SCALARS
 
@@ -57,10 +58,10 @@ def vectors(
     return [(step, vector) for step, vector in found if vector is not None and np.any(vector)]
 
 
-def on_axis(name: str, values: Field, which: str = "") -> tuple[Field, str]:
+def on_axis(name: str, values: Field, which: str = "", units: Units = SI) -> tuple[Field, str]:
     """The values of a scalar in a readable unit, and what an axis says of them."""
-    unit = engineering_unit(float(np.max(np.abs(values))), SCALARS[name].unit)
-    return values / unit.size, f"{name.replace('_', ' ')} {which} ({unit.name})".replace("  ", " ")
+    unit = units.of(name, float(np.max(np.abs(values))), SCALARS[name].unit)
+    return values / unit.size, unit.labelled(f"{name.replace('_', ' ')} {which}".rstrip())
 
 
 def span(group: Sequence[Increment]) -> str:

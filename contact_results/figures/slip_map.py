@@ -17,19 +17,19 @@ from contact_results.figures.map_panels import (
     outline,
 )
 from contact_results.figures.shown_steps import selected, span, tangential_load, vectors
-from contact_scene.engineering_units import engineering_unit
+from contact_results.natural_sizes import SI, Units
 
 if TYPE_CHECKING:
     from contact_results.surface import Result
 
 
-def slip_map(result: Result, cells: Above) -> Figure:
+def slip_map(result: Result, cells: Above, units: Units = SI) -> Figure:
     """Slip of the body on the indenter since the start of the history, at the end of the steps that
     have any: its size as a colour, arrows along it, and the border of the stick zone."""
-    frame = MapFrame.around_contact(result, cells)
+    frame = MapFrame.around_contact(result, cells, units)
     slips = selected(vectors(cells, result.steps, "slip"))
     largest = max(float(np.max(np.hypot(*slip))) for _, slip in slips)
-    unit = engineering_unit(largest, "m")
+    unit = units.of("slip", largest, "m")
     width, height = frame.figure_size(len(slips))
     figure = style.new_figure(width, height + 0.2)
     axes = map_axes(figure, frame, len(slips))
@@ -44,6 +44,6 @@ def slip_map(result: Result, cells: Above) -> Figure:
         if sticking is not None:
             outline(ax, frame, sticking, "white")
         ax.set_title(f"{span([step])}: {tangential_load(step)}")
-    figure.colorbar(image, ax=axes, label=f"slip since the start ({unit.name})", shrink=0.9)
+    figure.colorbar(image, ax=axes, label=unit.labelled("slip since the start"), shrink=0.9)
     figure.supylabel("arrows: slip of the body; white: stick", fontsize=style.CAPTION_SIZE)
     return figure

@@ -11,6 +11,7 @@ from matplotlib.patches import Patch
 from contact_results.figures import style
 from contact_results.figures.map_panels import Above, MapFrame, draw_arrows, draw_cells, map_axes
 from contact_results.figures.shown_steps import selected, span, tangential_load
+from contact_results.natural_sizes import SI, Units
 
 if TYPE_CHECKING:
     from contact_results.surface import Field, Increment, Result
@@ -22,9 +23,9 @@ ZONES = (
 )
 
 
-def stick_slip_map(result: Result, cells: Above) -> Figure:
+def stick_slip_map(result: Result, cells: Above, units: Units = SI) -> Figure:
     """Zones of stick and slip at the end of the loading steps, and where the body slips to."""
-    frame = MapFrame.around_contact(result, cells)
+    frame = MapFrame.around_contact(result, cells, units)
     steps = selected([step for step in result.steps if step.in_stick is not None])
     width, height = frame.figure_size(len(steps))
     figure = style.new_figure(width - 0.6, height + 0.3)  # a legend below, no colour bar

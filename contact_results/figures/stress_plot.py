@@ -13,6 +13,7 @@ from matplotlib.figure import Figure
 from contact_results.directory.atomic_file import atomic_file
 from contact_results.figures import style
 from contact_results.figures.section_panel import draw_interfaces, draw_section
+from contact_results.natural_sizes import SI, Units
 from contact_results.stress.points import StressField, StressPoints
 from contact_results.stress.tables import sides
 from contact_scene import Body
@@ -85,10 +86,10 @@ def surface_plot(field: StressField, body: Body, title: str) -> Figure:
     return figure
 
 
-def draw_surface(ax: Any, field: StressField) -> None:
+def draw_surface(ax: Any, field: StressField, units: Units = SI) -> None:
     """σ_xx and σ_yy at z = 0, on a fitted edge of the contact, too, and where the contact ends."""
     reach = field.shown[0]
-    length = engineering_unit(reach, "m")
+    length = units.of("length", reach, "m")
     surface, ends = _at_surface(field), _ends(field)
     parts = [surface.chosen(np.abs(surface.x) <= reach), *([ends] if ends else [])]
     x = np.concatenate([part.x for part in parts])
@@ -97,7 +98,7 @@ def draw_surface(ax: Any, field: StressField) -> None:
         _named(name): np.concatenate([part.components[name] for part in parts])[order]
         for name in ("xx", "yy")
     }
-    unit = engineering_unit(float(max(np.abs(v).max() for v in lines.values())), "Pa")
+    unit = units.of("pressure", float(max(np.abs(v).max() for v in lines.values())), "Pa")
     for number, (name, values) in enumerate(lines.items()):
         ax.plot(x[order] / length.size, values / unit.size, label=name, **style.line(number))
     ax.axhline(0.0, color="black", linewidth=0.5)
@@ -105,8 +106,8 @@ def draw_surface(ax: Any, field: StressField) -> None:
         if edge >= surface.x.min():
             ax.axvline(edge / length.size, color=style.GREY, linewidth=0.7, linestyle=":")
     dotted = "edge of the contact" if ends else "contact radius"
-    ax.set_xlabel(f"{field.label}, z = 0 ({length.name}); dotted: {dotted}")
-    ax.set_ylabel(f"stress ({unit.name})")
+    ax.set_xlabel(f"{length.labelled(f'{field.label}, z = 0')}; dotted: {dotted}")
+    ax.set_ylabel(unit.labelled("stress"))
     ax.legend(loc="best")
 
 
@@ -156,13 +157,18 @@ def _below_edge(field: StressField) -> dict[str, StressPoints]:
 
 
 def draw_depth(
-    ax: Any, points: StressPoints, body: Body, deepest: float, length: EngineeringUnit
+    ax: Any,
+    points: StressPoints,
+    body: Body,
+    deepest: float,
+    length: EngineeringUnit,
+    units: Units = SI,
 ) -> None:
     """Stresses at points below each other, z downward, one line per material."""
     line = points.chosen(points.depth <= deepest)
     lines = {_named(name): line.components[name] for name in ("xx", "yy", "zz", "xz")}
     lines["von Mises"] = line.von_mises
-    unit = engineering_unit(float(max(np.abs(v).max() for v in lines.values())), "Pa")
+    unit = units.of("pressure", float(max(np.abs(v).max() for v in lines.values())), "Pa")
     for number, (name, values) in enumerate(lines.items()):
         for material in np.unique(line.material):
             inside = line.material == material
@@ -173,7 +179,7 @@ def draw_depth(
                 **style.line(number),
             )
     ax.axvline(0.0, color="black", linewidth=0.5)
-    ax.set_xlabel(f"stress ({unit.name})")
+    ax.set_xlabel(unit.labelled("stress"))
     draw_interfaces(ax, body, deepest, length)
     ax.set_ylim(deepest / length.size, 0.0)
 

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, NamedTuple, TypeVar
 import numpy as np
 
 from contact_results.difference import largest_difference
+from contact_results.natural_sizes import ROUND_OFF, natural_size
 from contact_results.number_text import Uncertainty, measured_like, number_text, uncertainty
 from contact_scene.engineering_units import engineering_unit
 from contact_scene.increment import SCALARS, State, components, numbers
@@ -92,7 +93,7 @@ def outcome_columns(
     stated: Sequence[Errors] = errors if errors is not None else [{}] * len(ends)
     numbered, gap = _shown(list(enumerate(zip(ends, stated, strict=True), 1)))
     columns = {"step": [str(number) for number, _ in numbered]}
-    shown = list(_columns([end for _, end in numbered]))
+    shown = list(_columns([end for _, end in numbered], ends))
     for column in shown:
         alike = [other.entries for other in shown if other.like == column.like]
         sizes = [abs(value) for entries in alike for value, _ in entries if value is not None]
@@ -143,9 +144,9 @@ def _shown(steps: Sequence[Shown]) -> tuple[list[Shown], int | None]:
     return [*steps[:FIRST], *steps[-LAST:]], FIRST
 
 
-def _columns(steps: Sequence[tuple[State, Errors]]) -> Iterator[_Column]:
+def _columns(steps: Sequence[tuple[State, Errors]], history: Sequence[State]) -> Iterator[_Column]:
     """A column for every key quantity that the steps have, and for the y component of a vector
-    where there is one, without its round-off."""
+    where there is one, without what is round-off in this history."""
     rows = [numbers(step) for step, _ in steps]
     for name, mark in SCALARS.items():
         parts = components(name)
@@ -156,7 +157,9 @@ def _columns(steps: Sequence[tuple[State, Errors]]) -> Iterator[_Column]:
         first, _, rest = name.partition("_")
         for axis, values in zip("xy", found, strict=False):
             vector = mark.kind is Kind.VECTOR
-            cut = [_cut(value, NEGLIGIBLE * np.max(known) if vector else 0.0) for value in values]
+            least = NEGLIGIBLE * max(known) if vector else 0.0
+            least = max(least, ROUND_OFF * natural_size(history, mark.unit))
+            cut = [_cut(value, least) for value in values]
             if axis == "x" or any(cut):
                 heading = f"{first}\n{rest}{f' {axis}' if vector else ''}"
                 errors = [uncertainty(of_step.get(name), axis) for _, of_step in steps]

@@ -34,6 +34,14 @@ def run(
     overrides: SetOption = None,
     solver: SolverOption = SolverName.SEMI_ANALYTICAL,
     figures: FiguresOption = True,
+    normalised: Annotated[
+        bool,
+        typer.Option(
+            "--normalised",
+            help="Draw figures over the sizes of Hertz' contact, x/a, p/p0, q/µp0; files stay in "
+            "SI.",
+        ),
+    ] = False,
     overwrite: Annotated[
         bool,
         typer.Option("--overwrite", help="Replace files in DIR that are not of an earlier run."),
@@ -89,6 +97,8 @@ def run(
     from contact_scene import read_scene_file
     from slipstick.cli.terminal import tell
 
+    if normalised and not figures:
+        raise typer.BadParameter("--normalised is of figures; leave it or --no-figures out")
     stopwatch = Stopwatch()
     with stopwatch.phase("read"):
         contents = read_scene_file(scene, overrides or ())
@@ -150,6 +160,7 @@ def run(
                 result,
                 staging,
                 with_figures=figures,
+                normalised=normalised,
                 surface_stress=surface_stress,
                 path_errors=by_doubling,
                 errors=stated,

@@ -4,6 +4,7 @@ from collections.abc import Iterable, Sequence
 
 import typer
 
+BETWEEN = "  "  # columns, and half of it at either edge
 WIDE = 200  # columns of a log, where nobody wants a table to be folded at 80
 
 
@@ -28,19 +29,40 @@ def harmless(text: str) -> str:
 def print_table(
     columns: Iterable[str], rows: Iterable[Sequence[str]], *, numbers: bool = False
 ) -> None:
-    """A table whose first column is a name; the others are right-aligned if they are numbers."""
+    """A table whose first column is a name; the others are right-aligned if they are numbers, and
+    stand in blocks below each other where they are too many for the terminal."""
     # Imported here because 'slipstick check' shows no table and shall answer at once.
     from rich.box import SIMPLE_HEAD
     from rich.console import Console
     from rich.table import Table
     from rich.text import Text
 
-    table = Table(box=SIMPLE_HEAD, pad_edge=False, collapse_padding=True)
-    for position, column in enumerate(columns):
-        table.add_column(column, justify="right" if numbers and position else "left")
-    for row in rows:
-        table.add_row(*(Text(cell) for cell in row))
     console = Console(highlight=False)
     if not console.is_terminal:
         console.width = WIDE
-    console.print(table)
+    headings, rows = list(columns), [list(row) for row in rows]
+    every = range(len(headings))
+    for block in _blocks(headings, rows, console.width) if numbers else [every]:
+        table = Table(box=SIMPLE_HEAD, pad_edge=False, collapse_padding=True)
+        for position in block:
+            table.add_column(
+                headings[position], justify="right" if numbers and position else "left"
+            )
+        for row in rows:
+            table.add_row(*(Text(row[position]) for position in block))
+        console.print(table)
+
+
+def _blocks(headings: Sequence[str], rows: Sequence[Sequence[str]], width: int) -> list[list[int]]:
+    """Positions of the columns that go beside each other, the first in every block."""
+    lines = [
+        [*heading.split("\n"), *(row[k] for row in rows)] for k, heading in enumerate(headings)
+    ]
+    widths = [max(map(len, of_column)) + len(BETWEEN) for of_column in lines]
+    blocks = [[0]]
+    for position in range(1, len(headings)):
+        taken = sum(widths[k] for k in blocks[-1])
+        if len(blocks[-1]) > 1 and taken + widths[position] > width:
+            blocks.append([0])
+        blocks[-1].append(position)
+    return blocks
