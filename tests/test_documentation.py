@@ -1,7 +1,10 @@
 """What README and documentation name is there: files, commands, options, cases and studies."""
 
 import re
+import resource
 import shlex
+import subprocess
+import sys
 from pathlib import Path
 
 import pytest
@@ -11,7 +14,8 @@ from verification.cases.catalogue import CASES
 from verification.studies.catalogue import SCENE_STUDIES, STUDIES
 
 ROOT = Path(__file__).resolve().parents[1]
-PAGES = (ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md")))
+README = ROOT / "README.md"
+PAGES = (README, *sorted((ROOT / "docs").rglob("*.md")))
 WRITTEN = [page for page in PAGES if "made" not in page.relative_to(ROOT).parts]
 PLACEHOLDER = re.compile(r"SCENE|COMMAND|CASE|NAME|DIR|\$h|^tcp:|…")
 
@@ -48,8 +52,32 @@ def test_commands_of_the_pages_are_known(page: Path, words: list[str]) -> None:
         assert PLACEHOLDER.search(rest[0]) or rest[0] in CASES
 
 
+@pytest.mark.slow
+def test_durations_of_the_readme_are_of_their_order_of_magnitude(tmp_path: Path) -> None:
+    """CPU seconds of a process each, in the order of the page, as later ones read what earlier ones
+    wrote."""
+    stated = re.findall(
+        r"^ {4}\.venv/bin/slipstick +(.+?) +# +(\d+) s ", text_of(README), re.MULTILINE
+    )
+    assert len(stated) >= 9
+    for call, seconds in stated:
+        words = [re.sub(r"^out/", f"{tmp_path}/", word) for word in shlex.split(call)]
+        before = children_cpu()
+        subprocess.run(
+            [sys.executable, "-m", "slipstick", *words], cwd=ROOT, check=True, capture_output=True
+        )
+        spent = children_cpu() - before
+        assert int(seconds) / 8 <= spent <= 8 * int(seconds), f"{call}: {spent:.1f} CPU s"
+
+
+def children_cpu() -> float:
+    """CPU seconds of the processes that this one has waited for."""
+    used = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return used.ru_utime + used.ru_stime
+
+
 def test_cases_of_the_table_in_the_readme_are_known() -> None:
-    named = re.findall(r"\| `(\w+)` \|$", text_of(ROOT / "README.md"), re.MULTILINE)
+    named = re.findall(r"\| `(\w+)` \|$", text_of(README), re.MULTILINE)
     assert len(named) >= 6
     assert set(named) <= set(CASES)
 
