@@ -15,7 +15,13 @@ from contact_scene.increment import SCALARS
 from contact_scene.linear_theory import beyond_linear_theory
 from semi_analytical import Result, solve
 from slipstick.cli.outcome_text import outcome_columns, solved_in
-from verification.cases import eccentric_ball, hertz_unloading, same_surface, turned
+from verification.cases import (
+    eccentric_ball,
+    exchanged_bodies,
+    hertz_unloading,
+    same_surface,
+    turned,
+)
 from verification.cases.apart_everywhere import Apart, apart_everywhere
 from verification.convergence.stored_field import PRESSURE, StoredField
 from verification.judging.outcome import Status
@@ -29,6 +35,7 @@ READ: dict[Any, tuple[str, ...]] = {
     same_surface._mirrored_difference: ("pressure", "shear"),
     same_surface._difference_of_scalars: ("approach", "tangential_shift", "dissipated_energy"),
     hertz_unloading._difference: ("pressure", "approach"),
+    exchanged_bodies._on_cells: ("pressure", "shear", "tangential_shift", "approach"),
     eccentric_ball._shifted_difference: ("pressure", "shear"),
 }
 

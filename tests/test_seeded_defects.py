@@ -39,8 +39,11 @@ QUICK = Settings(Level.QUICK)
 # Cases that take a fraction of a second.
 FAST = (
     "dissimilar_bodies",
+    "exchanged_bodies",
+    "fem_far_field",
     "hertz_approach_control",
     "layered_reference",
+    "led_histories",
     "near_sliding",
     "subsurface_stress",
     "tilted_punch",

@@ -35,8 +35,9 @@ class Patches:
     def __init__(self) -> None:
         self._undo: list[Callable[[], None]] = []
 
-    def attribute(self, owner: type, name: str, value: Any) -> None:
-        """Give a class another attribute: a method, a property or a class method."""
+    def attribute(self, owner: type | ModuleType, name: str, value: Any) -> None:
+        """Give a class another attribute: a method, a property or a class method; or a module
+        another name of its own, where others keep what they have."""
         here, before = name in vars(owner), vars(owner).get(name)
         setattr(owner, name, value)
         self._undo.append(lambda: setattr(owner, name, before) if here else delattr(owner, name))

@@ -1,6 +1,7 @@
 """All defects, in the order of the report."""
 
 from verification.defects.contact_and_friction import CONTACT_AND_FRICTION
+from verification.defects.controls_and_bodies import CONTROLS_AND_BODIES
 from verification.defects.defect import Defect
 from verification.defects.finite_elements import FINITE_ELEMENTS
 from verification.defects.histories import HISTORIES
@@ -13,6 +14,7 @@ DEFECTS: dict[str, Defect] = {
         *SURFACE_RESPONSE,
         *CONTACT_AND_FRICTION,
         *HISTORIES,
+        *CONTROLS_AND_BODIES,
         *FINITE_ELEMENTS,
         *OUTPUTS,
     )

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from functools import cache
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
@@ -96,7 +97,7 @@ class DefectRun:
 
     def compute(self) -> CaseRecord:
         """Plant the defect, let the case be judged, and take the defect out again."""
-        choose(Level.QUICK)  # what modules compute when they are imported, they compute healthy
+        _all_imported()
         if self.defect == HEALTHY:
             outcome = judged(self.case)
         else:
@@ -129,6 +130,12 @@ class HealthyRun:
 
         outcome = judge(case, solve)
         return record_of(self, outcome, tuple(_samples(case, outcome, results)))
+
+
+@cache
+def _all_imported() -> None:
+    """What modules compute when they are imported, they compute healthy."""
+    choose(Level.QUICK)
 
 
 def record_of(
