@@ -1,5 +1,6 @@
 """The report's page: its order, what it answers, what is missing, and how scenes are drawn."""
 
+import ast
 import re
 from pathlib import Path
 
@@ -23,7 +24,7 @@ from verification.judging.section_sketch import HALF_WIDTH, section_sketch
 from verification.problems.reference import ReferenceKind
 from verification.report.answers import answers
 from verification.report.both_solvers import both_solvers_charts, furthest_apart, shared_references
-from verification.report.columns import alignment
+from verification.report.columns import alignment, heading
 from verification.report.compact_svg import compact
 from verification.report.counts import counts_text
 from verification.report.extent import extent
@@ -41,6 +42,7 @@ from verification.solver import Method, Solver
 from verification.studies.catalogue import STUDIES
 from verification.studies.work_precision.price_rows import Reached
 
+ROOT = Path(__file__).resolve().parents[1]
 SECTIONS = (
     "verdict", "pictures", "baseline", "answers", "cases", "solvers", "paper", "cost",
     "stability", "defects", "omissions", "provenance",
@@ -197,6 +199,30 @@ def test_numbers_stand_to_the_right_and_words_to_the_left() -> None:
     table = Table(title="t", columns=("name", "error", "cells", "near", "cost"), rows=rows)
     found = [alignment(table, column) for column in range(1, 5)]
     assert found == ["number", "number", "words", "number"]
+
+
+def test_every_column_of_numbers_has_a_unit_or_none() -> None:
+    rows = (("a", "1.2e-3", "4.2 ms", "3", "✓ 0.2", "fine"), ("b", "–", "9 ms", "4", "–", "bad"))
+    columns = ("name", "shift", "took", "cells", "error", "end")
+    table = Table(title="t", columns=columns, rows=rows, units={"shift": "µm"})
+    found = [heading(table, column) for column in range(6)]
+    assert found == ["name", "shift [µm]", "took", "cells [–]", "error [–]", "end"]
+    old = table.model_copy(update={"units": None})
+    assert tuple(heading(old, column) for column in range(6)) == columns
+
+
+def test_every_table_that_is_made_says_the_units_of_its_numbers() -> None:
+    """What has none is dimensionless by somebody's word, not because nobody has thought of it."""
+    silent = [
+        f"{path}:{call.lineno}"
+        for path in sorted((ROOT / "verification").rglob("*.py"))
+        for call in ast.walk(ast.parse(path.read_text(encoding="utf-8")))
+        if isinstance(call, ast.Call)
+        and isinstance(call.func, ast.Name)
+        and call.func.id == "Table"
+        and "units" not in {keyword.arg for keyword in call.keywords}
+    ]
+    assert silent == []
 
 
 def test_the_places_where_solvers_are_furthest_apart_come_first() -> None:

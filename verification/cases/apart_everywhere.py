@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from verification.exhibits.numbers import plain
-from verification.exhibits.table import Table
+from verification.exhibits.table import NONE, Table
 
 Field = NDArray[np.float64]
 Mask = NDArray[np.bool_]
@@ -70,7 +70,7 @@ def apart_everywhere(lines: Sequence[Apart], what: str, over: str, x_name: str) 
         rows=tuple(_row(line) for line in lines),
         note=f"Left out of the comparison of {what} is what lies {listed(list(worst.left_out))}. "
         f"There both are apart by up to {plain(value, 2)} {over}: {why}, at x = {plain(at, 2)} "
-        f"{x_name}, at {worst.load}; places are {plain(side, 2)} {x_name} apart.",
+        f"{x_name}, at {worst.load}; places are {plain(side, 2)} {x_name} apart.", units=NONE
     )  # fmt: skip
 
 

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from verification.exhibits.numbers import plain
-from verification.exhibits.table import Table
+from verification.exhibits.table import NONE, Table
 from verification.judging.case import Case, Check, Level, Required
 from verification.laws.classical_forms import CONTRASTS, DEPTHS, FORMS, DigitLoss, digit_losses
 from verification.problems.reference import identity
@@ -77,6 +77,7 @@ def _tables(results: Mapping[str, Result]) -> tuple[Table, ...]:
             rows=rows,
             note="Growing exponentials overflow; stiff layers drown the substrate's stiffness; "
             "thin layers make the closed form a difference of numbers near one.",
+            units=NONE,
         ),
     )
 

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from contact_results.difference import largest_difference
 from contact_scene import Body, Paraboloid, Scene
 from semi_analytical import SurfaceGrid, all_effects
-from verification.exhibits.table import Table
+from verification.exhibits.table import NONE, Table
 from verification.judging.case import Case, Comparison, Level
 from verification.judging.run import SOLVER_TOLERANCE, Run
 from verification.problems import paper_scene as paper
@@ -87,6 +87,7 @@ def _savings(results: Mapping[str, Result], pairs: Mapping[str, tuple[Run, Run]]
         rows=tuple(rows),
         note="Increments are the same on both sides; that plans also need fewer of them where "
         "nothing depends on the path comes on top.",
+        units=NONE,
     )
 
 

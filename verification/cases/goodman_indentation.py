@@ -11,7 +11,7 @@ from contact_results.quantities import shear_of
 from semi_analytical import one_way
 from verification.closed_forms.goodman import stick_ratio
 from verification.exhibits.chart import Chart, Look, Panel, curve
-from verification.exhibits.table import Table
+from verification.exhibits.table import NONE, Table
 from verification.judging.case import Case, Comparison, Level, Quantity, Required
 from verification.judging.run import Run
 from verification.observed.end_state import approach, contact_radius, peak_pressure, stick_radius
@@ -141,6 +141,7 @@ def _table(results: Mapping[float, list[Result]]) -> Table:
                  "convolutions per increment"),
         rows=rows,
         note="With the full coupling the ratio is smaller: 0.1998 for µ = 0.1, 0.8959 for µ = 0.3.",
+        units=NONE,
     )  # fmt: skip
 
 

@@ -10,7 +10,7 @@ import numpy as np
 from contact_results.quantities import shear_of
 from verification.exhibits.chart import Chart, Look, Panel, curve
 from verification.exhibits.profile_chart import SHOWN
-from verification.exhibits.table import Table
+from verification.exhibits.table import NONE, Table
 from verification.judging.ladder import cells_label
 from verification.judging.pressing_errors import (
     judged_radii,
@@ -50,7 +50,7 @@ def indentation_table(results: Iterable[tuple[Indentation, Result]]) -> Table:
                  "shear / µp_H", "c / a (reference)", "convolutions per increment"),
         rows=rows,
         note="Approach, radius and pressure hardly notice the increments; the shear of the stick "
-        "zone is first order in them.",
+        "zone is first order in them.", units=NONE
     )  # fmt: skip
 
 

@@ -14,7 +14,7 @@ from semi_analytical.frf.stack import Stack
 from semi_analytical.frf.surface import scalars
 from semi_analytical.influence.layered import LayeredCoefficients
 from verification.exhibits.numbers import plain
-from verification.exhibits.table import Table
+from verification.exhibits.table import NONE, Table
 from verification.judging.case import Case, Check, Level, Required
 from verification.problems.reference import Reference, ReferenceKind
 from verification.references import load_reference
@@ -143,13 +143,13 @@ def _tables(results: Mapping[str, Result]) -> tuple[Table, ...]:
             title="Frequency response, row by row",
             columns=("row", "layers", "base", "α h₁", "ν of the layers", "error of the scalars",
                      "error of the matrix"),
-            rows=frf_rows,
+            rows=frf_rows, units=NONE
         ),
         Table(
             title="Influence coefficients, row by row",
             columns=("body", "offset in cells", "zz", "largest error of zz, xx, yy, xy, zx"),
             rows=coefficient_rows,
             note="Cells of an eighth of the layer's thickness; errors relative to the loaded "
-            "cell's own displacement.",
+            "cell's own displacement.", units={"zz": "h/G₂"}
         ),
     )  # fmt: skip

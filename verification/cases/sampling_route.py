@@ -10,7 +10,7 @@ from semi_analytical.frf.stack import Stack
 from verification.cases.layered_reference import COEFFICIENT_SOURCE
 from verification.exhibits.chart import Chart, Look, Panel, curve
 from verification.exhibits.numbers import percent
-from verification.exhibits.table import Table
+from verification.exhibits.table import NONE, Table
 from verification.judging.case import Case, Check, Level, Required
 from verification.laws.sampling_route import SamplingErrors, sampling_errors
 from verification.problems.reference import identity
@@ -94,7 +94,7 @@ def _tables(results: Mapping[str, Result]) -> tuple[Table, ...]:
             rows=(*rows, exact),
             note="The shape at the last cell of the window is what is left after a constant is "
             "taken off, as a free approach would do. The last row is what layered_reference "
-            "bounds.",
+            "bounds.", units=NONE
         ),
     )  # fmt: skip
 

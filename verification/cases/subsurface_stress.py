@@ -14,7 +14,7 @@ from contact_scene.residuals import worst
 from semi_analytical.stress import SubsurfaceField, interfaces, subsurface, subsurface_section
 from verification.closed_forms.huber_stress import axis_stress, huber_stress, sliding_axis_shear
 from verification.exhibits.numbers import plain
-from verification.exhibits.table import Table
+from verification.exhibits.table import NONE, Table
 from verification.judging.case import Case, Check, Level, Required
 from verification.problems.paper_scene import HERTZ, STEEL, hertz_grid
 from verification.problems.reference import Reference, ReferenceKind
@@ -182,5 +182,6 @@ def _tables(results: Mapping[str, Result]) -> tuple[Table, ...]:
             rows=rows,
             note="Second order in the cell: the pressure is sampled at cell centres. Close to the "
             "surface and to the edge of the contact the cells themselves show.",
+            units=NONE,
         ),
     )

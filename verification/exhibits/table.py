@@ -6,6 +6,7 @@ from typing import TypeVar
 from contact_scene.description import Description
 
 T = TypeVar("T")
+NONE: Mapping[str, str] = {}  # units: every number is a count or a ratio
 
 
 class Table(Description):
@@ -18,10 +19,17 @@ class Table(Description):
     """What to see in it."""
     name: str = ""
     """By which it is found, where somebody looks for it."""
+    units: Mapping[str, str] | None = None
+    """By column, of numbers that have one; all others have none. None in a record of before units
+    were named, of which nothing is known."""
 
 
 def table_of(
-    title: str, columns: Mapping[str, Callable[[T], str]], items: Iterable[T], note: str = ""
+    title: str,
+    columns: Mapping[str, Callable[[T], str]],
+    items: Iterable[T],
+    note: str = "",
+    units: Mapping[str, str] = NONE,
 ) -> Table:
     """A line for every item; columns by their heads, the first one names the line."""
     return Table(
@@ -29,4 +37,5 @@ def table_of(
         columns=tuple(columns),
         rows=tuple(tuple(text(item) for text in columns.values()) for item in items),
         note=note,
+        units=units,
     )

@@ -13,8 +13,10 @@ from verification.peers.environment import OURSELVES
 
 Record = Mapping[str, Any]
 COLUMNS = (
-    "contact", "cells", "CPU s", "convolutions", "MB", "best other", "its CPU s", "ours / best"
+    "contact", "cells", "CPU time", "convolutions", "memory", "best other", "its CPU time",
+    "ours / best",
 )  # fmt: skip
+UNITS = {"CPU time": "s", "memory": "MB", "its CPU time": "s"}
 FEWEST = 3  # grids that show how a cost grows
 
 
@@ -41,6 +43,7 @@ def cost_table(record: Record) -> Table:
         rows=tuple(rows),
         note="CPU seconds of one thread with set-up; convolutions of all increments; memory on "
         "top of what imports take. All solve to the same tolerance, each by its own measure.",
+        units=UNITS,
     )
 
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from verification.exhibits.chart import Chart, Look, Panel, curve
 from verification.exhibits.numbers import percent, plain
-from verification.exhibits.table import Table
+from verification.exhibits.table import NONE, Table
 from verification.judging.outcome import CaseOutcome, RunRecord, Verdict
 from verification.running.report_record import Report
 from verification.solver import Method, Solver
@@ -187,7 +187,7 @@ def furthest_apart(shared: tuple[SharedReference, ...]) -> Table:
         note="On the finest run of each, which are not equally fine: this says where they are "
         "apart, not which is nearer. All relative to a reference that neither solver made; where "
         "the errors differ by less than that is known to, it cannot tell. A number behind “at” is "
-        "the load over its limit, µW or the largest torque.",
+        "the load over its limit, µW or the largest torque.", units=NONE
     )  # fmt: skip
 
 

@@ -10,7 +10,7 @@ import numpy as np
 
 from verification.convergence.error_line import by_size, error_line
 from verification.exhibits.numbers import plain
-from verification.exhibits.table import Table
+from verification.exhibits.table import NONE, Table
 from verification.judging.outcome import RefinedErrors
 from verification.report.both_solvers import WORDS, SharedReference
 from verification.solver import Solver
@@ -195,6 +195,7 @@ def nearer_table(cast: tuple[Vote, ...], shared: tuple[SharedReference, ...]) ->
         "are not the same work: cells cover the whole surface, elements a section of a body that "
         "is round. Norms of pressure and shear have no vote: cells are compared at their centres, "
         "elements all along the radius." + (f" Nor have, by case, {why}." if why else ""),
+        units=NONE,
     )
 
 

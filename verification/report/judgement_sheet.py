@@ -6,7 +6,7 @@ from verification.challenge.judgement import Judgement
 from verification.challenge.verdicts import WHOLE, Row
 from verification.exhibits.chart import Chart
 from verification.exhibits.log_chart import drawable, log_chart, point_curves
-from verification.exhibits.table import Table
+from verification.exhibits.table import NONE, Table
 from verification.judging.status_words import SYMBOLS, WORDS
 from verification.report.templating import environment
 
@@ -45,6 +45,7 @@ def _verdicts(judgement: Judgement) -> Table:
         rows=tuple(map(row_texts, judgement.rows)),
         note="On the finest level. Classes: A 1e-4, B 1e-3, C 1e-2 of what the error is divided "
         "by; a pass keeps clear of twice the uncertainty of the reference.",
+        units=NONE,
     )
 
 
@@ -54,7 +55,12 @@ def _levels(judgement: Judgement) -> Table:
          WHOLE if one.seconds is None else f"{one.seconds:.3g}")
         for one in judgement.answers
     )  # fmt: skip
-    return Table(title="Levels", columns=("level", "h [m]", "unknowns", "CPU s"), rows=tuple(rows))
+    return Table(
+        title="Levels",
+        columns=("level", "h", "unknowns", "CPU time"),
+        rows=tuple(rows),
+        units={"h": "m", "CPU time": "s"},
+    )
 
 
 def _charts(judgement: Judgement) -> list[Chart]:

@@ -6,7 +6,7 @@ from statistics import median
 
 from verification.exhibits.chart import Chart
 from verification.exhibits.numbers import EXTRAPOLATED, NOT_REACHED, plain
-from verification.exhibits.table import Table
+from verification.exhibits.table import NONE, Table
 from verification.running.record import StudyRecord
 from verification.running.row import value_of
 from verification.running.study import Conclusion
@@ -42,6 +42,7 @@ def price_table(conclusion: Conclusion, unit: str) -> Table | None:
         f"from the order of those that were; {NOT_REACHED} where it does not; empty where the "
         "method was not tried. The settings themselves, and those for 10 %, 1 % and 0.01 %, stand "
         "in the study's own tables.",
+        units=dict.fromkeys(methods, "s") if unit else NONE,
     )
 
 

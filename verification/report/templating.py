@@ -7,7 +7,7 @@ from markupsafe import Markup
 
 from verification.exhibits.chart import Chart
 from verification.judging.status_words import SYMBOLS, WORDS
-from verification.report.columns import alignment
+from verification.report.columns import alignment, heading
 from verification.report.svg import inline_svg
 
 LONG_CELL = 18  # characters; a longer text is broken into lines
@@ -23,7 +23,9 @@ def environment() -> jinja2.Environment:
         lstrip_blocks=True,
     )
     made.filters["svg"] = _figure
-    made.globals.update(symbols=SYMBOLS, words=WORDS, alignment=alignment, LONG_CELL=LONG_CELL)
+    made.globals.update(
+        symbols=SYMBOLS, words=WORDS, alignment=alignment, heading=heading, LONG_CELL=LONG_CELL
+    )
     return made
 
 

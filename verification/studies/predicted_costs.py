@@ -170,6 +170,7 @@ def conclude(settings: Settings, records: Records) -> Conclusion:
                     "rounds": lambda r: f"{r.counters['rounds_predicted']}, {r.counters['rounds']}",
                 },
                 paid,
+                units={"predicted": "s", "took": "s"},
             ),
         ),
         remarks=(

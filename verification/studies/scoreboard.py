@@ -14,7 +14,7 @@ from verification.challenge.cases import challenges
 from verification.challenge.door import CannotDo, judge
 from verification.challenge.judgement import Judgement
 from verification.exhibits.numbers import plain
-from verification.exhibits.table import Table
+from verification.exhibits.table import NONE, Table
 from verification.judging.case import Level
 from verification.judging.outcome import Status
 from verification.peers.environment import PEERS, made_environment, peers_directory
@@ -100,6 +100,7 @@ def conclude(settings: Settings, records: Records) -> Conclusion:
         ),
         note="Verdicts that pass of all; class A is 1e-4 of a stated scale, B 1e-3, C 1e-2, on the "
         "finest of the levels; partial: something required is not answered.",
+        units=NONE,
     )
     return Conclusion(
         statements=tuple(
@@ -113,7 +114,7 @@ def conclude(settings: Settings, records: Records) -> Conclusion:
         answer=f"On {32 * 2 ** ((settings.levels or LEVELS[settings.level]) - 1)} cells a side all "
         "codes with cells of constant traction share one error; who differs is told below.",
         tables=(board, Table(title="Largest errors", columns=("challenge", "quantity", *codes),
-                             rows=tuple(_errors(found, codes)))),
+                             rows=tuple(_errors(found, codes)), units=NONE)),
         remarks=tuple(
             f"{run.code} on {run.challenge}: {record.words[CANNOT]}."
             for run, record in runs if CANNOT in record.words

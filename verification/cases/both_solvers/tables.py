@@ -6,7 +6,7 @@ from verification.cases.both_solvers.contacts import CheckedContact
 from verification.cases.both_solvers.differences import COMPARED, Apart, Difference, Found
 from verification.cases.both_solvers.sides import ELEMENTS, SIDES, number
 from verification.exhibits.numbers import plain
-from verification.exhibits.table import Table
+from verification.exhibits.table import NONE, Table
 from verification.judging.status_words import SYMBOLS as STATUS
 from verification.problems.paper_scene import NORMAL_FORCE
 
@@ -32,6 +32,7 @@ def difference_table(apart: Apart) -> Table:
         rows=tuple(rows),
         note="Δp over p₀, Δq over µp₀, Δδ relative; behind each the change of that side from half "
         "as many cells or elements, and which side is nearer to the reference.",
+        units=NONE,
     )
 
 
@@ -55,6 +56,7 @@ def reference_table(apart: Apart) -> Table:
         rows=tuple(rows),
         note="p over p₀, q over µp₀ (its kinks left out), δ relative; the largest at any "
         "radius that is judged.",
+        units=NONE,
     )
 
 
@@ -78,6 +80,7 @@ def number_table(found: Found) -> Table:
                  "energy: cells", "energy: elements"),
         rows=tuple(rows),
         note="c the stick radius; energy lost to friction over W δ. Findings, not judged.",
+        units=NONE,
     )  # fmt: skip
 
 

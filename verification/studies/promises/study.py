@@ -6,7 +6,7 @@ import math
 from dataclasses import dataclass
 
 from verification.exhibits.numbers import plain
-from verification.exhibits.table import Table
+from verification.exhibits.table import NONE, Table
 from verification.judging.case import Level
 from verification.running.row import CaseRecord
 from verification.running.rules import judged
@@ -64,6 +64,7 @@ def conclude(settings: Settings, records: Records) -> Conclusion:
                 columns=("promise", "what was tried", "how often", "kept", "worst"),
                 rows=tuple(_line(PROMISES[name], record) for name, record in found.items()),
                 name="promises",
+                units=NONE,
             ),
         ),
     )

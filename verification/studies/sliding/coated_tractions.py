@@ -100,11 +100,11 @@ def _table(here: Found) -> Table:
         title="The four contacts in numbers",
         columns=(
             "E1/E2", "approach / δ_H", "a / a_H", "p₀ / p_H", "stick, T = 0", "stick, T = 0.9 µW",
-            "shift at 0.9 µW (µm)", "largest residual", "increments", "convolutions",
+            "shift at 0.9 µW", "largest residual", "increments", "convolutions",
         ),
         rows=tuple(rows),
         note="Approach, radius and peak pressure after the normal loading; normalised by Hertz's "
-        "values for E1 = E2.",
+        "values for E1 = E2.", units={"shift at 0.9 µW": "µm"}
     )  # fmt: skip
 
 

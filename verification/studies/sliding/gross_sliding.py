@@ -185,13 +185,14 @@ def _results(here: _Found) -> Table:
                 lambda e: ", ".join(plain(part, 2) for part in e.parts)
             ),
             "T_fs by force, 20 steps": in_force,
-            "shift at T_fs (µm)": resolved(lambda e: f"{e.full_slip.shift / MICROMETRE:.3f}"),
+            "shift at T_fs": resolved(lambda e: f"{e.full_slip.shift / MICROMETRE:.3f}"),
             "T_max / µW": lambda name: f"{largest_force(here.base[name]):.7f}",
             "⟨cosψ⟩, first without stick": without_stick,
         },
         here.base,
         "T_fs from the halved shift steps on the finest grid. In twenty steps of force the "
         "increments are coarser, and the difference is theirs.",
+        {"shift at T_fs": "µm"},
     )
 
 

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from itertools import groupby
 
 from verification.exhibits.numbers import EXTRAPOLATED, plain
-from verification.exhibits.table import Table
+from verification.exhibits.table import NONE, Table
 from verification.running.row import Row, value_of
 from verification.running.study import Statement
 from verification.studies.work_precision.charts import SERIES, methods_of
@@ -190,6 +190,7 @@ def tables_in(price: Price, rows: Iterable[Row]) -> tuple[Table, ...]:
                 for method, costs in groupby(prices, lambda row: row.parameters["method"])
             ),
             note=price.note,
+            units=NONE,
         )
         for title, prices in by_quantity(rows)
     )

@@ -114,9 +114,10 @@ def _runs(record: Record) -> Table:
         rows.append((words, grid, plain(error, 2), plain(run["seconds"], 2), state))
     return Table(
         title="Other codes, run by run",
-        columns=("code", "problem", "error", "CPU seconds", "end"),
+        columns=("code", "problem", "error", "CPU time", "end"),
         rows=tuple(rows),
         note=f"Recorded on {record['date']}, Python {record['python']}.",
+        units={"CPU time": "s"},
     )
 
 
