@@ -87,7 +87,7 @@ def test_a_judged_order_needs_no_reason() -> None:
 
 def test_runs_of_one_size_tell_the_order_that_each_alone_hides(rng: np.random.Generator) -> None:
     """Errors that change their sign from run to run, as where a circle falls on the cells."""
-    signed = SIZES[:, None] ** 2.5 * np.sin(rng.uniform(0, 2 * np.pi, (len(SIZES), 24)))
+    signed = SIZES[:, None] ** 2.5 * np.sin(rng.uniform(0, 2 * np.pi, (len(SIZES), 96)))
     together = judged(signed, 2.5)
     assert together.status is Status.PASS
     assert together.order is not None

@@ -296,20 +296,20 @@ def test_order_that_is_lost_is_held_to_the_tolerance_it_had(
 ) -> None:
     """A bad solver scatters its levels, which widens the interval that it would be judged by."""
     order = {"value": 2.03, "allowed": 0.2, "interval": 0.2, "status": Status.PASS}
-    passed = with_verdict(healthy, "order_of_approach", **order)
+    passed = with_verdict(healthy, "order_of_peak_pressure", **order)
     lost = {"value": 2 - part * 0.2, "allowed": 1.0, "interval": 1.0}
-    now = with_verdict(passed, "order_of_approach", status=Status.INCONCLUSIVE, **lost)
-    verdict = find(compare(now, passed), "order_of_approach")
+    now = with_verdict(passed, "order_of_peak_pressure", status=Status.INCONCLUSIVE, **lost)
+    verdict = find(compare(now, passed), "order_of_peak_pressure")
     assert verdict.regression is not None
     assert verdict.regression.kind is kind
     assert "pass -> inconclusive, held to the recorded tolerance" in verdict.regression.remark
     line = failure_line(now.name, verdict, "quick")
-    assert line.startswith("MOVED hertz_point/order_of_approach")
+    assert line.startswith("MOVED hertz_point/order_of_peak_pressure")
     assert "pass -> inconclusive" in line
 
 
 def test_order_that_was_inconclusive_may_move(healthy: CaseOutcome) -> None:
-    was = find(healthy, "order_of_approach")
+    was = find(healthy, "order_of_peak_pressure")
     wide = with_verdict(healthy, was.name, allowed=1.0, status=Status.INCONCLUSIVE)
     now = with_verdict(wide, was.name, value=was.reference - 1.5)
     assert kind_of(now, wide, was.name) is ChangeKind.DRIFT

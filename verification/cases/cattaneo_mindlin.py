@@ -18,13 +18,14 @@ from verification.judging.refinement import refinement
 from verification.problems.paper_scene import FRICTION, HERTZ
 from verification.problems.problem import Problem
 from verification.problems.sheared import OVER_SLIDING_SHIFT, sheared
+from verification.problems.shifted_grid import OFFSETS, UNLIKE
 
 PARTS = (0.3, 0.6, 0.9, 0.99)  # of µW, one loading step each
 STOPS = dict(enumerate(PARTS, 1))  # by step
 LOOPED = 3  # the step to 0.9 µW, the amplitude of the fretting loop
 CATTANEO = sheared("Cattaneo-Mindlin, ν = 0", PARTS)
-# Where the contact's axis is in a cell, in its sides; the symmetries of a square make others equal.
-OFFSETS = ((0.0, 0.0), (0.5, 0.5), (0.5, 0.0), (0.25, 0.25), (0.1, 0.35), (0.4, 0.15))
+# Without stops on the way the shear is the same.
+AT_ONCE = sheared("Cattaneo-Mindlin at once, ν = 0", (STOPS[LOOPED],))
 
 
 def _slip_error(result: Any, step: int, problem: Problem) -> float:
@@ -67,12 +68,13 @@ ROWS = (
         ENERGY.at(LOOPED, STOPS[LOOPED], "µW"), 5e-4,
         "required of the energy per cycle of the fretting loop, which is four times as much",
     ),
-    Falls(
-        SHEARS[STOPS[LOOPED]], 1.5,
-        "square-root edges of stick zone and contact: an error of O(√h) on rings one cell wide "
-        "leaves O(h^3/2) in L1",
-    ),
 )  # fmt: skip
+EDGES = (
+    "square-root edges of stick zone and contact: an error of O(√h) on rings one cell wide leaves "
+    "O(h^3/2) in L1"
+)
+ORDERS = (Falls(SHEARS[STOPS[LOOPED]], 1.5, EDGES),)
+ORDER_AT_ONCE = (Falls(SHEAR.at(1, STOPS[LOOPED], "µW"), 1.5, EDGES),)
 STOPPED = "0.3, 0.6, 0.9 and 0.99 µW"
 MEANS = (
     Falls(
@@ -81,29 +83,35 @@ MEANS = (
         "(Cattaneo), and both are wrong by the same 0.04 h²/R; what is left depends on how circles "
         "cut the cells, O(h^5/2)",
     ),
-    Falls(
-        WORK.over_stops(STOPPED), 2.5,
-        "what the area below the curve of approach over load differs from its trapezium: a "
-        "constant error of the approach cancels, and what is left depends on how circles cut the "
-        "cells, O(h^5/2)",
-    ),
 )  # fmt: skip
 
 
 def cattaneo_mindlin(level: Level = Level.QUICK) -> Case:
-    """The case, on finer grids at higher levels, and on shifted ones above the quick one."""
+    """The case, on finer grids at higher levels. Orders of means are judged above the quick one,
+    where coarse grids tell that of the shear only together with shifted ones."""
     finest = {Level.QUICK: 128, Level.STANDARD: 256, Level.FULL: 512}[level]
     shifted = () if level is Level.QUICK else refinement(32, 256)
-    return cattaneo_mindlin_on(refinement(32, finest), shifted)
+    return cattaneo_mindlin_on(
+        refinement(32, finest), shifted, refinement(32, finest) if level is Level.QUICK else ()
+    )
 
 
-def cattaneo_mindlin_on(cells: tuple[int, ...], shifted: tuple[int, ...] = ()) -> Case:
+def cattaneo_mindlin_on(
+    cells: tuple[int, ...], shifted: tuple[int, ...] = (), at_once: tuple[int, ...] = ()
+) -> Case:
     """The case on square grids of these many cells per side.
 
     shifted  cells per side of grids that fall on the contact in other ways too
+    at_once  of such grids on which the order of the shear is judged, sheared without stops; none:
+             it is judged on `cells`
     """
     grids = on_cells(CATTANEO, cells)
     others = [on_cells(CATTANEO, shifted, offsets=OFFSETS)] if shifted else []
+    orders = (
+        judged(on_cells(AT_ONCE, at_once, offsets=UNLIKE, of="at once"), ORDER_AT_ONCE)
+        if at_once
+        else judged(grids, ORDERS)
+    )
     return case(
         "cattaneo_mindlin",
         "Cattaneo-Mindlin partial slip",
@@ -111,6 +119,7 @@ def cattaneo_mindlin_on(cells: tuple[int, ...], shifted: tuple[int, ...] = ()) -
         "and 0.99 of µW. Only for ν = 0 does the slip of the closed form oppose its traction "
         "everywhere, so only there is it the exact answer to Coulomb's vector law.",
         judged(grids, ROWS),
+        orders,
         *(judged(one, MEANS) for one in others),
         charts=(
             profile(
@@ -129,7 +138,7 @@ def cattaneo_mindlin_on(cells: tuple[int, ...], shifted: tuple[int, ...] = ()) -
             ),
             convergence(
                 grids,
-                ROWS,
+                ORDERS,
                 "cattaneo_convergence",
                 "Convergence of the shear",
                 "Σ|q - q_exact| / Σµp against cell side for four tangential forces, with a line of "
@@ -144,6 +153,7 @@ def cattaneo_mindlin_on(cells: tuple[int, ...], shifted: tuple[int, ...] = ()) -
                     "Convergence of shift and dissipated energy",
                     "Errors at all four tangential forces on grids that fall on the contact in "
                     "several ways, root mean square: single ones change their sign.",
+                    also=(WORK.over_stops(STOPPED),),
                 )
                 for one in others
             ),

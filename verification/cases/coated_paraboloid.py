@@ -21,6 +21,7 @@ from verification.judging.observables import (
 from verification.judging.refinement import refinement
 from verification.problems.coated_ball import BARE, ROWS, coated_ball, solved_here
 from verification.problems.paper_scene import HERTZ
+from verification.problems.shifted_grid import UNLIKE
 
 REQUIRED = {128: 2e-4, 256: 5e-5}  # by cells per side
 COARSER = (32, 46, 64, 90)  # cells per side on which no figure is asked: for errors by fineness
@@ -36,23 +37,31 @@ OF_STUDY = (
 )  # fmt: skip
 ORDERS = (
     Falls(PRESSURE_L2, 1.0, "as for the homogeneous body: the square-root edge"),
-    Falls(APPROACH, 2.0, "as for the homogeneous body: the errors at the edge cancel"),
     Falls(
         CENTRAL_PRESSURE, 2.0, "as for the homogeneous body: the cells lie h/√2 from the axis"
     ),
 )  # fmt: skip
+MEAN = (Falls(APPROACH, 2.0, "as for the homogeneous body: the errors at the edge cancel"),)
 
 
 def coated_paraboloid(level: Level = Level.QUICK) -> Case:
     """The case, on finer grids at higher levels."""
     finest = {Level.QUICK: 256, Level.STANDARD: 512, Level.FULL: 1024}[level]
-    return coated_paraboloid_on(refinement(32, finest), tuple(REQUIRED), COARSER)
+    return coated_paraboloid_on(
+        refinement(32, finest), tuple(REQUIRED), COARSER, refinement(32, finest // 2)
+    )
 
 
 def coated_paraboloid_on(
-    cells: tuple[int, ...], required: tuple[int, ...], coarser: tuple[int, ...] = ()
+    cells: tuple[int, ...],
+    required: tuple[int, ...],
+    coarser: tuple[int, ...] = (),
+    shifted: tuple[int, ...] = (),
 ) -> Case:
-    """The case on square grids: these for the study, those for all coatings, the last unjudged."""
+    """The case on square grids: these for the study, those for all coatings, then unjudged ones.
+
+    shifted  for the study, in two other places on the contact
+    """
     bare = on_cells(BARE, cells, of="uncoated")
     grids = dict.fromkeys(COATINGS, (*coarser, *required)) | {STUDIED: cells}
     ladders = {
@@ -62,6 +71,8 @@ def coated_paraboloid_on(
     }
     study = ladders[STUDIED]
     followed = replace(study, problem=EXACT)
+    name = f"E1/E2 = {STUDIED:g}"
+    others = [on_cells(EXACT, shifted, of=name, offsets=UNLIKE)] if shifted else []
     allowed = {n: figure for n, figure in REQUIRED.items() if n in required}
     rows = (
         Within(APPROACH, allowed, ASKED, name="required_approach"),
@@ -78,6 +89,7 @@ def coated_paraboloid_on(
         *(judged(one, rows) for one in ladders.values()),
         judged(study, OF_STUDY),
         judged(followed, ORDERS),
+        *(judged(one, MEAN) for one in others),
         runs=bare.runs,
         comparisons=tuple(
             Comparison(
@@ -87,7 +99,7 @@ def coated_paraboloid_on(
                 "the same scheme must have the same constant, up to what the shape of the "
                 "pressure does to it", "errors on equal grids per contact radius",
             )
-            for row in ORDERS
+            for row in (*ORDERS, *MEAN)
         ),
         charts=(
             profile(
@@ -108,6 +120,7 @@ def coated_paraboloid_on(
                 "Relative errors against cell side, for the coating of E1/E2 = 2 and for the "
                 "homogeneous body: the same orders and nearly the same constants, because the "
                 "coefficients of the coated body are as exact as the closed form.",
+                also=(APPROACH,),
                 beside={"uncoated": bare},
             ),
         ),

@@ -10,6 +10,7 @@ from verification.judging.ladder import on_cells, part_of_side
 from verification.judging.observables import APPROACH, CONTACT_RADIUS, PRESSURE_L1
 from verification.judging.refinement import refinement
 from verification.problems.classical import CONE, mean_pressure
+from verification.problems.shifted_grid import UNLIKE
 
 ROWS = (
     Refined(
@@ -18,6 +19,8 @@ ROWS = (
         "twice what is required of the ball",
     ),
     Refined(CONTACT_RADIUS, 1.0, part_of_side(0.1), EDGE),
+)  # fmt: skip
+ORDER = (
     Falls(
         PRESSURE_L1, 1.5,
         "at the edge O(√h) on a ring one cell wide; the logarithm at the apex is O(1) in a few "
@@ -28,13 +31,15 @@ ROWS = (
 
 def cone_contact(level: Level = Level.QUICK) -> Case:
     """The case, on finer grids above the quick level."""
-    grids = on_cells(CONE, refinement(32, 128 if level is Level.QUICK else 256))
+    cells = refinement(32, 128 if level is Level.QUICK else 256)
+    grids = on_cells(CONE, cells)
     return case(
         "cone_contact",
         "Cone on a half-space",
         "A cone whose flanks rise by 1° under 1 kN. The pressure is infinite under the apex, as a "
         "logarithm, and falls to zero at the edge.",
         judged(grids, ROWS),
+        judged(on_cells(CONE, cells, offsets=UNLIKE), ORDER),
         charts=(
             profile(
                 grids,

@@ -9,9 +9,9 @@ _LEVELS = {
     Level.STANDARD: (12, 16, 22, 32, 45, 64),
     Level.FULL: (16, 22, 32, 45, 64, 90, 128),
 }
-# Five meshes per octave, and where in its element the edge of the contact lies on each: all values
-# depend on it, and only their root mean square falls with a power of the element.
-_MANY = tuple(round(ASKED_AT / 2 ** (number / 5)) for number in range(12, -1, -1))
+PER_OCTAVE, OCTAVES = 5, 2.4
+# Where in its element the edge of the contact lies on each mesh: all values depend on it, and only
+# their root mean square falls with a power of the element.
 PLACES = (0.1, 0.3, MIDDLE, 0.7, 0.9)
 
 
@@ -20,9 +20,11 @@ def levels(level: Level) -> tuple[int, ...]:
     return _LEVELS[level]
 
 
-def order_levels(level: Level) -> tuple[tuple[int, float], ...]:
+def order_levels(level: Level, per_octave: int = PER_OCTAVE) -> tuple[tuple[int, float], ...]:
     """Elements per radius and place of the edge in its element."""
-    meshes = _LEVELS[level] if level is Level.QUICK else _MANY
+    steps = range(round(OCTAVES * per_octave), -1, -1)
+    many = tuple(dict.fromkeys(round(ASKED_AT / 2 ** (n / per_octave)) for n in steps))
+    meshes = _LEVELS[level] if level is Level.QUICK else many
     return tuple((n, place) for n in meshes for place in PLACES)
 
 

@@ -107,6 +107,8 @@ OF_SHEARING = (
     ),
     Within(ENERGY.at(5, STOPPED[5], "µW"), OF_ENERGY, WHY),
 )  # fmt: skip
+# Where edges of stick lie in their elements depends on the mesh, too.
+PER_OCTAVE = 10  # meshes of the orders
 LISTED = "0.3, 0.45, 0.6, 0.75 and 0.9 µW"
 ORDERS = (
     Falls(
@@ -130,7 +132,9 @@ ORDERS = (
 def fem_partial_slip(level: Level = Level.QUICK) -> Case:
     """The case, on finer meshes at higher levels, and with orders above the quick one."""
     return fem_partial_slip_on(
-        finest(level), order_levels(level), orders_judged=level is not Level.QUICK
+        finest(level),
+        order_levels(level, PER_OCTAVE),
+        orders_judged=level is not Level.QUICK,
     )
 
 

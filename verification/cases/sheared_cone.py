@@ -19,30 +19,38 @@ from verification.problems.classical import CONE, SLOPE, UNDER_CONE, mean_pressu
 from verification.problems.paper_scene import FRICTION, NU_ZERO
 from verification.problems.problem import Problem
 from verification.problems.sheared import OVER_SLIDING_SHIFT
+from verification.problems.shifted_grid import UNLIKE
 
 STOPS = {1: 0.4, 2: 0.8}  # parts of µW, by step
 MODULUS_RATIO = 1.0  # E*/G* of two identical bodies with ν = 0
-SHEARED = Problem(
-    paper.frictional(
-        "Cone on a half-space, sheared, ν = 0",
-        Cone(slope_angle=SLOPE, material=NU_ZERO),
-        NU_ZERO,
-        *(paper.tangential_step(part, increments=1) for part in STOPS.values()),
-    ),
-    (
-        UNDER_CONE,
-        *(
-            superpose(
-                lambda load: ConeContact.under_load(load, SLOPE, paper.CONTACT_MODULUS),
-                paper.NORMAL_FORCE, part * paper.FRICTION_LIMIT, FRICTION, MODULUS_RATIO,
-            )
-            for part in STOPS.values()
+
+
+def _sheared(*parts: float) -> Problem:
+    """To these parts of µW."""
+    return Problem(
+        paper.frictional(
+            "Cone on a half-space, sheared, ν = 0",
+            Cone(slope_angle=SLOPE, material=NU_ZERO),
+            NU_ZERO,
+            *(paper.tangential_step(part, increments=1) for part in parts),
         ),
-    ),
-    CONE.radius,
-    "Ciavarella 1998; Jäger 1998, with Love's cone",
-    scales={OVER_SLIDING_SHIFT: FRICTION * MODULUS_RATIO * UNDER_CONE.approach},
-)  # fmt: skip
+        (
+            UNDER_CONE,
+            *(
+                superpose(
+                    lambda load: ConeContact.under_load(load, SLOPE, paper.CONTACT_MODULUS),
+                    paper.NORMAL_FORCE, part * paper.FRICTION_LIMIT, FRICTION, MODULUS_RATIO,
+                )
+                for part in parts
+            ),
+        ),
+        CONE.radius,
+        "Ciavarella 1998; Jäger 1998, with Love's cone",
+        scales={OVER_SLIDING_SHIFT: FRICTION * MODULUS_RATIO * UNDER_CONE.approach},
+    )  # fmt: skip
+
+
+SHEARED, SHEARED_LESS = _sheared(*STOPS.values()), _sheared(STOPS[1])
 STICK = replace(STICK_RADIUS, value=lambda exact: exact.stick.contact_radius)
 ROWS = (
     *(
@@ -65,13 +73,17 @@ ROWS = (
             ),
         )
     ),
-    Falls(SHEAR.at(1, STOPS[1], "µW"), 1.5, "square-root edges of stick zone and contact"),
 )  # fmt: skip
+ORDER = (Falls(SHEAR.at(1, STOPS[1], "µW"), 1.5, "square-root edges of stick zone and contact"),)
 
 
 def sheared_cone(level: Level = Level.QUICK) -> Case:
-    """The case, on finer grids above the quick level."""
-    grids = on_cells(SHEARED, refinement(32, 128 if level is Level.QUICK else 256))
+    """The case, on finer grids above the quick level, where coarse ones tell the order only
+    together with shifted ones."""
+    cells = refinement(32, 128 if level is Level.QUICK else 256)
+    followed = grids = on_cells(SHEARED, cells)
+    if level is Level.QUICK:
+        followed = on_cells(SHEARED_LESS, cells, offsets=UNLIKE, of="sheared less")
     return case(
         "sheared_cone",
         "Partial slip under a cone",
@@ -79,6 +91,7 @@ def sheared_cone(level: Level = Level.QUICK) -> Case:
         "profile the shear is the difference of two pressures times µ; the stick radius is "
         "a √(1 - T/µW), not the cube root of a ball.",
         judged(grids, ROWS),
+        judged(followed, ORDER),
         charts=(
             profile(
                 grids,

@@ -16,8 +16,7 @@ from scipy.special import stdtrit
 CONFIDENCE = 0.95
 # An order is known well enough to be judged if its interval is no wider than this.
 ORDER_WIDTH = 0.25
-# By so much the expected order may lie outside a narrower interval: a fit over an octave or two
-# still feels the next term.
+# By so much a promised order may be missed: a fit over an octave or two still feels the next term.
 ORDER_OFF = 0.1
 # Orders of the two finest triplets differ by no more than this where the values are asymptotic.
 TRIPLETS_AGREE = 0.2
@@ -33,28 +32,34 @@ Triplets = tuple[float | None, float | None]
 
 @dataclass(frozen=True)
 class ObservedOrder:
-    """Slope of log(error) over log(h), with the half-width of its 95 % interval."""
+    """Slope of log(error) over log(h).
+
+    half_width  of its 95 % interval
+    margin      at 95 % it is no lower than `order - margin`; and, said alone, no higher than
+                `order + margin`
+    """
 
     order: float
     half_width: float
+    margin: float
 
     @property
     def is_legible(self) -> bool:
         """Whether the interval is narrow enough for a number to say anything."""
         return self.half_width < ILLEGIBLE
 
-    def may_be_off_by(self, allowance: float = 0.0) -> float:
-        """How far the expected order may be: within the interval, or what is allowed without it.
+    def may_be_off_by(self, promised: float, allowance: float = 0.0) -> float:
+        """How far this order may be from the promised one, on the side where it is.
 
         allowance  for levels that are known not to be asymptotic yet
         """
-        return max(self.half_width, allowance, ORDER_OFF)
+        off = max(allowance, ORDER_OFF)
+        return off if self.order < promised else off + self.margin
 
-    def agrees_with(self, expected: float, allowance: float = 0.0) -> bool | None:
-        """Whether this is the expected order; None where the interval is too wide to tell."""
-        if self.half_width > ORDER_WIDTH:
-            return None
-        return abs(self.order - expected) <= self.may_be_off_by(allowance)
+    def keeps(self, promised: float, allowance: float = 0.0) -> bool | None:
+        """Whether errors fall as fast as promised, and not by another law; see `order_is_kept`."""
+        allowed = self.may_be_off_by(promised, allowance)
+        return order_is_kept(self.order - promised, allowed, self.half_width, self.margin)
 
 
 @dataclass(frozen=True)
@@ -73,6 +78,23 @@ class RefinedValue:
     triplets: Triplets
     limit: float
     uncertainty: float
+
+
+def order_is_kept(above: float, allowed: float, half_width: float, margin: float) -> bool | None:
+    """Whether an order is the promised one; None where its levels cannot tell.
+
+    above    observed less promised
+    allowed  how far it may be off on that side (`ObservedOrder.may_be_off_by`)
+
+    From below noise never helps: the lower bound at 95 % has to be what is allowed, and an order
+    whose upper bound is below that is another one. One is too high where its lower bound is.
+    """
+    if half_width > ORDER_WIDTH:
+        return None
+    off = allowed if above < 0 else allowed - margin
+    if above < -off - margin or above > allowed:
+        return False
+    return True if above >= margin - off else None
 
 
 def triplets_agree(orders: Triplets) -> bool:
@@ -95,7 +117,7 @@ def observed_order(sizes: Sequence[float], errors: Sequence[float]) -> ObservedO
     scatter = y - y.mean() - order * (x - x.mean())
     freedom = len(x) - 2
     deviation = np.sqrt(np.sum(scatter**2) / freedom / spread)
-    return ObservedOrder(float(order), _half_width(float(deviation), freedom))
+    return _known_to(float(order), float(deviation), freedom)
 
 
 def refined_value(sizes: Sequence[float], values: Sequence[float], expected: float) -> RefinedValue:
@@ -228,7 +250,7 @@ def _fitted_order(h: Vector, f: Vector, expected: float) -> ObservedOrder | None
     if lever <= ROUNDING * float(np.sum(along**2)):
         return None
     freedom = len(h) - 3
-    return ObservedOrder(order, _half_width(float(np.sqrt(fit.squares / freedom / lever)), freedom))
+    return _known_to(order, float(np.sqrt(fit.squares / freedom / lever)), freedom)
 
 
 def _triplet_order(h: Vector, f: Vector) -> float | None:
@@ -247,5 +269,6 @@ def _triplet_order(h: Vector, f: Vector) -> float | None:
     return float(brentq(mismatch, low, high))
 
 
-def _half_width(deviation: float, freedom: int) -> float:
-    return float(stdtrit(freedom, (1 + CONFIDENCE) / 2) * deviation)
+def _known_to(order: float, deviation: float, freedom: int) -> ObservedOrder:
+    two_sided, one_sided = stdtrit(freedom, [(1 + CONFIDENCE) / 2, CONFIDENCE]) * deviation
+    return ObservedOrder(order, float(two_sided), float(one_sided))

@@ -75,12 +75,13 @@ class OrderOfChange:
 
     of        the quantity that it is an order of
     refined   what the levels refine
-    levels    coarse to fine, each by the same factor of refinement
-    change    from the first of two levels to the second, > 0
+    levels    coarse to fine
+    change    from the first of two levels to the second, > 0; the second finer by one factor
     size      what is refined, h of a level
     expected  order p of h^p
     because   why this order
     not_yet   what keeps these levels from it; None where nothing is known to
+    apart     levels from the first of a change to the second
     """
 
     name: str
@@ -93,3 +94,4 @@ class OrderOfChange:
     expected: float
     because: str
     not_yet: NotYetAsymptotic | None = None
+    apart: int = 1

@@ -8,7 +8,7 @@ from pydantic import model_validator
 
 from contact_scene.description import Description
 from contact_scene.summary import EffectSummary
-from verification.convergence.observed_order import ORDER_WIDTH
+from verification.convergence.observed_order import ORDER_WIDTH, order_is_kept
 from verification.exhibits.chart import Chart
 from verification.exhibits.table import Table
 from verification.judging.change import Change, CounterChange, Gone, Origin
@@ -101,6 +101,10 @@ class Verdict(Description):
     interval: float | None = None
     """Half-width of the 95 % interval of an observed order."""
 
+    margin: float | None = None
+    """Between an observed order and its lower bound at 95 %; null in older records, where an order
+    had to be within its interval or 0.1 of the promised one."""
+
     order: OrderRecord | None = None
     """What an observed order was read off; null for all other verdicts."""
 
@@ -161,9 +165,20 @@ def _is_error(verdict: Verdict) -> bool:
 def _status_of(verdict: Verdict) -> Status:
     if verdict.error is None:
         return Status.FAIL
+    if verdict.interval is not None and verdict.margin is not None:
+        assert verdict.value is not None
+        above = verdict.value - verdict.reference
+        return order_status(order_is_kept(above, verdict.allowed, verdict.interval, verdict.margin))
     if verdict.interval is not None and verdict.interval > ORDER_WIDTH:
         return Status.INCONCLUSIVE
     return Status.PASS if verdict.error <= verdict.allowed else Status.FAIL
+
+
+def order_status(kept: bool | None) -> Status:
+    """The verdict on an order; None where it is not known well enough."""
+    if kept is None:
+        return Status.INCONCLUSIVE
+    return Status.PASS if kept else Status.FAIL
 
 
 class FindingRecord(Description):

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from contact_scene.engineering_units import engineering_unit
-from verification.convergence.observed_order import ObservedOrder
+from verification.convergence.observed_order import ILLEGIBLE
 from verification.exhibits.numbers import NOT_FINITE, plain, value_text
 from verification.judging.change import Change
 from verification.judging.outcome import SOLVED, Status, Verdict
@@ -35,7 +35,7 @@ def order_text(verdict: Verdict) -> str:
     if verdict.value is None or verdict.interval is None:
         return NOT_FINITE
     half = verdict.interval
-    if not ObservedOrder(verdict.value, half).is_legible:
+    if half >= ILLEGIBLE:
         return "no order can be read"
     return f"{verdict.value:.2f} ± {f'{half:.2f}' if half >= 0.005 else plain(half, 1)}"
 

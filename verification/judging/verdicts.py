@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from itertools import pairwise
 from typing import Any
 
 from contact_results.quantities import largest_residual
@@ -17,7 +16,14 @@ from verification.convergence.observed_order import (
 )
 from verification.judging.case import Case, Check, Comparison, Derived, Quantity, Required
 from verification.judging.order_of_convergence import OrderOfChange, OrderOfConvergence, Refinement
-from verification.judging.outcome import RESIDUAL, SOLVED, OrderRecord, Status, Verdict
+from verification.judging.outcome import (
+    RESIDUAL,
+    SOLVED,
+    OrderRecord,
+    Status,
+    Verdict,
+    order_status,
+)
 from verification.judging.refined_errors import refined_errors
 from verification.judging.run import AnyRun
 from verification.problems.reference import Reference, ReferenceKind, identity
@@ -105,14 +111,15 @@ def expanded_uncertainty(
 
 
 def judge_order(study: OrderOfConvergence | OrderOfChange, case: Case, results: Results) -> Verdict:
-    """The observed order against the expected one, or INCONCLUSIVE where it is not well known."""
+    """The observed order against the promised one, or INCONCLUSIVE where it is not well known."""
     sizes, errors = _refined(study, case, results)
     known = all(math.isfinite(error) and error > 0 for error in errors)
     observed = observed_order(sizes, errors) if known else None
     difference = math.nan if observed is None else abs(observed.order - study.expected)
     off = 0.0 if study.not_yet is None else study.not_yet.allowance
-    agrees = False if observed is None else observed.agrees_with(study.expected, off)
-    runs = "" if len(errors) in (len(study.levels), len(study.levels) - 1) else (
+    kept = False if observed is None else observed.keeps(study.expected, off)
+    changes = isinstance(study, OrderOfChange)
+    runs = "" if changes or len(errors) == len(study.levels) else (
         f", each the root mean square of {len(study.levels) / len(errors):.3g} runs"
     )  # fmt: skip
     return Verdict(
@@ -126,15 +133,17 @@ def judge_order(study: OrderOfConvergence | OrderOfChange, case: Case, results: 
         reference_kind=ReferenceKind.THEORY,
         source=study.because,
         error=finite(difference),
-        allowed=ORDER_OFF if observed is None else observed.may_be_off_by(off),
+        allowed=ORDER_OFF if observed is None else observed.may_be_off_by(study.expected, off),
         scale=1.0,
         scale_name="1",
         tolerance_kind="order",
-        because=f"an order is judged where its 95 % interval is no wider than ± {ORDER_WIDTH}, and "
-        f"may be off by that interval or {ORDER_OFF}{_not_yet(study)}; "
-        f"{len(errors)} {'changes' if isinstance(study, OrderOfChange) else 'levels'}{runs}",
-        status=order_status(agrees),
+        because=f"an order passes where it is at 95 % no lower than {ORDER_OFF} below what is "
+        f"promised{_not_yet(study)}, and not known to be as much higher; it is judged where its "
+        f"95 % interval is no wider than ± {ORDER_WIDTH}; "
+        f"{len(errors)} {'changes' if changes else 'levels'}{runs}",
+        status=order_status(kept),
         interval=None if observed is None else observed.half_width,
+        margin=None if observed is None else observed.margin,
         order=OrderRecord(
             of=study.of,
             meaning=study.meaning,
@@ -157,16 +166,9 @@ def _refined(
     """Sizes, coarse to fine, and the errors or changes there."""
     levels = [results[label] for label in study.levels]
     if isinstance(study, OrderOfChange):
-        sizes = [study.size(level) for level in levels[:-1]]
-        return sizes, [study.change(*pair) for pair in pairwise(levels)]
+        pairs = list(zip(levels, levels[study.apart :], strict=False))
+        return [study.size(one) for one, _ in pairs], [study.change(*pair) for pair in pairs]
     return by_size(_spacings(case, study.levels), [study.error(level) for level in levels])
-
-
-def order_status(agrees: bool | None) -> Status:
-    """The verdict on an order; None where it is not known well enough."""
-    if agrees is None:
-        return Status.INCONCLUSIVE
-    return Status.PASS if agrees else Status.FAIL
 
 
 def judge_residuals(case: Case, results: Results) -> Verdict:

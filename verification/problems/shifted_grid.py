@@ -7,6 +7,12 @@ from numpy.typing import NDArray
 
 from semi_analytical.grid import SurfaceGrid
 
+# Where the contact's axis is in a cell, in its sides; the symmetries of a square make others equal.
+OFFSETS = ((0.0, 0.0), (0.5, 0.5), (0.5, 0.0), (0.25, 0.25), (0.1, 0.35), (0.4, 0.15))
+# Two of them cut circles so unlike that their errors together scatter a third as much as those of
+# one grid of each size.
+UNLIKE = ((0.5, 0.0), (0.25, 0.25))
+
 
 @dataclass(frozen=True)
 class ShiftedGrid(SurfaceGrid):

@@ -38,6 +38,7 @@ def counter_changes(case: CaseOutcome, recorded: Recording) -> Iterator[CounterC
 def slowdowns(report: Report, baselines: Mapping[str, Recording]) -> Iterator[Slowdown]:
     """By solver, the median over the cases that it solves alone of their CPU time over what was
     recorded, both in calibration loops, where it has grown beyond what a busy machine explains.
+    Cases of other solves than were recorded are left out.
 
     baselines  of the report's level, by case
     """
@@ -46,6 +47,8 @@ def slowdowns(report: Report, baselines: Mapping[str, Recording]) -> Iterator[Sl
         now, recorded = report.provenance.loops.get(case.name), baselines.get(case.name)
         solvers = {run.solver for run in case.runs}
         if now is None or recorded is None or recorded.loops is None or len(solvers) != 1:
+            continue
+        if {run.label for run in case.runs} != {run.label for run in recorded.runs}:
             continue
         if max(now, recorded.loops) >= LEAST_LOOPS:
             ratios.setdefault(solvers.pop(), []).append(now / recorded.loops)

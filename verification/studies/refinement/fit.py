@@ -19,8 +19,7 @@ from verification.convergence.observed_order import (
     triplets_of_changes,
 )
 from verification.convergence.stored_field import change
-from verification.judging.outcome import Status
-from verification.judging.verdicts import order_status
+from verification.judging.outcome import Status, order_status
 from verification.running.row import CaseRecord, Row
 from verification.studies.refinement.expected import Expected
 from verification.studies.refinement.level_row import size_of, values_of
@@ -73,10 +72,7 @@ class Fit:
         stands. None where no order is expected."""
         if self.expected is None:
             return None
-        off = max(self.expected.allowance, NEARING if self._approaches else 0.0)
-        if self.observed is None or self.unsettled is not None:
-            return Status.INCONCLUSIVE
-        return order_status(self.observed.agrees_with(self.expected.order, off))
+        return order_status(None if self.unsettled else self._kept)
 
     @property
     def unsettled(self) -> str | None:
@@ -89,7 +85,16 @@ class Fit:
             return f"the interval is wider than ± {ORDER_WIDTH:g}"
         if not triplets_agree(self.triplets):
             return f"two triplets of levels differ by more than {TRIPLETS_AGREE:g}"
+        if self.expected is not None and self._kept is None:
+            return "the interval reaches below what is allowed"
         return None
+
+    @property
+    def _kept(self) -> bool | None:
+        if self.observed is None or self.expected is None:
+            return None
+        off = max(self.expected.allowance, NEARING if self._approaches else 0.0)
+        return self.observed.keeps(self.expected.order, off)
 
     @property
     def _approaches(self) -> bool:

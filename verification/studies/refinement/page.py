@@ -36,8 +36,8 @@ RULE = (
     f"An order is judged from {FEWEST_JUDGED} levels on, where its 95 % interval is no wider than "
     f"± {ORDER_WIDTH:g} and the orders by two triplets of levels, about a factor of two apart "
     f"where there are enough, differ by no more than {TRIPLETS_AGREE:g}; else it is inconclusive. "
-    f"The expected order lies within the interval or {ORDER_OFF:g} of the observed one, or what is "
-    "said with it. Where the "
+    f"At 95 % the order is no lower than {ORDER_OFF:g} below the expected one, or what is said "
+    "with it, and not known to be as much higher. Where the "
     f"finer triplet comes nearer to it by {APPROACHING:.0%} and more, {NEARING:g} is near enough. "
     f"None is read off levels whose interval is ± {ILLEGIBLE:g} or wider."
 )
