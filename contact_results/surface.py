@@ -186,7 +186,8 @@ class Rings:
         if self.angles is None:
             return Line(self.radii, "radius r", ("r", "θ") if self.polar else load)
         places = np.concatenate([-self.radii[::-1], self.radii])
-        return Line(places, "distance from the axis along the load", load)
+        label = "x at y = 0" if along_x else "distance from the axis along the load"
+        return Line(places, label, load)
 
     def scalar(self, increment: Increment, name: str) -> NDArray[Any] | None:
         """The field, at every angle where there are angles."""

@@ -12,12 +12,14 @@ from matplotlib.figure import Figure
 from contact_results.figures import style
 from contact_results.figures.shown_steps import SAME, runs_of_equal, selected, span, vectors
 from contact_results.natural_sizes import SI, Units
+from contact_results.surface import Rings
 from contact_scene.engineering_units import EngineeringUnit
 from contact_scene.friction import FRICTIONLESS
 
 if TYPE_CHECKING:
     from contact_results.surface import Field, Increment, Result, Surface
 
+POINTS = 12  # of the end of a curve
 MARGIN = 1.15  # of the contact's extent, so that its edge is seen against the outside
 
 
@@ -47,7 +49,7 @@ def profile_plot(result: Result, surface: Surface, units: Units = SI) -> Figure:
     _draw_pressure(axes[0], x, result, surface, units)
     for ax, shear in zip(axes[1:], shears, strict=True):
         _draw_bound(ax, x, result, surface, shear)
-        _draw_component(ax, x, shear)
+        _draw_component(ax, x, shear, surface)
     return figure
 
 
@@ -55,16 +57,18 @@ def draw_end(ax: Any, result: Result, surface: Surface, units: Units = SI) -> No
     """Pressure at the end of the history, with shear over the coefficient of friction where that is
     one number, so that they meet where it slips."""
     length, end = _line_axis(ax, result, surface, units), result.steps[-1]
-    x, pressure = surface.line.places / length.size, surface.along(_pressure(end, surface))
+    x, edges = surface.line.places / length.size, _Edges.of(surface, end)
     unit = units.of("pressure", end.peak_pressure, "Pa")
-    ax.plot(x, pressure / unit.size, label="pressure p", **style.line(0))
+    pressure = surface.along(_pressure(end, surface)) / unit.size
+    ax.plot(*edges.drawn(x, pressure), label="pressure p", **style.line(0))
     friction = result.scene.friction
     coefficient = friction.uniform if friction is not None else None
     if coefficient:
         shears = _components(surface, [end], ("shear", "q", "Pa"), units)
         for number, shear in enumerate(shears, 1):
             scaled = shear.lines[end.step] / (coefficient * unit.size)
-            ax.plot(x, scaled, label=f"{shear.name.removeprefix('shear ')}/µ", **style.line(number))
+            name = f"{shear.name.removeprefix('shear ')}/µ"
+            ax.plot(*edges.drawn(x, scaled), label=name, **style.line(number))
     ax.axhline(0.0, color="black", linewidth=0.5)
     ax.set_ylabel(unit.labelled("traction"))
     ax.legend(loc="best", fontsize="small")
@@ -79,7 +83,7 @@ def slip_plot(result: Result, surface: Surface, units: Units = SI) -> Figure | N
     axes = figure.subplots(len(slips), 1, sharex=True, squeeze=False)[:, 0]
     length = _line_axis(axes[-1], result, surface, units)
     for ax, slip in zip(axes, slips, strict=True):
-        _draw_component(ax, surface.line.places / length.size, slip)
+        _draw_component(ax, surface.line.places / length.size, slip, None)
         _draw_stick(ax, surface.line.places / length.size, surface, slip)
     axes[0].set_title("bars: where it sticks", loc="left", fontsize=style.CAPTION_SIZE)
     return figure
@@ -113,11 +117,13 @@ def _components(
     ]
 
 
-def _draw_component(ax: Any, x: Field, shown: Component) -> None:
+def _draw_component(ax: Any, x: Field, shown: Component, tractions: Surface | None) -> None:
+    """A line for every step; of tractions to the edges of the contact."""
     groups = runs_of_equal(shown.steps, lambda step: shown.lines[step.step])
     for number, group in enumerate(groups):
         values = shown.lines[group[0].step] / shown.unit.size
-        ax.plot(x, values, label=span(group), **style.line(number))
+        edges = _Edges.of(tractions, group[0]) if tractions else _Edges()
+        ax.plot(*edges.drawn(x, values), label=span(group), **style.line(number))
     ax.axhline(0.0, color="black", linewidth=0.5)
     ax.set_ylabel(shown.unit.labelled(shown.name))
     style.legend_beside(ax)
@@ -141,7 +147,8 @@ def _draw_pressure(ax: Any, x: Field, result: Result, surface: Surface, units: U
     groups = runs_of_equal(selected(result.steps), lambda step: _pressure(step, surface))
     for number, group in enumerate(groups):
         pressure = surface.along(_pressure(group[0], surface)) / unit.size
-        ax.plot(x, pressure, label=span(group), **style.line(number))
+        edges = _Edges.of(surface, group[0])
+        ax.plot(*edges.drawn(x, pressure), label=span(group), **style.line(number))
     ax.set_ylim(bottom=0.0)
     ax.set_ylabel(unit.labelled("pressure p"))
     style.legend_beside(ax)
@@ -152,11 +159,55 @@ def _draw_bound(ax: Any, x: Field, result: Result, surface: Surface, shear: Comp
     groups = runs_of_equal(shear.steps, lambda step: _pressure(step, surface))
     for number, group in enumerate(groups):
         limit = (result.scene.friction or FRICTIONLESS).limit(_pressure(group[0], surface))
-        bound = surface.along(limit) / shear.unit.size
-        ax.fill_between(x, -bound, bound, color=style.GREY, alpha=0.12, linewidth=0)
+        edges = _Edges.of(surface, group[0])
+        at, bound = edges.drawn(x, surface.along(limit) / shear.unit.size)
+        ax.fill_between(at, -bound, bound, color=style.GREY, alpha=0.12, linewidth=0)
         label = "± µp" if number == 0 else None
-        ax.plot(x, bound, color=style.GREY, linewidth=0.8, label=label)
-        ax.plot(x, -bound, color=style.GREY, linewidth=0.8)
+        ax.plot(at, bound, color=style.GREY, linewidth=0.8, label=label)
+        ax.plot(at, -bound, color=style.GREY, linewidth=0.8)
+
+
+@dataclass(frozen=True)
+class _Edges:
+    """Where tractions on rings end between two rings, as the square root of the distance from
+    there: a straight line to the next ring would be a kink that nobody has computed.
+
+    ends  of places on the line: the last with pressure, the next without, and how far from the
+          last towards the next the edge is
+    """
+
+    ends: tuple[tuple[int, int, float], ...] = ()
+
+    @classmethod
+    def of(cls, surface: Surface, step: Increment) -> _Edges:
+        """From the last two pressures of every end; none of cells, nor where it rises outwards."""
+        if not isinstance(surface, Rings):
+            return cls()
+        p, r = surface.along(_pressure(step, surface)), np.abs(surface.line.places)
+        found = []
+        for last in np.flatnonzero(p > 0):
+            for next_ in (last - 1, last + 1):
+                before = 2 * last - next_
+                if not (min(next_, before) >= 0 and max(next_, before) < len(p)) or p[next_] > 0:
+                    continue
+                if 0 < p[last] < p[before] and r[before] < r[last] < r[next_]:
+                    # p² falls linearly in r², all the way in Hertz' contact.
+                    share = p[last] ** 2 / (p[before] ** 2 - p[last] ** 2)
+                    edge = np.sqrt(r[last] ** 2 + (r[last] ** 2 - r[before] ** 2) * share)
+                    part = float((edge - r[last]) / (r[next_] - r[last]))
+                    found.append((int(last), int(next_), min(1.0, part)))
+        return cls(tuple(found))
+
+    def drawn(self, x: Field, values: Field) -> tuple[Field, Field]:
+        """Places and values of a traction with its edges between them, along the line."""
+        more_x, more = [x], [values]
+        down = np.linspace(1.0, 0.0, POINTS)[1:]
+        for last, next_, part in self.ends:
+            more_x.append(x[last] + (x[next_] - x[last]) * part * (1 - down**2))
+            more.append(values[last] * down)
+        at, found = np.concatenate(more_x), np.concatenate(more)
+        order = np.argsort(at, kind="stable")
+        return at[order], found[order]
 
 
 def _line_axis(ax: Any, result: Result, surface: Surface, units: Units) -> EngineeringUnit:
