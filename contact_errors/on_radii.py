@@ -1,5 +1,5 @@
 """Errors of a radial result, from one with twice as many orders and points; with friction, from one
-with half the rings and half the increments."""
+with half the rings and half the increments, of a pushed contact half the angles, too."""
 
 from __future__ import annotations
 
@@ -12,6 +12,7 @@ from contact_errors.estimate import UNKNOWN, Numbers, differences, stated, unsol
 from contact_errors.prescribed import prescribed
 from contact_errors.rules import rules_for
 from contact_errors.values import Values, charged_by_increments, scale, values_of
+from contact_results.cycles import fretting_cycles
 from contact_scene.solver_errors import SolverError
 from contact_scene.stated_error import EXACT, Companion, Part, StatedError, StatedErrors
 from radial import Increment, Result, solve
@@ -25,6 +26,9 @@ TWICE, HALF = 2, 0.5
 # Of the contact radius: as well as rings tell a front, and half increments where it stands at
 # their end.
 FRONT = 1e-3
+# The same of the edge of a pushed contact, which rings do not follow.
+EDGE = 1e-3
+CUSP = 2.0  # of a pushed contact's pressure on the axis, which falls more slowly with the rings
 _QUADRATURE: Part = "quadrature"
 _INCREMENTS: Part = "increments"
 
@@ -33,10 +37,11 @@ def stated_errors(
     result: Result, progress: Callable[[Increment], None] | None = None
 ) -> StatedErrors:
     """Errors of all numbers at the ends of all steps; solves the companion."""
-    fine = values_of(result, ())
+    cycles = fretting_cycles(result)
+    fine = values_of(result, cycles)
     plan, fineness = result.plan, float(TWICE)
     differs, part = "twice the orders and points", _QUADRATURE
-    if plan.coupled:
+    if plan.coupled or plan.pushed:
         plan, fineness = replace(plan, increments=_recut(plan.increments)), HALF
         differs, part = "half the rings and increments", _INCREMENTS
     made = Companion(differs=differs, increments=plan.increments)
@@ -48,8 +53,8 @@ def stated_errors(
     else:
         spent = sum(increment.iterations for increment in finer.increments)
         made = made.model_copy(update={"iterations": spent})
-        changes = differences(fine, values_of(finer, ()))
-    charged = charged_by_increments(result, ())
+        changes = differences(fine, values_of(finer, fretting_cycles(finer)))
+    charged = charged_by_increments(result, cycles)
     steps = zip(result.steps, result.scene.load_path(), fine, changes, charged, strict=True)
     finite = rules_for(result.scene.indenter, cusp=plan.coupled).keys()
     return StatedErrors(
@@ -60,7 +65,13 @@ def stated_errors(
                 else UNKNOWN
                 if changed is None or name not in finite
                 else _stated(
-                    name, part, step.worst_residual, values, changed[name], open_.get(name)
+                    name,
+                    part,
+                    step.worst_residual,
+                    values,
+                    changed[name],
+                    open_.get(name),
+                    pushed=plan.pushed,
                 )
                 for name in values
             }
@@ -77,10 +88,14 @@ def _recut(increments: tuple[int, ...]) -> tuple[int, ...]:
 
 def _stated(
     name: str, part: Part, residual: float, values: Values, changed: Numbers,
-    by_increments: float | None,
+    by_increments: float | None, *, pushed: bool,
 ) -> StatedError:  # fmt: skip
     size = np.maximum(np.abs(values[name]), scale(name, values))
-    front = _of_front(name, values) if part == _INCREMENTS else 0.0
+    front: Numbers | float = _of_front(name, values) if part == _INCREMENTS else 0.0
+    if pushed:
+        of_edge = {"contact_radius": 1, "contact_area": 2}.get(name, 0)
+        front = front + EDGE * of_edge * values[name]
+        changed = changed * (CUSP if name == "peak_pressure" else 1.0)
     parts: dict[Part, Numbers] = {
         part: front + TIMES * changed + ROUND_OFF * size,
         "tolerance": unsolved(residual, np.abs(values[name]), scale(name, values)),

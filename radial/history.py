@@ -77,6 +77,10 @@ def solve(
 
 
 def _solver(scene: Scene, asked: RadialDiscretisation, plan: Plan, fineness: float) -> Any:
+    if plan.pushed:
+        from radial.pushing import Pushing
+
+        return Pushing.of(scene, asked, plan.direction, fineness)
     if plan.coupled:
         from radial.rubbing import Rubbing
 

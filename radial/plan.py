@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from math import ceil, hypot
 from typing import ClassVar
 
-from contact_scene import ControlKind, Scene, effect
+from contact_scene import ControlKind, LoadRamp, Scene, effect
+from contact_scene.cycles import loop_increments
 from contact_scene.effect import Effect
 from contact_scene.pair import coupling, refuse_contrast
 from contact_scene.scene_text import shape_text
@@ -15,29 +17,43 @@ from contact_scene.solver_errors import UnsupportedScene
 MOST_CONTRAST = 1e8
 # Of a step whose path matters: the shear is then right to some 1e-4 of its limit.
 PATH_INCREMENTS = 64
+# Of a step of a pushed contact: pressing, and by its share of the friction limit pushing.
+PUSHED_INCREMENTS = 20
+LARGEST_SHARE = 0.05
+ROUND_OFF = 1e-9
+# Of a pushed contact: rings inside, and angles on the half circle.
+RINGS, ANGLES = 24, 9
+# The sine of an angle below this is round-off of a load that goes straight.
+STRAIGHT = 1e-9
 ELSEWHERE = "solve it with the semi-analytical solver"
 
 
 @dataclass(frozen=True)
 class Plan:
-    """What is computed for a scene: pressure, and the shear that it brings with it or torsion.
+    """What is computed for a scene: pressure, and the shear of friction, torsion or a push.
 
     coupled     whether pressure moves the surfaces past each other against friction
     twists      whether there is torsion
+    pushed      whether there is a tangential load
     increments  how many each loading step takes
     effects     every effect with its reason, as shown to people
+    direction   unit vector of the tangential load, (1, 0) without
+    rings, angles  over a pushed contact, and on its half circle
     """
 
     coupled: bool
     twists: bool
+    pushed: bool
     increments: tuple[int, ...]
     effects: tuple[Effect, ...]
-    direction: ClassVar[tuple[float, float]] = (1.0, 0.0)
+    direction: tuple[float, float] = (1.0, 0.0)
+    rings: ClassVar[int] = RINGS
+    angles: ClassVar[int] = ANGLES
 
     @property
     def sheared(self) -> bool:
         """Whether there is shear beside the pressure."""
-        return self.coupled or self.twists
+        return self.coupled or self.twists or self.pushed
 
 
 def plan(scene: Scene) -> Plan:
@@ -48,22 +64,62 @@ def plan(scene: Scene) -> Plan:
     )
     couples, why = coupling(scene)
     _refuse_loads(scene)
+    friction, ramps = scene.friction is not None, scene.load_path()
     rubs = couples and scene.friction is not None and scene.friction.uniform != 0
-    twists = scene.friction is not None and any(ramp.twisting.end for ramp in scene.load_path())
-    if rubs:
+    twists = friction and any(ramp.twisting.end for ramp in ramps)
+    pushed = friction and any(any(ramp.tangential.end) for ramp in ramps)
+    if pushed:
+        _refuse_pushes(scene, twists)
+    if rubs or pushed:
         _refuse_rubbing(scene)
     if twists:
         _refuse_twists(scene, rubs)
+    tells = "a step pushes sideways" if pushed else "no step pushes sideways"
     effects = (
         effect.PRESSURE,
         effect.second_body(scene),
         effect.layers(scene, "a layer"),
         effect.friction(scene),
+        Effect("tangential load", pushed, tells),
         Effect("torsion", twists, "a step twists" if twists else "no step twists"),
         effect.coupled(scene, rubs, why),
-        effect.load_history(rubs or twists),
+        effect.load_history(rubs or twists or pushed),
     )
-    return Plan(rubs, twists, _increments(scene, rubs), effects)
+    increments = _pushed_increments(scene) if pushed else _increments(scene, rubs)
+    return Plan(rubs, twists, pushed, increments, effects, _direction(ramps))
+
+
+def _direction(ramps: tuple[LoadRamp, ...]) -> tuple[float, float]:
+    """Of the first tangential load that is not zero: so positive loads come first."""
+    for ramp in ramps:
+        x, y = ramp.tangential.end
+        if x or y:
+            return x / hypot(x, y), y / hypot(x, y)
+    return 1.0, 0.0
+
+
+def _pushed_increments(scene: Scene) -> tuple[int, ...]:
+    """As asked for; else as many as the path of pressure and push takes."""
+    ramps = scene.load_path()
+    return tuple(
+        ramp.increments or max(of_loop, _on_path(scene, ramp))
+        for ramp, of_loop in zip(ramps, loop_increments(ramps), strict=True)
+    )
+
+
+def _on_path(scene: Scene, ramp: LoadRamp) -> int:
+    start, end = ramp.tangential.start, ramp.tangential.end
+    if ramp.normal.start != ramp.normal.end:
+        return PUSHED_INCREMENTS
+    if start == end:
+        return 1
+    by_force = ramp.normal.kind is ramp.tangential.kind is ControlKind.FORCE
+    assert scene.friction is not None
+    limit = scene.friction.carried(ramp.normal.end)
+    if not by_force or start is None or not limit:
+        return PUSHED_INCREMENTS
+    change = hypot(end[0] - start[0], end[1] - start[1])
+    return max(1, ceil(change / (LARGEST_SHARE * limit) - ROUND_OFF))
 
 
 def _increments(scene: Scene, rubs: bool) -> tuple[int, ...]:
@@ -105,12 +161,30 @@ def _refuse_loads(scene: Scene) -> None:
             "a step names a moment or a tilt, and this solver keeps the indenter upright; leave it "
             f"out, or {ELSEWHERE}"
         )
-    if scene.friction is None:
-        return
-    if any(any(ramp.tangential.end) for ramp in ramps):
+
+
+def _refuse_pushes(scene: Scene, twists: bool) -> None:
+    """What a push along one line cannot do."""
+    assert scene.friction is not None
+    if twists:
         raise UnsupportedScene(
-            f"a step names a tangential force or shift, and this solver has none; {ELSEWHERE}"
+            "steps name a tangential load and a torsion, and this solver takes one of them; leave "
+            f"the other out, or {ELSEWHERE}"
         )
+    if scene.friction.uniform == 0:
+        raise UnsupportedScene(
+            "a step names a tangential load and the coefficient of friction is zero, so that "
+            "nothing carries it; give a coefficient, or leave the load out"
+        )
+    ends = [ramp.tangential.end for ramp in scene.load_path()]
+    longest = max(ends, key=lambda end: hypot(*end))
+    for end in ends:
+        cross = longest[0] * end[1] - longest[1] * end[0]
+        if abs(cross) > STRAIGHT * hypot(*longest) * hypot(*end):
+            raise UnsupportedScene(
+                f"the tangential load goes along {longest} and along {end}, and this solver takes "
+                f"one line; keep to it, or {ELSEWHERE}"
+            )
 
 
 def _refuse_twists(scene: Scene, rubs: bool) -> None:

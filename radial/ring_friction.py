@@ -1,92 +1,43 @@
-"""Pressure and shear of one increment under Coulomb's law at points (r, θ), pushed one way.
+"""Pressure and shear of one increment under Coulomb's law at points (r, θ), pushed along one line.
 
-Points are where nodes of rings meet angles between 0 and π; of the other half circle everything is
-the mirror image. The law holds in the mean over the hat of every node,
+The law holds in the mean over the hat of every node,
 
     p = max(p - g/d, 0),    q = P(q - Δs/d),
 
 with P the nearest vector no longer than µ max(p - g/d, 0); its zero is found by Newton's method,
-for one in which all that is projected is projected as it is now (Alart and Curnier 1991).
+for one in which all that is projected is projected as it is now (Alart and Curnier 1991). Of its
+equations those remain that nobody can do without: no traction where there is a gap, and where a
+point slips along w, w·q = µp, so that q across w is left.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.fft import dct, dst
-from scipy.interpolate import CubicSpline
+from scipy.linalg import lapack
 
 from contact_scene.solver_errors import ContactAtZoneEdge, GrossSliding, NotConverged
+from radial.ring_points import Points
 
 Array = NDArray[np.float64]
+Mask = NDArray[np.bool_]
 
 MOST_STEPS = 60
 SHORTEST = 2.0**-6  # of a step of Newton's method
-FINER, AROUND = 16, 180  # places per element and angles, where a front is looked for
 
 
-@dataclass(frozen=True, eq=False)
-class Points:
-    """Nodes of rings times angles, and what tractions at them do.
+@dataclass(frozen=True)
+class Loads:
+    """What an increment ends with, of either pair the one that is prescribed: W or the approach,
+    T or the shift [force, length]."""
 
-    energies  of `ring_compliance` up to harmonic J, of the bodies (J + 1, 3, 3, n, n)
-    weights   ∫ φ r dr (n,) [length²]
-    gap       ∫ φ f r dr at first touch (n,) [length³]
-
-    Fields of points are (n J,), angle by angle within a node; vectors (3 n J,), r, θ, z outermost.
-    """
-
-    energies: Array
-    weights: Array
-    gap: Array
-
-    @property
-    def count(self) -> int:
-        """J, angles on the half circle."""
-        return len(self.energies) - 1
-
-    @property
-    def angles(self) -> Array:
-        """θ_j = π(j + ½)/J."""
-        return np.pi * (np.arange(self.count) + 0.5) / self.count
-
-    @cached_property
-    def areas(self) -> Array:
-        """Of every point and its mirror image."""
-        return np.repeat(self.weights, self.count) * (2 * np.pi / self.count)
-
-    @cached_property
-    def bare(self) -> Array:
-        """f times the area of a point."""
-        return np.repeat(self.gap, self.count) * (2 * np.pi / self.count)
-
-    @cached_property
-    def along(self) -> Array:
-        """Areas times the direction of the load, in r and θ (2 n J,)."""
-        nodes = len(self.weights)
-        ways = np.tile(np.cos(self.angles), nodes), -np.tile(np.sin(self.angles), nodes)
-        return np.concatenate([self.areas * way for way in ways])
-
-    @cached_property
-    def compliance(self) -> Array:
-        """Displacements times areas by tractions (3 n J, 3 n J) [length^5/force]."""
-        J, nodes = self.count, len(self.weights)
-        cosines, sines = np.zeros((J + 1, J)), np.zeros((J + 1, J))
-        cosines[:J] = dct(np.eye(J), type=2, axis=0) / J
-        sines[1:] = dst(np.eye(J), type=2, axis=0) / J
-        cosines[0] /= 2
-        sines[J] /= 2
-        norms = np.full(J + 1, np.pi)
-        norms[[0, J]] = 2 * np.pi
-        ways = np.stack([cosines, sines, cosines])
-        whole = np.einsum(
-            "m,amj,mabik,bml->aijbkl", norms, ways, self.energies, ways, optimize=True
-        )
-        return whole.reshape(3 * nodes * J, -1)
+    force: float | None
+    approach: float | None
+    drag: float | None
+    shift: float | None
 
 
 @dataclass(frozen=True)
@@ -95,80 +46,95 @@ class Held:
 
     tractions  q_r, q_θ, p (3 n J,) [force/length²]
     moved      u_r, u_θ times area (2 n J,) [length³]
+    slipped    Δs of the increment times area (2 n J,) [length³]
     share      of the limit: |q - Δs/d| over it, ≤ 1 where a point sticks, infinite out of contact
+    energy     ½ ∫ (p u_z + q·u) dA [force length]
     missed     of the laws, over the largest pressure and the load
+    steps      of Newton's method
     """
 
     tractions: Array
     moved: Array
+    slipped: Array
     shift: float
     approach: float
     share: Array
+    energy: float
     missed: float
+    steps: int
+
+    @property
+    def pressure(self) -> Array:
+        """p (n J,)."""
+        return self.tractions[2 * len(self.share) :]
+
+    @property
+    def shear(self) -> Array:
+        """q_r and q_θ (2, n J)."""
+        return self.tractions[: 2 * len(self.share)].reshape(2, -1)
+
+    def every_angle(self, points: Points) -> Held:
+        """The same at points, of a state that is the same all around."""
+
+        def parts(field: Array, count: int) -> Array:
+            return points.every_angle(field.reshape(count, -1)).ravel()
+
+        return Held(
+            parts(self.tractions, 3), parts(self.moved, 2) / points.count,
+            parts(self.slipped, 2) / points.count, self.shift, self.approach,
+            parts(self.share, 1), self.energy, self.missed, self.steps,
+        )  # fmt: skip
 
 
 def held(
-    points: Points, friction: float, load: float, drag: float, before: Held | None, tolerance: float
+    points: Points, friction: float, loads: Loads, before: Held | None, tolerance: float
 ) -> Held:
-    """The state under W = load and T_x = drag [force].
+    """The state under loads.
 
     before  the state from which surfaces slip; None: they have not touched
     raises  NotConverged; GrossSliding from T = µW on; ContactAtZoneEdge at the last ring
     """
-    if abs(drag) >= friction * load:
-        raise GrossSliding(
-            f"T = {drag:g} is not below µW = {friction * load:g}: the indenter slides"
-        )
-    laws = _Laws.of(points, friction, load, drag, before)
+    if loads.drag and loads.force is not None and abs(loads.drag) >= friction * loads.force:
+        raise _slides(loads.drag, friction * loads.force)
+    laws = _Laws.of(points, friction, loads, before)
     x = laws.closed() if before is None else np.append(before.tractions, laws.motion)
     at = laws.at(x)
-    for _ in range(MOST_STEPS):
+    for step in range(MOST_STEPS):
         if at.worst <= tolerance:
-            return _ended(points, at)
-        try:
-            change = np.linalg.solve(laws.derivative(at), at.missed)
-        except np.linalg.LinAlgError:
+            return _ended(laws, at, step)
+        aim = laws.next(at)
+        if aim is None:
             break
-        step, size = 1.0, np.linalg.norm(at.missed[:-2])
-        tried = laws.at(at.x - change)
+        size = np.linalg.norm(at.missed)
+        length, tried = 1.0, laws.at(aim)
         while (
-            tried.worst >= at.worst
-            and np.linalg.norm(tried.missed[:-2]) >= size
-            and step > SHORTEST
+            tried.worst >= at.worst and np.linalg.norm(tried.missed) >= size and length > SHORTEST
         ):
-            step /= 2
-            tried = laws.at(at.x - step * change)
+            length /= 2
+            tried = laws.at(at.x + length * (aim - at.x))
         at = tried
     raise NotConverged("contact and friction on rings", MOST_STEPS, at.worst, tolerance)
 
 
-def _ended(points: Points, at: _At) -> Held:
-    pressed = at.limit.reshape(-1, points.count) > 0
-    if np.any(pressed[-1]):
+def _slides(drag: float, carried: float) -> GrossSliding:
+    return GrossSliding(f"T = {drag:g} N is not below µW = {carried:g} N: the indenter slides")
+
+
+def _ended(laws: _Laws, at: _At, steps: int) -> Held:
+    points, size = laws.points, len(at.z)
+    if np.any(at.limit.reshape(-1, points.count)[-1] > 0):
         raise ContactAtZoneEdge("the contact reaches the last ring; lay rings further out")
-    length = np.hypot(*at.y)
     inside = at.z > 0
+    length = np.hypot(*at.y)
     share = np.where(inside, length / np.where(inside, at.limit, 1.0), np.inf)
-    shift, approach = at.x[-2:]
-    return Held(at.x[:-2], at.u, float(shift), float(approach), share, at.worst)
-
-
-def stick_area(points: Points, radii: Array, state: Held) -> float:
-    """Where the share of the limit is below 1, linear in r, a spline in θ [length²]: no count of
-    points.
-
-    radii  of the nodes (n,)
-    """
-    left = np.clip(1 - state.share, -1.0, 1.0).reshape(-1, points.count)
-    angles = np.concatenate([points.angles, 2 * np.pi - points.angles[::-1]])
-    angles, left = np.append(angles, angles[0] + 2 * np.pi), np.hstack([left, left[:, ::-1]])
-    around = CubicSpline(angles, np.hstack([left, left[:, :1]]), axis=1, bc_type="periodic")
-    turned = around(np.pi * (np.arange(AROUND) + 0.5) / AROUND)
-    nodes = np.arange(len(radii))
-    edges = np.interp(np.linspace(0, nodes[-1], FINER * nodes[-1] + 1), nodes, radii)
-    middle = (edges[1:] + edges[:-1]) / 2
-    sticks = np.array([np.interp(middle, radii, values) > 0 for values in turned.T])
-    return float(np.pi * np.mean(sticks, axis=0) @ np.diff(edges**2))
+    if laws.friction == 0:
+        share = np.where(inside, 1.0, np.inf)
+    t, (shift, approach) = at.x[:-2], at.x[-2:]
+    slipped = at.u[: 2 * size] - laws.moved - (shift - laws.motion[0]) * points.along
+    return Held(
+        t, at.u[: 2 * size], slipped, float(shift), float(approach), share,
+        0.5 * float(t @ at.u), at.worst, steps,
+    )  # fmt: skip
 
 
 class _At(NamedTuple):
@@ -185,7 +151,7 @@ class _At(NamedTuple):
 
 @dataclass(frozen=True)
 class _Laws:
-    """The laws of an increment as equations; those of the loads come last.
+    """The laws of an increment as equations.
 
     moved, motion  of the state before
     d              of every traction: what it moves where it acts [length^5/force]
@@ -193,33 +159,36 @@ class _Laws:
 
     points: Points
     friction: float
-    load: float
-    drag: float
+    loads: Loads
     moved: Array
     motion: Array
     d: Array
 
     @classmethod
-    def of(
-        cls, points: Points, friction: float, load: float, drag: float, before: Held | None
-    ) -> _Laws:
+    def of(cls, points: Points, friction: float, loads: Loads, before: Held | None) -> _Laws:
         d = np.diagonal(points.compliance).reshape(3, -1)
         beside = (d[0] + d[1]) / 2
         moved, motion = np.zeros(2 * d.shape[1]), np.zeros(2)
         if before is not None:
             moved, motion = before.moved, np.array([before.shift, before.approach])
         d = np.concatenate([beside, beside, d[2]])
-        return cls(points, friction, load, drag, moved, motion, d)
+        return cls(points, friction, loads, moved, motion, d)
 
     def closed(self) -> Array:
-        """Tractions and motion so deep that all points are closed."""
-        points, size = self.points, len(self.points.areas)
-        t = np.concatenate([np.zeros(2 * size), np.full(size, self.load / points.areas.sum())])
-        open_by = (points.compliance @ t)[2 * size :] + points.bare
-        return np.append(t, [0.0, np.max(open_by / points.areas)])
+        """Tractions and motion so deep that what a load may press is closed."""
+        points, size, loads = self.points, len(self.points.areas), self.loads
+        depth = points.bare / points.areas
+        if loads.approach is not None:
+            p = np.maximum(loads.approach - depth, 0.0) / np.diag(points.compliance)[2 * size :]
+            t = np.concatenate([np.zeros(2 * size), 0.1 * p * points.areas])
+            return np.append(t, [0.0, loads.approach])
+        assert loads.force is not None
+        t = np.concatenate([np.zeros(2 * size), np.full(size, loads.force / points.areas.sum())])
+        open_by = (points.compliance @ t)[2 * size :] / points.areas + depth
+        return np.append(t, [0.0, np.max(open_by)])
 
     def at(self, x: Array) -> _At:
-        points, size = self.points, len(self.points.areas)
+        points, size, loads = self.points, len(self.points.areas), self.loads
         t, (shift, approach) = x[:-2], x[-2:]
         u = points.compliance @ t
         q, p = t[: 2 * size], t[2 * size :]
@@ -228,39 +197,91 @@ class _Laws:
         z = p - gap / self.d[2 * size :]
         y = (q - slipped / self.d[: 2 * size]).reshape(2, -1)
         limit = self.friction * np.maximum(z, 0.0)
-        missed = np.concatenate([
-            q - (_shortened(y, limit) * y).ravel(), p - np.maximum(z, 0.0),
-            [(points.along @ q - self.drag) / self.load, points.areas @ p / self.load - 1],
-        ])  # fmt: skip
-        laws = np.max(np.abs(missed[:-2])) / np.max(np.abs(p))
-        worst = float(max(laws, np.max(np.abs(missed[-2:]))))
-        return _At(x, missed, z, y, limit, u[: 2 * size], worst)
+        missed = np.concatenate([q - (_shortened(y, limit) * y).ravel(), p - np.maximum(z, 0.0)])
+        worst = np.max(np.abs(missed)) / np.max(np.abs(p))
+        for now, wanted, size_of in (
+            (points.areas @ p, loads.force, loads.force),
+            (approach, loads.approach, loads.approach),
+            (points.along @ q, loads.drag, points.areas @ np.abs(p)),
+            (shift, loads.shift, abs(approach)),
+        ):
+            if wanted is not None:
+                assert size_of is not None
+                worst = max(worst, abs(now - wanted) / size_of)
+        return _At(x, missed, z, y, limit, u, float(worst))
 
-    def derivative(self, at: _At) -> Array:
-        """Of what is left by x."""
-        points, size = self.points, len(at.z)
-        every = np.arange(3 * size)
-        by_x = np.zeros((3 * size, 3 * size + 2))  # of y and z
-        by_x[:, :-2] = -points.compliance / self.d[:, None]
-        by_x[every, every] += 1
-        by_x[: 2 * size, -2] = points.along / self.d[: 2 * size]
-        by_x[2 * size :, -1] = points.areas / self.d[2 * size :]
-        length = np.hypot(*at.y)
-        slips = length > at.limit
-        way = np.where(slips, at.y / np.where(slips, length, 1.0), 0.0)
-        by_x[2 * size :] *= (at.z > 0)[:, None]
-        pair = by_x[: 2 * size].reshape(2, size, -1)
-        further = np.einsum("ai,aix->ix", way, pair)
-        limit = self.friction * by_x[2 * size :]
-        pair -= way[..., None] * further
-        pair *= _shortened(at.y, at.limit)[:, None]
-        pair += way[..., None] * limit
-        whole = np.zeros((3 * size + 2, 3 * size + 2))
-        whole[:-2] = -by_x
-        whole[every, every] += 1
-        whole[-2, : 2 * size] = points.along / self.load
-        whole[-1, 2 * size : -2] = points.areas / self.load
-        return whole
+    def next(self, at: _At) -> Array | None:
+        """Where the laws would hold if they went on as they are here; None where nowhere."""
+        points, size, loads = self.points, len(at.z), self.loads
+        inside = np.flatnonzero(at.z > 0)
+        n, length = len(inside), np.hypot(*at.y)[inside]
+        limit = at.limit[inside]
+        slips = length > limit
+        stuck, slid = np.flatnonzero(~slips), np.flatnonzero(slips)
+        safe = np.where(length > 0, length, 1.0)
+        w = at.y[:, inside] / safe
+        every = np.concatenate([inside, size + inside, 2 * size + inside])
+        # Rows and columns: q_r and q_θ of what sticks, q across w of what slips, p.
+        A = points.compliance[np.ix_(every, every)]
+        r, s = slid, n + slid
+        side = -A[:, r] * w[1, slid] + A[:, s] * w[0, slid]
+        driven = A[:, 2 * n :]
+        driven[:, slid] += self.friction * (A[:, r] * w[0, slid] + A[:, s] * w[1, slid])
+        columns = np.hstack([A[:, stuck], A[:, n + stuck], side, driven])
+        motion = np.zeros((3 * n, 2))
+        motion[: 2 * n, 0] = -points.along[every[: 2 * n]]
+        motion[2 * n :, 1] = -points.areas[inside]
+        wanted = np.concatenate([
+            (self.moved - self.motion[0] * points.along)[every[: 2 * n]], -points.bare[inside],
+        ])  # fmt: skip
+        whole = np.hstack([columns, motion, wanted[:, None]])
+        across = -whole[r] * w[1, slid, None] + whole[s] * w[0, slid, None]
+        whole = np.vstack([whole[stuck], whole[n + stuck], across, whole[2 * n :]])
+        a = len(stuck)
+        own = 2 * a + np.arange(len(slid))
+        share = limit[slid] / length[slid]
+        d = self.d[inside[slid]]
+        if np.any(share <= 0):
+            return None
+        whole[own, own] += d * (1 - share) / share
+        ends = np.zeros((2, whole.shape[1]))
+        ways = points.along[every[: 2 * n]].reshape(2, n)
+        if loads.drag is None:
+            ends[0, -3], ends[0, -1] = 1.0, loads.shift
+        else:
+            ends[0, :a], ends[0, a : 2 * a] = ways[:, stuck]
+            ends[0, own] = -ways[0, slid] * w[1, slid] + ways[1, slid] * w[0, slid]
+            by_limit = self.friction * np.sum(ways[:, slid] * w[:, slid], axis=0)
+            ends[0, 2 * a + len(slid) + slid] = by_limit
+            ends[0, -1] = loads.drag
+        if loads.force is None:
+            ends[1, -2], ends[1, -1] = 1.0, loads.approach
+        else:
+            ends[1, 2 * a + len(slid) : -3] = points.areas[inside]
+            ends[1, -1] = loads.force
+        whole = np.vstack([whole, ends])
+        # Small rings beside large ones, in units in which they are alike.
+        units = np.ones(len(whole))
+        units[:-2] = 1 / np.sqrt(
+            np.concatenate([self.d[inside[stuck]]] * 2 + [d, self.d[2 * size + inside]])
+        )
+        whole[:, :-1] *= units
+        whole[:-2] *= units[:-2, None]
+        LU, places, found, failed = lapack.dgesv(whole[:, :-1], whole[:, -1])
+        if not failed:
+            found = found + lapack.dgetrs(LU, places, whole[:, -1] - whole[:, :-1] @ found)[0]
+        found = found * units
+        if failed or not np.all(np.isfinite(found)):
+            return None
+        x = np.zeros_like(at.x)
+        p = found[2 * a + len(slid) : -2]
+        q = np.zeros((2, n))
+        q[:, stuck] = found[:a], found[a : 2 * a]
+        v, most = found[own], self.friction * p[slid]
+        q[:, slid] = most * w[:, slid] + v * np.stack([-w[1, slid], w[0, slid]])
+        x[every] = np.concatenate([*q, p])
+        x[-2:] = found[-2:]
+        return x
 
 
 def _shortened(y: Array, limit: Array) -> Array:

@@ -89,9 +89,10 @@ ORDERS = {
     "radial": (
         *("quadrature", "wavenumbers", "bodies", "profile", "disc", "surface", "half_space"),
         *("below", "pressing", "rings", "coupling", "stick_slip", "sheared"),
-        *("harmonic_kernels", "ring_energies", "ring_compliance", "ring_friction"),
+        *("harmonic_kernels", "ring_energies", "ring_compliance", "ring_points", "ring_layout"),
+        "ring_friction",
         *("friction_limit", "torsion", "twist_path"),
-        *("plan", "fields", "shown", "rubbing", "twisting", "history"),
+        *("plan", "fields", "shown", "rubbing", "twisting", "pushing", "history"),
     ),
     "fem_reference.mesh": ("section_outline", "section_mesh", "gmsh_mesh"),
     "fem_reference.elasticity": (

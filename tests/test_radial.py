@@ -295,11 +295,6 @@ LIKE = Paraboloid(radius=RADIUS, material=STEEL)
 RUB = CoulombFriction(coefficient=0.1)
 REFUSED = {
     "not the same all around": {"indenter": Ellipsoid(radii=(1e-2, 2e-2), material=RIGID)},
-    "tangential force": {
-        "indenter": LIKE,
-        "friction": RUB,
-        "loading": (LoadStep(normal_force=1e3, tangential_force=(10, 0)),),
-    },
     "presses while": {
         "indenter": LIKE,
         "friction": RUB,

@@ -22,7 +22,8 @@ from contact_scene import (
 from contact_scene.solver_errors import ContactAtZoneEdge, GrossSliding
 from radial.coupling import Coupling
 from radial.ring_compliance import ring_compliance
-from radial.ring_friction import Held, Points, _Laws, held, stick_area
+from radial.ring_friction import Held, Loads, _Laws, held
+from radial.ring_points import Points
 from verification.closed_forms.cattaneo_mindlin import PartialSlip
 from verification.closed_forms.tangential_history import TangentialHistory
 from verification.references import load_reference
@@ -49,7 +50,7 @@ def points_on(indenter: Any, body: Body, radii: Array, count: int) -> Points:
         part = field * length * weights / 2
         inner, outer = part @ ((1 - rule) / 2), part @ ((1 + rule) / 2)
         areas.append(np.append(inner, 0.0) + np.append(0.0, outer))
-    return Points(energies, *areas)
+    return Points(radii, energies, *areas)
 
 
 def rings(count: int, radius: float) -> Array:
@@ -71,13 +72,17 @@ def alike() -> Points:
     return points_on(material, Body(material=material), RADII, 4)
 
 
+def pushed(share: float) -> Loads:
+    """By a share of µW."""
+    return Loads(LOAD, None, share * LIMIT, None)
+
+
 @cache
 def after(*shares: float) -> Held:
     """Pressed at once, then pushed to shares of µW, one after another."""
     if not shares:
-        return held(alike(), FRICTION, LOAD, 0.0, None, TOLERANCE)
-    before = after(*shares[:-1])
-    return held(alike(), FRICTION, LOAD, shares[-1] * LIMIT, before, TOLERANCE)
+        return held(alike(), FRICTION, pushed(0.0), None, TOLERANCE)
+    return held(alike(), FRICTION, pushed(shares[-1]), after(*shares[:-1]), TOLERANCE)
 
 
 @pytest.mark.parametrize(("harmonic", "way"), [(0, 2), (1, 0), (3, 2), (4, 1)])
@@ -94,14 +99,17 @@ def test_points_move_as_the_harmonics_of_their_tractions(harmonic: int, way: int
     assert_allclose(moved, exact, atol=1e-14)
 
 
-def test_newtons_method_knows_how_the_laws_change() -> None:
-    laws = _Laws.of(alike(), FRICTION, LOAD, 0.7 * LIMIT, after(0.3))
+def test_newtons_method_aims_at_where_the_laws_would_hold() -> None:
+    """Towards its aim what is left of the laws shrinks as what is left of the way."""
+    laws = _Laws.of(alike(), FRICTION, pushed(0.7), after(0.3))
     state = after(0.6)
     x = np.concatenate([state.tractions, [1.02 * state.shift, 1.01 * state.approach]])
-    step = 1e-7 * np.sin(np.arange(len(x)))
-    found = laws.derivative(laws.at(x)) @ step
-    changed = (laws.at(x + step).missed - laws.at(x - step).missed) / 2
-    assert_allclose(found, changed, atol=1e-5 * np.abs(found).max())
+    at, step = laws.at(x), 1e-7
+    aim = laws.next(at)
+    assert aim is not None
+    nearer = laws.at(x + step * (aim - x))
+    left = (at.missed - nearer.missed) / step
+    assert_allclose(left, at.missed, atol=1e-5 * np.abs(at.missed).max())
 
 
 @pytest.mark.parametrize("share", [0.3, 0.6, 0.9])
@@ -109,7 +117,7 @@ def test_a_pushed_ball_sticks_and_shifts_by_cattaneo_and_mindlin(share: float) -
     state = after(share)
     exact = PartialSlip(LOAD, 1.0, FRICTION, 1.0, share * LIMIT)
     assert_allclose(state.shift, exact.shift, atol=OF_SHIFT * VIRGIN.sliding_shift)
-    radius = math.sqrt(stick_area(alike(), RADII, state) / math.pi)
+    radius = math.sqrt(alike().stick_area(state.share) / math.pi)
     assert_allclose(radius, exact.stick_radius, atol=0.25 / COUNT)  # between two rings
 
 
@@ -154,7 +162,8 @@ def test_a_coated_body_pressed_with_friction_approaches_as_in_the_reference() ->
     points = points_on(RIGID, body, rings(20, known["a_over_aH"]), 2)
     load, state = 2 * math.pi / 3, None
     for k in range(1, 21):
-        state = held(points, known["mu"], load * k / 20, 0.0, state, TOLERANCE)
+        loads = Loads(load * k / 20, None, 0.0, None)
+        state = held(points, known["mu"], loads, state, TOLERANCE)
     assert state is not None
     assert_allclose(state.approach, known["delta_over_deltaH"], rtol=2e-6)
     assert abs(state.shift) < 1e-9
@@ -168,4 +177,25 @@ def test_more_than_friction_carries_slides(share: float) -> None:
 
 def test_a_contact_beyond_the_rings_is_refused() -> None:
     with pytest.raises(ContactAtZoneEdge, match="last ring"):
-        held(alike(), FRICTION, 2 * LOAD, 0.0, None, TOLERANCE)
+        held(alike(), FRICTION, Loads(2 * LOAD, None, 0.0, None), None, TOLERANCE)
+
+
+def test_a_prescribed_motion_is_that_of_the_loads() -> None:
+    by_force = after(0.6)
+    led = Loads(None, by_force.approach, None, by_force.shift)
+    by_motion = held(alike(), FRICTION, led, after(), TOLERANCE)
+    assert_allclose(by_motion.tractions, by_force.tractions, atol=1e-7)
+
+
+def test_a_shift_that_friction_does_not_follow_slides() -> None:
+    led = held(alike(), FRICTION, Loads(LOAD, None, None, 2 * LIMIT), after(), TOLERANCE)
+    assert_allclose(alike().along @ led.shear.ravel(), LIMIT, rtol=1e-8)
+    assert np.all(led.share > 1)
+
+
+def test_one_angle_says_all_of_what_is_the_same_all_around() -> None:
+    points = alike()
+    around = held(points.around, FRICTION, pushed(0.0), None, TOLERANCE)
+    turned = around.every_angle(points)
+    assert_allclose(turned.tractions, after().tractions, atol=1e-7)
+    assert_allclose(turned.moved, after().moved, atol=1e-9)

@@ -43,21 +43,23 @@ def plan(
     print_pairs(chosen.work(contents.scene, fineness, decided))
     if reasons := chosen.reasons(decided):
         print_table(("step", "increments", "why"), reasons)
-    if solver is not SolverName.RADIAL and _is_radial(contents.scene):
-        print_pairs([("radial", "--solver radial would do: pressing alone, nearly exact")])
+    if solver is not SolverName.RADIAL and (how := _by_radii(contents.scene)):
+        print_pairs([("radial", f"--solver radial would do: {how}")])
     if accuracy is not None:
         from slipstick.cli.prices import print_prices
 
         print_prices(accuracy, chosen, contents)
 
 
-def _is_radial(scene: "Scene") -> bool:
-    """Whether one dimension is all that a scene calls for."""
+def _by_radii(scene: "Scene") -> str | None:
+    """What one dimension makes of a scene; None where it calls for more."""
     from contact_scene.solver_errors import UnsupportedScene
     from radial.plan import plan
 
     try:
-        plan(scene)
+        decided = plan(scene)
     except UnsupportedScene:
-        return False
-    return True
+        return None
+    if decided.pushed:
+        return "a push along one line, on rings and angles"
+    return "pressing alone, nearly exact"

@@ -52,7 +52,7 @@ class OnRadii:
 
     def work(self, scene: Scene, fineness: RadialDiscretisation, plan: Plan) -> Pairs:
         """Rings, tolerance and increments."""
-        yield "rings", _rings_text(fineness)
+        yield "rings", _rings_text(fineness, plan)
         yield "tolerance", f"{fineness.tolerance:.3g}"
         yield "increments", increments_text(plan.increments)
 
@@ -60,8 +60,10 @@ class OnRadii:
         return ()
 
     def layout(self, result: Result) -> Pairs:
-        yield "rings", _rings_text(result.fineness)
+        yield "rings", _rings_text(result.fineness, result.plan)
 
 
-def _rings_text(asked: RadialDiscretisation) -> str:
+def _rings_text(asked: RadialDiscretisation, plan: Plan) -> str:
+    if plan.pushed:
+        return f"{plan.rings} over the contact, denser at its edge, times {plan.angles} angles"
     return f"{asked.rings} over the largest contact; they show the fields and decide nothing"

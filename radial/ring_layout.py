@@ -1,0 +1,76 @@
+"""Rings for a contact whose edge stays about one radius, and the points on them."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from contact_scene.geometry import ShapedBody
+from radial.coupling import Coupling
+from radial.quadrature import unit_gauss
+from radial.ring_compliance import ring_compliance
+from radial.ring_points import Points
+
+Array = NDArray[np.float64]
+
+GRADED = 4  # rings towards the edge from either side, each half as wide as the one before
+LEAST = 0.75  # of the width of a ring: even ones that are nearer to an edge give way
+GROWTH = 1.4  # of rings outside
+REACH, BY_FRICTION = 1.15, 0.5  # how far they reach, in radii: pushed contacts move with friction
+POINTS = 6  # Gauss's of an element
+
+
+def places(count: int, reach: float, edges: Sequence[float]) -> tuple[float, ...]:
+    """Nodes over the radius of the largest contact: even inside, dense about edges.
+
+    count  inside, apart from those about edges
+    reach  at least as far as they go
+    edges  of smaller contacts, over the largest
+    """
+    near = 0.5 ** np.arange(1, GRADED + 1) / count
+    outside = [1 / count]
+    while outside[-1] < reach - 1:
+        outside.append(GROWTH * outside[-1] + 1 / count)
+    dense: list[float] = []
+    for edge in (1.0, *edges):
+        # Near to one that is dense already nothing is gained.
+        if all(abs(edge - other) > 1 / count for other in dense):
+            dense.append(edge)
+    about = [edge + off for edge in dense for off in (*-near, 0.0, *near)]
+    even = [*np.arange(1, count) / count, *(1 + np.array(outside))]
+    kept = [x for x in even if all(abs(x - edge) > LEAST / count for edge in dense)]
+    found = sorted([*about, *(x for x in kept if min(abs(x - y) for y in about) > near[-1])])
+    return (0.0, *(float(x) for x in found if x > near[-1]))
+
+
+def laid(
+    coupling: Coupling,
+    indenter: ShapedBody,
+    edges: Sequence[float],
+    count: int,
+    angles: int,
+    friction: float,
+) -> Points:
+    """Points for contacts of these radii [length].
+
+    count, angles  of rings inside the largest, and of angles on the half circle
+    friction       µ
+    """
+    edge = max(edges)
+    over = places(count, REACH + BY_FRICTION * friction, [other / edge for other in edges])
+    radii = edge * np.array(over)
+    scaled = tuple(x / over[-1] for x in over)
+    energies = ring_compliance(coupling, scaled, radii[-1], angles)
+    v, weights = unit_gauss(POINTS)
+    length = np.diff(radii)[:, None]
+    r = radii[:-1, None] + length * v
+    areas = []
+    for field in (r, r * indenter.initial_gap(r, 0.0)):
+        part = field * length * weights
+        total = np.zeros_like(radii)
+        total[:-1] += part @ (1 - v)
+        total[1:] += part @ v
+        areas.append(total)
+    return Points(radii, energies, *areas)

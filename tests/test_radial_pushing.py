@@ -1,0 +1,260 @@
+"""Tangential loads by the radial solver: Cattaneo, Mindlin and Masing, and laws of any history."""
+
+from __future__ import annotations
+
+import math
+import pickle
+from dataclasses import replace
+from functools import cache
+from typing import Any
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+
+import radial
+from contact_results.surface import surface_of
+from contact_scene import (
+    RIGID,
+    Body,
+    Cone,
+    CoulombFriction,
+    FlatPunch,
+    IsotropicMaterial,
+    Layer,
+    LoadStep,
+    Paraboloid,
+    Scene,
+)
+from contact_scene.solver_errors import GrossSliding, UnsupportedScene
+from contact_scene.standing import Standing
+from contact_scene.summary import ContactStatus
+from radial.pushing import Pushed
+from verification.closed_forms.cattaneo_mindlin import PartialSlip
+from verification.closed_forms.tangential_history import TangentialHistory
+
+# Two alike: E* = 1, and what shear feels of them, 1/G* = Σ (2 - ν)/4G.
+ALIKE = IsotropicMaterial(young_modulus=2 * 0.91, poisson_ratio=0.3)
+SOFT = IsotropicMaterial(young_modulus=0.91, poisson_ratio=0.3)
+LOAD, FRICTION = 4 / 3e6, 0.3  # of a ball with R = 1 and E* = 1: a = 1/100
+RADIUS, LIMIT = 0.01, LOAD * FRICTION
+SHEAR = 2 * ALIKE.shear_modulus / (2 - ALIKE.poisson_ratio)
+VIRGIN = PartialSlip(LOAD, RADIUS, FRICTION, SHEAR, 0.0)
+OF_SHIFT = 5e-4  # of that at which all slides: 24 rings
+
+
+def scene(
+    *steps: LoadStep, alike: bool = False, body: Body | None = None, indenter: Any = None
+) -> Scene:
+    material = ALIKE if alike else SOFT
+    ball = Paraboloid(radius=1.0, material=ALIKE if alike else RIGID)
+    return Scene(
+        indenter=indenter or ball,
+        body=body or Body(material=material),
+        friction=CoulombFriction(coefficient=FRICTION),
+        loading=steps,
+    )
+
+
+PRESS = LoadStep(normal_force=LOAD, increments=4)
+
+
+def push(share: float, increments: int = 4, angle: float = 0.0) -> LoadStep:
+    """To a share of µW."""
+    T = share * LIMIT
+    force = (T * math.cos(angle), T * math.sin(angle))
+    return LoadStep(tangential_force=force, increments=increments)
+
+
+@cache
+def loop() -> radial.Result:
+    """Of bodies that do not couple: pressed, and pushed to and fro."""
+    return radial.solve(scene(PRESS, push(0.6), push(-0.6, 6), push(0.6, 6), alike=True))
+
+
+@cache
+def coupled() -> radial.Result:
+    """A rigid ball on a soft body, pushed and back."""
+    return rough(scene(PRESS, push(0.6), push(0.0)))
+
+
+def rough(asked: Scene, **how: Any) -> radial.Result:
+    """On half the rings, which obey the same laws."""
+    return radial.solve(asked, fineness=0.5, **how)
+
+
+# ---- closed forms -----------------------------------------------------------------------------
+
+
+def test_a_pushed_ball_is_that_of_cattaneo_and_mindlin() -> None:
+    end = loop().steps[1]
+    exact = PartialSlip(LOAD, RADIUS, FRICTION, SHEAR, 0.6 * LIMIT)
+    assert end.tangential_shift is not None
+    assert end.stick_radius is not None
+    assert_allclose(end.tangential_shift[0], exact.shift, atol=OF_SHIFT * VIRGIN.sliding_shift)
+    assert_allclose(end.stick_radius, exact.stick_radius, atol=0.5 * RADIUS / radial.Plan.rings)
+    assert_allclose(end.contact_radius, RADIUS, rtol=5e-4)
+    assert_allclose(end.approach, RADIUS**2, rtol=3e-6)
+    assert_allclose(end.dissipated_energy, exact.dissipated_energy, rtol=0.03)
+    assert end.status is ContactStatus.PARTIAL_SLIP
+
+
+def test_a_loop_is_that_of_masing_and_loses_what_mindlin_says() -> None:
+    exact = TangentialHistory(VIRGIN)
+    for end, share in zip(loop().steps[1:], (0.6, -0.6, 0.6), strict=True):
+        exact = exact.loaded_to(share * LIMIT)
+        assert end.tangential_shift is not None
+        assert_allclose(end.tangential_shift[0], exact.shift, atol=OF_SHIFT * VIRGIN.sliding_shift)
+    lost = [end.dissipated_energy or 0.0 for end in loop().steps]
+    once = PartialSlip(LOAD, RADIUS, FRICTION, SHEAR, 0.6 * LIMIT).dissipated_energy
+    assert_allclose(lost[3] - lost[1], 4 * once, rtol=0.03)
+
+
+def test_shear_carries_the_load_and_obeys_coulomb() -> None:
+    end, surface = loop().steps[1], surface_of(loop())
+    shear = surface.vector(end, "shear")
+    assert shear is not None
+    assert_allclose(np.sum(shear[0] * surface.weights), 0.6 * LIMIT, rtol=2e-3)
+    excess = np.hypot(*shear) - FRICTION * end.pressure
+    assert np.max(excess) < 2e-3 * FRICTION * end.peak_pressure
+
+
+# ---- laws -------------------------------------------------------------------------------------
+
+
+def test_before_it_is_pushed_a_contact_is_the_one_that_is_only_pressed() -> None:
+    pressed = radial.solve(scene(LoadStep(normal_force=LOAD, increments=16))).steps[0]
+    again = LoadStep(normal_force=LOAD, increments=16)
+    first = radial.solve(scene(again, push(0.1, 1))).steps[0]
+    assert_allclose(first.approach, pressed.approach, rtol=3e-6)
+    assert_allclose(first.contact_radius, pressed.contact_radius, rtol=1e-3)
+    assert_allclose(first.stick_radius, pressed.stick_radius, rtol=0.02)
+    open_ = first.dissipation_uncertainty
+    assert open_ is not None
+    assert_allclose(first.dissipated_energy, pressed.dissipated_energy, rtol=0, atol=open_)
+    assert_allclose(first.elastic_energy, pressed.elastic_energy, rtol=1e-4)
+
+
+def test_work_is_stored_lost_or_left_open_by_the_increments() -> None:
+    end = coupled().steps[-1]
+    assert None not in (end.input_work, end.elastic_energy, end.dissipated_energy)
+    press = LoadStep(normal_force=LOAD, increments=8)
+    finer = rough(scene(press, push(0.6, 8), push(0.0, 8))).steps[-1]
+    # What trapezoids leave open falls with the square of the increments.
+    assert abs(finer.unresolved_work or 1.0) < 0.3 * abs(end.unresolved_work or 0.0)
+
+
+def test_any_line_is_as_good_as_another() -> None:
+    angle = math.radians(217)
+    turned = rough(scene(PRESS, push(0.6, angle=angle), push(0.0, angle=angle)))
+    for one, other in zip(coupled().steps, turned.steps, strict=True):
+        assert_allclose(other.approach, one.approach, rtol=1e-12)
+        assert one.tangential_shift is not None
+        assert other.tangential_shift is not None
+        shift = one.tangential_shift[0]
+        expected = (shift * math.cos(angle), shift * math.sin(angle))
+        assert_allclose(other.tangential_shift, expected, atol=1e-9 * RADIUS**2)
+
+
+def test_a_shift_leads_where_its_force_would() -> None:
+    by_force = coupled().steps[1]
+    assert by_force.tangential_shift is not None
+    step = LoadStep(tangential_shift=by_force.tangential_shift, increments=4)
+    by_shift = rough(scene(PRESS, step)).steps[1]
+    assert by_shift.tangential_force is not None
+    assert_allclose(by_shift.tangential_force[0], 0.6 * LIMIT, rtol=0.02)  # by another path
+    assert by_shift.tangential_shift == by_force.tangential_shift
+
+
+def test_a_far_shift_slides_under_all_that_friction_carries() -> None:
+    far = LoadStep(tangential_shift=(3 * VIRGIN.sliding_shift, 0.0), increments=8)
+    end = rough(scene(PRESS, far, alike=True)).steps[1]
+    assert end.tangential_force is not None
+    assert_allclose(end.tangential_force[0], LIMIT, rtol=1e-8)
+    assert end.stick_radius == 0
+    assert end.status is ContactStatus.GROSS_SLIDING
+
+
+def test_the_load_may_fall_while_it_is_pushed() -> None:
+    less = LoadStep(normal_force=0.5 * LOAD, increments=6)
+    end = rough(scene(PRESS, push(0.3), less)).steps[2]
+    assert end.normal_force == 0.5 * LOAD
+    assert end.stick_radius is not None
+    assert 0 < end.stick_radius < end.contact_radius < RADIUS
+    surface = replace(coupled(), increments=(end,))
+    assert np.max(end.pressure) > 0
+    assert surface_of(surface).weights.shape == end.pressure.shape
+
+
+def test_pressed_and_pushed_at_once_from_first_touch() -> None:
+    both = LoadStep(normal_force=LOAD, tangential_force=(0.5 * LIMIT, 0.0), increments=6)
+    end = rough(scene(both, alike=True)).steps[0]
+    # Nothing slips where T/W rises below µ, and more of it is carried where it is stiffer
+    # (Mindlin and Deresiewicz 1953).
+    assert end.tangential_shift is not None
+    stuck = 0.5 * LIMIT / (2 * SHEAR * RADIUS)
+    assert stuck < end.tangential_shift[0] < 1.6 * stuck
+    assert end.stick_radius is not None
+    assert end.stick_radius > 5 / 6 * end.contact_radius  # what it was an increment before
+    assert end.approach == pytest.approx(RADIUS**2, rel=1e-5)  # half the rings
+
+
+# ---- a solve that goes on ---------------------------------------------------------------------
+
+
+class _Kept:
+    """Keeps one standing of a march."""
+
+    def __init__(self, after: int) -> None:
+        self.after, self.bytes = after, b""
+
+    def last(self) -> Standing | None:
+        return pickle.loads(self.bytes) if self.bytes else None
+
+    def keep(self, standing: Standing) -> None:
+        assert isinstance(standing.mark.state, Pushed)
+        if len(standing.increments) == self.after:
+            self.bytes = pickle.dumps(standing)
+
+
+def test_a_solve_that_goes_on_has_the_same_bits() -> None:
+    kept, asked = _Kept(6), scene(PRESS, push(0.6), push(0.0))
+    whole = rough(asked, keeper=kept).steps[-1]
+    again = rough(asked, keeper=kept).steps[-1]
+    assert again.tangential_shift == whole.tangential_shift
+    assert np.array_equal(again.pressure, whole.pressure)
+
+
+# ---- what is refused --------------------------------------------------------------------------
+
+MAP = CoulombFriction.model_validate({"coefficient": {"map": np.full((4, 4), 0.2), "spacing": 1.0}})
+REFUSED: dict[str, dict[str, Any]] = {
+    "one line": {"loading": (PRESS, push(0.3), push(0.3, angle=0.5))},
+    "one of them": {"loading": (PRESS, LoadStep(torque=1e-12), push(0.3))},
+    "zero": {"friction": CoulombFriction(coefficient=0.0)},
+    "map": {"friction": MAP},
+    "rim": {"indenter": FlatPunch(radius=RADIUS, material=RIGID)},
+    "moment or a tilt": {"loading": (PRESS, LoadStep(tilt=(1e-4, 0.0)), push(0.3))},
+}
+
+
+@pytest.mark.parametrize("reason", REFUSED)
+def test_what_is_no_push_along_one_line_is_refused_by_name(reason: str) -> None:
+    asked = scene(PRESS, LoadStep(tangential_shift=(1e-6, 0.0))).model_copy(update=REFUSED[reason])
+    with pytest.raises(UnsupportedScene, match=reason):
+        radial.plan(asked)
+
+
+def test_more_than_friction_carries_is_refused() -> None:
+    with pytest.raises(GrossSliding, match="step 2"):
+        rough(scene(PRESS, push(1.0, 2), alike=True))
+
+
+def test_a_cone_on_a_coating_is_pushed() -> None:
+    film = IsotropicMaterial(young_modulus=3.0, poisson_ratio=0.3)
+    body = Body(material=SOFT, layers=(Layer(thickness=RADIUS, material=film),))
+    cone = Cone(slope_angle=math.radians(1), material=RIGID)
+    end = rough(scene(PRESS, push(0.5), body=body, indenter=cone)).steps[1]
+    assert end.residuals.worst < 1e-10
+    assert end.tangential_shift is not None
+    assert end.tangential_shift[0] > 0
