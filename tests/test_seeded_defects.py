@@ -47,6 +47,8 @@ FAST = (
     "near_sliding",
     "subsurface_stress",
     "tilted_punch",
+    "worked_examples",
+    "written_files",
 )
 FAST_RUNS = [
     DefectRun(defect.name, case)

@@ -69,6 +69,8 @@ CASES = (
     "frf_laws",
     "classical_forms",
     "sampling_route",
+    "worked_examples",
+    "written_files",
 )
 
 

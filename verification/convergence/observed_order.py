@@ -134,7 +134,7 @@ def refined_value(sizes: Sequence[float], values: Sequence[float], expected: flo
     f = np.asarray(values, dtype=float)[finest_first]
     h /= h[0]
     observed = _fitted_order(h, f, expected)
-    limit, uncertainty = _limit(h, f, expected)
+    limit, uncertainty = richardson(h, f, expected)
     if observed is not None:
         other = _line(h, f, observed.order, expected).limit
         uncertainty = float(np.hypot(uncertainty, limit - other))
@@ -213,8 +213,12 @@ def _line(h: Vector, f: Vector, order: float, weight_order: float) -> _Line:
     return _Line(float(limit), float(coefficient), float(np.sum(left**2)))
 
 
-def _limit(h: Vector, f: Vector, order: float) -> tuple[float, float]:
-    """Richardson's value and its standard uncertainty."""
+def richardson(h: Vector, f: Vector, order: float) -> tuple[float, float]:
+    """Richardson's value and its standard uncertainty: of the fit, and how far the value of the
+    two finest levels is from it.
+
+    h, f  at least three levels, finest first
+    """
     fit = _line(h, f, order, order)
     weight = h**-order
     normal = np.array([[np.sum(weight**2), np.sum(weight)], [np.sum(weight), float(len(h))]])

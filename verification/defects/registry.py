@@ -7,6 +7,7 @@ from verification.defects.finite_elements import FINITE_ELEMENTS
 from verification.defects.histories import HISTORIES
 from verification.defects.outputs import OUTPUTS
 from verification.defects.surface_response import SURFACE_RESPONSE
+from verification.defects.told import TOLD
 
 DEFECTS: dict[str, Defect] = {
     defect.name: defect
@@ -17,5 +18,6 @@ DEFECTS: dict[str, Defect] = {
         *CONTROLS_AND_BODIES,
         *FINITE_ELEMENTS,
         *OUTPUTS,
+        *TOLD,
     )
 }

@@ -1,0 +1,142 @@
+"""The harness itself on examples worked by hand: what refinement leaves uncertain, and its print.
+
+All have levels h = 1, 2, 4 and an error a + c h, beside which (1, -6, 8) ε is left: it is
+orthogonal to what is fitted with weights 1/h, as 1 - 6/4 + 8/16 = 1 - 6/2 + 8/4 = 0. Its weighted
+squares are (1 + 9 + 4) ε².
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import partial
+from math import hypot, log, sqrt
+from typing import Any
+
+import numpy as np
+
+from verification.convergence.error_line import error_line
+from verification.convergence.observed_order import observed_order, richardson
+from verification.judging.case import Case, Check, Derived, Level, Quantity, Required
+from verification.judging.outcome import Verdict
+from verification.judging.verdict_text import failure_text, uncertainty_text
+from verification.judging.verdicts import judge_quantity
+from verification.problems.reference import Reference, ReferenceKind
+
+LEVELS = (1.0, 2.0, 4.0)
+BESIDE = (1.0, -6.0, 8.0)
+LIMIT = 5.0
+# u_num = √(c² + s²) = ½ by s² = 14 ε² on 3 - 2 levels; with u_ref it is 13/10, and U twice that.
+SLOPE, SCATTER, OF_REFERENCE = 0.3, 0.4, 1.2
+EPSILON = SCATTER / sqrt(14)
+U = 2.6
+# Student's t that 97.5 % of one degree of freedom is below: cot(π/40).
+STUDENT = 1 / np.tan(np.pi / 40)
+HAND = "worked by hand"
+TO_ROUNDING = Required(1e-9, "the same numbers to rounding")
+PRINTED = Required(0.05, "two digits are printed")
+
+
+@dataclass(frozen=True)
+class _Rung:
+    """What a case knows of a run, and its result."""
+
+    label: str
+    spacing: float
+    value: float
+
+
+def worked_examples(level: Level = Level.QUICK) -> Case:
+    """The case, the same at every level."""
+    return Case(
+        name="worked_examples",
+        title="The harness by hand",
+        problem="Values on three and four levels whose fits, scatters and intervals come out in "
+        "round numbers: what a tolerance that is derived from refinement allows, the limit and its "
+        "uncertainty, the intervals of an order and of a line, and what is printed of them.",
+        runs=(),
+        quantities=(),
+        checks=tuple(
+            Check(
+                name, meaning, "", "by hand", measure,
+                Reference(value, ReferenceKind.CLOSED_FORM, HAND), tolerance,
+            )
+            for name, meaning, measure, value, tolerance in _EXAMPLES
+        ),
+    )  # fmt: skip
+
+
+def _verdict() -> Verdict:
+    """Of a value that is 2 U off, on a scale of two."""
+    rungs = [
+        _Rung(f"h = {h:g}", h, LIMIT + SLOPE * h + EPSILON * r)
+        for h, r in zip(LEVELS, BESIDE, strict=True)
+    ]
+    known: Any = {rung.label: rung for rung in rungs}
+    finest = rungs[0]
+    quantity = Quantity(
+        "value", "a value", "", finest.label, lambda result: float(result.value),
+        Reference(finest.value - 2 * U, ReferenceKind.CLOSED_FORM, HAND, OF_REFERENCE),
+        Derived(tuple(rung.label for rung in reversed(rungs)), 1.0, 1e9, HAND), scale=2.0,
+    )  # fmt: skip
+    runs: Any = tuple(rungs)
+    return judge_quantity(quantity, Case("by_hand", "", "", runs, (quantity,)), known)
+
+
+def _allowed() -> float:
+    verdict = _verdict()
+    return verdict.allowed * verdict.scale
+
+
+def _printed_tolerance() -> float:
+    return _number_in(failure_text(_verdict()))
+
+
+def _printed_uncertainty() -> float:
+    return _number_in(uncertainty_text(_verdict()))
+
+
+def _number_in(text: str) -> float:
+    found = re.search(r"± ([\d.e-]+)", text)
+    return float(found[1]) if found else float("nan")
+
+
+def _limit(part: int) -> float:
+    """Value and uncertainty with a fourth level, at h = 8, that the line goes through."""
+    h = np.array([*LEVELS, 8.0])
+    f = LIMIT + SLOPE * h + EPSILON * np.array([*BESIDE, 0.0])
+    return richardson(h, f, 1.0)[part]
+
+
+def _errors() -> list[float]:
+    """h² times e^(x ε), with x = (1, -2, 1) orthogonal to any line over log h."""
+    return [h**2 * np.exp(EPSILON * x) for h, x in zip(LEVELS, (1, -2, 1), strict=True)]
+
+
+def _order_interval() -> float:
+    return observed_order(LEVELS, _errors()).half_width
+
+
+def _reach() -> float:
+    return error_line(LEVELS, _errors()).reach
+
+
+_EXAMPLES: tuple[tuple[str, str, Callable[[], float], float, Required], ...] = (
+    ("derived_tolerance", "what is allowed: U = 2 √(c² + s² + u_ref²), s² = 14 ε²", _allowed, U,
+     TO_ROUNDING),
+    ("printed_tolerance", "what is allowed, as it is printed where a verdict fails",
+     _printed_tolerance, U, PRINTED),
+    ("printed_uncertainty", "uncertainty of the reference over the scale, as it is printed",
+     _printed_uncertainty, OF_REFERENCE / 2, PRINTED),
+    ("limit", "limit of four levels on a line, with ε beside it", partial(_limit, 0), LIMIT,
+     TO_ROUNDING),
+    # The two finest levels alone have the limit a + 8 ε. Of the fit, s² = 14 ε²/2, times the
+    # element of the inverse of [[Σ1/h², Σ1/h], [Σ1/h, 4]] = [[85/64, 15/8], [15/8, 4]].
+    ("uncertainty_of_the_limit", "standard uncertainty of the limit: √(7 · 256/115 + 8²) ε",
+     partial(_limit, 1), EPSILON * hypot(sqrt(7 * 256 / 115), 8), TO_ROUNDING),
+    ("interval_of_the_order", "half-width of the order's 95 % interval: t √(6 ε² / 2 ln²2)",
+     _order_interval, STUDENT * EPSILON * sqrt(3) / log(2), TO_ROUNDING),
+    ("interval_of_the_line", "half-width of the line's 95 % band in its middle: t √(6 ε² / 3)",
+     _reach, STUDENT * EPSILON * sqrt(2), TO_ROUNDING),
+)  # fmt: skip

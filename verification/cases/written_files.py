@@ -1,0 +1,225 @@
+"""What files say of a contact that is pressed beside its tip, pushed, twisted and pushed back."""
+
+from __future__ import annotations
+
+import csv
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from functools import cache
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import Any
+
+import h5py
+import numpy as np
+from numpy.typing import NDArray
+
+import semi_analytical
+from contact_results.directory.file_names import CYCLES, FIELDS, INCREMENTS
+from contact_results.result_files import write_result
+from contact_results.stress.extremes import Extreme, extremes
+from contact_results.stress.loaded_bodies import state_of_result
+from contact_results.stress.on_cells import stress_on_cells
+from contact_scene import Body, LoadStep, Scene
+from contact_scene.increment import SCALARS, components
+from contact_scene.residuals import worst
+from verification.judging.case import Case, Check, Level, Required
+from verification.judging.run import SOLVER_TOLERANCE
+from verification.problems import paper_scene as paper
+from verification.problems.layered_scene import coated, film, pressed
+from verification.problems.paper_scene import HERTZ, NORMAL_FORCE, STEEL
+from verification.problems.reference import identity
+
+Field = NDArray[np.float64]
+
+CELLS, COARSE = 24, 16
+MARGIN = 1.2  # half the window over Hertz's radius
+ARM, ACROSS = 1e-5, 2e-5  # of the force [m]
+TORQUE = 5e-3
+PUSH, ASIDE = 50.0, 20.0
+
+
+def _pushed(along: float) -> LoadStep:
+    return LoadStep(tangential_force=(along, ASIDE), increments=2)
+
+
+SCENE = Scene(
+    title="Ball pressed beside its tip, pushed, twisted and pushed to and fro",
+    indenter=paper.paraboloid(STEEL),
+    body=Body(material=STEEL),
+    friction=paper.frictional("", paper.paraboloid(STEEL), STEEL).friction,
+    loading=(
+        LoadStep(
+            normal_force=NORMAL_FORCE,
+            moment=(ARM * NORMAL_FORCE, ACROSS * NORMAL_FORCE),
+            increments=2,
+        ),
+        _pushed(PUSH),
+        LoadStep(torque=TORQUE, increments=2),
+        _pushed(-PUSH),
+        _pushed(PUSH),
+    ),
+)
+# A stiff layer bends: on its underside stress is far from that of the base below it.
+COATED = pressed("Ball on a stiff coating", paper.paraboloid(STEEL), coated(film(4.0, 0.25)))
+
+
+@dataclass(frozen=True, eq=False)
+class _Written:
+    """Rows of tables by their columns, and arrays, read without what writes or loads a run."""
+
+    increments: list[dict[str, str]]
+    cycle: dict[str, str]
+    arrays: Mapping[str, Field]
+
+    def column(self, name: str) -> Field:
+        unit = SCALARS[name].unit or 1
+        return np.array(
+            [
+                [float(row[f"{part} [{unit}]"] or "nan") for part in components(name)]
+                for row in self.increments
+            ]
+        )
+
+
+def written_files(level: Level = Level.QUICK) -> Case:
+    """The case, the same at every level."""
+    return Case(
+        name="written_files",
+        title="What files say",
+        problem="A ball is pressed beside its tip, pushed aside, twisted, and pushed to and fro, "
+        "so that loads and motions have two different components. Its files are read back: loads "
+        "are the sums of the tractions beside them, tables have the numbers of the fields, the "
+        "place of a maximum is where the field has it. Below a stiff coating the sides of the "
+        "interface are parts of what lies above and below it.",
+        runs=(),
+        quantities=(),
+        checks=(
+            _check(
+                "loads", "largest difference of force, push, torque and moments of the table from "
+                "the sums of the tractions, over the largest of each",
+                loads, 10 * SOLVER_TOLERANCE, "equilibrium, met to the tolerance of the solver",
+            ),
+            _check(
+                "columns", "largest difference of a column of the table from the data set of its "
+                "name, over its largest value", columns, 1e-15, "the same numbers, written twice",
+            ),
+            _check(
+                "place_of_f1", "distance of Ruiz's first parameter at the place that the table "
+                "names from its largest value", place_of_f1, 1e-12, "the same cell",
+            ),
+            _check(
+                "sides_of_an_interface", "by how much the largest stress on a side of the "
+                "interface exceeds that of the layer or base that it is part of",
+                sides_of_an_interface, 1e-12, "a part has no larger maximum than the whole",
+            ),
+        ),
+    )  # fmt: skip
+
+
+def _check(
+    name: str, meaning: str, measure: Callable[[], float], allowed: float, because: str
+) -> Check:
+    return Check(
+        name, meaning, "", "files", measure, identity(0.0, "a law of what is written"),
+        Required(allowed, because), 1.0, "1",
+    )  # fmt: skip
+
+
+@cache
+def _written() -> _Written:
+    grid = paper.square_grid(CELLS, MARGIN * HERTZ.contact_radius)
+    result = semi_analytical.solve(SCENE, grid, SOLVER_TOLERANCE)
+    with TemporaryDirectory() as name:
+        directory = Path(name)
+        write_result(result, directory, with_figures=False)
+        with h5py.File(directory / FIELDS) as file:
+            arrays = {
+                f"increments/{key}": np.array(value) for key, value in _of(file, "increments")
+            }
+            arrays |= {
+                f"last_cycle/{key}": np.array(value) for key, value in _of(file, "last_cycle")
+            }
+            arrays |= {axis: np.array(file[axis]) for axis in "xy"}
+        return _Written(_rows(directory / INCREMENTS), _rows(directory / CYCLES)[-1], arrays)
+
+
+def _of(file: h5py.File, group: str) -> Any:
+    found: Any = file[group]
+    return found.items()
+
+
+def _rows(path: Path) -> list[dict[str, str]]:
+    with path.open(newline="", encoding="utf-8") as file:
+        return list(csv.DictReader(file))
+
+
+def loads() -> float:
+    """In every increment."""
+    found = _written()
+    x, y = found.arrays["x"], found.arrays["y"]
+    area = (x[1] - x[0]) * (y[1] - y[0])
+    p = found.arrays["increments/pressure"]
+    q_x, q_y = np.moveaxis(found.arrays["increments/shear"], 1, 0)
+    X, Y = np.meshgrid(x, y, indexing="ij")
+
+    def summed(*fields: Field) -> Field:
+        return area * np.stack([np.sum(field, axis=(1, 2)) for field in fields], axis=-1)
+
+    sums = {
+        "normal_force": summed(p),
+        "tangential_force": summed(q_x, q_y),
+        "torque": summed(X * q_y - Y * q_x),
+        "moment": summed(p * Y, p * X),
+    }
+    return worst(*(_apart(found.column(name), total) for name, total in sums.items()))
+
+
+def columns() -> float:
+    """Of all scalars that the fields have."""
+    found = _written()
+    there = [name for name in SCALARS if f"increments/{name}" in found.arrays]
+    apart = []
+    for name in there:
+        told = found.column(name)
+        stored = found.arrays[f"increments/{name}"].reshape(told.shape).astype(float)
+        if not np.array_equal(np.isnan(told), np.isnan(stored)):
+            return float("nan")
+        apart.append(_apart(np.nan_to_num(told), np.nan_to_num(stored)))
+    return worst(*apart)
+
+
+def _apart(told: Field, stored: Field) -> float:
+    return float(np.max(np.abs(told - stored)) / (np.max(np.abs(stored)) or 1.0))
+
+
+def place_of_f1() -> float:
+    """At the cell nearest to the place."""
+    found = _written()
+    field = found.arrays["last_cycle/ruiz_f1"]
+    cell = tuple(
+        int(np.argmin(np.abs(found.arrays[axis] - float(found.cycle[f"ruiz_f1_{axis} [m]"]))))
+        for axis in "xy"
+    )
+    return float(1 - field[cell] / np.max(field))
+
+
+@cache
+def _extremes() -> dict[tuple[str, str], Extreme]:
+    grid = paper.square_grid(COARSE, MARGIN * HERTZ.contact_radius)
+    state = state_of_result(semi_analytical.solve(COATED, grid, SOLVER_TOLERANCE), 1)
+    depth = COATED.body.layers[0].thickness
+    field = stress_on_cells(state, depths=(0.5 * depth, 1.5 * depth), see_edge=False)
+    return {(e.region, e.measure): e for e in extremes(field, COATED.body)}
+
+
+def sides_of_an_interface() -> float:
+    """Of all measures, over the maximum of the whole; and at one depth, that of the layer."""
+    found, excess = _extremes(), [0.0]
+    depth = COATED.body.layers[0].thickness
+    for whole, side in (("layer 1", "above"), ("base", "below")):
+        for (region, measure), extreme in found.items():
+            if region == f"interface 1 {side}":
+                largest = found[whole, measure].value
+                excess += [(extreme.value - largest) / abs(largest), abs(extreme.depth / depth - 1)]
+    return worst(*(max(value, 0.0) if np.isfinite(value) else value for value in excess))
