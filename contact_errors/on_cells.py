@@ -18,7 +18,7 @@ from contact_errors.estimate import Numbers
 from contact_errors.half_the_cells import Progress, on_wide_cells
 from contact_errors.levels import Levels
 from contact_errors.prescribed import prescribed
-from contact_errors.rules import Lengthscale, Rule, rules_for
+from contact_errors.rules import RIM, Lengthscale, Rule, rules_for
 from contact_errors.values import Values, charged_by_increments, lost_by_steps, values_of
 from contact_results.cycles import fretting_cycles
 from contact_results.remarks import left_out
@@ -134,11 +134,23 @@ class _Cells:
     def carries(self, step: int) -> bool:
         return self._at[step].contact >= 1
 
-    def beside(self, step: int, name: str, rule: Rule, largest: Numbers) -> Mapping[Part, Numbers]:
+    def beside(
+        self, step: int, name: str, rule: Rule, largest: Numbers
+    ) -> Mapping[Part, Numbers] | None:
+        if rule.lengthscale is Lengthscale.LOST and self.result.scene.indenter.rim is not None:
+            return self._at_rim(step, largest)
         if name != "peak_pressure":
             return {}
         left_out = HIGHEST * self._left_out + self._rim_of_film(step)
         return {"cells": left_out * largest}
+
+    def _at_rim(self, step: int, largest: Numbers) -> Mapping[Part, Numbers] | None:
+        """Slip goes with the motions, as these with the radius that cells make of a rim. Where no
+        cell slips there, what pressure drags along does so within one, and nobody tells how far."""
+        cells = self._at[step]
+        if cells.annulus is None and self.result.plan.coupling is not Coupling.NONE:
+            return None
+        return {"cells": RIM.factor * RIM.scatter(cells.contact) * largest}
 
     def _rim_of_film(self, step: int) -> float:
         """What cells leave wrong of a peak at the edge of the contact, over itself; 0 elsewhere."""
@@ -186,6 +198,9 @@ class _Cells:
     def _slides(self, step: int) -> bool:
         """Whether all slips, along the force, which leaves the pressure no cusp."""
         return self.result.steps[step].status is ContactStatus.GROSS_SLIDING
+
+    def coarse(self, step: int) -> bool:
+        return self._at[step].contact < 2 * LEAST[Lengthscale.CONTACT]
 
     def resolved(self, step: int, name: str, rule: Rule, largest: Numbers) -> bool:
         cells, lengthscale = self._at[step], rule.lengthscale
