@@ -31,8 +31,8 @@ LIMIT = 5.0
 SLOPE, SCATTER, OF_REFERENCE = 0.3, 0.4, 1.2
 EPSILON = SCATTER / sqrt(14)
 U = 2.6
-# Student's t that 97.5 % of one degree of freedom is below: cot(π/40).
-STUDENT = 1 / np.tan(np.pi / 40)
+# Student's t that 97.5 %, or 95 %, of one degree of freedom are below.
+STUDENT, ONE_SIDED = 1 / np.tan(np.pi / 40), 1 / np.tan(np.pi / 20)
 HAND = "worked by hand"
 TO_ROUNDING = Required(1e-9, "the same numbers to rounding")
 PRINTED = Required(0.05, "two digits are printed")
@@ -118,6 +118,10 @@ def _order_interval() -> float:
     return observed_order(LEVELS, _errors()).half_width
 
 
+def _order_margin() -> float:
+    return observed_order(LEVELS, _errors()).margin
+
+
 def _reach() -> float:
     return error_line(LEVELS, _errors()).reach
 
@@ -137,6 +141,8 @@ _EXAMPLES: tuple[tuple[str, str, Callable[[], float], float, Required], ...] = (
      partial(_limit, 1), EPSILON * hypot(sqrt(7 * 256 / 115), 8), TO_ROUNDING),
     ("interval_of_the_order", "half-width of the order's 95 % interval: t √(6 ε² / 2 ln²2)",
      _order_interval, STUDENT * EPSILON * sqrt(3) / log(2), TO_ROUNDING),
+    ("margin_of_the_order", "how far below it the order may be at 95 %: t₁ √(6 ε² / 2 ln²2)",
+     _order_margin, ONE_SIDED * EPSILON * sqrt(3) / log(2), TO_ROUNDING),
     ("interval_of_the_line", "half-width of the line's 95 % band in its middle: t √(6 ε² / 3)",
      _reach, STUDENT * EPSILON * sqrt(2), TO_ROUNDING),
 )  # fmt: skip

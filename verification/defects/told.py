@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
-
-from scipy.special import stdtrit
 
 from contact_results.files import cycle_table, increment_table
 from contact_results.stress import extremes
@@ -45,11 +44,14 @@ def _finest_exchanged(patches: Patches) -> None:
 
 
 def _one_sided(patches: Patches) -> None:
-    patches.function(
-        observed_order,
-        "_half_width",
-        lambda _: lambda deviation, freedom: float(stdtrit(freedom, 0.95) * deviation),
-    )
+    def wrap(whole: Any) -> Any:
+        def known(*given: Any) -> Any:
+            order = whole(*given)
+            return replace(order, half_width=order.margin)
+
+        return known
+
+    patches.function(observed_order, "_known_to", wrap)
 
 
 def _weights_inverted(patches: Patches) -> None:
