@@ -52,7 +52,7 @@ def by_cells(rule: Rule, difference: Numbers, ratio: float, scatter: Numbers) ->
     """
     richardson = difference / (ratio**rule.order - 1)
     mean = (rule.weight * scatter**2 + richardson**2) / (rule.weight + 1)
-    return rule.factor * np.sqrt(mean)
+    return np.maximum(rule.factor * np.sqrt(mean), rule.least * scatter)
 
 
 def by_increments(rule: Rule, difference: Numbers, scatter: Numbers) -> Numbers:

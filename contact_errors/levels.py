@@ -60,10 +60,6 @@ class Ground(Protocol):
     def scatter(self, step: int, rule: Rule) -> Numbers | float:
         """The envelope of a rule with so many as there are on its length scale."""
 
-    def coarse(self, step: int) -> bool:
-        """Whether half as many are too few for the contact at the end of a step, so that a small
-        difference to those may be chance."""
-
     def resolved(self, step: int, name: str, rule: Rule, largest: Numbers) -> bool:
         """Whether differences between levels mean anything."""
 
@@ -120,11 +116,8 @@ class Levels:
             return estimate.UNKNOWN
         scatter = self._scatter(step, name, rule, largest)
         unsolved = estimate.unsolved(self.tolerance, largest, scale(name, self.values[step]))
-        by_cells = estimate.by_cells(rule, change, self.ratio, scatter)
-        if self.ground.coarse(step):
-            by_cells = np.maximum(by_cells, rule.coarse * scatter)
         parts: dict[Part, Numbers] = {
-            self.ground.part: by_cells,
+            self.ground.part: estimate.by_cells(rule, change, self.ratio, scatter),
             "tolerance": unsolved,
         }
         apart = estimate.contradicts(change, largest, unsolved)

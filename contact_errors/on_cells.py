@@ -199,9 +199,6 @@ class _Cells:
         """Whether all slips, along the force, which leaves the pressure no cusp."""
         return self.result.steps[step].status is ContactStatus.GROSS_SLIDING
 
-    def coarse(self, step: int) -> bool:
-        return self._at[step].contact < 2 * LEAST[Lengthscale.CONTACT]
-
     def resolved(self, step: int, name: str, rule: Rule, largest: Numbers) -> bool:
         cells, lengthscale = self._at[step], rule.lengthscale
         if cells.contact < LEAST[Lengthscale.CONTACT]:

@@ -197,9 +197,6 @@ class _Elements:
         """Whether all slips, along the force, which leaves the pressure no cusp."""
         return self.result.steps[step].status is ContactStatus.GROSS_SLIDING
 
-    def coarse(self, step: int) -> bool:
-        return self._contact(step) < 2 * LEAST[Lengthscale.CONTACT]
-
     def resolved(self, step: int, name: str, rule: Rule, largest: Numbers) -> bool:
         contact, stick, lengthscale = self._contact(step), self._stick(step), rule.lengthscale
         if contact < LEAST[Lengthscale.CONTACT]:

@@ -56,8 +56,7 @@ class Rule:
     path_factor      P
     path_scatter     s
     charge           c; 1 where g alone counts
-    coarse           least error over e where half as many cells are too few to differ by more than
-                     chance
+    least            of e, below which no error is stated: a small difference may be chance
     floor            of the number over itself, what no number of cells takes away
     lengthscale      what m counts
     """
@@ -70,7 +69,7 @@ class Rule:
     path_scatter: float = 0.1
     lengthscale: Lengthscale = Lengthscale.CONTACT
     charge: float = 1.0
-    coarse: float = 0.0
+    least: float = 0.0
     floor: float = 0.0
 
     def scatter(self, cells: float) -> float:
@@ -78,7 +77,7 @@ class Rule:
         return self.envelope * cells**-self.order
 
 
-PEAK = Rule(2, 0.25, 0.5, 1.2, path_factor=2.0, coarse=1.0)
+PEAK = Rule(2, 0.25, 0.5, 1.2, path_factor=2.0, least=1.0)
 APPROACH = Rule(2, 0.05, 1, 1.8, path_factor=1.5)
 RADIUS = Rule(1.25, 0.22, 4, 1.5, path_factor=1.5, lengthscale=Lengthscale.FILM)
 STICK = Rule(1.25, 0.25, 4, 3.2, 2.0, 1.0, Lengthscale.STICK)
