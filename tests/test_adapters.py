@@ -173,3 +173,27 @@ def test_increments_are_refined_with_the_cells_where_the_way_matters(
         with pytest.raises(CannotDo, match="enough"):
             surface.answer(posed(name), level)
     assert taken == [[10] * 4, [40] * 4, [1] * 4]
+
+
+def test_increments_are_refined_with_the_elements_where_the_way_matters(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    taken: list[list[int | None]] = []
+
+    def solve(scene: Scene, on: object) -> None:
+        taken.append([step.increments for step in scene.loading])
+        raise CannotDo("enough")
+
+    monkeypatch.setattr(section, "solve", solve)
+    for name, level in (
+        ("paper_figure_4", 0),
+        ("paper_figure_4", 2),
+        ("torsion", 2),
+        ("cone_contact", 2),
+    ):
+        with pytest.raises(CannotDo, match="enough"):
+            section.answer(posed(name), level)
+    coarse, fine, *others = taken
+    assert all(count and count > 1 for count in coarse)
+    assert fine == [4 * count for count in coarse if count]
+    assert others == [[1] * 4, [None]]

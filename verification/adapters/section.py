@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from contact_scene import FiniteElementDiscretisation
+from contact_scene import FiniteElementDiscretisation, Scene
 from contact_scene.solver_errors import UnsupportedScene
-from fem_reference import solve
+from fem_reference import plan, solve
 from verification.adapters.own_numbers import scene_of
 from verification.adapters.rings import answer_on_rings
 from verification.challenge.answer import Answer, Solver
@@ -23,7 +23,7 @@ def answer(posed: Posed, level: int) -> Answer:
     elements = COARSEST * 2**level
     on = FiniteElementDiscretisation(elements_per_radius=elements, harmonics=HARMONICS)
     try:
-        result = solve(scene_of(posed), on)
+        result = solve(_refined(scene_of(posed), level), on)
     except UnsupportedScene as error:
         raise CannotDo(str(error)) from error
     end = result.steps[-1]
@@ -31,3 +31,18 @@ def answer(posed: Posed, level: int) -> Answer:
     at_edge = int(np.searchsorted(end.radii, end.contact_radius))
     h = float(sides[min(at_edge, sides.size) - 1])
     return answer_on_rings(posed, result.steps, h)
+
+
+def _refined(scene: Scene, level: int) -> Scene:
+    """Where the way matters, the increments of the plan on the coarsest mesh, twice as many, …, so
+    that finer levels do not stall at the error of the path; as many as the scene names."""
+    decided = plan(scene)
+    steps = tuple(
+        step.model_copy(update={"increments": count * 2**level})
+        if matters and step.increments is None
+        else step
+        for step, count, matters in zip(
+            scene.loading, decided.increments, decided.path_matters, strict=True
+        )
+    )
+    return scene.model_copy(update={"loading": steps})
