@@ -2,6 +2,7 @@
 
 import os
 
+ONE = "1"
 VARIABLES = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
 
 
@@ -17,4 +18,9 @@ def one_thread(*, always: bool = False) -> None:
     """
     for name in VARIABLES:
         if always or name not in os.environ:
-            os.environ[name] = "1"
+            os.environ[name] = ONE
+
+
+def is_one_thread() -> bool:
+    """Whether the environment says so."""
+    return all(os.environ.get(name) == ONE for name in VARIABLES)

@@ -1,12 +1,15 @@
 """Verifying one case builds and imports that case: not the others, no study, no solver but its."""
 
 import ast
+import json
+import os
 import subprocess
 import sys
 from pathlib import Path
 
 import pytest
 
+from contact_results.one_thread import ONE, VARIABLES
 from verification.cases.catalogue import CASES, case_of
 from verification.judging.case import Level
 
@@ -22,6 +25,7 @@ import sys
 LocalWorkers.submit = submit
 main(sys.argv[1:])
 """
+MAIN = "from slipstick.cli.application import main\nmain()"
 JUDGED = """
 import sys
 from verification.cases.judged_case import CaseToJudge
@@ -34,7 +38,7 @@ def loaded(program: str, *arguments: str, cwd: Path) -> set[str]:
     """Names of the modules that a program lists in its last line."""
     ended = subprocess.run(
         [sys.executable, "-c", program, *arguments], capture_output=True, text=True, check=True,
-        cwd=cwd,
+        cwd=cwd, env=os.environ | dict.fromkeys(VARIABLES, ONE),
     )  # fmt: skip
     return set(ended.stdout.splitlines()[-1].split())
 
@@ -55,6 +59,16 @@ def test_one_case_loads_no_other(program: str, tmp_path: Path) -> None:
         "verification.defects", "verification.peers", "verification.external_codes",
         "verification.benchmarks", "verification.report.page", "verification.report.svg",
     )  # fmt: skip
+
+
+def test_one_case_needs_no_worker_and_is_the_same(tmp_path: Path) -> None:
+    no_worker = AT_WORK.replace("print(*sys.modules)", "raise AssertionError")
+    found = []
+    for name, program in (("none", no_worker), ("one", MAIN)):
+        options = ("--workers", "1") if name == "one" else ()
+        loaded(program, "verify", "dissimilar_bodies", "-o", name, *options, cwd=tmp_path)
+        found.append(json.loads((tmp_path / name / "report.json").read_bytes())["cases"])
+    assert found[0] == found[1]
 
 
 def cases_of(module: Path) -> set[str]:

@@ -45,7 +45,8 @@ def verify(
             "--workers",
             metavar="N",
             min=1,
-            help="Cases at a time, each in a process of its own; one per core if absent.",
+            help="Cases at a time, each in a process of its own; one per core if absent, "
+            "and for a case alone none.",
         ),
     ] = None,
     fresh: Annotated[
@@ -74,11 +75,12 @@ def verify(
     killed verification leaves cannot be taken for its result. A case whose worker dies has failed;
     the others are finished.
     """  # fmt: skip
+    from contact_results.one_thread import is_one_thread
     from slipstick.cli.name_mistakes import unknown_names
     from verification.cases.catalogue import CASES, choose
     from verification.judging.case import Level
     from verification.judging.outcome import Status
-    from verification.running.local_workers import cores
+    from verification.running.local_workers import ThisProcess, cores
 
     chosen = Level[level.name]
     listing = f"slipstick verify --list --level {level}"
@@ -91,6 +93,8 @@ def verify(
     directory = output or Path("reports") / (f"{level}-selection" if names else level)
     places = None if studies is None else (studies,)
     pool = workers_at(scheduler, workers or cores())
+    if len(cases) == 1 and workers is None and scheduler is None and is_one_thread():
+        pool = ThisProcess()  # records depend on the number of threads
     report = _verified(cases, level, names or [], directory, pool, places, fresh=fresh)
     _print_outcome(report, directory)
     if report.status is Status.FAIL:

@@ -65,6 +65,24 @@ class LocalWorkers:
         return worker
 
 
+class ThisProcess:
+    """No worker: what is alone has no others to be kept from harm, and pays for no second start."""
+
+    elsewhere = False
+
+    def submit(self, compute: Callable[..., T], *arguments: object) -> Future[T]:
+        """Call the function now."""
+        future: Future[T] = Future()
+        try:
+            future.set_result(compute(*arguments))
+        except Exception as error:
+            future.set_exception(error)
+        return future
+
+    def close(self) -> None:
+        """Nothing was begun."""
+
+
 def _remove_semaphores_silently() -> None:
     """Start the process that removes our semaphores if we are stopped; it warns of each as leaked.
 
