@@ -37,6 +37,7 @@ COMMANDS: dict[str, LazyCommand] = {
         "export": "Write a run or a stress for MATLAB, Excel or ParaView.",
         "verify": "Measure the accuracy against closed forms and write the report.",
         "compare": "Say what changed since the numbers that were accepted, or since a report.",
+        "history": "Draw accuracy and cost over commits, and say what became worse.",
         "baseline": "List the accepted numbers, or accept those of a report.",
         "bench": "Measure what the method costs, beside other codes in turn.",
         "challenge": "List or export problems for other codes to solve.",

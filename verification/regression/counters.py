@@ -22,7 +22,7 @@ FEWEST = 3  # cases
 LEAST_LOOPS = 20.0  # of a case whose time means something
 
 
-def counter_changes(case: CaseOutcome, recorded: Recording) -> Iterator[CounterChange]:
+def counter_changes(case: CaseOutcome | Recording, recorded: Recording) -> Iterator[CounterChange]:
     """The counts of all solves together that differ from the recorded ones; solves that are new or
     gone are left out, they are told apart."""
     then = {run.label: run for run in recorded.runs}

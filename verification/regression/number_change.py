@@ -74,7 +74,7 @@ def _kind(verdict: Verdict, was: RecordedQuantity, difference: float, allowed: f
     # Before what is judged otherwise: derived tolerances grow with the error.
     ends = verdict.name in ENDS_OF_SOLVES
     now = verdict.model_copy(update={"reference": was.reference})
-    if not ends and _grows(was, now, WORSE_BY, NOISE * verdict.scale):
+    if not ends and grows(was, now, WORSE_BY, NOISE * verdict.scale):
         return ChangeKind.WORSE
     if any(_remarks(verdict, was)):
         return ChangeKind.DRIFT
@@ -82,7 +82,7 @@ def _kind(verdict: Verdict, was: RecordedQuantity, difference: float, allowed: f
         return ChangeKind.UNCHANGED
     if difference <= max(NOISE * verdict.scale, NOISE_OF_TOLERANCE * allowed):
         return ChangeKind.UNCHANGED
-    better = _grows(verdict, was, BETTER_BY, BETTER_BY_PART * allowed)
+    better = grows(verdict, was, BETTER_BY, BETTER_BY_PART * allowed)
     return ChangeKind.BETTER if better else ChangeKind.DRIFT
 
 
@@ -99,7 +99,7 @@ def _is_farther(verdict: Verdict, was: RecordedQuantity) -> bool:
     return abs(verdict.value - verdict.reference) > abs(was.value - was.reference)
 
 
-def _grows(
+def grows(
     small: Verdict | RecordedQuantity, large: Verdict | RecordedQuantity, by: float, least: float
 ) -> bool:
     """Whether the error of one is so much larger than that of the other that somebody should know
