@@ -85,6 +85,7 @@ class Entry:
     words   what it is about; conclusion: what follows
     source  of what was published
     shown   changes of the scene that is drawn
+    more    what else stands below the claims, as text
     """
 
     scene: str
@@ -95,6 +96,7 @@ class Entry:
     conclusion: str
     solver: str = "semi-analytical"
     shown: tuple[str, ...] = ()
+    more: Callable[[Entry], str] | None = None
     solved: dict[tuple[str, ...], Solved] = field(default_factory=dict, compare=False)
 
     def of(self, changes: tuple[str, ...]) -> Solved:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from math import pi
 
 from gallery_claims import Claim, Entry, Ours, Verdict
+from gallery_stress import coating, deflection, edge_tension, tensions_by_thickness
 
 GPA, MPA, MM, UM, UJ = 1e9, 1e6, 1e-3, 1e-6, 1e-6
 DIFFERS = Verdict.DIFFERS
@@ -436,5 +437,69 @@ ENTRIES = (
             Claim("twist", "closed form", 1.854404696, 1e-8, scalar("twist"), "mrad", 1e-3),
         ),
         "The twist and the edge of stick are those of the closed form.",
+    ),
+    Entry(
+        "road",
+        "Five layers of road",
+        "A tyre presses 0.95 MPa on a disc of 0.3 m across. A public program prints how far the "
+        "surface sinks below the middle and beside it; our frequency response of the layers "
+        "says it by one integral. The figure has a rigid plate of the same weight instead.",
+        "lewiswan/WuWan, a program for multilayered elasticity; integral of this project's "
+        "references, 10 digits",
+        tuple(
+            claim
+            for at, exact, printed in (
+                (0.0, 0.4420892884, 0.44186744),
+                (0.3, 0.3088718861, 0.30873646),
+                (0.6, 0.2167442187, 0.21676407),
+            )
+            for claim in (
+                Claim(
+                    f"deflection at r = {at:g} m",
+                    by,
+                    number,
+                    5e-9 if by == "printed" else 1e-9,
+                    deflection(at, 0.15, 0.95e6),
+                    "mm",
+                    MM,
+                    verdict=DIFFERS if by == "printed" else Verdict.AGREES,
+                )
+                for by, number in (("quadrature", exact), ("printed", printed))
+            )
+        ),
+        "The program is 0.05 % low below the tyre and 0.01 % high at 0.6 m. A rigid plate sinks "
+        "less than the middle of the disc, and lifts off there: the road bends below its rim.",
+    ),
+    Entry(
+        "torn_coating",
+        "Where a coating tears",
+        "A ball slides over a coating: behind it the surface is pulled apart, at the interface it "
+        "is sheared. How much depends on how thick and how stiff the coating is.",
+        "this project: the edge by rays, the layer by its Hankel transforms, the pressure of an "
+        "integral equation, none of it by cells",
+        tuple(
+            Claim(
+                f"σ₁ on the trailing edge / p_H, E₁/E₂ = {ratio:g}, h = {thickness:g} a_H",
+                "rays and transforms",
+                tension,
+                1e-6,
+                edge_tension,
+                changes=coating(ratio, thickness),
+            )
+            for ratio, thickness, tension in (
+                (2.0, 1.0, 0.375456),
+                (0.5, 1.0, 0.223980),
+                (4.0, 0.3, 0.442676),
+            )
+        ),
+        "The tension behind a ball on a stiff coating is least where that is about as thick as the "
+        "contact is wide, and grows towards thin films and thick ones; a soft coating has about "
+        "half of it at any thickness. The shear at the interface falls with its depth.",
+        shown=(
+            "friction={ coefficient = 0.1 }",
+            'loading=[{ normal_force = "1 kN", increments = 10 }, '
+            '{ tangential_force = ["95 N", 0], increments = 8 }]',
+        ),
+        more=tensions_by_thickness,
     ),
 )

@@ -78,6 +78,7 @@ def page(entry: Entry, judged: list[Found], seconds: float) -> str:
             f"![Tractions of the contact]({entry.scene}.png)\n",
             table(("number", "published", "by", "ours", "verdict"), rows),
             f"{entry.conclusion}\n",
+            *([entry.more(entry)] if entry.more else []),
             f"*Source*: {entry.source}.\n",
             f"## Again, in {max(1, round(seconds))} s\n",
             f"    slipstick run docs/gallery/{entry.scene}.toml{solver} --output "

@@ -1,0 +1,127 @@
+"""What no increment reports: deflection under a given pressure, stress of a sliding contact."""
+
+from __future__ import annotations
+
+from functools import cache
+from typing import TYPE_CHECKING
+
+import numpy as np
+from made_reference import table
+from scipy.special import ellipe, ellipk, j0, j1
+
+from contact_results.stress.invariants import principal_stresses
+from contact_scene import SurfaceDiscretisation, read_scene_file
+from semi_analytical import solve_discretised
+from semi_analytical.frf.stack import stack_of
+from semi_analytical.frf.surface import half_space_scalars, scalars
+from semi_analytical.stress.field import subsurface
+from semi_analytical.stress.near_edge import EdgeNotSeen, near_edge
+
+if TYPE_CHECKING:
+    from gallery_claims import Entry, Ours, Solved
+
+PANELS, DEEPEST = 100, 30.0  # of the integral; where the layers have faded, over the outermost
+HERTZ = 3.1684041e9, 0.388196803830797e-3  # p_H and a_H of the ball on the bare substrate
+CLOSE = 2.4  # side of the window over the contact radius
+CUT = 1e-3  # of a tension: as much as it varies with where the edge lies in its cells
+MU, CELLS = 0.1, (64, 128)
+THICKNESSES, RATIOS = (0.125, 0.25, 0.5, 1.0, 2.0), (0.5, 2.0, 4.0)  # over a_H; E1/E2
+
+
+def deflection(at: float, radius: float, pressure: float) -> Ours:
+    """Below a point of a disc with an even pressure, or beside it [length].
+
+    at  distance from the middle, not on the rim
+    """
+
+    def of(solved: Solved) -> tuple[float, float]:
+        stack = stack_of(solved.result.scene.body)
+        fine, coarse = (_by_layers(stack, at, radius, panels) for panels in (PANELS, PANELS // 2))
+        G, nu = stack.outer
+        there = _by_half_space(at / radius) * 2 * (1 - nu) * radius / (np.pi * G)
+        return pressure * (there + fine), pressure * abs(fine - coarse)
+
+    return of
+
+
+def _by_half_space(at: float) -> float:
+    """Of the outermost material: (1-ν) p a / G over π/2 (Johnson 1985, eqs. 3.29)."""
+    if at <= 1:
+        return float(ellipe(at**2))
+    return at * float(ellipe(at**-2) - (1 - at**-2) * ellipk(at**-2))
+
+
+def _by_layers(stack, at: float, radius: float, panels: int) -> float:
+    """What the layers change: a ∫ ΔC22 J1(αa) J0(αr) dα by Gauss's rule."""
+    nodes, weights = np.polynomial.legendre.leggauss(16)
+    ends = np.linspace(0.0, DEEPEST / stack.layers[0].thickness, panels + 1)
+    half = np.diff(ends)[:, None] / 2
+    alpha = ends[:-1, None] + half * (1 + nodes)
+    change = scalars(stack, alpha).c22 - half_space_scalars(stack.outer, alpha).c22
+    waves = change * j1(alpha * radius) * j0(alpha * at)
+    return radius * float(np.sum(half * weights * waves))
+
+
+@cache
+def _sliding(changes: tuple[str, ...], cells: int) -> tuple[float, float]:
+    """Largest tension on the edge of the contact and largest shear at the interface, over p_H,
+    under µp along x with the pressure of pressing without friction."""
+    from gallery_claims import SCENES
+
+    contents = read_scene_file(SCENES / "torn_coating.toml", changes)
+    rough = solve_discretised(contents.scene, SurfaceDiscretisation(cells=(32, 32)))
+    side = CLOSE * rough.steps[-1].contact_radius
+    fineness = SurfaceDiscretisation(cells=(cells, cells), window=(side, side))
+    result = solve_discretised(contents.scene, fineness)
+    pressure = result.steps[-1].pressure
+    shear = np.stack([MU * pressure, np.zeros_like(pressure)])
+    stack = stack_of(contents.scene.body)
+    edge = near_edge(stack, result.grid, pressure, shear)
+    depth = contents.scene.body.layers[0].thickness
+    at_interface = subsurface(stack, result.grid, pressure, shear, (depth,)).stress[0]
+    return (
+        float(np.max(principal_stresses(edge.stress())[0])) / HERTZ[0],
+        float(np.max(np.abs(at_interface[4]))) / HERTZ[0],
+    )
+
+
+def _with_error(changes: tuple[str, ...], which: int) -> tuple[float, float]:
+    """On the finer cells, and twice what half of them changes, but no less than how the edge cuts
+    cells matters."""
+    coarse, fine = (_sliding(changes, cells)[which] for cells in CELLS)
+    return fine, max(2 * abs(fine - coarse), CUT * fine)
+
+
+def coating(ratio: float, thickness: float) -> tuple[str, ...]:
+    """Changes of the scene. thickness over a_H."""
+    return (
+        f'body.layers[1].material.young_modulus="{210 * ratio:g} GPa"',
+        f'body.layers[1].thickness="{thickness * HERTZ[1] * 1e3:.12g} mm"',
+    )
+
+
+def edge_tension(solved: Solved) -> tuple[float, float]:
+    """Largest tension on the trailing edge over p_H."""
+    return _with_error(solved.changes, 0)
+
+
+def _text(ratio: float, thickness: float, which: int) -> str:
+    try:
+        value, error = _with_error(coating(ratio, thickness), which)
+    except EdgeNotSeen:
+        return "–"
+    return f"{value:.4f} ± {error:.4f}"
+
+
+def tensions_by_thickness(_: Entry) -> str:
+    """Tension at the trailing edge and shear at the interface, by coating."""
+    rows = [
+        (f"{thickness:g}", *(_text(ratio, thickness, n) for n in (0, 1) for ratio in RATIOS))
+        for thickness in THICKNESSES
+    ]
+    heads = [f"{name}, E₁/E₂ = {ratio:g}" for name in ("σ₁ / p_H", "τ / p_H") for ratio in RATIOS]
+    return (
+        "Largest tension σ₁ on the trailing edge and largest shear τ_xz at the interface while the "
+        f"ball slides with µ = {MU:g}, by thickness (–: so thin a film bends the pressure within "
+        f"these cells, and no edge is seen):\n\n{table(('h / a_H', *heads), rows)}"
+    )
