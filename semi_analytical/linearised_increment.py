@@ -98,7 +98,7 @@ class LinearisedIncrement:
         missing[:2] = natural.slipped - zones.tangent * (
             zones.turning * zones.along(base.tractions)
         )
-        missing[2] = np.where(natural.contact, -natural.gap, 0.0)
+        missing[2] = np.where(zones.contact > 0, -natural.gap, 0.0)
 
         def apply(v: Field) -> tuple[Field, Field]:
             free = self._unknowns(v)
