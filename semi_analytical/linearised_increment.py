@@ -80,7 +80,7 @@ class LinearisedIncrement:
         bound = problem.friction_limit(p)
         if load.exhausts(bound):
             raise NotConverged("the coupled increment", 0, np.inf, 0.0)
-        t = zones.tractions(np.concatenate([tractions[:2] * zones.stick, p[None]]))
+        t = zones.tractions(zones.free(np.concatenate([tractions[:2], p[None]])))
         images = self._images[: len(self._shifts), :2]
         forces = np.array([load.forces(image) for image in images])
         forces = forces.reshape(len(images), len(images))
