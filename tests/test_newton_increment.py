@@ -1,5 +1,7 @@
 """Newton's method for pressure and shear at once: product, derivative, start and cost."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from contact_scenes import grid
@@ -90,6 +92,45 @@ def test_a_step_near_the_solution_squares_the_error(seed, rng):
     assert left(1e-5) < 30 * 1e-10
 
 
+@pytest.mark.parametrize("seed", range(3))
+def test_a_step_closes_the_gap_of_its_whole_zone(seed):
+    """Also of cells that would let go at the point it starts from."""
+    contact = DenseContact(seed, 0.3)
+    problem = contact.problem(*LOADS)
+    solution = contact.solved(*LOADS, solver=solve_together)
+    exact = np.concatenate([solution.shear, solution.pressure[None]])
+    at = Point(exact, problem.together(exact), solution.approach, solution.motion)
+    zones = Zones.of(Natural.at(at, problem), problem)
+    pressed = zones.contact > 0
+    t = exact * np.where(np.cumsum(pressed).reshape(pressed.shape) % 2 == 0, 0.2, 1.0)
+    base, _ = newton_increment._at(problem, t, solution.motion)
+    natural = Natural.at(base, problem)
+    assert np.any(pressed & ~natural.contact)
+    step = LinearisedIncrement(problem, zones).solved(base, natural, 1e-13)
+    gap = problem.gap + base.displacements[2] + step.displacements[2]
+    closure = np.broadcast_to(base.closure + step.closure, gap.shape)
+    np.testing.assert_allclose(gap[pressed], closure[pressed], atol=1e-9)
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_slip_that_has_turned_is_kept_where_its_direction_is_taken_a_little_wrong(seed):
+    """But for the square of the angle."""
+    contact = DenseContact(seed, 0.3)
+    problem = contact.problem(*LOADS)
+    solution = contact.solved(*LOADS, solver=solve_together, tolerance=1e-13)
+    exact = np.concatenate([solution.shear, solution.pressure[None]])
+    at = Point(exact, problem.together(exact), solution.approach, solution.motion)
+    zones, angle = Zones.of(Natural.at(at, problem), problem), 1e-3
+
+    def turned(v):
+        return np.cos(angle) * v + np.sin(angle) * np.stack([-v[1], v[0]])
+
+    wrong = replace(zones, tangent=turned(zones.tangent), pulled=turned(zones.pulled))
+    kept = LinearisedIncrement(problem, wrong).admissible(exact)
+    assert np.any(solution.in_slip)
+    np.testing.assert_allclose(kept, exact, atol=angle**2 * np.max(exact))
+
+
 def test_where_newton_stalls_the_alternation_takes_over(monkeypatch):
     contact = DenseContact(3, 0.3)
     monkeypatch.setattr(newton_increment, "MOST_STEPS", 0)
@@ -165,3 +206,15 @@ def test_a_coupled_increment_takes_few_products():
     increments = solve(described, grid(64), TOLERANCE).increments
     assert all(increment.halvings == 0 for increment in increments)
     assert np.mean([increment.convolutions for increment in increments]) < 62
+
+
+def test_on_many_cells_newton_alone_leads_to_the_end(monkeypatch):
+    """In half more products than on a sixth of the cells along each side, at most."""
+    monkeypatch.setattr(globalisation, "solve_coupled", None)
+    described = scene(press(increments=5), push(0.2, increments=1))
+    products = {}
+    for cells in (64, 384):
+        increments = solve(described, grid(cells), TOLERANCE).increments
+        assert all(increment.halvings == 0 for increment in increments)
+        products[cells] = sum(increment.convolutions for increment in increments)
+    assert products[384] < 1.5 * products[64]
