@@ -16,6 +16,7 @@ from contact_results.cycles import fretting_cycles
 from contact_scene.solver_errors import SolverError
 from contact_scene.stated_error import EXACT, Companion, Part, StatedError, StatedErrors
 from radial import Increment, Result, solve
+from radial.plan import RINGS
 
 # Without friction both levels are at the end of what double precision gives: errors are as large as
 # their difference, or as what residuals and round-off leave. With friction they fall at least as
@@ -26,8 +27,8 @@ TWICE, HALF = 2, 0.5
 # Of the contact radius: as well as rings tell a front, and half increments where it stands at
 # their end.
 FRONT = 1e-3
-# The same of the edge of a pushed contact, which rings do not follow.
-EDGE = 1e-3
+# Rings of a pushed contact follow neither: its front is known to a quarter of one.
+OF_RING, EDGE = 0.25, 1e-3
 CUSP = 2.0  # of a pushed contact's pressure on the axis, which falls more slowly with the rings
 _QUADRATURE: Part = "quadrature"
 _INCREMENTS: Part = "increments"
@@ -91,7 +92,9 @@ def _stated(
     by_increments: float | None, *, pushed: bool,
 ) -> StatedError:  # fmt: skip
     size = np.maximum(np.abs(values[name]), scale(name, values))
-    front: Numbers | float = _of_front(name, values) if part == _INCREMENTS else 0.0
+    front: Numbers | float = 0.0
+    if part == _INCREMENTS:
+        front = _of_front(name, values, OF_RING / RINGS if pushed else FRONT)
     if pushed:
         of_edge = {"contact_radius": 1, "contact_area": 2}.get(name, 0)
         front = front + EDGE * of_edge * values[name]
@@ -105,9 +108,12 @@ def _stated(
     return stated(parts, converged=True)
 
 
-def _of_front(name: str, values: Values) -> Numbers | float:
-    """By what rings leave a radius of the stick, and the area within, uncertain."""
-    uncertain = FRONT * values["contact_radius"]
+def _of_front(name: str, values: Values, share: float) -> Numbers | float:
+    """By what rings leave a radius of the stick, and the area within, uncertain.
+
+    share  of the contact radius
+    """
+    uncertain = share * values["contact_radius"]
     if name == "stick_area":
         return np.asarray(2 * np.pi * values["stick_radius"] * uncertain + np.pi * uncertain**2)
     return uncertain if name == "stick_radius" else 0.0

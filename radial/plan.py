@@ -38,6 +38,7 @@ class Plan:
     increments  how many each loading step takes
     effects     every effect with its reason, as shown to people
     direction   unit vector of the tangential load, (1, 0) without
+    still       steps before the contact is pushed
     rings, angles  over a pushed contact, and on its half circle
     """
 
@@ -47,8 +48,14 @@ class Plan:
     increments: tuple[int, ...]
     effects: tuple[Effect, ...]
     direction: tuple[float, float] = (1.0, 0.0)
+    still: int = 0
     rings: ClassVar[int] = RINGS
     angles: ClassVar[int] = ANGLES
+
+    @property
+    def turned(self) -> int:
+        """Increments in which the contact is pushed."""
+        return sum(self.increments[self.still :])
 
     @property
     def sheared(self) -> bool:
@@ -86,7 +93,8 @@ def plan(scene: Scene) -> Plan:
         effect.load_history(rubs or twists or pushed),
     )
     increments = _pushed_increments(scene) if pushed else _increments(scene, rubs)
-    return Plan(rubs, twists, pushed, increments, effects, _direction(ramps))
+    still = next((n for n, ramp in enumerate(ramps) if any(ramp.tangential.end)), len(ramps))
+    return Plan(rubs, twists, pushed, increments, effects, _direction(ramps), still)
 
 
 def _direction(ramps: tuple[LoadRamp, ...]) -> tuple[float, float]:

@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from radial.coupling import Coupling
-from radial.ring_energies import transforms, unit_energies
+from radial.ring_energies import blocks, transforms, unit_energies
 
 Array = NDArray[np.float64]
 
@@ -37,11 +37,7 @@ def ring_compliance(
         (coupling.across - coupling.direct) / 4,
     )
     crossed = coupling.crossed / 2
-    fields = None
-    if coupling.bodies.layered:
-        waves = coupling.bodies.waves(radius, max(1.0, nodes[-1]))
-        fields = transforms(nodes, highest, waves)
-        along, c12, c22, across = waves.rule[1] * coupling.added(waves, radius)
+    added = _of_layers(coupling, nodes, radius, highest) if coupling.bodies.layered else None
     for m, block in enumerate(found):
         below = abs(m - 1)
         pp, qq = mean * unit.alike[below], mean * unit.alike[m + 1]
@@ -49,13 +45,8 @@ def ring_compliance(
         # Of m = 0 only J_{-1} = -J_1 is left to P.
         zp = crossed * unit.stepped[below].T if m else -crossed * unit.stepped[0]
         zq = -crossed * unit.stepped[m]
-        if fields is not None:
-            sign = 1 if m else -1
-            p, q, z = sign * fields[below].T, fields[m + 1].T, fields[m].T
-            added, apart = (along + across) / 4, (across - along) / 4
-            pp, qq, pq = pp + (p * added) @ p.T, qq + (q * added) @ q.T, pq + (p * apart) @ q.T
-            zz = zz + (z * c22) @ z.T
-            zp, zq = zp + (z * c12 / 2) @ p.T, zq - (z * c12 / 2) @ q.T
+        if added is not None:
+            pp, qq, pq, zz, zp, zq = np.add((pp, qq, pq, zz, zp, zq), added[m])
         block[0, 0] = pp + qq + pq + pq.T
         block[2, 2], block[2, 0] = zz, zp + zq
         block[0, 2] = block[2, 0].T
@@ -64,3 +55,25 @@ def ring_compliance(
             block[0, 1], block[2, 1] = qq - pp + pq - pq.T, zq - zp
             block[1, 0], block[1, 2] = block[0, 1].T, block[2, 1].T
     return radius**3 * found
+
+
+def _of_layers(coupling: Coupling, nodes: tuple[float, ...], radius: float, highest: int) -> Array:
+    """What layers add to the energies PP, QQ, PQ, zz, zP and zQ (M + 1, 6, n + 1, n + 1), in units
+    of the radius."""
+    found = np.zeros((highest + 1, 6, len(nodes), len(nodes)))
+    waves = coupling.bodies.waves(radius, max(1.0, nodes[-1]))
+    kappa = waves.rule[0]
+    scalars = waves.rule[1] * coupling.added(waves, radius)
+    for some in blocks(kappa, len(nodes), highest):
+        fields = transforms(nodes, highest, kappa[some])
+        along, c12, c22, across = scalars[:, some]
+        mean, apart, half = (along + across) / 4, (across - along) / 4, c12 / 2
+        for m, total in enumerate(found):
+            # Of m = 0 only J_{-1} = -J_1 is there.
+            p, q, z = (1 if m else -1) * fields[abs(m - 1)], fields[m + 1], fields[m]
+            raised = z.T * half
+            total += (
+                (p.T * mean) @ p, (q.T * mean) @ q, (p.T * apart) @ q,
+                (z.T * c22) @ z, raised @ p, -raised @ q,
+            )  # fmt: skip
+    return found

@@ -13,11 +13,10 @@ from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.special import jv
+from scipy.special import j0, j1, jv
 
 from radial.harmonic_kernels import alike
 from radial.quadrature import unit_gauss
-from radial.wavenumbers import Waves
 
 Array = NDArray[np.float64]
 Numbers = NDArray[np.int64]
@@ -29,6 +28,7 @@ APART = ((2, 4, 11), (4, 9, 7))  # elements between which there are 2 … 3, 4 �
 FAR, FAR_POINTS = 9, 5
 WAVE_POINTS = 6
 KEPT = 8
+MOST_AT_ONCE = 1 << 21  # numbers: 16 MiB
 
 
 class Unit(NamedTuple):
@@ -112,17 +112,36 @@ def _square(first: int, second: int) -> tuple[Array, Array, Array]:
     return np.repeat(v, second), np.tile(u, first), np.outer(of_v, of_u).ravel()
 
 
-@lru_cache(maxsize=KEPT)
-def transforms(nodes: tuple[float, ...], highest: int, waves: Waves) -> Array:
+def transforms(nodes: tuple[float, ...], highest: int, kappa: Array) -> Array:
     """∫ φ J_m(κx) x dx for m = 0 … M + 1, shape (M + 2, κ, n + 1)."""
     x = np.array(nodes)
     length = np.diff(x)[:, None]
     v, weights = unit_gauss(WAVE_POINTS)
     s = x[:-1, None] + length * v
-    at, weights = np.multiply.outer(waves.rule[0], s), length * weights * s
-    found = np.zeros((highest + 2, len(waves.rule[0]), len(x)))
-    for m, total in enumerate(found):
-        part = jv(m, at) * weights
+    at, weights = np.multiply.outer(kappa, s), length * weights * s
+    found = np.zeros((highest + 2, len(kappa), len(x)))
+    for total, bessel in zip(found, _bessel(highest + 1, at), strict=True):
+        part = bessel * weights
         total[:, :-1] += part @ (1 - v)
         total[:, 1:] += part @ v
     return found
+
+
+def _bessel(highest: int, at: Array) -> Iterator[Array]:
+    """J_0 … J_highest: by the recurrence upwards where that is stable, beyond the order."""
+    near = at <= highest
+    last, now = j0(at), j1(at)
+    yield last
+    for m in range(1, highest + 1):
+        if m > 1:
+            last, now = now, 2 * (m - 1) / np.where(near, 1.0, at) * now - last
+            now[near] = jv(m, at[near])
+        yield now
+
+
+def blocks(kappa: Array, nodes: int, highest: int) -> Iterator[slice]:
+    """Of wavenumbers whose transforms fit into little memory."""
+    points = WAVE_POINTS * nodes + (highest + 2) * nodes
+    step = max(MOST_AT_ONCE // points, 1)
+    for start in range(0, len(kappa), step):
+        yield slice(start, start + step)

@@ -27,6 +27,7 @@ Mask = NDArray[np.bool_]
 
 MOST_STEPS = 60
 SHORTEST = 2.0**-6  # of a step of Newton's method
+AT_ONCE = 12  # steps that are taken whole: what slips is found sooner than by shorter ones
 
 
 @dataclass(frozen=True)
@@ -98,22 +99,26 @@ def held(
         raise _slides(loads.drag, friction * loads.force)
     laws = _Laws.of(points, friction, loads, before)
     x = laws.closed() if before is None else np.append(before.tractions, laws.motion)
-    at = laws.at(x)
+    at = laws.at(x, points.compliance @ x[:-2])
     for step in range(MOST_STEPS):
         if at.worst <= tolerance:
             return _ended(laws, at, step)
         aim = laws.next(at)
         if aim is None:
             break
-        size = np.linalg.norm(at.missed)
-        length, tried = 1.0, laws.at(aim)
-        while (
-            tried.worst >= at.worst and np.linalg.norm(tried.missed) >= size and length > SHORTEST
-        ):
-            length /= 2
-            tried = laws.at(at.x + length * (aim - at.x))
-        at = tried
+        at = _nearer(laws, at, aim, SHORTEST if step >= AT_ONCE else 1.0)
     raise NotConverged("contact and friction on rings", MOST_STEPS, at.worst, tolerance)
+
+
+def _nearer(laws: _Laws, at: _At, aim: Array, shortest: float) -> _At:
+    """At the aim, or on the way to it, where less is left."""
+    moved = laws.points.compliance @ aim[:-2]
+    size, length = np.linalg.norm(at.missed), 1.0
+    tried = laws.at(aim, moved)
+    while tried.worst >= at.worst and np.linalg.norm(tried.missed) >= size and length > shortest:
+        length /= 2
+        tried = laws.at(at.x + length * (aim - at.x), at.u + length * (moved - at.u))
+    return tried
 
 
 def _slides(drag: float, carried: float) -> GrossSliding:
@@ -187,10 +192,13 @@ class _Laws:
         open_by = (points.compliance @ t)[2 * size :] / points.areas + depth
         return np.append(t, [0.0, np.max(open_by)])
 
-    def at(self, x: Array) -> _At:
+    def at(self, x: Array, u: Array) -> _At:
+        """What is left of the laws.
+
+        u  displacements times areas by the tractions of x
+        """
         points, size, loads = self.points, len(self.points.areas), self.loads
         t, (shift, approach) = x[:-2], x[-2:]
-        u = points.compliance @ t
         q, p = t[: 2 * size], t[2 * size :]
         gap = u[2 * size :] + points.bare - approach * points.areas
         slipped = u[: 2 * size] - self.moved - (shift - self.motion[0]) * points.along
@@ -221,60 +229,69 @@ class _Laws:
         safe = np.where(length > 0, length, 1.0)
         w = at.y[:, inside] / safe
         every = np.concatenate([inside, size + inside, 2 * size + inside])
-        # Rows and columns: q_r and q_θ of what sticks, q across w of what slips, p.
-        A = points.compliance[np.ix_(every, every)]
-        r, s = slid, n + slid
-        side = -A[:, r] * w[1, slid] + A[:, s] * w[0, slid]
-        driven = A[:, 2 * n :]
-        driven[:, slid] += self.friction * (A[:, r] * w[0, slid] + A[:, s] * w[1, slid])
-        columns = np.hstack([A[:, stuck], A[:, n + stuck], side, driven])
-        motion = np.zeros((3 * n, 2))
-        motion[: 2 * n, 0] = -points.along[every[: 2 * n]]
-        motion[2 * n :, 1] = -points.areas[inside]
-        wanted = np.concatenate([
-            (self.moved - self.motion[0] * points.along)[every[: 2 * n]], -points.bare[inside],
-        ])  # fmt: skip
-        whole = np.hstack([columns, motion, wanted[:, None]])
-        across = -whole[r] * w[1, slid, None] + whole[s] * w[0, slid, None]
-        whole = np.vstack([whole[stuck], whole[n + stuck], across, whole[2 * n :]])
-        a = len(stuck)
-        own = 2 * a + np.arange(len(slid))
+        # Columns, and rows alike: q_r and q_θ of what sticks, q across w of what slips, p; motion.
+        a, r, s = len(stuck), slid, n + slid
+        held, side, press = slice(0, 2 * a), slice(2 * a, 2 * a + len(slid)), 2 * a + len(slid)
         share = limit[slid] / length[slid]
-        d = self.d[inside[slid]]
         if np.any(share <= 0):
             return None
+        A = points.compliance[np.ix_(every, every)]
+        columns = np.zeros((3 * n, press + n + 2))
+        columns[:, :a], columns[:, a : 2 * a] = A[:, stuck], A[:, n + stuck]
+        columns[:, side] = A[:, s] * w[0, slid] - A[:, r] * w[1, slid]
+        columns[:, press:-2] = A[:, 2 * n :]
+        along = A[:, r] * w[0, slid] + A[:, s] * w[1, slid]
+        columns[:, press + slid] += self.friction * along
+        columns[: 2 * n, -2] = -points.along[every[: 2 * n]]
+        columns[2 * n :, -1] = -points.areas[inside]
+        known = np.concatenate([
+            (self.moved - self.motion[0] * points.along)[every[: 2 * n]], -points.bare[inside],
+        ])  # fmt: skip
+
+        def rows(field: Array, found: Array) -> None:
+            across = slid_ways if field.ndim > 1 else slid_ways[:, :, 0]
+            found[:a], found[a : 2 * a] = field[stuck], field[n + stuck]
+            found[side] = across[0] * field[s] - across[1] * field[r]
+            found[press:-2] = field[2 * n :]
+
+        slid_ways = w[:, slid, None]
+        whole, right = np.zeros((press + n + 2,) * 2), np.zeros(press + n + 2)
+        rows(columns, whole)
+        rows(known, right)
+        own = np.arange(2 * a, press)
+        d = self.d[inside[slid]]
         whole[own, own] += d * (1 - share) / share
-        ends = np.zeros((2, whole.shape[1]))
         ways = points.along[every[: 2 * n]].reshape(2, n)
         if loads.drag is None:
-            ends[0, -3], ends[0, -1] = 1.0, loads.shift
+            whole[-2, -2], right[-2] = 1.0, loads.shift
         else:
-            ends[0, :a], ends[0, a : 2 * a] = ways[:, stuck]
-            ends[0, own] = -ways[0, slid] * w[1, slid] + ways[1, slid] * w[0, slid]
-            by_limit = self.friction * np.sum(ways[:, slid] * w[:, slid], axis=0)
-            ends[0, 2 * a + len(slid) + slid] = by_limit
-            ends[0, -1] = loads.drag
+            whole[-2, held] = ways[:, stuck].ravel()
+            whole[-2, own] = ways[1, slid] * w[0, slid] - ways[0, slid] * w[1, slid]
+            whole[-2, press + slid] = self.friction * np.sum(ways[:, slid] * w[:, slid], axis=0)
+            right[-2] = loads.drag
         if loads.force is None:
-            ends[1, -2], ends[1, -1] = 1.0, loads.approach
+            whole[-1, -1], right[-1] = 1.0, loads.approach
         else:
-            ends[1, 2 * a + len(slid) : -3] = points.areas[inside]
-            ends[1, -1] = loads.force
-        whole = np.vstack([whole, ends])
+            whole[-1, press:-2] = points.areas[inside]
+            right[-1] = loads.force
         # Small rings beside large ones, in units in which they are alike.
         units = np.ones(len(whole))
-        units[:-2] = 1 / np.sqrt(
-            np.concatenate([self.d[inside[stuck]]] * 2 + [d, self.d[2 * size + inside]])
-        )
-        whole[:, :-1] *= units
+        units[held] = np.tile(self.d[inside[stuck]], 2)
+        units[side], units[press:-2] = d, self.d[2 * size + inside]
+        units = 1 / np.sqrt(units)
+        whole *= units
         whole[:-2] *= units[:-2, None]
-        LU, places, found, failed = lapack.dgesv(whole[:, :-1], whole[:, -1])
-        if not failed:
-            found = found + lapack.dgetrs(LU, places, whole[:, -1] - whole[:, :-1] @ found)[0]
-        found = found * units
-        if failed or not np.all(np.isfinite(found)):
+        right[:-2] *= units[:-2]
+        LU, places, failed = lapack.dgetrf(whole.T)
+        if failed:
+            return None
+        found = lapack.dgetrs(LU, places, right, trans=1)[0]
+        found += lapack.dgetrs(LU, places, right - whole @ found, trans=1)[0]
+        found *= units
+        if not np.all(np.isfinite(found)):
             return None
         x = np.zeros_like(at.x)
-        p = found[2 * a + len(slid) : -2]
+        p = found[press:-2]
         q = np.zeros((2, n))
         q[:, stuck] = found[:a], found[a : 2 * a]
         v, most = found[own], self.friction * p[slid]

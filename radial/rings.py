@@ -11,6 +11,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
 from math import exp, log
+from typing import TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
@@ -28,6 +29,8 @@ GRADED, TOWARDS, FINEST = 0.5, 0.6, 9  # ratio of rings to the ends, to the fron
 AT_AXIS, AT_EDGE = 4, 6
 POINTS, WAVE_POINTS = 14, 6  # Gauss's of an element
 KEPT = 64
+MOST_KEPT = 256 << 20  # bytes of transforms, which thin films take many wavenumbers for
+MOST_AT_ONCE = 1 << 21  # numbers: 16 MiB
 # Radii outside of the contact at which displacements are known.
 OUTSIDE = 1 + np.array([0.01, 0.03, 0.08, 0.2, 0.4, 0.7, 1.1, 1.6, 2.5, 4.0])
 
@@ -137,24 +140,41 @@ class Rings:
     def transforms(self, waves: Waves) -> tuple[Array, Array, Array, Array]:
         """∫ φ J₀(κs) s ds of the pressure and ∫ φ J₁(κs) s ds of the shear (κ, columns); J₀(κx) and
         J₁(κx) at the rows (rows, κ)."""
-        return _transforms(self, waves)
+        found = _KEPT.pop((self, waves), None) or _transforms(self, waves)
+        _KEPT[self, waves] = found
+        while len(_KEPT) > 1 and sum(map(_size, _KEPT.values())) > MOST_KEPT:
+            _KEPT.pop(next(iter(_KEPT)), None)
+        return found
 
 
 def _root(x: Array) -> Array:
     return np.asarray(np.sqrt((1 - x) * (1 + x)))
 
 
-@lru_cache(maxsize=KEPT)
-def _transforms(rings: Rings, waves: Waves) -> tuple[Array, Array, Array, Array]:
+Transforms: TypeAlias = tuple[Array, Array, Array, Array]
+# Those that were asked for last, the last one last.
+_KEPT: dict[tuple[Rings, Waves], Transforms] = {}
+
+
+def _size(transforms: Transforms) -> int:
+    """[byte]."""
+    return sum(part.nbytes for part in transforms)
+
+
+def _transforms(rings: Rings, waves: Waves) -> Transforms:
     kappa = waves.rule[0]
     length = np.diff(rings.x)[:, None]
     v, weights = unit_gauss(WAVE_POINTS)
     s = rings.x[:-1, None] + length * v
     left, right = rings._shapes(s, np.broadcast_to(v, s.shape), length * weights * s)
-    found = []
-    for bessel in (j0, j1):
-        part = bessel(np.multiply.outer(kappa, s))
-        found.append(rings._on_nodes((part * left).sum(-1), (part * right).sum(-1)))
+    found = [np.empty((len(kappa), len(rings.x))) for _ in range(2)]
+    step = max(MOST_AT_ONCE // s.size, 1)
+    for start in range(0, len(kappa), step):
+        some = slice(start, start + step)
+        at = np.multiply.outer(kappa[some], s)
+        for total, bessel in zip(found, (j0, j1), strict=True):
+            part = bessel(at)
+            total[some] = rings._on_nodes((part * left).sum(-1), (part * right).sum(-1))
     at = np.multiply.outer(rings.places, kappa)
     return found[0][:, :-1], found[1][:, 1:-1], j0(at), j1(at)
 

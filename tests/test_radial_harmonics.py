@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from functools import cache
+from typing import Any
 
 import numpy as np
 import pytest
@@ -12,6 +13,7 @@ from scipy.integrate import dblquad
 from scipy.special import hyp2f1
 
 from contact_scene import RIGID, Body, IsotropicMaterial, Layer, LoadStep, Paraboloid, Scene
+from radial import ring_energies
 from radial.coupling import Coupling
 from radial.harmonic_kernels import alike
 from radial.ring_compliance import ring_compliance
@@ -195,3 +197,23 @@ def test_shear_like_that_of_gross_slip_draws_the_disc_as_in_print(nu: float) -> 
     for found, exact in ((radial, of_r), (hoop, of_t)):
         expected = on_hats(x, exact)
         assert_allclose(found, expected, atol=3e-4 * np.abs(expected).max())
+
+
+def test_transforms_of_thin_films_are_not_all_held_at_once(monkeypatch: Any) -> None:
+    material = IsotropicMaterial(young_modulus=2.0, poisson_ratio=0.3)
+    film = IsotropicMaterial(young_modulus=5.0, poisson_ratio=0.25)
+    body = Body(material=material, layers=(Layer(thickness=0.05, material=film),))
+    ball = Paraboloid(radius=1.0, material=RIGID)
+    scene = Scene(indenter=ball, body=body, loading=(LoadStep(normal_force=1.0),))
+    coupling, nodes = Coupling.of(scene), tuple(np.linspace(0, 1, 9))
+    whole = ring_compliance(coupling, nodes, 1.0, 3)
+    most: list[int] = []
+
+    def transformed(*asked: Any) -> Any:
+        most.append(len(asked[-1]))
+        return ring_energies.transforms(*asked)
+
+    monkeypatch.setattr(ring_energies, "MOST_AT_ONCE", 1 << 13)
+    monkeypatch.setattr("radial.ring_compliance.transforms", transformed)
+    assert_allclose(ring_compliance(coupling, nodes, 1.0, 3), whole, rtol=1e-10, atol=1e-14)
+    assert max(most) * 9 * 5 <= 1 << 13

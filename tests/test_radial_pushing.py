@@ -13,6 +13,7 @@ import pytest
 from numpy.testing import assert_allclose
 
 import radial
+from contact_errors.on_radii import stated_errors
 from contact_results.surface import surface_of
 from contact_scene import (
     RIGID,
@@ -117,6 +118,27 @@ def test_shear_carries_the_load_and_obeys_coulomb() -> None:
     assert_allclose(np.sum(shear[0] * surface.weights), 0.6 * LIMIT, rtol=2e-3)
     excess = np.hypot(*shear) - FRICTION * end.pressure
     assert np.max(excess) < 2e-3 * FRICTION * end.peak_pressure
+
+
+def test_stated_errors_cover_the_closed_forms() -> None:
+    exact, lost = TangentialHistory(VIRGIN), 0.0
+    errors = stated_errors(loop())
+    assert errors.companions[0].differs == "half the rings and increments"
+    once = PartialSlip(LOAD, RADIUS, FRICTION, SHEAR, 0.6 * LIMIT)
+    pairs = zip(loop().steps[1:], errors.steps[1:], (0.6, -0.6, 0.6), strict=True)
+    for end, stated, share in pairs:
+        exact = exact.loaded_to(share * LIMIT)
+        lost += (2 if lost else 1) * once.dissipated_energy
+        for name, true in {
+            "tangential_shift": exact.shift,
+            "approach": RADIUS**2,
+            "contact_radius": RADIUS,
+            "stick_radius": once.stick_radius,
+            "dissipated_energy": lost,
+            "peak_pressure": 1.5 * LOAD / (math.pi * RADIUS**2),
+        }.items():
+            error, size = np.ravel(stated[name].error)[0], abs(true)
+            assert abs(np.ravel(getattr(end, name))[0] - true) <= error < 0.1 * size, name
 
 
 # ---- laws -------------------------------------------------------------------------------------
