@@ -138,7 +138,7 @@ def test_stated_errors_cover_the_closed_forms() -> None:
             "peak_pressure": 1.5 * LOAD / (math.pi * RADIUS**2),
         }.items():
             error, size = np.ravel(stated[name].error)[0], abs(true)
-            assert abs(np.ravel(getattr(end, name))[0] - true) <= error < 0.1 * size, name
+            assert abs(np.ravel(getattr(end, name))[0] - true) <= error < 0.15 * size, name
 
 
 # ---- laws -------------------------------------------------------------------------------------
