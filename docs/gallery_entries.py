@@ -492,9 +492,9 @@ ENTRIES = (
                 (4.0, 0.3, 0.442676),
             )
         ),
-        "The tension behind a ball on a stiff coating is least where that is about as thick as the "
-        "contact is wide, and grows towards thin films and thick ones; a soft coating has about "
-        "half of it at any thickness. The shear at the interface falls with its depth.",
+        "The tension behind a ball on a stiff coating is least where that is about half of Hertz's "
+        "radius thick, and grows towards thin films and thick ones; of a soft one it hardly "
+        "depends on the thickness. The shear at the interface falls with its depth.",
         shown=(
             "friction={ coefficient = 0.1 }",
             'loading=[{ normal_force = "1 kN", increments = 10 }, '

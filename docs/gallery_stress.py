@@ -23,8 +23,8 @@ if TYPE_CHECKING:
 PANELS, DEEPEST = 100, 30.0  # of the integral; where the layers have faded, over the outermost
 HERTZ = 3.1684041e9, 0.388196803830797e-3  # p_H and a_H of the ball on the bare substrate
 CLOSE = 2.4  # side of the window over the contact radius
-CUT = 1e-3  # of a tension: as much as it varies with where the edge lies in its cells
-MU, CELLS = 0.1, (64, 128)
+CUT = 2e-3  # of a tension: as much as it varies with where the edge lies in its cells
+MU, CELLS = 0.1, (96, 144)
 THICKNESSES, RATIOS = (0.125, 0.25, 0.5, 1.0, 2.0), (0.5, 2.0, 4.0)  # over a_H; E1/E2
 
 
@@ -86,7 +86,7 @@ def _sliding(changes: tuple[str, ...], cells: int) -> tuple[float, float]:
 
 
 def _with_error(changes: tuple[str, ...], which: int) -> tuple[float, float]:
-    """On the finer cells, and twice what half of them changes, but no less than how the edge cuts
+    """On the finer cells, and twice what fewer of them change, but no less than how the edge cuts
     cells matters."""
     coarse, fine = (_sliding(changes, cells)[which] for cells in CELLS)
     return fine, max(2 * abs(fine - coarse), CUT * fine)
