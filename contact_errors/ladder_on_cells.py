@@ -83,7 +83,7 @@ class CellLadder:
         below = None
         if self.stress_at is not None:
             below = largest_tension(result, stated, self.stress_at)
-        rules = rules_at(result, *result.steps)
+        rules = rules_at(result, result.steps)
         return Rung(
             fineness=replace(fineness, grid=result.grid),
             result=result,

@@ -28,10 +28,14 @@ NEAR = 2.0
 # (Hertz's, sliding and coated contacts of 5 to 50 cells).
 BY_CELL, MOST_BY_PRESSURE = 4e-5, 2e-3
 FEW_CELLS = 4.0
+# The same of pressures with their edges inside the cells, for which number of cells does not count.
+WITHIN, FEW_CELLS_WITHIN = 1e-3, 1.0
 # Two fits of a smooth edge are as far apart however right they are; what is beyond counts.
 ALWAYS_APART = 7e-4
 # Of what parabolas find between the points; points are too few for them to be exact.
 BETWEEN = 1.1
+# Tractions that are means leave nothing that would make up for it.
+BETWEEN_WITHIN = 1.4
 
 
 def stress_errors(
@@ -48,17 +52,21 @@ def stress_errors(
         return disc_stress_errors(state, found, indenter=indenter)
     if state.on_rings:
         return ring_stress_errors(state, field, found, indenter=indenter)
+    more = BETWEEN_WITHIN if state.edges else BETWEEN
     depths = np.unique(field.points.depth).tolist()
     wide = stress_on_cells(on_wide_cells(state), indenter=indenter, depths=depths, see_edge=False)
     body = state.indenter if indenter else state.body
-    there = {(e.region, e.measure): (e.value, beyond(wide.points, e)) for e in extremes(wide, body)}
+    there = {
+        (e.region, e.measure): (e.value, more * beyond(wide.points, e))
+        for e in extremes(wide, body)
+    }
     errors = []
     for e in found:
-        between = 0.0 if e.on_edge else beyond(field.points, e)
+        between = 0.0 if e.on_edge else more * beyond(field.points, e)
         rule, by_increments = rule_of(state, field.edge, e), state.by_increments or 0.0
         if field.edge is not None and rule is AT_EDGE:
             per_radius = sqrt(np.count_nonzero(state.tractions["pressure"]) / pi)
-            by_edge = _by_edge(per_radius, field.edge.apart)
+            by_edge = _by_edge(per_radius, field.edge.apart, within=state.edges)
             errors.append(_at_edge(e, by_edge, between, by_increments))
         else:
             errors.append(_error(e, between, there.get((e.region, e.measure)), rule, by_increments))
@@ -133,20 +141,23 @@ def above_the_middle(x: Field, f: Field) -> float:
     return float(-(slope**2) / (4 * bend)) if bend < 0 else 0.0
 
 
-def _by_edge(per_radius: float, apart: float) -> float:
+def _by_edge(per_radius: float, apart: float, *, within: bool) -> float:
     """Error of a stress at a fitted edge, over itself.
 
     per_radius  cells per contact radius
     apart       of two fits, see `FittedEdge`
+    within      whether the tractions have their edges inside the cells
     """
-    by_pressure = min(AT_EDGE.floor + BY_CELL * per_radius, MOST_BY_PRESSURE)
     by_fit = AT_EDGE.factor * max(apart - ALWAYS_APART, 0.0)
+    if within:
+        return WITHIN + FEW_CELLS_WITHIN / per_radius**4 + by_fit
+    by_pressure = min(AT_EDGE.floor + BY_CELL * per_radius, MOST_BY_PRESSURE)
     return by_pressure + FEW_CELLS / per_radius**4 + by_fit
 
 
 def _at_edge(extreme: Extreme, by_edge: float, between: float, by_increments: float) -> StatedError:
     size = np.array([abs(extreme.value)])
-    parts: dict[Part, Field] = {"cells": BETWEEN * between + by_edge * size}
+    parts: dict[Part, Field] = {"cells": between + by_edge * size}
     if by_increments:
         parts["increments"] = by_increments * size
     return estimate.stated(parts, not extreme.at_window_edge)
@@ -166,7 +177,7 @@ def _error(
     cells = np.zeros(1)
     if rule is INTERIOR:
         change = abs(extreme.value + beyond_here - value - beyond_there)
-        cells = np.array([BETWEEN * beyond_here])
+        cells = np.array([beyond_here])
     differs, largest = np.array([change]), np.array([abs(extreme.value)])
     parts: dict[Part, Field] = {"cells": cells + estimate.by_cells(rule, differs, 2.0, np.zeros(1))}
     if by_increments:

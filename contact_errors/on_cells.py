@@ -18,7 +18,7 @@ from contact_errors.estimate import Numbers
 from contact_errors.half_the_cells import Progress, on_wide_cells
 from contact_errors.levels import Levels
 from contact_errors.prescribed import prescribed
-from contact_errors.rules import RIM, Lengthscale, Rule, rules_for
+from contact_errors.rules import EDGES, RIM, Lengthscale, Rule, rules_for
 from contact_errors.values import Values, charged_by_increments, lost_by_steps, values_of
 from contact_results.cycles import fretting_cycles
 from contact_results.remarks import left_out
@@ -92,7 +92,10 @@ def judged(
     levels = Levels(
         scene=result.scene,
         ground=_Cells(result),
-        rules=[rules_at(result, *ends) for ends in zip(result.steps, wide.steps, strict=True)],
+        rules=[
+            rules_at(result, [end], [beside])
+            for end, beside in zip(result.steps, wide.steps, strict=True)
+        ],
         values=fine,
         change=estimate.differences(fine, coarse),
         ratio=wide.grid.spacing[0] / result.grid.spacing[0],
@@ -105,13 +108,19 @@ def judged(
     return StatedErrors(tuple(levels.errors()), tuple(companions)), by_step
 
 
-def rules_at(result: Result, *states: Increment) -> Mapping[str, Rule]:
-    """The laws of the errors of a result at the end of a step; states there, on its cells and
-    others: whether all have their edges inside the cells."""
+def rules_at(
+    result: Result, states: Sequence[Increment], beside: Sequence[Increment] = ()
+) -> Mapping[str, Rule]:
+    """The laws of the errors of a result.
+
+    states  where they shall hold
+    beside  those of its companion there
+    """
     return rules_for(
         result.scene.indenter,
         cusp=result.plan.coupling is not Coupling.NONE,
         edges=all(state.edge_change is not None for state in states),
+        alone=any(state.edge_change is None for state in beside),
     )
 
 
@@ -139,10 +148,14 @@ class _Cells:
     ) -> Mapping[Part, Numbers] | None:
         if rule.lengthscale is Lengthscale.LOST and self.result.scene.indenter.rim is not None:
             return self._at_rim(step, largest)
+        change = self.result.steps[step].edge_change
+        rounds: Mapping[Part, Numbers] = {}
+        if change is not None and name in EDGES:
+            rounds = {"tolerance": change * largest}
         if name != "peak_pressure":
-            return {}
+            return rounds
         left_out = HIGHEST * self._left_out + self._rim_of_film(step)
-        return {"cells": left_out * largest}
+        return {**rounds, "cells": left_out * largest}
 
     def _at_rim(self, step: int, largest: Numbers) -> Mapping[Part, Numbers] | None:
         """Slip goes with the motions, as these with the radius that cells make of a rim. Where no

@@ -143,10 +143,22 @@ RULES = with_their_likes(
 # Of states with their edges inside the cells, on these as on those of the companion.
 EDGES = with_their_likes(
     {
+        "stick_radius": Rule(1.5, 0.0045, 9, 1.0, 2.0, 1.0, Lengthscale.STICK),
         "approach": Rule(2, 0.0025, 1, 1.5, path_factor=1.5),
-        "contact_radius": Rule(1.5, 0.005, 2, 1.1, 1.5, lengthscale=Lengthscale.FILM),
+        "contact_radius": Rule(1.5, 0.0035, 2, 1.4, path_factor=1.5),
         "peak_pressure": Rule(2.5, 0.022, 2, 1.2, path_factor=2.0),
-        "tilt": Rule(3, 0.03, 0.25, 1.6, path_factor=1.5, lengthscale=Lengthscale.TURN_WITHIN),
+        "tilt": Rule(3, 0.03, 0.25, 1.8, path_factor=1.5, lengthscale=Lengthscale.TURN_WITHIN),
+    }
+)
+# On these alone: what such a companion tells is its own error, and of few cells across a film.
+UNTOLD = 1e6
+ALONE = EDGES | with_their_likes(
+    {
+        "approach": Rule(2.5, 0.007, UNTOLD, 1.2, 1.5, lengthscale=Lengthscale.FILM),
+        "contact_radius": Rule(2.5, 0.09, UNTOLD, 1.2, 1.5, lengthscale=Lengthscale.FILM),
+        "peak_pressure": Rule(2.5, 0.02, UNTOLD, 1.2, 2.0, lengthscale=Lengthscale.FILM),
+        "tilt": Rule(2.5, 0.1, UNTOLD, 1.2, 1.5, lengthscale=Lengthscale.FILM),
+        "stick_radius": replace(EDGES["stick_radius"], weight=UNTOLD),
     }
 )
 # Where friction acts back on a pressing contact its pressure has a cusp on the axis.
@@ -170,13 +182,17 @@ CONE = with_their_likes({"contact_radius": Rule(1.25, 1.0, 4, 1.2, path_factor=1
 INFINITE = frozenset({"peak_pressure"})
 
 
-def rules_for(indenter: ShapedBody, cusp: bool, edges: bool = False) -> Mapping[str, Rule]:
+def rules_for(
+    indenter: ShapedBody, cusp: bool, edges: bool = False, alone: bool = False
+) -> Mapping[str, Rule]:
     """The rule of every quantity below an indenter; none of what is infinite in the exact answer.
 
     cusp   whether friction acts back on the pressure
     edges  whether they are inside the cells
+    alone  whether they are not inside those of a companion
     """
-    rules = RULES | (EDGES if edges else CUSP if cusp else {})
+    with_edges = ALONE if alone else EDGES
+    rules = RULES | (with_edges if edges else CUSP if cusp else {})
     if indenter.rim is not None:
         rules = RULES | FLAT
     elif indenter.gap_exponent == 1:

@@ -29,7 +29,6 @@ PathAccuracy = Annotated[
 
 # At the end of which increments edges are put inside the cells.
 EdgeCorrection = Literal["off", "last", "all"]
-EDGE: EdgeCorrection = "off"
 
 
 class SurfaceDiscretisation(Description):
@@ -49,10 +48,10 @@ class SurfaceDiscretisation(Description):
     """Error of the shear that finite increments may leave at the end of a step, summed over the
     surface and relative to the friction limit. It sets the increments of steps that name none."""
 
-    edge: EdgeCorrection = EDGE
+    edge: EdgeCorrection = "off"
     """Whether tractions are put right at the edges of contact and stick, where constant on cells
     they are wrong by the order of a cell: at the end of each step ("last"), of each increment
-    ("all"), or not at all."""
+    ("all"), or not at all ("off"); never where it is not known how, or not safe."""
 
 
 class FiniteElementDiscretisation(Description):

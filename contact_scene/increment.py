@@ -212,8 +212,8 @@ class Cost:
         float | None,
         Reported(
             "",
-            "Change of the pressure in the last round of the edge correction, relative to all of "
-            "it; null where tractions are constant on cells up to their edges.",
+            "Change of pressure or shear in the last round of the edge correction, relative to all "
+            "of it; null where tractions are constant on cells up to their edges.",
             physical=False,
         ),
     ] = None

@@ -151,6 +151,7 @@ def _increment(model: ContactModel, before: State | None, state: State, place: P
         stuck = edges.stick_cells
         # Force and shift stay those of cells, as does the work that they do along the history.
         sheared = replace(sheared, shear=edges.shear, in_stick=edges.stick)
+        pressed = replace(pressed, edge_change=max(state.corrected.change, edges.change))
     increment = replace(
         pressed,
         status=sheared.status if model.scene.friction else pressed.status,

@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 from enum import StrEnum
 
 from contact_scene import Scene, effect
-from contact_scene.discretisation import EDGE, PATH_ACCURACY, EdgeCorrection
+from contact_scene.discretisation import PATH_ACCURACY, EdgeCorrection
 from contact_scene.effect import Effect
 from contact_scene.friction import FRICTIONLESS
 from contact_scene.pair import coupling, dundurs_beta, refuse_contrast
@@ -64,7 +64,7 @@ class Plan:
         return replace(self, path=tuple(replace(step, count=count) for step, count in path))
 
 
-def plan(scene: Scene, path_accuracy: float = PATH_ACCURACY, edge: EdgeCorrection = EDGE) -> Plan:
+def plan(scene: Scene, path_accuracy: float = PATH_ACCURACY, edge: EdgeCorrection = "off") -> Plan:
     """Decide the effects of a scene; raises UnsupportedScene for a layer on next to nothing.
 
     path_accuracy  error of the shear that finite increments may leave, relative to Σµp
@@ -145,4 +145,5 @@ def _edges(scene: Scene, asked: EdgeCorrection, torsion: bool, coupled: bool) ->
         return False, "not known of contacts that twist"
     if scene.friction is not None and scene.friction.uniform is None:
         return False, "not known of friction that varies from place to place"
-    return True, "asked for: tractions fall to zero like roots, inside the cells"
+    when = "increment" if asked == "all" else "step"
+    return True, f"at the end of each {when} tractions fall to zero like roots, inside the cells"

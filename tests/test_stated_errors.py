@@ -1,6 +1,7 @@
 """Every number of a run has an error, and the error is of the size of what is wrong."""
 
 import json
+from dataclasses import replace
 from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
@@ -20,6 +21,7 @@ from contact_scenes import (
     grid,
     hertz,
     paraboloid,
+    push,
     scene,
     steel,
 )
@@ -27,7 +29,7 @@ from matplotlib.figure import Figure
 from scene_texts import COARSE, STEEL_BALL_PRESSED
 
 import fem_reference
-from contact_errors import estimate, on_elements
+from contact_errors import estimate, half_the_cells, on_cells, on_elements
 from contact_errors.by_step import ByStep
 from contact_errors.levels import path_changes, recut
 from contact_errors.of_stress import on_wide_cells, stress_errors
@@ -51,7 +53,7 @@ from contact_scene import (
     SurfaceDiscretisation,
 )
 from contact_scene.stated_error import ErrorStatus, StatedError
-from semi_analytical import Result, SurfaceGrid, plan, solve, solve_discretised
+from semi_analytical import Plan, Result, SurfaceGrid, plan, solve, solve_discretised
 from verification.closed_forms.cattaneo_mindlin import PartialSlip
 from verification.closed_forms.coated_indentation import LayeredIndentation
 from verification.closed_forms.coated_indentation import paraboloid as pressed_coating
@@ -503,6 +505,28 @@ def test_errors_with_edges_inside_the_cells_cover_what_is_wrong(cells: int) -> N
         assert missed <= size(of_edged[name])
     if cells >= 24:
         assert size(of_edged["contact_radius"]) < 0.05 * size(of_plain["contact_radius"])
+
+
+def test_errors_beside_a_companion_that_has_no_edges_inside_its_cells(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """It tells of its own error alone: those of the run are as large as they may be."""
+
+    def on_wide_cells(result: Result, planned: Plan, *more: Any) -> Any:
+        return half_the_cells.on_wide_cells(result, replace(planned, edge="off"), *more)
+
+    exact, ball, asked = hertz(poisson_ratio=0.0), steel(poisson_ratio=0.0), grid(32)
+    of = scene(PRESS, push(0.6), indenter=paraboloid(ball), body=ball)
+    result = solve(of, asked, 1e-8, plan=plan(of, edge="last"))
+    beside_one = stated_errors(result).steps[-1]
+    monkeypatch.setattr(on_cells, "on_wide_cells", on_wide_cells)
+    alone = stated_errors(result).steps[-1]
+    radii = {"contact_radius": exact.contact_radius}
+    radii["stick_radius"] = 0.4 ** (1 / 3) * exact.contact_radius
+    for name, radius in radii.items():
+        for errors in (beside_one, alone):
+            missed = abs(getattr(result.steps[-1], name) - radius)
+            assert missed <= size(errors[name]) < 1e-3 * radius
 
 
 @pytest.mark.parametrize("cells", [16, 24, 48])

@@ -65,6 +65,7 @@ class LoadedBodies:
     direction       unit vector along which the rings' angles start
     pressed         indenter, contact radius and approach, where they determine the pressure at
                     every radius; None where it is known on cells or rings alone [length]
+    edges           whether the tractions have their edges inside the cells, and are means of these
     by_increments   part of themselves by which increments may leave the tractions wrong; None where
                     nobody has stated it
     """
@@ -77,6 +78,7 @@ class LoadedBodies:
     tractions: Mapping[str, Field]
     discretisation: FiniteElementDiscretisation | None
     no_root: str | None = None
+    edges: bool = False
     by_increments: float | None = None
     direction: tuple[float, float] = (1.0, 0.0)
     pressed: tuple[ShapedBody, float, float] | None = None
@@ -113,6 +115,7 @@ def state_of_result(
         {name: field for name, field in tractions.items() if field is not None},
         getattr(result, "discretisation", None),
         _no_root(scene.indenter, scene.friction),
+        end.edge_change is not None,
         None if errors is None else _by_increments(end, errors.steps[end.step - 1]),
         surface.direction,
         (scene.indenter, end.contact_radius, end.approach or 0.0)
@@ -190,6 +193,7 @@ def _read(file: h5py.File, step: int | None) -> LoadedBodies:
         {name: values(field, row_of(field, last)) for name, field in fields.items()},
         asked,
         _no_root_of(scene),
+        "edge_change" in group and bool(np.isfinite(values(group["edge_change"], last))),
         direction=_direction(file),
         pressed=_pressed(file, scene, last),
     )

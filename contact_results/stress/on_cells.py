@@ -53,7 +53,7 @@ def stress_on_cells(
     levels = _levels(body, depths, radius)
     if indenter and shear is not None:
         shear = -shear
-    field = subsurface(body, grid, pressure, shear, levels)
+    field = subsurface(body, grid, *_as_seen_from_afar(state, pressure, shear), levels)
     edge, why = None, "not looked for"
     if see_edge:
         field, edge, why = _with_edge(state, body, grid, field, pressure, shear)
@@ -87,7 +87,7 @@ def _with_edge(
 ) -> tuple[SubsurfaceField, NearEdge | None, str]:
     """The field with the edge, and the edge; or the field as it is, and why."""
     from semi_analytical.frf.stack import stack_of
-    from semi_analytical.stress import EdgeNotSeen, near_edge, near_surface
+    from semi_analytical.stress import EdgeNotSeen, near_edge, near_surface, subsurface
 
     if state.no_root is not None:
         return field, None, state.no_root
@@ -99,7 +99,39 @@ def _with_edge(
         edge = near_edge(stack_of(body), grid, pressure, shear)
     except EdgeNotSeen as reason:
         return field, None, str(reason)
-    return edge.corrected(field), edge, ""
+    if not state.edges:
+        return edge.corrected(field), edge, ""
+    # Beside the edge the tractions are what the field is of, and not what acts alike far away.
+    near = [n for n, level in enumerate(field.levels) if edge.reaches(level)]
+    levels = [field.levels[n] for n in near]
+    there = edge.corrected(subsurface(body, grid, pressure, shear, levels))
+    stress = field.stress.copy()
+    stress[near] = np.where(edge.beside, there.stress, stress[near])
+    return replace(field, stress=stress), edge, ""
+
+
+def _as_seen_from_afar(
+    state: LoadedBodies, pressure: Field, shear: Field | None
+) -> tuple[Field, Field | None]:
+    """Constants on cells that act far away like the tractions. Those of a solver on cells do;
+    means of cells that have their edges within smooth what they are the means of."""
+    if not state.edges:
+        return pressure, shear
+    loaded = pressure > 0
+    return _sharpened(pressure, loaded), None if shear is None else _sharpened(shear, loaded)
+
+
+def _sharpened(means: Field, loaded: NDArray[np.bool_]) -> Field:
+    """Means less a twelfth of their second differences, by what flows between loaded cells: as
+    constants on cells means act like the tractions times sinc² of the wavenumber, 1 - k²h²/12 and
+    less; nothing is added in all."""
+    found = means.copy()
+    for axis in (-2, -1):
+        f, both = np.moveaxis(found, axis, -1), np.moveaxis(loaded, axis, -1)
+        flow = np.diff(np.moveaxis(means, axis, -1)) / 12 * (both[..., 1:] & both[..., :-1])
+        f[..., :-1] -= flow
+        f[..., 1:] += flow
+    return found
 
 
 def _how(edge: NearEdge | None, why: str) -> dict[str, object]:

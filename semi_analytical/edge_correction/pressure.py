@@ -31,8 +31,8 @@ from semi_analytical.pressing import NormalTarget
 Field = NDArray[np.float64]
 
 MOST_ROUNDS = 8
-# Of the pressure in a round, Σ|Δp|/Σp: a quarter of what is left of its error at 128 cells.
-SETTLED = 1e-5
+# Of the pressure in a round, Σ|Δp|/Σp: below what is left of the error of a radius at 256 cells.
+SETTLED = 1e-6
 # Part of its residual that the solve of a round leaves.
 ENOUGH = 0.1
 # To be accepted: the change that the rounds leave, and its part of the first; the part of the edge

@@ -84,9 +84,14 @@ class NearEdge:
         )
         return _at_surface(self, self.tractions.shape.about(*of_cells)[0])
 
+    @property
+    def beside(self) -> Mask:
+        """Cells (nx, ny) below which stress is evaluated anew."""
+        return _beside(self.tractions)
+
     def corrected(self, field: SubsurfaceField) -> SubsurfaceField:
         """The same field with the stress near the edge by the tractions with their edge."""
-        i, j = np.nonzero(_beside(self.tractions))
+        i, j = np.nonzero(self.beside)
         stress = field.stress.copy()
         for index, level in enumerate(field.levels):
             if level.depth == 0:
