@@ -49,6 +49,7 @@ CASES = (
     "radial_pressing",
     "radial_indentation",
     "radial_torsion",
+    "radial_tangential",
     "edge_stress",
     "fem_hertz",
     "fem_classical",
