@@ -130,6 +130,6 @@ def _path_alone(rule: Rule, path: float, space: float) -> tuple[float, float]:
     contains: more increments do not lessen that."""
     if rule.weight == 0:
         return path, 0.0
-    per_space = rule.factor * (rule.weight / (rule.weight + 1)) ** 0.5
+    per_space = max(rule.factor * (rule.weight / (rule.weight + 1)) ** 0.5, rule.least)
     scatter = min(path, rule.path_factor * rule.path_scatter * space / per_space)
     return (path**2 - scatter**2) ** 0.5, scatter

@@ -121,6 +121,7 @@ def rules_at(
         cusp=result.plan.coupling is not Coupling.NONE,
         edges=all(state.edge_change is not None for state in states),
         alone=any(state.edge_change is None for state in beside),
+        layers=bool(result.scene.body.layers or result.scene.indenter.layers),
     )
 
 

@@ -26,7 +26,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from enum import Enum, auto
 
-from contact_scene.geometry import ShapedBody
+from contact_scene.geometry import ShapedBody, SmoothTip
 
 
 class Lengthscale(Enum):
@@ -77,7 +77,7 @@ class Rule:
         return self.envelope * cells**-self.order
 
 
-PEAK = Rule(2, 0.25, 0.5, 1.2, path_factor=2.0, least=1.0)
+PEAK = Rule(2, 0.25, 0.5, 1.2, path_factor=2.0)
 APPROACH = Rule(2, 0.05, 1, 1.8, path_factor=1.5)
 RADIUS = Rule(1.25, 0.22, 4, 1.5, path_factor=1.5, lengthscale=Lengthscale.FILM)
 STICK = Rule(1.25, 0.25, 4, 3.2, 2.0, 1.0, Lengthscale.STICK)
@@ -161,6 +161,9 @@ ALONE = EDGES | with_their_likes(
         "stick_radius": replace(EDGES["stick_radius"], weight=UNTOLD),
     }
 )
+# Without layers the pressure is a cap. The mean of its highest cell is 0.02 m^-2 too low with the
+# axis in its middle, 0.24 m^-2 with it at a corner, whatever cells twice as wide say.
+CAP = {"peak_pressure": replace(PEAK, least=1.0)}
 # Where friction acts back on a pressing contact its pressure has a cusp on the axis.
 CUSP = {"peak_pressure": replace(PEAK, order=1, factor=1.65, lengthscale=Lengthscale.CUSP)}
 # A rim lies within cells: whatever holds the indenter is off as the radius a that the cells make of
@@ -183,16 +186,22 @@ INFINITE = frozenset({"peak_pressure"})
 
 
 def rules_for(
-    indenter: ShapedBody, cusp: bool, edges: bool = False, alone: bool = False
+    indenter: ShapedBody,
+    cusp: bool,
+    edges: bool = False,
+    alone: bool = False,
+    layers: bool = True,
 ) -> Mapping[str, Rule]:
     """The rule of every quantity below an indenter; none of what is infinite in the exact answer.
 
-    cusp   whether friction acts back on the pressure
-    edges  whether they are inside the cells
-    alone  whether they are not inside those of a companion
+    cusp    whether friction acts back on the pressure
+    edges   whether they are inside the cells
+    alone   whether they are not inside those of a companion
+    layers  whether a body has any
     """
     with_edges = ALONE if alone else EDGES
-    rules = RULES | (with_edges if edges else CUSP if cusp else {})
+    without = CAP if isinstance(indenter, SmoothTip) and not layers else {}
+    rules = RULES | (with_edges if edges else CUSP if cusp else without)
     if indenter.rim is not None:
         rules = RULES | FLAT
     elif indenter.gap_exponent == 1:
