@@ -18,6 +18,7 @@ from verification.challenge.judgement import Judgement
 from verification.external_codes.calculix_deck import Fineness
 from verification.external_codes.coated_scene import CoatedScene
 from verification.judging.outcome import Status
+from verification.peers.drivers.exchange import approach_of, gap_of
 from verification.peers.environment import PEERS
 from verification.problems.paper_scene import HERTZ
 
@@ -119,8 +120,20 @@ def test_codes_for_half_spaces_are_asked_for_what_they_have_alone() -> None:
             half_spaces._request(posed(name), 32, aspher)
             asked.add(name)
     assert asked == {
-        "hertz_point", "hertz_elliptical", "cone_contact", "cattaneo_mindlin", "fretting_loop"
+        "hertz_point", "hertz_elliptical", "cone_contact", "flat_punch", "cattaneo_mindlin",
+        "fretting_loop",
     }  # fmt: skip
+
+
+def test_approach_is_what_overlaps_where_codes_find_pressure() -> None:
+    request = half_spaces._request(posed("flat_punch"), 32, PEERS[0])[0]
+    gap = gap_of(request)
+    pressure = np.where(gap == 0, 2.0, 0.0)
+    assert np.sum(pressure > 0) == pytest.approx(np.pi * (request["rim"] * 32 / 3) ** 2, rel=0.05)
+    displacement = np.where(gap == 0, 3e-2, 1e-2)
+    assert approach_of(gap, displacement, pressure) == pytest.approx(3e-2)
+    ball = gap_of({"cells": 32, "window": 3.0, "radius": 1.0})
+    assert approach_of(ball, 0.5 - ball, np.maximum(0.5 - ball, 0)) == pytest.approx(0.5)
 
 
 @pytest.mark.parametrize(

@@ -27,6 +27,20 @@ def test_scalars_agree_with_reference(row):
     assert error.max() < ACCURACY
 
 
+def test_coupling_of_two_bodies_subtracts_and_the_rest_adds():
+    """One of them is the other's mirror image: alike, they do not couple and give twice as much."""
+    one, other = (scalars(stack_of_row(row), np.array([0.3, 2.0])) for row in ROWS[:2])
+    both, swapped, alike = one.combined(other), other.combined(one), one.combined(one)
+    for name in ("c11", "c22", "csh"):
+        np.testing.assert_array_equal(getattr(alike, name), 2 * getattr(one, name))
+        np.testing.assert_array_equal(
+            getattr(both, name), getattr(one, name) + getattr(other, name)
+        )
+    np.testing.assert_array_equal(alike.c12, 0.0)
+    np.testing.assert_array_equal(both.c12, -swapped.c12)
+    np.testing.assert_array_equal(both.c12, one.c12 - other.c12)
+
+
 @pytest.mark.parametrize("row", ROWS, ids=lambda row: str(row["id"]))
 def test_matrix_agrees_with_reference(row):
     F = {key: float(value) for key, value in row["F"].items()}

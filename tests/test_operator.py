@@ -10,6 +10,7 @@ from contact_scene import RIGID, Body, IsotropicMaterial, Layer, Paraboloid
 from semi_analytical.influence.bodies import influence_coefficients
 from semi_analytical.operator import (
     Convolutions,
+    CouplingOperator,
     NormalOperator,
     TangentialOperator,
     _inverse_2x2,
@@ -22,8 +23,8 @@ ROUND_OFF = 1e-13
 ELASTIC = Body(material=steel()), Paraboloid(radius=1, material=steel(0.3))
 
 
-def coefficients(shape, spacing):
-    return influence_coefficients(*ELASTIC, spacing, offsets_for(shape))
+def coefficients(shape, spacing, bodies=ELASTIC):
+    return influence_coefficients(*bodies, spacing, offsets_for(shape))
 
 
 def operators(shape, spacing=(0.3, 1.7)):
@@ -62,6 +63,21 @@ def test_shear_operator_is_the_dense_matrix(shape, spacing, rng):
     q = rng.standard_normal((2, *shape))
     expected = dense_tangential(coefficients(shape, spacing), shape) @ q.ravel()
     assert np.max(np.abs(A(q).ravel() - expected)) < ROUND_OFF * np.max(np.abs(expected))
+
+
+@pytest.mark.parametrize("spacing", SPACINGS)
+@pytest.mark.parametrize("shape", SHAPES)
+def test_coupling_operator_is_the_dense_matrix(shape, spacing, rng):
+    """Pressure moves sideways as shear moves normally, with the opposite sign and transposed."""
+    K = coefficients(shape, spacing, (ELASTIC[0], Paraboloid(radius=1, material=RIGID)))
+    A = CouplingOperator(K, shape, Convolutions())
+    zx, zy = dense(K.zx, shape, (-1, 1)), dense(K.zy, shape, (1, -1))
+    p, q = rng.standard_normal(shape), rng.standard_normal((2, *shape))
+    for found, expected in (
+        (A.normal_by_shear(q), np.hstack([zx, zy]) @ q.ravel()),
+        (A.tangential_by_pressure(p), -np.vstack([zx, zy]) @ p.ravel()),
+    ):
+        assert np.max(np.abs(found.ravel() - expected)) < ROUND_OFF * np.max(np.abs(expected))
 
 
 @pytest.mark.parametrize("shape", [(12, 9), (13, 17)])

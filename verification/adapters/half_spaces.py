@@ -48,18 +48,18 @@ def _request(posed: Posed, cells: int, peer: Peer) -> tuple[dict[str, Any], floa
     modulus = 1 / sum((1 - m["poisson_ratio"] ** 2) / m["young_modulus"] for m in pair)
     length = posed.window / 3
     force, shape = modulus * length**2, scene["indenter"]
-    gap: dict[str, Any] = {"radius": 1.0}
+    asked: dict[str, Any] = {"radius": 1.0, "approach": True}
     if shape["shape"] == "cone":
-        gap["slope"] = tan(shape["slope_angle"])
+        asked["slope"] = tan(shape["slope_angle"])
     elif "radii" in shape:
-        gap["radius"] = [radius / length for radius in shape["radii"]]
-    elif shape["shape"] == "paraboloid":
-        gap["radius"] = shape["radius"] / length
+        asked["radius"] = [radius / length for radius in shape["radii"]]
+    elif shape["shape"] in ("paraboloid", "flat_punch"):
+        asked["radius" if shape["shape"] == "paraboloid" else "rim"] = shape["radius"] / length
     else:
         raise CannotDo(f"no {shape['shape']}")
     rubbed = {"tangential_forces": [t[0] / force for _, t in posed.loads[1:]]} if friction else {}
     request = {
-        "cells": cells, "window": 3.0, "modulus": 1.0, **gap, "tangential_force": 0.0, **rubbed,
+        "cells": cells, "window": 3.0, "modulus": 1.0, **asked, "tangential_force": 0.0, **rubbed,
         "force": posed.loads[0][0] / force, "friction": friction, "tolerance": TOLERANCE,
     }  # fmt: skip
     return request, length, modulus

@@ -12,7 +12,7 @@ COARSEST = 16
 
 
 def solve(request: Request) -> Answer:
-    """Pressure, and with friction shear."""
+    """Pressure and approach, and with friction shear."""
     aspher = import_module("aspher")
     n, side = request["cells"], request["window"]
     load = request["force"] / side**2
@@ -27,7 +27,7 @@ def solve(request: Request) -> Answer:
             "version": version("aspher"),
             "pressure": found.pressure.reshape(n, n),
             "shear": None,
-            "approach": None,
+            "approach": float(found.approach),
             "iterations": int(found.iterations),
             "converged": found.status == "converged" or bool(getattr(found, "converged", False)),
         }
@@ -36,7 +36,7 @@ def solve(request: Request) -> Answer:
         model=aspher.CoulombFriction(request["friction"]), precond=True,
     )  # fmt: skip
     solver.set_gap(gap)
-    solver.step(p_bar=load)
+    pressed = solver.step(p_bar=load)
     forces = request.get("tangential_forces") or [request["tangential_force"]]
     shears = []
     for force in forces:
@@ -48,7 +48,7 @@ def solve(request: Request) -> Answer:
         "version": version("aspher"),
         "pressure": solver.pressure.reshape(n, n),
         "shear": shears if "tangential_forces" in request else shears[-1],
-        "approach": None,
+        "approach": float(pressed.approach),
         "iterations": None,
         "converged": bool(step.converged),
     }

@@ -1,4 +1,4 @@
-"""What all drivers share: the gap of a ball, the clock and the memory, and the way in and out."""
+"""What all drivers share: gap and approach, the clock and the memory, and the way in and out."""
 
 from __future__ import annotations
 
@@ -17,24 +17,34 @@ from numpy.typing import NDArray
 
 Request = Mapping[str, Any]
 Answer = dict[str, Any]
+Array = NDArray[np.float64]
 
 ENOUGH_SECONDS = 1.0
 MOST_REPEATS = 5
+ABOVE = 1.0  # the gap beside a punch: far above any approach of small strains
 
 
 class CannotDo(Exception):
     """The code has no such problem."""
 
 
-def gap_of(request: Request) -> NDArray[np.float64]:
-    """Gap below a paraboloid at the cell centres (n, n), or below a cone where a slope is given."""
+def gap_of(request: Request) -> Array:
+    """Gap below a paraboloid at the cell centres (n, n), or below a cone where a slope is given, or
+    a flat punch where a rim is."""
     n, side = request["cells"], request["window"]
     x = (np.arange(n) + 0.5) * side / n - side / 2
+    if request.get("rim"):
+        return np.where(np.hypot(x[:, None], x[None, :]) <= request["rim"], 0.0, ABOVE)
     if request.get("slope"):
         return np.asarray(request["slope"] * np.hypot(x[:, None], x[None, :]))
     radius = request["radius"]
     along, across = radius if isinstance(radius, list) else (radius, radius)
     return np.asarray(x[:, None] ** 2 / (2 * along) + x[None, :] ** 2 / (2 * across))
+
+
+def approach_of(gap: Array, displacement: Array, pressure: Array) -> float:
+    """By how far the surfaces would overlap where they touch; a mean, weighted by the pressure."""
+    return float(np.sum(pressure * (displacement + gap)) / np.sum(pressure))
 
 
 def answer(solve: Callable[[Request], Answer], *modules: str) -> None:
