@@ -56,3 +56,64 @@ class Timed(Square):
         while time.process_time() - started < self.of:
             pass
         return CaseRecord(seconds=self.said)
+
+
+@dataclass(frozen=True)
+class Loop:
+    """A fretting contact by some solver; the digest of all its fields is a word of the record."""
+
+    solver: str
+    push: float
+
+    @property
+    def name(self) -> str:
+        return f"loop-{self.solver}-{self.push:g}"
+
+    def compute(self) -> CaseRecord:
+        import hashlib
+
+        import numpy as np
+
+        import slipstick
+
+        steel = slipstick.IsotropicMaterial(young_modulus=210e9, poisson_ratio=0.3)
+        scene = slipstick.Scene(
+            indenter=slipstick.Paraboloid(radius=18e-3, material=steel),
+            body=slipstick.Body(material=steel),
+            friction=slipstick.CoulombFriction(coefficient=0.1),
+            loading=(
+                slipstick.LoadStep(normal_force=1e3),
+                slipstick.LoadStep(tangential_force=(self.push, 0.0), increments=2),
+                slipstick.LoadStep(tangential_force=(-self.push, 0.0), increments=2),
+            ),
+        )
+        fineness = (
+            slipstick.SurfaceDiscretisation(cells=(20, 20))
+            if self.solver == "semi-analytical"
+            else slipstick.FiniteElementDiscretisation(elements_per_radius=4)
+        )
+        result = slipstick.solve(scene, self.solver, fineness)  # type: ignore[call-overload]
+        digest = hashlib.sha256()
+        for increment in result.increments:
+            for name, field in sorted(vars(increment).items()):
+                if isinstance(field, np.ndarray):
+                    digest.update(name.encode() + field.tobytes())
+        return CaseRecord(
+            measures={"dissipated_energy": result.increments[-1].dissipated_energy},
+            words={"fields": digest.hexdigest()},
+            seconds=1.0,
+        )
+
+
+@dataclass(frozen=True)
+class Endless:
+    """Says who computes it, and never ends by itself."""
+
+    pid_file: str
+    name: str = "endless"
+
+    def compute(self) -> CaseRecord:
+        with open(self.pid_file, "w", encoding="ascii") as file:
+            file.write(str(os.getpid()))
+        while True:
+            time.sleep(0.05)
