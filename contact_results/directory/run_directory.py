@@ -11,6 +11,7 @@ import json
 import os
 import secrets
 import shutil
+import time
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
@@ -20,6 +21,8 @@ from contact_results.directory.file_names import RUN_FILES, SUMMARY, TIMING
 from contact_results.directory.refusal import OutputRefused
 from contact_results.directory.sole_use import in_sole_use
 from contact_results.directory.stop_signals import cleaned_up_when_stopped, stop_signals_held
+
+PAUSES = (0.1, 0.4, 1.6)  # seconds between attempts to replace a file
 
 
 @contextmanager
@@ -198,10 +201,26 @@ def _replace_files(staging: Path, target: Path, summary: str, earlier: Sequence[
         for name in set(earlier) - new if ours else ():
             (target / name).unlink(missing_ok=True)
         for name in sorted(new, key=lambda name: (name == summary, name != TIMING, name)):
-            os.replace(staging / name, target / name)
+            _replace(staging / name, target / name)
         _flush(target)
     finally:
         release(lock)
+
+
+def _replace(new: Path, old: Path) -> None:
+    """Put a file into the place of another. Windows lets nobody who has that one open lose it: a
+    scanner lets go soon, a spreadsheet does not."""
+    for pause in (*PAUSES, None):
+        try:
+            os.replace(new, old)
+            return
+        except PermissionError as error:
+            if pause is None:
+                raise OutputRefused(
+                    f"{old} cannot be replaced: {error.strerror}; close the program that has it "
+                    "open, and give the same command again"
+                ) from error
+            time.sleep(pause)
 
 
 def _flush(path: Path) -> None:
