@@ -16,7 +16,7 @@ with B_n the transform of P_2n. What a profile has of corners is in S, in closed
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cached_property, lru_cache
+from functools import cached_property
 from math import ceil, log, pi
 from typing import TYPE_CHECKING, Any
 
@@ -27,6 +27,7 @@ from scipy.linalg import cho_factor, cho_solve
 
 from contact_scene.solver_errors import NotConverged, UnsupportedScene
 from radial.bodies import Bodies
+from radial.kept import MOST_KEPT, kept_within
 from radial.profile import Profile, profile
 from radial.quadrature import every_order, shifted, unit_gauss
 from radial.wavenumbers import Waves
@@ -41,6 +42,7 @@ ROUND_OFF = 1e-12
 SMOOTH = 1e-9  # of the approach: less at an edge is round-off
 ELSEWHERE = "solve it with the semi-analytical solver"
 FEWEST_ORDERS, MOST_ORDERS = 8, 256
+AT_ONCE = 8192  # wavenumbers
 PLACES = 40  # at which the equation is judged, none of them a node of the method
 
 
@@ -117,7 +119,10 @@ class _Galerkin:
     @cached_property
     def factor(self) -> Any:
         """Of the matrix, symmetric and positive definite because X is positive."""
-        kernel = (self.bases * self.excess) @ self.bases.T
+        kernel = np.zeros((self.count, self.count))
+        for first in range(0, len(self.excess), AT_ONCE):
+            some = slice(first, first + AT_ONCE)
+            kernel += (self.bases[:, some] * self.excess[some]) @ self.bases[:, some].T
         matrix = np.eye(self.count) + 2 / pi * self.scale[:, None] * kernel * self.scale
         return cho_factor(matrix, lower=True, overwrite_a=True, check_finite=False)
 
@@ -133,7 +138,7 @@ class _Galerkin:
         return float(np.max(np.abs(polynomials @ layers - exact)))
 
 
-@lru_cache(maxsize=8)
+@kept_within(MOST_KEPT)
 def _judged(waves: Waves, count: int) -> tuple[Array, Array]:
     """P_2n and cos κt at the places where the equation is judged."""
     t = (np.arange(PLACES) + 0.5) / PLACES
@@ -147,11 +152,13 @@ def disc(
     radius: float,
     approach: float | None = None,
     fineness: int = 1,
+    most: int | None = None,
 ) -> Disc:
     """The contact of this radius [length]: at the approach [length] where it has a rim, else at
     the one for which its pressure ends smoothly.
 
     fineness  how many times as many points and orders as it takes
+    most      orders at most, for what has to be right to a few percent alone
     raises    NotConverged where the equation cannot be solved to round-off, and what `profile` does
     """
     shape = profile(indenter, radius, fineness)
@@ -159,6 +166,7 @@ def disc(
         depth = shape.at_edge if approach is None else approach
         return Disc(bodies, shape, radius, depth, np.zeros(1), 0.0)
     count = orders(bodies.thickness / radius, shape.apex) * fineness
+    count = min(count, most or count)
     waves = bodies.waves(radius, fineness=fineness)
     places, weights = waves.rule
     excess = weights * bodies.excess(places / radius)
@@ -174,7 +182,7 @@ def disc(
         layers = depth * of_approach + of_profile
         missed = method.missed(layers, depth * method.bases[0] + by_profile)
         made = Disc(bodies, shape, radius, depth, layers, missed / (abs(depth) or 1.0))
-        if missed <= ROUND_OFF * (abs(depth) + float(np.sum(np.abs(layers)))):
+        if most or missed <= ROUND_OFF * (abs(depth) + float(np.sum(np.abs(layers)))):
             return made
         if best is not None and made.missed > 0.5 * best.missed:
             return best

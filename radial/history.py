@@ -15,6 +15,7 @@ from contact_scene.residuals import Residuals
 from contact_scene.standing import Keeper, Standing
 from radial.bodies import Bodies
 from radial.fields import Increment, Result
+from radial.memory import refuse_if_too_large
 from radial.plan import Plan
 from radial.plan import plan as plan_of
 from radial.pressing import Pressed, Target, pressed
@@ -61,6 +62,7 @@ def solve(
     """
     asked = discretisation or RadialDiscretisation()
     decided = plan_of(scene) if plan is None else plan
+    refuse_if_too_large(scene, decided)
     solver = _solver(scene, asked, decided, fineness)
     last = keeper.last() if keeper else None
     increments = [*last.increments] if last else []

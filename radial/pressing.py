@@ -95,7 +95,7 @@ def pressed(bodies: Bodies, indenter: ShapedBody, target: Target, fineness: int 
         whole = disc(bodies, indenter, indenter.rim, fineness=fineness)
         if target.is_beyond(whole):
             return Pressed(_to_the_rim(bodies, indenter, target, whole, fineness), target, 1)
-    x, power = log(_first_radius(bodies, indenter, target)), 2.0
+    x, power = log(first_radius(bodies, indenter, target)), 2.0
     best, nearest = None, inf
     last_x, last = x, inf
     for tried in range(1, MOST_TRIED + 1):
@@ -131,7 +131,7 @@ def _to_the_rim(
     return disc(bodies, indenter, whole.radius, whole.approach + further, fineness)
 
 
-def _first_radius(bodies: Bodies, indenter: ShapedBody, target: Target) -> float:
+def first_radius(bodies: Bodies, indenter: ShapedBody, target: Target) -> float:
     """Where the gap is the approach, or E* r f(r) the force, with the modulus of the stiffest part:
     rather too small than too large, where layers cost more [length]."""
     modulus = bodies.stiffest

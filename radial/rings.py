@@ -17,6 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.special import ellipe, ellipkm1, j0, j1
 
+from radial.kept import MOST_KEPT, kept_within
 from radial.quadrature import unit_gauss
 from radial.wavenumbers import Waves
 
@@ -29,8 +30,7 @@ GRADED, TOWARDS, FINEST = 0.5, 0.6, 9  # ratio of rings to the ends, to the fron
 AT_AXIS, AT_EDGE = 4, 6
 POINTS, WAVE_POINTS = 14, 6  # Gauss's of an element
 KEPT = 64
-MOST_KEPT = 256 << 20  # bytes of transforms, which thin films take many wavenumbers for
-MOST_AT_ONCE = 1 << 21  # numbers: 16 MiB
+MOST_AT_ONCE = 1 << 18  # numbers: 2 MiB
 # Radii outside of the contact at which displacements are known.
 OUTSIDE = 1 + np.array([0.01, 0.03, 0.08, 0.2, 0.4, 0.7, 1.1, 1.6, 2.5, 4.0])
 
@@ -140,11 +140,7 @@ class Rings:
     def transforms(self, waves: Waves) -> tuple[Array, Array, Array, Array]:
         """∫ φ J₀(κs) s ds of the pressure and ∫ φ J₁(κs) s ds of the shear (κ, columns); J₀(κx) and
         J₁(κx) at the rows (rows, κ)."""
-        found = _KEPT.pop((self, waves), None) or _transforms(self, waves)
-        _KEPT[self, waves] = found
-        while len(_KEPT) > 1 and sum(map(_size, _KEPT.values())) > MOST_KEPT:
-            _KEPT.pop(next(iter(_KEPT)), None)
-        return found
+        return _transforms(self, waves)
 
 
 def _root(x: Array) -> Array:
@@ -152,15 +148,9 @@ def _root(x: Array) -> Array:
 
 
 Transforms: TypeAlias = tuple[Array, Array, Array, Array]
-# Those that were asked for last, the last one last.
-_KEPT: dict[tuple[Rings, Waves], Transforms] = {}
 
 
-def _size(transforms: Transforms) -> int:
-    """[byte]."""
-    return sum(part.nbytes for part in transforms)
-
-
+@kept_within(MOST_KEPT)
 def _transforms(rings: Rings, waves: Waves) -> Transforms:
     kappa = waves.rule[0]
     length = np.diff(rings.x)[:, None]

@@ -16,6 +16,7 @@ from radial.quadrature import every_order, shifted, unit_gauss
 Array = NDArray[np.float64]
 
 POINTS = 48
+AT_ONCE = 8192  # wavenumbers
 PLACE = 1e-9  # of the contact radius, to which a largest value is found
 
 
@@ -83,5 +84,9 @@ def displacement(contact: Disc, x: Array) -> Array:
     waves = contact.bodies.waves(contact.radius, float(reach))
     places, weights = waves.rule
     felt = weights * contact.bodies.excess(places / contact.radius)
-    added = j0(np.multiply.outer(x, places)) @ (felt * contact.wave_transform(waves))
+    felt *= contact.wave_transform(waves)
+    added = np.zeros_like(x)
+    for first in range(0, len(felt), AT_ONCE):
+        some = slice(first, first + AT_ONCE)
+        added += j0(np.multiply.outer(x, places[some])) @ felt[some]
     return np.asarray(2 / pi * (direct + added))

@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.special import spherical_jn
 
+from radial.kept import MOST_KEPT, kept_within
 from radial.quadrature import unit_gauss
 
 Array = NDArray[np.float64]
@@ -74,13 +75,13 @@ def _rule(chosen: Waves) -> tuple[Array, Array]:
     return (edges[:-1, None] + widths * points).ravel(), (widths * weights).ravel()
 
 
-@lru_cache(maxsize=KEPT)
+@kept_within(MOST_KEPT)
 def _even_transforms(chosen: Waves, count: int) -> Array:
     places = chosen.rule[0]
     found = np.empty((count, len(places)))
     near = places < 2 * count
-    orders = np.arange(count)[:, None]
-    found[:, near] = spherical_jn(2 * orders, places[near])
+    for order in range(count):
+        found[order, near] = spherical_jn(2 * order, places[near])
     far = places[~near]
     # Upward recurrence, which is stable as long as the order is below the argument.
     last, now = spherical_jn(0, far), spherical_jn(1, far)
@@ -92,8 +93,10 @@ def _even_transforms(chosen: Waves, count: int) -> Array:
     return found
 
 
-@lru_cache(maxsize=KEPT)
+@kept_within(MOST_KEPT)
 def _shifted_transforms(chosen: Waves, count: int) -> Array:
     half = chosen.rule[0] / 2
-    orders = np.arange(count)[:, None]
-    return np.asarray(np.cos(orders * np.pi / 2 + half) * spherical_jn(orders, half))
+    found = np.empty((count, len(half)))
+    for order, row in enumerate(found):
+        row[:] = np.cos(order * np.pi / 2 + half) * spherical_jn(order, half)
+    return found

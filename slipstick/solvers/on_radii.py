@@ -11,12 +11,11 @@ from contact_scene.solver_errors import UnsupportedScene
 from contact_scene.standing import Keeper
 from contact_scene.stated_error import StatedErrors
 from radial import Plan, Result
+from radial.memory import estimated_bytes
 from slipstick.solvers.solver import Pairs, Progress, increments_text
 
 # Seconds of one core for an increment of a pushed contact (24 rings and 9 angles: 0.05 to 0.15).
 PUSHED = 0.08
-# Rings about the edge and outside, and how many matrices of all unknowns there are at a time.
-BESIDE, HELD = 16, 6
 
 
 class OnRadii:
@@ -56,15 +55,14 @@ class OnRadii:
         )
 
     def work(self, scene: Scene, fineness: RadialDiscretisation, plan: Plan) -> Pairs:
-        """Rings, tolerance and increments."""
+        """Rings, tolerance, increments, time and memory."""
         yield "rings", _rings_text(fineness, plan)
         yield "tolerance", f"{fineness.tolerance:.3g}"
         yield "increments", increments_text(plan.increments)
         if plan.pushed:
             seconds = PUSHED * plan.turned
             yield "time", f"about {seconds:.1g} s of one core, a tenth more for the errors"
-            unknowns = 3 * (plan.rings + BESIDE) * plan.angles
-            yield "memory", f"about {HELD * 8 * unknowns**2 / 2**20:.0f} MiB"
+        yield "memory", f"about {estimated_bytes(scene, plan) / 2**20:.0f} MiB"
 
     def reasons(self, plan: Plan) -> Sequence[tuple[str, str, str]]:
         return ()
