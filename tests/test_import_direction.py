@@ -87,12 +87,21 @@ ORDERS = {
         *("contact", "stress", "expected_radius", "solve"),
     ),
     "radial": (
-        *("quadrature", "wavenumbers", "bodies", "profile", "disc", "surface", "half_space"),
+        *(
+            "quadrature",
+            "kept",
+            "wavenumbers",
+            "bodies",
+            "profile",
+            "disc",
+            "surface",
+            "half_space",
+        ),
         *("below", "pressing", "rings", "coupling", "stick_slip", "sheared"),
         *("harmonic_kernels", "ring_energies", "ring_compliance", "ring_points", "ring_layout"),
         "ring_friction",
         *("friction_limit", "torsion", "twist_path"),
-        *("plan", "fields", "shown", "rubbing", "twisting", "pushing", "history"),
+        *("plan", "fields", "shown", "memory", "rubbing", "twisting", "pushing", "history"),
     ),
     "fem_reference.mesh": ("section_outline", "section_mesh", "gmsh_mesh"),
     "fem_reference.elasticity": (
