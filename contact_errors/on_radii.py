@@ -28,7 +28,7 @@ TWICE, HALF = 2, 0.5
 # their end.
 FRONT = 1e-3
 # Rings of a pushed contact follow neither: its front is known to a quarter of one.
-OF_RING, EDGE = 0.25, 1e-3
+OF_RING, EDGE = 0.25, 2e-3
 CUSP = 2.0  # of a pushed contact's pressure on the axis, which falls more slowly with the rings
 _QUADRATURE: Part = "quadrature"
 _INCREMENTS: Part = "increments"

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cache
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -25,6 +26,7 @@ from verification.problems.paper_scene import FRICTION, HERTZ
 from verification.problems.reference import ReferenceKind
 
 if TYPE_CHECKING:
+    import radial
     import semi_analytical
     from fem_reference import Result
 
@@ -46,6 +48,7 @@ SCENE = pressed(
 ASKED = "asked of two solvers that share nothing but the scene"
 HAND = "set by hand: twice what both leave on the coarsest meshes here"
 SOURCE = "the other solver, on the same increments"
+THIRD = "the radial solver, on the same increments"
 
 
 @dataclass(frozen=True)
@@ -98,12 +101,15 @@ def cross_check_tangential_on(sizes: Sizes) -> Case:
             "The paper's ball, rigid, on a coating twice as stiff as its base and as thick as the "
             "Hertz radius: pressed by 1 kN in 20 increments, which leaves radial shear, and then "
             "sheared to 0.3, 0.6 and 0.9 of µW in 6 increments each. Finite elements with "
-            "harmonics of the angle against cells with Fourier transforms, on the same increments."
+            "harmonics of the angle against cells with Fourier transforms, on the same "
+            "increments; and the radial solver on rings and angles, a third that shares "
+            "with the cells how layers answer one wavenumber, and with the elements nothing."
         ),
         runs=(section, fewer, surface),
         quantities=(),
         comparisons=(
             *(c for step, part in enumerate(PARTS, 1) for c in _at(step, part, runs)),
+            *(c for step, part in enumerate(PARTS, 1) for c in _third(step, part, runs)),
             Comparison(
                 "harmonics", f"shift at 0.9 µW by harmonics 0 … {sizes.harmonics // 2}, relative",
                 (fewer.label, section.label), relative_shift(len(PARTS)), 6e-3,
@@ -118,7 +124,10 @@ def cross_check_tangential_on(sizes: Sizes) -> Case:
             for step, part in enumerate(PARTS, 1) for run in runs
         ),
         charts=lambda results: (_chart(results[section.label], results[surface.label]),),
-        tables=lambda results: (_everywhere(results[section.label], results[surface.label]),),
+        tables=lambda results: (
+            _columns(results[section.label], results[surface.label]),
+            _everywhere(results[section.label], results[surface.label]),
+        ),
         limits=(
             "Compared away from the axis, from the edge, and from where stick begins or ends on "
             "the line: there both discretisations round a cusp, each in its way. Pressing ends "
@@ -171,6 +180,60 @@ def _at(step: int, part: float, runs: tuple[str, str]) -> tuple[Comparison, ...]
         return comparisons
     shift = "relative difference of the shift"
     return (*comparisons, compared("shift", shift, relative_shift(step), 1e-3, HAND))
+
+
+def _third(step: int, part: float, runs: tuple[str, str]) -> tuple[Comparison, ...]:
+    """The radial solver beside the other two: its larger difference."""
+
+    def compared(
+        name: str, meaning: str, difference: Callable[[Any, Any], float], allowed: float
+    ) -> Comparison:
+        def larger(fem: Result, sam: semi_analytical.Result) -> float:
+            return max(difference(_radial(), fem), difference(_radial(), sam))
+
+        return Comparison(
+            f"radial_{name}_at_{part:g}", f"{meaning} of the radial solver at {part:g} µW", runs,
+            larger, allowed, HAND, THIRD, ReferenceKind.OTHER_SOLVER,
+        )  # fmt: skip
+
+    def approach(one: Any, other: Any) -> float:
+        return float(abs(one.steps[step - 1].approach / other.steps[step - 1].approach - 1))
+
+    def stick(one: Any, other: Any) -> float:
+        return abs(stick_part_at(step)(one) - stick_part_at(step)(other))
+
+    comparisons = (
+        compared("approach", "relative difference of the approach", approach, 2e-4),
+        compared("stick_area", "difference of the stick area over the contact area", stick, 3e-2),
+    )
+    if part == 0:
+        return comparisons
+    shift = "relative difference of the shift"
+    return (*comparisons, compared("shift", shift, relative_shift(step), 1.5e-3))
+
+
+@cache
+def _radial() -> radial.Result:
+    """The scene on rings and angles."""
+    import radial
+
+    return radial.solve(SCENE)
+
+
+def _columns(fem: Result, sam: semi_analytical.Result) -> Table:
+    """All three solvers beside one another."""
+    solved: dict[str, Any] = {"cells": sam, "finite elements": fem, "radial": _radial()}
+    rows = [
+        (f"{part:g} µW", name, f"{end.approach * 1e6:.5f}", f"{shift_along_x(end) * 1e6:.5f}")
+        for step, part in enumerate(PARTS)
+        for name, end in ((name, result.steps[step]) for name, result in solved.items())
+    ]
+    return Table(
+        title="Three solvers on the sheared coated body",
+        columns=("T", "solver", "approach", "shift"),
+        rows=tuple(rows),
+        units={"approach": "µm", "shift": "µm"},
+    )
 
 
 def relative_shift(step: int) -> Callable[[Any, Any], float]:
