@@ -84,7 +84,7 @@ class PeriodicInverse:
         self._spectra: NDArray[Any] = np.empty((count, rows, columns // 2 + 1), dtype=np.complex64)
         self._values: NDArray[Any] = np.empty((count, rows, columns), dtype=np.float32)
 
-    def __call__(self, displacements: Field) -> Field:
+    def __call__(self, displacements: NDArray[Any]) -> NDArray[Any]:
         """Tractions (3 + k, nx, ny) of displacements of that shape, neither tiny nor huge."""
         _, nx, ny = displacements.shape
         if (nx, ny) != self._period:
@@ -103,4 +103,4 @@ class PeriodicInverse:
         spectra[2:] *= self._symbols[3:]
         np.fft.ifft(spectra, axis=-2, out=spectra)
         np.fft.irfft(spectra, n=self._period[1], axis=-1, out=self._values)
-        return np.multiply(self._values[:, :nx, :ny], 1 / self._unit, dtype=np.float64)
+        return np.multiply(self._values[:, :nx, :ny], 1 / self._unit, dtype=np.float32)

@@ -153,12 +153,6 @@ class Zones:
         t[:2] += self.pulled * free[2]
         return t
 
-    def forces_on(self, unit: Field) -> Field:
-        """Whose product with free unknowns is that of a field (3, nx, ny) with their tractions."""
-        forces = unit.copy()
-        forces[2] += np.sum(self.pulled * unit[:2], axis=0)
-        return forces
-
     def rows(self, free: Field, displacements: Field) -> Field:
         """What the derivative makes of free unknowns whose tractions cause displacements."""
         rows = self.free(displacements)

@@ -33,7 +33,7 @@ class GradedPreconditioner:
         # Beyond the last grade its stiffness is too small.
         shares[-1] *= np.sqrt((1 + last) / (1 + np.maximum(d, last)))
         self._sticking, self._shares = zones.tangent * shares[0], shares[1:]
-        self._rows = np.empty((3 + len(STIFFNESSES), *d.shape))
+        self._rows = np.empty((3 + len(STIFFNESSES), *d.shape), dtype=np.float32)
 
     def __call__(self, rows: Field) -> Field:
         """M rows."""
@@ -46,7 +46,7 @@ class GradedPreconditioner:
         u[:2] = self._stuck(u, zones.along(u))
         u[:2] += zones.tangent * np.einsum("kij,kij->ij", self._shares, u[3:])
         u[2] *= zones.contact
-        return u[:3]
+        return u[:3].astype(np.float64)
 
     def _stuck(self, v: Field, along: Field) -> Field:
         """Π v, t·v given."""

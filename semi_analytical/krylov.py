@@ -21,7 +21,7 @@ class LeastResidual:
     """What `least_residual` finds.
 
     solution    v
-    along       what came along, of v
+    along       what came along, of v, added up from single precision
     motion      m
     iterations  products with A
     """
@@ -50,7 +50,8 @@ def least_residual(
     """
     rows, turn = orthonormal(free)
     k = len(rows)
-    basis, along = np.empty((k + most + 1, right.size)), np.empty((most, right.size))
+    basis = np.empty((k + most + 1, right.size))
+    along = np.empty((most, right.size), dtype=np.float32)
     basis[:k] = rows
     del free, rows  # as large as many vectors
     first, r = _orthogonal(right.ravel(), basis[:k])

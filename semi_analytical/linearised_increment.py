@@ -13,6 +13,7 @@ from semi_analytical.graded_preconditioner import GradedPreconditioner
 from semi_analytical.krylov import least_residual
 
 Matrix = NDArray[np.float64]
+Vector = NDArray[np.float64]
 
 MOST_ITERATIONS = 40
 # Of the sums of tractions: what a zone that slips one way does not determine.
@@ -43,17 +44,13 @@ class LinearisedIncrement:
         self._shifts = problem.tangential_load.free_motions((2, *shape))
         self._closures = problem.normal_load.free_motions(shape)
         count = len(self._shifts) + len(self._closures)
-        # Forces of free unknowns are the product with these.
-        forces = np.empty((count, 3 * problem.gap.size))
         self._images: Field = np.empty((count, 3, *shape))
         for number, unit in enumerate(self._units()):
-            forces[number] = zones.forces_on(unit).ravel()
             self._images[number] = (
                 zones.free(last._images[number]) if last else self._precondition(zones.free(unit))
             )
-        images = self._images.reshape(forces.shape)
-        inverse = np.linalg.pinv(np.einsum("ik,jk->ij", forces, images), rcond=UNDETERMINED)
-        self._excess = np.einsum("ij,jk->ik", inverse, forces)
+        responses = np.array([self._forces(image) for image in self._images])
+        self._inverse = np.linalg.pinv(responses.reshape(count, count).T, rcond=UNDETERMINED)
 
     def _units(self) -> Iterator[Field]:
         """Unit motions whose forces are given (3, nx, ny)."""
@@ -65,7 +62,7 @@ class LinearisedIncrement:
 
     def _free_units(self) -> Matrix:
         """The free parts of these (k, 3 nx ny)."""
-        units = np.empty((len(self._excess), 3 * self._problem.gap.size))
+        units = np.empty((len(self._images), 3 * self._problem.gap.size))
         for row, unit in zip(units, self._units(), strict=True):
             row[:] = self._zones.free(unit).ravel()
         return units
@@ -118,6 +115,12 @@ class LinearisedIncrement:
     def _unknowns(self, rows: Field) -> Field:
         """Free unknowns, roughly, that the derivative makes rows of; they change no given force."""
         free = self._precondition(rows)
-        excess = np.einsum("ik,k->i", self._excess, free.ravel())
-        free -= np.einsum("i,icjk->cjk", excess, self._images)
+        for share, image in zip(self._inverse @ self._forces(free), self._images, strict=True):
+            free -= share * image
         return free
+
+    def _forces(self, free: Field) -> Vector:
+        """The given forces, of the tractions of free unknowns."""
+        t = self._zones.tractions(free)
+        pressed = [np.sum(closure * t[2]) for closure in self._closures]
+        return np.array([*self._problem.tangential_load.forces(t[:2]), *pressed])
