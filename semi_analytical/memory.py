@@ -17,7 +17,7 @@ SHEAR_ARRAYS = 58
 TILT_ARRAYS = 10
 TORSION_ARRAYS = 36
 # Spectra of the coupling, and the Krylov vectors of a Newton step with their displacements.
-COUPLING_ARRAYS = {Coupling.NONE: 0, Coupling.ONE_WAY: 33, Coupling.FULL: 143}
+COUPLING_ARRAYS = {Coupling.NONE: 0, Coupling.ONE_WAY: 33, Coupling.FULL: 125}
 # Spectra of what tractions do within the cells, and that along the edge, in about as many cells as
 # a side has.
 EDGE_ARRAYS = 28

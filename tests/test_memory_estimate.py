@@ -56,6 +56,7 @@ SCENES = {
     "sheared": pytest.param(scene(256, then=PUSHED), marks=slow),
     "sheared, large": pytest.param(scene(512, then=PUSHED), marks=slow),
     "turned": pytest.param(scene(256, then=TURNED), marks=slow),
+    "coated and sheared": pytest.param(scene(512, layer=LAYER, then=PUSHED), marks=slow),
     "coupled": pytest.param(scene(256, nu=0.0), marks=slow),
 }
 
