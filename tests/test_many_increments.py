@@ -1,0 +1,74 @@
+"""A thousand increments, and ten thousand: memory is flat, every increment is told once, and the
+end is that of a few."""
+
+import gc
+import sys
+from typing import Any
+
+import numpy as np
+import pytest
+from test_soak import resident_bytes
+
+import slipstick
+from contact_scene import stored_fields
+from contact_scene.increment import ReportedIncrement
+
+LIGHT = 6000  # bytes of an increment whose fields are in the file, as in test_long_histories
+EARLY = 0.3  # of the increments: all is allocated, and fields go into the file
+STEEL = slipstick.IsotropicMaterial(young_modulus=210e9, poisson_ratio=0.3)
+FINENESS: dict[str, Any] = {
+    "semi-analytical": slipstick.SurfaceDiscretisation(cells=(16, 16), edge="off"),
+    "radial": slipstick.RadialDiscretisation(rings=16),
+}
+
+pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="memory is read from /proc")
+
+
+def pushed(solver: str, count: int) -> slipstick.Scene:
+    """To the half of the friction limit, or where that is of no use pressed further."""
+    then = slipstick.LoadStep(tangential_force=(50.0, 0.0), increments=count)
+    further = slipstick.LoadStep(normal_force=2e3, increments=count)
+    return slipstick.Scene(
+        indenter=slipstick.Paraboloid(radius=18e-3, material=STEEL),
+        body=slipstick.Body(material=STEEL),
+        friction=slipstick.CoulombFriction(coefficient=0.1)
+        if solver == "semi-analytical"
+        else None,
+        loading=(
+            slipstick.LoadStep(normal_force=1e3),
+            then if solver == "semi-analytical" else further,
+        ),
+    )
+
+
+many = pytest.param(10_000, marks=[pytest.mark.slow, pytest.mark.timeout(3600)])
+
+
+@pytest.mark.parametrize("count", [1000, many])
+@pytest.mark.parametrize("solver", FINENESS)
+def test_memory_is_flat_and_the_end_that_of_a_few(
+    solver: str, count: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(stored_fields, "MOST_HELD", 1 << 20)
+    seen: list[int] = []
+    memory: list[int] = []
+
+    def watch(increment: ReportedIncrement) -> None:
+        if increment.step == 2:
+            seen.append(increment.index)
+            if increment.index in (round(EARLY * count), count):
+                memory.append(resident_bytes())
+
+    solve: Any = slipstick.solve
+    result = solve(pushed(solver, count), solver, FINENESS[solver], progress=watch)
+    assert seen == [*range(1, count + 1)]
+    assert memory[1] <= 1.01 * memory[0] + LIGHT * (1 - EARLY) * count
+    few = solve(pushed(solver, 10), solver, FINENESS[solver]).steps[-1]
+    end = result.steps[-1]
+    assert np.max(np.abs(end.pressure - few.pressure)) <= 1e-6 * np.max(few.pressure)
+    # A push from rest has no path: shear of a thousand steps is that of ten, to their tolerances.
+    if solver == "semi-analytical":
+        apart = np.max(np.abs(end.shear - few.shear))
+        assert apart <= 1e-2 * np.max(np.abs(few.shear))
+    del result
+    gc.collect()
