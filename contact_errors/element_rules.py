@@ -54,6 +54,9 @@ AT_GAUSS_POINTS = with_their_likes(
 # The largest stress at the surface and near it, at an edge of the tractions: too low by 0.75 to
 # 1.15 of itself over the root of the elements (Hamilton's stress, places of the edge in one).
 ON_SURFACE = Rule(0.5, 1.5, 1, 1.6)
+# The same where the tractions end in a root at fitted edges: what the smooth factor does not know,
+# and the last element before the edge.
+AT_EDGE = Rule(1, 0.3, 1, 1.0, floor=6e-3)
 # The largest stress inside, as far as elements that grow with the depth know it.
 INSIDE = Rule(1.5, 0.15, 1, 2.0)
 # A slip annulus below so many elements may be missed altogether: the stick radius is off by one.

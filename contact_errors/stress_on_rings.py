@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from contact_errors import estimate
-from contact_errors.element_rules import INSIDE, ON_SURFACE
+from contact_errors.element_rules import AT_EDGE, INSIDE, ON_SURFACE
 from contact_errors.rules import Rule
 from contact_results.stress.extremes import Extreme, extremes, layer_name
 from contact_results.stress.loaded_bodies import LoadedBodies
@@ -39,8 +39,9 @@ def ring_stress_errors(
     there = {(e.region, e.measure): e.value for e in extremes(wide, body)}
     radius, count = _loaded(state)
     near, by_increments = NEAR * radius / count, state.by_increments or 0.0
+    on_surface = AT_EDGE if field.how["edges"] else ON_SURFACE
     tension, there_too = (_tension_near(one.points, near) for one in (field, wide))
-    reached = tension + _by_elements(ON_SURFACE, tension, there_too, count)
+    reached = tension + _by_elements(on_surface, tension, there_too, count)
     outermost = {"body", layer_name(0, len(body.layers))}
     errors = []
     for e in found:
@@ -48,7 +49,7 @@ def ring_stress_errors(
         if coarse is None:
             errors.append(estimate.UNKNOWN)
             continue
-        rule = INSIDE if e.depth >= near else ON_SURFACE
+        rule = INSIDE if e.depth >= near else on_surface
         elements = _by_elements(rule, e.value, coarse, count)
         if e.measure == LARGEST_TENSION and e.region in outermost:
             elements = max(elements, reached - e.value)
@@ -100,4 +101,5 @@ def _tension_near(points: StressPoints, depth: float) -> float:
 
 def _by_elements(rule: Rule, value: float, coarse: float, count: float) -> float:
     change, largest = np.array([abs(value - coarse)]), np.array([abs(value)])
-    return float(estimate.by_cells(rule, change, 2.0, largest * rule.scatter(count))[0])
+    by_cells = estimate.by_cells(rule, change, 2.0, largest * rule.scatter(count))
+    return float(by_cells[0]) + rule.floor * abs(value)

@@ -28,7 +28,10 @@ def stress_on_section(state: LoadedBodies, *, indenter: bool = False) -> StressF
 
     assert state.discretisation is not None
     tractions = SurfaceTractions(
-        radii=state.axes["radii"], angles=state.axes.get("angles"), **state.tractions
+        radii=state.axes["radii"],
+        angles=state.axes.get("angles"),
+        **state.tractions,
+        rooted=state.no_root is None,
     )
     # Elements over the circle that is loaded now, not over the largest one.
     asked = state.discretisation.model_copy(update={"contact_radius": None})
@@ -51,6 +54,7 @@ def stress_on_section(state: LoadedBodies, *, indenter: bool = False) -> StressF
         {
             "loaded_radius": radius,
             "elements_per_radius": asked.elements_per_radius,
+            "edges": tractions.edges.tolist(),
             "recovery": RECOVERY,
             "written_to": reach,
             "elements": len(section.cells[1]),

@@ -11,6 +11,13 @@ from contact_scene.body import Body
 from contact_scene.solver_errors import SolverError
 from fem_reference.mesh.section_outline import CONTACT_ZONE, SectionOutline, graded, section_outline
 
+SHRINK, SHRINKS = 1 / 4, 8
+"""Of the elements towards an edge of the tractions, each to the one before: the stress there falls
+like the root of the distance, and 1.5e-5 of an element leaves 0.4 % of what an element would."""
+
+CLOSEST = 0.25
+"""Of lines, in distances from the next edge."""
+
 
 @dataclass(frozen=True, eq=False)
 class SectionMesh:
@@ -73,6 +80,30 @@ class SectionMesh:
         mesh = self.mesh.refined()
         finer = replace(self.outline, size=self.outline.size / 2.0)
         return SectionMesh(np.asarray(mesh.p), np.asarray(mesh.t), finer)
+
+    def towards(self, edges: NDArray[np.float64]) -> "SectionMesh":
+        """A mesh of rectangles with lines at these radii, its elements halved and halved again
+        towards them and towards the surface; this one itself where there are none."""
+        if not edges.size:
+            return self
+        r, z = self.points
+        r, z = np.sort(r[z == 0.0]), np.sort(z[r == 0.0])
+        size = self.outline.size
+        finest = size * SHRINK**SHRINKS
+        apart = np.unique(edges)
+        apart = apart[np.diff(apart, prepend=-np.inf) > finest]
+        steps = size * SHRINK ** np.arange(SHRINKS + 1)
+        lines = np.unique(np.concatenate([r, apart, *(apart + s for s in (*steps, *-steps))]))
+        room = np.min(np.abs(lines[:, None] - apart), axis=1, initial=size)
+        free = (room == 0.0) | (room > 0.5 * finest)
+        lines, room = lines[free], room[free]
+        kept = [0]
+        for line in range(1, len(lines)):
+            if lines[line] - lines[kept[-1]] >= CLOSEST * min(room[line], room[kept[-1]]):
+                kept.append(line)
+        below = z[1] * SHRINK ** np.arange(int(np.log(finest / z[1]) / np.log(SHRINK)), 0, -1)
+        mesh = MeshQuad.init_tensor(lines[kept], np.concatenate([z[:1], below, z[1:]]))
+        return SectionMesh(np.asarray(mesh.p), np.asarray(mesh.t), self.outline)
 
 
 def section_mesh(

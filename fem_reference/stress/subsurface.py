@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass, replace
 from math import ceil
 
 import numpy as np
@@ -10,6 +11,7 @@ from numpy.typing import NDArray
 from contact_scene import Body, FiniteElementDiscretisation, IsotropicMaterial
 from contact_scene.solver_errors import UnsupportedScene
 from fem_reference.elasticity.factored_section import FactoredSection
+from fem_reference.elasticity.motion import Motion
 from fem_reference.elasticity.weak_form import dilatation
 from fem_reference.mesh.section_mesh import SectionMesh, section_mesh
 from fem_reference.mesh.section_outline import CONTACT_ZONE
@@ -58,24 +60,26 @@ def subsurface(
     materials = (*(layer.material for layer in body.layers), body.material)
     modulus = next(m.young_modulus for m in materials if isinstance(m, IsotropicMaterial))
     scales = Scales(length, modulus)
+    edges = tractions.edges / length
     zone = max(CONTACT_ZONE, tractions.reach / length)
-    section = _section(scales.dimensionless(body), discretisation, zone)
+    section = _section(scales.dimensionless(body), discretisation, zone).towards(edges)
     _refuse_incompressible(section)
     recovery = recovery_of(section)
-    found = tractions.amplitudes()
+    points = _points_of_load(section, tractions, length)
+    found = _carrying_the_load(tractions, points, length)
     largest = max(float(np.max(np.abs(t))) for _, t in found)
     parts = []
     for of, amplitude in found:
         if np.max(np.abs(amplitude)) > ROUND_OFF * largest:
             sign = np.where(np.array(of.components) == 2, 1.0, -1.0 if upper else 1.0)
-            forces = _forces(section, tractions.radii / length, sign[:, None] * amplitude / modulus)
+            forces = sign[:, None] * amplitude / modulus @ points.weighted.T
             u = FactoredSection(section, of).displacement(forces[..., None])[..., 0]
             parts.append(recovery.amplitude(of, u, scales))
-    points = _points(body, section, recovery.basis.doflocs[:, recovery.node], length)
-    return SectionField(points, recovery.material, recovery.cells, tuple(parts))
+    nodes = _nodes(body, section, recovery.basis.doflocs[:, recovery.node], length)
+    return SectionField(nodes, recovery.material, recovery.cells, tuple(parts))
 
 
-def _points(body: Body, section: SectionMesh, nodes: Field, length: float) -> Field:
+def _nodes(body: Body, section: SectionMesh, nodes: Field, length: float) -> Field:
     """(2, n) positions [length], interfaces at the very depths that the body gives them."""
     points = nodes * length
     bottoms = np.cumsum([layer.thickness for layer in body.layers])
@@ -100,24 +104,48 @@ def _refuse_incompressible(section: SectionMesh) -> None:
         )
 
 
-def _forces(section: SectionMesh, radii: Field, tractions: Field) -> Field:
-    """(c, m) generalised forces ∫ ψ t r dr of tractions (c, rings) linear between rings.
+@dataclass(frozen=True, eq=False)
+class _LoadPoints:
+    """Where the tractions are integrated: between all corners and rings.
 
-    Integrated between all corners and rings, so exactly.
+    radii     (k,)
+    weighted  (m, k) ψ w r at them for every node of the surface, so that ∫ ψ t r dr = weighted @ t
     """
+
+    radii: Field
+    weighted: Field
+
+
+def _carrying_the_load(
+    tractions: SurfaceTractions, points: _LoadPoints, length: float
+) -> list[tuple[Motion, Field]]:
+    """Amplitudes at the points. What was computed at rings carries the load with lines between
+    them; roots through the same values carry a little more, so all is made less by that."""
+    radii, weight = points.radii * length, points.weighted.sum(axis=0)
+    found = tractions.amplitudes(radii)
+    if not tractions.edges.size:
+        return found
+    linear = replace(tractions, rooted=False).amplitudes(radii)
+    carried, load = (float(parts[0][1][-1] @ weight) for parts in (found, linear))
+    return [(of, amplitude * (load / carried)) for of, amplitude in found]
+
+
+def _points_of_load(
+    section: SectionMesh, tractions: SurfaceTractions, length: float
+) -> _LoadPoints:
     nodes = section.radii
     corners = nodes[::2]
-    ends = np.unique(np.concatenate([corners[corners < radii[-1]], radii]))
+    rings = tractions.radii / length
+    last = min(corners[-1], max(rings[-1], tractions.edges.max(initial=0.0) / length))
+    ends = np.unique(np.concatenate([corners[corners < last], rings[rings < last], [last]]))
     x, w = np.polynomial.legendre.leggauss(POINTS_BETWEEN)
     width = np.diff(ends)[:, None]
     r = (ends[:-1, None] + 0.5 * width * (1 + x)).ravel()
     weight = (0.5 * width * w).ravel() * r
-    kept = r <= corners[-1]
-    r, weight = r[kept], weight[kept]
     element = np.clip(np.searchsorted(corners, r) - 1, 0, len(corners) - 2)
     at = (r - corners[element]) / (corners[element + 1] - corners[element])
     trace = np.zeros((len(nodes), len(r)))
     point = np.arange(len(r))
     for k, shape in enumerate(((1 - at) * (1 - 2 * at), 4 * at * (1 - at), at * (2 * at - 1))):
         trace[2 * element + k, point] = shape
-    return np.stack([trace @ (weight * np.interp(r, radii, t)) for t in tractions])
+    return _LoadPoints(r, trace * weight)

@@ -1,25 +1,41 @@
-"""What loads the surface of a section, ring by ring or as harmonics."""
+"""What loads the surface of a section, at any radius, as harmonics."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
 
-from fem_reference.contact.harmonics.angular_grid import end_grid, mid_grid
+from fem_reference.contact.harmonics.angular_grid import AngularGrid, end_grid, mid_grid
+from fem_reference.contact.penalty import fitted_edge
+from fem_reference.contact.penalty.gauss_points import POINTS_PER_EDGE
+from fem_reference.contact.ring_edge import contact_edge
 from fem_reference.elasticity.motion import PRESSING, SHEARING, TORSION, Motion, motion
 from fem_reference.fields import Increment
 
 Field = NDArray[np.float64]
 
+# The last element with pressure says nothing of the smooth factor. Hats that do not end where the
+# contact does err before it by turns above and below, each ring by -0.3 of the next one further
+# out: a line and such turns are fitted to so many elements before the last.
+FITTED, TURNS = 8, -0.3
+FEWEST_RINGS = 4
+BETWEEN_RAYS = 2  # rays of the tractions to one of those that were computed
+
 
 @dataclass(frozen=True, eq=False)
 class SurfaceTractions:
-    """What loads the lower body, linear between rings; names and signs as in `Increment`.
+    """What loads the lower body; names and signs as in `Increment`.
+
+    Between rings it is linear. Where the contact ends in a root, the pressure is what is linear
+    times the root √(1 - r²/a²), its edge a found on every ray, and the shear a part of it that is
+    linear: the stress beside an edge is decided by what happens within the last element.
 
     radii   (rings,) [length]
     angles  None, or (angles,) where fields are (rings, angles)
+    rooted  whether pressure and shear end in a root of the distance from the edge
     """
 
     radii: Field
@@ -28,10 +44,11 @@ class SurfaceTractions:
     shear_radial: Field | None = None
     shear_circumferential: Field | None = None
     shear_along_load: Field | None = None
+    rooted: bool = False
 
     @classmethod
     def of(cls, increment: Increment) -> SurfaceTractions:
-        """Those of an increment."""
+        """Those of an increment, linear between rings."""
         return cls(
             increment.radii,
             increment.pressure,
@@ -54,24 +71,114 @@ class SurfaceTractions:
         beyond = self.radii[self.radii > self.loaded_radius]
         return float(beyond[0]) if beyond.size else self.loaded_radius
 
-    def amplitudes(self) -> list[tuple[Motion, Field]]:
-        """Motions with the amplitudes (c, rings) of q_r, q_theta, p that load them."""
-        nothing = np.zeros_like(self.radii)
+    @property
+    def edges(self) -> Field:
+        """Radii of the edges before and behind the load, the same twice where the pressure is the
+        same all round [length]; none where it is not rooted or on too few rings to tell."""
+        if not self.rooted or self._fewest < FEWEST_RINGS:
+            return np.empty(0)
+        if self.angles is None:
+            return np.repeat(self._edges, 2)
+        amplitudes = self._grid.cosines @ self._edges
+        return np.array([np.sum(amplitudes), np.sum(amplitudes[::2]) - np.sum(amplitudes[1::2])])
+
+    def amplitudes(self, radii: Field) -> list[tuple[Motion, Field]]:
+        """Motions with the amplitudes (c, radii) at any radii of q_r, q_theta, p that load them."""
+        nothing = np.zeros_like(self.pressure)
+        shear = (self.shear_radial, self.shear_circumferential, self.shear_along_load)
+        parts = [nothing if part is None else part for part in (*shear, self.pressure)]
+        rays = np.stack([part.reshape(len(self.radii), -1) for part in parts])
+        values = self._rooted(radii, rays) if self.edges.size else self._linear(radii, rays)
         if self.angles is not None:
-            return self._on_harmonics(self.angles)
-        outward = nothing if self.shear_radial is None else self.shear_radial
-        found = [(PRESSING, np.stack([outward, self.pressure]))]
+            motions = [motion(n) for n in range(self._grid.highest + 1)]
+            return [(m, values[[0, 1, 3]][list(m.components), :, m.harmonic]) for m in motions]
+        outward, around, along, pressure = values[..., 0]
+        found = [(PRESSING, np.stack([outward, pressure]))]
         if self.shear_circumferential is not None:
-            found.append((TORSION, self.shear_circumferential[None]))
+            found.append((TORSION, around[None]))
         if self.shear_along_load is not None:
-            along = self.shear_along_load
-            found.append((SHEARING, np.stack([along, -along, nothing])))
+            found.append((SHEARING, np.stack([along, -along, 0.0 * along])))
         return found
 
-    def _on_harmonics(self, angles: Field) -> list[tuple[Motion, Field]]:
-        grid = end_grid(len(angles) - 1) if angles[0] == 0 else mid_grid(len(angles))
-        parts = (self.shear_radial, self.shear_circumferential, self.pressure)
-        values = [np.zeros_like(self.pressure) if part is None else part for part in parts]
-        amplitudes = grid.amplitudes(np.stack(values))
-        motions = [motion(n) for n in range(grid.highest + 1)]
-        return [(m, amplitudes[list(m.components), :, m.harmonic]) for m in motions]
+    @property
+    def _fewest(self) -> float:
+        """Elements with pressure, on the ray with the fewest."""
+        return float(np.min(np.count_nonzero(self._rays > 0, axis=0)) / self._per_element)
+
+    @property
+    def _rays(self) -> Field:
+        """The pressure (rings, angles), of one angle where it is the same all round."""
+        return self.pressure.reshape(len(self.radii), -1)
+
+    @cached_property
+    def _grid(self) -> AngularGrid:
+        assert self.angles is not None
+        count = len(self.angles)
+        return end_grid(count - 1) if self.angles[0] == 0 else mid_grid(count)
+
+    @property
+    def _per_element(self) -> int:
+        """Points of an element: its ring, or Gauss points, of which none is on the axis."""
+        return 1 if self.radii[0] == 0.0 else POINTS_PER_EDGE
+
+    @cached_property
+    def _edges(self) -> Field:
+        """Radius of the edge on every ray [length]: between rings from the axis on, or between
+        Gauss points."""
+        if self._per_element == 1:
+            return np.array([contact_edge(self.radii, ray) for ray in self._rays.T])
+        last = int(np.flatnonzero(self._rays[:, 0] > 0)[-1])
+        element = self.radii[last] - self.radii[last - POINTS_PER_EDGE]
+        return np.array([fitted_edge.edge_radius(self.radii, self._rays[:, 0], last, element)])
+
+    def _linear(self, radii: Field, rays: Field) -> Field:
+        """(4, radii, harmonics)"""
+        found = [[np.interp(radii, self.radii, ray) for ray in part.T] for part in rays]
+        return self._harmonics(np.swapaxes(found, 1, 2))
+
+    def _rooted(self, radii: Field, rays: Field) -> Field:
+        """(4, radii, harmonics). Shear over pressure and the smooth factor of the pressure go from
+        ray to ray first: the root ends at another radius on each."""
+        factors = np.empty((4, len(radii), rays.shape[2]))
+        for ray, edge in enumerate(self._edges):
+            loaded = rays[3, :, ray] > 0
+            at, pressed = self.radii[loaded], rays[3, loaded, ray]
+            for part in range(3):
+                factors[part, :, ray] = np.interp(radii, at, rays[part, loaded, ray] / pressed)
+            factors[3, :, ray] = _smooth_factor(radii, at, pressed, edge, self._per_element)
+        edges, fine = self._edges, None
+        if self.angles is not None:
+            fine = end_grid(BETWEEN_RAYS * self._grid.highest)
+            cosines, sines = self._grid.modes(fine.angles)
+            modes = (cosines, sines, cosines, cosines)
+            amplitudes = self._harmonics(factors)
+            factors = np.stack([f @ m for f, m in zip(amplitudes, modes, strict=True)])
+            edges = (self._grid.cosines @ self._edges) @ cosines
+        root = np.sqrt(np.maximum(1.0 - (radii[:, None] / edges) ** 2, 0.0))
+        factors[3] *= root
+        factors[:3] *= factors[3]
+        if fine is None:
+            return factors
+        return self._harmonics(factors, fine)[..., : self._grid.highest + 1]
+
+    def _harmonics(self, values: Field, grid: AngularGrid | None = None) -> Field:
+        """(4, radii, harmonics) of values (4, radii, angles), or of what has no angle itself."""
+        if self.angles is None:
+            return values
+        on = grid or self._grid
+        transforms = (on.cosines, on.sines, on.cosines, on.cosines)
+        return np.stack([f @ d.T for f, d in zip(values, transforms, strict=True)])
+
+
+def _smooth_factor(radii: Field, at: Field, pressed: Field, edge: float, per_element: int) -> Field:
+    """Of the pressure on a ray: what times √(1 - r²/a²) is the pressure, at any radii."""
+    inner = at[at < edge][:-per_element]
+    smooth = pressed[: len(inner)] / np.sqrt(1.0 - (inner / edge) ** 2)
+    count = min(FITTED * per_element, len(inner))
+    beside = inner[-count:] / edge - 1.0
+    turns = TURNS ** np.arange(count)[::-1] if per_element == 1 else np.zeros(count)
+    law = np.stack([np.ones(count), beside, turns], axis=1)
+    value, slope, turning = np.linalg.lstsq(law, smooth[-count:], rcond=None)[0]
+    smooth[-count:] -= turning * turns
+    line = value + slope * (radii / edge - 1.0)
+    return np.where(radii < inner[-1], np.interp(radii, inner, smooth), line)
