@@ -80,6 +80,13 @@ def test_coupling_operator_is_the_dense_matrix(shape, spacing, rng):
         assert np.max(np.abs(found.ravel() - expected)) < ROUND_OFF * np.max(np.abs(expected))
 
 
+def test_mean_of_the_shear_coefficients_is_half_the_trace_of_what_is_inverted():
+    """Of a 2 by 2 matrix the trace is that of the inverse over the inverse's determinant."""
+    _, A, _ = operators((12, 9))
+    xx, yy, xy = A.inverse
+    np.testing.assert_allclose(2 * A.mean, (xx + yy) / (xx * yy - xy**2), rtol=1e-9)
+
+
 @pytest.mark.parametrize("shape", [(12, 9), (13, 17)])
 def test_opposite_edges_do_not_see_each_other(shape):
     """A load on one edge displaces the other as the matrix says, however the grid is padded."""
