@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from math import inf, pi, sqrt
+from dataclasses import dataclass, field
+from math import pi, sqrt
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,12 +12,13 @@ from contact_scene import LoadRamp, RadialDiscretisation, Scene
 from contact_scene.friction import sliding_friction
 from contact_scene.march import Reached
 from contact_scene.residuals import Residuals
+from contact_scene.solver_errors import NotConverged
 from contact_scene.summary import ContactStatus
 from radial.coupling import Coupling
 from radial.fields import Increment
 from radial.plan import ANGLES, RINGS
 from radial.pressing import pressed
-from radial.ring_friction import Held, Loads, held
+from radial.ring_friction import MOST_STEPS, Held, Loads, held
 from radial.ring_layout import laid
 from radial.ring_points import Points
 from radial.shown import largest_targets
@@ -80,6 +81,7 @@ class Pushing:
 
     direction  of the tangential load, unit vector
     points     laid out for the largest contact of the history
+    taken      steps of Newton's method, solve by solve
     """
 
     scene: Scene
@@ -87,7 +89,8 @@ class Pushing:
     direction: Pair
     tolerance: float
     points: Points
-    most_spent: float = inf
+    taken: list[int] = field(default_factory=list)
+    most_spent: float = 4.0 * MOST_STEPS
 
     @classmethod
     def of(
@@ -139,8 +142,8 @@ class Pushing:
         return Loads(force, approach, 0.0, None)
 
     def spent(self) -> float:
-        """Nothing that halves would save."""
-        return 0.0
+        """Steps of Newton's method."""
+        return float(sum(self.taken))
 
     def advance(
         self, ramp: LoadRamp, start: Pushed | None, before: Pushed | None, fraction: float
@@ -173,7 +176,12 @@ class Pushing:
         slip = before.slip if before else np.zeros((2, len(points.areas)))
         if last is not None and before is not None and turned and not before.turned:
             last, slip = last.every_angle(points), points.every_angle(slip)
-        end = held(points, self.friction, loads_there, last, EXACT * self.tolerance)
+        try:
+            end = held(points, self.friction, loads_there, last, EXACT * self.tolerance)
+        except NotConverged as error:
+            self.taken.append(error.iterations)
+            raise
+        self.taken.append(end.steps)
         return self._ended(points, end, last, before, slip, turned, loads)
 
     def _ended(

@@ -25,12 +25,13 @@ from contact_scene import (
     Layer,
     LoadStep,
     Paraboloid,
+    RadialDiscretisation,
     Scene,
 )
-from contact_scene.solver_errors import GrossSliding, UnsupportedScene
+from contact_scene.solver_errors import GrossSliding, NotConverged, UnsupportedScene
 from contact_scene.standing import Standing
 from contact_scene.summary import ContactStatus
-from radial.pushing import Pushed
+from radial.pushing import Pushed, Pushing
 from verification.closed_forms.cattaneo_mindlin import PartialSlip
 from verification.closed_forms.tangential_history import TangentialHistory
 
@@ -270,6 +271,15 @@ def test_what_is_no_push_along_one_line_is_refused_by_name(reason: str) -> None:
 def test_more_than_friction_carries_is_refused() -> None:
     with pytest.raises(GrossSliding, match="step 2"):
         rough(scene(PRESS, push(1.0, 2), alike=True))
+
+
+def test_an_increment_that_does_not_converge_is_cut_few_times(monkeypatch: Any) -> None:
+    solver = Pushing.of(scene(PRESS, push(0.6)), RadialDiscretisation(), (1.0, 0.0), 0.5)
+    monkeypatch.setattr("radial.pushing.EXACT", 1e-30)
+    ramp = scene(PRESS).load_path()[0]
+    with pytest.raises(NotConverged):
+        solver.advance(ramp, None, None, 1.0)
+    assert solver.spent() >= 0.25 * solver.most_spent
 
 
 def test_a_cone_on_a_coating_is_pushed() -> None:
