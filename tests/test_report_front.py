@@ -46,7 +46,10 @@ def judged(*verdicts: Verdict, name: str = "one") -> CaseOutcome:
 
 def test_every_sheet_and_study_is_folded_under_one_line_and_its_anchor_is_inside() -> None:
     report = report_of(
-        (case("hertz_point", {"approach": (1e-6, 1e-6)}, run_record(64, None)),),
+        tuple(
+            case(name, {"approach": (1e-6, 1e-6)}, run_record(64, None))
+            for name in ("hertz_point", "cone_contact")
+        ),
         (study("stability", level="full"),),
     )
     front, sheets = render_page(report), render_sheets(report)
@@ -59,6 +62,8 @@ def test_every_sheet_and_study_is_folded_under_one_line_and_its_anchor_is_inside
         assert "</details>" not in line
     assert f'href="{SHEETS}#hertz_point"' in front
     assert not re.search(r"<details [^>]*open", front)
+    alone = render_sheets(report.model_copy(update={"cases": report.cases[:1]}))
+    assert '<details class="sheet" open>\n<summary>' in alone
 
 
 def test_a_picture_is_an_image_and_no_part_of_the_page() -> None:
