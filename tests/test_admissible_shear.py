@@ -5,7 +5,13 @@ import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
-from semi_analytical.admissible_shear import magnitude, project, project_on_discs
+from semi_analytical.admissible_shear import (
+    FixedShift,
+    ShearSum,
+    magnitude,
+    project,
+    project_on_discs,
+)
 
 ROUND_OFF = 1e-12
 
@@ -122,3 +128,32 @@ def test_without_a_sum_every_cell_is_projected_alone(problem):
     np.testing.assert_allclose(magnitude(q)[outside], bound[outside], rtol=1e-14)
     np.testing.assert_allclose(q[0] * y[1], q[1] * y[0], atol=1e-12 * np.max(np.abs(y)))
     assert np.all(q[:, bound == 0] == 0)
+
+
+def test_a_force_and_the_shift_that_it_leads_to_have_the_same_shear(rng):
+    y, bound = rng.standard_normal((2, 5, 4)), rng.random((5, 4))
+    total, gamma, unknown = np.sum(bound) * np.array([0.4, -0.5]), 3.0, np.zeros(2)
+    q, shift = ShearSum(total).nearest(y, bound, gamma, unknown)
+    led, same = FixedShift(shift).nearest(y, bound, gamma, unknown)
+    np.testing.assert_allclose(led, q, rtol=0, atol=100 * ROUND_OFF)
+    np.testing.assert_array_equal(same, shift)
+
+
+def test_a_force_is_exhausted_by_the_sum_of_the_limits_and_then_all_slips_along_it(rng):
+    bound, motion, along = rng.random((5, 4)), np.array([1.0, 2.0]), np.array([0.6, -0.8])
+    carried = np.sum(bound)
+    assert not ShearSum(0.9 * carried * along).exhausts(bound)
+    assert ShearSum(carried * along).exhausts(bound)
+    assert ShearSum(1.1 * carried * along).exhausts(bound)
+    q, kept = ShearSum(carried * along).full_slip(bound, motion)
+    np.testing.assert_allclose(q, bound * along[:, None, None], rtol=ROUND_OFF)
+    np.testing.assert_array_equal(kept, motion)
+
+
+@pytest.mark.parametrize("target", [ShearSum(np.zeros(2)), FixedShift(np.array([1.0, 0.0]))])
+def test_without_friction_nothing_is_carried(target):
+    nothing = np.zeros((5, 4))
+    assert target.exhausts(nothing)
+    q, _ = target.full_slip(nothing, np.zeros(2))
+    np.testing.assert_array_equal(q, np.zeros((2, 5, 4)))
+    assert not FixedShift(np.ones(2)).exhausts(nothing + 1)

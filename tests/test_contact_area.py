@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from semi_analytical.contact_area import covered_cells
+from semi_analytical.contact_area import _coverage, covered_cells, stuck_cells
 
 # Semi-axes in cells, and how well the area is found: a small contact has few cells for the fits.
 ELLIPSES = {
@@ -69,3 +69,36 @@ def test_extremes(inside):
     mask = np.full((12, 12), inside)
     expected = mask.size if inside else 0
     assert covered_cells(mask.astype(float), mask) == expected
+
+
+@pytest.mark.parametrize("turned_back", [False, True], ids=["pushed", "turned back"])
+@pytest.mark.parametrize("degrees", [0.0, 35.0, 250.0])
+def test_stick_area_is_that_of_cattaneo_and_mindlin(degrees, turned_back):
+    """Shear is µp less a second dome within the stick zone; less twice that after a reversal, so
+    that the shear in the middle still points the old way."""
+    a, c, friction = 28.0, 13.0, 0.3
+    bound, inner = friction * dome((a, a)), friction * c / a * dome((c, c))
+    along = np.array([np.cos(np.radians(degrees)), np.sin(np.radians(degrees))])[:, None, None]
+    shear = (bound - (2 if turned_back else 1) * inner) * along
+    assert stuck_cells(shear, bound, inner > 0) == pytest.approx(np.pi * c**2, rel=3e-3)
+
+
+def test_where_nothing_slips_all_that_touches_sticks():
+    bound = dome((20, 20))
+    area = stuck_cells(0.1 * np.stack([bound, bound]), bound, bound > 0)
+    assert area == covered_cells(bound, bound > 0)
+
+
+def test_part_of_a_cell_beside_a_straight_edge(rng):
+    """Against points in the cell, of edges along its sides, across, and nearly along."""
+    slopes = np.concatenate(
+        [rng.standard_normal((40, 2)), [[1, 0], [0, -2], [1, 1], [-1, 1], [3, 1e-4], [1e-4, -3]]]
+    )
+    f_x, f_y = slopes.T
+    f = rng.uniform(-0.7, 0.7, len(f_x)) * np.maximum(np.abs(f_x), np.abs(f_y))
+    count = 200
+    x = (np.arange(count) + 0.5) / count - 0.5
+    inside = f[:, None, None] + f_x[:, None, None] * x[:, None] + f_y[:, None, None] * x > 0
+    np.testing.assert_allclose(
+        _coverage(f, f_x, f_y), np.mean(inside, axis=(1, 2)), atol=1.5 / count
+    )
