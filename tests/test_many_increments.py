@@ -66,7 +66,7 @@ def test_memory_is_flat_and_the_end_that_of_a_few(
     few = solve(pushed(solver, 10), solver, FINENESS[solver]).steps[-1]
     end = result.steps[-1]
     assert np.max(np.abs(end.pressure - few.pressure)) <= 1e-6 * np.max(few.pressure)
-    # A push from rest has no path: shear of a thousand steps is that of ten, to their tolerances.
+    # Slip of ten increments goes by chords: 2.4e-3 of the largest shear apart.
     if solver == "semi-analytical":
         apart = np.max(np.abs(end.shear - few.shear))
         assert apart <= 1e-2 * np.max(np.abs(few.shear))
