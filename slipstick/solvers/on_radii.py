@@ -11,7 +11,6 @@ from contact_scene.solver_errors import UnsupportedScene
 from contact_scene.standing import Keeper
 from contact_scene.stated_error import StatedErrors
 from radial import Plan, Result
-from radial.memory import estimated_bytes
 from slipstick.solvers.solver import Pairs, Progress, increments_text
 
 # Seconds of one core for an increment of a pushed contact (24 rings and 9 angles: 0.05 to 0.15).
@@ -56,6 +55,8 @@ class OnRadii:
 
     def work(self, scene: Scene, fineness: RadialDiscretisation, plan: Plan) -> Pairs:
         """Rings, tolerance, increments, time and memory."""
+        from radial.memory import estimated_bytes
+
         yield "rings", _rings_text(fineness, plan)
         yield "tolerance", f"{fineness.tolerance:.3g}"
         yield "increments", increments_text(plan.increments)
