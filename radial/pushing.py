@@ -11,12 +11,13 @@ from numpy.typing import NDArray
 from contact_scene import LoadRamp, RadialDiscretisation, Scene
 from contact_scene.friction import sliding_friction
 from contact_scene.march import Reached
+from contact_scene.pair import coupling
 from contact_scene.residuals import Residuals
-from contact_scene.solver_errors import NotConverged
+from contact_scene.solver_errors import NotConverged, UnsupportedScene
 from contact_scene.summary import ContactStatus
 from radial.coupling import Coupling
 from radial.fields import Increment
-from radial.plan import ANGLES, RINGS
+from radial.plan import ANGLES, ELSEWHERE, RINGS
 from radial.pressing import pressed
 from radial.ring_friction import MOST_STEPS, Held, Loads, held
 from radial.ring_layout import laid
@@ -104,16 +105,16 @@ class Pushing:
         assert scene.friction.uniform is not None
         friction = scene.friction.uniform
         count, angles = round(RINGS * fineness), round(ANGLES * fineness)
-        coupling = Coupling.of(scene)
+        both = Coupling.of(scene)
         edges = [
             max(
-                pressed(coupling.bodies, scene.indenter, target).contact.radius
+                pressed(both.bodies, scene.indenter, target).contact.radius
                 for target in largest_targets(scene)
             )
         ]
 
         def at(angles: int) -> Pushing:
-            points = laid(coupling, scene.indenter, edges, count, angles, friction)
+            points = laid(both, scene.indenter, edges, count, angles, friction)
             return cls(scene, friction, direction, asked.tolerance, points)
 
         for _ in range(SETTLED):
@@ -231,6 +232,8 @@ class Pushing:
         """The contact on rings and angles; raises NotConverged above the tolerance."""
         state, end = reached.state, reached.state.held
         points = self.points if state.turned else self.points.around
+        if reached.place.index == reached.place.increments_in_step:
+            self._refuse_narrow(state, reached.place.step)
         residuals = self._residuals(points, state)
         residuals.require(self.tolerance, "contact and friction on rings", end.steps)
         p = self._scalar(points, end.pressure)
@@ -271,6 +274,17 @@ class Pushing:
             slip_circumferential=s_t if state.turned else None,
             in_stick=(self._scalar(points, share) < 1) & (p > 0),
         )
+
+    def _refuse_narrow(self, state: Pushed, step: int) -> None:
+        """Raises UnsupportedScene where pressing leaves an annulus of slip that rings do not see:
+        next to it tractions rise beyond what they carry, and the edge with them."""
+        sticks = self._status(state) is ContactStatus.FULL_STICK
+        if sticks and step == 1 and not state.turned and coupling(self.scene)[0]:
+            raise UnsupportedScene(
+                f"with a coefficient of friction of {self.friction:g} the annulus that slips at "
+                "the edge is narrower than a ring, and this solver does not tell the edge beside "
+                f"it; give a smaller coefficient, or {ELSEWHERE}"
+            )
 
     @staticmethod
     def _scalar(points: Points, field: Array) -> Array:

@@ -273,6 +273,14 @@ def test_more_than_friction_carries_is_refused() -> None:
         rough(scene(PRESS, push(1.0, 2), alike=True))
 
 
+def test_an_annulus_of_slip_that_no_ring_sees_is_refused_by_name() -> None:
+    sticky = scene(PRESS, push(0.6)).model_copy(
+        update={"friction": CoulombFriction(coefficient=50.0)}
+    )
+    with pytest.raises(UnsupportedScene, match="narrower than a ring"):
+        rough(sticky)
+
+
 def test_an_increment_that_does_not_converge_is_cut_few_times(monkeypatch: Any) -> None:
     solver = Pushing.of(scene(PRESS, push(0.6)), RadialDiscretisation(), (1.0, 0.0), 0.5)
     monkeypatch.setattr("radial.pushing.EXACT", 1e-30)
