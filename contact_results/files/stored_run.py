@@ -94,8 +94,7 @@ class StoredRun:
     summary      state at the end of every step, effects, remarks
     scene        what was solved
     coordinates  of the fields: x and y of cells, or radii and angles of rings
-    increments   every field and scalar, the increment as the first index; of a run with an accuracy
-                 fields have the loading step instead, at whose end they are
+    increments   every field and scalar by increment; fields of a run with an accuracy by step
     last_cycle   fields of the last closed load cycle; empty if there is none
     tables       profiles, increments and, where load cycles close, cycles
     direction    unit vector from which angles count, that of the tangential load
