@@ -2,7 +2,6 @@
 
 from collections.abc import Sequence
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -12,17 +11,13 @@ from hypothesis import strategies as st
 
 from contact_errors import on_elements
 from contact_errors.by_step import MOST_APART, ByStep, fewest
-from contact_errors.climb import climb
 from contact_errors.growth import AIM, growth
 from contact_errors.ladder import Rung
-from contact_errors.ladder_on_cells import CellLadder
 from contact_errors.rules import APPROACH, Rule
-from contact_scene import FiniteElementDiscretisation, SurfaceDiscretisation
-from contact_scene.scene_file import read_accuracy, read_scene_file
+from contact_scene import FiniteElementDiscretisation
 from contact_scene.stated_error import ErrorStatus, StatedError, StatedErrors
 from fem_reference import Method, solve
 
-FIGURE_4 = Path(__file__).parents[1] / "scenes/coated_fretting.toml"
 NAME = "approach"
 
 
@@ -146,19 +141,6 @@ def test_a_step_that_decides_what_the_next_one_ends_with_is_refined() -> None:
     assert set(growth(rung, {NAME: 0.01}).increments) == {0}
     rung = rung_of(History([[0.0, 0.0], [0.0, 9.0]]), (20, 30), APPROACH, 0.0)
     assert set(growth(rung, {NAME: 0.01}).increments) == {1}
-
-
-def test_a_push_of_the_coated_ball_takes_increments_and_its_pressing_keeps_its_own() -> None:
-    """Which was pressed with fifteen; what it has lost is another matter."""
-    ladder = CellLadder(read_scene_file(FIGURE_4).scene, SurfaceDiscretisation())
-    first = ladder.climbed(ladder.first())
-    by = growth(first, {"dissipated_energy": 0.02})
-    assert by.increments[0] > 1.5
-    made = climb(ladder, read_accuracy("tangential_shift 1.2%", "--accuracy"))
-    pressing, push = made.accuracy.settings.increments
-    assert made.accuracy.met
-    assert pressing == ladder.first().increments[0]
-    assert push > ladder.first().increments[1]
 
 
 def test_elements_tell_their_steps_apart_too() -> None:
