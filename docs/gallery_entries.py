@@ -494,7 +494,8 @@ ENTRIES = (
         ),
         "The tension behind a ball on a stiff coating is least where that is about half of Hertz's "
         "radius thick, and grows towards thin films and thick ones; of a soft one it hardly "
-        "depends on the thickness. The shear at the interface falls with its depth.",
+        "depends on the thickness. The shear at the interface is largest about a quarter of that "
+        "radius deep.",
         shown=(
             "friction={ coefficient = 0.1 }",
             'loading=[{ normal_force = "1 kN", increments = 10 }, '
