@@ -34,6 +34,9 @@ VectorField = NDArray[np.float64]
 
 MOST_ATTEMPTS = 3
 SLIDING = 1e-6
+# Slip is what the motion and the displacement differ by, so known no better than to their last
+# digits: without any displacement, as below a single cell, this part of the motion is its scale.
+OF_MOTION = 1e-4
 
 
 def slip_and_stick(
@@ -117,6 +120,7 @@ def shear_residuals(
         limit = np.sum(bound * magnitude(model.rotation)) * model.grid.cell_area
         torque_equilibrium = float(abs(missing) / limit)
     moved = np.maximum(np.abs(solution.displacement), np.abs(last.displacement))
+    moved = np.maximum(moved, OF_MOTION * np.abs(rigid(model, solution.motion)))
     return ShearResiduals(
         friction_cone(q, bound),
         slip_direction(q, bound, passed, moved),

@@ -25,6 +25,9 @@ from contact_scene.summary import ContactStatus
 from semi_analytical import GrossSliding, SurfaceGrid, solve
 from semi_analytical.admissible_shear import magnitude
 from semi_analytical.model import ContactModel
+from semi_analytical.sheared import untouched
+from semi_analytical.shearing import Shearing, TangentialTarget
+from semi_analytical.stick_slip import shear_residuals
 
 TOLERANCE = 1e-8
 CELLS = 32
@@ -254,3 +257,17 @@ def test_any_number_of_cells_will_do(cells):
     for increment in solve(scene(PRESS, push(0.7), push(0.3)), window, TOLERANCE).increments:
         assert increment.residuals.worst <= TOLERANCE
         assert increment.contact_radius == pytest.approx(A, rel=0.15)
+
+
+@pytest.mark.parametrize(("off", "obeyed"), [(1e-16, True), (1e-4, False)])
+def test_the_last_digits_of_a_motion_are_no_slip(off: float, obeyed: bool) -> None:
+    """One cell that sticks without any shear: nothing but the motion tells how small slip is."""
+    model = ContactModel.of(scene(PRESS, push(0.5)), grid(16))
+    nothing, motion = np.zeros((2, 16, 16)), np.array([3e-25, -1e-25])
+    bound = np.zeros((16, 16))
+    bound[8, 8] = 1.0
+    passed = nothing + off * motion[:, None, None]
+    held = Shearing(nothing, nothing, motion, bound < 0, 0)
+    load = TangentialTarget(force=np.zeros(2))
+    residuals = shear_residuals(model, held, bound, passed, load, untouched((16, 16)))
+    assert (residuals.worst < TOLERANCE) is obeyed
