@@ -12,17 +12,23 @@ import pytest
 
 import fem_reference
 import semi_analytical
+from contact_errors.on_cells import stated_errors
 from contact_errors.values import values_of
 from contact_results.cycles import fretting_cycles
 from contact_scene import Body, IsotropicMaterial, Layer
+from contact_scene.stated_error import ErrorStatus
 from verification.closed_forms.coated_indentation import paraboloid
 from verification.problems.drawn.branches import Reached, Twisting, along
 from verification.problems.drawn.coated import stored_energy
 from verification.problems.drawn.families import FAMILIES, JUDGING, TRAINING, drawn
 from verification.problems.drawn.known_scene import (
+    APPROACH,
     CELLS,
     F2,
     MISES,
+    PEAK,
+    RADIUS,
+    STICK,
     STRESSES,
     TENSION,
     WORK,
@@ -30,6 +36,8 @@ from verification.problems.drawn.known_scene import (
     Truth,
 )
 from verification.problems.layered_scene import surface_of
+from verification.studies.error_coverage.case import judged
+from verification.studies.error_coverage.coverage import Coverage, with_status
 from verification.studies.error_coverage.stress_maxima import stress_maxima
 
 # Their largest stresses take seconds to know; what finer cells and increments tell, a minute.
@@ -160,3 +168,27 @@ def test_energy_of_a_loop_is_its_area() -> None:
     """Of a first loading φ = M²: the loop M to -M takes 4 φM - 8 ∫ φ dM = (4/3) M³."""
     twisting = Twisting.of(lambda c: (1 - c, (1 - c) ** 2), 0.1, 1.0)
     assert 4 * twisting(0.6).energy == pytest.approx(4 / 3 * 0.6**3)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("family", ["hertz", "coated", "cattaneo"])
+def test_errors_with_edges_inside_the_cells_hold(family: str) -> None:
+    """Of what follows from the edges; the scenes that set their rules were drawn from others."""
+    rows = []
+    for number in range(12):
+        known = drawn(family, JUDGING, number)
+        result = semi_analytical.solve_discretised(
+            known.scene, known.fineness.asked.model_copy(update={"edge": "last"})
+        )
+        errors, steps = stated_errors(result).steps, values_of(result, ())
+        assert result.plan.edge == "last"
+        for truth in known.truths:
+            if truth.quantity in (APPROACH, RADIUS, PEAK, STICK):
+                found = truth.read(steps)
+                assert found is not None
+                rows.append(judged(truth, found, errors[truth.step - 1].get(truth.quantity)))
+    coverage = Coverage.of(family, with_status(rows, str(ErrorStatus.ESTIMATED)))
+    print(f"{family}: covered {coverage.covered.text}, tight {coverage.tight.text}")
+    assert coverage.covered.of >= 30
+    assert coverage.covered.part >= 0.9
+    assert coverage.tight.part >= 0.7

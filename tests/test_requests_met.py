@@ -47,10 +47,11 @@ def loop() -> tuple[Scene, dict[str, float]]:
 
 
 def figure_4() -> tuple[Scene, dict[str, float]]:
-    """The paper's coated contact under an ascending force, by 140² cells and 840 increments, which
-    state 0.002 and 0.065 %; its peak keeps the cusp of the pressing."""
+    """The paper's coated contact under an ascending force, by 320² cells; its shift falls as 1/n
+    from 0.668094 to 0.667226 µm with 63 and 375 increments. Its peak keeps the cusp of the
+    pressing."""
     of = read_scene_file(Path(__file__).parents[1] / "scenes/coated_fretting.toml").scene
-    return of, {"approach": 6.91689e-6, "tangential_shift": 0.66718e-6}
+    return of, {"approach": 6.91695e-6, "tangential_shift": 0.66705e-6}
 
 
 def indentation() -> tuple[Scene, dict[str, float]]:

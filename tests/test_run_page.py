@@ -35,7 +35,11 @@ def test_a_page_holds_all_figures_and_asks_for_nothing(tmp_path: Path) -> None:
     assert page.count("<img") == len(list(tmp_path.glob("*.png")))
     assert all(source.startswith("data:") for source in re.findall(r'src="([^"]*)', page))
     assert "<script" not in page
-    assert "href=" not in page
+    links = re.findall(r'href="([^"]*)', page)  # every figure to itself, larger, and back
+    assert sorted(set(links)) == sorted(
+        ["#", *(f"#{path.stem}" for path in tmp_path.glob("*.png"))]
+    )
+    assert sorted(re.findall(r'id="([^"]*)', page)) == sorted(x[1:] for x in set(links) if x[1:])
     assert "default-src 'none'" in page
     assert (tmp_path / "overview.png").stat().st_size < 200_000
 

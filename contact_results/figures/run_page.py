@@ -26,6 +26,8 @@ STYLE = (
     ".15rem 0}td{font-variant-numeric:tabular-nums}pre{overflow-x:auto;background:#f2f2f2;"
     "padding:.5rem}@media(prefers-color-scheme:dark){body{color:#e8e8e8;background:#16181b}"
     "pre{background:#24272c}img{background:#fff;border-radius:.3rem}}"
+    ".smaller{display:none}.figure:target{overflow-x:auto}.figure:target .smaller{display:inline;"
+    "position:sticky;left:0}.figure:target img{max-width:none;width:max(150%,62rem)}"
 )
 POLICY = (
     "default-src 'none'; img-src data:; style-src 'unsafe-inline'; base-uri 'none'; "
@@ -115,4 +117,10 @@ def _row(name: str, text: str) -> str:
 def _figure(path: Path) -> str:
     name = path.stem.replace("_", " ").capitalize()
     data = b64encode(path.read_bytes()).decode("ascii")
-    return f'<h2>{name}</h2><img alt="{name}" src="data:image/png;base64,{data}">'
+    # Larger by a link to itself: a library of curves (uPlot, 51 kB) needs a policy that lets script
+    # run and the numbers a second time, in a page that is read without either.
+    return (
+        f'<h2>{name}</h2><div class="figure" id="{path.stem}">'
+        f'<a href="#{path.stem}" title="larger"><img alt="{name}, larger on a click" '
+        f'src="data:image/png;base64,{data}"></a>\n<a class="smaller" href="#">smaller</a></div>'
+    )
