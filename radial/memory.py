@@ -3,19 +3,10 @@ thinnest outermost layer calls for in the largest contact."""
 
 from __future__ import annotations
 
-from functools import lru_cache
-from math import exp, log
-
 from contact_scene import Scene
 from contact_scene.free_memory import available_bytes
 from contact_scene.solver_errors import ResourceRefused
-from radial.bodies import Bodies
-from radial.disc import disc, orders
 from radial.plan import Plan
-from radial.pressing import Target, first_radius
-from radial.profile import profile
-from radial.shown import largest_targets
-from radial.wavenumbers import POINTS
 
 # Measured of whole runs, the solve beside them and figures included, of layers from a third to a
 # four-hundredth of the contact radius.
@@ -28,8 +19,6 @@ PER_WAVE_KEPT, MOST_KEPT = 8_300, 39_000_000
 # Of pushed contacts: rings about the edge and outside, and how many matrices of all unknowns there
 # are at a time.
 BESIDE, HELD = 16, 6
-# The radius is good to a percent by so few polynomials.
-FEW_ORDERS, TRIED, NEAR = 16, 12, 0.02
 
 
 def estimated_bytes(scene: Scene, plan: Plan) -> int:
@@ -59,32 +48,10 @@ def refuse_if_too_large(scene: Scene, plan: Plan) -> None:
         )
 
 
-@lru_cache(maxsize=8)
 def _wavenumbers(scene: Scene) -> int:
-    """Of the largest contact; none without layers."""
-    bodies, indenter = Bodies.of(scene), scene.indenter
-    if not bodies.layered:
+    """Of the largest contact; none without layers, whose response is then nobody's concern."""
+    if not scene.body.layers and not scene.indenter.layers:
         return 0
-    radius = max(_radius(bodies, scene, target) for target in largest_targets(scene))
-    orders(bodies.thickness / radius, profile(indenter, radius).apex)
-    chosen = bodies.waves(radius)
-    return POINTS * (chosen.equal - chosen.first)
+    from radial.largest_contact import wavenumbers
 
-
-def _radius(bodies: Bodies, scene: Scene, target: Target) -> float:
-    """Of the contact without friction, nearly [length]."""
-    if scene.indenter.rim is not None:
-        return scene.indenter.rim
-
-    def missed(x: float) -> float:
-        return target.missed(disc(bodies, scene.indenter, exp(x), most=FEW_ORDERS))
-
-    x, power = log(first_radius(bodies, scene.indenter, target)), 2.0
-    last = missed(x)
-    for _ in range(TRIED):
-        step = min(max(-last / power, -1.0), 1.0)
-        if abs(step) <= NEAR:
-            break
-        now = missed(x + step)
-        power, last, x = max((now - last) / step, 0.5), now, x + step
-    return exp(x)
+    return wavenumbers(scene)

@@ -101,7 +101,17 @@ ORDERS = {
         *("harmonic_kernels", "ring_energies", "ring_compliance", "ring_points", "ring_layout"),
         "ring_friction",
         *("friction_limit", "torsion", "twist_path"),
-        *("plan", "fields", "shown", "memory", "rubbing", "twisting", "pushing", "history"),
+        *(
+            "plan",
+            "fields",
+            "shown",
+            "largest_contact",
+            "memory",
+            "rubbing",
+            "twisting",
+            "pushing",
+            "history",
+        ),
     ),
     "fem_reference.mesh": ("section_outline", "section_mesh", "gmsh_mesh"),
     "fem_reference.elasticity": (

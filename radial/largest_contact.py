@@ -1,0 +1,51 @@
+"""How many wavenumbers the largest contact of a scene calls for, before it is solved."""
+
+from __future__ import annotations
+
+from functools import lru_cache
+from math import exp, log
+
+from contact_scene import Scene
+from radial.bodies import Bodies
+from radial.disc import disc, orders
+from radial.pressing import Target, first_radius
+from radial.profile import profile
+from radial.shown import largest_targets
+from radial.wavenumbers import POINTS
+
+# The radius is good to a percent by so few polynomials.
+FEW_ORDERS, TRIED, NEAR = 16, 12, 0.02
+
+
+@lru_cache(maxsize=8)
+def wavenumbers(scene: Scene) -> int:
+    """None without layers.
+
+    Raises UnsupportedScene for contacts too large on too thin layers.
+    """
+    bodies, indenter = Bodies.of(scene), scene.indenter
+    if not bodies.layered:
+        return 0
+    radius = max(_radius(bodies, scene, target) for target in largest_targets(scene))
+    orders(bodies.thickness / radius, profile(indenter, radius).apex)
+    chosen = bodies.waves(radius)
+    return POINTS * (chosen.equal - chosen.first)
+
+
+def _radius(bodies: Bodies, scene: Scene, target: Target) -> float:
+    """Of the contact without friction, nearly [length]."""
+    if scene.indenter.rim is not None:
+        return scene.indenter.rim
+
+    def missed(x: float) -> float:
+        return target.missed(disc(bodies, scene.indenter, exp(x), most=FEW_ORDERS))
+
+    x, power = log(first_radius(bodies, scene.indenter, target)), 2.0
+    last = missed(x)
+    for _ in range(TRIED):
+        step = min(max(-last / power, -1.0), 1.0)
+        if abs(step) <= NEAR:
+            break
+        now = missed(x + step)
+        power, last, x = max((now - last) / step, 0.5), now, x + step
+    return exp(x)
