@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
+from typing import Protocol
 
 import numpy as np
 
@@ -24,8 +25,15 @@ from semi_analytical.shearing import TangentialTarget
 Advance = Callable[
     [ContactModel, State | None, NormalTarget, TangentialTarget | None, float], State
 ]
-# A state, after the one before, with its edges inside the cells.
-Correct = Callable[[State | None, State, float], Corrected | None]
+
+
+class Correct(Protocol):
+    """See `edge_correction.state.EdgeCorrection`."""
+
+    def __call__(
+        self, last: State | None, state: State, *, way_known: bool, tolerance: float
+    ) -> Corrected | None: ...
+
 
 # An increment that has taken more without converging is not cut any further. The last attempt that
 # fails before the halves converge is over after at most 17 200 in the stability map.
@@ -104,9 +112,14 @@ class _Solver:
         after = balanced(self.model, before, after, path_matters=matters)
         if self.correct is None or (self.plan.edge == "last" and fraction < 1):
             return after
-        # Where only ends are known inside the cells, and the way between them is all one.
-        last = before if matters or self.plan.edge == "all" else start
-        return replace(after, corrected=self.correct(last, after, self.tolerance))
+        last = before if self.plan.edge == "all" else start
+        edges = self.correct(
+            last,
+            after,
+            way_known=last is before or not matters,
+            tolerance=self.tolerance,
+        )
+        return replace(after, corrected=edges)
 
     def report(self, reached: Reached[State], last: Increment | None) -> Increment:
         """The state, with what the increment has changed and cost."""

@@ -62,9 +62,11 @@ def scene(body: Body, loading: tuple[LoadStep, ...]) -> Scene:
     return Scene(title="killed", indenter=BALL, body=body, friction=friction, loading=loading)
 
 
-def on_surface(body: Body, loading: tuple[LoadStep, ...]) -> Solve:
+def on_surface(
+    body: Body, loading: tuple[LoadStep, ...], surface: SurfaceDiscretisation = SURFACE
+) -> Solve:
     return lambda keeper: semi_analytical.solve_discretised(
-        scene(body, loading), SURFACE, keeper=keeper
+        scene(body, loading), surface, keeper=keeper
     )
 
 
@@ -74,6 +76,12 @@ def on_section(body: Body, loading: tuple[LoadStep, ...], method: fem_reference.
 
 SOLVES = {
     "similar": on_surface(PLAIN, LED),
+    **{
+        f"edges inside the cells, {edge}": on_surface(
+            PLAIN, LED, SURFACE.model_copy(update={"edge": edge})
+        )
+        for edge in ("last", "all")
+    },
     "coupled": on_surface(COATED, LOOP),
     "torsion": on_surface(PLAIN, TURNED),
     "tilt": on_surface(PLAIN, TILTED),

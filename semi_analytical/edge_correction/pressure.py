@@ -43,9 +43,9 @@ MOST_UNSAFE = 0.03
 
 def edge_pressure(
     operators: EdgeOperators, target: NormalTarget, pressure: Field, tolerance: float
-) -> tuple[Corrected, Rim] | None:
-    """A solved pressure (nx, ny) with its edge inside the cells, and the edge; None where that is
-    not safe: the contact is too thin, its edge is rough, or the rounds do not settle."""
+) -> Corrected | None:
+    """A solved pressure (nx, ny) with its edge inside the cells; None where that is not safe: the
+    contact is too thin, its edge is rough, or the rounds do not settle."""
     problem = _Problem(operators, target, tolerance)
     edge, p, mixing, changes = rim(pressure, pressure > 0), pressure, Mixing(), []
     for number in range(MOST_ROUNDS):
@@ -63,7 +63,7 @@ def edge_pressure(
         edge = rim(p, p > 0, edge)
     if edge is None or not settles(changes):
         return None
-    return problem.corrected(answer, solved, edge, changes[-1]), edge
+    return problem.corrected(answer, solved, edge, changes[-1])
 
 
 def settles(changes: list[float]) -> bool:
@@ -116,7 +116,7 @@ class _Problem:
         """The pressure of the last round, as a state."""
         approach, tilt = self.target.reached(self.model, solved.motion)
         gap = np.where(edge.region, 0.0, np.maximum(solved.gap, 0.0))
-        return Corrected(p, peak_of(p), gap, approach, edge.area, change, tilt)
+        return Corrected(p, peak_of(p), gap, approach, edge.area, change, edge, tilt)
 
 
 class _Solved(NamedTuple):

@@ -5,19 +5,15 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 from semi_analytical.edge.corrected import Corrected, CorrectedShear
 from semi_analytical.edge.displacement import Within
-from semi_analytical.edge.rim import Rim
 from semi_analytical.edge_correction.operators import EdgeOperators
 from semi_analytical.edge_correction.pressure import edge_pressure
 from semi_analytical.edge_correction.shear import ShearProblem, edge_shear, sliding_shear
 from semi_analytical.increment import State
 from semi_analytical.model import ContactModel
-from semi_analytical.sheared import rigid
-
-Field = NDArray[np.float64]
+from semi_analytical.sheared import Sheared, rigid
 
 
 class EdgeCorrection:
@@ -25,41 +21,50 @@ class EdgeCorrection:
 
     def __init__(self, model: ContactModel) -> None:
         self._operators = EdgeOperators(model)
-        self._last: tuple[Field, tuple[Corrected, Rim] | None] | None = None
 
-    def __call__(self, before: State | None, state: State, tolerance: float) -> Corrected | None:
+    def __call__(
+        self, last: State | None, state: State, *, way_known: bool, tolerance: float
+    ) -> Corrected | None:
         """The state with its edges inside the cells; None where that is not safe.
 
-        before  a state before, the corrected one where there is one: surfaces remember it
+        last       a state before, the corrected one where there is one; None before first touch
+        way_known  whether what surfaces remember of the way from there is told by its ends
         """
-        pressed = self._pressed(state, tolerance)
-        if pressed is None or state.sheared is None:
-            return None if pressed is None else pressed[0]
-        corrected, contact = pressed
-        sheared = self._sheared(before, state, corrected.pressure, contact, tolerance)
-        return None if sheared is None else replace(corrected, sheared=sheared)
+        sheared = state.sheared
+        if sheared is None:
+            return self._pressed(last, state, tolerance)
+        free = not np.any(sheared.shear) or not np.any(sheared.in_stick)
+        before = last if way_known else None
+        if not free and not _leads_to(before, state, sheared):
+            return None
+        pressed = self._pressed(last, state, tolerance)
+        if pressed is None:
+            return None
+        shear = self._sheared(before, state, sheared, pressed, tolerance)
+        return None if shear is None else replace(pressed, sheared=shear)
 
-    def _pressed(self, state: State, tolerance: float) -> tuple[Corrected, Rim] | None:
-        """The pressure; of a pressure that has not changed it is known."""
-        p = state.pressing.pressure
-        if self._last is None or self._last[0] is not p:
-            self._last = p, edge_pressure(self._operators, state.target, p, tolerance)
-        return self._last[1]
+    def _pressed(self, last: State | None, state: State, tolerance: float) -> Corrected | None:
+        """The pressure; of one that has not changed it is known."""
+        p, target = state.pressing.pressure, state.target
+        known = last.corrected if last and last.target == target else None
+        if known and last and np.array_equal(last.pressing.pressure, p):
+            return known
+        return edge_pressure(self._operators, target, p, tolerance)
 
     def _sheared(
         self,
         before: State | None,
         state: State,
-        pressure: Field,
-        contact: Rim,
+        solved: Sheared,
+        pressed: Corrected,
         tolerance: float,
     ) -> CorrectedShear | None:
-        model, solved = self._operators.model, state.sheared
-        assert solved is not None
-        bound = model.friction.limit(pressure)
-        nothing = np.zeros_like(solved.shear)
-        still = Within.of(nothing[0], contact.i[:0], contact.j[:0], contact.parts[:0])
+        """The shear at a corrected pressure."""
+        model, contact = self._operators.model, pressed.edge
+        bound = model.friction.limit(pressed.pressure)
         if not np.any(solved.shear):
+            nothing = np.zeros_like(solved.shear)
+            still = Within.of(nothing[0], contact.i[:0], contact.j[:0], contact.parts[:0])
             return CorrectedShear(
                 shear=nothing,
                 within=(still, still),
@@ -75,15 +80,15 @@ class EdgeCorrection:
         limit = Within.of(bound, contact.i, contact.j, mu * contact.parts)
         if not np.any(solved.in_stick):
             return sliding_shear(self._operators, bound, limit, solved)
-        slips = (bound > 0) & ~solved.in_stick
-        last = before.corrected.sheared if before and before.corrected else None
-        if last is None or solved.shift is None or not np.any(slips):
-            return None
         assert before is not None
         assert before.sheared is not None
+        assert before.corrected is not None
+        last = before.corrected.sheared
+        assert last is not None
         assert last.shift is not None
-        if before.target != state.target and np.any(last.shear):
-            return None  # nobody knows how the border of stick lies to the one before
+        slips = (bound > 0) & ~solved.in_stick
+        if not np.any(slips):
+            return None
         turned = np.sum(last.slip * solved.shear * slips) < 0
         problem = ShearProblem(
             operators=self._operators,
@@ -97,3 +102,12 @@ class EdgeCorrection:
             tolerance=tolerance,
         )
         return edge_shear(problem, solved, before.sheared.shear)
+
+
+def _leads_to(before: State | None, state: State, sheared: Sheared) -> bool:
+    """Whether the border of stick of a state is known to follow from a state before."""
+    last = before.corrected.sheared if before and before.corrected else None
+    if before is None or last is None or last.shift is None or sheared.shift is None:
+        return False
+    # With another pressure nobody knows how the border of stick lies to the one before.
+    return before.target == state.target or not np.any(last.shear)
