@@ -121,8 +121,33 @@ def test_codes_for_half_spaces_are_asked_for_what_they_have_alone() -> None:
             asked.add(name)
     assert asked == {
         "hertz_point", "hertz_elliptical", "cone_contact", "flat_punch", "cattaneo_mindlin",
-        "fretting_loop",
+        "fretting_loop", "tilted_punch", "tilted_ball",
     }  # fmt: skip
+
+
+def test_a_tilt_closes_the_gap_of_other_codes_at_positive_y_and_x() -> None:
+    """A tilted paraboloid is a shifted one, in their units too."""
+    posed_ball = posed("tilted_ball")
+    request, length, _ = half_spaces._request(posed_ball, 64, PEERS[0])
+    along_y, along_x = posed_ball.scene["loading"][0]["tilt"]
+    i, j = np.unravel_index(np.argmin(gap_of(request)), (64, 64))
+    x = ((np.arange(64) + 0.5) * request["window"] / 64 - request["window"] / 2) * length
+    radius = posed_ball.scene["indenter"]["radius"]
+    assert (x[i], x[j]) == pytest.approx((radius * along_x, radius * along_y), abs=x[1] - x[0])
+
+
+@pytest.mark.parametrize("name", ["tilted_punch", "tilted_ball"])
+def test_moments_of_a_given_tilt_are_told_by_axis(name: str) -> None:
+    """Our cells bear the tilt as a slope of the gap, which no closed form knows of; who exchanges
+    the axes, or the sign, misses both moments."""
+    challenge = challenges()[name]
+    assert failed(judge(name, surface.answer, 3, "C", surface.ON_CELLS)) <= {"approach"}
+    right = {(v.quantity, v.step): v.value for v in challenge.values}
+    x, y = right["moment_x", 1], right["moment_y", 1]
+    for moments in ((y, x), (-x, -y)):
+        given = right | {("moment_x", 1): moments[0], ("moment_y", 1): moments[1]}
+        found = judge(name, lambda *_, given=given: Answer(1e-5, given), 1)
+        assert failed(found) == {"moment_x", "moment_y"}
 
 
 def test_approach_is_what_overlaps_where_codes_find_pressure() -> None:

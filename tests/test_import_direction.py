@@ -170,7 +170,7 @@ ORDERS = {
     ),
     "verification.challenge": (
         *("halves", "round_table", "asked", "often_asked", "frictional_cases", "cases_at_places"),
-        *("paper_figure", "cases", "toml_text", "export", "answer", "reading"),
+        *("paper_figure", "tilted_cases", "cases", "toml_text", "export", "answer", "reading"),
         *("verdicts", "judgement", "door", "named_solver"),
     ),
     "slipstick": (

@@ -34,13 +34,11 @@ def _request(posed: Posed, cells: int, peer: Peer) -> tuple[dict[str, Any], floa
     if "indenter" not in scene:
         raise CannotDo("contacts only, no given tractions")
     named = {name for step in scene["loading"] for name, end in step.items() if end is not None}
-    if others := sorted(named - {"normal_force", "tangential_force", "increments"}):
-        raise CannotDo(f"forces only, no {', '.join(others)}")
+    if others := sorted(named - {"normal_force", "tangential_force", "tilt", "increments"}):
+        raise CannotDo(f"forces and tilts only, no {', '.join(others)}")
     bodies = [scene["indenter"], scene["body"]]
-    if any(body.get("layers") for body in bodies):
-        raise CannotDo("homogeneous bodies only")
-    if any(body["material"] == "rigid" for body in bodies):
-        raise CannotDo("the scene is of elastic bodies only here")
+    if any(body.get("layers") or body["material"] == "rigid" for body in bodies):
+        raise CannotDo("homogeneous elastic bodies only")
     friction = (scene.get("friction") or {}).get("coefficient", 0.0)
     if friction and not peer.friction:
         raise CannotDo("no friction")
@@ -57,6 +55,7 @@ def _request(posed: Posed, cells: int, peer: Peer) -> tuple[dict[str, Any], floa
         asked["radius" if shape["shape"] == "paraboloid" else "rim"] = shape["radius"] / length
     else:
         raise CannotDo(f"no {shape['shape']}")
+    asked["tilt"] = scene["loading"][0]["tilt"] or (0.0, 0.0)
     rubbed = {"tangential_forces": [t[0] / force for _, t in posed.loads[1:]]} if friction else {}
     request = {
         "cells": cells, "window": 3.0, "modulus": 1.0, **asked, "tangential_force": 0.0, **rubbed,
@@ -80,6 +79,8 @@ def _answer(
         "approach": None if found["approach"] is None else abs(found["approach"]) * length,
         "contact_radius": sqrt(np.sum(contact) * h**2 / pi),
         "central_pressure": float(np.mean(pressure[middle, middle])),
+        "moment_x": float(np.sum(pressure * y)) * h**2,
+        "moment_y": float(np.sum(pressure * x)) * h**2,
         "semi_axis_x": sqrt(5 * float(np.sum(weigh * x**2))),  # of a half-ellipsoid: <x²> = a²/5
         "semi_axis_y": sqrt(5 * float(np.sum(weigh * y**2))),
     }

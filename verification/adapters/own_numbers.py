@@ -32,6 +32,8 @@ def number(posed: Posed, key: Key, steps: Sequence[State]) -> float | None:
     end = steps[step - 1]
     if quantity == "shift_x":
         return None if end.tangential_shift is None else float(end.tangential_shift[0])
+    if quantity in ("moment_x", "moment_y"):
+        return None if end.moment is None else float(end.moment["xy".index(quantity[-1])])
     if quantity == "energy_per_cycle":
         lost = end.dissipated_energy
         before = steps[posed.since[key] - 1].dissipated_energy

@@ -13,6 +13,7 @@ from verification.challenge.frictional_cases import frictional
 from verification.challenge.halves import Half, Halves, fitted, round_halves
 from verification.challenge.often_asked import LARGE, SMALL, approach, contact_radius, stick_radius
 from verification.challenge.paper_figure import paper_figure
+from verification.challenge.tilted_cases import tilted
 from verification.closed_forms.cattaneo_mindlin import PartialSlip
 from verification.closed_forms.tangential_history import TangentialHistory
 from verification.problems import paper_scene as paper
@@ -36,7 +37,7 @@ def challenges() -> dict[str, Challenge]:
     classical = (hertz_point(), hertz_elliptical(), cone(), punch(), cattaneo_mindlin(), loop())
     return {
         one.name: one
-        for one in (*classical, *coated(), *frictional(), paper_figure(), *at_places())
+        for one in (*classical, *tilted(), *coated(), *frictional(), paper_figure(), *at_places())
     }
 
 

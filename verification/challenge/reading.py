@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 
 from contact_results.directory.refusal import Refused
-from contact_scene.units import LENGTH, PRESSURE, ROTATION, Kind, UnknownUnit
+from contact_scene.units import LENGTH, MOMENT, PRESSURE, ROTATION, Kind, UnknownUnit
 from verification.challenge.answer import SAMPLINGS, Answer, Field, Key, Solver, Vector
 from verification.challenge.asked import AskedPoints, Challenge, Grade
 from verification.challenge.cases import challenges
@@ -37,7 +37,7 @@ from verification.challenge.export import (
 
 _ENERGIES = {"J": "1", "mJ": "1e-3", "uJ": "1e-6", "µJ": "1e-6", "N m": "1", "N mm": "1e-3"}
 ENERGY = Kind("J", '"3 uJ"', MappingProxyType({unit: Decimal(f) for unit, f in _ENERGIES.items()}))
-KINDS = {"m": LENGTH, "Pa": PRESSURE, "J": ENERGY, "rad": ROTATION}
+KINDS = {"m": LENGTH, "Pa": PRESSURE, "J": ENERGY, "N m": MOMENT, "rad": ROTATION}
 MOST_BYTES = 100_000_000
 EXACT = Context(prec=40)
 SOLVED, GAVE_UP = "solved", "gave up"

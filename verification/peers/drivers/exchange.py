@@ -30,16 +30,23 @@ class CannotDo(Exception):
 
 def gap_of(request: Request) -> Array:
     """Gap below a paraboloid at the cell centres (n, n), or below a cone where a slope is given, or
-    a flat punch where a rim is."""
+    a flat punch where a rim is; less what a tilt closes, the slopes along y and along x."""
     n, side = request["cells"], request["window"]
     x = (np.arange(n) + 0.5) * side / n - side / 2
+    x, y = x[:, None], x[None, :]
+    r = np.hypot(x, y)
+    along_y, along_x = request.get("tilt", (0.0, 0.0))
+    return _level_gap(request, x, y, r) - along_y * y - along_x * x
+
+
+def _level_gap(request: Request, x: Array, y: Array, r: Array) -> Array:
     if request.get("rim"):
-        return np.where(np.hypot(x[:, None], x[None, :]) <= request["rim"], 0.0, ABOVE)
+        return np.where(r <= request["rim"], 0.0, ABOVE)
     if request.get("slope"):
-        return np.asarray(request["slope"] * np.hypot(x[:, None], x[None, :]))
+        return np.asarray(request["slope"] * r)
     radius = request["radius"]
     along, across = radius if isinstance(radius, list) else (radius, radius)
-    return np.asarray(x[:, None] ** 2 / (2 * along) + x[None, :] ** 2 / (2 * across))
+    return np.asarray(x**2 / (2 * along) + y**2 / (2 * across))
 
 
 def approach_of(gap: Array, displacement: Array, pressure: Array) -> float:
