@@ -1,12 +1,16 @@
 """Sphinx: `./run docs`, or sphinx-build -W -b html docs build/docs. It needs no network."""
 
+import re
 import sys
 from pathlib import Path
 
 HERE = Path(__file__).parent
+NAMED = re.compile(r"^(\w+) {2,}(?=\S)")
 sys.path[:0] = [str(HERE), str(HERE.parent)]
 
 from made_pages import write_pages  # noqa: E402
+from made_reference import parameters  # noqa: E402
+from pydantic import BaseModel  # noqa: E402
 
 from contact_results.directory.machine import program_version  # noqa: E402
 
@@ -27,15 +31,27 @@ html_theme = "alabaster"
 html_theme_options = {
     "description": "Slip, stick and how accurately they are known",
     "fixed_sidebar": True,
-    "page_width": "1080px",
+    "page_width": "1240px",
+    "body_max_width": "none",
     "sidebar_width": "240px",
     "font_family": "Georgia, 'DejaVu Serif', serif",
 }
 html_show_sourcelink = False
-html_static_path = ["_static"]
-html_css_files = ["narrow.css"]
+html_static_path = ["_static"]  # the theme itself links custom.css
+html_sidebars = {"**": ["menu.html", "searchfield.html", "navigation.html"]}
+templates_path = ["_templates"]
 
 
 def setup(app) -> None:
     """The pages that are read off the code are written first."""
     app.connect("builder-inited", lambda app: write_pages(HERE))
+    app.connect("autodoc-process-docstring", described)
+
+
+def described(app, kind, name, thing, options, lines) -> None:
+    """Parameters as a list: of a value of a scene what its file says of the keys, not the marks of
+    its types; elsewhere the lines of the docstring that begin with a name and two spaces."""
+    lines[:] = [NAMED.sub(r":param \1: ", line) for line in lines]
+    if isinstance(thing, type) and issubclass(thing, BaseModel):
+        app.env.current_document.autodoc_annotations.pop(name, None)
+        lines += ["", *(f":param {key}: {text}" for key, text in parameters(thing)), ""]

@@ -6,6 +6,7 @@ from __future__ import annotations
 import shutil
 import tempfile
 import time
+from collections import Counter
 from pathlib import Path
 
 from gallery_claims import SCENES, Entry, Found, Verdict, found
@@ -16,6 +17,7 @@ from made_reference import table
 from slipstick import save
 
 FIGURES = ("overview.png", "profiles.png")  # the first that the run has
+SMALL = ("stick_slip.png", "profiles.png")  # of the index, likewise
 SYMBOLS = {
     Verdict.AGREES: "✓ agrees",
     Verdict.DIFFERS: "✗ differs",
@@ -34,7 +36,7 @@ def write_gallery(folder: Path) -> None:
     for entry in ENTRIES:
         started = time.process_time()
         judged = [found(entry, claim) for claim in entry.claims]
-        _draw(entry, folder / f"{entry.scene}.png")
+        _draw(entry, folder)
         spent[entry.scene] = time.process_time() - started
         refuse_unexpected(entry, judged)
         (folder / f"{entry.scene}.md").write_text(
@@ -100,30 +102,52 @@ def ours(one: Found) -> str:
     return f"{one.ours:.{places}f} ± {one.error:.{places}f}"
 
 
-def _draw(entry: Entry, path: Path) -> None:
+def _draw(entry: Entry, folder: Path) -> None:
     solved = entry.of(entry.shown)
     with tempfile.TemporaryDirectory() as directory:
-        save(solved.result, Path(directory) / "run", errors=solved.errors)
-        figures = (Path(directory) / "run" / name for name in FIGURES)
-        shutil.copy(next(figure for figure in figures if figure.is_file()), path)
+        run = Path(directory) / "run"
+        save(solved.result, run, errors=solved.errors)
+        for names, path in ((FIGURES, f"{entry.scene}.png"), (SMALL, f"{entry.scene}_small.png")):
+            drawn = next(run / name for name in names if (run / name).is_file())
+            shutil.copy(drawn, folder / path)
 
 
 def _index(spent: dict[str, float]) -> str:
-    rows = []
-    for entry in ENTRIES:
-        verdicts = [SYMBOLS[claim.verdict][0] for claim in entry.claims]
-        seconds = f"{max(1, round(spent[entry.scene]))} s"
-        rows.append(
-            (f"[{entry.title}]({entry.scene}.md)", entry.source, " ".join(verdicts), seconds)
-        )
+    cards = "\n".join(_card(entry, max(1, round(spent[entry.scene]))) for entry in ENTRIES)
     names = "\n".join(entry.scene for entry in ENTRIES)
     return (
         "# Gallery\n\n"
         "Published contacts, ours beside them: the figure, our error, the verdict. Each is one "
         "scene file in `docs/gallery`, solved, drawn and judged whenever these pages are built. "
         "Two numbers agree (✓) where they are no further apart than both may be off, else they "
-        "differ (✗); where our own error says too little, that is said (?). A verdict other than "
-        "expected stops the build.\n\n"
-        f"{table(('contact', 'source', 'verdicts', 'takes'), rows)}\n"
+        "differ (✗), and the page says who is off; where our own error says too little, that is "
+        "said (?). A verdict other than expected stops the build.\n\n"
+        f"::::{{container}} scenes\n{cards}\n::::\n\n"
         f"```{{toctree}}\n:hidden:\n\n{names}\n```\n"
     )
+
+
+def _card(entry: Entry, seconds: int) -> str:
+    """Picture, title, source, verdicts by their number, and how long it takes."""
+    counts = Counter(claim.verdict for claim in entry.claims)
+    verdicts = [
+        f"{SYMBOLS[kind][0]} {counts[kind]} {_plural(kind, counts[kind])}"
+        for kind in Verdict
+        if counts[kind]
+    ]
+    page = f"{entry.scene}.md"
+    return "\n".join(
+        (
+            ":::{container}",
+            f"[![{entry.title}]({entry.scene}_small.png)]({page})\n",
+            f"[{entry.title}]({page})\n",
+            f"{entry.source}\n",
+            f"{', '.join(verdicts)}; {seconds} s",
+            ":::",
+        )
+    )
+
+
+def _plural(kind: Verdict, number: int) -> str:
+    """The verdict as said of so many numbers."""
+    return kind.removesuffix("s") if number > 1 else str(kind)

@@ -96,6 +96,16 @@ def table(head: Iterable[str], rows: Iterable[Iterable[str]]) -> str:
     return "".join(f"| {' | '.join(line)} |\n" for line in lines)
 
 
+def parameters(model: type[BaseModel]) -> Iterator[tuple[str, str]]:
+    """Names and meanings of what makes a value of a scene, in reStructuredText."""
+    for name, field in model.model_fields.items():
+        if field.description is None:
+            continue
+        meaning = " ".join(field.description.split())
+        marks = [mark.expected for mark in _marks(field.annotation, field.metadata)]
+        yield name, f"{meaning} *{marks[0]}*" if marks else meaning
+
+
 def _key(name: str, field: Any) -> tuple[str, str]:
     quantity = next((m for m in _marks(field.annotation, field.metadata)), None)
     meaning = _cell(field.description or "")

@@ -21,13 +21,31 @@ if TYPE_CHECKING:
     from contact_results.surface import Result
 
 STYLE = (
-    "body{font:16px/1.5 sans-serif;max-width:72rem;margin:0 auto;padding:1rem;color:#1a1a1a;"
-    "background:#fff}img{max-width:100%;height:auto}td,th{text-align:left;padding:.15rem 1rem "
-    ".15rem 0}td{font-variant-numeric:tabular-nums}pre{overflow-x:auto;background:#f2f2f2;"
-    "padding:.5rem}@media(prefers-color-scheme:dark){body{color:#e8e8e8;background:#16181b}"
-    "pre{background:#24272c}img{background:#fff;border-radius:.3rem}}"
-    ".smaller{display:none}.figure:target{overflow-x:auto}.figure:target .smaller{display:inline;"
-    "position:sticky;left:0}.figure:target img{max-width:none;width:max(150%,62rem)}"
+    "body{font:16px/1.5 sans-serif;max-width:84rem;margin:0 auto;padding:1rem;color:#1a1a1a;"
+    "background:#fff}h1{font-size:1.5rem}h2{font-size:1.15rem;margin:1rem 0 .3rem}"
+    "img{max-width:100%;height:auto}td,th{text-align:left;vertical-align:top;"
+    "padding:.15rem 1rem .15rem 0}td{font-variant-numeric:tabular-nums}"
+    "pre{overflow-x:auto;background:#f2f2f2;padding:.5rem}.soft{color:#595959;max-width:46rem}"
+    "@media(prefers-color-scheme:dark){body{color:#e8e8e8;background:#16181b}pre{background:#24272c}"
+    ".soft{color:#a9adb2}a{color:#7cc4ee}img{background:#fff;border-radius:.3rem}}"
+    ".figures{display:grid;grid-template-columns:repeat(auto-fit,minmax(min(100%,32rem),1fr));"
+    "gap:0 2rem;align-items:start}#overview{grid-column:1/-1}section{min-width:0}"
+    ".smaller{display:none}section:target{grid-column:1/-1;overflow-x:auto}section:target .smaller"
+    "{display:inline;position:sticky;left:0}section:target img{max-width:none;"
+    "width:max(100%,62rem)}"
+)
+HEADINGS = {
+    "stick_slip": "Stick and slip",
+    "slip": "Slip at y = 0",
+    "slip_map": "Slip over the contact",
+    "hysteresis": "Load over motion",
+}
+READ_ON = (
+    "± is how far off the number may be; its parts (cells or elements, increments, tolerance) are "
+    "under <code>errors</code> in summary.json, a question mark says not to rely on it. Beside "
+    "this page: increments.csv (every number at every increment), profiles.csv (along y = 0), "
+    "result.h5 (fields), columns.csv (unit and meaning of every name). z points into the lower "
+    "body, and tractions are those on it."
 )
 POLICY = (
     "default-src 'none'; img-src data:; style-src 'unsafe-inline'; base-uri 'none'; "
@@ -53,9 +71,11 @@ def write_page(
         f"<h2>At the end of step {result.steps[-1].step}</h2><table>",
         *(_row(name, text) for name, text in decision_numbers(result, errors)),
         "</table>" + ("" if errors is not None else "<p>Errors were left out.</p>"),
+        f'<p class="soft">{READ_ON}</p>',
         *(f"<p><strong>Remark:</strong> {escape(remark)}.</p>" for remark in remarks(result)),
+        '<div class="figures">',
         *(_figure(path) for path in drawn if path.is_file()),
-        "<h2>Settings</h2><table>",
+        "</div><h2>Settings</h2><table>",
         *(_row(name, text) for name, text in _settings(result)),
         "</table><details><summary>The scene</summary><pre>",
         escape(result.scene.model_dump_json(indent=2, exclude_none=True)),
@@ -115,12 +135,13 @@ def _row(name: str, text: str) -> str:
 
 
 def _figure(path: Path) -> str:
-    name = path.stem.replace("_", " ").capitalize()
+    name = HEADINGS.get(path.stem, path.stem.replace("_", " ").capitalize())
     data = b64encode(path.read_bytes()).decode("ascii")
     # Larger by a link to itself: a library of curves (uPlot, 51 kB) needs a policy that lets script
     # run and the numbers a second time, in a page that is read without either.
     return (
-        f'<h2>{name}</h2><div class="figure" id="{path.stem}">'
+        f'<section id="{path.stem}"><h2>{name}</h2>'
         f'<a href="#{path.stem}" title="larger"><img alt="{name}, larger on a click" '
-        f'src="data:image/png;base64,{data}"></a>\n<a class="smaller" href="#">smaller</a></div>'
+        f'src="data:image/png;base64,{data}"></a>\n<a class="smaller" href="#">smaller</a>'
+        "</section>"
     )

@@ -45,7 +45,8 @@ class Answer:
     fields    tractions on the lower body [Pa]
     points    numbers at the places that are asked, in their order [SI]
     gave_up   reasons by loading step, where there is no answer
-    unknowns, seconds  of the whole level; None where nobody counted
+    unknowns  of the whole level; None where nobody counted
+    seconds   likewise
     """
 
     h: float
