@@ -62,6 +62,7 @@ from contact_scene.summary import load_summary
 from fem_reference import Method
 from semi_analytical import solve
 from slipstick import solve as solve_file
+from slipstick.cli.prices import requests_of
 from slipstick.solvers.names import SolverName
 from verification.closed_forms.cattaneo_mindlin import PartialSlip
 from verification.closed_forms.moduli import tangential_modulus
@@ -635,6 +636,22 @@ def test_a_worked_example_of_seconds_by_elements() -> None:
     ]
     like = replace(rung_of({}, SHIFT), fineness=by[0], processor_seconds=12.0)
     assert ladder.seconds(by[1], like) == pytest.approx(38.4)
+
+
+@pytest.mark.parametrize(
+    ("option", "requests"),
+    [
+        ("1%,0.1%", ["1%", "0.1%"]),
+        ("approach 0.1%, contact_radius 0.2%", ["approach 0.1%, contact_radius 0.2%"]),
+        ("approach 1%,twist 1%,approach 2%", ["approach 1%, twist 1%", "approach 2%"]),
+        ("1%,approach 0.1%,1e-8,twist 1%", ["1%", "approach 0.1%", "1e-8", "twist 1%"]),
+        ("1%, approach 0.1%; 2%;", ["1%, approach 0.1%", "2%"]),
+    ],
+)
+def test_names_in_a_row_are_one_request(option: str, requests: list[str]) -> None:
+    assert requests_of(option) == requests
+    for request in requests:
+        read_accuracy(request, "--accuracy")
 
 
 def test_plan_prints_prices_and_what_cannot_be_had(

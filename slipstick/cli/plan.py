@@ -20,7 +20,8 @@ def plan(
         optional(
             "--accuracy",
             metavar="SHARES",
-            help='Say what each of these would cost, such as "1%,0.1%,0.01%" or "approach 0.1%"; '
+            help='Say what each of these would cost, such as "1%,0.1%,0.01%", or "approach 0.1%, '
+            'contact_radius 0.1%" together, or requests of "run" with semicolons between them; '
             "solves on a coarse grid. Absent: nothing of it.",
         ),
     ] = None,

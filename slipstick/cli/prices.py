@@ -1,5 +1,6 @@
 """What accuracies cost, as a table."""
 
+import re
 from typing import TYPE_CHECKING, Any
 
 from slipstick.solvers.solver import increments_text
@@ -10,6 +11,7 @@ if TYPE_CHECKING:
     from slipstick.solvers.solver import Solver
 
 HEADINGS = ("accuracy", "cells or elements", "increments", "rounds", "time", "memory")
+NAMED = re.compile(r"\s*([A-Za-z]\w*)")
 
 
 def print_prices(option: str, solver: "Solver", contents: "SceneFile") -> None:
@@ -20,7 +22,7 @@ def print_prices(option: str, solver: "Solver", contents: "SceneFile") -> None:
     from contact_scene.solver_errors import AccuracyOutOfReach
     from slipstick.cli.terminal import print_pairs, print_table
 
-    items = option.split(",")
+    items = requests_of(option)
     requests = [read_accuracy(item, "--accuracy") for item in items]
     last = len(contents.scene.loading)
     wanted = last if any(request.binds_stress for request in requests) else None
@@ -29,13 +31,30 @@ def print_prices(option: str, solver: "Solver", contents: "SceneFile") -> None:
     rows, refused = [], []
     for item, request in zip(items, requests, strict=True):
         try:
-            rows.append((item.strip(), *_texts(prices.of_request(request))))
+            rows.append((item, *_texts(prices.of_request(request))))
         except AccuracyOutOfReach as error:
-            refused.append((item.strip(), str(error)))
+            refused.append((item, str(error)))
     if rows:
         print_table(HEADINGS, rows)
     if refused:
         print_pairs(refused)
+
+
+def requests_of(option: str) -> list[str]:
+    """Each as `run --accuracy` takes it: what stands between semicolons, and without these every
+    share without a name, and the names in a row until one comes again."""
+    if ";" in option:
+        return [part.strip() for part in option.split(";") if part.strip()] or [option]
+    requests: list[list[str]] = []
+    names: set[str] = set()
+    for item in option.split(","):
+        name = match[1] if (match := NAMED.match(item)) else None
+        if name is None or not names or name in names:
+            requests.append([])
+            names.clear()
+        requests[-1].append(item.strip())
+        names |= {name} if name else set()
+    return [", ".join(items) for items in requests]
 
 
 def _texts(found: "Price[Any]") -> tuple[str, ...]:
