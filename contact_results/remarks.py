@@ -21,6 +21,8 @@ Field = NDArray[np.float64]
 
 # Of the peak pressure, below which there is nothing to say of what cells leave out.
 NEGLIGIBLE = 1e-3
+# Cells across a contact below which its edge cannot be fitted.
+LEAST_ACROSS = 5
 
 
 def remarks(result: Result) -> tuple[str, ...]:
@@ -44,13 +46,25 @@ def _left_out(result: semi_analytical.Result) -> Iterator[str]:
 
 
 def _edges_left(result: semi_analytical.Result) -> Iterator[str]:
-    left = [str(end.step) for end in result.steps if end.edge_change is None]
-    if result.plan.edge != "off" and left:
+    if result.plan.edge == "off":
+        return
+    left: dict[str, list[str]] = {}
+    for end in result.steps:
+        if end.edge_change is None:
+            left.setdefault(_why_left(result, end), []).append(str(end.step))
+    for why, steps in left.items():
         yield (
-            f"at the end of step {', '.join(left)} the edges of contact and stick could not be put "
-            f"inside the cells: they are rough, too few cells lie across them, or the history is "
-            f"more than is known of them; the tractions there are constant on cells"
+            f"at the end of step {', '.join(steps)} the edges of contact and stick could not be "
+            f"put inside the cells: {why}; the tractions there are constant on cells"
         )
+
+
+def _why_left(result: semi_analytical.Result, end: semi_analytical.Increment) -> str:
+    if end.contact_radius < LEAST_ACROSS / 2 * max(result.grid.spacing):
+        return f"fewer than {LEAST_ACROSS} of them lie across the contact"
+    if end.shear is None or not np.any(end.shear):
+        return "the edge of the contact is rough, or a part of it is too thin"
+    return "they are rough or too thin, or the history is more than is known of them"
 
 
 def left_out(result: semi_analytical.Result) -> float:

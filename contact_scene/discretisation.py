@@ -48,7 +48,7 @@ class SurfaceDiscretisation(Description):
     """Error of the shear that finite increments may leave at the end of a step, summed over the
     surface and relative to the friction limit. It sets the increments of steps that name none."""
 
-    edge: EdgeCorrection = "off"
+    edge: EdgeCorrection = "last"
     """Whether tractions are put right at the edges of contact and stick, where constant on cells
     they are wrong by the order of a cell: at the end of each step ("last"), of each increment
     ("all"), or not at all ("off"); never where it is not known how, or not safe."""

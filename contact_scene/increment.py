@@ -40,7 +40,12 @@ class State:
     ]
     peak_pressure: Annotated[
         float,
-        Reported("Pa", "Largest pressure of any cell (finite elements: of any node).", key=True),
+        Reported(
+            "Pa",
+            "Largest pressure of any cell (finite elements: of any node; with edges inside the "
+            "cells: at any point).",
+            key=True,
+        ),
     ]
     tangential_force: Annotated[
         Vector | None,

@@ -21,8 +21,9 @@ from contact_scenes import (
     steel,
 )  # fmt: skip
 
+import slipstick
 from contact_results.remarks import remarks
-from contact_scene import Cone, Ellipsoid, FlatPunch, HeightMap, Scene
+from contact_scene import Cone, Ellipsoid, FlatPunch, HeightMap, Scene, SurfaceDiscretisation
 from semi_analytical import SurfaceGrid, plan, solve
 from verification.closed_forms.cone import ConeContact
 from verification.closed_forms.moduli import contact_modulus
@@ -274,6 +275,7 @@ def test_where_the_normal_force_changes_under_shear_the_tractions_stay():
     of = scene(*loading, indenter=paraboloid(ALIKE), body=ALIKE)
     plain, asked = (solved(of, edge).steps for edge in ("off", "all"))
     assert [end.edge_change is None for end in asked] == [False, False, True]
+    assert any("step 3 the edges" in told and "history" in told for told in remarks(solved(of)))
     np.testing.assert_array_equal(plain[2].shear, asked[2].shear)
     np.testing.assert_array_equal(plain[2].pressure, asked[2].pressure)
 
@@ -296,8 +298,26 @@ def test_where_the_contact_is_too_thin_the_pressure_stays_and_the_remarks_say_so
     plain, asked = (solved(frictionless(PRESS), edge, thin) for edge in ("off", "last"))
     np.testing.assert_array_equal(plain.steps[-1].pressure, asked.steps[-1].pressure)
     assert asked.steps[-1].edge_change is None
-    assert any("could not be put" in remark for remark in remarks(asked))
+    told = "could not be put inside the cells: fewer than 5 of them lie across the contact"
+    assert any(told in remark for remark in remarks(asked))
     assert not any("inside" in remark for remark in remarks(plain))
+
+
+def test_where_the_edge_is_rough_the_remarks_say_so():
+    noise = np.random.default_rng(1).uniform(size=(CELLS, CELLS))
+    of, grid = bumps(CELLS, (0, 0, 1, 0))
+    heights = of.indenter.file.values + 0.03 * APPROACH * noise
+    rough = HeightMap(file=heights, spacing=6 * A / CELLS, material=steel())
+    result = solved(frictionless(PRESS, indenter=rough), "last", grid)
+    assert result.steps[-1].edge_change is None
+    assert any("step 1 the edges" in told and "is rough" in told for told in remarks(result))
+
+
+def test_whoever_asks_for_nothing_has_edges_inside_the_cells():
+    """But who takes the solver's plan as it comes: verification names what it judges."""
+    of = frictionless(PRESS)
+    assert slipstick.plan(of).edge == SurfaceDiscretisation().edge == "last"
+    assert plan(of).edge == "off"
 
 
 def test_a_pressure_that_is_not_smooth_at_its_edge_is_left_as_it_is():

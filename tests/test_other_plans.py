@@ -1,5 +1,6 @@
 """Solving with another plan than the scene's: effects forced on, or coupled one way only."""
 
+import re
 import subprocess
 import sys
 
@@ -15,6 +16,7 @@ from contact_scene import LoadStep
 from semi_analytical import Coupling, all_effects, one_way, plan, solve
 from semi_analytical.operator import CouplingOperator
 from semi_analytical.other_plans import COMPUTED
+from slipstick.cli.run import _print_saving
 from verification.cases.goodman_indentation import goodman_indentation_on
 from verification.judging.judgement import judge
 from verification.judging.outcome import Status
@@ -71,6 +73,17 @@ def test_the_reduced_model_equals_the_full_model(described, transformed):
         if described.friction is None:
             assert b.status == a.status
         assert np.all(b.gap >= -SAME * b.approach)
+
+
+def test_what_forcing_is_compared_with_has_its_edges_inside_the_cells_too(capsys):
+    """Edges are settled when a round changes the pressure by less than a millionth."""
+    of = REDUCED["pushed to and fro"]
+    forced = solve(of, grid(32), TOLERANCE, plan=all_effects(plan(of, edge="last")))
+    assert all(end.edge_change is not None for end in forced.steps)
+    _print_saving(forced)
+    said = re.search(r"difference +(\S+) of pressure", capsys.readouterr().out)
+    assert said is not None
+    assert float(said[1]) < 1e-5
 
 
 def test_forcing_says_what_it_forces():

@@ -156,7 +156,8 @@ def test_step_and_depths_are_the_ones_asked_for(place: Path) -> None:
     record = json.loads((place / "first" / "stress.json").read_text(encoding="utf-8"))
     assert record["step"] == 1
     summary = json.loads((place / "run" / "summary.json").read_text(encoding="utf-8"))
-    assert record["peak_pressure"] == summary["steps"][0]["peak_pressure"]
+    for name in ("contact_radius", "peak_pressure"):
+        assert record[name] == summary["steps"][0][name]
     assert [(level["depth"], level["layer"]) for level in record["levels"]] == [
         (0.0, 0), (5e-5, 0), (1e-4, 0), (1e-4, 1), (2e-4, 1),
     ]  # fmt: skip

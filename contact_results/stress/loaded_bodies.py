@@ -65,6 +65,9 @@ class LoadedBodies:
     direction       unit vector along which the rings' angles start
     pressed         indenter, contact radius and approach, where they determine the pressure at
                     every radius; None where it is known on cells or rings alone [length]
+    contact_radius, peak_pressure
+                    as the run has them, which knows more than its cells; None where nobody has told
+                    [length], [force/length^2]
     edges           whether the tractions have their edges inside the cells, and are means of these
     by_increments   part of themselves by which increments may leave the tractions wrong; None where
                     nobody has stated it
@@ -82,6 +85,8 @@ class LoadedBodies:
     by_increments: float | None = None
     direction: tuple[float, float] = (1.0, 0.0)
     pressed: tuple[ShapedBody, float, float] | None = None
+    contact_radius: float | None = None
+    peak_pressure: float | None = None
 
     @property
     def on_rings(self) -> bool:
@@ -121,6 +126,8 @@ def state_of_result(
         (scene.indenter, end.contact_radius, end.approach or 0.0)
         if result.solver == RADIAL
         else None,
+        end.contact_radius,
+        end.peak_pressure,
     )
 
 
@@ -196,6 +203,8 @@ def _read(file: h5py.File, step: int | None) -> LoadedBodies:
         "edge_change" in group and bool(np.isfinite(values(group["edge_change"], last))),
         direction=_direction(file),
         pressed=_pressed(file, scene, last),
+        contact_radius=float(values(group["contact_radius"], last)),
+        peak_pressure=float(values(group["peak_pressure"], last)),
     )
 
 

@@ -49,7 +49,8 @@ def stress_on_cells(
 
     body = state.indenter if indenter else state.body
     grid, pressure, shear = _with_margin(state)
-    radius = float(np.sqrt(np.count_nonzero(pressure) * grid.cell_area / np.pi))
+    counted = float(np.sqrt(np.count_nonzero(pressure) * grid.cell_area / np.pi))
+    radius = counted if state.contact_radius is None else state.contact_radius
     levels = _levels(body, depths, radius)
     if indenter and shear is not None:
         shear = -shear

@@ -104,7 +104,7 @@ def write_stress_summary(
         "title": state.title,
         "body": which,
         "step": state.step,
-        "peak_pressure": float(np.max(state.tractions["pressure"])),
+        "peak_pressure": state.peak_pressure,
         "accuracy": None if accuracy is None else accuracy.model_dump(mode="json"),
         **field.how,
         "measures": MEASURES,

@@ -245,5 +245,5 @@ def _print_saving(forced: Any) -> None:
     from slipstick.cli.outcome_text import saving
     from slipstick.cli.terminal import print_pairs
 
-    planned = plan(forced.scene).cut_into(forced.plan.increments)
+    planned = plan(forced.scene, edge=forced.plan.edge).cut_into(forced.plan.increments)
     print_pairs(saving(solve(forced.scene, forced.grid, forced.tolerance, plan=planned), forced))
