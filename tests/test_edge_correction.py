@@ -25,6 +25,7 @@ import slipstick
 from contact_results.remarks import remarks
 from contact_scene import Cone, Ellipsoid, FlatPunch, HeightMap, Scene, SurfaceDiscretisation
 from semi_analytical import SurfaceGrid, plan, solve
+from semi_analytical.resolution import resolution
 from verification.closed_forms.cone import ConeContact
 from verification.closed_forms.moduli import contact_modulus
 from verification.problems.shifted_grid import ShiftedGrid
@@ -231,6 +232,15 @@ def test_a_step_of_many_increments_is_corrected_from_where_it_began():
     assert many.edge_change is not None
     assert many.stick_radius == pytest.approx(one.stick_radius, rel=1e-5)
     np.testing.assert_allclose(many.shear, one.shear, atol=1e-4 * np.max(one.shear))
+
+
+def test_before_any_push_all_sticks_that_is_in_contact():
+    """Also where the contact only reaches into a cell: else a border of slip would be seen."""
+    result = pushed(0.6)
+    pressed, end = result.steps
+    np.testing.assert_array_equal(pressed.in_stick, pressed.in_contact)
+    assert resolution(result)[0].annulus is None
+    assert np.any(end.in_contact & ~end.in_stick)
 
 
 @pytest.mark.parametrize("led", [push(0.6), slide(0.5)], ids=["force", "shift"])

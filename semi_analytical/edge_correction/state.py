@@ -71,7 +71,7 @@ class EdgeCorrection:
                 slip=nothing,
                 displacement=nothing,
                 shift=solved.shift,
-                stick=contact.region,
+                stick=pressed.pressure > 0,
                 stick_cells=contact.area,
                 change=0.0,
             )
