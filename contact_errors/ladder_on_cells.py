@@ -114,7 +114,8 @@ class CellLadder:
         for companion in like.stated.companions:
             if companion.convolutions and companion.cells:
                 solved.append(Solved(companion.cells, companion.convolutions))
-        return seconds_like(solved, like.processor_seconds, finer, more, machine_speed())
+        edges = like.result.plan.edge != "off"
+        return seconds_like(solved, like.processor_seconds, finer, more, machine_speed(), edges)
 
     def too_large(self, fineness: CellFineness) -> str | None:
         grid, available = fineness.grid, available_bytes()

@@ -1,4 +1,4 @@
-"""How long solves on cells take: a fixed part, and one for every convolution.
+"""How long solves on cells take: a part for every convolution, and one beside them.
 
 A convolution on n cells takes o + c n log₂ √n, and a solve as many of them as it has increments,
 times the square root of the cells along a side. o and c are those of the machine, measured once
@@ -63,20 +63,28 @@ class Solved:
 
 
 def seconds_like(
-    solved: Sequence[Solved], seconds: float, finer: float, more: float, speed: Speed
+    solved: Sequence[Solved],
+    seconds: float,
+    finer: float,
+    more: float,
+    speed: Speed,
+    edges: bool = False,
 ) -> float:
     """How long finer solves of a scene will take.
 
     solved   coarse ones, which took `seconds` together
     finer    factor of the cells along a side
     more     of the increments
+    edges    whether they are put inside the cells: what is no convolution is mostly that, and goes
+             with the cells along them
     """
 
     def model(of: Sequence[Solved]) -> float:
         return sum(speed.seconds(each.cells, each.convolutions) for each in of)
 
     fixed = max(0.0, seconds - model(solved))
-    return fixed + model([each.finer(finer, more) for each in solved])
+    along = finer if edges else 1.0
+    return along * fixed + model([each.finer(finer, more) for each in solved])
 
 
 @cache

@@ -626,6 +626,9 @@ def test_a_worked_example_of_seconds() -> None:
     coarse = [Solved((16, 16), 100)]
     assert speed.seconds((16, 16), 100) == pytest.approx(0.2024)
     assert seconds_like(coarse, 0.5, 4.0, 1.5, speed) == pytest.approx(0.2976 + 7.6728)
+    # Along edges there are four times as many cells.
+    along = seconds_like(coarse, 0.5, 4.0, 1.5, speed, edges=True)
+    assert along == pytest.approx(4 * 0.2976 + 7.6728)
 
 
 def test_a_worked_example_of_seconds_by_elements() -> None:
