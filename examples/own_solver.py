@@ -20,6 +20,8 @@ def modulus(scene):
     ball, body = scene.get("indenter", {}), scene["body"]
     if body["layers"] or ball.get("shape") != "paraboloid" or ball["material"] == "rigid":
         raise CannotDo("elastic balls on homogeneous bodies only")
+    if scene["loading"][0]["tilt"]:
+        raise CannotDo("no tilt")
     pair = [ball["material"], body["material"]]
     return 1 / sum((1 - m["poisson_ratio"] ** 2) / m["young_modulus"] for m in pair)
 

@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from verification.adapters.own_numbers import scene_of
+from verification.adapters.own_numbers import pressed_alone, scene_of
 from verification.challenge.answer import Answer, Field, Key, Solver, Vector
 from verification.challenge.door import CannotDo, Posed
 from verification.closed_forms.hertz import PointContact
@@ -57,7 +57,7 @@ def _dimensionless(posed: Posed) -> tuple[float, float, float, PointContact]:
     friction = float((posed.scene.get("friction") or {}).get("coefficient", 0.0))
     bodies = [each["material"] for each in (indenter, body) if each["material"] != "rigid"]
     layers = (*body["layers"], *(indenter.get("layers") or ()))
-    if indenter["shape"] != "paraboloid" or len(posed.loads) > 1:
+    if indenter["shape"] != "paraboloid" or not pressed_alone(posed):
         raise CannotDo("a ball that is pressed, here")
     if len(layers) > 1 or (len(bodies) > 1 and (layers or friction)):
         raise CannotDo("one layer under a rigid ball, here")

@@ -12,7 +12,7 @@ from types import SimpleNamespace
 import numpy as np
 
 from verification.adapters.driven import driven
-from verification.adapters.own_numbers import scene_of
+from verification.adapters.own_numbers import pressed_alone, scene_of
 from verification.adapters.rings import between
 from verification.challenge.answer import Answer, Key, Solver, Vector
 from verification.challenge.door import CannotDo, Posed
@@ -35,9 +35,9 @@ def answer(posed: Posed, level: int) -> Answer:
     bodies = [each["material"] for each in (indenter, body) if each["material"] != "rigid"]
     layers = (*(indenter.get("layers") or ()), *body["layers"])
     if (
-        len(posed.loads) > 1
+        not pressed_alone(posed)
         or posed.scene["friction"]
-        or not {"radius", "slope_angle"} & {*indenter}
+        or indenter["shape"] not in ("paraboloid", "cone")
     ):
         raise CannotDo("a ball or cone that is pressed without friction, here")
     if len(layers) > 1 or (len(bodies) > 1 and layers):

@@ -17,6 +17,13 @@ def scene_of(posed: Posed) -> Scene:
     return Scene.model_validate(posed.scene)
 
 
+def pressed_alone(posed: Posed) -> bool:
+    """Whether one normal force is all that leads: no tilt, nothing that pushes."""
+    first, *more = posed.scene["loading"]
+    named = {name for name, end in first.items() if end is not None} - {"increments"}
+    return not more and named == {"normal_force"}
+
+
 def in_increments(scene: Scene, number: int) -> Scene:
     """With friction the way matters: steps that name no increments take this many, so that finer
     levels do not stall at the error of the path."""

@@ -33,7 +33,7 @@ SLOW = {
     getfem.GETFEM.name: (getfem.GETFEM, getfem.answer),
 }
 SLOW_LEVELS = 2
-LEVELS = {Level.QUICK: 3, Level.STANDARD: 4, Level.FULL: 4}
+LEVELS = {Level.QUICK: 3, Level.STANDARD: 3, Level.FULL: 4}
 CANNOT, LINE, GRADE = "cannot", "line", "grade"
 
 
@@ -81,8 +81,8 @@ def cases(settings: Settings) -> tuple[ScoredRun, ...]:
     levels = settings.levels or LEVELS[settings.level]
     return tuple(
         ScoredRun(code, name, min(levels, SLOW_LEVELS) if code in SLOW else levels)
-        for name in challenges()
         for code in codes
+        for name in challenges()
     )
 
 
