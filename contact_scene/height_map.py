@@ -79,7 +79,7 @@ def _locate(
             f"but is asked for |{axis}| = {farthest:g}: "
             f"choose a window of at most {2 * reach:g} along {axis}"
         )
-    index = np.clip(np.floor(position), -1, count - 1)
+    index = np.floor(position)
     return index.astype(np.intp) + 1, position - index
 
 

@@ -102,3 +102,37 @@ def test_part_of_a_cell_beside_a_straight_edge(rng):
     np.testing.assert_allclose(
         _coverage(f, f_x, f_y), np.mean(inside, axis=(1, 2)), atol=1.5 / count
     )
+
+
+def swollen(centre=(0.0, 0.0), lean=0.0):
+    """Values whose square is no quadratic: e³ - 1 in the middle, and leaning to one side."""
+    x, y = np.indices((72, 72)) - 35.5
+    x, y = x - centre[0], y - centre[1]
+    rise = np.exp(3 * (1 - (x**2 + y**2) / 20.3**2)) - 1
+    return np.sqrt(np.maximum(rise * (1 + lean * (x - 0.4 * y) / 20.3), 0))
+
+
+def test_a_turned_or_mirrored_region_has_the_same_area():
+    """Also where no quadratic fits, and weights decide."""
+    values = swollen((0.3, -0.2), lean=0.5)
+    area = covered_cells(values, values > 0)
+    for other in (values[::-1], values[:, ::-1], values.T, np.rot90(values)):
+        assert covered_cells(other, other > 0) == pytest.approx(area, rel=1e-9)
+
+
+def test_cells_next_to_the_edge_decide_where_no_quadratic_fits():
+    """1.7 % too much; if all cells of a fit weighed the same, 2.4 %."""
+    values = swollen()
+    assert covered_cells(values, values > 0) == pytest.approx(np.pi * 20.3**2, rel=2e-2)
+
+
+def test_part_of_a_cell_is_that_of_the_line_alone(rng):
+    """Not of how steep the plane is; beside a line along a side it is exact."""
+    f_x, f_y = rng.standard_normal((2, 40))
+    f = rng.uniform(-0.7, 0.7, 40) * np.maximum(np.abs(f_x), np.abs(f_y))
+    part = _coverage(f, f_x, f_y)
+    for steep in (1e-5, 1e5):
+        np.testing.assert_allclose(_coverage(steep * f, steep * f_x, steep * f_y), part, rtol=1e-9)
+    f = np.array([-0.4998, -0.2, 0.0, 0.3, 0.4999])
+    for slopes in ((np.ones(5), np.zeros(5)), (np.zeros(5), -np.ones(5))):
+        np.testing.assert_allclose(_coverage(f, *slopes), 0.5 + f, rtol=1e-12)

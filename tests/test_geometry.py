@@ -131,8 +131,9 @@ def test_interpolation_is_third_order_accurate() -> None:
 def test_a_window_beyond_the_height_map_is_refused_with_both_lengths() -> None:
     shape = HeightMap(material=RIGID, file=heights(), spacing=1e-3)
     shape.initial_gap(6e-3, 4.5e-3)
-    with pytest.raises(ValueError, match=r"covers \|x\| <= 0.006 .* asked for \|x\| = 0.0061"):
-        shape.initial_gap(-6.1e-3, 0.0)
+    for x in (-6.1e-3, 6.1e-3, np.array([0.0, 6.1e-3, -1e-3])):
+        with pytest.raises(ValueError, match=r"\|x\| <= 0.006 .*\|x\| = 0.0061: .* 0.012 along x"):
+            shape.initial_gap(x, 0.0)
     with pytest.raises(ValueError, match=r"covers \|y\| <= 0.0045 .* asked for \|y\| = nan"):
         shape.initial_gap(0.0, np.nan)
 
