@@ -27,11 +27,9 @@ OURS = {
     section.ON_ELEMENTS.name: (section.ON_ELEMENTS, section.answer),
     radius.ON_RADII.name: (radius.ON_RADII, radius.answer),
 }
-# Minutes on three levels, so not at the quick one; and on two.
-SLOW = {
-    calculix.CALCULIX.name: (calculix.CALCULIX, calculix.answer),
-    getfem.GETFEM.name: (getfem.GETFEM, getfem.answer),
-}
+# On fewer levels; and what takes minutes, not at the quick one.
+SLOW = {getfem.GETFEM.name: (getfem.GETFEM, getfem.answer)}
+SLOWEST = {calculix.CALCULIX.name: (calculix.CALCULIX, calculix.answer)}
 SLOW_LEVELS = 2
 LEVELS = {Level.QUICK: 3, Level.STANDARD: 3, Level.FULL: 4}
 CANNOT, LINE, GRADE = "cannot", "line", "grade"
@@ -62,7 +60,7 @@ class ScoredRun:
             return CaseRecord(parameters=asked, words={CANNOT: str(error)})
 
     def _judged(self) -> Judgement:
-        if self.code in (known := OURS | SLOW):
+        if self.code in (known := OURS | SLOW | SLOWEST):
             solver, answer = known[self.code]
             return judge(self.challenge, answer, self.levels, solver=solver)
         (peer,) = (peer for peer in PEERS if peer.module == self.code)
@@ -76,11 +74,11 @@ class ScoredRun:
 
 def cases(settings: Settings) -> tuple[ScoredRun, ...]:
     """Every code on every challenge."""
-    codes = (*OURS, *(peer.module for peer in PEERS))
-    codes += tuple(SLOW) if settings.level > Level.QUICK else ()
+    codes = (*OURS, *(peer.module for peer in PEERS), *SLOW)
+    codes += tuple(SLOWEST) if settings.level > Level.QUICK else ()
     levels = settings.levels or LEVELS[settings.level]
     return tuple(
-        ScoredRun(code, name, min(levels, SLOW_LEVELS) if code in SLOW else levels)
+        ScoredRun(code, name, min(levels, SLOW_LEVELS) if code in SLOW | SLOWEST else levels)
         for code in codes
         for name in challenges()
     )
