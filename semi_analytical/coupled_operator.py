@@ -1,24 +1,19 @@
 """All three displacements by all three tractions at once: the fused product of coupled bodies."""
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from semi_analytical.operator import (
-    CouplingOperator,
-    NormalOperator,
-    PaddedTransform,
-    Spectrum,
-    TangentialOperator,
-)
+from semi_analytical.operator import CouplingOperator, NormalOperator, TangentialOperator
+from semi_analytical.padded_transform import Spectrum
 
 Field = NDArray[np.float64]
 Vector = NDArray[np.float64]
 Tractions = NDArray[np.float64]
 
-# Entries of the spectra that are multiplied at a time: three components of them stay in the cache.
-BLOCK = 8192
 # Stiffnesses that hold slip back, over the self-compliance: see graded_preconditioner.
 RATIO = 4.0
 STIFFNESSES = np.array([1.0, RATIO, RATIO**2, RATIO**3])
@@ -36,30 +31,25 @@ class CoupledOperator:
         self, normal: NormalOperator, tangential: TangentialOperator, coupling: CouplingOperator
     ) -> None:
         self.normal, self.tangential, self.coupling = normal, tangential, coupling
-        one = tangential.transform
-        self._transform = PaddedTransform(one.shape, one.counter, components=3)
+        self._transform = tangential.transform
 
     def __call__(self, tractions: Tractions) -> Field:
         """Displacements caused by tractions."""
-        work = self._transform.spectra()
-        self._transform.forward(tractions, work)
-        lines = max(1, BLOCK // work.shape[2])
-        for first in range(0, work.shape[1], lines):
-            self._multiply(work[:, first : first + lines], slice(first, first + lines))
-        return self._transform.inverse(work)
+        return self._transform.convolved(tractions, 3, self._multiplied)
 
-    def _multiply(self, spectra: Spectrum, rows: slice) -> None:
-        """Tractions to displacements in some rows of the spectra."""
+    def _multiplied(self, spectra: Spectrum, columns: slice) -> Spectrum:
+        """Tractions to displacements in some columns of the spectra."""
         q_x, q_y, p = spectra
-        xx, yy, xy = (symbol[rows] for symbol in self.tangential.symbols)
-        zx, zy = (symbol[rows] for symbol in self.coupling.symbols)
+        xx, yy, xy = (symbol[columns] for symbol in self.tangential.symbols)
+        zx, zy = (symbol[columns] for symbol in self.coupling.symbols)
         p *= 1j
         u_x = xx * q_x + xy * q_y + zx * p
         u_y = xy * q_x + yy * q_y + zy * p
-        p *= self.normal.symbols[0][rows]
+        p *= self.normal.symbols[0][columns]
         p += zx * q_x + zy * q_y
         p *= -1j
         q_x[:], q_y[:] = u_x, u_y
+        return spectra
 
 
 class PeriodicInverse:
@@ -75,32 +65,40 @@ class PeriodicInverse:
         normal, tangential = operator.normal, operator.tangential
         self._period = tangential.transform.period
         self._unit = 1 / np.max(np.abs(normal.inverse))  # keeps single precision within its range
-        turning = 1 / (tangential.mean + stiffness[:, None, None])
+        turning = 1 / (tangential.mean() + stiffness[:, None, None])
         symbols = np.concatenate([np.stack(tangential.inverse), normal.inverse[None], turning])
         self._symbols = (self._unit * symbols).astype(np.float32)
         rows, columns = self._period
-        count = 3 + len(stiffness)
         # The stubs of numpy.fft know double precision alone.
-        self._spectra: NDArray[Any] = np.empty((count, rows, columns // 2 + 1), dtype=np.complex64)
-        self._values: NDArray[Any] = np.empty((count, rows, columns), dtype=np.float32)
+        self._spectra: NDArray[Any] = np.empty((2, rows, columns // 2 + 1), dtype=np.complex64)
+        self._values: NDArray[Any] = np.zeros((2, rows, columns), dtype=np.float32)
 
     def __call__(self, displacements: NDArray[Any]) -> NDArray[Any]:
         """Tractions (3 + k, nx, ny) of displacements of that shape, neither tiny nor huge."""
-        _, nx, ny = displacements.shape
-        if (nx, ny) != self._period:
-            self._values[:] = 0
-        self._values[:, :nx, :ny] = displacements
-        spectra = self._spectra
-        np.fft.rfft(self._values, axis=-1, out=spectra)
-        np.fft.fft(spectra, axis=-2, out=spectra)
+        tractions = np.empty(displacements.shape, dtype=np.float32)
         xx, yy, xy = self._symbols[:3]
-        u_x, u_y = spectra[:2]
-        across = xy * u_x
-        u_x *= xx
-        u_x += xy * u_y
-        u_y *= yy
-        u_y += across
-        spectra[2:] *= self._symbols[3:]
+        with self._transformed(displacements[:2], tractions[:2]) as (u_x, u_y):
+            across = xy * u_x
+            u_x *= xx
+            u_x += xy * u_y
+            u_y *= yy
+            u_y += across
+        for number in range(2, len(displacements)):
+            one = slice(number, number + 1)
+            with self._transformed(displacements[one], tractions[one]) as spectrum:
+                spectrum *= self._symbols[number + 1]
+        return tractions
+
+    @contextmanager
+    def _transformed(self, values: NDArray[Any], into: NDArray[Any]) -> Iterator[NDArray[Any]]:
+        """Spectra of values, and back again; one component or two."""
+        count, nx, ny = values.shape
+        padded, spectra = self._values[:count], self._spectra[:count]
+        padded[:, nx:], padded[:, :, ny:] = 0, 0
+        padded[:, :nx, :ny] = values
+        np.fft.rfft(padded, axis=-1, out=spectra)
+        np.fft.fft(spectra, axis=-2, out=spectra)
+        yield spectra
         np.fft.ifft(spectra, axis=-2, out=spectra)
-        np.fft.irfft(spectra, n=self._period[1], axis=-1, out=self._values)
-        return np.multiply(self._values[:, :nx, :ny], 1 / self._unit, dtype=np.float32)
+        np.fft.irfft(spectra, n=self._period[1], axis=-1, out=padded)
+        np.multiply(padded[:, :nx, :ny], 1 / self._unit, out=into)

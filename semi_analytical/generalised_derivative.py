@@ -18,6 +18,8 @@ n along z and t across it, and asks for as many displacements:
 """
 
 from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -27,6 +29,7 @@ from semi_analytical.coupled_problem import CoupledProblem
 
 Field = NDArray[np.float64]
 Mask = NDArray[np.bool_]
+Indices = NDArray[np.intp]
 Tractions = NDArray[np.float64]
 
 # Of the self-compliance: a cell that is held back more does not turn.
@@ -106,57 +109,102 @@ class Natural:
 
 @dataclass(frozen=True)
 class Zones:
-    """Contact, stick and slip, 1 in the zone and 0 elsewhere (nx, ny); across and along slip.
+    """Contact, stick and slip. Free unknowns, and what the derivative makes of them, are vectors:
+    q_x, then q_y where it sticks, s where it slips, p where there is contact.
 
-    tangent   t where it slips, zero elsewhere (2, nx, ny)
-    pulled    µ n where it slips, zero elsewhere (2, nx, ny)
-    turning   d where it slips, zero elsewhere (nx, ny) [length^3/force]
+    contact, stick  (nx, ny)
+    slip     where it slips, flat indices (cells,)
+    tangent  t there (2, cells)
+    pulled   µ n there (2, cells)
+    turning  d there (cells,) [length^3/force]
     """
 
-    contact: Field
-    stick: Field
-    tangent: VectorField
-    pulled: VectorField
-    turning: Field
+    contact: Mask
+    stick: Mask
+    slip: Indices
+    tangent: Field
+    pulled: Field
+    turning: Vector
 
     @classmethod
     def of(cls, natural: Natural, problem: CoupledProblem) -> "Zones":
         """The zones in which a point lies."""
-        contact, slip = natural.contact.astype(np.float64), natural.slip
-        normal = np.where(slip, natural.z / np.where(slip, natural.length, 1.0), 0.0)
-        excess = np.where(slip, natural.length - natural.bound, 0.0)
-        least = excess / STIFFEST
-        turning = excess / np.where(slip, np.maximum(natural.bound, least), 1.0)
+        slip = np.flatnonzero(natural.slip)
+        length, bound = natural.length.ravel()[slip], natural.bound.ravel()[slip]
+        normal = natural.z.reshape(2, -1)[:, slip] / length
+        excess = length - bound
+        friction = problem.friction_limit(natural.contact.astype(np.float64))
         return cls(
-            contact=contact,
-            stick=contact * ~slip,
+            contact=natural.contact,
+            stick=natural.contact & ~natural.slip,
+            slip=slip,
             tangent=np.stack([-normal[1], normal[0]]),
-            pulled=problem.friction_limit(contact) * normal,
-            turning=problem.self_compliance * turning,
+            pulled=friction.ravel()[slip] * normal,
+            turning=problem.self_compliance * excess / np.maximum(bound, excess / STIFFEST),
         )
 
-    def along(self, v: Field) -> Field:
-        """The component t·v of a field (2, nx, ny) or (3, nx, ny)."""
-        return np.asarray(v[0] * self.tangent[0] + v[1] * self.tangent[1])
+    @cached_property
+    def _stuck(self) -> Indices:
+        return np.flatnonzero(self.stick)
 
-    def free(self, v: Field) -> Field:
+    @cached_property
+    def _pressed(self) -> Indices:
+        return np.flatnonzero(self.contact)
+
+    @cached_property
+    def _apart(self) -> Indices:
+        return np.flatnonzero(~self.contact)
+
+    @property
+    def size(self) -> int:
+        """Number of free unknowns."""
+        return 2 * len(self._stuck) + len(self.slip) + len(self._pressed)
+
+    def parts(self, vector: Vector) -> tuple[Vector, Vector, Vector]:
+        """Of a vector: (2, cells) where it sticks, (cells,) where it slips, (cells,) in contact."""
+        stuck, slip = 2 * len(self._stuck), len(self.slip)
+        return vector[:stuck].reshape(2, -1), vector[stuck : stuck + slip], vector[stuck + slip :]
+
+    def free(self, v: NDArray[Any]) -> Vector:
         """The free part of a field (3, nx, ny)."""
-        part = np.empty_like(v)
-        np.multiply(v[:2], self.stick, out=part[:2])
-        part[:2] += self.tangent * self.along(v)
-        np.multiply(v[2], self.contact, out=part[2])
-        return part
+        v = v.reshape(3, -1)
+        x, y = self.tangent * v[:2, self.slip]
+        return np.concatenate([*v[:2, self._stuck], x + y, v[2, self._pressed]])
 
-    def tractions(self, free: Field) -> Tractions:
+    def field(self, vector: Vector) -> Field:
+        """The field (3, nx, ny) that has this free part, and nothing else."""
+        v = np.zeros((3, self.contact.size))
+        v[:2, self._stuck], along, v[2, self._pressed] = self.parts(vector)
+        v[:2, self.slip] = self.tangent * along
+        return v.reshape(3, *self.contact.shape)
+
+    def rest(self, v: Field) -> Vector:
+        """What is not free of a field (3, nx, ny): where it slips along n, and all without
+        contact."""
+        v = v.reshape(3, -1)
+        x, y = v[:2, self.slip]
+        across = self.tangent[1] * x - self.tangent[0] * y
+        return np.concatenate([across, v[:, self._apart].ravel()])
+
+    def whole(self, free: Vector, rest: Vector) -> Field:
+        """The field (3, nx, ny) of these two parts."""
+        v = self.field(free).reshape(3, -1)
+        across, apart = rest[: len(self.slip)], rest[len(self.slip) :]
+        v[0, self.slip] += self.tangent[1] * across
+        v[1, self.slip] -= self.tangent[0] * across
+        v[:, self._apart] = apart.reshape(3, -1)
+        return v.reshape(3, *self.contact.shape)
+
+    def tractions(self, free: Vector) -> Tractions:
         """The tractions of free unknowns: where it slips, friction follows the pressure."""
-        t = free.copy()
-        t[:2] += self.pulled * free[2]
-        return t
+        t = self.field(free).reshape(3, -1)
+        t[:2, self.slip] += self.pulled * t[2, self.slip]
+        return t.reshape(3, *self.contact.shape)
 
-    def rows(self, free: Field, displacements: Field) -> Field:
-        """What the derivative makes of free unknowns whose tractions cause displacements."""
-        rows = self.free(displacements)
-        rows[:2] += self.tangent * (self.turning * self.along(free))
+    def held(self, free: Vector) -> Vector:
+        """d s where it slips, nothing elsewhere: what the derivative adds to displacements."""
+        rows = np.zeros_like(free)
+        self.parts(rows)[1][:] = self.turning * self.parts(free)[1]
         return rows
 
     def changes(self, other: "Zones | None") -> int:

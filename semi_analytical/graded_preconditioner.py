@@ -10,6 +10,8 @@ which add up to one,
 F the tangential spectrum with the unpadded period, f its scalar mean and K₀ the self-compliance.
 """
 
+from typing import Any
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -17,37 +19,32 @@ from semi_analytical.coupled_operator import RATIO, STIFFNESSES
 from semi_analytical.coupled_problem import CoupledProblem
 from semi_analytical.generalised_derivative import Zones
 
-Field = NDArray[np.float64]
+Vector = NDArray[np.float64]
 
 
 class GradedPreconditioner:
-    """Roughly the free unknowns that the derivative makes rows of, both (3, nx, ny)."""
+    """Roughly the free unknowns that the derivative makes rows of, both vectors of the zones."""
 
     def __init__(self, zones: Zones, problem: CoupledProblem) -> None:
         self._zones, self._inverse = zones, problem.precondition_together
         d, last = zones.turning / problem.self_compliance, STIFFNESSES[-1]
         grade = np.log(np.maximum(d, 1 / RATIO)) / np.log(RATIO) + 1
-        number = np.arange(len(STIFFNESSES) + 1)[:, None, None]
+        number = np.arange(len(STIFFNESSES) + 1)[:, None]
         hats = np.maximum(0.0, 1 - np.abs(np.minimum(grade, number[-1]) - number))
-        shares = np.sqrt(hats) * (zones.contact - zones.stick)
+        self._shares = np.sqrt(hats)
         # Beyond the last grade its stiffness is too small.
-        shares[-1] *= np.sqrt((1 + last) / (1 + np.maximum(d, last)))
-        self._sticking, self._shares = zones.tangent * shares[0], shares[1:]
-        self._rows = np.empty((3 + len(STIFFNESSES), *d.shape), dtype=np.float32)
+        self._shares[-1] *= np.sqrt((1 + last) / (1 + np.maximum(d, last)))
 
-    def __call__(self, rows: Field) -> Field:
+    def __call__(self, rows: Vector) -> Vector:
         """M rows."""
-        zones, v = self._zones, self._rows
-        along = zones.along(rows)
-        v[:2] = self._stuck(rows, along)
-        np.multiply(zones.contact, rows[2], out=v[2])
-        np.multiply(self._shares, along, out=v[3:])
-        u = self._inverse(v)
-        u[:2] = self._stuck(u, zones.along(u))
-        u[:2] += zones.tangent * np.einsum("kij,kij->ij", self._shares, u[3:])
-        u[2] *= zones.contact
-        return u[:3].astype(np.float64)
-
-    def _stuck(self, v: Field, along: Field) -> Field:
-        """Π v, t·v given."""
-        return v[:2] * self._zones.stick + self._sticking * along
+        zones, slip, shares = self._zones, self._zones.slip, self._shares
+        shape = zones.contact.shape
+        v: NDArray[Any] = np.zeros((3 + len(STIFFNESSES), zones.contact.size), dtype=np.float32)
+        v[:3] = zones.field(rows).reshape(3, -1)
+        v[:2, slip] *= shares[0]
+        v[3:, slip] = shares[1:] * zones.parts(rows)[1]
+        u = self._inverse(v.reshape(-1, *shape)).reshape(v.shape)
+        u[:2, slip] *= shares[0]
+        free = zones.free(u[:3])
+        zones.parts(free)[1][:] += np.sum(shares[1:] * u[3:, slip], axis=0)
+        return free

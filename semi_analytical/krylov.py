@@ -6,7 +6,6 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-Field = NDArray[np.float64]
 Vector = NDArray[np.float64]
 Matrix = NDArray[np.float64]
 
@@ -21,29 +20,32 @@ class LeastResidual:
     """What `least_residual` finds.
 
     solution    v
+    image       A v
     along       what came along, of v, added up from single precision
     motion      m
     iterations  products with A
     """
 
-    solution: Field
-    along: Field
+    solution: Vector
+    image: Vector
+    along: Vector
     motion: Vector
     iterations: int
 
 
 def least_residual(
-    apply: Callable[[Field], tuple[Field, Field]],
-    right: Field,
+    apply: Callable[[Vector], tuple[Vector, Vector]],
+    right: Vector,
     free: Matrix,
+    extra: int,
     depth: float,
     most: int,
 ) -> LeastResidual:
     """Solve A v + E m = r for v and for as many m as E has columns, until the norm of the residual
     is the part `depth` of what it is with v = 0.
 
-    apply  v -> A v, and whatever linear in v comes along, of the shape of r
-    right  r, any shape
+    apply  v -> A v, and whatever linear in v comes along, of the size `extra`
+    right  r
     free   the columns of E (k, size of r); they may depend on each other
 
     Not by matrix products, whose rounding depends on the number of threads.
@@ -51,10 +53,10 @@ def least_residual(
     rows, turn = orthonormal(free)
     k = len(rows)
     basis = np.empty((k + most + 1, right.size))
-    along = np.empty((most, right.size), dtype=np.float32)
+    along = np.empty((most, extra), dtype=np.float32)
     basis[:k] = rows
     del free, rows  # as large as many vectors
-    first, r = _orthogonal(right.ravel(), basis[:k])
+    first, r = _orthogonal(right, basis[:k])
     size = float(np.sqrt(np.sum(r * r)))
     hessenberg, shares = np.zeros((k + most + 1, most)), np.zeros(0)
     goal = np.zeros(most + 1)
@@ -64,9 +66,9 @@ def least_residual(
         np.multiply(
             r, 1 / hessenberg[end - 1, number - 1] if number else 1 / size, out=basis[end - 1]
         )
-        image, kept = apply(basis[end - 1].reshape(right.shape))
-        along[number] = kept.ravel()
-        hessenberg[:end, number], r = _orthogonal(image.ravel(), basis[:end])
+        image, kept = apply(basis[end - 1])
+        along[number] = kept
+        hessenberg[:end, number], r = _orthogonal(image, basis[:end])
         hessenberg[end, number] = np.sqrt(np.sum(r * r))
         within = hessenberg[k : end + 1, : number + 1]
         shares = np.asarray(np.linalg.lstsq(within, goal[: number + 2])[0])
@@ -75,10 +77,13 @@ def least_residual(
         if left <= depth * size or broken:
             break
     count = len(shares)
+    explained = hessenberg[: k + count, :count] @ shares
+    image = np.einsum("i,ik->k", explained, basis[: k + count])
     return LeastResidual(
-        np.einsum("i,ik->k", shares, basis[k : k + count]).reshape(right.shape),
-        np.einsum("i,ik->k", shares, along[:count]).reshape(right.shape),
-        turn @ (first - hessenberg[:k, :count] @ shares),
+        np.einsum("i,ik->k", shares, basis[k : k + count]),
+        image + shares[-1] * r if count else image,
+        np.einsum("i,ik->k", shares, along[:count]),
+        turn @ (first - explained[:k]),
         count,
     )
 

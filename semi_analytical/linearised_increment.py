@@ -1,6 +1,5 @@
 """A coupled increment linearised in its zones of contact, stick and slip, and its solution."""
 
-from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -35,37 +34,37 @@ class LinearisedIncrement:
     unknowns beside the tractions, and the tractions keep these forces."""
 
     def __init__(
-        self, problem: CoupledProblem, zones: Zones, last: "LinearisedIncrement | None" = None
+        self, problem: CoupledProblem, zones: Zones, carriers: Matrix | None = None
     ) -> None:
-        """last  in nearly these zones: what carried its loads will do here too"""
+        """carriers  of the loads, from nearly these zones: see `carriers_in`"""
         self._problem, self._zones = problem, zones
         self._precondition = GradedPreconditioner(zones, problem)
         shape = problem.gap.shape
         self._shifts = problem.tangential_load.free_motions((2, *shape))
         self._closures = problem.normal_load.free_motions(shape)
-        count = len(self._shifts) + len(self._closures)
-        self._images: Field = np.empty((count, 3, *shape))
-        for number, unit in enumerate(self._units()):
-            self._images[number] = (
-                zones.free(last._images[number]) if last else self._precondition(zones.free(unit))
-            )
-        responses = np.array([self._forces(image) for image in self._images])
+        if carriers is None:
+            units = self._free_units()
+            for number, unit in enumerate(units):
+                units[number] = self._precondition(unit)
+            carriers = units
+        self._carriers, count = carriers, len(carriers)
+        responses = np.array([self._forces(carrier) for carrier in carriers])
         self._inverse = np.linalg.pinv(responses.reshape(count, count).T, rcond=UNDETERMINED)
 
-    def _units(self) -> Iterator[Field]:
-        """Unit motions whose forces are given (3, nx, ny)."""
+    def carriers_in(self, zones: Zones) -> Matrix:
+        """What carries its loads, in other zones, where they may do so, too (k, unknowns)."""
+        own = (zones.free(self._zones.field(carrier)) for carrier in self._carriers)
+        return np.array([*own]).reshape(-1, zones.size)
+
+    def _free_units(self) -> Matrix:
+        """The free parts of unit motions whose forces are given (k, unknowns)."""
+        zones, free = self._zones, []
         for parts, motions in ((slice(2), self._shifts), (slice(2, 3), self._closures)):
             for motion in motions:
                 unit = np.zeros((3, *self._problem.gap.shape))
                 unit[parts] = motion
-                yield unit
-
-    def _free_units(self) -> Matrix:
-        """The free parts of these (k, 3 nx ny)."""
-        units = np.empty((len(self._images), 3 * self._problem.gap.size))
-        for row, unit in zip(units, self._units(), strict=True):
-            row[:] = self._zones.free(unit).ravel()
-        return units
+                free.append(zones.free(unit))
+        return np.array(free).reshape(len(free), zones.size)
 
     def admissible(self, tractions: Tractions) -> Tractions:
         """Tractions in the zones that friction allows and that carry the loads, near given ones.
@@ -78,48 +77,51 @@ class LinearisedIncrement:
         if load.exhausts(bound):
             raise NotConverged("the coupled increment", 0, np.inf, 0.0)
         t = zones.tractions(zones.free(np.concatenate([tractions[:2], p[None]])))
-        images = self._images[: len(self._shifts), :2]
-        forces = np.array([load.forces(image) for image in images])
-        forces = forces.reshape(len(images), len(images))
+        carriers = self._carriers[: len(self._shifts)]
+        forces = np.array([load.forces(zones.field(carrier)[:2]) for carrier in carriers])
+        forces = forces.reshape(len(carriers), len(carriers))
         missing = load.given - load.forces(t[:2])
         shares = np.linalg.pinv(forces.T, rcond=UNDETERMINED) @ missing
-        t[:2] += np.einsum("i,icjk->cjk", shares, images)
+        t[:2] += zones.field(np.einsum("i,ik->k", shares, carriers))[:2]
         t[:2] = load.admissible(t[:2], bound)
         return t
 
-    def solved(self, base: Point, natural: Natural, depth: float) -> Step:
+    def unsolved(self, base: Point, natural: Natural) -> Vector:
+        """What the linearised increment does not fulfil at a point."""
+        zones = self._zones
+        missing = zones.free(np.concatenate([natural.slipped, -natural.gap[None]]))
+        missing -= zones.held(zones.free(base.tractions))
+        return missing
+
+    def solved(self, unsolved: Vector, depth: float) -> Step:
         """The step from a point to where the linearised increment is solved, but for the part
         `depth` of what it does not fulfil now."""
         zones, problem = self._zones, self._problem
-        missing = np.empty_like(base.tractions)
-        missing[:2] = natural.slipped - zones.tangent * (
-            zones.turning * zones.along(base.tractions)
-        )
-        missing[2] = np.where(zones.contact > 0, -natural.gap, 0.0)
 
-        def apply(v: Field) -> tuple[Field, Field]:
+        def apply(v: Vector) -> tuple[Vector, Vector]:
             free = self._unknowns(v)
             u = problem.together(zones.tractions(free))
-            return zones.rows(free, u), u
+            return zones.free(u) + zones.held(free), zones.rest(u)
 
-        right = zones.free(missing)
-        found = least_residual(apply, right, self._free_units(), depth, MOST_ITERATIONS)
+        extra = 3 * zones.contact.size - zones.size
+        found = least_residual(apply, unsolved, self._free_units(), extra, depth, MOST_ITERATIONS)
+        free = self._unknowns(found.solution)
         closing = zip(found.motion[len(self._shifts) :], self._closures, strict=True)
         return Step(
-            zones.tractions(self._unknowns(found.solution)),
-            found.along,
+            zones.tractions(free),
+            zones.whole(found.image - zones.held(free), found.along),
             sum((-m * closure for m, closure in closing), 0.0),
             found.iterations,
         )
 
-    def _unknowns(self, rows: Field) -> Field:
+    def _unknowns(self, rows: Vector) -> Vector:
         """Free unknowns, roughly, that the derivative makes rows of; they change no given force."""
         free = self._precondition(rows)
-        for share, image in zip(self._inverse @ self._forces(free), self._images, strict=True):
-            free -= share * image
+        for share, carrier in zip(self._inverse @ self._forces(free), self._carriers, strict=True):
+            free -= share * carrier
         return free
 
-    def _forces(self, free: Field) -> Vector:
+    def _forces(self, free: Vector) -> Vector:
         """The given forces, of the tractions of free unknowns."""
         t = self._zones.tractions(free)
         pressed = [np.sum(closure * t[2]) for closure in self._closures]

@@ -13,13 +13,8 @@ from semi_analytical.coupled_operator import STIFFNESSES, CoupledOperator, Perio
 from semi_analytical.grid import SurfaceGrid
 from semi_analytical.influence.bodies import influence_coefficients
 from semi_analytical.influence.coefficients import InfluenceCoefficients
-from semi_analytical.operator import (
-    Convolutions,
-    CouplingOperator,
-    NormalOperator,
-    TangentialOperator,
-    offsets_for,
-)
+from semi_analytical.operator import CouplingOperator, NormalOperator, TangentialOperator
+from semi_analytical.padded_transform import Convolutions, offsets_for
 
 Field = NDArray[np.float64]
 Operator = TypeVar(

@@ -48,8 +48,9 @@ def solve_by_newton(
     for number in range(1, MOST_STEPS + 1):
         found = Zones.of(natural, problem)
         settled = found.changes(zones) <= SETTLED * np.sqrt(np.sum(found.contact))
-        zones = found
-        increment = LinearisedIncrement(problem, zones, increment if settled else None)
+        carriers = increment.carriers_in(found) if increment and settled else None
+        zones, increment = found, None  # both increments at once would be more
+        increment = LinearisedIncrement(problem, zones, carriers)
         point, closing = _at(problem, increment.admissible(point.tractions), natural.motion)
         natural = _natural(problem, point)
         residual = _residual(problem, point, natural, closing)
@@ -61,11 +62,14 @@ def solve_by_newton(
         best = min(best, residual)
         if idle >= MOST_IDLE:
             break
-        depth = min(ROUGHLY, natural.merit) if settled else ROUGHLY
+        merit = natural.merit
+        depth = min(ROUGHLY, merit) if settled else ROUGHLY
         depth = min(ROUGHLY, max(depth, FINE * tolerance / residual))
-        step = increment.solved(point, natural, depth)
+        unsolved = increment.unsolved(point, natural)
+        del natural  # as large as a few of the vectors that follow
+        step = increment.solved(unsolved, depth)
         iterations += step.iterations
-        point, natural = _toward(problem, point, step, natural.merit)
+        point, natural = _toward(problem, point, step, merit)  # noqa: RUF059, read at the top
     raise NotConverged("the coupled increment", iterations, best, tolerance)
 
 

@@ -15,7 +15,7 @@ from semi_analytical.edge.kernels import (
     part_centres,
 )
 from semi_analytical.influence.bodies import influence_coefficients
-from semi_analytical.operator import Convolutions
+from semi_analytical.padded_transform import Convolutions
 
 Field = NDArray[np.float64]
 

@@ -25,6 +25,8 @@ ORDER = (
     "grid",
     "frf",
     "influence",
+    "kernel_spectrum",
+    "padded_transform",
     "operator",
     "coupled_operator",
     "edge",

@@ -155,9 +155,7 @@ def test_response_that_ends_with_the_window_is_seen(
 ) -> None:
     """Displacements counted from the window's corner, as a periodic response has them."""
     right = operator.even_transform
-    monkeypatch.setattr(
-        operator, "even_transform", lambda values, padded: right(values - values[-1, -1], padded)
-    )
+    monkeypatch.setattr(operator, "even_transform", lambda values: right(values - values[-1, -1]))
     assert of_windows(scene_file)[UNCHANGED] is Status.FAIL
 
 

@@ -18,7 +18,7 @@ from semi_analytical.influence.layered import LayeredCoefficients
 from semi_analytical.model import ContactModel
 from semi_analytical.normal import solve_normal
 from semi_analytical.normal_load import PressureSum
-from semi_analytical.operator import offsets_for
+from semi_analytical.padded_transform import offsets_for
 from verification.problems import paper_scene as paper
 from verification.problems.layered_scene import coated, film, pressed, rigid_ball
 from verification.problems.paper_scene import pressing

@@ -9,13 +9,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from semi_analytical.edge.kernels import PARTS, REACH, EdgeKernels, part_centres
-from semi_analytical.operator import (
-    Convolutions,
-    PaddedTransform,
+from semi_analytical.kernel_spectrum import (
+    KernelSpectrum,
     even_transform,
     mixed_transform,
     odd_transform,
 )
+from semi_analytical.padded_transform import Convolutions, PaddedTransform, Spectrum
 
 Field = NDArray[np.float64]
 Indices = NDArray[np.intp]
@@ -73,24 +73,27 @@ class EdgeOperator:
     def __init__(self, kernels: EdgeKernels, shape: tuple[int, int], counter: Convolutions) -> None:
         self._near = kernels.near
         self._transform = PaddedTransform(shape, counter)
-        reach, padded = self._transform.reach, self._transform.padded
+        reach = self._transform.reach
         x, y = kernels.parity
         self._spectra = [
-            _spectrum(moment[reach], parity, padded)
+            _spectrum(moment[reach], parity)
             for moment, parity in zip(kernels.moments, ((-x, y), (x, -y)), strict=True)
         ]
         self._odd = x * y > 0
 
     def __call__(self, within: Within) -> Field:
         """The displacement at the centres of the cells [length]."""
-        total, other = works = self._transform.spectra(2)
-        for slope, spectrum, work in zip(within.slopes, self._spectra, works, strict=True):
-            self._transform.forward(slope, work)
-            work *= spectrum
+        u = self._transform.convolved(within.slopes, 1, self._multiplied)[0]
+        return u + self._by_rest(within)
+
+    def _multiplied(self, spectra: Spectrum, columns: slice) -> Spectrum:
+        total, other = spectra
+        for work, spectrum in zip(spectra, self._spectra, strict=True):
+            work *= spectrum[columns]
         total += other
         if self._odd:
             total *= -1j
-        return self._transform.inverse(total) + self._by_rest(within)
+        return spectra[:1]
 
     def _by_rest(self, within: Within) -> Field:
         u = np.zeros(np.array(within.slopes.shape[1:]) + 2 * REACH)
@@ -101,10 +104,10 @@ class EdgeOperator:
         return u[REACH:-REACH, REACH:-REACH]
 
 
-def _spectrum(moment: Field, parity: tuple[int, int], padded: tuple[int, int]) -> Field:
-    """Real half spectrum; times -i where the moment is odd along one side only."""
+def _spectrum(moment: Field, parity: tuple[int, int]) -> KernelSpectrum:
+    """That of a moment; times -i where it is odd along one side only."""
     if parity == (1, 1):
-        return even_transform(moment, padded)
+        return even_transform(moment)
     if parity == (-1, -1):
-        return odd_transform(moment, padded)
-    return mixed_transform(moment, padded, odd_axis=parity.index(-1))
+        return odd_transform(moment)
+    return mixed_transform(moment, odd_axis=parity.index(-1))

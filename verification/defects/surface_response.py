@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -24,7 +25,7 @@ def scaled(patches: Patches, owner: Operator, factor: float) -> None:
     def wrap(whole: Any) -> Any:
         def built(self: Any, *given: Any) -> None:
             whole(self, *given)
-            self.symbols = tuple(factor * symbol for symbol in self.symbols)
+            self.symbols = tuple(replace(s, quarter=factor * s.quarter) for s in self.symbols)
 
         return built
 
@@ -35,7 +36,7 @@ def _periodic(patches: Patches) -> None:
     def images(self: NormalOperator, pressure: Any) -> Any:
         self._transform.counter.count += 1
         period = self._transform.period
-        spectrum = np.fft.rfft2(pressure, period) * self.symbols[0][::2, ::2]
+        spectrum = np.fft.rfft2(pressure, period) * self.symbols[0].unpadded()
         nx, ny = pressure.shape
         return np.fft.irfft2(spectrum, period)[:nx, :ny]
 
@@ -44,9 +45,9 @@ def _periodic(patches: Patches) -> None:
 
 def _without_mean(patches: Patches) -> None:
     def wrap(whole: Any) -> Any:
-        def transform(coefficients: Any, padded: Any) -> Any:
-            spectrum = whole(coefficients, padded).copy()
-            spectrum[0, 0] = 0.0
+        def transform(coefficients: Any) -> Any:
+            spectrum = whole(coefficients)
+            spectrum.quarter[0, 0] = 0.0
             return spectrum
 
         return transform
@@ -56,12 +57,10 @@ def _without_mean(patches: Patches) -> None:
 
 def _with_nyquist_row(patches: Patches) -> None:
     def wrap(whole: Any) -> Any:
-        def transform(coefficients: Any, padded: Any, odd_axis: int) -> Any:
-            spectrum = whole(coefficients, padded, odd_axis).copy()
-            if odd_axis == 0:
-                spectrum[padded[0] // 2] = spectrum[padded[0] // 2 - 1]
-            else:
-                spectrum[:, -1] = spectrum[:, -2]
+        def transform(coefficients: Any, odd_axis: int) -> Any:
+            spectrum = whole(coefficients, odd_axis)
+            along = np.moveaxis(spectrum.quarter, 1 - odd_axis, 0)
+            along[-1] = along[-2]
             return spectrum
 
         return transform

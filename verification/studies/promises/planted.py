@@ -17,7 +17,7 @@ from fem_reference import Method
 from fem_reference import solve as solve_on_rings
 from fem_reference.elasticity.factored_section import FactoredSection
 from semi_analytical import SurfaceGrid, solve
-from semi_analytical.operator import PaddedTransform
+from semi_analytical.padded_transform import PaddedTransform
 from verification.running.cold_cache import cold_cache
 from verification.studies.promises.promise import Attempt
 from verification.studies.promises.scenes import CONTACT, fretting, read
@@ -43,7 +43,7 @@ def planted(count: int) -> Iterator[Attempt]:
         return solve_on_rings(described, coarse, method)
 
     ways: tuple[tuple[type, str, int, Computed], ...] = (
-        (PaddedTransform, "inverse", 60, on_cells),
+        (PaddedTransform, "convolved", 60, on_cells),
         (FactoredSection, "compliance", 1, partial(on_rings, Method.COMPLEMENTARITY)),
         (FactoredSection, "compliance", 1, partial(on_rings, Method.PENALTY)),
     )

@@ -19,7 +19,7 @@ from semi_analytical.frf.surface import SurfaceScalars, scalars
 from semi_analytical.history import march
 from semi_analytical.influence.coefficients import Composite
 from semi_analytical.model import ContactModel, Field, halved
-from semi_analytical.operator import Convolutions, offsets_for
+from semi_analytical.padded_transform import Convolutions, offsets_for
 
 Spectrum = NDArray[np.complex128] | Field
 
