@@ -120,14 +120,14 @@ def transforms(nodes: tuple[float, ...], highest: int, kappa: Array) -> Array:
     s = x[:-1, None] + length * v
     at, weights = np.multiply.outer(kappa, s), length * weights * s
     found = np.zeros((highest + 2, len(kappa), len(x)))
-    for total, bessel in zip(found, _bessel(highest + 1, at), strict=True):
-        part = bessel * weights
+    for total, values in zip(found, bessel_functions(highest + 1, at), strict=True):
+        part = values * weights
         total[:, :-1] += part @ (1 - v)
         total[:, 1:] += part @ v
     return found
 
 
-def _bessel(highest: int, at: Array) -> Iterator[Array]:
+def bessel_functions(highest: int, at: Array) -> Iterator[Array]:
     """J_0 … J_highest: by the recurrence upwards where that is stable, beyond the order."""
     near = at <= highest
     last, now = j0(at), j1(at)

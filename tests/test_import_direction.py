@@ -114,6 +114,7 @@ ORDERS = {
             "pushing",
             "history",
         ),
+        *("loaded_circle", "circle_fit", "rays", "below_circle"),
     ),
     "fem_reference.mesh": ("section_outline", "section_mesh", "gmsh_mesh"),
     "fem_reference.elasticity": (

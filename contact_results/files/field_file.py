@@ -60,8 +60,9 @@ def write_fields(
         _write(
             file, "scene", result.scene.model_dump_json(), Reported("", "what was solved (JSON)")
         )
-        if isinstance(surface, Rings) and hasattr(result, "discretisation"):
+        if isinstance(surface, Rings):
             file.attrs["direction"] = surface.direction
+        if hasattr(result, "discretisation"):
             fineness = result.discretisation.model_dump_json()
             _write(file, "discretisation", fineness, Reported("", "how finely (JSON)"))
         for name, values in surface.axes.items():

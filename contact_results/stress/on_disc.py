@@ -1,4 +1,4 @@
-"""Stress below pressure that is known at every radius, in a plane through the axis."""
+"""Stress below the radial solver's pressure and shear, in a plane through the axis."""
 
 from __future__ import annotations
 
@@ -8,10 +8,13 @@ from typing import Any
 
 import numpy as np
 
+from contact_results.stress.body_regions import BodyRegions
+from contact_results.stress.circle_body import CircleBody
 from contact_results.stress.disc_body import DiscBody
 from contact_results.stress.extremes import extremes
 from contact_results.stress.loaded_bodies import LoadedBodies
 from contact_results.stress.points import StressField, StressPoints
+from contact_scene.geometry import ShapedBody
 from contact_scene.solver_errors import UnsupportedScene
 
 SHOWN = 3.0  # contact radii to the sides and in depth
@@ -25,35 +28,77 @@ def stress_on_disc(
 
     depths  both sides of every interface come on top, and nothing else [length]; None for what fits
             contact and layers
-    Raises ValueError for a depth that is not in the body, UnsupportedScene where there is shear.
+    Raises ValueError for a depth that is not in the body, UnsupportedScene where there is shear
+    below infinite pressure.
     """
-    refuse_shear(len(state.tractions) > 1)
+    if is_sheared(state):
+        return _below_shear(state, indenter, depths)
     body = DiscBody.of(state, indenter)
-    grid = body.points(tuple(body.levels(depths)), body.radii)
+    grid = body.points(tuple(body.parts.levels(depths)), body.radii)
     section, points = _both_sides(grid), grid.chosen(np.ones(grid.x.shape, dtype=bool))
-    field = StressField(
+    field = _field(section, points, body.parts, "x at y = 0", {})
+    if depths is not None:
+        return field
+    found = extremes(field, state.indenter if indenter else state.body)
+    nearer = [body.largest(extreme) for extreme in found if extreme.region in body.parts.named]
+    return replace(field, points=_joined([points, *nearer]))
+
+
+def _below_shear(
+    state: LoadedBodies, indenter: bool, depths: Sequence[float] | None
+) -> StressField:
+    """The same in the plane of the load; the largest also beside it."""
+    assert state.pressed is not None
+    refuse_infinite(state.pressed[0])
+    body = CircleBody.of(state, indenter)
+    levels, x = tuple(body.parts.levels(depths)), body.section
+    grid = body.points(levels, x, np.zeros_like(x))
+    section = _both_sides(grid) if body.is_round else _with_cells(grid)
+    points, beside = section.chosen(np.ones(section.x.shape, dtype=bool)), body.beside(levels)
+    if beside is not None:
+        points = _joined([points, beside.chosen(np.ones(beside.x.shape, dtype=bool))])
+    label = "x at y = 0" if body.is_round else "x along the load"
+    how: dict[str, object] = {"edge_from": body.below.circle.centre - body.parts.radius,
+           "edge_to": body.below.circle.centre + body.parts.radius}  # fmt: skip
+    field = _field(section, points, body.parts, label, how, body.direction)
+    if depths is not None:
+        return field
+    found = extremes(field, state.indenter if indenter else state.body)
+    nearer = [body.largest(extreme) for extreme in found if extreme.region in body.parts.named]
+    return replace(field, points=_joined([points, *nearer]))
+
+
+def _field(
+    section: StressPoints, points: StressPoints, parts: BodyRegions, label: str,
+    how: dict[str, object], direction: tuple[float, float] = (1.0, 0.0),
+) -> StressField:  # fmt: skip
+    return StressField(
         points,
         None,
         section,
         section.chosen(section.x == 0),
         None,
-        "x at y = 0",
-        (SHOWN * body.radius, min(SHOWN * body.radius, float(np.max(grid.depth)))),
-        {"contact_radius": body.radius, "first_depth": body.first},
+        label,
+        (SHOWN * parts.radius, min(SHOWN * parts.radius, float(np.max(section.depth)))),
+        {"contact_radius": parts.radius, "first_depth": parts.first, **how},
+        direction,
     )
-    if depths is not None:
-        return field
-    found = extremes(field, state.indenter if indenter else state.body)
-    nearer = [body.largest(extreme) for extreme in found if extreme.region in body.regions]
-    return replace(field, points=_joined([points, *nearer]))
 
 
-def refuse_shear(sheared: bool) -> None:
-    """Raises UnsupportedScene where there is shear beside the pressure."""
-    if sheared:
+def is_sheared(state: LoadedBodies) -> bool:
+    """Whether there is shear beside the pressure."""
+    return any(np.any(t) for name, t in state.tractions.items() if name != "pressure")
+
+
+def refuse_infinite(indenter: ShapedBody) -> None:
+    """Raises UnsupportedScene for shear where the pressure is infinite."""
+    from radial.profile import profile
+
+    if indenter.rim is not None or profile(indenter, 1.0).apex:
+        where = "a tip" if indenter.rim is None else "a rim"
         raise UnsupportedScene(
-            "the radial solver has the stress below pressure alone, and there is shear; solve the "
-            "scene with another solver"
+            f"there is shear, and the pressure is infinite at {where}: this solver has the stress "
+            "below shear where tractions are finite; solve the scene with another solver"
         )
 
 
@@ -68,16 +113,18 @@ def _joined(parts: Sequence[StressPoints]) -> StressPoints:
 
 
 def _both_sides(right: StressPoints) -> StressPoints:
-    """From behind the axis, where r and x point away from each other, to ahead of it, with
-    quadrilaterals between the levels of one material."""
+    """From behind the axis, where r and x, θ and y point away from each other, to ahead of it."""
     behind = replace(
         right,
         x=-right.x,
-        displacement=right.displacement * np.array([-1.0, 1, 1])[:, None, None],
-        stress=right.stress * np.array([1.0, 1, 1, 1, -1, 1])[:, None, None],
+        displacement=right.displacement * np.array([-1.0, -1, 1])[:, None, None],
+        stress=right.stress * np.array([1.0, 1, 1, -1, -1, 1])[:, None, None],
     )
-    parts = [_columns(behind, slice(None, 0, -1)), right]
-    whole = _joined(parts)
+    return _with_cells(_joined([_columns(behind, slice(None, 0, -1)), right]))
+
+
+def _with_cells(whole: StressPoints) -> StressPoints:
+    """With quadrilaterals between the levels of one material."""
     index = np.arange(whole.x.size).reshape(whole.x.shape)
     above = np.flatnonzero(whole.material[:-1, 0] == whole.material[1:, 0])
     top, bottom = index[above], index[above + 1]

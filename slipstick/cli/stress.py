@@ -135,8 +135,11 @@ def stress(
             errors=errors,
             accuracy=reached,
         )
-    # Frictionless contacts on a disc have no path.
-    by_increments = state.by_increments if state.pressed is None else 0.0
+    from contact_results.stress.on_disc import is_sheared
+
+    # Pressure alone, on a disc, has no path.
+    on_disc = state.pressed is not None and not is_sheared(state)
+    by_increments = 0.0 if on_disc else state.by_increments
     _print(found, errors, by_increments, reached, field.how.get("edge"), output)
     leave_unless_met(reached)
 
@@ -164,8 +167,7 @@ def _refuse_beside_section(solver: SolverName, depths: list[float] | None, volum
         )
     if solver is SolverName.RADIAL and volume:
         raise typer.BadParameter(
-            "of the radial solver the stress is the same in every plane through the axis: leave "
-            "--volume out"
+            "the radial solver gives the stress in one plane through the axis: leave --volume out"
         )
 
 

@@ -76,9 +76,10 @@ def _solved(
     fineness = chosen.fineness(contents)
     decided: Any = chosen.plan(contents.scene, fineness)
     if name is SolverName.RADIAL:
-        from contact_results.stress.on_disc import refuse_shear
+        from contact_results.stress.on_disc import refuse_infinite
 
-        refuse_shear(decided.sheared)
+        if decided.sheared:
+            refuse_infinite(contents.scene.indenter)
     with solve_progress(decided.increments) as observe:
         result = chosen.solve(contents.scene, fineness, decided, observe)
     if not error:

@@ -1,0 +1,98 @@
+"""Parts of a body below a contact and how deep it is looked at."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from math import isfinite
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from contact_results.stress.extremes import interface_sides, layer_name
+from contact_scene import Body, IsotropicMaterial
+
+if TYPE_CHECKING:
+    from semi_analytical.frf.depth import Level
+
+Field = NDArray[np.float64]
+
+REACH = 5.0  # contact radii to the sides and in depth
+IN_LAYER = 8  # spaces of a layer at the least
+FIRST = 1e-3  # contact radii below the surface where the pressure is infinite
+
+
+@dataclass(frozen=True)
+class BodyRegions:
+    """One body below a contact.
+
+    radius   of the contact [length]
+    layers   how many
+    named    material, least and largest depth [length] of what of each part is looked at
+    deepest  place in the base; None where that is rigid [length]
+    first    least depth: that of the surface, unless the pressure is infinite there [length]
+    down     how many depths within REACH
+    """
+
+    radius: float
+    layers: int
+    named: Mapping[str, tuple[int, float, float]]
+    deepest: float | None
+    first: float
+    down: int
+
+    @classmethod
+    def of(cls, body: Body, radius: float, down: int, *, infinite: bool = False) -> BodyRegions:
+        """Those of a body; `infinite` where the pressure is so somewhere."""
+        count = len(body.layers)
+        tops = [0.0, *np.cumsum([layer.thickness for layer in body.layers]).tolist()]
+        elastic = isinstance(body.material, IsotropicMaterial)
+        deepest = max(REACH * radius, 2 * tops[-1]) if elastic else None
+        first = FIRST * min([radius, *tops[1:2]]) if infinite else 0.0
+        tops[0] = first
+        bottoms = tops[1:] if deepest is None else [*tops[1:], deepest]
+        named = {
+            layer_name(layer, count) if count else "body": (layer, tops[layer], bottom)
+            for layer, bottom in enumerate(bottoms)
+        }
+        for number, side, depth, material in interface_sides(body):
+            named[f"interface {number} {side}"] = (material, depth, depth)
+        return cls(radius, count, named, deepest, first, down)
+
+    @property
+    def depths(self) -> Field:
+        """Closer towards the surface [length]."""
+        near = REACH * self.radius * (np.arange(self.down + 1) / self.down) ** 2
+        if self.deepest is None:
+            return np.asarray(near)
+        return np.concatenate([near, np.linspace(near[-1], self.deepest, IN_LAYER + 1)[1:]])
+
+    def levels(self, depths: Sequence[float] | None) -> Iterator[Level]:
+        """Downward: depths [length], None for what fits contact and layers, and both sides of every
+        interface; raises ValueError for a depth that is not in the body."""
+        from semi_analytical.frf.depth import Level
+
+        lowest = max(bottom for _, _, bottom in self.named.values())
+        for depth in depths or ():
+            if not (depth >= 0 and isfinite(depth) and (self.deepest or depth <= lowest)):
+                raise ValueError(f"{depth!r} m is not in the body, which begins at 0")
+        chosen = self.depths if depths is None else np.asarray(depths)
+        chosen = np.maximum(chosen, self.first)
+        for material, top, bottom in self.named.values():
+            if top == bottom:
+                continue
+            is_base = material == self.layers
+            here = {*chosen[(chosen > top) & (is_base | (chosen < bottom))].tolist()}
+            here |= set() if is_base else {bottom}
+            here |= {top} if material or top in chosen else set()
+            if depths is None and not is_base:
+                here |= set(np.linspace(top, bottom, IN_LAYER + 1).tolist())
+            for depth in sorted(here):
+                yield Level(depth, material)
+
+
+def spacing(places: Field, at: float) -> float:
+    """Of the wider space beside a place [length]."""
+    k = int(np.clip(np.searchsorted(places, at), 1, len(places) - 2))
+    return float(np.max(np.diff(places[k - 1 : k + 2])))

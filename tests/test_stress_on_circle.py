@@ -1,0 +1,253 @@
+"""Stress below the radial solver's shear: closed forms, laws of layers and equilibrium."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+
+import radial
+import semi_analytical
+import slipstick
+from contact_errors.of_stress import stress_errors
+from contact_results.stress.circle_body import CircleBody
+from contact_results.stress.extremes import extremes
+from contact_results.stress.loaded_bodies import state_of_result, state_of_run
+from contact_results.stress.on_cells import stress_on_cells
+from contact_results.stress.on_disc import stress_on_disc
+from contact_results.stress.points import StressField
+from contact_scene import (
+    RIGID,
+    Body,
+    CoulombFriction,
+    IsotropicMaterial,
+    Layer,
+    LoadStep,
+    Paraboloid,
+    Scene,
+    SurfaceDiscretisation,
+)
+from contact_scene.solver_errors import UnsupportedScene
+from radial.below_circle import BelowCircle
+from radial.circle_fit import USUAL, pushed_circle, round_circle
+from radial.loaded_circle import LoadedCircle
+from radial.rays import below_circle
+from semi_analytical.frf.depth import Level
+from semi_analytical.frf.stack import HalfSpace, Stack
+from verification.closed_forms.hamilton_stress import hamilton_stress
+from verification.closed_forms.sheared_surface import (
+    stress_by_hertz_pressure,
+    stress_by_hertz_shear,
+)
+
+MU, NU = 0.3, 0.3
+G = 2.0
+# a = 1, E* = π/2 and p_H = 1.
+SOFT = IsotropicMaterial(young_modulus=0.91 * np.pi / 2, poisson_ratio=NU)
+STIFF = IsotropicMaterial(young_modulus=1.82 * np.pi / 2, poisson_ratio=NU)
+BALL = Paraboloid(radius=1.0, material=RIGID)
+SAME = Paraboloid(radius=1.0, material=SOFT)
+COATED = Body(material=SOFT, layers=(Layer(thickness=0.8, material=STIFF),))
+W = 2 * np.pi / 3
+
+
+def circle_of(q_x: object, q_y: object, p: object, centre: float = 0.0) -> LoadedCircle:
+    """From functions of η and the angle."""
+    eta, turn = np.linspace(0, 1, 241)[:, None], 2 * np.pi * np.arange(360) / 360
+    parts = [f(eta, turn) + 0 * eta * turn for f in (q_x, q_y, p)]  # type: ignore[operator]
+    return LoadedCircle(1.0, centre, np.stack(parts))
+
+
+SLIDING = circle_of(lambda e, t: MU, lambda e, t: 0.0, lambda e, t: 1.0)
+ANYHOW = circle_of(
+    lambda e, t: 0.1 + 0.05 * e * np.cos(t),
+    lambda e, t: 0.03 + 0.08 * e * np.sin(t) + 0.02 * e**2 * np.cos(2 * t),
+    lambda e, t: 1 + 0.2 * e * np.cos(t) + 0.1 * e * np.sin(t),
+    centre=0.2,
+)
+
+
+@pytest.mark.parametrize("depth", [1e-6, 1e-3, 0.1, 2.0])
+def test_below_a_sliding_ball_it_is_hamiltons(depth: float) -> None:
+    drawn = np.random.default_rng(1)
+    near = 10.0 ** -drawn.uniform(0.5, 7, 40)
+    r = np.concatenate([drawn.uniform(0, 3, 20), 1 + near[:20], 1 - near[20:], [0.0, 1.0]])
+    turn = drawn.uniform(0, 2 * np.pi, len(r))
+    x, y = r * np.cos(turn), r * np.sin(turn)
+    found = below_circle(SLIDING, HalfSpace(G, NU), x, y, depth)[3:]
+    assert_allclose(found, hamilton_stress(x, y, depth, 1.0, 1.0, MU, NU), atol=6e-5)
+    finer = below_circle(SLIDING, HalfSpace(G, NU), x, y, depth, 2)[3:]
+    assert_allclose(finer, hamilton_stress(x, y, depth, 1.0, 1.0, MU, NU), atol=3e-5)
+
+
+def test_along_the_surface_of_a_sliding_ball_it_is_known() -> None:
+    near = 10.0 ** -np.linspace(0.5, 7, 20)
+    x = np.concatenate([[-2.5, -1.0, 0.0, 0.3, 1.0], 1 + near, near - 1, -1 - near])
+    found = below_circle(SLIDING, HalfSpace(G, NU), x, 0 * x, 0.0)
+    exact = stress_by_hertz_pressure(x, 1.0, 1.0, NU) + stress_by_hertz_shear(x, 1.0, MU, NU)
+    assert_allclose(found[3], exact, atol=3e-5)
+    root = np.sqrt(np.maximum(1 - x * x, 0))
+    assert_allclose(found[5], -root, atol=1e-12)
+    assert_allclose(found[7], -MU * root, atol=1e-12)
+
+
+ROUND = LoadedCircle(
+    1.0, 0.0, np.linspace(0, 1, 241)[None, :, None] * np.array([0.2, 0.1, 0.0])[:, None, None]
+    + np.array([0.0, 0.0, 1.0])[:, None, None],
+)  # fmt: skip
+
+
+@pytest.mark.parametrize("circle", [ANYHOW, ROUND])
+@pytest.mark.parametrize(("depth", "layer"), [(0.2, 0), (0.5, 1), (2.0, 1)])
+def test_a_layer_of_the_same_material_is_none(
+    circle: LoadedCircle, depth: float, layer: int
+) -> None:
+    x, y = np.random.default_rng(2).uniform(-3, 3, (2, 30))
+    x[0], y[0] = circle.centre, 0.0
+    bare = BelowCircle(circle, Stack((), (G, NU)), 5, 5)
+    film = BelowCircle(circle, Stack([(G, NU, 0.5)], (G, NU)), 5, 5)
+    ours, theirs = film.at([Level(depth, layer)], x, y), bare.at([Level(depth, 0)], x, y)
+    assert_allclose(ours, theirs, atol=1e-5)
+
+
+def test_a_stiffer_layer_is_bonded_to_its_base() -> None:
+    """Displacement and what acts on the interface are the same from both sides."""
+    film = BelowCircle(ANYHOW, Stack([(3 * G, 0.2, 0.5)], (G, 0.4)), 5, 5)
+    x, y = np.random.default_rng(3).uniform(-2, 2, (2, 30))
+    above, below = film.at([Level(0.5, 0), Level(0.5, 1)], x, y)
+    carried = [0, 1, 2, 5, 6, 7]
+    assert_allclose(above[carried], below[carried], atol=1e-5)
+    assert np.max(np.abs(above[3] - below[3])) > 0.1
+
+
+def nodes_of(circle: LoadedCircle) -> tuple[np.ndarray, ...]:
+    """What a pushed contact tells of a circle."""
+    radii = np.concatenate([np.arange(20) / 24, 1 + np.arange(-8, 9) / 48, [1.25]])
+    angles = np.pi * np.arange(10) / 9
+    x, y = radii[:, None] * np.cos(angles), radii[:, None] * np.sin(angles)
+    q_x, q_y, p = circle.at(x - circle.centre, y)
+    cos, sin = np.cos(angles), np.sin(angles)
+    return radii, angles, q_x * cos + q_y * sin, q_y * cos - q_x * sin, p
+
+
+def test_a_circle_beside_the_axis_is_found() -> None:
+    given = circle_of(
+        lambda e, t: MU * (1 + 0.2 * e * np.cos(t)),
+        lambda e, t: 0.0,
+        lambda e, t: 1 + 0.2 * e * np.cos(t),
+        centre=-0.03,
+    )
+    found = pushed_circle(*nodes_of(given), USUAL)
+    assert_allclose((found.centre, found.radius), (-0.03, 1.0), atol=2e-3)
+    # Straight lines between nodes carry 0.4 % less than a root.
+    assert_allclose(found.smooth / found.load, given.smooth / given.load, atol=4e-3)
+
+
+def test_too_few_rings_are_refused() -> None:
+    r = np.array([0.0, 0.3, 0.7, 1.2])
+    p = np.sqrt(np.maximum(1 - r * r, 0))
+    with pytest.raises(UnsupportedScene, match="3 rings tell the edge"):
+        round_circle(r, 1.0, 0 * p, 0 * p, p)
+    fields = [np.repeat(f[:, None], 4, axis=1) for f in (0 * p, 0 * p, p)]
+    with pytest.raises(UnsupportedScene, match="rings tell the edge"):
+        pushed_circle(r, np.pi * np.arange(4) / 3, *fields)
+
+
+def frictional(body: Body, indenter: Paraboloid, *loads: LoadStep) -> Scene:
+    return Scene(
+        indenter=indenter, body=body, friction=CoulombFriction(coefficient=0.1), loading=loads
+    )
+
+
+def pushed(direction: tuple[float, float] = (1.0, 0.0)) -> Scene:
+    force = 0.06 * W * direction[0], 0.06 * W * direction[1]
+    return frictional(
+        Body(material=SOFT), SAME, LoadStep(normal_force=W, increments=1),
+        LoadStep(tangential_force=force, increments=2),
+    )  # fmt: skip
+
+
+def test_a_plane_below_carries_the_loads() -> None:
+    result = radial.solve(pushed())
+    body = CircleBody.of(state_of_result(result, None), indenter=False)
+    nodes, weights = np.polynomial.legendre.leggauss(60)
+    t = (1 + nodes) / 2
+    scale = body.parts.radius
+    r, area = scale * t / (1 - t), scale**2 * weights / 2 * t / (1 - t) ** 3
+    turns = 2 * np.pi * np.arange(12) / 12
+    x, y = (r[:, None] * way + 0 * r[:, None] for way in (np.cos(turns), np.sin(turns)))
+    stress = body.points((Level(0.5 * scale, 0),), x.ravel(), y.ravel()).stress[:, 0]
+    zz, yz, xz = (2 * np.pi * np.mean(stress[n].reshape(x.shape), axis=1) @ area for n in (2, 3, 4))
+    assert_allclose(-zz, W, rtol=5e-5)
+    # Of the shear the share of the pressure is straight between rings, with fronts between them.
+    assert_allclose(-xz, 0.06 * W, rtol=3e-3)
+    assert abs(yz) < 1e-6 * W
+
+
+def of(scene: Scene) -> StressField:
+    return stress_on_disc(state_of_result(radial.solve(scene), None), depths=[0.0, 0.3])
+
+
+def test_the_scene_may_be_turned() -> None:
+    """Places of the largest stresses turn with the load."""
+    along_x, along_y = pushed(), pushed((0.0, 1.0))
+    for one, other in zip(
+        extremes(of(along_x), along_x.body), extremes(of(along_y), along_y.body), strict=True
+    ):
+        assert_allclose(other.value, one.value, rtol=1e-9)
+        assert_allclose((other.y, -other.x, other.depth), (one.x, one.y, one.depth), atol=1e-6)
+
+
+def test_no_place_has_more_than_the_largest() -> None:
+    scene = pushed()
+    state = state_of_result(radial.solve(scene), None)
+    whole = {(e.region, e.measure): e.value for e in extremes(stress_on_disc(state), scene.body)}
+    some = stress_on_disc(state, depths=[0.0, 0.25, 0.5])
+    for extreme in extremes(some, scene.body):
+        assert extreme.value <= whole[extreme.region, extreme.measure] * (1 + 1e-9)
+
+
+def test_a_run_that_was_written_has_the_same_stress(tmp_path: Path) -> None:
+    result = radial.solve(pushed((0.6, 0.8)))
+    slipstick.save(result, tmp_path / "run")
+    at_once = stress_on_disc(state_of_result(result, None), depths=[0.0, 0.3])
+    again = stress_on_disc(state_of_run(tmp_path / "run", None), depths=[0.0, 0.3])
+    assert np.array_equal(again.points.stress, at_once.points.stress)
+    assert again.direction == at_once.direction
+
+
+def test_the_indenter_of_one_material_has_the_stress_of_the_reversed_load() -> None:
+    state = state_of_result(radial.solve(pushed()), None)
+    body, indenter = (CircleBody.of(state, indenter=which) for which in (False, True))
+    x, y = np.random.default_rng(4).uniform(-1.5, 1.5, (2, 20))
+    c = body.below.circle.centre
+    level = (Level(0.3, 0),)
+    ours, theirs = body.points(level, x, y).stress, indenter.points(level, x, y).stress
+    assert_allclose(ours[2] + theirs[2], 2 * BelowCircle(
+        LoadedCircle(body.parts.radius, c, body.below.circle.smooth * np.array([0, 0, 1.0])[
+            :, None, None]), body.below.stack, 5, 1,
+    ).at(level, x, y)[0, 5][None], atol=1e-12)  # fmt: skip
+    assert np.max(np.abs(ours[2] - theirs[2])) > 1e-3
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("loads", ["rubs", "pushed"])
+def test_the_cells_of_the_other_solver_agree_within_their_errors(loads: str) -> None:
+    steps = [LoadStep(normal_force=W, increments=16)]
+    if loads == "pushed":
+        steps.append(LoadStep(tangential_force=(0.08 * W, 0.0), increments=8))
+    scene = frictional(COATED, BALL, *steps)
+    state = state_of_result(radial.solve(scene), None)
+    field = stress_on_disc(state)
+    exact = {(e.region, e.measure): e.value for e in extremes(field, scene.body)}
+    cells = SurfaceDiscretisation(cells=(64, 64), edge="last" if loads == "rubs" else "none")
+    result = semi_analytical.solve_discretised(scene, cells)
+    state = state_of_result(result, None)
+    field = stress_on_cells(state)
+    there = extremes(field, scene.body)
+    for extreme, error in zip(there, stress_errors(state, field, there), strict=True):
+        assert error.error is not None
+        ours = exact[extreme.region, extreme.measure]
+        assert abs(extreme.value - ours) < error.error + 0.01 * ours, extreme
