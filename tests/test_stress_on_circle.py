@@ -135,7 +135,7 @@ def nodes_of(circle: LoadedCircle) -> tuple[np.ndarray, ...]:
 def test_a_circle_beside_the_axis_is_found() -> None:
     given = circle_of(
         lambda e, t: MU * (1 + 0.2 * e * np.cos(t)),
-        lambda e, t: 0.0,
+        lambda e, t: 0.1 * e * np.sin(t),
         lambda e, t: 1 + 0.2 * e * np.cos(t),
         centre=-0.03,
     )
@@ -198,6 +198,9 @@ def test_the_scene_may_be_turned() -> None:
     ):
         assert_allclose(other.value, one.value, rtol=1e-9)
         assert_allclose((other.y, -other.x, other.depth), (one.x, one.y, one.depth), atol=1e-6)
+    tension = next(e for e in extremes(of(along_y), along_y.body) if e.measure == "max_principal")
+    body = CircleBody.of(state_of_result(radial.solve(along_y), None), indenter=False)
+    assert np.max(body.largest(tension).measures["max_principal"]) >= tension.value * (1 - 1e-9)
 
 
 def test_no_place_has_more_than_the_largest() -> None:
