@@ -649,6 +649,25 @@ def test_comparison_ends_by_what_changed(
     assert ("reproduce: slipstick verify hertz_point" in output) == (code > 0)
 
 
+def test_a_solver_that_is_slower_is_red_and_says_how_to_see_it(
+    healthy: CaseOutcome, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    cases = [healthy.model_copy(update={"name": f"case_{n}"}) for n in range(3)]
+    for name, loops in (("then", 50.0), ("now", 100.0)):
+        report = report_of(*cases)
+        told = report.provenance.model_copy(
+            update={"loops": dict.fromkeys((case.name for case in cases), loops)}
+        )
+        (tmp_path / name).mkdir()
+        write_report(report.model_copy(update={"provenance": told}), tmp_path / name)
+    then = tmp_path / "then" / "report.json"
+    assert slipstick("compare", tmp_path / "now", "--baseline", then) == 7
+    output = capsys.readouterr().out
+    assert "1 dearer" in output
+    assert "reproduce: slipstick verify --level quick" in output
+    assert slipstick("compare", tmp_path / "then", "--baseline", then) == 0
+
+
 def test_reports_are_compared_with_each_other(
     healthy: CaseOutcome, places: tuple[Path, Path], tmp_path: Path
 ) -> None:

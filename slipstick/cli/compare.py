@@ -117,8 +117,10 @@ def _print_changes(report: Report) -> None:
             ],
         )
         judged = {case.name for case in report.cases}
-        names = " ".join(dict.fromkeys(row.case for row in rows if row.case in judged))
-        typer.echo(f"reproduce: slipstick verify {names} --level {report.level}")
+        names = dict.fromkeys(row.case for row in rows if row.case in judged)
+        # A solver that is slower is so over all its cases.
+        command = " ".join(("slipstick verify", *names, f"--level {report.level}"))
+        typer.echo(f"reproduce: {command}")
     for origin, cases in origins(report):
         typer.echo(f"baseline of {len(cases)} cases: {origin.name}, {origin.date}: {origin.reason}")
         for difference in origin.differs:
