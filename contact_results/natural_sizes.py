@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+import re
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from math import pi
 from typing import TYPE_CHECKING, Protocol
@@ -12,7 +13,8 @@ from contact_scene.material import IsotropicMaterial
 
 if TYPE_CHECKING:
     from contact_results.surface import Result
-    from contact_scene import Scene
+    from contact_scene.body import Body
+    from contact_scene.geometry import ShapedBody
 
 UNBROKEN = "\N{NO-BREAK SPACE}"
 # What makes a number negligible, beside the size that the load gives it.
@@ -30,13 +32,20 @@ class Loaded(Protocol):
     def contact_radius(self) -> float: ...
 
 
+class Peaked(Loaded, Protocol):
+    """The same with its pressure."""
+
+    @property
+    def peak_pressure(self) -> float: ...
+
+
 class NaturalUnit(EngineeringUnit):
     """A size of the contact, as a divisor."""
 
     def labelled(self, text: str) -> str:
-        """`radius r / a`, `x / a at y = 0`."""
-        what, at, where = text.partition(" at ")
-        return f"{what} / {self.name}{at}{where}"
+        """`radius r / a`, `x / a at y = 0`, `x / a, z = 0`."""
+        what, *where = re.split(r"(?=,| at )", text, maxsplit=1)
+        return f"{what} / {self.name}{''.join(where)}"
 
 
 @dataclass(frozen=True)
@@ -59,28 +68,40 @@ SI = Units()
 
 
 def natural_units(result: Result) -> Units:
+    """Those of a result; see `natural_units_of`."""
+    scene = result.scene
+    coated = any(body.layers for body in (scene.body, scene.indenter))
+    mu = scene.friction.uniform if scene.friction is not None else None
+    return natural_units_of(scene.indenter, scene.body, mu, result.steps, coated=coated)
+
+
+def natural_units_of(
+    tip: ShapedBody | None, body: Body, mu: float | None, ends: Sequence[Peaked], *, coated: bool
+) -> Units:
     """The radius a, peak pressure p0 and approach δ of Hertz' contact under the last load, of the
     bodies without their coatings; of the run itself where there is no such contact. Shear is over
     µp0, slip and shift over µδ, forces over the last load W and µW, where µ is one number.
 
     For a body of revolution a^3 = 3 W R / 4 E*, p0 = 3 W / 2πa^2, δ = a^2/R (Johnson 1985, eqs.
     4.22-4.24).
+
+    tip     None for a map of heights
+    mu      None without friction and for a map of it
+    ends    of the loading steps
+    coated  whether a body is
     """
-    load = next((s.normal_force for s in reversed(result.steps) if s.normal_force > 0), 0.0)
-    found = _hertz(result.scene, load)
+    load = next((end.normal_force for end in reversed(ends) if end.normal_force > 0), 0.0)
+    found = _hertz(tip, body, load)
     if found is not None:
         a, p0, approach = found
         whose = "Hertz' contact under the last load"
-        coated = any(body.layers for body in (result.scene.body, result.scene.indenter))
         whose += ", uncoated" if coated else ""
     else:
-        a = max(step.contact_radius for step in result.steps)
-        p0 = max(step.peak_pressure for step in result.steps)
-        approach = max(abs(step.approach) for step in result.steps)
+        a = max(end.contact_radius for end in ends)
+        p0 = max(end.peak_pressure for end in ends)
+        approach = max(abs(end.approach) for end in ends)
         whose = "this contact at its largest"
-    friction = result.scene.friction
-    uniform = friction.uniform if friction is not None else None
-    mu, by = (uniform, "µ") if uniform else (1.0, "")
+    mu, by = (mu, "µ") if mu else (1.0, "")
     sizes = {
         "length": NaturalUnit(a, "a"),
         "pressure": NaturalUnit(p0, "$p_0$"),
@@ -102,11 +123,13 @@ def natural_units(result: Result) -> Units:
     return Units({kind: unit for kind, unit in sizes.items() if unit.size > 0}, note)
 
 
-def _hertz(scene: Scene, load: float) -> tuple[float, float, float] | None:
+def _hertz(tip: ShapedBody | None, body: Body, load: float) -> tuple[float, float, float] | None:
     """Radius, peak pressure and approach; None where bodies are not of Hertz' kind."""
-    tip, materials = scene.indenter, (scene.body.material, scene.indenter.material)
+    if tip is None or not (tip.is_of_revolution and tip.gap_exponent == 2 and load > 0):
+        return None
+    materials = (body.material, tip.material)
     elastic = [m for m in materials if isinstance(m, IsotropicMaterial)]
-    if not (tip.is_of_revolution and tip.gap_exponent == 2 and elastic and load > 0):
+    if not elastic:
         return None
     contact = tip.contact_under(load, 1 / sum(1 / m.plane_strain_modulus for m in elastic))
     touching = tip.contact_at(1.0)

@@ -10,6 +10,7 @@ from contact_results.directory.run_directory import files_at_once
 from contact_results.files import surface_file
 from contact_results.files.csv_file import write_meanings
 from contact_results.files.surface_file import write_surface
+from contact_results.natural_sizes import SI
 from contact_results.stress.extremes import Extreme
 from contact_results.stress.loaded_bodies import LoadedBodies
 from contact_results.stress.points import StressField
@@ -46,17 +47,26 @@ def write_stress(
     directory: Path,
     *,
     with_figures: bool,
+    normalised: bool = False,
     errors: Sequence[StatedError] | None = None,
     accuracy: AccuracyReached | None = None,
 ) -> None:
     """Write tables, their meanings, meshes, figures and summary of the `body` or the `indenter`,
     all or none.
 
-    errors    of what was found; None where they were left out
-    accuracy  that was asked for and reached; None where none was asked for
+    normalised  figures over the sizes of the contact; tables stay in SI
+    errors      of what was found; None where they were left out
+    accuracy    that was asked for and reached; None where none was asked for
     """
     with files_at_once(directory, STRESS, (VOLUME,)) as staging:
-        _write_all(state, which, field, found, staging, with_figures, errors, accuracy)
+        _write_all(state, which, field, found, staging, errors, accuracy)
+        if with_figures:
+            from contact_results.figures.stress_plot import write_stress_figures
+
+            title = f"{state.title or 'Stress'}: {which}, step {state.step}"
+            body = state.indenter if which == "indenter" else state.body
+            units = state.units if normalised else SI
+            write_stress_figures(field, body, staging, title, units)
 
 
 def _write_all(
@@ -65,7 +75,6 @@ def _write_all(
     field: StressField,
     found: Sequence[Extreme],
     directory: Path,
-    with_figures: bool,
     errors: Sequence[StatedError] | None,
     accuracy: AccuracyReached | None,
 ) -> None:
@@ -89,9 +98,4 @@ def _write_all(
     sense = -1.0 if of_indenter else 1.0
     write_surface(state.surface, state.tractions, directory / SURFACE, convention, sense)
     write_meanings(directory / MEANINGS, files, convention)
-    if with_figures:
-        from contact_results.figures.stress_plot import write_stress_figures
-
-        title = f"{state.title or 'Stress'}: {which}, step {state.step}"
-        write_stress_figures(field, body, directory, title)
     write_stress_summary(state, which, field, found, errors, accuracy, convention, directory)

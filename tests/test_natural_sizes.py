@@ -15,8 +15,9 @@ from contact_results.figures.profile_plot import profile_plot
 from contact_results.figures.style import figure_style
 from contact_results.natural_sizes import NaturalUnit, natural_units, without_round_off
 from contact_results.result_files import write_result
+from contact_results.stress.loaded_bodies import state_of_run
 from contact_results.surface import surface_of
-from contact_scene import Cone, Layer
+from contact_scene import Body, Cone, Layer
 from slipstick.cli import terminal
 from slipstick.cli.outcome_text import outcome_columns
 
@@ -99,6 +100,22 @@ def test_tables_and_summary_stay_in_si(tmp_path: Path) -> None:
     assert (normalised / "overview.png").is_file()
 
 
+@pytest.mark.parametrize(
+    "changes",
+    [
+        {},
+        {"friction": None},
+        {"indenter": Cone(slope_angle=0.1, material=STEEL)},
+        {"body": Body(material=STEEL, layers=(Layer(thickness=1e-4, material=STEEL),))},
+    ],
+    ids=["as it is", "frictionless", "cone", "coated"],
+)
+def test_a_stored_run_has_the_sizes_of_its_result(tmp_path: Path, changes: dict[str, Any]) -> None:
+    result = of_scene(**changes)
+    write_result(result, tmp_path, with_figures=False)
+    assert state_of_run(tmp_path, 1).units == natural_units(result)
+
+
 def test_the_command_draws_figures_or_refuses(tmp_path: Path) -> None:
     found = outcome(
         "run", "scenes/hertz.toml", "-o", str(tmp_path / "out"), "--normalised", "--no-figures",
@@ -107,11 +124,18 @@ def test_the_command_draws_figures_or_refuses(tmp_path: Path) -> None:
     assert found.returncode == 2
     assert "--no-figures" in found.stderr
     assert not (tmp_path / "out").exists()
+    found = outcome(
+        "stress", "scenes/hertz.toml", "-o", str(tmp_path / "out"), "--normalised", "--no-figures",
+        cwd=ROOT,
+    )  # fmt: skip
+    assert found.returncode == 2
+    assert "--no-figures" in found.stderr
 
 
 def test_an_axis_names_the_size_before_the_place() -> None:
     assert NaturalUnit(1.0, "a").labelled("x at y = 0, z = 0") == "x / a at y = 0, z = 0"
     assert NaturalUnit(1.0, "a").labelled("radius r") == "radius r / a"
+    assert NaturalUnit(1.0, "a").labelled("x, z = 0") == "x / a, z = 0"
 
 
 @pytest.mark.parametrize(("unit", "tiny"), [("N m", 1e-12), ("rad", 1e-14), ("J", 1e-14)])

@@ -8,8 +8,14 @@ import pytest
 from matplotlib.figure import Figure
 
 from contact_results.figures.section_panel import even_levels, rising_levels
-from contact_results.figures.stress_plot import axis_plot, section_plot, surface_plot
+from contact_results.figures.stress_plot import (
+    axis_plot,
+    interface_plot,
+    section_plot,
+    surface_plot,
+)
 from contact_results.figures.style import figure_style
+from contact_results.natural_sizes import SI, NaturalUnit, Units
 from contact_results.stress.points import FittedEdge, StressField, StressPoints
 from contact_scene import Body, IsotropicMaterial, Layer
 
@@ -48,9 +54,9 @@ def field() -> StressField:
     )  # fmt: skip
 
 
-def drawn(draw: Any, of: StressField | None = None) -> Figure:
+def drawn(draw: Any, of: StressField | None = None, units: Units = SI) -> Figure:
     with figure_style():
-        figure: Figure = draw(of or field(), BODY, "title")
+        figure: Figure = draw(of or field(), BODY, "title", units)
     return figure
 
 
@@ -100,6 +106,24 @@ def test_the_line_along_the_surface_is_the_stress_there() -> None:
     assert along.get_label() == "$σ_{xx}$"
     np.testing.assert_allclose(along.get_xdata(), 1e3 * X)
     np.testing.assert_allclose(along.get_ydata(), field().section.components["xx"][0] / 1e9)
+
+
+def test_figures_over_the_sizes_of_the_contact_show_the_same_numbers() -> None:
+    sizes = {"length": NaturalUnit(RADIUS, "a"), "pressure": NaturalUnit(TRAILING, "p")}
+    units = Units(sizes, "a is the radius")
+    (ax,) = drawn(surface_plot, units=units).axes
+    np.testing.assert_allclose(ax.lines[0].get_xdata(), X / RADIUS)
+    xx = field().section.components["xx"][0]
+    np.testing.assert_allclose(ax.lines[0].get_ydata(), xx / TRAILING)
+    assert (ax.get_xlabel().split(",")[0], ax.get_ylabel()) == ("x / a", "stress / p")
+    figure = drawn(axis_plot, units=units)
+    assert figure.get_suptitle() == "title\na is the radius"
+    assert figure.axes[1].get_title() == "below the edge, x = -1 a"
+    assert figure.axes[0].get_ylabel() == "depth z / a"
+    for plot in (section_plot, interface_plot):
+        shown = [ax for ax in drawn(plot, units=units).axes if ax.get_label() != "<colorbar>"]
+        assert {ax.get_xlabel() for ax in shown} <= {"", "x / a"}
+        assert shown[-1].get_xlim()[1] <= 2.3
 
 
 def test_the_line_along_the_surface_runs_over_the_fitted_edge() -> None:

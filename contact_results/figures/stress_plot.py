@@ -17,16 +17,18 @@ from contact_results.natural_sizes import SI, Units
 from contact_results.stress.points import StressField, StressPoints
 from contact_results.stress.tables import sides
 from contact_scene import Body
-from contact_scene.engineering_units import EngineeringUnit, engineering_unit, quantity
+from contact_scene.engineering_units import EngineeringUnit
 
 SECTION, AXIS, INTERFACES = "stress_section.png", "stress_axis.png", "stress_interfaces.png"
 SURFACE = "stress_surface.png"
 MOST_INTERFACES = 4
 
 
-def write_stress_figures(field: StressField, body: Body, directory: Path, title: str) -> None:
+def write_stress_figures(
+    field: StressField, body: Body, directory: Path, title: str, units: Units = SI
+) -> None:
     """Write the figures of the section y = 0; without layers there is none of interfaces."""
-    figures: dict[str, Callable[[StressField, Body, str], Figure]] = {
+    figures: dict[str, Callable[[StressField, Body, str, Units], Figure]] = {
         SECTION: section_plot,
         AXIS: axis_plot,
         SURFACE: surface_plot,
@@ -37,10 +39,10 @@ def write_stress_figures(field: StressField, body: Body, directory: Path, title:
         for name, draw in figures.items():
             with atomic_file(directory / name) as path:
                 dots = style.OF_SECTIONS if name == SECTION else style.DOTS_PER_INCH
-                style.save(draw(field, body, title), path, dots)
+                style.save(draw(field, body, title, units), path, dots)
 
 
-def section_plot(field: StressField, body: Body, title: str) -> Figure:
+def section_plot(field: StressField, body: Body, title: str, units: Units = SI) -> Figure:
     """Four stresses on the section, z downward, interfaces dashed; call within `figure_style`."""
     points = field.section
     panels = {
@@ -50,39 +52,40 @@ def section_plot(field: StressField, body: Body, title: str) -> Figure:
         "tension (largest principal)": np.maximum(points.principal[0], 0.0),
     }
     half = float(points.x.min()) >= 0
-    figure = _titled(6.4 if half else 9.0, 6.4, title)
+    figure = _titled(6.4 if half else 9.0, 6.4, title, units)
     axes = figure.subplots(2, 2, sharex=True, sharey=True)
     for ax, (name, values) in zip(axes.flat, panels.items(), strict=True):
+        from_zero = name.startswith("tension")
         length = draw_section(
-            figure, ax, field, body, values, name, from_zero=name.startswith("tension")
+            figure, ax, field, body, values, name, from_zero=from_zero, units=units
         )
     for ax in axes[-1]:
-        ax.set_xlabel(f"{field.label} ({length.name})")
+        ax.set_xlabel(length.labelled(field.label))
     for ax in axes[:, 0]:
-        ax.set_ylabel(f"depth z ({length.name})")
+        ax.set_ylabel(length.labelled("depth z"))
     return figure
 
 
-def axis_plot(field: StressField, body: Body, title: str) -> Figure:
+def axis_plot(field: StressField, body: Body, title: str, units: Units = SI) -> Figure:
     """Stresses down the axis and down the edge of the contact with the larger tension along the
     surface, which is the trailing one; one line per material. Call within `figure_style`."""
     depth = field.shown[1]
-    lines = {"on the z axis": field.axis, **_below_edge(field)}
-    length = engineering_unit(depth, "m")
-    figure = _titled(4.6 * len(lines) + 0.8, 4.8, title)
+    lines = {"on the z axis": field.axis, **_below_edge(field, units)}
+    length = units.of("length", depth, "m")
+    figure = _titled(4.6 * len(lines) + 0.8, 4.8, title, units)
     axes = figure.subplots(1, len(lines), sharey=True, squeeze=False)[0]
     for ax, (where, points) in zip(axes, lines.items(), strict=True):
-        draw_depth(ax, points, body, depth, length)
+        draw_depth(ax, points, body, depth, length, units)
         ax.set_title(where)
-    axes[0].set_ylabel(f"depth z ({length.name})")
+    axes[0].set_ylabel(length.labelled("depth z"))
     style.legend_beside(axes[-1])
     return figure
 
 
-def surface_plot(field: StressField, body: Body, title: str) -> Figure:
+def surface_plot(field: StressField, body: Body, title: str, units: Units = SI) -> Figure:
     """Stresses along the surface; call within `figure_style`."""
-    figure = _titled(6.4, 3.4, title)
-    draw_surface(figure.subplots(), field)
+    figure = _titled(6.4, 3.4, title, units)
+    draw_surface(figure.subplots(), field, units)
     return figure
 
 
@@ -145,14 +148,14 @@ def _at_surface(field: StressField) -> StressPoints:
     return points.chosen(at[np.argsort(points.x.flat[at], kind="stable")])
 
 
-def _below_edge(field: StressField) -> dict[str, StressPoints]:
+def _below_edge(field: StressField, units: Units) -> dict[str, StressPoints]:
     """The points below the place of the section next to the edge, downward, by what it is."""
     surface, points = _at_surface(field), field.section
     ends = [int(np.argmin(np.abs(surface.x - x))) for x in _places_of_ends(field)]
     edge = float(surface.x[max(ends, key=lambda k: surface.components["xx"][k])])
     below = np.flatnonzero(np.abs(points.x - edge) <= 1e-9 * _radius(field))
     order = np.lexsort([points.material.flat[below], points.depth.flat[below]])
-    where = f"below the edge, x = {quantity(edge, 'm', 3)}"
+    where = f"below the edge, x = {units.of('length', abs(edge), 'm').text(edge, 3)}"
     return {where: points.chosen(below[order])}
 
 
@@ -184,13 +187,13 @@ def draw_depth(
     ax.set_ylim(deepest / length.size, 0.0)
 
 
-def interface_plot(field: StressField, body: Body, title: str) -> Figure:
+def interface_plot(field: StressField, body: Body, title: str, units: Units = SI) -> Figure:
     """What an interface carries, and what jumps there; call within `figure_style`."""
     reach = field.shown[0]
-    length = engineering_unit(reach, "m")
+    length = units.of("length", reach, "m")
     shown = min(len(body.layers), MOST_INTERFACES)
-    unit = engineering_unit(float(np.abs(field.section.stress).max()), "Pa")
-    figure = _titled(9.6, 2.6 * shown + 0.5, title)
+    unit = units.of("pressure", float(np.abs(field.section.stress).max()), "Pa")
+    figure = _titled(9.6, 2.6 * shown + 0.5, title, units)
     axes = figure.subplots(shown, 2, sharex=True, squeeze=False)
     for number, side, points in sides(field, body):
         if number > shown:
@@ -209,10 +212,10 @@ def interface_plot(field: StressField, body: Body, title: str) -> Figure:
             ax.set_title(f"interface {number}, z = {length.text(float(near.depth[0]))}")
     for ax in axes.flat:
         ax.axhline(0.0, color="black", linewidth=0.5)
-        ax.set_ylabel(f"stress ({unit.name})")
+        ax.set_ylabel(unit.labelled("stress"))
         style.legend_beside(ax)
     for ax in axes[-1]:
-        ax.set_xlabel(f"{field.label} ({length.name})")
+        ax.set_xlabel(length.labelled(field.label))
     return figure
 
 
@@ -220,7 +223,8 @@ def _named(component: str) -> str:
     return f"$σ_{{{component}}}$"
 
 
-def _titled(width: float, height: float, title: str) -> Figure:
+def _titled(width: float, height: float, title: str, units: Units) -> Figure:
     figure = style.new_figure(width, height)
-    figure.suptitle(fill(title, int(13 * width)), fontsize=9.0)
+    lines = (fill(line, int(13 * width)) for line in (title, units.note) if line)
+    figure.suptitle("\n".join(lines), fontsize=9.0)
     return figure

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -22,6 +22,7 @@ from contact_results.files.stored_values import (
     text,
     values,
 )
+from contact_results.natural_sizes import SI, Units, natural_units, natural_units_of
 from contact_results.surface import Surface, surface_of, surface_on
 from contact_scene import Body, CoulombFriction, FiniteElementDiscretisation
 from contact_scene.geometry import SHAPES, HeightMap, ShapedBody
@@ -52,6 +53,16 @@ ROUNDING = 1e-9  # of the approach: what shifts by symmetry are below
 
 
 @dataclass(frozen=True)
+class _End:
+    """Of a stored loading step."""
+
+    normal_force: float
+    approach: float
+    contact_radius: float
+    peak_pressure: float
+
+
+@dataclass(frozen=True)
 class LoadedBodies:
     """The two bodies of a scene and what loads their surface.
 
@@ -69,6 +80,7 @@ class LoadedBodies:
                     as the run has them, which knows more than its cells; None where nobody has told
                     [length], [force/length^2]
     edges           whether the tractions have their edges inside the cells, and are means of these
+    units           the contact's own, for figures
     by_increments   part of themselves by which increments may leave the tractions wrong; None where
                     nobody has stated it
     """
@@ -87,6 +99,7 @@ class LoadedBodies:
     pressed: tuple[ShapedBody, float, float] | None = None
     contact_radius: float | None = None
     peak_pressure: float | None = None
+    units: Units = SI
 
     @property
     def on_rings(self) -> bool:
@@ -128,6 +141,7 @@ def state_of_result(
         else None,
         end.contact_radius,
         end.peak_pressure,
+        natural_units(result),
     )
 
 
@@ -179,10 +193,10 @@ def _read(file: h5py.File, step: int | None) -> LoadedBodies:
     group = file["increments"]
     axes = [name for name in AXES if name in file]
     shape = tuple(n for name in axes for n in file[name].shape)
-    fields = {name: group[name] for name in (*SCALARS, *VECTORS) if name in group}
+    stored = {name: group[name] for name in (*SCALARS, *VECTORS) if name in group}
     scene = json.loads(text(file["scene"]))
     steps = values(group["step"]).astype(int)
-    for name, field in fields.items():
+    for name, field in stored.items():
         inner = (2, *shape) if name in VECTORS else shape
         kept = len(ends_of_steps(steps)) if field.dims[0].label == STEP else len(steps)
         refuse_other_shape(field, (kept, *inner))
@@ -197,7 +211,7 @@ def _read(file: h5py.File, step: int | None) -> LoadedBodies:
         _body(scene["indenter"]),
         chosen,
         {name: values(file[name]) for name in axes},
-        {name: values(field, row_of(field, last)) for name, field in fields.items()},
+        {name: values(field, row_of(field, last)) for name, field in stored.items()},
         asked,
         _no_root_of(scene),
         "edge_change" in group and bool(np.isfinite(values(group["edge_change"], last))),
@@ -205,6 +219,7 @@ def _read(file: h5py.File, step: int | None) -> LoadedBodies:
         pressed=_pressed(file, scene, last),
         contact_radius=float(values(group["contact_radius"], last)),
         peak_pressure=float(values(group["peak_pressure"], last)),
+        units=_units(group, scene, steps),
     )
 
 
@@ -216,6 +231,18 @@ def _pressed(
     group, indenter = file["increments"], scene["indenter"]
     radius, approach = (float(values(group[n], at)) for n in ("contact_radius", "approach"))
     return SHAPES[indenter["shape"]].model_validate(indenter), radius, approach
+
+
+def _units(group: h5py.Group, scene: Mapping[str, Any], steps: NDArray[np.int64]) -> Units:
+    """Of a description whose maps may be gone."""
+    names = [field.name for field in fields(_End)]
+    ends = [_End(*(float(values(group[n], at)) for n in names)) for at in ends_of_steps(steps)]
+    body, indenter, friction = _body(scene["body"]), scene["indenter"], scene["friction"]
+    shape = SHAPES[indenter["shape"]]
+    tip = None if shape is HeightMap else shape.model_validate(indenter)
+    mu = None if friction is None else friction["coefficient"]
+    coated = bool(body.layers or indenter["layers"])
+    return natural_units_of(tip, body, None if isinstance(mu, Mapping) else mu, ends, coated=coated)
 
 
 def _direction(file: h5py.File) -> tuple[float, float]:

@@ -62,6 +62,14 @@ def stress(
         bool, typer.Option("--volume", help="Write the whole volume as VTU too, not only y = 0.")
     ] = False,
     figures: FiguresOption = True,
+    normalised: Annotated[
+        bool,
+        typer.Option(
+            "--normalised",
+            help="Draw figures over the sizes of Hertz' contact, x/a and stress over p0; files "
+            "stay in SI.",
+        ),
+    ] = False,
     error: Annotated[
         bool,
         typer.Option(
@@ -81,6 +89,8 @@ def stress(
     "max_principal 1%" binds the largest tension in the body.
     """
     _refuse_file_in_the_way(output)
+    if normalised and not figures:
+        raise typer.BadParameter("--normalised is of figures; leave it or --no-figures out")
     asked = None if depths is None else [_length(text) for text in depths.split(",")]
     chosen = solver or SolverName.SEMI_ANALYTICAL
     if source.is_dir():
@@ -132,6 +142,7 @@ def stress(
             found,
             output,
             with_figures=figures,
+            normalised=normalised,
             errors=errors,
             accuracy=reached,
         )
