@@ -33,7 +33,7 @@ from verification.report.files import (
 )
 from verification.report.front import LOOP, front_charts
 from verification.report.page import render_page, render_sheets
-from verification.report.prices import cost_sentence
+from verification.report.prices import amount, cost_sentence
 from verification.report.stability_map import ENDS, VIEW, legend, stability_map
 from verification.running.report_record import Report, dump_report, load_report
 from verification.solver import Solver
@@ -180,6 +180,18 @@ def test_the_front_shows_the_charts_that_there_are() -> None:
 
 def test_a_study_without_prices_has_no_sentence_of_them() -> None:
     assert cost_sentence(study("work-precision")) == ""
+
+
+@pytest.mark.parametrize(
+    ("cost", "unit", "text"),
+    [
+        (138.2, "Mop", "138 million operations"),
+        (5883.0, "Mop", "5.88 billion operations"),
+        (0.1612, "s", "0.16 s"),
+    ],
+)
+def test_a_cost_in_a_sentence_has_words_for_its_unit(cost: float, unit: str, text: str) -> None:
+    assert amount(cost, unit) == text
 
 
 @pytest.mark.parametrize("level", ["quick", "full"])

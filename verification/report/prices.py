@@ -10,6 +10,7 @@ from verification.exhibits.table import NONE, Table
 from verification.running.record import StudyRecord
 from verification.running.row import value_of
 from verification.running.study import Conclusion
+from verification.studies.work_precision.price import WORK
 from verification.studies.work_precision.price_rows import (
     COST,
     at_target,
@@ -20,6 +21,7 @@ from verification.studies.work_precision.price_rows import (
 )
 
 TARGET = 0.001
+THOUSAND = 1000.0
 PAPERS_ROUTE = "sampled response, frozen directions"
 
 
@@ -82,5 +84,13 @@ def _spans(conclusion: Conclusion) -> str:
     unit = best[0].units[COST]
     return (
         f"an error of {100 * TARGET:g} % is had for {len(best)} of {len(quantities)} quantities: "
-        f"{plain(median(costs), 2)} {unit} in the median, {plain(max(costs), 2)} {unit} at most"
+        f"{amount(median(costs), unit)} in the median, {amount(max(costs), unit)} at most"
     )
+
+
+def amount(cost: float, unit: str) -> str:
+    """A cost in a sentence: `138 million operations`, `0.16 s`."""
+    if unit != WORK.unit:
+        return f"{plain(cost, 2)} {unit}"
+    many, word = (THOUSAND, "billion") if cost >= THOUSAND else (1.0, "million")
+    return f"{plain(cost / many, 3)} {word} operations"
