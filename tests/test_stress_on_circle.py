@@ -50,6 +50,13 @@ STIFF = IsotropicMaterial(young_modulus=1.82 * np.pi / 2, poisson_ratio=NU)
 BALL = Paraboloid(radius=1.0, material=RIGID)
 SAME = Paraboloid(radius=1.0, material=SOFT)
 COATED = Body(material=SOFT, layers=(Layer(thickness=0.8, material=STIFF),))
+# More of it sticks, so that cells see the front.
+SOFTER = Body(
+    material=SOFT,
+    layers=(Layer(thickness=0.8, material=IsotropicMaterial(
+        young_modulus=SOFT.young_modulus / 2, poisson_ratio=NU
+    )),),
+)  # fmt: skip
 W = 2 * np.pi / 3
 
 
@@ -235,13 +242,18 @@ def test_the_indenter_of_one_material_has_the_stress_of_the_reversed_load() -> N
     assert np.max(np.abs(ours[2] - theirs[2])) > 1e-3
 
 
+# What increments and, pushed, 24 rings leave of ours.
+OWN = {"rubs": 2e-3, "pushed": 1e-2}
+
+
 @pytest.mark.slow
-@pytest.mark.parametrize("loads", ["rubs", "pushed"])
+@pytest.mark.parametrize("loads", OWN)
 def test_the_cells_of_the_other_solver_agree_within_their_errors(loads: str) -> None:
-    steps = [LoadStep(normal_force=W, increments=16)]
+    steps, body = [LoadStep(normal_force=W, increments=16)], SOFTER
     if loads == "pushed":
         steps.append(LoadStep(tangential_force=(0.08 * W, 0.0), increments=8))
-    scene = frictional(COATED, BALL, *steps)
+        body = COATED
+    scene = frictional(body, BALL, *steps)
     state = state_of_result(radial.solve(scene), None)
     field = stress_on_disc(state)
     exact = {(e.region, e.measure): e.value for e in extremes(field, scene.body)}
@@ -253,4 +265,4 @@ def test_the_cells_of_the_other_solver_agree_within_their_errors(loads: str) -> 
     for extreme, error in zip(there, stress_errors(state, field, there), strict=True):
         assert error.error is not None
         ours = exact[extreme.region, extreme.measure]
-        assert abs(extreme.value - ours) < error.error + 0.01 * ours, extreme
+        assert abs(extreme.value - ours) < error.error + OWN[loads] * ours, extreme
