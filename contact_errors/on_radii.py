@@ -1,5 +1,7 @@
 """Errors of a radial result, from one with twice as many orders and points; with friction, from one
-with half the rings and half the increments, of a pushed contact half the angles, too."""
+with half the rings and half the increments. A pushed contact has two beside it: with half the rings
+and angles, and with half the increments, too; what they change may be of opposite signs.
+"""
 
 from __future__ import annotations
 
@@ -16,7 +18,7 @@ from contact_results.cycles import fretting_cycles
 from contact_scene.solver_errors import SolverError
 from contact_scene.stated_error import EXACT, Companion, Part, StatedError, StatedErrors
 from radial import Increment, Result, solve
-from radial.plan import RINGS
+from radial.plan import RINGS, Plan
 
 # Without friction both levels are at the end of what double precision gives: errors are as large as
 # their difference, or as what residuals and round-off leave. With friction they fall at least as
@@ -24,6 +26,13 @@ from radial.plan import RINGS
 TIMES = 2.0
 ROUND_OFF = 1e-13
 TWICE, HALF = 2, 0.5
+# Of a pushed contact: by half the increments, where what is left falls with an order above .74
+# (`contact_results.path_error`); by half the rings and angles, where it does with 1.
+BY_PATH = 1.5
+BY_RINGS = 1.0
+# Of what increments say themselves that they leave open of an energy: .002 to .3 of it is true, and
+# the difference of two histories tells which. As on cells (`rules.ENERGY`).
+CHARGE = 0.1
 # Of the contact radius: as well as rings tell a front, and half increments where it stands at
 # their end.
 FRONT = 1e-3
@@ -37,25 +46,16 @@ _INCREMENTS: Part = "increments"
 def stated_errors(
     result: Result, progress: Callable[[Increment], None] | None = None
 ) -> StatedErrors:
-    """Errors of all numbers at the ends of all steps; solves the companion."""
-    cycles = fretting_cycles(result)
+    """Errors of all numbers at the ends of all steps; solves the companions."""
+    cycles, plan = fretting_cycles(result), result.plan
     fine = values_of(result, cycles)
-    plan, fineness = result.plan, float(TWICE)
-    differs, part = "twice the orders and points", _QUADRATURE
-    if plan.coupled or plan.pushed:
-        plan, fineness = replace(plan, increments=_recut(plan.increments)), HALF
-        differs, part = "half the rings and increments", _INCREMENTS
-    made = Companion(differs=differs, increments=plan.increments)
-    try:
-        finer = solve(result.scene, result.fineness, progress, plan, fineness=fineness)
-    except SolverError as error:
-        made = made.model_copy(update={"refused": str(error)})
+    beside = [_Companion(result, *way, progress) for way in _ways(plan)]
+    if any(one.values is None for one in beside):
         changes: Sequence[Values | None] = [None] * len(fine)
     else:
-        spent = sum(increment.iterations for increment in finer.increments)
-        made = made.model_copy(update={"iterations": spent})
-        changes = differences(fine, values_of(finer, fretting_cycles(finer)))
+        changes = _changes(fine, [one.values or () for one in beside])
     charged = charged_by_increments(result, cycles)
+    part = _INCREMENTS if plan.coupled or plan.pushed else _QUADRATURE
     steps = zip(result.steps, result.scene.load_path(), fine, changes, charged, strict=True)
     finite = rules_for(result.scene.indenter, cusp=plan.coupled).keys()
     return StatedErrors(
@@ -78,8 +78,60 @@ def stated_errors(
             }
             for step, ramp, values, changed, open_ in steps
         ),
-        (made,),
+        tuple(one.made for one in beside),
     )
+
+
+def _ways(plan: Plan) -> Sequence[tuple[str, Plan, float]]:
+    """In what each companion differs, its plan and its fineness."""
+    fewer = replace(plan, increments=_recut(plan.increments))
+    if plan.pushed:
+        return (
+            ("half the rings and angles", plan, HALF),
+            ("half the rings, angles and increments", fewer, HALF),
+        )
+    if plan.coupled:
+        return (("half the rings and increments", fewer, HALF),)
+    return (("twice the orders and points", plan, float(TWICE)),)
+
+
+class _Companion:
+    """A solve beside that of a result.
+
+    made    what is told of it
+    values  its numbers; None where it has no answer
+    """
+
+    def __init__(
+        self, result: Result, differs: str, plan: Plan, fineness: float,
+        progress: Callable[[Increment], None] | None,
+    ) -> None:  # fmt: skip
+        self.values: Sequence[Values] | None = None
+        self.made = Companion(differs=differs, increments=plan.increments)
+        try:
+            found = solve(result.scene, result.fineness, progress, plan, fineness=fineness)
+        except SolverError as error:
+            self.made = self.made.model_copy(update={"refused": str(error)})
+        else:
+            spent = sum(increment.iterations for increment in found.increments)
+            self.made = self.made.model_copy(update={"iterations": spent})
+            self.values = values_of(found, fretting_cycles(found))
+
+
+def _changes(fine: Sequence[Values], beside: Sequence[Sequence[Values]]) -> Sequence[Values]:
+    """By companions, times what they are worth."""
+    if len(beside) == 1:
+        return [_times(TIMES, change) for change in differences(fine, beside[0])]
+    rings = differences(fine, beside[0])
+    path = differences(beside[0], beside[1])
+    return [
+        {name: BY_RINGS * by_rings[name] + BY_PATH * by_path[name] for name in by_rings}
+        for by_rings, by_path in zip(rings, path, strict=True)
+    ]
+
+
+def _times(factor: float, values: Values) -> Values:
+    return {name: factor * value for name, value in values.items()}
 
 
 def _recut(increments: tuple[int, ...]) -> tuple[int, ...]:
@@ -91,6 +143,7 @@ def _stated(
     name: str, part: Part, residual: float, values: Values, changed: Numbers,
     by_increments: float | None, *, pushed: bool,
 ) -> StatedError:  # fmt: skip
+    """changed  by companions, times what they are worth"""
     size = np.maximum(np.abs(values[name]), scale(name, values))
     front: Numbers | float = 0.0
     if part == _INCREMENTS:
@@ -100,11 +153,13 @@ def _stated(
         front = front + EDGE * of_edge * values[name]
         changed = changed * (CUSP if name == "peak_pressure" else 1.0)
     parts: dict[Part, Numbers] = {
-        part: front + TIMES * changed + ROUND_OFF * size,
+        part: front + changed + ROUND_OFF * size,
         "tolerance": unsolved(residual, np.abs(values[name]), scale(name, values)),
     }
     if by_increments is not None:
-        parts["increments"] = parts.get("increments", 0.0) + np.atleast_1d(by_increments)
+        told = np.atleast_1d(by_increments)
+        of_path = parts.get("increments", 0.0)
+        parts["increments"] = of_path + (CHARGE if part == _INCREMENTS else 1.0) * told
     return stated(parts, converged=True)
 
 

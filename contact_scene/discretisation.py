@@ -103,5 +103,9 @@ class RadialDiscretisation(Description):
     """Number of rings over the largest contact of the history, denser towards its edge, at which
     pressure and gap are told."""
 
+    extrapolated: bool = False
+    """Whether the history of a pushed contact is solved in twice the increments, too, and its
+    scalars are told in the limit of fine increments; it takes three times as long."""
+
     tolerance: Tolerance = 1e-10
     """Bound of every dimensionless residual at the end of an increment."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from typing import Any
 
@@ -64,18 +64,44 @@ def solve(
     decided = plan_of(scene) if plan is None else plan
     refuse_if_too_large(scene, decided)
     solver = _solver(scene, asked, decided, fineness)
-    last = keeper.last() if keeper else None
-    increments = [*last.increments] if last else []
-    if progress is not None:
-        for increment in increments:
-            progress(increment)
-    for increment, mark in marked_increments(scene, decided.increments, solver, last):
+    if asked.extrapolated and decided.pushed:
+        return Result(
+            scene, asked, decided, _extrapolated(scene, solver, decided, progress, keeper)
+        )
+    increments = []
+    for increment in _marched(scene, solver, decided, keeper):
         increments.append(increment)
-        if keeper is not None:
-            keeper.keep(Standing(tuple(increments), mark, None))
         if progress is not None:
             progress(increment)
     return Result(scene, asked, decided, tuple(increments))
+
+
+def _marched(scene: Scene, solver: Any, plan: Plan, keeper: Keeper | None) -> Iterator[Increment]:
+    """All increments, those first that are kept."""
+    last = keeper.last() if keeper else None
+    increments = [*last.increments] if last else []
+    yield from increments
+    for increment, mark in marked_increments(scene, plan.increments, solver, last):
+        increments.append(increment)
+        if keeper is not None:
+            keeper.keep(Standing(tuple(increments), mark, None))
+        yield increment
+
+
+def _extrapolated(
+    scene: Scene, solver: Any, plan: Plan, progress: Progress | None, keeper: Keeper | None
+) -> tuple[Increment, ...]:
+    """Those of the limit of fine increments; what is kept is of the finer history."""
+    from radial.extrapolated import doubled, extrapolated
+
+    coarse = iter([*_marched(scene, solver, plan, None)])
+    increments = []
+    for fine in _marched(scene, solver, doubled(plan), keeper):
+        if fine.index % 2 == 0:
+            increments.append(extrapolated(next(coarse), fine))
+            if progress is not None:
+                progress(increments[-1])
+    return tuple(increments)
 
 
 def _solver(scene: Scene, asked: RadialDiscretisation, plan: Plan, fineness: float) -> Any:

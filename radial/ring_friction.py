@@ -27,6 +27,7 @@ Mask = NDArray[np.bool_]
 
 MOST_STEPS = 60
 SHORTEST = 2.0**-6  # of a step of Newton's method
+LEAST_FRICTION = 1e-2  # of which the limit is more than round-off of the pressure
 AT_ONCE = 12  # steps that are taken whole: what slips is found sooner than by shorter ones
 
 
@@ -50,7 +51,7 @@ class Held:
     slipped    Δs of the increment times area (2 n J,) [length³]
     share      of the limit: |q - Δs/d| over it, ≤ 1 where a point sticks, infinite out of contact
     energy     ½ ∫ (p u_z + q·u) dA [force length]
-    missed     of the laws, over the largest pressure and the load
+    missed     of the laws, over the largest pressure, limit and load
     steps      of Newton's method
     """
 
@@ -206,7 +207,9 @@ class _Laws:
         y = (q - slipped / self.d[: 2 * size]).reshape(2, -1)
         limit = self.friction * np.maximum(z, 0.0)
         missed = np.concatenate([q - (_shortened(y, limit) * y).ravel(), p - np.maximum(z, 0.0)])
-        worst = np.max(np.abs(missed)) / np.max(np.abs(p))
+        # Shear is to be as near to its limit as pressure to itself.
+        beyond = np.max(np.abs(missed[: 2 * size])) / max(self.friction, LEAST_FRICTION)
+        worst = max(beyond, np.max(np.abs(missed[2 * size :]))) / np.max(np.abs(p))
         for now, wanted, size_of in (
             (points.areas @ p, loads.force, loads.force),
             (approach, loads.approach, loads.approach),

@@ -112,6 +112,7 @@ ORDERS = {
             "rubbing",
             "twisting",
             "pushing",
+            "extrapolated",
             "history",
         ),
         *("loaded_circle", "circle_fit", "rays", "below_circle"),
