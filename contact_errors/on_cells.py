@@ -37,6 +37,9 @@ LEAST = {
     Lengthscale.ANNULUS: 0.5,
 }
 LEAST_LAYER, LEAST_WAVE = 1.0, 4.0
+# Of the contact with its edges inside the cells, over a layer thinner than it is wide: an edge that
+# is fitted over all of the contact is bent by the layer, and on half the cells alike.
+LEAST_OVER_LAYER = 6.0
 # A film that is much stiffer than its base bends and stands on its rim, within its thickness t of
 # the edge: there the largest mean of a cell exceeds the peak by this part of it times t^-5/2 at
 # most, t in cells (films 8 to 80 times as stiff, of 1 to 13 cells).
@@ -221,6 +224,10 @@ class _Cells:
             return False
         if cells.wave is not None and cells.wave < LEAST_WAVE:
             return False
+        if name in EDGES and self.result.steps[step].edge_change is not None:
+            thin = cells.layer is not None and cells.layer < 2 * cells.contact
+            if thin and cells.contact < LEAST_OVER_LAYER:
+                return False
         if lengthscale is Lengthscale.TURN:
             return cells.contact >= LEAST[Lengthscale.TURN]
         if lengthscale is Lengthscale.CUSP and self._slides(step):

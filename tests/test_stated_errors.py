@@ -543,6 +543,26 @@ def test_the_error_of_a_tilt_with_edges_inside_the_cells_covers_what_is_wrong(ce
     assert missed <= size(errors["tilt"]) < 30 * missed
 
 
+@pytest.mark.parametrize(
+    ("cells", "thickness", "converged"), [(13, 1.0, False), (13, 3.0, True), (18, 1.0, True)]
+)
+def test_five_cells_over_a_layer_do_not_tell_where_the_edge_within_them_is(
+    cells: int, thickness: float, converged: bool
+) -> None:
+    """It was outside its error in five of seven such draws; of plain cells it is stated."""
+    film = Layer(thickness=thickness * A, material=steel(young_modulus=1.5 * YOUNG))
+    body = Body(material=steel(), layers=(film,))
+    load = pressed_coating(surface_of(body), RADIUS, A).load
+    pressed = Scene(indenter=paraboloid(RIGID), body=body, loading=({"normal_force": load},))
+    for edge in ("last", "off"):
+        asked = SurfaceDiscretisation(cells=(cells, cells), window=(2.4 * A, 2.4 * A), edge=edge)
+        result = solve_discretised(pressed, asked)
+        (errors,), (end,) = stated_errors(result).steps, result.steps
+        assert (end.edge_change is not None) is (edge == "last")
+        for name in ("approach", "contact_radius", "peak_pressure"):
+            assert (errors[name].status is ErrorStatus.ESTIMATED) is (converged or edge == "off")
+
+
 def below_a_stiff_film(cells: int, stiffer: float) -> tuple[Result, LayeredIndentation]:
     """A contact twelve times as wide as the film is thick, and what is known of it."""
     base, thickness = steel(), 0.083 * A
