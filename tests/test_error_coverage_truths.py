@@ -176,7 +176,7 @@ def test_energy_of_a_loop_is_its_area() -> None:
 def test_errors_with_edges_inside_the_cells_hold(family: str) -> None:
     """Of what follows from the edges; the scenes that set their rules were drawn from others."""
     rows = []
-    for number in range(12):
+    for number in range(15):
         known = drawn(family, JUDGING, number)
         result = semi_analytical.solve_discretised(known.scene, known.fineness.asked)
         errors, steps = stated_errors(result).steps, values_of(result, ())
