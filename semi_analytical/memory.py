@@ -7,30 +7,33 @@ from semi_analytical.grid import SurfaceGrid
 from semi_analytical.plan import Coupling, Plan
 
 DOUBLE = 8
-# Arrays of the size of the window held at once: coefficients, spectra of the padded grid (two cells
-# each) for the window and the box around the contact, one work space, solver vectors. Measured of
-# whole runs on fitted windows, of which the contact takes nine tenths along each side.
-PRESSURE_ARRAYS = 30
+# Arrays of the size of the window held at once: coefficients, spectra, work space, solver vectors,
+# results of an increment. Measured of whole runs on fitted windows, of which the contact takes nine
+# tenths along each side.
+PRESSURE_ARRAYS = 32
 HISTORY_ARRAYS = 4
-SHEAR_ARRAYS = 58
+SHEAR_ARRAYS = 57
 # Arms and unit motions, and what they are multiplied with.
 TILT_ARRAYS = 10
-TORSION_ARRAYS = 36
+TORSION_ARRAYS = 6
 # Spectra of the coupling, and the Krylov vectors of a Newton step with their displacements.
-COUPLING_ARRAYS = {Coupling.NONE: 0, Coupling.ONE_WAY: 33, Coupling.FULL: 125}
+COUPLING_ARRAYS = {Coupling.NONE: 0, Coupling.ONE_WAY: 33, Coupling.FULL: 42}
 # Spectra of what tractions do within the cells, and that along the edge, in about as many cells as
 # a side has.
-EDGE_ARRAYS = 28
+EDGE_ARRAYS = 19
 EDGE_SHEAR_ARRAYS = 84
-EDGE_RIM = 200_000  # bytes per cell of the longer side
+EDGE_RIM = 75_000  # bytes per cell of the longer side
+EDGE_SHEAR_RIM = 125_000
 # Arrays that every increment leaves behind: pressure and gap; shear, slip, its distance and
 # dissipation, and masks.
 PRESSURE_RESULT = 2
 SHEAR_RESULT = 7
 LIGHT = 4500  # bytes of an increment without its fields
-LIBRARIES = 80 << 20  # of the process that solves and writes
-DRAWING = 90 << 20  # libraries of the figures and of the stress in them, and arrays
-DRAWING_ARRAYS = 20
+LIBRARIES = 73 << 20  # of the process that solves
+# Libraries that write and draw, arrays, and what the solver leaves that has not gone back to the
+# system: while maps are drawn, and while the stress of at most 64 x 64 cells is.
+DRAWING, DRAWING_ARRAYS = 75 << 20, 20
+STRESS, STRESS_ARRAYS, STRESS_SHEAR_ARRAYS = 108 << 20, 3, 20
 
 
 def estimated_bytes(grid: SurfaceGrid, plan: Plan) -> int:
@@ -43,13 +46,14 @@ def estimated_bytes(grid: SurfaceGrid, plan: Plan) -> int:
     rim = 0
     if plan.edge != "off":
         work += EDGE_ARRAYS + (EDGE_SHEAR_ARRAYS if plan.shear else 0)
-        rim = EDGE_RIM * max(grid.cells)
+        rim = (EDGE_RIM + (EDGE_SHEAR_RIM if plan.shear else 0)) * max(grid.cells)
     work += HISTORY_ARRAYS if increments > 1 else 0
     kept = PRESSURE_RESULT + (SHEAR_RESULT if plan.shear else 0)
     held = min(cells * DOUBLE * kept * increments, MOST_HELD) + LIGHT * increments
-    held *= 2 if plan.shear else 1  # a companion on the same grid is held beside the result
     drawing = DRAWING + cells * DOUBLE * DRAWING_ARRAYS
-    return LIBRARIES + held + max(cells * DOUBLE * work + rim, drawing)
+    stressed = STRESS_ARRAYS + (STRESS_SHEAR_ARRAYS if plan.shear else 0)
+    stress = STRESS + cells * DOUBLE * stressed
+    return LIBRARIES + held + max(cells * DOUBLE * work + rim, drawing, stress)
 
 
 def refuse_if_too_large(grid: SurfaceGrid, plan: Plan) -> None:

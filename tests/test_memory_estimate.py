@@ -68,7 +68,8 @@ def test_estimated_memory_is_the_peak_of_the_run(text: str, tmp_path: Path) -> N
     path.write_text(text, encoding="utf-8")
     contents = read_scene_file(path)
     grid = discretise(contents.scene, contents.semi_analytical)
-    decided = plan(contents.scene, contents.semi_analytical.path_accuracy)
+    fineness = contents.semi_analytical
+    decided = plan(contents.scene, fineness.path_accuracy, fineness.edge)
     ended = slipstick("run", path, "-o", tmp_path / "out")
     assert ended.code == 0, ended.said
     assert estimated_bytes(grid, decided) == pytest.approx(ended.memory, rel=WITHIN)
