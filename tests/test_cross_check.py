@@ -1,7 +1,8 @@
-"""The cross-check of both solvers: what it measures, and that it can fail."""
+"""The cross-check of all solvers: what it measures, and that it can fail."""
 
 from dataclasses import replace
-from itertools import product
+from itertools import combinations, product
+from math import nan
 
 import numpy as np
 import pytest
@@ -22,7 +23,7 @@ from verification.cases.both_solvers.left_out import (
     radii,
     width,
 )
-from verification.cases.both_solvers.sides import Sides
+from verification.cases.both_solvers.sides import SIDES, Sides
 from verification.cases.both_solvers.stress import stress_difference
 from verification.cases.cross_check import CHOSEN, cross_check_on
 from verification.judging.case import Level
@@ -32,7 +33,7 @@ from verification.judging.run import SectionRun
 from verification.running.row import CaseRecord
 from verification.running.row_files import row_files
 from verification.running.study import Settings
-from verification.studies.cross_check import STUDY, CrossCheckRun
+from verification.studies.cross_check import STUDY, CrossCheckRun, PushedRun, timed
 
 SMOOTH = CheckedContact(2.0, 1.0, 0.0)
 ROUGH = CheckedContact(0.5, 1.0, 0.1)
@@ -55,14 +56,17 @@ def record() -> CaseRecord:
     return CrossCheckRun(Sides(SMOOTH, 64, 32)).compute()
 
 
-def test_both_solvers_agree_and_say_what_they_leave(record: CaseRecord) -> None:
+def test_all_solvers_agree_and_say_what_they_leave(record: CaseRecord) -> None:
     found = differences(record)
     assert set(found) == {"pressure", "approach"}
     for one in found.values():
         assert one.status is Status.PASS
+        assert set(one.apart) == set(combinations(SIDES, 2))
         assert one.joint > 0
         assert one.to_reference is not None
-        assert max(one.to_reference) < one.required
+        assert max(one.to_reference.values()) < one.required
+        assert one.nearer == "radial"
+        assert one.to_reference["radial"] < 1e-5
 
 
 def test_a_record_comes_back_from_its_text(record: CaseRecord) -> None:
@@ -75,8 +79,9 @@ def test_the_matrix_has_every_contact_once() -> None:
     asked = product(RATIOS, THICKNESSES, FRICTIONS)
     bodies = {(ratio, 0.0 if ratio == 1 else h, mu) for ratio, h, mu in asked}
     contacts = [c.sides.contact for c in cases if isinstance(c, CrossCheckRun)]
+    assert [type(case) for case in cases[len(contacts) :]] == [PushedRun]
     solved = {(c.modulus_ratio, c.thickness if c.is_coated else 0.0, c.friction) for c in contacts}
-    assert len({case.name for case in cases}) == len(cases) == len(bodies) == 48
+    assert len({case.name for case in cases}) == len(cases) == 1 + len(bodies) == 49
     assert solved == bodies
     assert "48 scenes, 45 of them" in STUDY.question
     assert {contact for chosen in CHOSEN.values() for contact in chosen} <= set(contacts)
@@ -94,23 +99,39 @@ def test_an_agreement_within_poorer_own_errors_is_told(record: CaseRecord) -> No
 
 def test_own_errors_decide_between_fail_and_inconclusive() -> None:
     small, large = 1e-4, 1e-2
-    assert Difference(0.9e-3, 1e-3, small, small, None).status is Status.PASS
-    assert Difference(5e-3, 1e-3, small, large, None).status is Status.INCONCLUSIVE
-    assert Difference(5e-3, 1e-3, small, small, None).status is Status.FAIL
-    assert Difference(0.0, 1.0, 0.0, 0.0, (2.0, 1.0)).nearer == "elements"
+    for apart, elements, status in (
+        (0.9e-3, small, Status.PASS),
+        (5e-3, large, Status.INCONCLUSIVE),
+        (5e-3, small, Status.FAIL),
+        (nan, large, Status.FAIL),
+    ):
+        own = {"cells": small, "elements": elements, "radial": small}
+        beside = {("cells", "radial"): 0.0, ("elements", "radial"): 0.0}
+        one = Difference({("cells", "elements"): apart, **beside}, 1e-3, own, None)
+        assert one.status is status
+
+
+def test_of_three_the_one_that_two_leave_alone_is_odd() -> None:
+    own = dict.fromkeys(SIDES, 0.1)
+    apart = dict(zip(combinations(SIDES, 2), (0.5, 0.2, 0.4), strict=True))
+    one = Difference(apart, 1.0, own, {"cells": 2.0, "elements": 1.0, "radial": 3.0})
+    assert (one.odd, one.nearer, one.furthest) == ("elements", "elements", ("cells", "elements"))
+    assert not one.is_explained
+    assert one.explains(("cells", "radial"))
 
 
 def test_study_concludes_from_the_records_there_are(record: CaseRecord) -> None:
     conclusion = STUDY.conclude(QUICK, {NAME: record})
     by_claim = {statement.claim: statement for statement in conclusion.statements}
-    agree = by_claim["both solvers agree: pressure, r < 0.9 a, over p₀"]
+    agree = by_claim["the solvers agree: pressure, r < 0.9 a, over p₀"]
     assert agree.outcome is Status.PASS
     assert "1 of 1 contacts" in agree.measured
     # One of 48 is no verdict on all.
     assert by_claim["every increment converged"].outcome is Status.INCONCLUSIVE
     assert {chart.name for chart in conclusion.charts} == {
-        "pressure_differences",
-        "shear_differences",
+        f"{name}_{side}_differences"
+        for name in ("pressure", "shear")
+        for side in ("cells", "elements")
     }
     assert all(len(chart.rows) == len(RATIOS) for chart in conclusion.charts)
     assert len(row_files({NAME: record})["parts.csv"].splitlines()) == 1 + len(record.parts)
@@ -124,9 +145,9 @@ def test_the_answer_has_differences_and_both_distances_to_the_reference(
     assert "On 1 contacts" in answer
     assert f"{100 * found.value:.2g} % in approach (E1/E2 = 2, h = 1 a_H, µ = 0" in answer
     assert found.to_reference is not None
-    for side, error in zip(("cells at most", "elements"), found.to_reference, strict=True):
-        assert f"{side} {100 * error:.2g} %" in answer
-    assert f"({found.nearer} nearer on 1" in answer or f"{found.nearer} on 1)" in answer
+    for side in ("cells", "elements"):
+        assert f"{side} at most {100 * found.to_reference[side]:.2g} % off" in answer
+    assert answer.endswith("elements on 0, radial on 1).")
     assert "everywhere within what is asked" in answer
     assert "with 56 cells and 64 elements per contact radius" in answer
     assert STUDY.conclude(QUICK, {}).answer == ""
@@ -146,7 +167,8 @@ def test_what_is_left_out_of_the_shear_is_told(record: CaseRecord) -> None:
         part.model_copy(
             update={
                 "parameters": part.parameters | {"shear_judged": n not in (3, 4)},
-                "measures": part.measures | {"shear_cells": shear[n], "shear_elements": 0.0},
+                "measures": part.measures
+                | {"shear_cells": shear[n], "shear_elements": 0.0, "shear_radial": 0.0},
             }
         )
         for n, part in enumerate(record.parts)
@@ -158,6 +180,7 @@ def test_what_is_left_out_of_the_shear_is_told(record: CaseRecord) -> None:
     )
     (told,) = (s for s in conclusion.statements if "where it is not judged" in s.claim)
     assert told.measured.startswith("at most 0.7 of µp₀ (E1/E2 = 2")
+    assert "cells and elements" in told.measured
     assert "away from the axis and from the kinks of the shear" in conclusion.answer
 
 
@@ -175,6 +198,18 @@ def test_a_side_that_is_wrong_fails(record: CaseRecord, wrong: str) -> None:
     conclusion = STUDY.conclude(QUICK, {NAME: off})
     (statement,) = (s for s in conclusion.statements if f"agree: {wrong}" in s.claim)
     assert statement.outcome is Status.FAIL
+
+
+def test_what_every_solver_took_is_told_over_the_radial_one(record: CaseRecord) -> None:
+    found = {
+        NAME: record.model_copy(update={"clock": {"cells": 3.0, "elements": 8.0, "radial": 2.0}})
+    }
+    conclusion = timed(QUICK, found)
+    ((*_, ratio),) = conclusion.tables[0].rows
+    assert ratio == "1 : 1.5 : 4"
+    assert "1 : 1.5 : 4 (µ = 0, 2 s)" in conclusion.answer
+    assert set(record.clock) == set(SIDES)
+    assert min(record.clock.values()) > 0
 
 
 def test_a_number_that_is_none_is_not_passed_over(record: CaseRecord) -> None:

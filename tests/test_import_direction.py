@@ -191,7 +191,7 @@ ORDERS = {
     ),
     "verification.cases.both_solvers": (
         *("left_out", "contacts", "sides", "differences", "stress", "line", "charts", "tables"),
-        "statements",
+        *("costs", "statements"),
     ),
     "verification.studies.sliding": (
         *("contacts", "path", "friction_laws", "runs", "law_run", "full_slip", "estimate"),

@@ -73,18 +73,21 @@ def test_a_kept_record_answers_what_is_asked_today(name: str) -> None:
 
 
 @pytest.mark.parametrize("name", ["pressure", "shear"])
-def test_largest_differences_of_both_solvers_are_those_of_the_curves(name: str) -> None:
+@pytest.mark.parametrize("side", ["cells", "elements"])
+def test_largest_differences_to_the_radial_solver_are_those_of_the_curves(
+    name: str, side: str
+) -> None:
     curves = [
         curve
-        for row in kept_chart("cross-check", f"{name}_differences").rows
+        for row in kept_chart("cross-check", f"{name}_{side}_differences").rows
         for panel in row
         for curve in panel.curves
     ]
     worst = max(abs(y) for curve in curves for y in curve.y) / PER_MILLE
     said = measured("cross-check", f"agree: {name}")
-    assert f"largest difference {plain(worst, 2)} " in said
+    assert f"{side} and radial {plain(worst, 2)} ±" in said
     within = sum(max(map(abs, c.y)) <= PER_MILLE * COMPARED[name].required for c in curves)
-    assert f"{within} of {len(curves)} contacts" in said
+    assert within >= int(said.split()[0])
     asked = [contact for contact in CONTACTS if contact.friction or name == "pressure"]
     assert len(curves) == len(asked)
 

@@ -115,13 +115,13 @@ def test_an_empty_panel_says_why_and_measures_nothing() -> None:
     parts = tuple(
         Row(
             parameters={"r_over_a": r, "shear_judged": True},
-            measures={"pressure_cells": 1.0, "pressure_elements": 0.99},
+            measures={"pressure_cells": 1.0, "pressure_radial": 0.99},
         )
         for r in (0.05, 0.9)
     )
     found = dict.fromkeys(CONTACTS, CaseRecord(parts=parts))
     with style.figure_style():
-        figure = draw(difference_chart(found, "pressure"))
+        figure = draw(difference_chart(found, "pressure", "cells"))
         figure.draw_without_rendering()
     empty = [axes for axes in figure.axes if axes.texts]
     assert len(empty) == len(RATIOS) * len(THICKNESSES) - len(found) // len(FRICTIONS) > 0

@@ -126,8 +126,10 @@ def _found(sides: tuple[Sides, ...], results: Mapping[str, Any]) -> Found:
     """As the study keeps them."""
     return {
         one.contact: one.record(
-            [results[run.label] for run in one.on_cells],
-            [results[run.label] for run in one.on_elements],
+            {
+                CELLS: [results[run.label] for run in one.on_cells],
+                ELEMENTS: [results[run.label] for run in one.on_elements],
+            },
             one.elements // 2,
         )
         for one in sides

@@ -11,6 +11,7 @@ from verification.solver import Method, Solver
 
 if TYPE_CHECKING:
     import fem_reference
+    import radial
     import semi_analytical
     from semi_analytical import Plan, SurfaceGrid
 
@@ -83,6 +84,28 @@ class SectionRun:
 
         method = fem_reference.Method(self.method.value)
         return fem_reference.solve(self.scene, self.discretisation, method)
+
+
+@dataclass(frozen=True)
+class RadiiRun:
+    """One solve: a scene of revolution on radii. The label names it within its case.
+
+    fineness  how many times as many orders and rings as the solver chooses
+    rings     at which fields are told
+    """
+
+    label: str
+    scene: Scene
+    fineness: float = 1
+    rings: int = 512
+
+    def solve(self) -> radial.Result:
+        """The solution; raises what `radial.solve` raises."""
+        import radial
+        from contact_scene import RadialDiscretisation
+
+        asked = RadialDiscretisation(rings=self.rings, tolerance=SOLVER_TOLERANCE)
+        return radial.solve(self.scene, asked, fineness=self.fineness)
 
 
 AnyRun = Run | SectionRun

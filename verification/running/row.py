@@ -65,6 +65,9 @@ class CaseRecord(Row):
     """CPU time, of the worker's whole work where the case measures none; with `repeats`, all that
     differs between equal runs."""
 
+    clock: dict[str, float] = Field(default_factory=dict)
+    """CPU seconds of its parts by name, which no run repeats either."""
+
     repeats: int = 1
     """Solves of which `seconds` is the median."""
 

@@ -1,4 +1,4 @@
-"""Coated contacts for both solvers: their scenes, tractions, and references that neither made."""
+"""Coated contacts for all solvers: their scenes, tractions, and references that none made."""
 
 from __future__ import annotations
 
@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from scipy.ndimage import map_coordinates
 
 import fem_reference
+import radial
 from contact_results.quantities import shear_of
 from contact_scene import FiniteElementDiscretisation, Scene
 from semi_analytical.grid import SurfaceGrid
@@ -32,7 +33,7 @@ RATIOS = (0.25, 0.5, 1.0, 2.0, 4.0, 10.0)
 THICKNESSES = (0.25, 1.0, 2.0)
 FRICTIONS = (0.0, 0.1, 0.3)
 
-# By µ; the same for both solvers, uniform in contact radius. The more of the contact sticks, the
+# By µ; the same for all solvers, uniform in contact radius. The more of the contact sticks, the
 # longer the shear remembers the edge of every increment: that ripple falls with the increments, and
 # finer cells or elements only show it more sharply.
 INCREMENTS = {0.0: 1, 0.1: 20, 0.3: 80}
@@ -89,7 +90,7 @@ class CheckedContact:
 
     @property
     def scene(self) -> Scene:
-        """What both solvers solve."""
+        """What all solvers solve."""
         return pressed(
             f"Rigid ball on a coated half-space, {self.name}",
             rigid_ball(),
@@ -127,7 +128,9 @@ class CheckedContact:
         )
 
     def stick_edges(
-        self, result: fem_reference.Result | semi_analytical.Result, resolution: float
+        self,
+        result: fem_reference.Result | semi_analytical.Result | radial.Result,
+        resolution: float,
     ) -> tuple[float, ...]:
         """Where the shear of a result has kinks, over the contact radius: last the edge of stick,
         before where that turned outward after it had come back; none without friction."""
@@ -138,11 +141,13 @@ class CheckedContact:
         return kept_edges(over, resolution)
 
     def tractions(
-        self, result: fem_reference.Result | semi_analytical.Result, radii: Field
+        self, result: fem_reference.Result | semi_analytical.Result | radial.Result, radii: Field
     ) -> Profiles:
-        """Of either solver at these radii."""
+        """Of any solver at these radii."""
         if isinstance(result, fem_reference.Result):
             return self.on_rings(result, radii)
+        if isinstance(result, radial.Result):
+            return self.on_radii(result, radii)
         return self.on_grid(result, radii)
 
     def on_grid(self, result: semi_analytical.Result, radii: Field) -> Profiles:
@@ -165,8 +170,17 @@ class CheckedContact:
             return Profiles(p, np.zeros_like(p))
         return Profiles(p, end.shear_radial[found] / (self.friction * self.peak_pressure))
 
+    def on_radii(self, result: radial.Result, radii: Field) -> Profiles:
+        """Linear between the rings, which are many."""
+        end, r = result.steps[-1], radii * self.contact_radius
+        p = np.interp(r, end.radii, end.pressure) / self.peak_pressure
+        if end.shear_radial is None:
+            return Profiles(p, np.zeros_like(p))
+        q = np.interp(r, end.radii, end.shear_radial)
+        return Profiles(p, q / (self.friction * self.peak_pressure))
+
     def reference(self, radii: Field) -> Profiles | None:
-        """Tractions that neither solver made, linear between the points of their table; None where
+        """Tractions that no solver here made, linear between the points of their table; None where
         there are none."""
         if not self.friction:
             p = np.asarray(self.frictionless.pressure(radii * self.contact_radius))

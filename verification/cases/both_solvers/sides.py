@@ -1,8 +1,8 @@
-"""A contact by both solvers, each coarse and fine, and how far two of the four are apart."""
+"""A contact by all solvers, each coarse and fine, and how far two of these are apart."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -19,16 +19,17 @@ from verification.cases.both_solvers.left_out import (
     radii,
     width,
 )
-from verification.judging.run import Run, SectionRun
+from verification.judging.run import RadiiRun, Run, SectionRun
 from verification.observed.ring_errors import judged_within
 from verification.running.row import CaseRecord, Row
 from verification.running.rules import RESIDUAL
 
 if TYPE_CHECKING:
     import fem_reference
+    import radial
     import semi_analytical
 
-CELLS, ELEMENTS = SIDES = ("cells", "elements")
+CELLS, ELEMENTS, RADIAL = SIDES = ("cells", "elements", "radial")
 EDGE = "kept_edge_"
 # Of the end of a run, as far as it has them.
 NUMBERS = {"approach": "m", "contact_radius": "m", "stick_radius": "m", "dissipated_energy": "J"}
@@ -36,7 +37,7 @@ NUMBERS = {"approach": "m", "contact_radius": "m", "stick_radius": "m", "dissipa
 
 @dataclass(frozen=True)
 class Sides:
-    """A contact by both solvers, each coarse and fine.
+    """A contact by all solvers, each coarse and fine.
 
     cells, elements  of the finer ones, even: along each side of the window, and over the contact
                      radius
@@ -67,11 +68,29 @@ class Sides:
         return coarse, fine
 
     @property
+    def on_radii(self) -> tuple[RadiiRun, RadiiRun]:
+        """Half the rings, and as many as the solver chooses; without friction, which has none and
+        is exact, twice the orders and points stand for the coarse one."""
+        beside, chosen = (
+            RadiiRun(f"{self.contact.name}, on radii, {times:g} times as fine", scene, times)
+            for scene in [self.contact.scene]
+            for times in (0.5 if self.contact.friction else 2.0, 1.0)
+        )
+        return beside, chosen
+
+    @property
+    def runs(self) -> dict[str, tuple[Run | SectionRun | RadiiRun, ...]]:
+        """By side, coarse and fine."""
+        return {CELLS: self.on_cells, ELEMENTS: self.on_elements, RADIAL: self.on_radii}
+
+    @property
     def resolution(self) -> float:
         """Of the coarser of the fine sides, over the contact radius."""
         return width(self.cells, self.elements)
 
-    def edges(self, result: fem_reference.Result | semi_analytical.Result) -> tuple[float, ...]:
+    def edges(
+        self, result: fem_reference.Result | semi_analytical.Result | radial.Result
+    ) -> tuple[float, ...]:
         """Where the shear of a result has kinks, over the contact radius."""
         return self.contact.stick_edges(result, self.resolution)
 
@@ -89,17 +108,12 @@ class Sides:
             "approach": abs(float(one.steps[-1].approach / other.steps[-1].approach) - 1),
         }
 
-    def record(
-        self,
-        cells: Sequence[Any],
-        elements: Sequence[Any],
-        rings: int,
-    ) -> CaseRecord:
-        """Both solvers at the rings of a mesh, what neither of them made, and what each owns up to.
+    def record(self, solved: Mapping[str, Sequence[Any]], rings: int) -> CaseRecord:
+        """Solvers at the rings of a mesh, what none of them made, and what each owns up to.
 
-        cells, elements  the results, coarse and fine
+        solved  the results by side, coarse and fine; cells and elements at least
         """
-        edges, half = self.edges(elements[1]), self.elements // 2
+        edges, half = self.edges(solved[ELEMENTS][1]), self.elements // 2
 
         def clear(n: int, within: float = JUDGED_WITHIN) -> Field:
             return clear_of_axis(radii(n, self.cells, within), edges, width(self.cells, n))
@@ -107,15 +121,15 @@ class Sides:
         # Two meshes are compared where the ripple of the coarser one at the edge does not reach.
         smooth = clear(half, judged_within(half))
         own = {
-            CELLS: self.apart(cells[0], cells[1], clear(half), edges),
-            ELEMENTS: self.apart(elements[0], elements[1], smooth, edges),
+            side: self.apart(coarse, fine, smooth if side == ELEMENTS else clear(half), edges)
+            for side, (coarse, fine) in solved.items()
         }
-        ends = {CELLS: cells[1].steps[-1], ELEMENTS: elements[1].steps[-1]}
+        fine = {side: result for side, (_, result) in solved.items()}
         numbers = {
             f"{name}_{side}": (float(value), unit)
-            for side, end in ends.items()
+            for side, result in fine.items()
             for name, unit in NUMBERS.items()
-            if (value := getattr(end, name)) is not None
+            if (value := getattr(result.steps[-1], name)) is not None
         }
         if self.contact.reference_approach is not None:
             numbers["approach_reference"] = self.contact.reference_approach, "m"
@@ -126,23 +140,18 @@ class Sides:
             },
             measures={
                 **{name: value for name, (value, _) in numbers.items()},
-                **{f"own_{what}_{side}": own[side][what] for side in SIDES for what in own[side]},
+                **{f"own_{what}_{side}": own[side][what] for side in own for what in own[side]},
                 **{f"{EDGE}{n}": edge for n, edge in enumerate(edges, 1)},
-                RESIDUAL: float(
-                    np.max([largest_residual(result) for result in (cells[1], elements[1])])
-                ),
+                RESIDUAL: float(np.max([largest_residual(result) for result in fine.values()])),
             },
             units={name: unit for name, (_, unit) in numbers.items()},
-            parts=self._parts(cells[1], elements[1], clear(rings), edges),
+            parts=self._parts(fine, clear(rings), edges),
         )  # fmt: skip
 
-    def _parts(
-        self, cells: Any, elements: Any, at: Field, edges: Sequence[float]
-    ) -> tuple[Row, ...]:
+    def _parts(self, fine: Mapping[str, Any], at: Field, edges: Sequence[float]) -> tuple[Row, ...]:
         """Tractions over the radius."""
         found: dict[str, Profiles | None] = {
-            CELLS: self.contact.tractions(cells, at),
-            ELEMENTS: self.contact.tractions(elements, at),
+            **{side: self.contact.tractions(result, at) for side, result in fine.items()},
             "reference": self.contact.reference(at),
         }
         columns = {
@@ -167,6 +176,11 @@ def largest_apart(one: Profiles, other: Profiles, judged: Mask) -> dict[str, flo
         "pressure": float(np.max(np.abs(one.pressure - other.pressure))),
         "shear": float(np.max(np.abs(one.shear - other.shear), where=judged, initial=0.0)),
     }
+
+
+def sides_of(record: CaseRecord) -> tuple[str, ...]:
+    """The sides that a record has."""
+    return tuple(side for side in SIDES if f"approach_{side}" in record.measures)
 
 
 def profiles(record: CaseRecord, side: str) -> Profiles:

@@ -1,10 +1,10 @@
-"""The numbers of every contact by both solvers."""
+"""The numbers of every contact by all solvers."""
 
 from __future__ import annotations
 
 from verification.cases.both_solvers.contacts import CheckedContact
 from verification.cases.both_solvers.differences import COMPARED, Apart, Difference, Found
-from verification.cases.both_solvers.sides import ELEMENTS, SIDES, number
+from verification.cases.both_solvers.sides import ELEMENTS, SIDES, number, sides_of
 from verification.exhibits.numbers import plain
 from verification.exhibits.table import NONE, Table
 from verification.judging.status_words import SYMBOLS as STATUS
@@ -18,29 +18,30 @@ def difference_table(apart: Apart) -> Table:
     """How far the solvers are apart, with the own error of each side."""
     columns = [*CONTACT]
     for symbol in SYMBOLS:
-        columns += [f"Δ{symbol}", f"{symbol}: cells", f"{symbol}: elements", f"{symbol}: nearer"]
+        columns += [f"Δ{symbol}", *(f"{symbol}: {side}" for side in SIDES), f"{symbol}: odd"]
     rows = []
     for contact, of in apart.items():
         row = _coordinates(contact)
         for name in COMPARED:
             one = of.get(name)
-            row += ["–"] * 4 if one is None else _cells_of(one)
+            row += ["–"] * (2 + len(SIDES)) if one is None else _cells_of(one)
         rows.append(tuple(row))
     return Table(
-        title="Differences, with the own error of each side",
+        title="Largest differences, with the own error of each side",
         columns=tuple(columns),
         rows=tuple(rows),
-        note="Δp over p₀, Δq over µp₀, Δδ relative; behind each the change of that side from half "
-        "as many cells or elements, and which side is nearer to the reference.",
+        note="Δp over p₀, Δq over µp₀, Δδ relative, of the two that are furthest apart; behind "
+        "each the change of every side from half as many cells, elements or rings, and which side "
+        "the other two, nearest to each other, leave alone.",
         units=NONE,
     )
 
 
 def reference_table(apart: Apart) -> Table:
-    """Errors of both sides where neither made the reference."""
-    columns = [*CONTACT]
-    for symbol in SYMBOLS:
-        columns += [f"{symbol}: cells", f"{symbol}: elements"]
+    """Errors of the sides where none made the reference."""
+    every = [one for of in apart.values() for one in of.values() if one.to_reference]
+    sides = [side for side in SIDES if every and side in every[0].own]
+    columns = [*CONTACT, *(f"{symbol}: {side}" for symbol in SYMBOLS for side in sides)]
     rows = []
     for contact, of in apart.items():
         errors = {name: one.to_reference for name, one in of.items()}
@@ -48,10 +49,10 @@ def reference_table(apart: Apart) -> Table:
             row = _coordinates(contact)
             for name in COMPARED:
                 error = errors.get(name)
-                row += ["–"] * 2 if error is None else [plain(side, 2) for side in error]
+                row += [plain(error[side], 2) if error else "–" for side in sides]
             rows.append(tuple(row))
     return Table(
-        title="Errors of both sides against references that neither made",
+        title="Errors of the sides against references that none of them made",
         columns=tuple(columns),
         rows=tuple(rows),
         note="p over p₀, q over µp₀ (its kinks left out), δ relative; the largest at any "
@@ -61,23 +62,27 @@ def reference_table(apart: Apart) -> Table:
 
 
 def number_table(found: Found) -> Table:
-    """Radii and energies by both."""
+    """Radii and energies by all."""
     rows = []
     for contact, record in found.items():
-        a, b = (number(record, f"contact_radius_{side}") for side in SIDES)
-        row = [*_coordinates(contact), plain(a / b - 1, 2)]
-        if contact.friction:
-            c, d = (number(record, f"stick_radius_{side}") for side in SIDES)
-            scale = NORMAL_FORCE * number(record, f"approach_{ELEMENTS}")
-            energies = (number(record, f"dissipated_energy_{side}") / scale for side in SIDES)
-            row += [f"{c / a:.4f}", f"{d / b:.4f}", *(plain(energy, 3) for energy in energies)]
-        else:
-            row += ["–"] * 4
+        radii = {side: number(record, f"contact_radius_{side}") for side in sides_of(record)}
+        least, most = min(radii.values()), max(radii.values())
+        row = [*_coordinates(contact), plain(most / least - 1, 2)]
+        scale = NORMAL_FORCE * number(record, f"approach_{ELEMENTS}")
+        for name in ("stick_radius", "dissipated_energy"):
+            for side, a in radii.items():
+                if not contact.friction:
+                    row.append("–")
+                    continue
+                value = number(record, f"{name}_{side}")
+                row.append(
+                    f"{value / a:.4f}" if name == "stick_radius" else plain(value / scale, 3)
+                )
         rows.append(tuple(row))
     return Table(
         title="Radii and energy",
-        columns=(*CONTACT, "a, relative difference", "c/a: cells", "c/a: elements",
-                 "energy: cells", "energy: elements"),
+        columns=(*CONTACT, "a, largest relative difference", *(f"c/a: {side}" for side in SIDES),
+                 *(f"energy: {side}" for side in SIDES)),
         rows=tuple(rows),
         note="c the stick radius; energy lost to friction over W δ. Findings, not judged.",
         units=NONE,
@@ -87,9 +92,8 @@ def number_table(found: Found) -> Table:
 def _cells_of(one: Difference) -> list[str]:
     return [
         f"{STATUS[one.status]} {plain(one.value, 2)}",
-        plain(one.cells, 2),
-        plain(one.elements, 2),
-        one.nearer,
+        *(plain(error, 2) for error in one.own.values()),
+        one.odd or "–",
     ]
 
 
