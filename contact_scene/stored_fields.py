@@ -96,6 +96,7 @@ class FieldStore:
             self._file.write(np.ascontiguousarray(array).data)
             self._file.flush()
         except OSError as error:
-            error.filename = f"{tempfile.gettempdir()} (TMPDIR), for the fields of increments"
+            folder = tempfile.tempdir or "temporary files"  # where there is none, asking raises
+            error.filename = f"{folder} (TMPDIR), for the fields of increments"
             raise
         return _Stored(self._file, offset, array.dtype, array.shape)

@@ -1,0 +1,121 @@
+"""Fields beyond what memory holds go into a file of TMPDIR: what happens where it cannot grow, or
+there is no such folder, or the run is killed."""
+
+import os
+import signal
+import subprocess
+import sys
+import tempfile
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+from command import outcome
+
+from contact_scene import stored_fields
+
+resource = pytest.importorskip("resource")
+
+ROOT = Path(__file__).resolve().parents[1]
+SCENE = """
+[indenter]
+shape = "sphere"
+radius = "18 mm"
+material = { young_modulus = "210 GPa", poisson_ratio = 0.3 }
+[body]
+material = { young_modulus = "210 GPa", poisson_ratio = 0.3 }
+[friction]
+coefficient = 0.1
+[[loading]]
+normal_force = "1 kN"
+[[loading]]
+tangential_force = ["60 N", 0]
+increments = 4
+[semi_analytical]
+cells = [32, 32]
+"""
+RUNS = {
+    "run": ("run", "scene.toml", "-o", "out", "--no-figures"),
+    "to an accuracy": ("run", "scene.toml", "-o", "out", "--no-figures", "--accuracy", "20%"),
+    "stress": ("stress", "scene.toml", "-o", "out", "--no-figures"),
+}
+
+
+@pytest.fixture(autouse=True)
+def _everything_is_spilled(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> Iterator[None]:
+    monkeypatch.setattr(stored_fields, "MOST_HELD", 0)
+    monkeypatch.setenv("SLIPSTICK_CACHE_DIR", "")
+    monkeypatch.setattr(tempfile, "tempdir", str(tmp_path / "temporary"))
+    (tmp_path / "temporary").mkdir()
+    (tmp_path / "scene.toml").write_text(SCENE, encoding="utf-8")
+    limits = resource.getrlimit(resource.RLIMIT_FSIZE)
+    yield
+    resource.setrlimit(resource.RLIMIT_FSIZE, limits)
+
+
+def left(folder: Path) -> list[str]:
+    return sorted(str(path.relative_to(folder)) for path in folder.rglob("*"))
+
+
+@pytest.mark.parametrize("words", RUNS.values(), ids=RUNS)
+def test_a_file_that_cannot_grow_is_told_and_nothing_is_left(
+    words: tuple[str, ...], tmp_path: Path
+) -> None:
+    _, hard = resource.getrlimit(resource.RLIMIT_FSIZE)
+    resource.setrlimit(resource.RLIMIT_FSIZE, (20_000, hard))  # five fields
+    ended = outcome(*words, cwd=tmp_path)
+    assert ended.returncode == 4
+    (told,) = (line for line in ended.stderr.splitlines() if line.startswith("error"))
+    assert f"{tmp_path / 'temporary'} (TMPDIR), for the fields of increments: " in told
+    assert left(tmp_path) == ["scene.toml", "temporary"]
+
+
+def test_where_no_folder_takes_temporary_files_it_says_what_to_set(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(tempfile, "tempdir", None)
+    monkeypatch.setattr(tempfile, "_candidate_tempdir_list", lambda: [str(tmp_path / "none")])
+    ended = outcome(*RUNS["run"], cwd=tmp_path)
+    assert ended.returncode == 2
+    told = ended.stderr.splitlines()[-1]
+    assert told.startswith("error: temporary files (TMPDIR), for the fields of increments: No usab")
+    assert str(tmp_path / "none") in told
+    assert left(tmp_path) == ["scene.toml", "temporary"]
+
+
+SPILLING = f"""
+import sys
+sys.path.insert(0, {str(ROOT)!r})
+from contact_scene import stored_fields
+stored_fields.MOST_HELD = 0
+put = stored_fields.FieldStore._put
+def told(store, array):
+    kept = put(store, array)
+    print("spilled", flush=True)
+    return kept
+stored_fields.FieldStore._put = told
+from slipstick.cli import main
+main()
+"""
+
+
+@pytest.mark.parametrize("words", [RUNS["run"], RUNS["to an accuracy"]], ids=["run", "accuracy"])
+def test_a_killed_run_leaves_nothing_among_temporary_files(
+    words: tuple[str, ...], tmp_path: Path
+) -> None:
+    started = subprocess.Popen(
+        [sys.executable, "-c", SPILLING, *words], cwd=tmp_path, text=True,
+        stdout=subprocess.PIPE, stderr=subprocess.DEVNULL,
+        env=os.environ | {"TMPDIR": str(tmp_path / "temporary")},
+    )  # fmt: skip
+    assert started.stdout is not None
+    for _ in range(9):
+        assert started.stdout.readline() == "spilled\n"
+    started.send_signal(signal.SIGKILL)
+    started.communicate()
+    assert started.returncode == -signal.SIGKILL
+    assert left(tmp_path / "temporary") == []
+    assert outcome(*words, cwd=tmp_path).returncode == 0
+    assert left(tmp_path / "temporary") == []
+    hidden = [path.name for path in tmp_path.iterdir() if path.name.startswith(".")]
+    assert hidden == []
