@@ -16,7 +16,7 @@ from verification.studies.promises.commands import EAGER, begun, ended, results,
 from verification.studies.promises.promise import Attempt
 from verification.studies.promises.scenes import CONTACT, LAYER, absurd, fretting
 
-SOLVERS = ("semi-analytical", "fem", "fem-complementarity")
+SOLVERS = ("semi-analytical", "fem", "fem-complementarity", "radial")
 QUIET = ("--no-figures", "--no-error")
 WITHIN = 0.15  # of the peak
 LONGEST = 10.0  # CPU seconds of a plan
@@ -35,7 +35,7 @@ def _scene(text: str) -> Iterator[Path]:
 def repeated(count: int) -> Iterator[Attempt]:
     """The same run in a fresh process, with one thread and with two, by solver in turn."""
     for number in range(count):
-        solver, threads = SOLVERS[number % 3], 2 - number // 3 % 2
+        solver, threads = SOLVERS[number % len(SOLVERS)], 2 - number // len(SOLVERS) % 2
         files = []
         with _scene(fretting(layer=FILM if number % 2 else "", pushes=2)) as folder:
             for out, used in (("one", 1), ("other", threads)):
@@ -51,7 +51,7 @@ def killed(count: int) -> Iterator[Attempt]:
     """One run after the other is killed at some time, then ends; what it leaves is compared."""
     chance = random.Random(7)
     for number in range(0, count, 5):
-        solver = SOLVERS[number // 5 % 3]
+        solver = SOLVERS[number // 5 % len(SOLVERS)]
         words = ("run", "scene.toml", "--solver", solver, "-o", "out", *QUIET)
         with _scene(fretting(cells=24, elements=6, layer=FILM, pushes=6)) as folder:
             run(folder, *words, program=EAGER)  # the cache is filled, as it will be for all others
@@ -82,7 +82,12 @@ COMMANDS = (
     ("run", "scene.toml", "-o", "out"),
     ("run", "scene.toml", "-o", "out", "--solver", "fem"),
     ("run", "scene.toml", "-o", "out", "--accuracy", "1%"),
+    ("run", "scene.toml", "-o", "out", "--solver", "radial"),
     ("stress", "scene.toml", "-o", "out"),
+    ("frf", "scene.toml", "-o", "out"),
+    ("challenge", "export", "hertz_point", "-o", "out"),
+    ("table", "ball"),
+    ("history", "-o", "history.html"),
     ("plan", "scene.toml", "--accuracy", "1%"),
     ("verify", "hertz_point", "-o", "out"),
     ("study", "cross-check", "-o", "out", "--workers", "1"),
@@ -110,7 +115,7 @@ def estimated(count: int) -> Iterator[Attempt]:
     """Memory that is planned, against the peak of the run, writing and figures included."""
     chance = random.Random(9)
     for number in range(count):
-        solver = SOLVERS[number % 3]
+        solver = SOLVERS[number % len(SOLVERS)]
         film = LAYER.format(
             thickness=CONTACT * 2.0 ** chance.uniform(-2, 2),
             modulus=210.0 * 2.0 ** chance.uniform(-2, 2), nu=chance.uniform(0.1, 0.45),
@@ -118,7 +123,7 @@ def estimated(count: int) -> Iterator[Attempt]:
         text = fretting(
             cells=2 * round(2.0 ** chance.uniform(4, 8)), elements=chance.choice((8, 16, 32)),
             nu=chance.choice((0.3, 0.2)), layer=film if chance.random() < 0.5 else "",
-            pushes=chance.choice((0, 2)) if solver == "semi-analytical" else 0,
+            pushes=chance.choice((0, 2)) if solver in ("semi-analytical", "radial") else 0,
         )  # fmt: skip
         words = ("scene.toml", "--solver", solver)
         with _scene(text) as folder:

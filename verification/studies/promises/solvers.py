@@ -18,6 +18,7 @@ from contact_scene import (
     Body,
     CoulombFriction,
     Ellipsoid,
+    HeightMap,
     IsotropicMaterial,
     LoadStep,
     Scene,
@@ -32,6 +33,9 @@ TOLERANCE = 1e-8
 # arithmetic takes. Where they do, iterations stop at the tolerance, and rounding decides where
 # within it: two answers are as far apart as it leaves open.
 ROUNDING = 1e-12
+# Tolerances by which two answers may differ whose residuals are within it, but that were come to
+# on other ways.
+OPEN = 10.0
 MU, YOUNG, NU, LOAD, RADIUS = 0.1, 420e9, 0.3, 1e3, 0.018
 CELLS, WINDOW = (24, 20), (1.4e-3, 1.6e-3)
 DRIFT, GROWTH = 1e-6, 0.01
@@ -90,8 +94,13 @@ def _allowed(nu: float) -> float:
     return ROUNDING if nu == NU else TOLERANCE
 
 
-def _end(described: Scene, cells: tuple[int, int] = CELLS, window: Pair = WINDOW) -> Any:
-    return solve(described, SurfaceGrid(cells, window), TOLERANCE).steps[-1]
+def _end(
+    described: Scene,
+    cells: tuple[int, int] = CELLS,
+    window: Pair = WINDOW,
+    tolerance: float = TOLERANCE,
+) -> Any:
+    return solve(described, SurfaceGrid(cells, window), tolerance).steps[-1]
 
 
 def symmetric(count: int) -> Iterator[Attempt]:
@@ -120,6 +129,42 @@ def symmetric(count: int) -> Iterator[Attempt]:
         )
         allowed = _allowed(nu)
         yield Attempt(apart <= allowed, f"{kind}, ν = {nu:g}: {apart:.1e}", apart / allowed)
+
+
+def moved(count: int) -> Iterator[Attempt]:
+    """The whole surface by some cells along x and y: a rough one, whose heights are given there.
+
+    Iterations begin with the answer on coarser cells, into which the move does not fit, and so
+    stop elsewhere within the tolerance.
+    """
+    chance, spacing, cells = random.Random(16), WINDOW[0] / CELLS[0], (32, 30)
+    x, y = (spacing * (np.arange(n) - 0.5 * (n - 1)) for n in cells)
+    window = (cells[0] * spacing, cells[1] * spacing)
+    for number in range(count):
+        tolerance = (1e-8, 1e-10, 1e-12)[number % 3]
+        one, two, radii, nu = _drawn(chance)
+        waves = [chance.uniform(1e4, 4e4) for _ in "xy"]
+        rough = 1e-8 * np.sin(waves[0] * x[:, None]) * np.cos(waves[1] * y)
+        heights = x[:, None] ** 2 / (2 * radii[0]) + y**2 / (2 * radii[1]) + rough
+        shift = (chance.randint(-3, 3), chance.choice((-2, -1, 1, 2)))
+        ends = []
+        for by in ((0, 0), shift):
+            moved_by = np.roll(heights, by, (0, 1))
+            described = _scene(one, two, radii, nu)
+            surface = HeightMap.model_validate(
+                {"file": moved_by, "spacing": spacing, "material": described.indenter.material}
+            )
+            described = described.model_copy(update={"indenter": surface})
+            ends.append(_end(described, cells, window, tolerance))
+        plain, other = ends
+        peak = np.max(plain.pressure)
+        apart = max(
+            float(np.max(np.abs(other.pressure - np.roll(plain.pressure, shift, (0, 1)))) / peak),
+            float(np.max(np.abs(other.shear - np.roll(plain.shear, shift, (1, 2)))) / (MU * peak)),
+        )
+        allowed = OPEN * tolerance
+        told = f"moved by {shift}, ν = {nu:g}, tolerance {tolerance:g}: {apart:.1e}"
+        yield Attempt(apart <= allowed, told, apart / allowed)
 
 
 def scaled(count: int) -> Iterator[Attempt]:
