@@ -16,9 +16,9 @@ PER_WAVE = 11_300  # bytes; most of it where figures show the stress
 # With friction: rings, and what is kept of contacts of many radii until there is no more room.
 PER_WAVE_RUBBING, RINGS = 8_600, 36_000_000
 PER_WAVE_KEPT, MOST_KEPT = 8_300, 39_000_000
-# Of pushed contacts: rings about the edge and outside, and how many matrices of all unknowns there
-# are at a time.
-BESIDE, HELD = 16, 6
+# Of pushed contacts, whose rings and angles are always as many: figures are drawn when what the
+# solve has taken is free again.
+PUSHED, PER_WAVE_PUSHED, DRAWN = 133 << 20, 8_600, 181 << 20
 
 
 def estimated_bytes(scene: Scene, plan: Plan) -> int:
@@ -26,11 +26,11 @@ def estimated_bytes(scene: Scene, plan: Plan) -> int:
 
     Raises UnsupportedScene for contacts too large on too thin layers.
     """
-    libraries = LIBRARIES + LIGHT * sum(plan.increments)
+    told = LIGHT * sum(plan.increments)
+    libraries = LIBRARIES + told
     waves = _wavenumbers(scene)
     if plan.pushed:
-        unknowns = 3 * (plan.rings + BESIDE) * plan.angles
-        return libraries + PER_WAVE * waves + HELD * 8 * unknowns**2
+        return told + max(PUSHED + PER_WAVE_PUSHED * waves, DRAWN)
     if not plan.coupled:
         return libraries + PER_WAVE * waves
     kept = min(PER_WAVE_KEPT * waves, MOST_KEPT)

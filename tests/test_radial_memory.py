@@ -32,11 +32,13 @@ normal_force = 1000
 increments = 2
 """
 FRICTION = "[friction]\ncoefficient = 0.1"
+PUSH = "[[loading]]\ntangential_force = [60, 0]\nincrements = 2"
 slow = pytest.mark.slow
 
 
-def scene(thickness: float, modulus: float = 420e9, friction: str = "") -> str:
-    return SCENE.format(thickness=thickness, modulus=modulus, friction=friction)
+def scene(thickness: float, modulus: float = 420e9, friction: str = "", push: str = "") -> str:
+    pressed = SCENE.format(thickness=thickness, modulus=modulus, friction=friction)
+    return f"{pressed}{push}\n"
 
 
 @pytest.mark.skipif(sys.platform != "linux", reason="the peak is read from /proc")
@@ -49,6 +51,8 @@ def scene(thickness: float, modulus: float = 420e9, friction: str = "") -> str:
         pytest.param(scene(1e-5, friction=FRICTION), id="thin, rubbed", marks=slow),
         pytest.param(scene(1e-6), id="film, pressed", marks=slow),
         pytest.param(scene(3e-6, friction=FRICTION), id="film, rubbed", marks=slow),
+        pytest.param(scene(1e-4, friction=FRICTION, push=PUSH), id="pushed", marks=slow),
+        pytest.param(scene(6e-6, friction=FRICTION, push=PUSH), id="thin, pushed", marks=slow),
         pytest.param(scene(3e-4, 210e3), id="soft", marks=slow),
         pytest.param(scene(1e-5, 210e15), id="stiff", marks=slow),
     ],
