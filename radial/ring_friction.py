@@ -12,7 +12,7 @@ point slips along w, w·q = µp, so that q across w is left.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 import numpy as np
@@ -94,7 +94,8 @@ def held(
     """The state under loads.
 
     before  the state from which surfaces slip; None: they have not touched
-    raises  NotConverged; GrossSliding from T = µW on; ContactAtZoneEdge at the last ring
+    raises  NotConverged; GrossSliding from T = µW on, where the approach is led of the W without T;
+            ContactAtZoneEdge at the last ring
     """
     if loads.drag and loads.force is not None and abs(loads.drag) >= friction * loads.force:
         raise _slides(loads.drag, friction * loads.force)
@@ -104,10 +105,17 @@ def held(
     for step in range(MOST_STEPS):
         if at.worst <= tolerance:
             return _ended(laws, at, step)
-        aim = laws.next(at)
-        if aim is None:
-            break
-        at = _nearer(laws, at, aim, SHORTEST if step >= AT_ONCE else 1.0)
+        # Where nothing carries the force steps grow without end, until a number is none.
+        with np.errstate(over="ignore", invalid="ignore"):
+            aim = laws.next(at)
+            if aim is None:
+                break
+            at = _nearer(laws, at, aim, SHORTEST if step >= AT_ONCE else 1.0)
+    if loads.drag and loads.force is None:
+        pressed = held(points, friction, replace(loads, drag=0.0), before, tolerance)
+        carried = friction * float(points.areas @ pressed.pressure)
+        if abs(loads.drag) >= carried:
+            raise _slides(loads.drag, carried)
     raise NotConverged("contact and friction on rings", MOST_STEPS, at.worst, tolerance)
 
 
@@ -123,7 +131,7 @@ def _nearer(laws: _Laws, at: _At, aim: Array, shortest: float) -> _At:
 
 
 def _slides(drag: float, carried: float) -> GrossSliding:
-    return GrossSliding(f"T = {drag:g} N is not below µW = {carried:g} N: the indenter slides")
+    return GrossSliding(f"T = {abs(drag):g} N is not below µW = {carried:g} N: the indenter slides")
 
 
 def _ended(laws: _Laws, at: _At, steps: int) -> Held:
@@ -209,7 +217,10 @@ class _Laws:
         missed = np.concatenate([q - (_shortened(y, limit) * y).ravel(), p - np.maximum(z, 0.0)])
         # Shear is to be as near to its limit as pressure to itself.
         beyond = np.max(np.abs(missed[: 2 * size])) / max(self.friction, LEAST_FRICTION)
-        worst = max(beyond, np.max(np.abs(missed[2 * size :]))) / np.max(np.abs(p))
+        peak = np.max(np.abs(p))
+        worst = max(beyond, np.max(np.abs(missed[2 * size :]))) / peak if peak > 0 else np.inf
+        if not np.isfinite(worst):
+            return _At(x, missed, z, y, limit, u, np.inf)
         for now, wanted, size_of in (
             (points.areas @ p, loads.force, loads.force),
             (approach, loads.approach, loads.approach),

@@ -1,6 +1,7 @@
 """The study of promises: each try can be broken, and what is broken is counted and told."""
 
 from collections.abc import Iterable
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -10,7 +11,18 @@ from verification.judging.case import Level
 from verification.judging.outcome import Status
 from verification.running.row import CaseRecord
 from verification.running.study import Settings
-from verification.studies.promises import kept, planted, processes, solvers, study, texts
+from verification.studies.promises import (
+    kept,
+    pages,
+    paths,
+    planted,
+    processes,
+    revolution,
+    solvers,
+    study,
+    texts,
+)
+from verification.studies.promises.browser import ACT, chromium
 from verification.studies.promises.promise import Attempt, Promise
 from verification.studies.promises.promises import PROMISES
 from verification.studies.promises.study import STUDY, Trial
@@ -27,7 +39,7 @@ def some_broken(attempts: Iterable[Attempt]) -> bool:
 @pytest.mark.parametrize(
     ("name", "count"),
     [("lines", 60), ("bytes", 60), ("numbers", 60), ("damage", 57), ("symmetry", 3), ("scale", 2),
-     ("not-a-number", 2), ("soak", 4)],
+     ("not-a-number", 2), ("soak", 4), ("paths", 60), ("moved", 3), ("turned", 2), ("units", 2)],
 )  # fmt: skip
 def test_promise_is_kept(name: str, count: int) -> None:
     assert all_kept(PROMISES[name].attempts(count))
@@ -74,6 +86,48 @@ def test_lopsided_solver_breaks_the_promise(monkeypatch: pytest.MonkeyPatch) -> 
 
     monkeypatch.setattr(solvers, "solve", lopsided)
     assert some_broken(solvers.symmetric(3))
+
+
+def test_solver_that_knows_where_the_middle_is_breaks_the_promise(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr(solvers, "OPEN", 1e-9)
+    assert some_broken(solvers.moved(3))
+
+
+@pytest.mark.parametrize("name", ["turned", "scaled"])
+def test_direction_and_unit_that_count_break_the_promise(
+    name: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    sound = revolution._end
+
+    def lopsided(*given: object, **changes: float) -> object:
+        end = sound(*given, **changes)  # type: ignore[arg-type]
+        return replace(end, approach=end.approach * (1 + 1e-8 * len(changes)))
+
+    monkeypatch.setattr(revolution, "_end", lopsided)
+    assert some_broken(getattr(revolution, name)(1))
+
+
+def test_reading_elsewhere_breaks_the_promise(monkeypatch: pytest.MonkeyPatch) -> None:
+    sound = paths.read_scene_file
+
+    def curious(path: Path) -> object:
+        (path.parent.parent / "out" / "h.npy").read_bytes()
+        return sound(path)
+
+    monkeypatch.setattr(paths, "read_scene_file", curious)
+    broken = [attempt.told for attempt in paths.escaping(20) if not attempt.kept]
+    assert broken
+    assert all("opened" in told for told in broken)
+
+
+@pytest.mark.skipif(chromium() is None, reason="no Chromium here")
+def test_page_that_runs_what_it_shows_breaks_the_promise(monkeypatch: pytest.MonkeyPatch) -> None:
+    assert all_kept(pages.shown(1))
+    page = f"<!doctype html><title>x</title><script>{ACT}</script>"
+    monkeypatch.setattr(pages, "PAGES", {"a run": lambda text: page})
+    assert some_broken(pages.shown(1))
 
 
 def test_answer_from_a_number_that_is_none_breaks_the_promise(

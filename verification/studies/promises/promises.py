@@ -46,7 +46,7 @@ PROMISES = {
         Promise(
             "paths", "a name that leads elsewhere is refused; nothing there is opened or written",
             "names with .., links, devices, drives, of height maps, friction maps, cases, studies",
-            (60, 122), paths.escaping,
+            (60, 120), paths.escaping,
         ),
         Promise(
             "pages", "of payloads in the texts of a page 0 run, and 0 ask for anything",

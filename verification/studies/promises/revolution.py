@@ -12,6 +12,7 @@ import numpy as np
 
 import radial
 from contact_scene import (
+    RIGID,
     Body,
     CoulombFriction,
     FiniteElementDiscretisation,
@@ -83,7 +84,7 @@ def _end(
     films = (Layer(thickness=FILM * length, material=material(film)),) if film else ()
     described = Scene(
         indenter=Paraboloid(
-            radius=RADIUS * length, material="rigid" if rigid else material(1.0),
+            radius=RADIUS * length, material=RIGID if rigid else material(1.0),
             layers=() if rigid else films,
         ),
         body=Body(material=material(1.0), layers=films),
