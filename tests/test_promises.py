@@ -126,7 +126,7 @@ def test_reading_elsewhere_breaks_the_promise(monkeypatch: pytest.MonkeyPatch) -
 def test_page_that_runs_what_it_shows_breaks_the_promise(monkeypatch: pytest.MonkeyPatch) -> None:
     assert all_kept(pages.shown(1))
     page = f"<!doctype html><title>x</title><script>{ACT}</script>"
-    monkeypatch.setattr(pages, "PAGES", {"a run": lambda text: page})
+    monkeypatch.setattr(pages, "page_of_a_run", lambda title: page)
     assert some_broken(pages.shown(1))
 
 

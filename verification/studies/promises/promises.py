@@ -49,9 +49,9 @@ PROMISES = {
             (60, 120), paths.escaping,
         ),
         Promise(
-            "pages", "of payloads in the texts of a page 0 run, and 0 ask for anything",
-            "40 payloads in the texts of a run, a study and a history, opened in Chromium",
-            (6, 120), pages.shown,
+            "pages", "of payloads in a title 0 are run by the page, and 0 ask for anything",
+            "40 kinds of script and request, each as the title; the page opened in Chromium",
+            (6, 40), pages.shown,
         ),
         Promise(
             "symmetry", "the mirrored or turned problem has that answer, within "
