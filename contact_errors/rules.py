@@ -166,6 +166,14 @@ ALONE = EDGES | with_their_likes(
 CAP = {"peak_pressure": replace(PEAK, least=1.0)}
 # Where friction acts back on a pressing contact its pressure has a cusp on the axis.
 CUSP = {"peak_pressure": replace(PEAK, order=1, factor=1.65, lengthscale=Lengthscale.CUSP)}
+# Where bodies couple, of states with their edges inside the cells: the cusp and the front of a
+# stick zone that grows remain those of cells, and slip reaches less far in than a contact does.
+COUPLED = with_their_likes(
+    {
+        "approach": replace(EDGES["approach"], envelope=0.005),
+        "contact_radius": replace(EDGES["contact_radius"], envelope=0.012),
+    }
+)
 # A rim lies within cells: whatever holds the indenter is off as the radius a that the cells make of
 # it is, motions and energies with 1/a, rotations with 1/a³.
 RIM = Rule(1, 0.2, 8, 1.45, path_factor=1.5)
@@ -200,6 +208,8 @@ def rules_for(
     layers  whether a body has any
     """
     with_edges = ALONE if alone else EDGES
+    if cusp:
+        with_edges = CUSP | ({name: ALONE[name] for name in COUPLED} if alone else COUPLED)
     without = CAP if isinstance(indenter, SmoothTip) and not layers else {}
     rules = RULES | (with_edges if edges else CUSP if cusp else without)
     if indenter.rim is not None:

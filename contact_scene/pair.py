@@ -32,12 +32,19 @@ def dundurs_beta(scene: Scene) -> float | None:
 
     None where one of the bodies is not the same all through.
     """
-    difference = total = 0.0
-    for sign, body in ((1, scene.body), (-1, scene.indenter)):
+    for body in (scene.body, scene.indenter):
         if any(layer.material != body.material for layer in body.layers):
             return None
-        if isinstance(body.material, IsotropicMaterial):
-            nu, G = body.material.poisson_ratio, body.material.shear_modulus
+    return outermost_beta(scene)
+
+
+def outermost_beta(scene: Scene) -> float:
+    """The same of the outermost materials, which decide what happens at an edge."""
+    difference = total = 0.0
+    for sign, body in ((1, scene.body), (-1, scene.indenter)):
+        material = _outermost(body)
+        if isinstance(material, IsotropicMaterial):
+            nu, G = material.poisson_ratio, material.shear_modulus
             difference += sign * (1 - 2 * nu) / G
             total += (1 - nu) / G
     return 0.5 * difference / total

@@ -74,6 +74,10 @@ def _correction(model: ContactModel, plan: Plan) -> Correct | None:
     """How edges are put inside the cells, where they are."""
     if plan.edge == "off":
         return None
+    if plan.coupling is Coupling.FULL:
+        from semi_analytical.edge_correction.coupled import CoupledEdgeCorrection
+
+        return CoupledEdgeCorrection(model)
     from semi_analytical.edge_correction.state import EdgeCorrection
 
     return EdgeCorrection(model)

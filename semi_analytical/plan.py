@@ -139,11 +139,11 @@ def _edges(scene: Scene, asked: EdgeCorrection, torsion: bool, coupled: bool) ->
         return False, "not asked for: tractions are constant on cells up to their edges"
     if scene.indenter.rim is not None:
         return False, "below the rim of a flat punch the pressure rises to its edge"
-    if coupled:
-        return False, "not known of bodies that couple"
+    if coupled and asked == "last":
+        return False, 'of bodies that couple at the end of every increment ("all") or not at all'
     if torsion:
         return False, "not known of contacts that twist"
     if scene.friction is not None and scene.friction.uniform is None:
         return False, "not known of friction that varies from place to place"
     when = "increment" if asked == "all" else "step"
-    return True, f"at the end of each {when} tractions fall to zero like roots, inside the cells"
+    return True, f"at the end of each {when} tractions fall to zero inside the cells"

@@ -82,7 +82,14 @@ ORDERS = {
         *("means", "quadratic", "fit", "shape"),
         *("kernels", "displacement", "rim", "peak", "corrected"),
     ),
-    "semi_analytical.edge_correction": ("mixing", "operators", "pressure", "shear", "state"),
+    "semi_analytical.edge_correction": (
+        "mixing",
+        "operators",
+        "pressure",
+        "shear",
+        "coupled",
+        "state",
+    ),
     "fem_reference": (
         *("memory", "scales", "mesh", "elasticity", "path", "refusals"),
         *("effects", "plan", "loads", "residuals", "fields", "energy", "model", "history"),

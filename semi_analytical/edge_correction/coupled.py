@@ -1,0 +1,277 @@
+"""Pressure and shear of bodies that couple, with their edges inside the cells.
+
+Where friction slips at the edge of a contact, the shear and the pressure that goes with it fall to
+zero like s^α, s the distance from the edge and
+
+    α = ½ + arctan(µβ q·n/|q|)/π
+
+with n the outward normal and Dundurs' β of the outermost materials: in a wedge of slip at the edge
+u_z' = -(2/E*)(H p + β q) on both sides of it, H the Hilbert transform (Comninou 1976 for the plane
+problem; near its edge every smooth contact is plane). Fitted with that exponent, p^(1/α) passes
+smoothly through zero. Within the cells the shear is what the pressure is there, times their ratio,
+and each moves the surface in the other's direction, too.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.ndimage import correlate1d, distance_transform_edt, gaussian_filter
+
+from contact_scene.pair import outermost_beta
+from contact_scene.solver_errors import NotConverged
+from semi_analytical.admissible_shear import ShearSum, Vector, magnitude
+from semi_analytical.box import Box
+from semi_analytical.contact_area import stuck_cells
+from semi_analytical.edge.corrected import Corrected, CorrectedShear
+from semi_analytical.edge.displacement import Within
+from semi_analytical.edge.peak import peak_of
+from semi_analytical.edge.rim import Rim, rim
+from semi_analytical.edge_correction.mixing import Mixing
+from semi_analytical.edge_correction.operators import EdgeOperators
+from semi_analytical.edge_correction.pressure import ENOUGH, MOST_ROUNDS, MOST_UNSAFE, settles
+from semi_analytical.edge_correction.shear import BESIDE, direction_of_slip, displacement_within
+from semi_analytical.increment import State
+from semi_analytical.model import ContactModel
+from semi_analytical.normal import NormalSolution, solve_normal
+from semi_analytical.sheared import Sheared, rigid
+from semi_analytical.tangential import TangentialSolution, solve_tangential
+
+Field = NDArray[np.float64]
+VectorField = NDArray[np.float64]
+Mask = NDArray[np.bool_]
+WithinVector = tuple[Within, Within]
+
+# Of pressure and shear in a round, Σ|Δp|/Σp and Σ|Δq|/Σµp: what follows is a fifth of it.
+SETTLED = 1e-5
+# Of the largest pressure, below which a cell does not tell the ratio of shear to pressure.
+TOLD = 0.02
+# Of cells outwards from there that have the ratio of those beside: more than a rim has.
+LAYERS = 4
+# Cells over which the distance from the edge is smoothed to have its normal.
+SMOOTHED = 2.0
+
+
+class CoupledEdgeCorrection:
+    """Of the states of a model. They remain as they are, and so does what follows from them."""
+
+    def __init__(self, model: ContactModel) -> None:
+        self._operators = EdgeOperators(model)
+
+    def __call__(
+        self, last: State | None, state: State, *, way_known: bool, tolerance: float
+    ) -> Corrected | None:
+        """The state with its edges inside the cells; None where that is not safe: the contact is
+        too thin, its edge is rough, all slides, or the rounds do not settle.
+
+        last       the state before, the corrected one where there is one; None before first touch
+        way_known  whether it is that of the increment before: friction remembers the way
+        """
+        solved = state.sheared
+        assert solved is not None
+        if not way_known or solved.shift is None or not np.any(solved.in_stick):
+            return None
+        model = self._operators.model
+        target = np.zeros_like(solved.shear)
+        if last is not None:
+            assert last.sheared is not None
+            edged = last.corrected.sheared if last.corrected else None
+            before = edged or last.sheared
+            assert before.shift is not None
+            target = before.displacement - rigid(model, before.shift)
+        return _Problem(self._operators, state, solved, solved.shift, target, tolerance).corrected()
+
+
+class _Answer(NamedTuple):
+    """Of a round: tractions (q_x/µ, q_y/µ, p), and what they follow from."""
+
+    tractions: Field
+    pressed: NormalSolution
+    gap: Field
+    sheared: TangentialSolution
+    displacement: VectorField
+    within: WithinVector
+
+
+@dataclass(frozen=True)
+class _Problem:
+    """An increment.
+
+    solved, shift  its shear on cells, and the shift that goes with it
+    target         u_t - shift of the state before (2, nx, ny) [length]
+    """
+
+    operators: EdgeOperators
+    state: State
+    solved: Sheared
+    shift: Vector
+    target: VectorField
+    tolerance: float
+
+    @property
+    def model(self) -> ContactModel:
+        return self.operators.model
+
+    @cached_property
+    def mu(self) -> float:
+        mu = self.model.friction.uniform
+        assert mu is not None
+        return mu
+
+    @cached_property
+    def exponent(self) -> Field:
+        """With which power of the distance the tractions of the cells nearest fall (nx, ny)."""
+        p = self.state.pressing.pressure
+        inside = p > 0
+        depth = distance_transform_edt(inside) - distance_transform_edt(~inside)
+        outward = -np.stack(np.gradient(gaussian_filter(depth, SMOOTHED)))
+        size = magnitude(outward)
+        outward /= np.where(size > 0, size, 1.0)
+        ratio = _ratio(p, self.solved.shear)
+        beta = outermost_beta(self.model.scene)
+        return np.asarray(0.5 + np.arctan(beta * np.sum(ratio * outward, axis=0)) / np.pi)
+
+    def corrected(self) -> Corrected | None:
+        """The state of the last round; None where it is not safe."""
+        p, shift, mixing = self.state.pressing.pressure, self.shift, Mixing()
+        x = np.concatenate([self.solved.shear / self.mu, p[None]])
+        edge, changes = self._rim(p, None), []
+        for number in range(MOST_ROUNDS):
+            if edge is None or edge.unsafe > MOST_UNSAFE:
+                return None
+            try:
+                answer = self.solve(x, shift, edge)
+            except NotConverged:
+                return None
+            shift = answer.sheared.motion
+            change = answer.tractions - x
+            sizes = np.sum(np.abs(change[2])), np.sum(magnitude(change[:2]))
+            changes.append(float(max(sizes) / np.sum(x[2])))
+            if changes[-1] < SETTLED or number == MOST_ROUNDS - 1:
+                break
+            x = _allowed(x + change if number == 0 else mixing.next(x, change))
+            edge = self._rim(x[2], edge)
+        return self._state(answer, edge, changes[-1]) if settles(changes) else None
+
+    def _rim(self, p: Field, before: Rim | None) -> Rim | None:
+        return rim(p, p > 0, before, self.exponent)
+
+    def solve(self, x: Field, shift: Vector, edge: Rim) -> _Answer:
+        """The tractions with the edge where it is: the pressure below the last shear, then the
+        shear at that pressure.
+
+        Cells that the contact only reaches into carry what the fit says of them.
+        """
+        model, of, cells = self.model, self.operators, self.model.grid.cells
+        normal, coupling = model.normal_operator(cells), model.coupling_operator(cells)
+        tangential = model.tangential_operator(cells)
+        q, p = self.mu * x[:2], x[2]
+        by_p = Within.of(p, edge.i, edge.j, edge.parts)
+        by_q = _within(q, p, by_p, edge)
+        reached = np.where(edge.outer, edge.means, 0.0)
+        gap = self.state.target.gap(model) + of["zz"](by_p) + normal(reached)
+        gap += of["zx"](by_q[0]) + of["zy"](by_q[1]) + coupling.normal_by_shear(q)
+        load = self.state.target.on(model, Box.whole(cells))
+        pressed = solve_normal(
+            normal,
+            normal.precondition,
+            np.where(edge.outer, np.inf, gap),
+            load.less(reached),
+            np.where(edge.outer, 0.0, p),
+            self.tolerance,
+            ENOUGH,
+        )
+        p = pressed.pressure + reached
+        # xz and yz are zx and zy with the opposite sign: what moves the surfaces apart at a place
+        # by shear elsewhere moves them sideways there by pressure here.
+        beside = displacement_within(of, by_q) - np.stack([of["zx"](by_p), of["zy"](by_p)])
+        beside += coupling.tangential_by_pressure(p)
+        sheared = solve_tangential(
+            tangential,
+            tangential.precondition,
+            model.friction.limit(p),
+            self.target - beside,
+            ShearSum(self.solved.force / model.grid.cell_area),
+            q,
+            shift,
+            model.self_compliance,
+            self.tolerance,
+            ENOUGH,
+        )
+        return _Answer(
+            np.concatenate([sheared.shear / self.mu, p[None]]),
+            pressed,
+            gap + pressed.displacement - load.closure(pressed.motion),
+            sheared,
+            sheared.displacement + beside,
+            by_q,
+        )
+
+    def _state(self, answer: _Answer, edge: Rim | None, change: float) -> Corrected:
+        assert edge is not None
+        sheared, p = answer.sheared, answer.tractions[2]
+        bound = self.model.friction.limit(p)
+        stick = (bound > 0) & ~sheared.in_slip
+        approach, tilt = self.state.target.reached(self.model, answer.pressed.motion)
+        return Corrected(
+            pressure=p,
+            peak=peak_of(p),
+            gap=np.where(edge.region, 0.0, np.maximum(answer.gap, 0.0)),
+            approach=approach,
+            contact_cells=edge.area,
+            change=change,
+            edge=edge,
+            tilt=tilt,
+            sheared=CorrectedShear(
+                shear=sheared.shear,
+                within=answer.within,
+                slip=direction_of_slip(sheared.shear, sheared.in_slip),
+                displacement=answer.displacement,
+                shift=sheared.motion,
+                stick=stick,
+                stick_cells=stuck_cells(sheared.shear, bound, stick),
+                change=change,
+            ),
+        )
+
+
+def _ratio(p: Field, q: VectorField) -> VectorField:
+    """q/p (2, nx, ny), where there is little pressure that of the cells beside, layer by layer."""
+    told = p > TOLD * np.max(p)
+    ratio = np.where(told, q / np.where(told, p, 1.0), 0.0)
+    for _ in range(LAYERS):
+        count, *about = (_sum_about(field) for field in (told.astype(float), *ratio))
+        new = ~told & (count > 0.5)
+        ratio = np.where(new, about / np.where(new, count, 1.0), ratio)
+        told |= new
+    return ratio
+
+
+def _sum_about(field: Field) -> Field:
+    beside = correlate1d(field, BESIDE, 0, mode="constant")
+    return np.asarray(correlate1d(beside, BESIDE, 1, mode="constant"))
+
+
+def _within(q: VectorField, p: Field, by_p: Within, edge: Rim) -> WithinVector:
+    """What a shear is within the cells: along the edge the pressure times the ratio of the two,
+    elsewhere central differences."""
+    x, y = (_times(r, q_k, p, by_p, edge) for r, q_k in zip(_ratio(p, q), q, strict=True))
+    return x, y
+
+
+def _times(ratio: Field, q: Field, p: Field, by_p: Within, edge: Rim) -> Within:
+    slopes = np.stack(list(np.gradient(q))) * (p > 0)
+    along_edge = ratio * by_p.slopes + p * np.stack(list(np.gradient(ratio)))
+    slopes[:, edge.i, edge.j] = along_edge[:, edge.i, edge.j]
+    return Within.together(slopes, [by_p.times(ratio)])
+
+
+def _allowed(x: Field) -> Field:
+    """Tractions (q_x/µ, q_y/µ, p) without tension, and shear within the limit of friction."""
+    p, size = np.maximum(x[2], 0.0), magnitude(x[:2])
+    share = np.where(size > p, p / np.where(size > 0, size, 1.0), 1.0)
+    return np.concatenate([share * x[:2], p[None]])

@@ -1,0 +1,135 @@
+"""Pressure and shear of bodies that couple, with their edges inside the cells, against the radial
+solver: rings that end where the contact does."""
+
+from functools import cache
+
+import numpy as np
+import pytest
+
+import radial
+from contact_results.remarks import remarks
+from contact_scene import Body, IsotropicMaterial, LoadStep, Paraboloid, RadialDiscretisation, Scene
+from contact_scene.pair import outermost_beta
+from semi_analytical import SurfaceGrid, plan, solve
+from verification.problems.layered_scene import coated, film, half_space, pressed, rigid_ball
+from verification.problems.paper_scene import FRICTION_LIMIT, HERTZ, RADIUS, pressing
+from verification.problems.shifted_grid import ShiftedGrid
+
+A, MU, P = HERTZ.contact_radius, 0.1, HERTZ.peak_pressure
+CELLS, INCREMENTS, SIDE = 48, 6, 2.8 * A
+BODIES = {"bare": half_space(0.2), "soft film": coated(film(0.5, 1.0))}
+POINTS = 12
+EFFECT = "edge correction"
+
+
+def ball(body: str, *loading: LoadStep) -> Scene:
+    return pressed(body, rigid_ball(), BODIES[body], pressing(INCREMENTS), *loading, friction=MU)
+
+
+def solved(of: Scene, edge: str, cells: int = CELLS, offset: tuple[float, float] = (0.0, 0.0)):
+    grid = ShiftedGrid((cells, cells), (SIDE, SIDE), offset)
+    return solve(of, grid, 1e-8, plan=plan(of, edge=edge))
+
+
+@cache
+def exact(body: str):
+    return radial.solve(ball(body), RadialDiscretisation(rings=512)).steps[-1]
+
+
+def ring_means(end, grid: SurfaceGrid, exponent: float):
+    """Means over the cells of pressure and of outward shear; between rings by what the traction is
+    over a root of its own power."""
+    inside = end.pressure > 0
+    a, r = end.contact_radius, end.radii[inside]
+    root = (1 - (r / a) ** 2) ** exponent
+    places, weights = (half / 2 for half in np.polynomial.legendre.leggauss(POINTS))
+    total = np.zeros((2, *grid.cells))
+    for s, weight_s in zip(places, weights, strict=True):
+        for t, weight_t in zip(places, weights, strict=True):
+            x, y = grid.x + s * grid.spacing[0], grid.y + t * grid.spacing[1]
+            at = np.hypot(x[:, None], y)
+            fall = weight_s * weight_t * np.maximum(1 - (at / a) ** 2, 0.0) ** exponent
+            for k, traction in enumerate((end.pressure, end.shear_radial)):
+                total[k] += fall * np.interp(at, r, traction[inside] / root)
+    return total
+
+
+@pytest.mark.parametrize(("body", "offset"), [("bare", (0.31, -0.17)), ("soft film", (0.0, 0.0))])
+def test_radius_and_tractions_of_a_pressing_ball_are_those_of_rings(body, offset):
+    """Cells alone are 2e-3 from the radius, 1e-2 from the pressure and 3e-2 to 5e-2 µp_H from the
+    shear at the edge; with the exponent one half the radius is 3e-4 off."""
+    of, rings = ball(body), exact(body)
+    result = solved(of, "all", offset=offset)
+    end, grid = result.steps[-1], result.grid
+    assert end.edge_change is not None
+    assert end.contact_radius == pytest.approx(rings.contact_radius, rel=1e-4)
+    assert end.approach == pytest.approx(rings.approach, rel=1e-5)
+    exponent = 0.5 + np.arctan(MU * outermost_beta(of)) / np.pi
+    pressure, shear = ring_means(rings, grid, exponent)
+    assert np.linalg.norm(end.pressure - pressure) < 4e-4 * np.linalg.norm(pressure)
+    x, y = grid.coordinates()
+    r = np.hypot(x, y)
+    outward = (end.shear[0] * x + end.shear[1] * y) / r
+    at_edge = r > rings.contact_radius - 3 * SIDE / CELLS
+    assert np.max(np.abs(outward - shear)[at_edge]) < 2.5e-3 * MU * P
+
+
+def test_bodies_exchanged_have_the_same_edges_and_opposite_shear():
+    """What decides is which way the shear points and which body is the more compliant."""
+    stiff, soft = (
+        IsotropicMaterial(young_modulus=E, poisson_ratio=nu)
+        for E, nu in ((400e9, 0.25), (200e9, 0.1))
+    )
+
+    def end(ball: IsotropicMaterial, below: IsotropicMaterial):
+        of = pressed(
+            "",
+            Paraboloid(radius=RADIUS, material=ball),
+            Body(material=below),
+            pressing(4),
+            friction=0.5,
+        )
+        return solved(of, "all", 32).steps[-1]
+
+    one, other = end(stiff, soft), end(soft, stiff)
+    assert one.edge_change is not None
+    np.testing.assert_allclose(one.pressure, other.pressure, rtol=0, atol=1e-6 * P)
+    np.testing.assert_allclose(one.shear, -other.shear, rtol=0, atol=1e-6 * P)
+    assert one.contact_radius == pytest.approx(other.contact_radius, rel=1e-8)
+
+
+@cache
+def pushed(edge: str):
+    push = LoadStep(tangential_force=(0.5 * FRICTION_LIMIT, 0.0), increments=3)
+    return solved(ball("soft film", push), edge)
+
+
+def test_pushed_the_shear_carries_the_force_and_is_its_mirror_image():
+    end, grid = pushed("all").steps[-1], pushed("all").grid
+    assert end.edge_change is not None
+    carried = np.sum(end.shear, axis=(1, 2)) * grid.cell_area
+    np.testing.assert_allclose(carried, end.tangential_force, rtol=0, atol=1e-6 * FRICTION_LIMIT)
+    assert np.all(np.hypot(*end.shear) <= MU * end.pressure * (1 + 1e-12))
+    for field, sign in ((end.pressure, 1), (end.shear[0], 1), (end.shear[1], -1)):
+        image = sign * field[:, ::-1]
+        np.testing.assert_allclose(field, image, rtol=0, atol=1e-5 * np.max(end.pressure))
+
+
+def test_pushed_no_later_state_knows_of_the_correction():
+    for one, other in zip(pushed("off").increments, pushed("all").increments, strict=True):
+        assert one.dissipated_energy == other.dissipated_energy
+        assert one.tangential_shift[0] == other.tangential_shift[0]
+        np.testing.assert_array_equal(one.slip, other.slip)
+
+
+def test_a_contact_of_two_cells_keeps_its_tractions_and_the_remarks_say_so():
+    plain, asked = (solved(ball("bare"), edge, 6) for edge in ("off", "all"))
+    np.testing.assert_array_equal(plain.steps[-1].pressure, asked.steps[-1].pressure)
+    assert any("could not be put" in remark for remark in remarks(asked))
+
+
+def test_the_plan_puts_edges_of_bodies_that_couple_inside_the_cells_in_every_increment_alone():
+    for edge, on in (("last", False), ("all", True)):
+        effect = next(e for e in plan(ball("bare"), edge=edge).effects if e.name == EFFECT)
+        assert effect.on == on
+        assert "every increment" in effect.why or on
