@@ -74,7 +74,7 @@ def _correction(model: ContactModel, plan: Plan) -> Correct | None:
     """How edges are put inside the cells, where they are."""
     if plan.edge == "off":
         return None
-    if plan.coupling is Coupling.FULL:
+    if plan.coupling is Coupling.FULL and plan.edge == "all":
         from semi_analytical.edge_correction.coupled import CoupledEdgeCorrection
 
         return CoupledEdgeCorrection(model)
