@@ -21,9 +21,9 @@ COUPLING_ARRAYS = {Coupling.NONE: 0, Coupling.ONE_WAY: 33, Coupling.FULL: 42}
 # Spectra of what tractions do within the cells, and that along the edge, in about as many cells as
 # a side has.
 EDGE_ARRAYS = 19
-EDGE_SHEAR_ARRAYS = 84
+EDGE_SHEAR_ARRAYS = 22
 EDGE_RIM = 75_000  # bytes per cell of the longer side
-EDGE_SHEAR_RIM = 125_000
+EDGE_SHEAR_RIM = 185_000
 # Arrays that every increment leaves behind: pressure and gap; shear, slip, its distance and
 # dissipation, and masks.
 PRESSURE_RESULT = 2
