@@ -213,6 +213,18 @@ def test_friction_without_end_sticks_all_over() -> None:
     assert end.stick_radius == pytest.approx(end.contact_radius, rel=1e-2)
 
 
+def test_a_ball_that_all_but_sticks_is_as_deep_as_one_that_does() -> None:
+    """Rings begin to slip one at a time, more of them than Newton's method has steps elsewhere.
+    Spence 1968, by superposition of bonded punches: δ = 8.089263338 µm."""
+    sticky = scene(
+        LoadStep(normal_force=1e3, increments=8),
+        body=Body(material=IsotropicMaterial(young_modulus=3e9 / 0.013, poisson_ratio=0.0)),
+        friction=2.0,
+        indenter=Paraboloid(radius=0.018, material=RIGID),
+    )
+    assert radial.solve(sticky).steps[0].approach == pytest.approx(8.089263338e-6, rel=1.5e-3)
+
+
 def test_a_cone_of_half_the_load_is_the_same_cone() -> None:
     """Radius and approach go with the root of the load, and the stick with them."""
     cone = Cone(slope_angle=0.05, material=RIGID)
