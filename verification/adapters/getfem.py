@@ -71,20 +71,22 @@ def answer(posed: Posed, level: int) -> Answer:
         "approach": length * found["approach"], "central_pressure": float(p[0]),
         "contact_radius": _edge(r, p, posed.loads[0][0]),
     }  # fmt: skip
-    scalars: dict[Key, float] = {(q, s): own[q] for q, s in posed.asked if q in own}
+    scalars: dict[Key, float] = {
+        (q, s): value for q, s in posed.asked if (value := own.get(q)) is not None
+    }
     gave_up = {} if found["converged"] else {1: "did not converge"}
     return Answer(
         h, scalars, dict.fromkeys(posed.fields, touching), gave_up, seconds=found["seconds"]
     )
 
 
-def _edge(r: Vector, pressure: Vector, force: float) -> float:
+def _edge(r: Vector, pressure: Vector, force: float) -> float | None:
     """Where the square of the pressure, a line in r² close to the edge, would vanish: beyond, what
-    is left of a projection ripples about zero."""
+    is left of a projection ripples about zero. None where it does not fall."""
     last = int(np.flatnonzero(pi * r**2 * pressure > EDGE * force)[-1])
     near = slice(last - AT_EDGE, last)
     slope, at_axis = np.polyfit(r[near] ** 2, pressure[near] ** 2, 1)
-    return sqrt(-at_axis / slope)
+    return sqrt(-at_axis / slope) if slope < 0 < at_axis else None
 
 
 @cache
