@@ -1,13 +1,11 @@
 """Solve a scene: plan, mesh, model, march."""
 
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
 from dataclasses import replace
 from typing import Any
 
-from threadpoolctl import threadpool_limits
-
 from contact_scene import FiniteElementDiscretisation, Scene
+from contact_scene.one_thread import one_thread
 from contact_scene.solver_errors import ContactAtZoneEdge
 from contact_scene.standing import Keeper, Mark, Standing
 from contact_scene.stored_fields import FieldStore
@@ -26,14 +24,7 @@ MOST_ENLARGEMENTS = 8
 TOO_LARGE = 1.5
 
 
-@contextmanager
-def _one_thread() -> Iterator[None]:
-    """Of linear algebra, whatever the environment says: two threads add in another order."""
-    with threadpool_limits(1, "blas"):
-        yield
-
-
-@_one_thread()
+@one_thread()
 def solve(
     scene: Scene,
     discretisation: FiniteElementDiscretisation,

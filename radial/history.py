@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from contact_scene import LoadRamp, RadialDiscretisation, Scene
 from contact_scene.march import Reached, marked_increments
+from contact_scene.one_thread import one_thread
 from contact_scene.residuals import Residuals
 from contact_scene.standing import Keeper, Standing
 from radial.bodies import Bodies
@@ -26,6 +27,7 @@ Array = NDArray[np.float64]
 Progress = Callable[[Increment], None]
 
 
+@one_thread()
 def solve(
     scene: Scene,
     discretisation: RadialDiscretisation | None = None,

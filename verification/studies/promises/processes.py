@@ -82,7 +82,7 @@ COMMANDS = (
     ("run", "scene.toml", "-o", "out"),
     ("run", "scene.toml", "-o", "out", "--solver", "fem"),
     ("run", "scene.toml", "-o", "out", "--accuracy", "1%"),
-    ("run", "scene.toml", "-o", "out", "--solver", "radial"),
+    ("run", "scene.toml", "-o", "out", "--solver", "radial", "--set", "friction.coefficient=0.1"),
     ("stress", "scene.toml", "-o", "out"),
     ("frf", "scene.toml", "-o", "out"),
     ("challenge", "export", "hertz_point", "-o", "out"),
