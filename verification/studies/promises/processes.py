@@ -37,7 +37,8 @@ def repeated(count: int) -> Iterator[Attempt]:
     for number in range(count):
         solver, threads = SOLVERS[number % len(SOLVERS)], 2 - number // len(SOLVERS) % 2
         files = []
-        with _scene(fretting(layer=FILM if number % 2 else "", pushes=2)) as folder:
+        film = FILM if number % 2 and solver != "radial" else ""  # too little slip for its rings
+        with _scene(fretting(layer=film, pushes=2)) as folder:
             for out, used in (("one", 1), ("other", threads)):
                 words = ("run", "scene.toml", "--solver", solver, "-o", out, *QUIET)
                 shutil.rmtree(folder / "cache", ignore_errors=True)  # its hits are counted
@@ -82,7 +83,7 @@ COMMANDS = (
     ("run", "scene.toml", "-o", "out"),
     ("run", "scene.toml", "-o", "out", "--solver", "fem"),
     ("run", "scene.toml", "-o", "out", "--accuracy", "1%"),
-    ("run", "scene.toml", "-o", "out", "--solver", "radial", "--set", "friction.coefficient=0.1"),
+    ("run", "scene.toml", "-o", "out", "--solver", "radial"),
     ("stress", "scene.toml", "-o", "out"),
     ("frf", "scene.toml", "-o", "out"),
     ("challenge", "export", "hertz_point", "-o", "out"),
@@ -100,7 +101,8 @@ def interrupted(count: int) -> Iterator[Attempt]:
     chance = random.Random(8)
     for number in range(count):
         words = COMMANDS[number % len(COMMANDS)]
-        with _scene(fretting(layer=FILM, pushes=20)) as folder:
+        film = "" if "radial" in words else FILM  # too little slip for its rings
+        with _scene(fretting(layer=film, pushes=20)) as folder:
             process = begun(folder, *words)
             time.sleep(chance.uniform(0.2, 5.0))
             process.send_signal(signal.SIGINT)
