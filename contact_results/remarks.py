@@ -1,4 +1,5 @@
-"""What to bear in mind of a result: a theory at its end, heights that cells leave out."""
+"""What to bear in mind of a result: numbers hardly meant, a theory at its end, heights that cells
+leave out."""
 
 from __future__ import annotations
 
@@ -12,6 +13,7 @@ from contact_scene import HeightMap
 from contact_scene.height_map import interpolate
 from contact_scene.linear_theory import beyond_linear_theory
 from contact_scene.pair import contact_modulus
+from contact_scene.plausibility import unlikely
 
 if TYPE_CHECKING:
     import semi_analytical
@@ -27,7 +29,7 @@ LEAST_ACROSS = 5
 
 def remarks(result: Result) -> tuple[str, ...]:
     """In sentences, for people."""
-    found = beyond_linear_theory(result.scene, result.steps)
+    found = (*unlikely(result.scene), *beyond_linear_theory(result.scene, result.steps))
     if not hasattr(result, "grid"):
         return found
     on_cells = cast("semi_analytical.Result", result)

@@ -4,6 +4,7 @@ A factor of a thousand is quickly lost between a data sheet and a scene file, an
 as valid as anything else. Nothing here is an error: remarks are for whoever wrote the scene.
 """
 
+import math
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from itertools import chain, pairwise
@@ -11,11 +12,13 @@ from itertools import chain, pairwise
 import numpy as np
 from pydantic import BaseModel
 
+from contact_scene.array_file import ArrayFile
 from contact_scene.engineering_units import quantity
+from contact_scene.expected_contact import ExpectedContact, expected_contacts
 from contact_scene.geometry import HeightMap
 from contact_scene.linear_theory import SMALL_STRAIN
 from contact_scene.load_path import ControlKind
-from contact_scene.pair import contact_modulus
+from contact_scene.material import IsotropicMaterial
 from contact_scene.problem import Path, dotted
 from contact_scene.scene import Scene
 
@@ -27,17 +30,22 @@ class Usual:
     least, most  magnitude [SI unit]
     unit         in SI
     meant        units in which a number alone was perhaps meant, with their sizes, likeliest first
+    signed       whether a negative number is smaller than any of its magnitude
     """
 
     least: float
     most: float
     unit: str
     meant: Mapping[str, float]
+    signed: bool = False
 
 
 _MODULUS = Usual(1e3, 2e12, "Pa", {"GPa": 1e9, "MPa": 1e6})
 _SIZE = Usual(1e-9, 1.0, "m", {"mm": 1e-3, "um": 1e-6})
 _STEP = Usual(1e-12, 1e-3, "m", {"um": 1e-6, "nm": 1e-9})
+_DEGREE = {"deg": math.pi / 180}
+_ROTATION = Usual(0.0, 0.1, "rad", _DEGREE)
+_FRICTION = Usual(0.0, 5.0, "", {"per cent": 1e-2})
 
 # By key. From gels to diamond, from the tip of a microscope to a wheel.
 USUAL: Mapping[str, Usual] = {
@@ -47,11 +55,18 @@ USUAL: Mapping[str, Usual] = {
     "spacing": Usual(1e-10, 1e-2, "m", {"um": 1e-6, "nm": 1e-9}),
     **dict.fromkeys(("approach", "tangential_shift"), _STEP),
     "normal_force": Usual(1e-12, 1e9, "N", {}),
-    "coefficient": Usual(0.0, 5.0, "", {"per cent": 1e-2}),
+    **dict.fromkeys(("coefficient", "map"), _FRICTION),
+    **dict.fromkeys(("tilt", "twist"), _ROTATION),
+    "slope_angle": Usual(0.0, 0.36, "rad", _DEGREE),  # 20 deg: cones as steep as indenters
+    "poisson_ratio": Usual(0.0, 0.5, "", {}, signed=True),
+    "tolerance": Usual(0.0, 1e-3, "", {}),
 }
 # Softer than rubber and larger than a ball: numbers of a scene without units, or in its own.
 _SOFTEST, _LARGEST = 1e6, 0.1
 _STEEP = 1.0  # heights that differ by more than their distance
+# Contact radii beyond which nothing shows of what is below a layer, and those that a layer has
+# where nothing shows of it; softer and stiffer ones by so much the less.
+_DEEP, _THIN = 20.0, 1e-4
 
 
 def implausible(scene: Scene, **fineness: BaseModel) -> tuple[str, ...]:
@@ -60,22 +75,30 @@ def implausible(scene: Scene, **fineness: BaseModel) -> tuple[str, ...]:
     fineness  tables of the scene file that say how finely it is to be solved, by name
     Numbers near one that make sense together, of a scene without units, are none.
     """
-    strained = tuple(_strained(scene))
-    if _without_units(scene) and not strained:
+    return (*unlikely(scene, **fineness), *_strained(tuple(expected_contacts(scene))))
+
+
+def unlikely(scene: Scene, **fineness: BaseModel) -> tuple[str, ...]:
+    """The same without strains, which a result tells better."""
+    pressed = tuple(expected_contacts(scene))
+    if _without_units(scene) and not any(_strained(pressed)):
         return ()
     parts = [_numbers(scene, ()), *(_numbers(part, (name,)) for name, part in fineness.items())]
-    return (*chain.from_iterable(map(_unusual, parts)), *_steep(scene), *strained)
+    unusual = chain.from_iterable(map(_unusual, parts))
+    return (*unusual, *_steep(scene), *_of_no_effect(scene, pressed), *_far(pressed))
 
 
 def _unusual(numbers: Iterator[tuple[Path, float]]) -> Iterator[str]:
     for path, value in numbers:
         usual = USUAL.get(next((part for part in reversed(path) if isinstance(part, str)), ""))
-        if usual is not None and value and not usual.least <= abs(value) <= usual.most:
+        if usual is None or not value:
+            continue
+        if not usual.least <= (value if usual.signed else abs(value)) <= usual.most:
             yield f"{dotted(path)}: {_odd(value, usual)}"
 
 
 def _odd(value: float, usual: Usual) -> str:
-    small = abs(value) < usual.least
+    small = (value if usual.signed else abs(value)) < usual.least
     side, limit = ("below", usual.least) if small else ("above", usual.most)
     meant = (
         f'; was "{value:g} {unit}" meant?'
@@ -99,6 +122,8 @@ def _numbers(value: object, path: Path) -> Iterator[tuple[Path, float]]:
             yield from _numbers(entry, (*path, index))
     elif isinstance(value, float):
         yield path, value
+    elif isinstance(value, ArrayFile):
+        yield path, float(np.max(value.values))
 
 
 def _without_units(scene: Scene) -> bool:
@@ -123,28 +148,52 @@ def _steep(scene: Scene) -> Iterator[str]:
             )
 
 
-def _strained(scene: Scene) -> Iterator[str]:
-    """On steps that would press far beyond linear elasticity, by Hertz for what lies outermost."""
-    for ramp in scene.load_path():
-        k, modulus = scene.indenter.gap_exponent, contact_modulus(scene)
-        if k is None:
-            continue
-        by_force = ramp.normal.kind is ControlKind.FORCE
-        power = (
-            scene.indenter.contact_under(ramp.normal.end, modulus)
-            if by_force
-            else scene.indenter.contact_at(ramp.normal.end)
-        )
-        if power is None or k == 1:  # the strains below a cone do not depend on the load
-            continue
-        a, b = (p ** (1 / (k + 1 if by_force else k)) for p in power)
-        force = ramp.normal.end if by_force else modulus * (a * b) ** 0.5 * ramp.normal.end
-        strain = force / (np.pi * a * b) / modulus
-        if strain > SMALL_STRAIN:
-            load = quantity(ramp.normal.end, "N" if by_force else "m")
+def _of_no_effect(scene: Scene, pressed: tuple[ExpectedContact, ...]) -> Iterator[str]:
+    """On layers of which, or below which, the contact shows nothing."""
+    a = max((end.radius for end in pressed), default=0.0)
+    if not a:
+        return
+    for name, body in (("body", scene.body), ("indenter", scene.indenter)):
+        for number, layer in enumerate(body.layers, 1):
+            below = body.layers[number].material if number < len(body.layers) else body.material
+            softer = (
+                layer.material.young_modulus / below.young_modulus
+                if isinstance(below, IsotropicMaterial)
+                else 0.0
+            )
+            told = f"{name}.layers[{number}].thickness: {quantity(layer.thickness, 'm', 6)} is"
+            radii = layer.thickness / a
+            times = f"{radii:.2g} times the contact radius of about {quantity(a, 'm', 2)}"
+            if radii > _DEEP * max(1.0, softer):
+                yield f"{told} {times}: hardly anything shows of what lies below"
+                break
+            if softer and radii * max(softer, 1 / softer) < _THIN:
+                yield f"{told} {times}: hardly anything shows of it"
+
+
+def _far(pressed: tuple[ExpectedContact, ...]) -> Iterator[str]:
+    """On a shift that moves the indenter out of the contact."""
+    for end in pressed:
+        if end.ramp.tangential.kind is ControlKind.DISPLACEMENT:
+            shift = math.hypot(*end.ramp.tangential.end)
+            if shift > end.radius:
+                yield (
+                    f"loading[{end.ramp.step}].tangential_shift: {quantity(shift, 'm')} is further "
+                    f"than the contact radius of about {quantity(end.radius, 'm', 2)}, where the "
+                    "theory of small displacements has ended"
+                )
+                return
+
+
+def _strained(pressed: tuple[ExpectedContact, ...]) -> Iterator[str]:
+    """On the first step that would press far beyond linear elasticity."""
+    for end in pressed:
+        if end.strain > SMALL_STRAIN:
+            by_force = end.ramp.normal.kind is ControlKind.FORCE
+            load = quantity(end.ramp.normal.end, "N" if by_force else "m")
             name = "normal_force" if by_force else "approach"
             yield (
-                f"loading[{ramp.step}].{name}: {load} on E* = {quantity(modulus, 'Pa')} "
-                f"makes strains of about {strain:.2g}, where the theory of small ones has ended"
+                f"loading[{end.ramp.step}].{name}: {load} on E* = {quantity(end.modulus, 'Pa')} "
+                f"makes strains of about {end.strain:.2g}, where the theory of small ones has ended"
             )
             return

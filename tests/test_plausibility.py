@@ -82,6 +82,102 @@ def test_a_load_that_ends_linear_theory_is_told_whatever_the_material_and_size(E
     assert any("strains of about" in remark for remark in implausible(pressed))
 
 
+COATED = """
+[indenter]
+shape = "sphere"
+radius = "10 mm"
+material = { young_modulus = "210 GPa", poisson_ratio = 0.3 }
+[body]
+material = { young_modulus = "210 GPa", poisson_ratio = 0.3 }
+[[body.layers]]
+thickness = "5 um"
+material = { young_modulus = "400 GPa", poisson_ratio = 0.2 }
+[friction]
+coefficient = 0.3
+[[loading]]
+normal_force = 100
+[[loading]]
+tangential_force = [20, 0]
+"""
+MISTAKES = {  # of a steel ball on a coated one: the contact radius is 0.19 mm
+    "GPa left out": ("body.material.young_modulus=210", 'was "210 GPa" meant?'),
+    "MPa below a film": ("body.material.young_modulus=210e3", "strains of about 0.63"),
+    "mm left out": ("indenter.radius=10", 'was "10 mm" meant?'),
+    "um for mm": ('indenter.radius="10 um"', "strains of about"),
+    "thickness without unit": ("body.layers[1].thickness=5", 'was "5 um" meant?'),
+    "mm for um": ('body.layers[1].thickness="50 mm"', "hardly anything shows of what lies below"),
+    "nm for um": ('body.layers[1].thickness="5 nm"', "hardly anything shows of it"),
+    "a sign before a ratio": ("body.material.poisson_ratio=-0.3", "below the usual 0"),
+    "per cent": ("friction.coefficient=30", 'was "30 per cent" meant?'),
+    "MN for kN": ('loading[1].normal_force="1 MN"', "strains of about"),
+    "mm of shift": ('loading[2]={tangential_shift=["0.5 mm",0]}', "further than the contact"),
+    "degrees of twist": ("loading[2]={twist=1}", 'was "1 deg" meant?'),
+    "degrees of tilt": ("loading[2]={tilt=[0.5,0]}", 'was "0.5 deg" meant?'),
+    "degrees of slope": (
+        'indenter={shape="cone",slope_angle=0.5,material="rigid"}', 'was "0.5 deg" meant?',
+    ),
+    "mm of approach": ('loading[1]={approach="10 mm"}', "strains of about"),
+    "a tolerance of cells": ("semi_analytical.tolerance=0.1", "above the usual 0.001"),
+}  # fmt: skip
+
+
+@pytest.fixture
+def coated(tmp_path: Path) -> Path:
+    path = tmp_path / "coated.toml"
+    path.write_text(COATED)
+    return path
+
+
+@pytest.mark.parametrize(("change", "remark"), MISTAKES.values(), ids=MISTAKES)
+def test_a_usual_mistake_is_told(coated, change, remark):
+    sound, wrong = (read_scene_file(coated, overrides) for overrides in ((), (change,)))
+    assert implausible(sound.scene) == ()
+    told = implausible(wrong.scene, semi_analytical=wrong.semi_analytical)
+    assert any(remark in one for one in told), told
+
+
+FILMS = {
+    "DLC": ("2 um", "150 GPa", 0.2),
+    "20 nm of DLC": ("20 nm", "150 GPa", 0.2),
+    "PTFE": ("20 um", "0.5 GPa", 0.46),
+    "a soft film, thin": ("20 nm", "1 MPa", 0.49),
+    "rubber": ("2 mm", "5 MPa", 0.49),
+    "a hard shell": ("0.2 mm", "500 GPa", 0.2),
+}
+
+
+@pytest.mark.parametrize(("thickness", "E", "nu"), FILMS.values(), ids=FILMS)
+@pytest.mark.parametrize("force", [1.0, 100.0])
+def test_real_films_are_plausible(coated, thickness, E, nu, force):
+    layer = f'{{thickness="{thickness}",material={{young_modulus="{E}",poisson_ratio={nu}}}}}'
+    changes = (f"body.layers=[{layer}]", f"loading=[{{normal_force={force}}}]")
+    scene = read_scene_file(coated, changes).scene
+    told = [remark for remark in implausible(scene) if "strains" not in remark]
+    assert told == []
+
+
+def test_a_map_of_friction_in_per_cent_is_told(coated):
+    np.save(coated.parent / "mu.npy", np.full((8, 8), 30.0))
+    changed = 'friction.coefficient={map="mu.npy",spacing="0.1 mm"}'
+    (told,) = implausible(read_scene_file(coated, (changed,)).scene)
+    assert told.startswith("friction.coefficient.map: 30 is above")
+
+
+@pytest.mark.parametrize("command", ["plan", "run"])
+def test_whoever_does_not_check_is_told_too(
+    command: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Once each, and a run says it again to whoever reads its summary."""
+    changes = ("friction.coefficient=30", "semi_analytical.cells=[16,16]")
+    words = [word for change in changes for word in ("--set", change)]
+    out = ("-o", tmp_path / "out", "--no-figures", "--no-error") if command == "run" else ()
+    assert slipstick(command, SCENES[2], *words, *out) == 0
+    assert capsys.readouterr().err.count('was "30 per cent" meant?') == 1
+    if out:
+        summary = json.loads((tmp_path / "out" / "summary.json").read_text(encoding="utf-8"))
+        assert any('was "30 per cent" meant?' in remark for remark in summary["remarks"])
+
+
 @pytest.mark.parametrize("unit", [1e6, 1e3])
 def test_heights_that_are_not_in_metres_are_told(unit):
     heights = bump(64, 5e-6)

@@ -3,7 +3,7 @@
 from typing import TYPE_CHECKING, Annotated
 
 from slipstick.cli.optional import optional
-from slipstick.cli.scene_options import SceneArgument, SetOption
+from slipstick.cli.scene_options import SceneArgument, SetOption, warn_of_odd_numbers
 from slipstick.cli.solver_option import SolverOption
 from slipstick.solvers.names import SolverName
 
@@ -36,6 +36,7 @@ def plan(
     from slipstick.cli.terminal import print_pairs, print_table
 
     contents = read_scene_file(scene, overrides or ())
+    warn_of_odd_numbers(contents)
     chosen = solver.solver
     fineness = chosen.fineness(contents)
     decided = chosen.plan(contents.scene, fineness)

@@ -15,7 +15,7 @@ from slipstick.cli.asked_accuracy import (
     refuse_beside_accuracy,
 )
 from slipstick.cli.optional import FiguresOption, OutputOption
-from slipstick.cli.scene_options import SceneArgument, SetOption
+from slipstick.cli.scene_options import SceneArgument, SetOption, warn_of_odd_numbers
 from slipstick.cli.solver_option import SolverOption
 from slipstick.solvers.names import SolverName
 
@@ -103,6 +103,7 @@ def run(
     with stopwatch.phase("read"):
         contents = read_scene_file(scene, overrides or ())
         request = asked_accuracy(contents, accuracy, most_seconds)
+        told = warn_of_odd_numbers(contents)
     if solver is not SolverName.SEMI_ANALYTICAL:
         _refuse_beside_others(
             {
@@ -167,9 +168,14 @@ def run(
                 accuracy=reached,
             )
         write_timing(stopwatch, staging)
+    from contact_results.remarks import remarks
+
     if request is None:
         forget_rounds(output)
     _print_outcome(chosen, result, stated, reached, by_doubling, stopwatch.wall_seconds)
+    for remark in remarks(result):
+        if remark not in told:
+            tell(f"warning: {remark}")
     if not error:
         typer.echo("  no errors: --no-error left them out")
     typer.echo(f"results in {output}")
@@ -209,7 +215,6 @@ def _print_outcome(
     by_doubling: "tuple[PathError, ...] | None",
     seconds: dict[str, float],
 ) -> None:
-    from contact_results.remarks import remarks
     from slipstick.cli.outcome_text import (
         how_accurate,
         how_stated,
@@ -217,7 +222,7 @@ def _print_outcome(
         path_error_columns,
         solved_in,
     )
-    from slipstick.cli.terminal import print_pairs, print_table, tell
+    from slipstick.cli.terminal import print_pairs, print_table
 
     stated_in = () if stated is None else how_stated(stated, seconds.get("error"))
     accurate = () if reached is None else how_accurate(reached)
@@ -229,8 +234,6 @@ def _print_outcome(
         typer.echo("  errors by finite increments, estimated by doubling them:")
         columns = path_error_columns(by_doubling)
         print_table(columns, zip(*columns.values(), strict=True), numbers=True)
-    for remark in remarks(result):
-        tell(f"warning: {remark}")
 
 
 def _with_all_effects(plan: Any) -> Any:

@@ -15,7 +15,7 @@ from slipstick.cli.asked_accuracy import (
     leave_unless_met,
 )
 from slipstick.cli.optional import FiguresOption, OutputOption, optional
-from slipstick.cli.scene_options import SetOption
+from slipstick.cli.scene_options import SetOption, warn_of_odd_numbers
 from slipstick.cli.solver_option import AskedSolver
 from slipstick.solvers.names import SolverName
 
@@ -109,6 +109,7 @@ def stress(
             state = state_of_run_directory(source, step)
         else:
             contents = read_scene_file(source, overrides or ())
+            warn_of_odd_numbers(contents)
             request = asked_accuracy(contents, accuracy, most_seconds)
             if indenter and request is not None and request.binds_stress:
                 raise typer.BadParameter(

@@ -1,0 +1,66 @@
+"""How far a contact is likely to reach and what strains it makes, before anything is solved."""
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from contact_scene.body import Body
+from contact_scene.load_path import ControlKind, LoadRamp
+from contact_scene.material import IsotropicMaterial
+from contact_scene.pair import contact_modulus
+from contact_scene.scene import Scene
+
+
+@dataclass(frozen=True)
+class ExpectedContact:
+    """The contact at the end of a step, by Hertz for what lies within it.
+
+    modulus  E* [force/length^2]
+    radius   of the contact [length]
+    strain   by order of magnitude
+    """
+
+    ramp: LoadRamp
+    modulus: float
+    radius: float
+    strain: float
+
+
+def expected_contacts(scene: Scene) -> Iterator[ExpectedContact]:
+    """That of every step of which it is known."""
+    k, outermost = scene.indenter.gap_exponent, contact_modulus(scene)
+    if k is None:
+        return
+    for ramp in scene.load_path():
+        by_force, end = ramp.normal.kind is ControlKind.FORCE, ramp.normal.end
+
+        def radius(modulus: float, by_force: bool = by_force, end: float = end) -> float:
+            power = (
+                scene.indenter.contact_under(end, modulus)
+                if by_force
+                else scene.indenter.contact_at(end)
+            )
+            return math.nan if power is None else math.prod(power) ** (0.5 / (k + by_force))
+
+        modulus = _modulus_within(scene, radius(outermost)) or outermost
+        if not math.isnan(a := radius(modulus)):
+            force = end if by_force else modulus * a * end
+            strain = force / (math.pi * a**2) / modulus
+            # Below a cone strains do not depend on the load.
+            yield ExpectedContact(ramp, modulus, a, 0.0 if k == 1 else strain)
+
+
+def _modulus_within(scene: Scene, radius: float) -> float:
+    """E* of the substrates under layers thinner than the contact, and of thicker layers; 0 where
+    all of that is rigid."""
+    compliance = 0.0
+    for body in (scene.body, scene.indenter):
+        thin = _thickness(body) < radius
+        material = body.material if thin or not body.layers else body.layers[0].material
+        if isinstance(material, IsotropicMaterial):
+            compliance += 1.0 / material.plane_strain_modulus
+    return 1.0 / compliance if compliance else 0.0
+
+
+def _thickness(body: Body) -> float:
+    return sum(layer.thickness for layer in body.layers)
