@@ -9,6 +9,9 @@ from numpy.typing import NDArray
 from semi_analytical.admissible_shear import Field, TangentialLoad, Vector, VectorField
 from semi_analytical.normal_load import Motion, NormalLoad
 
+# Along the shorter side of a box. With more Newton's method stalls, with fewer it takes more steps.
+PATCHES = 40
+
 
 @dataclass(frozen=True)
 class CoupledProblem:
@@ -40,6 +43,16 @@ class CoupledProblem:
     normal_load: NormalLoad
     tangential_load: TangentialLoad
     self_compliance: float
+
+    @property
+    def gamma(self) -> float:
+        """γ of the natural map [force/length^3]: what a patch of cells resists, a cell on few.
+
+        Any γ > 0 has the same solutions. What an unfinished linear solve leaves of the gap is
+        smooth and as wide as the contact; against the compliance of one cell of very many it looks
+        so large that cells which carry pressure would part in masses.
+        """
+        return 1 / (self.self_compliance * max(1.0, min(self.gap.shape) / PATCHES))
 
 
 @dataclass(frozen=True)

@@ -1,6 +1,6 @@
 """Contact and friction as one equation, and its generalised derivative.
 
-With γ the inverse self-compliance of a cell, the increment is solved where
+With γ the inverse compliance of a patch of cells, the increment is solved where
 
     p = max(0, p - γ g)        q = P_b(z),  z = q + γ (ω + c - u_t),  b = µp
 
@@ -75,7 +75,7 @@ class Natural:
     @classmethod
     def at(cls, point: Point, problem: CoupledProblem) -> "Natural":
         """Evaluate the map; the load must not exhaust the friction."""
-        gamma = 1 / problem.self_compliance
+        gamma = problem.gamma
         q, p = point.tractions[:2], point.tractions[2]
         gap = problem.gap + point.displacements[2] - point.closure
         pushed = p - gamma * gap
@@ -134,13 +134,14 @@ class Zones:
         normal = natural.z.reshape(2, -1)[:, slip] / length
         excess = length - bound
         friction = problem.friction_limit(natural.contact.astype(np.float64))
+        stiffest = STIFFEST * problem.self_compliance
         return cls(
             contact=natural.contact,
             stick=natural.contact & ~natural.slip,
             slip=slip,
             tangent=np.stack([-normal[1], normal[0]]),
             pulled=friction.ravel()[slip] * normal,
-            turning=problem.self_compliance * excess / np.maximum(bound, excess / STIFFEST),
+            turning=excess / np.maximum(problem.gamma * bound, excess / stiffest),
         )
 
     @cached_property

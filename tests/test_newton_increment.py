@@ -11,6 +11,7 @@ from test_alternation import LOADS, DenseContact, assert_lawful
 
 from semi_analytical import globalisation, newton_increment, solve
 from semi_analytical.coupled_operator import STIFFNESSES, PeriodicInverse
+from semi_analytical.coupled_problem import PATCHES
 from semi_analytical.generalised_derivative import Natural, Point, Zones
 from semi_analytical.globalisation import solve_together
 from semi_analytical.krylov import least_residual
@@ -219,3 +220,19 @@ def test_on_many_cells_newton_alone_leads_to_the_end(monkeypatch):
         assert all(increment.halvings == 0 for increment in increments)
         products[cells] = sum(increment.convolutions for increment in increments)
     assert products[384] < 1.5 * products[64]
+
+
+def test_newton_alone_presses_and_pushes_in_one_increment_each(monkeypatch):
+    """By the compliance of single cells it stalls while the bodies are pressed together."""
+    monkeypatch.setattr(globalisation, "solve_coupled", None)
+    described = scene(press(increments=1), push(0.6, friction=0.3, increments=1), friction=0.3)
+    increments = solve(described, grid(256), TOLERANCE).increments
+    assert all(increment.halvings == 0 for increment in increments)
+
+
+def test_the_natural_map_takes_single_cells_while_there_are_few():
+    contact = DenseContact(0, 0.3)
+    problem = contact.problem(*LOADS)
+    assert problem.gamma * problem.self_compliance == pytest.approx(1)
+    wide = replace(problem, gap=np.zeros((8 * PATCHES, 2 * PATCHES)))
+    assert wide.gamma == pytest.approx(0.5 * problem.gamma)
