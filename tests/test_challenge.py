@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import csv
 import json
+import os
+import sys
 import tomllib
 from collections.abc import Callable
 from dataclasses import replace
@@ -373,6 +375,39 @@ def test_a_changed_problem_is_refused(
         file.write("\n")
     assert slipstick("judge", filled) == 2
     assert "differs from what was exported" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("name", "content", "said"),
+    [
+        ("manifest.json", "[" * 100_000, "manifest.json: not the manifest of a challenge"),
+        ("solver.toml", "a = " + "[" * 100_000, "solver.toml: "),
+        ("solver.toml", "solver = 3", "solver.toml: solver is 3, expected a table"),
+        ("solver.toml", "claims = []\nsolver.name = 'a'", "claims is [], expected a table"),
+        (
+            "solver.toml",
+            "solver.name = 'a'\nconvention.knows_answer = 1",
+            "knows_answer is 1, expected a list of words",
+        ),
+    ],
+)
+def test_what_is_no_file_of_a_challenge_is_refused_by_name(
+    filled: Path, capsys: pytest.CaptureFixture[str], name: str, content: str, said: str
+) -> None:
+    (filled / name).write_text(content)
+    assert slipstick("judge", filled) == 2
+    assert said in capsys.readouterr().err
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="has no such devices and queues")
+@pytest.mark.parametrize("name", ["manifest.json", "solver.toml", "levels.csv", "answers.csv"])
+def test_answers_that_never_end_are_not_waited_for(
+    filled: Path, capsys: pytest.CaptureFixture[str], name: str
+) -> None:
+    (filled / name).unlink()
+    os.mkfifo(filled / name)
+    assert slipstick("judge", filled) == 2
+    assert f"{name}: is not a regular file" in capsys.readouterr().err
 
 
 def test_answers_to_an_older_version_are_refused(

@@ -3,6 +3,8 @@
 import base64
 import csv
 import json
+import os
+import sys
 import xml.etree.ElementTree as ET
 import zlib
 from collections.abc import Mapping
@@ -22,6 +24,7 @@ from contact_results.stress.loaded_bodies import LoadedBodies
 from contact_results.stress.on_cells import stress_on_cells
 from contact_results.stress.on_section import NEAR, stress_on_section
 from contact_results.stress.points import StressField
+from contact_results.stress.stored_stress import load_stress
 from contact_results.stress_files import write_stress
 from contact_results.surface import Cells, Rings
 from contact_scene.convention import CONVENTION, OF_THE_INDENTER
@@ -255,6 +258,19 @@ def test_what_is_no_mesh_of_ours_is_refused_by_name(tmp_path: Path) -> None:
         (tmp_path / "a.vtu").write_bytes(content)
         with pytest.raises(ValueError, match=r"a.vtu is not a mesh that slipstick has written"):
             read_mesh(tmp_path / "a.vtu")
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="has no such queues")
+def test_a_mesh_that_never_ends_is_not_waited_for(tmp_path: Path) -> None:
+    os.mkfifo(tmp_path / "a.vtu")
+    with pytest.raises(ValueError, match=r"a.vtu is not a mesh.*not a regular file"):
+        read_mesh(tmp_path / "a.vtu")
+
+
+def test_a_record_nested_without_end_is_refused_by_name(tmp_path: Path) -> None:
+    (tmp_path / "stress.json").write_text("[" * 100_000)
+    with pytest.raises(ValueError, match=r"stress.json is not the stress.json of a stress"):
+        load_stress(tmp_path)
 
 
 def test_interfaces_name_the_jump_and_what_is_carried_over(written: dict[str, Path]) -> None:

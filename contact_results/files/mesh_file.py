@@ -64,6 +64,8 @@ def write_mesh(mesh: Mesh, path: Path, convention: str) -> None:
 def read_mesh(path: Path) -> Mesh:
     """The mesh of a file of ours; raises ValueError for any other."""
     try:
+        if path.exists() and not path.is_file():
+            raise OSError("it is not a regular file")
         found = meshio.vtu.read(path)  # `meshio.read` would leave the process
         (block,) = found.cells
     except (meshio.ReadError, OSError, ValueError, KeyError, SyntaxError, AssertionError) as error:

@@ -66,7 +66,7 @@ def load_stress(directory: str | PathLike[str]) -> StoredStress:
         raise FileNotFoundError(f"{directory} is no stress: it has no {STRESS}{instead}")
     try:
         record = json.loads((place / STRESS).read_text(encoding="utf-8"))
-    except ValueError as error:
+    except (ValueError, RecursionError) as error:
         raise ValueError(f"{place / STRESS} is not the {STRESS} of a stress: {error}") from None
     if not isinstance(record, dict) or "convention" not in record:
         raise ValueError(

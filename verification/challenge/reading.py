@@ -94,7 +94,7 @@ def _challenge(directory: Path) -> Challenge:
         manifest = json.loads(_text(path))
         schema, name, version = (manifest[key] for key in ("schema", "case", "case_version"))
         files = {given: manifest["files"][given] for given in GIVEN}
-    except (ValueError, KeyError, TypeError) as error:
+    except (ValueError, KeyError, TypeError, RecursionError) as error:
         raise Refused(
             f"{path}: not the manifest of a challenge ({error}); export it again"
         ) from None
@@ -115,9 +115,13 @@ def _challenge(directory: Path) -> Challenge:
 def _solver(path: Path) -> Solver:
     try:
         content = tomllib.loads(_text(path))
-    except tomllib.TOMLDecodeError as error:
+    except (tomllib.TOMLDecodeError, RecursionError) as error:
         raise Refused(f"{path}: {error}") from None
-    who, convention, claims = (content.get(k, {}) for k in ("solver", "convention", "claims"))
+    tables = {key: content.get(key, {}) for key in ("solver", "convention", "claims")}
+    for key, given in tables.items():
+        if not isinstance(given, dict):
+            raise Refused(f"{path}: {key} is {given!r}, expected a table [{key}]")
+    who, convention, claims = tables.values()
     name = str(who.get("name", "")).strip()
     if not name:
         raise Refused(f"{path}: solver.name is empty; say who answers")
@@ -129,12 +133,15 @@ def _solver(path: Path) -> Solver:
     grade = claims.get("grade")
     if grade is not None and grade not in list(Grade):
         raise Refused(f"{path}: claims.grade is {grade!r}, expected {', '.join(Grade)}")
+    knows = convention.get("knows_answer", [])
+    if not isinstance(knows, list):
+        raise Refused(f"{path}: convention.knows_answer is {knows!r}, expected a list of words")
     orders = claims.get("order", {})
     if not isinstance(orders, dict) or not all(isinstance(v, int | float) for v in orders.values()):
         raise Refused(f"{path}: claims.order is {orders!r}, expected numbers by quantity")
     return Solver(
         name, str(who.get("version", "")), str(who.get("url", "")), sampling,
-        tuple(map(str, convention.get("knows_answer", ()))), grade, orders,
+        tuple(map(str, knows)), grade, orders,
         convention.get("meshless") is True,
     )  # fmt: skip
 
@@ -239,6 +246,8 @@ def _rows(path: Path, columns: tuple[str, ...]) -> Iterator[tuple[str, dict[str,
 
 def _text(path: Path) -> str:
     try:
+        if path.exists() and not path.is_file():
+            raise Refused(f"{path}: is not a regular file")
         if path.stat().st_size > MOST_BYTES:
             raise Refused(f"{path}: larger than {MOST_BYTES // 10**6} MB")
         return path.read_text(encoding="utf-8-sig")

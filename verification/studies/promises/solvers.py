@@ -134,8 +134,9 @@ def symmetric(count: int) -> Iterator[Attempt]:
 def moved(count: int) -> Iterator[Attempt]:
     """The whole surface by some cells along x and y: a rough one, whose heights are given there.
 
-    Iterations begin with the answer on coarser cells, into which the move does not fit, and so
-    stop elsewhere within the tolerance.
+    A window does not move along, and iterations begin with a pressure on all of it: on coarser
+    cells, into which an odd move does not even fit. They so stop elsewhere within the tolerance
+    (even moves 3e-10 apart at 1e-8, odd ones 3e-8), and the promise is a multiple of that.
     """
     chance, spacing, cells = random.Random(16), WINDOW[0] / CELLS[0], (32, 30)
     x, y = (spacing * (np.arange(n) - 0.5 * (n - 1)) for n in cells)
