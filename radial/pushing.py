@@ -206,7 +206,8 @@ class Pushing:
         depth, shift = (last.approach, last.shift) if last else (0.0, 0.0)
         work = (before.force if before else 0.0) + W
         work = 0.5 * (work * (end.approach - depth) + drags * (end.shift - shift))
-        through = sqrt(min(points.stick_area(end.share) / pi, radius**2))
+        distance = np.hypot(*end.slipped.reshape(2, -1)) / areas
+        through = sqrt(min(points.stick_area(end.share, distance) / pi, radius**2))
         open_ = np.hypot(*(end.shear - start)) * np.hypot(*passed)
         return Pushed(
             end, turned, loads, radius, begun, through,
