@@ -1,4 +1,5 @@
-"""How many wavenumbers the largest contact of a scene calls for, before it is solved."""
+"""How large the largest contact of a scene is and how many wavenumbers it calls for, before it is
+solved."""
 
 from __future__ import annotations
 
@@ -26,10 +27,16 @@ def wavenumbers(scene: Scene) -> int:
     bodies, indenter = Bodies.of(scene), scene.indenter
     if not bodies.layered:
         return 0
-    radius = max(_radius(bodies, scene, target) for target in largest_targets(scene))
+    radius = expected_radius(scene)
     orders(bodies.thickness / radius, profile(indenter, radius).apex)
     chosen = bodies.waves(radius)
     return POINTS * (chosen.equal - chosen.first)
+
+
+def expected_radius(scene: Scene) -> float:
+    """Of the largest contact without friction, nearly [length]."""
+    bodies = Bodies.of(scene)
+    return max(_radius(bodies, scene, target) for target in largest_targets(scene))
 
 
 def _radius(bodies: Bodies, scene: Scene, target: Target) -> float:

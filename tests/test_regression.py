@@ -1,7 +1,9 @@
 """Numbers beside the recorded ones: what counts as a change, and who may accept one."""
 
 import json
+import os
 import re
+import sys
 from collections.abc import Callable
 from pathlib import Path
 from xml.etree import ElementTree
@@ -686,6 +688,13 @@ def test_comparison_without_baseline_says_so_and_does_not_pass(
     captured = capsys.readouterr()
     assert "no baseline yet of level quick" in captured.out
     assert "nothing is recorded of these cases at level quick; to record it" in captured.err
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="has no such queues")
+def test_a_baseline_that_never_ends_is_not_waited_for(tmp_path: Path) -> None:
+    os.mkfifo(tmp_path / "hertz_point.json")
+    with pytest.raises(BaselineRefused, match="is not a regular file"):
+        read_baselines(tmp_path)
 
 
 def test_damaged_baseline_ends_the_commands_before_any_work(

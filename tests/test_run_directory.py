@@ -10,6 +10,7 @@ from typing import Any
 
 import pytest
 
+from contact_results.directory.atomic_file import atomic_file
 from contact_results.directory.directory_lock import acquire, release
 from contact_results.directory.file_names import SUMMARY, TIMING
 from contact_results.directory.refusal import OutputRefused
@@ -241,3 +242,15 @@ def test_summary_is_the_sign_of_completeness(
     assert SUMMARY not in contents(earlier_run)
     run(earlier_run)
     assert contents(earlier_run) == {SUMMARY: "new", "profiles.csv": "new"}
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="has no such queues")
+def test_no_file_takes_the_place_of_a_device_or_a_queue(tmp_path: Path) -> None:
+    os.mkfifo(tmp_path / "page.html")
+    with (
+        pytest.raises(OutputRefused, match=r"page\.html is not a regular file"),
+        atomic_file(tmp_path / "page.html") as unfinished,
+    ):
+        unfinished.write_text("a page")
+    assert (tmp_path / "page.html").is_fifo()
+    assert len([*tmp_path.iterdir()]) == 1

@@ -193,6 +193,24 @@ def test_shear_below_infinite_pressure_is_refused_before_anything_is_solved(
     assert f"infinite at {where}" in said.stderr
 
 
+def test_a_ball_smaller_than_a_metre_is_round_all_the_same(tmp_path: Path) -> None:
+    """Its gap ends at the equator: what it is like at the axis is asked within the contact."""
+    (tmp_path / "scene.toml").write_text("""
+        indenter = { shape = "sphere", radius = "10 mm", material = "rigid" }
+        friction = { coefficient = 0.3 }
+        [body]
+        material = { young_modulus = "210 GPa", poisson_ratio = 0.5 }
+        [[loading]]
+        normal_force = 100
+        [[loading]]
+        tangential_force = [20, 0]
+        increments = 2
+    """)
+    asked = ("stress", "scene.toml", "--solver", "radial", "-o", "out", "--depths", "0")
+    said = outcome(*asked, "--no-figures", "--no-error", cwd=tmp_path)
+    assert said.returncode == 0, said.stderr
+
+
 @pytest.mark.parametrize(
     "indenter", [FlatPunch(radius=1.0, material=RIGID), Cone(slope_angle=0.1, material=RIGID)]
 )

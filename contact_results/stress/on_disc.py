@@ -49,7 +49,7 @@ def _below_shear(
 ) -> StressField:
     """The same in the plane of the load; the largest also beside it."""
     assert state.pressed is not None
-    refuse_infinite(state.pressed[0])
+    refuse_infinite(*state.pressed[:2])
     body = CircleBody.of(state, indenter)
     levels, x = tuple(body.parts.levels(depths)), body.section
     grid = body.points(levels, x, np.zeros_like(x))
@@ -90,11 +90,14 @@ def is_sheared(state: LoadedBodies) -> bool:
     return any(np.any(t) for name, t in state.tractions.items() if name != "pressure")
 
 
-def refuse_infinite(indenter: ShapedBody) -> None:
-    """Raises UnsupportedScene for shear where the pressure is infinite."""
+def refuse_infinite(indenter: ShapedBody, radius: float) -> None:
+    """Raises UnsupportedScene for shear where the pressure is infinite.
+
+    radius  about that of the contact [length]: a ball has no gap of its own beyond its equator
+    """
     from radial.profile import profile
 
-    if indenter.rim is not None or profile(indenter, 1.0).apex:
+    if indenter.rim is not None or profile(indenter, radius).apex:
         where = "a tip" if indenter.rim is None else "a rim"
         raise UnsupportedScene(
             f"there is shear, and the pressure is infinite at {where}: this solver has the stress "

@@ -77,9 +77,10 @@ def _solved(
     decided: Any = chosen.plan(contents.scene, fineness)
     if name is SolverName.RADIAL:
         from contact_results.stress.on_disc import refuse_infinite
+        from radial.largest_contact import expected_radius
 
         if decided.sheared:
-            refuse_infinite(contents.scene.indenter)
+            refuse_infinite(contents.scene.indenter, expected_radius(contents.scene))
     with solve_progress(decided.increments) as observe:
         result = chosen.solve(contents.scene, fineness, decided, observe)
     if not error:

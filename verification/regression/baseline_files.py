@@ -61,6 +61,8 @@ def _in_order(levels: Iterable[str]) -> list[str]:
 
 
 def _read(path: Path) -> Baseline:
+    if path.exists() and not path.is_file():
+        raise BaselineRefused(f"baseline {path} is not a regular file")
     try:
         baseline = Baseline.model_validate_json(path.read_bytes())
     except OSError as error:
