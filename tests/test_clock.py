@@ -33,6 +33,7 @@ tangential_force = ["60 N", 0]
 increments = 2
 [semi_analytical]
 cells = [16, 16]
+edge = "off"
 """
 YEAR = 3.15e7
 AGES = {"1970": 1.0, "before 1970": -YEAR, "the next century": 4.2e9, "far ahead": 3e10}

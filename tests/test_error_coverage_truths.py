@@ -44,7 +44,7 @@ from verification.studies.error_coverage.stress_maxima import stress_maxima
 DEAR = {"coated-stress", "coated-pushed"}
 UNSTRESSED = [family for family in FAMILIES if family not in DEAR]
 # Where a draw takes seconds.
-ONCE = [family for family in UNSTRESSED if family.startswith(("sections", "coated"))]
+ONCE = [family for family in UNSTRESSED if family.startswith(("sections", "coated", "twisted"))]
 DRAWS = [
     *((family, 1 if family in ONCE else 2) for family in UNSTRESSED),
     *(pytest.param(family, 2, marks=pytest.mark.slow) for family in ONCE),
