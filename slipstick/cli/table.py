@@ -43,10 +43,10 @@ def table(
 
         raise typer.BadParameter(unknown_names("table", [name], TABLES, "slipstick table"))
     chosen = TABLES[name]
-    rows = list(chosen.rows(_values(chosen, over or ())))
+    rows = chosen.rows(_values(chosen, over or ()))
     provenance = _provenance(chosen)
     if as_json:
-        document = {**provenance, "columns": chosen.columns, "rows": rows}
+        document = {**provenance, "columns": chosen.columns, "rows": list(rows)}
         typer.echo(json.dumps(document, indent=1, allow_nan=False, ensure_ascii=False))
         return
     for key, text in {**provenance, **chosen.columns}.items():
@@ -88,14 +88,13 @@ def _values(chosen: Table, given: Sequence[str]) -> dict[str, list[float]]:
 
 def _provenance(chosen: Table) -> dict[str, Any]:
     from contact_results.directory.machine import program_version
-    from slipstick.tables.table import UNCERTAINTY
 
     return {
         "table": chosen.name,
         "made_by": f"slipstick {program_version()}, radial solver",
         "problem": chosen.problem,
         "source": chosen.source,
-        "uncertainty": UNCERTAINTY,
+        "uncertainty": chosen.uncertainty,
     }
 
 

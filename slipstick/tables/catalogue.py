@@ -3,25 +3,59 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from math import pi
 
 import numpy as np
 
-from contact_scene import RIGID, FlatPunch, Paraboloid
+from contact_errors.on_radii import FRONT
+from contact_scene import RIGID, FlatPunch
 from radial.bodies import Bodies
 from radial.disc import disc
 from radial.pressing import Target, pressed
 from radial.surface import pressure
 from semi_analytical.frf.stack import Stack
-from slipstick.tables.table import Axis, Found, Table
+from slipstick.tables.frictional import (
+    BALL,
+    FORCE,
+    MODULUS,
+    OF_FIT,
+    OF_RING,
+    gripping,
+    onset,
+    scalars,
+    tractions,
+)
+from slipstick.tables.table import ROUND_OFF, Axis, Found, Table
 
 LEBEDEV = (
     "Lebedev and Ufliand 1958; for layers, Perriot and Barthel 2004; by Legendre polynomials on "
     "exact frequency responses"
 )
 PUNCH = FlatPunch(radius=1.0, material=RIGID)
-# Of the contact on the bare substrate: a_H = p_H = δ_H = 1, E*_2 = π/2, W = 2π/3.
-BALL, MODULUS, FORCE = Paraboloid(radius=1.0, material=RIGID), pi / 2, 2 * pi / 3
+COULOMB = (
+    "Coulomb's law on rings in the increments of the load, after Spence 1975; for layers by exact "
+    "frequency responses"
+)
+HERTZ = "; Hertz's values are those of the same force on the bare half-space"
+ON_COATING = "on a layer of thickness h that is bonded to a half-space, both of the same ratio nu"
+RUBBED = (
+    "twice the change of a number by twice as many rings and increments, what is left of the load, "
+    f"and {ROUND_OFF:g} of the number for round-off"
+)
+COATING = {
+    "E1_over_E2": Axis(
+        "Young's modulus of the layer over that of the substrate", (0.25, 0.5, 1.0, 2.0, 4.0)
+    ),
+    "h_over_aH": Axis(
+        "thickness of the layer over Hertz's contact radius on the substrate", (0.25, 1.0)
+    ),
+    "nu": Axis("Poisson's ratio of both", (0.3,), -1.0, 0.5),
+}
+FRICTION = {"mu": Axis("coefficient of friction", (0.1, 0.3))}
+FIGURE = {
+    **COATING,
+    "E1_over_E2": Axis(COATING["E1_over_E2"].meaning, (0.5, 1.0, 2.0, 4.0)),
+    "h_over_aH": Axis(COATING["h_over_aH"].meaning, (1.0,)),
+}
 
 
 def _punch(place: Sequence[float], fineness: int) -> Found:
@@ -86,6 +120,67 @@ TABLES: Mapping[str, Table] = {
             "half-space; Hertz's values are those of the same force on the bare half-space",
             LEBEDEV,
             _ball,
+        ),
+        Table(
+            "pressing",
+            {**COATING, **FRICTION},
+            {
+                "a_over_aH": "contact radius over Hertz's on the substrate",
+                "delta_over_deltaH": "approach over Hertz's on the substrate",
+                "c_over_a": "stick radius over the contact radius",
+            },
+            f"A rigid paraboloid, pressed with friction from first touch {ON_COATING}{HERTZ}",
+            COULOMB,
+            scalars,
+            f"{RUBBED}; of the stick radius besides {FRONT:g} a, to which rings tell a front",
+        ),
+        Table(
+            "tractions",
+            {
+                **FIGURE,
+                **FRICTION,
+                "r_over_a": Axis(
+                    "distance from the axis over the contact radius",
+                    (0.05, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 0.95),
+                    0.0,
+                    1.0,
+                ),
+            },
+            {
+                "p_over_pH": "pressure over Hertz's on the axis on the substrate",
+                "q_over_mu_pH": "radial shear, outward on the layer, over mu p_H",
+            },
+            f"A rigid paraboloid, pressed with friction from first touch {ON_COATING}{HERTZ}",
+            COULOMB,
+            tractions,
+            f"{RUBBED}; besides {OF_RING:g} of p_H that rings leave, or near to the edge of the "
+            f"stick what a thousandth of the radius makes",
+        ),
+        Table(
+            "grip",
+            {
+                **FIGURE,
+                "c_over_a": Axis(
+                    "stick radius over the contact radius", (0.1, 0.5, 0.9), 0.0, 1.0 - FRONT
+                ),
+            },
+            {"mu": "coefficient of friction with which the stick reaches so far"},
+            f"A rigid paraboloid, pressed with friction from first touch {ON_COATING}{HERTZ}",
+            COULOMB,
+            gripping,
+            f"{RUBBED}; besides what {FRONT:g} a of the stick radius make, to which rings tell it",
+        ),
+        Table(
+            "onset",
+            {**FIGURE, "mu": Axis(FRICTION["mu"].meaning, (0.1,))},
+            {"T_over_muW": "tangential force at which the last stick goes, over mu W"},
+            "A rigid paraboloid, pressed with friction from first touch and then pushed "
+            f"{ON_COATING}{HERTZ}",
+            "Coulomb's law as a vector law at points of rings and angles, in the increments of the "
+            "load and in their limit; for layers by exact frequency responses",
+            onset,
+            "twice the change of a number by half as many rings and angles again and twice as many "
+            f"increments, and {OF_FIT:g} that the stick area leaves where it ends",
         ),
     )
 }

@@ -32,11 +32,15 @@ class Axis:
 
 @dataclass(frozen=True)
 class Found:
-    """Quantities at one point, in the order of the table, and by what part of itself the load was
-    missed."""
+    """Quantities at one point, in the order of the table.
+
+    missed  by what part of itself the load was
+    left    what each is uncertain by beside that and what doubling tells, absolute; none if absent
+    """
 
     values: tuple[float, ...]
     missed: float = 0.0
+    left: tuple[float, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -48,7 +52,8 @@ class Table:
     problem     what is solved
     source      of the equations
     at          quantities at parameters, in the order of the axes, with so many times as many
-                orders and points as it takes
+                orders and points, or rings and increments, as it takes
+    uncertainty  how it is found
     """
 
     name: str
@@ -57,6 +62,7 @@ class Table:
     problem: str
     source: str
     at: Callable[[Sequence[float], int], Found]
+    uncertainty: str = UNCERTAINTY
 
     @property
     def columns(self) -> dict[str, str]:
@@ -70,8 +76,9 @@ class Table:
         grid = [chosen.get(name, axis.values) for name, axis in self.axes.items()]
         for place in product(*grid):
             found, finer = self.at(place, 1), self.at(place, 2)
+            left = found.left or (0.0,) * len(found.values)
             uncertainties = (
-                TIMES * abs(value - other) + (found.missed + ROUND_OFF) * abs(value)
-                for value, other in zip(found.values, finer.values, strict=True)
+                TIMES * abs(value - other) + (found.missed + ROUND_OFF) * abs(value) + more
+                for value, other, more in zip(found.values, finer.values, left, strict=True)
             )
             yield dict(zip(self.columns, (*place, *found.values, *uncertainties), strict=True))
