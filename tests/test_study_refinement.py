@@ -311,15 +311,31 @@ def frictionless(pressed: Path) -> Path:
     return pressed
 
 
-def of_elements(path: Path) -> dict[str, Status | None]:
-    settings = Settings(Level.STANDARD, cells=64)
-    return concluded(mesh_study(path, (), None, Method.COMPLEMENTARITY), settings)
+def of_elements(path: Path, *overrides: str, finest: int = 64) -> dict[str, Status | None]:
+    settings = Settings(Level.STANDARD, cells=finest)
+    return concluded(mesh_study(path, overrides, None, Method.COMPLEMENTARITY), settings)
 
 
 def test_orders_of_pressed_sections_are_those_of_the_energy(frictionless: Path) -> None:
     found = of_elements(frictionless)
     for claim in ("approach", "peak pressure", "contact radius", "pressure (L1)"):
         assert found[f"order of the {claim}"] is Status.PASS, claim
+
+
+def test_order_of_the_edge_is_promised_where_elements_comply_like_a_half_plane(
+    frictionless: Path,
+) -> None:
+    found = of_elements(frictionless, "body.material.poisson_ratio=0", finest=96)
+    assert found["order of the contact radius"] is None
+    for claim in ("approach", "peak pressure", "pressure (L1)"):
+        assert found[f"order of the {claim}"] is Status.PASS, claim
+
+
+def test_size_of_a_level_is_an_elements_side_over_the_radius(pressed: Path) -> None:
+    """Half an element lies between where elements are laid out and the edge."""
+    study = mesh_study(pressed, (), None, Method.COMPLEMENTARITY)
+    for level in sections(study, Settings(Level.STANDARD)):
+        assert level.size == pytest.approx(1 / (level.elements + 0.5), rel=1e-12)
 
 
 def test_edge_that_is_off_by_a_part_of_an_element_is_seen(

@@ -91,7 +91,9 @@ def _of_elements(scene: StudiedScene, method: Method) -> Refinement:
         if counts[0] < FEWEST_ELEMENTS:
             raise _too_coarse(f"{len(counts)} meshes would have {counts[0]}", FEWEST_ELEMENTS)
         return tuple(
-            start.level(1 / count, f"{count} elements per radius", fineness=count)
+            start.level(
+                start.element(count) / start.radius, f"{count} elements per radius", fineness=count
+            )
             for count in counts
         )
 

@@ -82,7 +82,7 @@ class SectionStart:
         box       size of the section [length]
         """
         count = fineness or self.asked.elements_per_radius
-        laid_out = self.radius if self._radius_is_known else self.radius * count / (count + 0.5)
+        laid_out = count * self.element(count)
         return SectionLevel(
             self.scene,
             self.method.value,
@@ -95,13 +95,15 @@ class SectionStart:
             level,
         )
 
-    @property
-    def _radius_is_known(self) -> bool:
-        """Else elements are laid out half an element short of the edge, so that it lies in the
-        middle of one on every mesh: where in an element it lies moves the error as much as some
-        more elements do, and would hide the order."""
-        punch = self.contents.scene.indenter.rim is not None
-        return punch or self.asked.contact_radius is not None
+    def element(self, count: int) -> float:
+        """Side of an element at the contact, of so many over its radius [length].
+
+        Elements are laid out half of one short of the edge unless the radius is known, so that it
+        lies in the middle of one on every mesh: where in an element it lies moves the error as much
+        as some more elements do, and would hide the order.
+        """
+        known = self.contents.scene.indenter.rim is not None or self.asked.contact_radius is not None
+        return self.radius / (count if known else count + 0.5)
 
 
 @cache
