@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 from contact_scene import Scene
+from contact_scene.solver_errors import NotConverged
 from verification import Answer, CannotDo, Solver, judge
 from verification.adapters import calculix, getfem, half_spaces, radius, section, surface
 from verification.challenge.cases import challenges
@@ -65,6 +66,31 @@ def test_each_solver_reaches_its_class(
 def test_who_cannot_says_why(answer: Solve, name: str, said: str) -> None:
     with pytest.raises(CannotDo, match=said):
         judge(name, answer, 1)
+
+
+@pytest.mark.parametrize(
+    ("module", "solve"), [(surface, "solve_discretised"), (section, "solve"), (radius, "solve")]
+)
+def test_a_level_that_does_not_converge_is_given_up_and_others_are_judged(
+    monkeypatch: pytest.MonkeyPatch, module: Any, solve: str
+) -> None:
+    right, calls = getattr(module, solve), []
+
+    def stops_at_the_first(*posed: Any) -> Any:
+        calls.append(posed)
+        if len(calls) == 1:
+            raise NotConverged("the increment", 40, 1e-3, 1e-8)
+        return right(*posed)
+
+    monkeypatch.setattr(module, solve, stops_at_the_first)
+    found = judge("hertz_point", module.answer, 3, at_least="C")
+    (told,) = (row for row in found.rows if row.quantity == "solved")
+    assert "the increment did not converge" in told.because
+    assert failed(found) == {"solved"}, found.rows
+    assert found.exit_code() == 3
+    coarse, fine, _ = found.answers
+    assert fine.scalars
+    assert fine.h < coarse.h
 
 
 def test_shear_between_rings_is_what_pulls() -> None:

@@ -6,7 +6,8 @@ from collections.abc import Sequence
 
 from contact_scene import Scene
 from contact_scene.increment import State
-from verification.challenge.answer import Key
+from contact_scene.solver_errors import NotConverged
+from verification.challenge.answer import Answer, Key
 from verification.challenge.door import CannotDo, Posed
 
 
@@ -22,6 +23,14 @@ def pressed_alone(posed: Posed) -> bool:
     first, *more = posed.scene["loading"]
     named = {name for name, end in first.items() if end is not None} - {"increments"}
     return not more and named == {"normal_force"}
+
+
+def given_up(posed: Posed, fineness: int, error: NotConverged) -> Answer:
+    """Of a level whose history did not get to its end: nothing of it is trusted.
+
+    fineness  cells or elements over a contact radius, which is about a third of the window
+    """
+    return Answer(posed.window / 3 / fineness, gave_up={0: str(error)})
 
 
 def in_increments(scene: Scene, number: int) -> Scene:

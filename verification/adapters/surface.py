@@ -9,8 +9,9 @@ import numpy as np
 from contact_results.quantities import shear_of
 from contact_scene import SurfaceDiscretisation
 from contact_scene.discretisation import EdgeCorrection
+from contact_scene.solver_errors import NotConverged
 from semi_analytical import Increment, Result, SurfaceGrid, solve_discretised
-from verification.adapters.own_numbers import in_increments, number, scene_of
+from verification.adapters.own_numbers import given_up, in_increments, number, scene_of
 from verification.adapters.surface_places import COMPONENTS, stress_at, under_a_patch
 from verification.challenge.answer import Answer, Field, Key, Solver, Vector
 from verification.challenge.door import Posed
@@ -40,7 +41,10 @@ def _answer(posed: Posed, level: int, edge: EdgeCorrection) -> Answer:
     on = SurfaceDiscretisation(
         cells=(cells, cells), window=(posed.window, posed.window), tolerance=TOLERANCE, edge=edge
     )
-    result = solve_discretised(in_increments(scene_of(posed), INCREMENTS * 2**level), on)
+    try:
+        result = solve_discretised(in_increments(scene_of(posed), INCREMENTS * 2**level), on)
+    except NotConverged as error:
+        return given_up(posed, cells // 3, error)
     grid = result.grid
     scalars = {
         key: value for key in posed.asked if (value := _number(posed, key, result)) is not None
