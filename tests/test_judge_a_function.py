@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from pathlib import Path
 
 import pytest
@@ -64,6 +65,20 @@ def test_the_exit_code_says_how_a_function_did(
     assert judge(f"{file}:{function}", *case, *options) == code
     told = capsys.readouterr()
     assert said in told.out + told.err
+
+
+def test_a_file_imports_what_lies_beside_it(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(sys, "path", list(sys.path))
+    (tmp_path / "kernel_of_a_stranger.py").write_text(FILE)
+    beside, lost = tmp_path / "beside.py", tmp_path / "lost.py"
+    beside.write_text("from kernel_of_a_stranger import right\n")
+    lost.write_text("from no_such_kernel import right\n")
+    asked = ("--case", "hertz_point", "--levels", "1")
+    assert judge(f"{beside}:right", *asked) == 0
+    assert judge(f"{lost}:right", *asked) == 2
+    assert f"{lost.name}: No module named 'no_such_kernel'" in capsys.readouterr().err
 
 
 @pytest.mark.parametrize(

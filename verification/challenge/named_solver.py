@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import importlib
 import importlib.util
+import sys
 from collections.abc import Callable
 from pathlib import Path
 from types import ModuleType
@@ -32,14 +33,19 @@ def named_solver(text: str) -> Callable[[Posed, int], Answer]:
 
 
 def module_of(path: Path) -> ModuleType:
-    """A file run as a module of its own; raises Refused where it cannot be read."""
+    """A file run as Python runs a script: what lies beside it can be imported. Raises Refused where
+    it cannot be read or imports what is not there."""
     if not path.is_file():
         raise Refused(f"{path}: no such file; {EXPECTED}")
     spec = importlib.util.spec_from_file_location(path.stem, path)
     assert spec is not None
     assert spec.loader is not None
     module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
+    sys.path.insert(0, str(path.parent.resolve()))
+    try:
+        spec.loader.exec_module(module)
+    except (ImportError, SyntaxError) as error:
+        raise Refused(f"{path}: {error}") from error
     return module
 
 
