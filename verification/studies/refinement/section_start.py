@@ -102,8 +102,8 @@ class SectionStart:
         lies in the middle of one on every mesh: where in an element it lies moves the error as much
         as some more elements do, and would hide the order.
         """
-        known = self.contents.scene.indenter.rim is not None or self.asked.contact_radius is not None
-        return self.radius / (count if known else count + 0.5)
+        rim, given = self.contents.scene.indenter.rim, self.asked.contact_radius
+        return self.radius / (count + 0.5 if rim is None and given is None else count)
 
 
 @cache
