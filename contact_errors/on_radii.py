@@ -1,6 +1,6 @@
 """Errors of a radial result, from one with twice as many orders and points; with friction, from one
-with half the rings and half the increments. A pushed contact has two beside it: with half the rings
-and angles, and with half the increments, too; what they change may be of opposite signs.
+with half the rings and half the increments. A contact at points has two beside it: with half the
+rings and angles, and with half the increments, too; what they change may be of opposite signs.
 """
 
 from __future__ import annotations
@@ -18,7 +18,8 @@ from contact_results.cycles import fretting_cycles
 from contact_scene.solver_errors import SolverError
 from contact_scene.stated_error import EXACT, Companion, Part, StatedError, StatedErrors
 from radial import Increment, Result, solve
-from radial.plan import RINGS, Plan
+from radial.circle import Circle
+from radial.plan import Plan
 
 # Without friction both levels are at the end of what double precision gives: errors are as large as
 # their difference, or as what residuals and round-off leave. With friction they fall at least as
@@ -26,7 +27,7 @@ from radial.plan import RINGS, Plan
 TIMES = 2.0
 ROUND_OFF = 1e-13
 TWICE, HALF = 2, 0.5
-# Of a pushed contact: by half the increments, where what is left falls with an order above .74
+# Of a contact at points: by half the increments, where what is left falls with an order above .74
 # (`contact_results.path_error`); by half the rings and angles, where it does with 1.
 BY_PATH = 1.5
 BY_RINGS = 1.0
@@ -36,9 +37,9 @@ CHARGE = 0.1
 # Of the contact radius: as well as rings tell a front, and half increments where it stands at
 # their end.
 FRONT = 1e-3
-# Rings of a pushed contact follow neither: its front is known to a quarter of one.
+# Rings of such a contact follow neither: its front is known to a quarter of one.
 OF_RING, EDGE = 0.25, 2e-3
-CUSP = 2.0  # of a pushed contact's pressure on the axis, which falls more slowly with the rings
+CUSP = 2.0  # of its pressure on the axis, which falls more slowly with the rings
 _QUADRATURE: Part = "quadrature"
 _INCREMENTS: Part = "increments"
 
@@ -55,7 +56,7 @@ def stated_errors(
     else:
         changes = _changes(fine, [one.values or () for one in beside])
     charged = charged_by_increments(result, cycles)
-    part = _INCREMENTS if plan.coupled or plan.pushed else _QUADRATURE
+    part = _INCREMENTS if plan.coupled or plan.circle else _QUADRATURE
     steps = zip(result.steps, result.scene.load_path(), fine, changes, charged, strict=True)
     finite = rules_for(result.scene.indenter, cusp=plan.coupled).keys()
     return StatedErrors(
@@ -72,7 +73,7 @@ def stated_errors(
                     values,
                     changed[name],
                     open_.get(name),
-                    pushed=plan.pushed,
+                    rings=plan.rings if plan.circle else None,
                 )
                 for name in values
             }
@@ -85,7 +86,9 @@ def stated_errors(
 def _ways(plan: Plan) -> Sequence[tuple[str, Plan, float]]:
     """In what each companion differs, its plan and its fineness."""
     fewer = replace(plan, increments=_recut(plan.increments))
-    if plan.pushed:
+    if plan.circle is Circle.ONE:
+        return ("half the rings", plan, HALF), ("half the rings and increments", fewer, HALF)
+    if plan.circle:
         return (
             ("half the rings and angles", plan, HALF),
             ("half the rings, angles and increments", fewer, HALF),
@@ -141,14 +144,16 @@ def _recut(increments: tuple[int, ...]) -> tuple[int, ...]:
 
 def _stated(
     name: str, part: Part, residual: float, values: Values, changed: Numbers,
-    by_increments: float | None, *, pushed: bool,
+    by_increments: float | None, *, rings: int | None,
 ) -> StatedError:  # fmt: skip
-    """changed  by companions, times what they are worth"""
+    """changed  by companions, times what they are worth
+    rings    over a contact at points; None of others
+    """
     size = np.maximum(np.abs(values[name]), scale(name, values))
     front: Numbers | float = 0.0
     if part == _INCREMENTS:
-        front = _of_front(name, values, OF_RING / RINGS if pushed else FRONT)
-    if pushed:
+        front = _of_front(name, values, OF_RING / rings if rings else FRONT)
+    if rings:
         of_edge = {"contact_radius": 1, "contact_area": 2}.get(name, 0)
         front = front + EDGE * of_edge * values[name]
         changed = changed * (CUSP if name == "peak_pressure" else 1.0)

@@ -136,8 +136,8 @@ class Cells:
 class Rings:
     """Rings around the z axis, fields linear in between; index [ring] or [ring, angle].
 
-    Without angles places are on the ray along the load. Angles cover a half circle whose points
-    stand for their mirror images, too.
+    Without angles places are on the ray along the load. Angles cover a half circle, both ends
+    included, whose points stand for their mirror images, too, or all of it from 0 on, evenly.
 
     radii      ascending (rings,) [length]
     angles     from the direction of the tangential load (angles,) [radian]; None where one
@@ -150,6 +150,11 @@ class Rings:
     angles: Field | None
     direction: tuple[float, float]
     polar: bool
+
+    @property
+    def whole(self) -> bool:
+        """Whether the angles cover all of a circle."""
+        return self.angles is not None and bool(self.angles[-1] > 1.25 * np.pi)
 
     @property
     def axes(self) -> Mapping[str, Field]:
@@ -175,6 +180,8 @@ class Rings:
         area[1:] += (outer - inner) * (inner + 2 * outer) / 6
         if self.angles is None:
             return 2 * np.pi * area
+        if self.whole:
+            return np.outer(area, np.full(len(self.angles), 2 * np.pi / len(self.angles)))
         ends = [0.0, *(self.angles[1:] + self.angles[:-1]) / 2, np.pi]
         return 2 * np.diff(ends) * area[:, None]
 
@@ -224,7 +231,8 @@ class Rings:
         """Values over the radius; with angles from behind the axis to ahead of it."""
         if self.angles is None:
             return field
-        return np.concatenate([field[..., ::-1, -1], field[..., :, 0]], axis=-1)
+        behind = len(self.angles) // 2 if self.whole else -1
+        return np.concatenate([field[..., ::-1, behind], field[..., :, 0]], axis=-1)
 
     def vector_along(self, vector: Field) -> Field:
         """Components along and across the load."""

@@ -25,8 +25,9 @@ class RingIncrement(ReportedIncrement):
     history, of the lower body's particles relative to the indenter's while they were in contact.
 
     radii     of the rings [length]
-    angles    from the direction of the tangential load [radian]; None where one function of the
-              radius says all
+    angles    from the direction of the tangential load [radian], from 0 to π, or to less than 2π
+              where the halves of the circle are not alike; None where one function of the radius
+              says all
     in_stick  rings in contact that did not slip in this increment
     """
 

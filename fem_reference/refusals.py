@@ -46,12 +46,13 @@ def refuse_loads(scene: Scene, loaded: bool, twisted: bool, coupled: bool) -> No
     if twisted and loaded:
         raise UnsupportedScene(
             "steps name a tangential load and a torsion, and this solver takes one of them; leave "
-            "the other out"
+            "the other out, or solve it with --solver radial"
         )
     if twisted and coupled:
         raise UnsupportedScene(
             "the indenter is twisted where pressing alone leaves radial shear, and this solver "
-            "does not combine the two; take bodies that are alike, or leave the torsion out"
+            "does not combine the two; take bodies that are alike, leave the torsion out, or solve "
+            "it with --solver radial"
         )
     ends = [ramp.tangential.end for ramp in scene.load_path()]
     longest = max(ends, key=lambda end: hypot(*end))
@@ -59,7 +60,7 @@ def refuse_loads(scene: Scene, loaded: bool, twisted: bool, coupled: bool) -> No
         if _turns(longest, end):
             raise UnsupportedScene(
                 f"the tangential load goes along {longest} and along {end}, and this solver takes "
-                f"one direction; keep to a straight line"
+                "one direction; keep to a straight line, or solve it with --solver radial"
             )
 
 

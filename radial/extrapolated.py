@@ -18,7 +18,7 @@ from radial.plan import Plan
 # What a history leads to; what was prescribed is the same in both.
 LED_TO = (
     *("normal_force", "approach", "contact_radius", "tangential_force", "tangential_shift"),
-    *("dissipated_energy", "elastic_energy"),
+    *("torque", "twist", "dissipated_energy", "elastic_energy"),
 )
 
 
@@ -45,4 +45,4 @@ def extrapolated(coarse: Increment, fine: Increment) -> Increment:
 def _limit(coarse: Any, fine: Any) -> Any:
     if isinstance(fine, tuple):
         return tuple(_limit(*pair) for pair in zip(coarse, fine, strict=True))
-    return 2 * fine - coarse
+    return fine if fine is None else 2 * fine - coarse

@@ -66,7 +66,7 @@ def solve(
     decided = plan_of(scene) if plan is None else plan
     refuse_if_too_large(scene, decided)
     solver = _solver(scene, asked, decided, fineness)
-    if asked.extrapolated and decided.pushed:
+    if asked.extrapolated and decided.circle:
         return Result(
             scene, asked, decided, _extrapolated(scene, solver, decided, progress, keeper)
         )
@@ -107,10 +107,10 @@ def _extrapolated(
 
 
 def _solver(scene: Scene, asked: RadialDiscretisation, plan: Plan, fineness: float) -> Any:
-    if plan.pushed:
+    if plan.circle:
         from radial.pushing import Pushing
 
-        return Pushing.of(scene, asked, plan.direction, fineness)
+        return Pushing.of(scene, asked, plan, fineness)
     if plan.coupled:
         from radial.rubbing import Rubbing
 

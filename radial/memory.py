@@ -6,6 +6,7 @@ from __future__ import annotations
 from contact_scene import Scene
 from contact_scene.free_memory import available_bytes
 from contact_scene.solver_errors import ResourceRefused
+from radial.circle import Circle
 from radial.plan import Plan
 
 # Measured of whole runs, the solve beside them and figures included, of layers from a third to a
@@ -16,9 +17,9 @@ PER_WAVE = 11_300  # bytes; most of it where figures show the stress
 # With friction: rings, and what is kept of contacts of many radii until there is no more room.
 PER_WAVE_RUBBING, RINGS = 8_600, 36_000_000
 PER_WAVE_KEPT, MOST_KEPT = 8_300, 39_000_000
-# Of pushed contacts, whose rings and angles are always as many: figures are drawn when what the
+# Of contacts at points, whose rings and angles are always as many: figures are drawn when what the
 # solve has taken is free again.
-PUSHED, PER_WAVE_PUSHED, DRAWN = 133 << 20, 8_600, 181 << 20
+PUSHED, WHOLE, PER_WAVE_PUSHED, DRAWN = 133 << 20, 217 << 20, 8_600, 181 << 20
 
 
 def estimated_bytes(scene: Scene, plan: Plan) -> int:
@@ -29,8 +30,9 @@ def estimated_bytes(scene: Scene, plan: Plan) -> int:
     told = LIGHT * sum(plan.increments)
     libraries = LIBRARIES + told
     waves = _wavenumbers(scene)
-    if plan.pushed:
-        return told + max(PUSHED + PER_WAVE_PUSHED * waves, DRAWN)
+    if plan.circle:
+        solved = WHOLE if plan.circle is Circle.WHOLE else PUSHED
+        return told + max(solved + PER_WAVE_PUSHED * waves, DRAWN)
     if not plan.coupled:
         return libraries + PER_WAVE * waves
     kept = min(PER_WAVE_KEPT * waves, MOST_KEPT)

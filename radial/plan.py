@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from math import ceil, hypot
-from typing import ClassVar
 
 from contact_scene import ControlKind, LoadRamp, Scene, effect
 from contact_scene.cycles import loop_increments
@@ -12,6 +11,7 @@ from contact_scene.effect import Effect
 from contact_scene.pair import coupling, refuse_contrast
 from contact_scene.scene_text import shape_text
 from contact_scene.solver_errors import UnsupportedScene
+from radial.circle import Circle
 
 # Of the shear moduli within a body: beyond, round-off is felt in the numbers.
 MOST_CONTRAST = 1e8
@@ -21,8 +21,8 @@ PATH_INCREMENTS = 64
 PUSHED_INCREMENTS = 20
 LARGEST_SHARE = 0.05
 ROUND_OFF = 1e-9
-# Of a pushed contact: rings inside, and angles on the half circle.
-RINGS, ANGLES = 24, 9
+# Of a contact at points: rings, and angles on a half circle; rings where one angle tells all.
+RINGS, ANGLES, ROUND_RINGS = 24, 9, 64
 # The sine of an angle below this is round-off of a load that goes straight.
 STRAIGHT = 1e-9
 ELSEWHERE = "solve it with the semi-analytical solver"
@@ -37,9 +37,10 @@ class Plan:
     pushed      whether there is a tangential load
     increments  how many each loading step takes
     effects     every effect with its reason, as shown to people
-    direction   unit vector of the tangential load, (1, 0) without
+    direction   unit vector of the first tangential load, (1, 0) without
     still       steps before the contact is pushed
-    rings, angles  over a pushed contact, and on its half circle
+    circle      how much of a circle tells all, where contact and friction are solved together at
+                points; None where the pressure or its shear is known without
     """
 
     coupled: bool
@@ -49,8 +50,17 @@ class Plan:
     effects: tuple[Effect, ...]
     direction: tuple[float, float] = (1.0, 0.0)
     still: int = 0
-    rings: ClassVar[int] = RINGS
-    angles: ClassVar[int] = ANGLES
+    circle: Circle | None = None
+
+    @property
+    def rings(self) -> int:
+        """Over a contact at points."""
+        return ROUND_RINGS if self.circle is Circle.ONE else RINGS
+
+    @property
+    def angles(self) -> int:
+        """Of the points on a ring."""
+        return 0 if self.circle is None else len(self.circle.angles(ANGLES))
 
     @property
     def turned(self) -> int:
@@ -73,14 +83,14 @@ def plan(scene: Scene) -> Plan:
     _refuse_loads(scene)
     friction, ramps = scene.friction is not None, scene.load_path()
     rubs = couples and scene.friction is not None and scene.friction.uniform != 0
-    twists = friction and any(ramp.twisting.end for ramp in ramps)
     pushed = friction and any(any(ramp.tangential.end) for ramp in ramps)
-    if pushed:
-        _refuse_pushes(scene, twists)
-    if rubs or pushed:
-        _refuse_rubbing(scene)
-    if twists:
-        _refuse_twists(scene, rubs)
+    turns = pushed and _turns(ramps)
+    twists = friction and any(_twists(ramp, turns) for ramp in ramps)
+    circle = _circle(ramps, rubs, twists, pushed, turns)
+    if rubs or circle:
+        _refuse_rubbing(scene, circle)
+    elif twists:
+        _refuse_map(scene)
     tells = "a step pushes sideways" if pushed else "no step pushes sideways"
     effects = (
         effect.PRESSURE,
@@ -92,9 +102,43 @@ def plan(scene: Scene) -> Plan:
         effect.coupled(scene, rubs, why),
         effect.load_history(rubs or twists or pushed),
     )
-    increments = _pushed_increments(scene) if pushed else _increments(scene, rubs)
+    increments = _pushed_increments(scene, circle) if circle else _increments(scene, rubs)
     still = next((n for n, ramp in enumerate(ramps) if any(ramp.tangential.end)), len(ramps))
-    return Plan(rubs, twists, pushed, increments, effects, _direction(ramps), still)
+    return Plan(
+        rubs, twists, pushed, increments, effects, _direction(ramps), still, circle
+    )  # fmt: skip
+
+
+def _twists(ramp: LoadRamp, turns: bool) -> bool:
+    """Whether a step twists, or leaves a contact free to turn that is not its own mirror image."""
+    return bool(ramp.twisting.end) or (turns and ramp.twisting.kind is ControlKind.FORCE)
+
+
+def _circle(
+    ramps: tuple[LoadRamp, ...], rubs: bool, twists: bool, pushed: bool, turns: bool
+) -> Circle | None:
+    if pushed:
+        return Circle.WHOLE if twists or turns else Circle.HALF
+    return Circle.ONE if twists and (rubs or _presses_while_twisted(ramps)) else None
+
+
+def _turns(ramps: tuple[LoadRamp, ...]) -> bool:
+    """Whether tangential loads are not on one line, round-off apart."""
+    ends = [ramp.tangential.end for ramp in ramps]
+    longest = max(ends, key=lambda end: hypot(*end))
+    return any(
+        abs(longest[0] * end[1] - longest[1] * end[0]) > STRAIGHT * hypot(*longest) * hypot(*end)
+        for end in ends
+    )
+
+
+def _presses_while_twisted(ramps: tuple[LoadRamp, ...]) -> bool:
+    begun = False
+    for ramp in ramps:
+        begun = begun or bool(ramp.twisting.end)
+        if begun and ramp.normal.start != ramp.normal.end:
+            return True
+    return False
 
 
 def _direction(ramps: tuple[LoadRamp, ...]) -> tuple[float, float]:
@@ -106,26 +150,27 @@ def _direction(ramps: tuple[LoadRamp, ...]) -> tuple[float, float]:
     return 1.0, 0.0
 
 
-def _pushed_increments(scene: Scene) -> tuple[int, ...]:
-    """As asked for; else as many as the path of pressure and push takes."""
+def _pushed_increments(scene: Scene, circle: Circle) -> tuple[int, ...]:
+    """As asked for; else as many as the path of pressure, push and twist takes."""
     ramps = scene.load_path()
     return tuple(
-        ramp.increments or max(of_loop, _on_path(scene, ramp))
+        ramp.increments or max(of_loop, _on_path(scene, ramp, circle))
         for ramp, of_loop in zip(ramps, loop_increments(ramps), strict=True)
     )
 
 
-def _on_path(scene: Scene, ramp: LoadRamp) -> int:
+def _on_path(scene: Scene, ramp: LoadRamp, circle: Circle) -> int:
     start, end = ramp.tangential.start, ramp.tangential.end
-    if ramp.normal.start != ramp.normal.end:
-        return PUSHED_INCREMENTS
+    most = PATH_INCREMENTS if circle is Circle.ONE else PUSHED_INCREMENTS
+    if ramp.normal.start != ramp.normal.end or ramp.twisting.start != ramp.twisting.end:
+        return most
     if start == end:
         return 1
     by_force = ramp.normal.kind is ramp.tangential.kind is ControlKind.FORCE
     assert scene.friction is not None
     limit = scene.friction.carried(ramp.normal.end)
     if not by_force or start is None or not limit:
-        return PUSHED_INCREMENTS
+        return most
     change = hypot(end[0] - start[0], end[1] - start[1])
     return max(1, ceil(change / (LARGEST_SHARE * limit) - ROUND_OFF))
 
@@ -147,18 +192,28 @@ def _refuse_shape(scene: Scene) -> None:
         )
 
 
-def _refuse_rubbing(scene: Scene) -> None:
-    """What pressing without friction can do and with friction cannot."""
+def _refuse_map(scene: Scene) -> None:
     assert scene.friction is not None
     if scene.friction.varying is not None:
         raise UnsupportedScene(
             "friction is given as a map, and this solver takes one coefficient; name one number, "
             f"or {ELSEWHERE}"
         )
+
+
+def _refuse_rubbing(scene: Scene, circle: Circle | None) -> None:
+    """What pressing without friction can do and with friction cannot."""
+    _refuse_map(scene)
+    assert scene.friction is not None
     if scene.indenter.rim is not None:
         raise UnsupportedScene(
             "there is friction below an indenter with a rim, where tractions are infinite, and "
             f"this solver takes smooth edges; leave [friction] out, or {ELSEWHERE}"
+        )
+    if circle and scene.friction.uniform == 0:
+        raise UnsupportedScene(
+            "a step names a tangential load or a torsion and the coefficient of friction is zero, "
+            "so that nothing carries it; give a coefficient, or leave the load out"
         )
 
 
@@ -169,50 +224,3 @@ def _refuse_loads(scene: Scene) -> None:
             "a step names a moment or a tilt, and this solver keeps the indenter upright; leave it "
             f"out, or {ELSEWHERE}"
         )
-
-
-def _refuse_pushes(scene: Scene, twists: bool) -> None:
-    """What a push along one line cannot do."""
-    assert scene.friction is not None
-    if twists:
-        raise UnsupportedScene(
-            "steps name a tangential load and a torsion, and this solver takes one of them; leave "
-            f"the other out, or {ELSEWHERE}"
-        )
-    if scene.friction.uniform == 0:
-        raise UnsupportedScene(
-            "a step names a tangential load and the coefficient of friction is zero, so that "
-            "nothing carries it; give a coefficient, or leave the load out"
-        )
-    ends = [ramp.tangential.end for ramp in scene.load_path()]
-    longest = max(ends, key=lambda end: hypot(*end))
-    for end in ends:
-        cross = longest[0] * end[1] - longest[1] * end[0]
-        if abs(cross) > STRAIGHT * hypot(*longest) * hypot(*end):
-            raise UnsupportedScene(
-                f"the tangential load goes along {longest} and along {end}, and this solver takes "
-                f"one line; keep to it, or {ELSEWHERE}"
-            )
-
-
-def _refuse_twists(scene: Scene, rubs: bool) -> None:
-    """What torsion under constant pressure and one coefficient of friction does not reach."""
-    assert scene.friction is not None
-    if rubs:
-        raise UnsupportedScene(
-            "a step names a torque or twist where pressing alone already brings shear, and this "
-            f"solver has one or the other; {ELSEWHERE}"
-        )
-    if scene.friction.varying is not None:
-        raise UnsupportedScene(
-            "friction is given as a map, and this solver takes one coefficient; name one number, "
-            f"or {ELSEWHERE}"
-        )
-    begun = False
-    for ramp in scene.load_path():
-        begun = begun or bool(ramp.twisting.end)
-        if begun and ramp.normal.start != ramp.normal.end:
-            raise UnsupportedScene(
-                f"step {ramp.step} presses while or after the contact is twisted, and this solver "
-                f"twists under constant pressure; press in a step before, or {ELSEWHERE}"
-            )

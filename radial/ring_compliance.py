@@ -1,7 +1,8 @@
 """Energies of tractions of every harmonic on rings, of both bodies and all their layers.
 
-p and q_r go as cos mθ, q_θ as sin mθ. P = q_r - q_θ is transformed by J_{m-1}, Q = q_r + q_θ by
-J_{m+1}, p by J_m; in these the half-space is that of `ring_energies`, and layers add
+p and q_r go as cos mθ, q_θ as sin mθ, of m = 0 as torsion. P = q_r - q_θ is transformed by J_{m-1},
+Q = q_r + q_θ by J_{m+1}, p by J_m; in these the half-space is that of `ring_energies`, and layers
+add
 
     ∫ k dk ¼[(F_11 + F_sh)(P² + Q²) + 2 (F_sh - F_11) P Q] + ½ C (P - Q) p + F_22 p²
 
@@ -25,7 +26,7 @@ def ring_compliance(
 ) -> Array:
     """Energies of hats (M + 1, 3, 3, n + 1, n + 1) [length^6/force], symmetric: displacement along
     the row's direction, weighted with its hat and r dr, by the column's traction. Directions are r,
-    θ, z; of harmonic 0, r and z alone, the rest zero.
+    θ, z; of harmonic 0 torsion, by q_θ, is on its own.
 
     nodes    x = r/radius, from 0 on
     highest  M
@@ -50,10 +51,9 @@ def ring_compliance(
         block[0, 0] = pp + qq + pq + pq.T
         block[2, 2], block[2, 0] = zz, zp + zq
         block[0, 2] = block[2, 0].T
-        if m:
-            block[1, 1] = pp + qq - pq - pq.T
-            block[0, 1], block[2, 1] = qq - pp + pq - pq.T, zq - zp
-            block[1, 0], block[1, 2] = block[0, 1].T, block[2, 1].T
+        block[1, 1] = pp + qq - pq - pq.T
+        block[0, 1], block[2, 1] = qq - pp + pq - pq.T, zq - zp
+        block[1, 0], block[1, 2] = block[0, 1].T, block[2, 1].T
     return radius**3 * found
 
 

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from contact_scene.geometry import ShapedBody
+from radial.circle import Circle
 from radial.coupling import Coupling
 from radial.quadrature import unit_gauss
 from radial.ring_compliance import ring_compliance
@@ -50,27 +51,29 @@ def laid(
     indenter: ShapedBody,
     edges: Sequence[float],
     count: int,
-    angles: int,
+    highest: int,
+    circle: Circle,
     friction: float,
 ) -> Points:
     """Points for contacts of these radii [length].
 
-    count, angles  of rings inside the largest, and of angles on the half circle
-    friction       µ
+    count    of rings inside the largest
+    highest  harmonic, and angles on a half circle
+    friction  µ
     """
     edge = max(edges)
     over = places(count, REACH + BY_FRICTION * friction, [other / edge for other in edges])
     radii = edge * np.array(over)
     scaled = tuple(x / over[-1] for x in over)
-    energies = ring_compliance(coupling, scaled, radii[-1], angles)
+    energies = ring_compliance(coupling, scaled, radii[-1], highest)
     v, weights = unit_gauss(POINTS)
     length = np.diff(radii)[:, None]
     r = radii[:-1, None] + length * v
-    areas = []
-    for field in (r, r * indenter.initial_gap(r, 0.0)):
+
+    def integral(field: Array) -> Array:
+        """∫ φ field dr."""
         part = field * length * weights
-        total = np.zeros_like(radii)
-        total[:-1] += part @ (1 - v)
-        total[1:] += part @ v
-        areas.append(total)
-    return Points(radii, energies, *areas)
+        return np.append(part @ (1 - v), 0.0) + np.append(0.0, part @ v)
+
+    gap = integral(r * indenter.initial_gap(r, 0.0))
+    return Points(radii, energies, integral(r), integral(r * r), gap, circle)

@@ -1,22 +1,19 @@
-"""Points where nodes of rings meet angles between 0 and π, and what tractions at them move.
-
-Of the other half circle everything is the mirror image: p and q_r go as cosines of the angle from
-the tangential load, q_θ as sines.
-"""
+"""Points where nodes of rings meet angles, and what tractions at them move."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.fft import dct, dst
 from scipy.interpolate import CubicSpline
+
+from radial.circle import Circle
 
 Array = NDArray[np.float64]
 
-FINER, AROUND = 16, 180  # places per element and angles, where a front is looked for
+FINER, AROUND = 16, 180  # places per element and half circle, where a front is looked for
 # Nodes that tell an edge: so far from the last one with pressure, over its radius, and how many.
 BESIDE_EDGE, FITTED = 0.15, 4
 # How far beyond a front the largest slip is, where no shear is 1 within: of 0.3, 0.5, 0.7 and 1
@@ -31,68 +28,88 @@ class Points:
     radii     of the nodes (n,) [length]
     energies  of `ring_compliance` up to harmonic J, of the bodies (J + 1, 3, 3, n, n)
     weights   ∫ φ r dr (n,) [length²]
+    arms      ∫ φ r² dr (n,) [length³]
     gap       ∫ φ f r dr at first touch (n,) [length³]
+    circle    what of it the angles cover
 
-    Fields of points are (n J,), angle by angle within a node; vectors (3 n J,), r, θ, z outermost.
-    One angle, π/2, is enough for what is the same all around.
+    Fields of points are (n count,), angle by angle within a node; vectors (3 n count,), r, θ, z
+    outermost.
     """
 
     radii: Array
     energies: Array
     weights: Array
+    arms: Array
     gap: Array
+    circle: Circle
 
     @property
     def count(self) -> int:
-        """J, angles on the half circle."""
-        return len(self.energies) - 1
+        """Of angles."""
+        return len(self.angles)
 
     @property
+    def highest(self) -> int:
+        """J, the highest harmonic."""
+        return len(self.energies) - 1
+
+    @cached_property
     def angles(self) -> Array:
-        """θ_j = π(j + ½)/J."""
-        return np.pi * (np.arange(self.count) + 0.5) / self.count
+        """Of the points on a ring."""
+        return self.circle.angles(self.highest)
 
     @cached_property
     def areas(self) -> Array:
-        """Of every point and its mirror image."""
-        return np.repeat(self.weights, self.count) * (2 * np.pi / self.count)
+        """Of every point, with those that it stands for."""
+        return self._at_points(self.weights)
 
     @cached_property
     def bare(self) -> Array:
         """f times the area of a point."""
-        return np.repeat(self.gap, self.count) * (2 * np.pi / self.count)
+        return self._at_points(self.gap)
 
     @cached_property
-    def along(self) -> Array:
-        """Areas times the direction of the load, in r and θ (2 n J,)."""
-        nodes = len(self.weights)
-        ways = np.tile(np.cos(self.angles), nodes), -np.tile(np.sin(self.angles), nodes)
-        return np.concatenate([self.areas * way for way in ways])
+    def levers(self) -> Array:
+        """r times the area of a point."""
+        return self._at_points(self.arms)
+
+    def _at_points(self, of_nodes: Array) -> Array:
+        return np.repeat(of_nodes, self.count) * (2 * np.pi / self.count)
+
+    @cached_property
+    def ways(self) -> Array:
+        """Areas times what rigid motions move, in r and θ (3, 2 n count): along θ = 0, across it,
+        and by a turn about the axis; zero where symmetry has none."""
+        nodes, nothing = len(self.weights), np.zeros_like(self.areas)
+        cos, sin = np.tile(np.cos(self.angles), nodes), np.tile(np.sin(self.angles), nodes)
+        found = np.zeros((3, 2 * len(nothing)))
+        if self.circle is not Circle.ONE:
+            found[0] = np.concatenate([self.areas * cos, -self.areas * sin])
+        if self.circle is Circle.WHOLE:
+            found[1] = np.concatenate([self.areas * sin, self.areas * cos])
+        if self.circle is not Circle.HALF:
+            found[2] = np.concatenate([nothing, self.levers])
+        return found
 
     @cached_property
     def compliance(self) -> Array:
-        """Displacements times areas by tractions (3 n J, 3 n J) [length^5/force]."""
-        J, nodes = self.count, len(self.weights)
-        cosines, sines = np.zeros((J + 1, J)), np.zeros((J + 1, J))
-        cosines[:J] = dct(np.eye(J), type=2, axis=0) / J
-        sines[1:] = dst(np.eye(J), type=2, axis=0) / J
-        cosines[0] /= 2
-        sines[J] /= 2
-        norms = np.full(J + 1, np.pi)
-        norms[[0, J]] = 2 * np.pi
-        ways = np.stack([cosines, sines, cosines])
-        whole = np.einsum(
-            "m,amj,mabik,bml->aijbkl", norms, ways, self.energies, ways, optimize=True
-        )
-        return whole.reshape(3 * nodes * J, -1)
+        """Displacements times areas by tractions (3 n count,) * 2 [length^5/force]."""
+        norms = np.full(len(self.energies), np.pi)
+        norms[[0, -1]] = 2 * np.pi
+        ways = np.concatenate(self.circle.families(self.highest), axis=1)
+        # One family after the other, harmonic by harmonic.
+        families = ways.shape[1] // len(norms)
+        norms, energies = np.tile(norms, families), np.concatenate([self.energies] * families)
+        whole = np.einsum("m,amj,mabik,bml->aijbkl", norms, ways, energies, ways, optimize=True)
+        return whole.reshape(3 * len(self.weights) * self.count, -1)
 
     @cached_property
-    def around(self) -> Points:
+    def round(self) -> Points:
         """The same nodes, for what is the same all around."""
-        return Points(self.radii, self.energies[:2], self.weights, self.gap)
+        return replace(self, energies=self.energies[:1], circle=Circle.ONE)
 
     def every_angle(self, field: Array) -> Array:
-        """Of the points, from one (…, n) of `around`; what is times the area still is so."""
+        """Of the points, from one (…, n) of `round`; what is times the area still is so."""
         return np.repeat(field, self.count, axis=-1)
 
     def contact_area(self, pressure: Array) -> float:
@@ -107,7 +124,7 @@ class Points:
                 continue
             last = int(inside[-1])
             further = r[min(last + 1, len(r) - 1)] ** 2
-            if self.count == 1:
+            if self.circle is Circle.ONE:
                 edge = r[last] ** 2
                 if last and ray[last - 1] > ray[last]:
                     share = ray[last] ** 2 / (ray[last - 1] ** 2 - ray[last] ** 2)
@@ -140,34 +157,39 @@ class Points:
                  is, over the largest, for the share beyond 1 goes with the size of the increment
         """
         beyond = share - 1
-        if self.count > 1 and np.any(share > 1):
+        if self.circle is not Circle.ONE and np.any(share > 1):
             largest = np.max(slipped, where=np.isfinite(share), initial=0.0)
             beyond = BY_SLIP * (slipped / largest) ** (2 / 3)
         left = np.where(share < 1, 1 - share, -np.where(np.isfinite(share), beyond, 1.0))
         left = np.clip(left, -1.0, 1.0).reshape(-1, self.count)
-        turned = self._around(left, 1.0, np.pi * (np.arange(AROUND) + 0.5) / AROUND)
+        if self.circle is not Circle.ONE:
+            halves = 1 if self.circle is Circle.HALF else 2
+            left = self._around(left, 1.0, np.pi * (np.arange(halves * AROUND) + 0.5) / AROUND)
         nodes = np.arange(len(self.radii))
         edges = np.interp(np.linspace(0, nodes[-1], FINER * nodes[-1] + 1), nodes, self.radii)
         middle = (edges[1:] + edges[:-1]) / 2
-        sticks = np.array([np.interp(middle, self.radii, values) > 0 for values in turned.T])
+        sticks = np.array([np.interp(middle, self.radii, values) > 0 for values in left.T])
         return float(np.pi * np.mean(sticks, axis=0) @ np.diff(edges**2))
 
     def shown(self, field: Array, sense: float) -> Array:
-        """A field at the angles of `shown_angles` (n, J + 1), by a spline in θ.
+        """A field at the angles of `shown_angles` (n, angles), by a spline in θ.
 
-        sense  1 for what the mirror image has alike, -1 for what it has opposite
+        sense  1 for what a mirror image has alike, -1 for what it has opposite
         """
         return self._around(field.reshape(-1, self.count), sense, self.shown_angles)
 
     @property
     def shown_angles(self) -> Array:
-        """πj/J, with the line along the load."""
-        return np.pi * np.arange(self.count + 1) / self.count
+        """With the line along the load."""
+        return self.circle.shown(self.highest)
 
     def _around(self, field: Array, sense: float, angles: Array) -> Array:
-        """A field (n, J) at other angles."""
-        every = np.concatenate([self.angles, 2 * np.pi - self.angles[::-1]])
+        """A field (n, count) at other angles."""
+        every, whole = self.angles, field
+        if self.circle is Circle.HALF:
+            every = np.concatenate([every, 2 * np.pi - every[::-1]])
+            whole = np.hstack([field, sense * field[:, ::-1]])
         every = np.append(every, every[0] + 2 * np.pi)
-        whole = np.hstack([field, sense * field[:, ::-1], field[:, :1]])
+        whole = np.hstack([whole, whole[:, :1]])
         spline = CubicSpline(every, whole, axis=1, bc_type="periodic")
-        return np.asarray(spline(angles))
+        return np.ascontiguousarray(spline(angles))

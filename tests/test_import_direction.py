@@ -107,8 +107,8 @@ ORDERS = {
             "half_space",
         ),
         *("below", "pressing", "rings", "coupling", "stick_slip", "sheared"),
-        *("harmonic_kernels", "ring_energies", "ring_compliance", "ring_points", "ring_layout"),
-        "ring_friction",
+        *("harmonic_kernels", "ring_energies", "ring_compliance"),
+        *("circle", "ring_points", "ring_layout", "ring_laws", "sliding", "ring_friction"),
         *("friction_limit", "torsion", "twist_path"),
         *(
             "plan",
@@ -118,6 +118,7 @@ ORDERS = {
             "memory",
             "rubbing",
             "twisting",
+            "pushed",
             "pushing",
             "extrapolated",
             "history",

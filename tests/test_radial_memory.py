@@ -32,6 +32,7 @@ normal_force = 1000
 increments = 2
 """
 FRICTION = "[friction]\ncoefficient = 0.1"
+TURN = "[[loading]]\ntangential_force = [0, 60]\nincrements = 2"
 PUSH = "[[loading]]\ntangential_force = [60, 0]\nincrements = 2"
 slow = pytest.mark.slow
 
@@ -53,6 +54,9 @@ def scene(thickness: float, modulus: float = 420e9, friction: str = "", push: st
         pytest.param(scene(3e-6, friction=FRICTION), id="film, rubbed", marks=slow),
         pytest.param(scene(1e-4, friction=FRICTION, push=PUSH), id="pushed", marks=slow),
         pytest.param(scene(6e-6, friction=FRICTION, push=PUSH), id="thin, pushed", marks=slow),
+        pytest.param(
+            scene(1e-4, friction=FRICTION, push=f"{PUSH}\n{TURN}"), id="turned", marks=slow
+        ),
         pytest.param(scene(3e-4, 210e3), id="soft", marks=slow),
         pytest.param(scene(1e-5, 210e15), id="stiff", marks=slow),
     ],

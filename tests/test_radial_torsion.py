@@ -229,16 +229,3 @@ def test_slip_that_does_not_begin_at_the_edge_is_refused() -> None:
     punch = FlatPunch(radius=1.0, material=SOFT, layers=STIFF.layers)
     with pytest.raises(UnsupportedScene, match="slips first within"):
         radial.solve(scene_of(STIFF, LoadStep(torque=0.45), indenter=punch))
-
-
-@pytest.mark.parametrize(
-    ("steps", "words"),
-    [
-        ((LoadStep(normal_force=3.0, torque=0.1),), "presses while"),
-        ((LoadStep(torque=0.1), LoadStep(normal_force=3.0)), "step 3 presses"),
-        ((LoadStep(torque=0.1), LoadStep(approach=1.5)), "step 3 presses"),
-    ],
-)
-def test_pressing_on_a_twisted_contact_is_refused(steps: tuple[LoadStep, ...], words: str) -> None:
-    with pytest.raises(UnsupportedScene, match=words):
-        radial.solve(scene_of(BARE, *steps))

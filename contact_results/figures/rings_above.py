@@ -54,7 +54,8 @@ class RingsAbove:
             return None
         outward, around, ahead = map(self._sampled, components)
         _, angle = self._polar()
-        around = np.sign(angle) * around if self.rings.angles is not None else around
+        if self.rings.angles is not None and not self.rings.whole:
+            around = np.sign(angle) * around
         cos, sin = np.cos(angle), np.sin(angle)
         along, across = outward * cos - around * sin + ahead, outward * sin + around * cos
         x, y = self.rings.direction
@@ -72,6 +73,10 @@ class RingsAbove:
         if field.ndim > 1:
             angles = self.rings.angles
             assert angles is not None
+            if self.rings.whole:
+                # The first ray closes the circle.
+                field = np.concatenate([field, field[:, :1]], axis=1)
+                angle, angles = angle % (2 * np.pi), np.append(angles, 2 * np.pi)
             at.append(np.interp(np.abs(angle), angles, np.arange(len(angles))))
         return np.asarray(map_coordinates(field, at, order=1))
 

@@ -98,7 +98,9 @@ def _disc(rings: Rings) -> tuple[Places, tuple[str, NDArray[np.int64]]]:
 
 
 def _all_around(rings: Rings, fields: Fields) -> tuple[Rings, Fields]:
-    """The half circle with its mirror image, or what a function of the radius is on a circle."""
+    """The whole circle: the half with its mirror image, or what a function of the radius is."""
+    if rings.whole:
+        return rings, fields
     if rings.angles is None:
         return replace(rings, angles=np.linspace(0.0, 2 * np.pi, AROUND, endpoint=False)), fields
     angles = np.append(rings.angles, 2 * np.pi - rings.angles[-2:0:-1])

@@ -14,6 +14,7 @@ from contact_results.stress.disc_body import DiscBody
 from contact_results.stress.extremes import extremes
 from contact_results.stress.loaded_bodies import LoadedBodies
 from contact_results.stress.points import StressField, StressPoints
+from contact_results.surface import Rings
 from contact_scene.geometry import ShapedBody
 from contact_scene.solver_errors import UnsupportedScene
 
@@ -29,7 +30,7 @@ def stress_on_disc(
     depths  both sides of every interface come on top, and nothing else [length]; None for what fits
             contact and layers
     Raises ValueError for a depth that is not in the body, UnsupportedScene where there is shear
-    below infinite pressure.
+    below infinite pressure, or a tangential load that turns or is beside torsion.
     """
     if is_sheared(state):
         return _below_shear(state, indenter, depths)
@@ -50,6 +51,8 @@ def _below_shear(
     """The same in the plane of the load; the largest also beside it."""
     assert state.pressed is not None
     refuse_infinite(*state.pressed[:2])
+    if isinstance(state.surface, Rings) and state.surface.whole:
+        refuse_turned()
     body = CircleBody.of(state, indenter)
     levels, x = tuple(body.parts.levels(depths)), body.section
     grid = body.points(levels, x, np.zeros_like(x))
@@ -103,6 +106,15 @@ def refuse_infinite(indenter: ShapedBody, radius: float) -> None:
             f"there is shear, and the pressure is infinite at {where}: this solver has the stress "
             "below shear where tractions are finite; solve the scene with another solver"
         )
+
+
+def refuse_turned() -> None:
+    """Raises UnsupportedScene: shear that is not its own mirror image."""
+    raise UnsupportedScene(
+        "the tangential load turns, or there is torsion beside it: this solver has the stress "
+        "below loads along one line, or torsion alone; solve the scene with the semi-analytical "
+        "solver"
+    )
 
 
 def _joined(parts: Sequence[StressPoints]) -> StressPoints:

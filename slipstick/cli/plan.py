@@ -56,12 +56,17 @@ def plan(
 def _by_radii(scene: "Scene") -> str | None:
     """What one dimension makes of a scene; None where it calls for more."""
     from contact_scene.solver_errors import UnsupportedScene
+    from radial.circle import Circle
     from radial.plan import plan
 
+    how = {
+        None: "pressing, or torsion of what is pressed, nearly exact",
+        Circle.ONE: "pressing and torsion together, on rings",
+        Circle.HALF: "a push along one line, on rings and angles",
+        Circle.WHOLE: "pushes that turn, or torsion beside them, on rings and angles",
+    }
     try:
         decided = plan(scene)
     except UnsupportedScene:
         return None
-    if decided.pushed:
-        return "a push along one line, on rings and angles"
-    return "pressing alone, nearly exact"
+    return how[decided.circle]

@@ -76,11 +76,14 @@ def _solved(
     fineness = chosen.fineness(contents)
     decided: Any = chosen.plan(contents.scene, fineness)
     if name is SolverName.RADIAL:
-        from contact_results.stress.on_disc import refuse_infinite
+        from contact_results.stress.on_disc import refuse_infinite, refuse_turned
+        from radial.circle import Circle
         from radial.largest_contact import expected_radius
 
         if decided.sheared:
             refuse_infinite(contents.scene.indenter, expected_radius(contents.scene))
+        if decided.circle is Circle.WHOLE:
+            refuse_turned()
     with solve_progress(decided.increments) as observe:
         result = chosen.solve(contents.scene, fineness, decided, observe)
     if not error:

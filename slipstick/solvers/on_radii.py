@@ -11,11 +11,13 @@ from contact_scene.solver_errors import UnsupportedScene
 from contact_scene.standing import Keeper
 from contact_scene.stated_error import StatedErrors
 from radial import Plan, Result
+from radial.circle import Circle
 from slipstick.solvers.solver import Pairs, Progress, increments_text
 
-# Seconds of one core for an increment of a pushed contact (24 rings and 9 angles: 0.05 to 0.15),
-# and how many there are where their limit is taken.
-PUSHED, WITH_TWICE = 0.08, 3
+# Seconds of one core for an increment of a contact at points (24 rings, 9 angles on a half circle:
+# 0.05 to 0.15), and how many increments there are where their limit is taken.
+SECONDS = {Circle.ONE: 0.01, Circle.HALF: 0.08, Circle.WHOLE: 0.8}
+WITH_TWICE = 3
 
 
 class OnRadii:
@@ -62,8 +64,9 @@ class OnRadii:
         yield "rings", _rings_text(fineness, plan)
         yield "tolerance", f"{fineness.tolerance:.3g}"
         yield "increments", increments_text(plan.increments)
-        if plan.pushed:
-            seconds = PUSHED * plan.turned * (WITH_TWICE if fineness.extrapolated else 1)
+        if plan.circle:
+            count = sum(plan.increments) if plan.circle is Circle.ONE else plan.turned
+            seconds = SECONDS[plan.circle] * count * (WITH_TWICE if fineness.extrapolated else 1)
             yield "time", f"about {seconds:.1g} s of one core, a third more for the errors"
         yield "memory", f"about {estimated_bytes(scene, plan) / 2**20:.0f} MiB"
 
@@ -75,6 +78,7 @@ class OnRadii:
 
 
 def _rings_text(asked: RadialDiscretisation, plan: Plan) -> str:
-    if plan.pushed:
-        return f"{plan.rings} over the contact, denser at its edge, times {plan.angles} angles"
+    if plan.circle:
+        angles = "" if plan.circle is Circle.ONE else f", times {plan.angles} angles"
+        return f"{plan.rings} over the contact, denser at its edge{angles}"
     return f"{asked.rings} over the largest contact; they show the fields and decide nothing"

@@ -50,6 +50,7 @@ CASES = (
     "radial_indentation",
     "radial_torsion",
     "radial_tangential",
+    "radial_turning",
     "radial_stress",
     "edge_stress",
     "fem_hertz",

@@ -1,0 +1,160 @@
+"""What an increment of a contact at points leaves: slip, the stick area, energies, residuals."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import pi, sqrt
+
+import numpy as np
+from numpy.typing import NDArray
+
+from contact_scene.friction import sliding_friction
+from contact_scene.residuals import Residuals
+from contact_scene.summary import ContactStatus
+from radial.circle import Circle
+from radial.ring_laws import ABOUT, ACROSS, ALONG, DOWN, Held, Loads
+from radial.ring_points import Points
+
+Array = NDArray[np.float64]
+
+REST = 1e-11  # of the approach: less slip is round-off
+
+
+@dataclass(frozen=True)
+class Pushed:
+    """A contact at the end of an increment. Forces and motions in the order of `Loads`.
+
+    held    tractions and motion
+    circle  what of it tells all
+    asked   loads as they were prescribed
+    radius  of the circle of the contact area [length]
+    begun   the same at the start of the increment [length]
+    through  of the circle of what sticks through the increment [length]
+    stuck   of the circle of the stick area at its end [length]
+    slip    since particles touched (2, points) [length]
+    carried  forces that the tractions carry
+    worked  work of the loads since the start of the history [force length]
+    lost    energy dissipated since the start of the history [force length]
+    uncertain  by how much finite increments leave that uncertain [force length]
+    """
+
+    held: Held
+    circle: Circle
+    asked: Loads
+    radius: float
+    begun: float
+    through: float
+    stuck: float
+    slip: Array
+    carried: Array
+    worked: float
+    lost: float
+    uncertain: float
+
+    @property
+    def forces(self) -> tuple[float, ...]:
+        """As they were asked for, or came out [force, force length]."""
+        return _either(self.asked.forces, self.carried)
+
+    @property
+    def motions(self) -> tuple[float, ...]:
+        """As they were asked for, or came out [length, radian]."""
+        return _either(self.asked.motions, self.held.motion)
+
+    @property
+    def status(self) -> ContactStatus:
+        """Whether all, some or nothing sticks."""
+        share = self.held.share[np.isfinite(self.held.share)]
+        if np.all(share <= 1):
+            return ContactStatus.FULL_STICK
+        if np.any(share <= 1) or self.stuck > 0:
+            return ContactStatus.PARTIAL_SLIP
+        slides = any(motion is not None for motion in self.asked.motions[:DOWN])
+        return ContactStatus.GROSS_SLIDING if slides else ContactStatus.NO_STICK_AREA_LEFT
+
+
+def _either(asked: tuple[float | None, ...], found: Array) -> tuple[float, ...]:
+    return tuple(
+        float(came) if value is None else value for value, came in zip(asked, found, strict=True)
+    )
+
+
+def pushed(
+    points: Points, friction: float, end: Held, last: Held | None, slip: Array, asked: Loads,
+    before: Pushed | None,
+) -> Pushed:  # fmt: skip
+    """What an increment leaves.
+
+    last, slip  tractions and motion at its start, and slip until then, at the points
+    before      the contact at its start
+    """
+    areas, nothing = points.areas, np.zeros(len(points.areas))
+    radius = sqrt(points.contact_area(end.pressure) / pi)
+    begun = before.radius if before else 0.0
+    passed = -end.slipped.reshape(2, -1) / areas * _touched(points, end, begun, radius)
+    start = last.shear if last else np.zeros((2, len(nothing)))
+    limits = friction * (last.pressure if last else nothing), friction * end.pressure
+    rubbing = sliding_friction(start, end.shear, passed, *limits)
+    carried, motion = end.forces(points), last.motion if last else np.zeros(4)
+    both = carried + (before.carried if before else 0.0)
+    distance = np.hypot(*end.slipped.reshape(2, -1)) / areas
+    through = sqrt(min(points.stick_area(end.share, distance) / pi, radius**2))
+    turned = points.circle is not Circle.ONE or end.motion[ABOUT] != motion[ABOUT]
+    open_ = np.hypot(*(end.shear - start)) * np.hypot(*passed)
+    return Pushed(
+        end, points.circle, asked, radius, begun, through,
+        through if turned else _front(radius, begun, through, before),
+        slip - passed, carried,
+        (before.worked if before else 0.0) + 0.5 * float(both @ (end.motion - motion)),
+        (before.lost if before else 0.0) + float(np.sum(rubbing * passed, axis=0) @ areas),
+        (before.uncertain if before else 0.0) + float(open_ @ areas),
+    )  # fmt: skip
+
+
+def _touched(points: Points, end: Held, begun: float, radius: float) -> Array:
+    """Share of the increment through which points touched: what the contact has grown over has
+    rubbed since the edge went by."""
+    r = np.repeat(points.radii, points.count)
+    share = np.ones_like(r)
+    if radius > begun:
+        share = np.clip((radius - r) / (radius - begun), 0.0, 1.0)
+        share[r <= begun] = 1.0
+    return share * (end.pressure > 0)
+
+
+def _front(radius: float, begun: float, through: float, before: Pushed | None) -> float:
+    """Stick radius at the end of an increment of pressing: what sticks through it is the disc half
+    way, so that half an increment more is on the line through this one and the one before, unless
+    the load has turned between them [length]."""
+    if before is None:
+        return through
+    half, last = 0.5 * (radius - begun), 0.5 * (begun - before.begun)
+    if half * last <= 0:
+        return through
+    return min(max(through + (through - before.through) * half / (half + last), 0.0), radius)
+
+
+def residuals_of(points: Points, friction: float, state: Pushed) -> Residuals:
+    """What a contact misses."""
+    end, asked = state.held, state.asked.forces
+    W, force = float(state.carried[DOWN]), asked[DOWN]
+    limit = friction * end.pressure
+    slipped = np.hypot(*end.slipped.reshape(2, -1))
+    slips = (slipped > REST * end.approach * points.areas) & (end.pressure > 0)
+    most = float(np.sum(limit * slipped, where=slips))
+    against = float(np.sum(np.sum(end.shear * end.slipped.reshape(2, -1), axis=0), where=slips))
+    drag = [
+        state.carried[way] - value for way in (ALONG, ACROSS) if (value := asked[way]) is not None
+    ]
+    torque = asked[ABOUT]
+    return Residuals(
+        complementarity=end.missed,
+        penetration=end.missed,
+        normal_equilibrium=None if force is None else abs(W / force - 1),
+        friction_cone=max(0.0, float(np.max(np.hypot(*end.shear) - limit)) / np.max(limit)),
+        slip_direction=(most + against) / most if most > 0 else 0.0,
+        tangential_equilibrium=float(np.linalg.norm(drag)) / (friction * W) if drag else None,
+        torque_equilibrium=None
+        if torque is None
+        else abs(float(state.carried[ABOUT]) - torque) / float(points.levers @ limit),
+    )
