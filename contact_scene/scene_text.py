@@ -21,6 +21,11 @@ from contact_scene.engineering_units import engineering_unit, quantity
 from contact_scene.quantity import Quantity
 
 MOST_STEPS_SHOWN = 12
+EDGE = {
+    "off": "tractions are constant on cells up to their edges",
+    "last": "inside the cells at the end of each step, where the plan knows how",
+    "all": "inside the cells at the end of each increment, where the plan knows how",
+}
 
 Line = tuple[str, str]
 
@@ -156,6 +161,7 @@ def _discretisation(discretisation: SurfaceDiscretisation) -> Iterator[Line]:
     yield "window", "chosen" if window is None else _value(window, "m")
     yield "tolerance", f"{discretisation.tolerance:.3g}"
     yield "path accuracy", f"{discretisation.path_accuracy:.3g}"
+    yield "edge", EDGE[discretisation.edge]
 
 
 def _elements(given: FiniteElementDiscretisation) -> Iterator[Line]:

@@ -64,7 +64,6 @@ def solve_coupled_increment(
             force_reaches_limit(tangential.force, carried)
     start, shear, iterations = _start(model, before, last, normal, tangential)
     box = box_around((start > 0) | (last.shear[0] != 0), MARGIN)
-    whole = Box.whole(model.grid.cells)
     aim, residual = tolerance, np.inf
     motion = first_motion(last, tangential)
     for _ in range(MOST_ATTEMPTS):
@@ -83,9 +82,12 @@ def solve_coupled_increment(
         if residual <= tolerance:
             refuse_contact_at_edge(state.pressing.pressure, model)
             return state if before is None else replace(state, behind=before.seen())
-        overlap_outside = np.min(np.where(box.mask(model.grid.cells), 0.0, g)) < 0
-        box, aim = (whole, aim) if overlap_outside else (box, 0.1 * aim)
         start, shear = state.pressing.pressure, state.sheared.shear
+        overlap_outside = (g < 0) & ~box.mask(model.grid.cells)
+        if np.any(overlap_outside):
+            box = box_around((start > 0) | overlap_outside, MARGIN)
+        else:
+            aim *= 0.1
     raise NotConverged("the coupled increment", iterations, residual, tolerance)
 
 

@@ -213,6 +213,9 @@ def test_check_describes_the_scene(scene: Path, capsys: pytest.CaptureFixture[st
     assert "paraboloid, radius 18 mm; E = 420 GPa, ν = 0.3" in shown
     assert "Coulomb, µ = 0.25" in shown
     assert "tangential force from (90, 0) N to (-90, 0) N, in 2 increments" in shown
+    assert "edge inside the cells at the end of each step" in shown
+    assert slipstick("check", scene, "--set", 'semi_analytical.edge="off"') == 0
+    assert "edge tractions are constant on cells" in " ".join(capsys.readouterr().out.split())
 
 
 def test_check_lists_every_mistake(scene: Path, capsys: pytest.CaptureFixture[str]) -> None:
