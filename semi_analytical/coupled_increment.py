@@ -38,6 +38,8 @@ Field = NDArray[np.float64]
 VectorField = NDArray[np.float64]
 
 MOST_ATTEMPTS = 4
+# Of the width of a contact: beyond it the push of a whole step does not move its edge.
+ROOM = 1 / 32
 
 
 def solve_coupled_increment(
@@ -63,7 +65,7 @@ def solve_coupled_increment(
         if carried is not None:
             force_reaches_limit(tangential.force, carried)
     start, shear, iterations = _start(model, before, last, normal, tangential)
-    box = box_around((start > 0) | (last.shear[0] != 0), MARGIN)
+    box = _roomy((start > 0) | (last.shear[0] != 0))
     aim, residual = tolerance, np.inf
     motion = first_motion(last, tangential)
     for _ in range(MOST_ATTEMPTS):
@@ -85,10 +87,16 @@ def solve_coupled_increment(
         start, shear = state.pressing.pressure, state.sheared.shear
         overlap_outside = (g < 0) & ~box.mask(model.grid.cells)
         if np.any(overlap_outside):
-            box = box_around((start > 0) | overlap_outside, MARGIN)
+            box = _roomy((start > 0) | overlap_outside)
         else:
             aim *= 0.1
     raise NotConverged("the coupled increment", iterations, residual, tolerance)
+
+
+def _roomy(cells: NDArray[np.bool_]) -> Box:
+    """The box around marked cells, with room for the contact to move."""
+    widest = max(np.count_nonzero(np.any(cells, axis=axis)) for axis in (0, 1))
+    return box_around(cells, max(MARGIN, round(ROOM * widest)))
 
 
 def _start(

@@ -208,7 +208,9 @@ class Zones:
         self.parts(rows)[1][:] = self.turning * self.parts(free)[1]
         return rows
 
-    def changes(self, other: "Zones") -> int:
-        """Cells that are in another zone than before."""
+    def changes(self, other: "Zones | None") -> int:
+        """Cells that are in another zone than before; all if there is no before."""
+        if other is None:
+            return self.contact.size
         stays = (self.contact == other.contact) & (self.stick == other.stick)
         return int(stays.size - np.count_nonzero(stays))

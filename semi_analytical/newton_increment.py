@@ -47,7 +47,7 @@ def solve_by_newton(
     best, idle, iterations = np.inf, 0, 0
     for number in range(1, MOST_STEPS + 1):
         found = Zones.of(natural, problem)
-        settled = zones is None or found.changes(zones) <= SETTLED * np.sqrt(np.sum(found.contact))
+        settled = found.changes(zones) <= SETTLED * np.sqrt(np.sum(found.contact))
         carriers = increment.carriers_in(found) if increment and settled else None
         zones, increment = found, None  # both increments at once would be more
         increment = LinearisedIncrement(problem, zones, carriers)

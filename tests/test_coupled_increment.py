@@ -22,8 +22,10 @@ from coupled_scenes import (
 
 from contact_scene import RIGID, Body, IsotropicMaterial, Layer, Paraboloid
 from contact_scene.summary import ContactStatus
-from semi_analytical import GrossSliding, SurfaceGrid, solve
+from semi_analytical import GrossSliding, SurfaceGrid, coupled_increment, solve
+from semi_analytical.box import Box, box_around
 from semi_analytical.model import ContactModel
+from semi_analytical.pressing import MARGIN
 
 TOLERANCE = 1e-8
 GRID = grid(32)
@@ -331,3 +333,42 @@ def test_scenes_without_coupling_neither_import_nor_build_it():
         [sys.executable, "-c", script], capture_output=True, text=True, check=False
     )
     assert ran.returncode == 0, ran.stderr
+
+
+def test_a_box_that_proves_too_small_grows_to_where_bodies_overlap_and_no_farther(monkeypatch):
+    described, of = scene(press(increments=1)), grid(96)
+    expected = solve(described, of, TOLERANCE).increments[-1]
+    boxes = []
+
+    def at_first_too_small(cells, margin):
+        box = box_around(cells, margin)
+        if not boxes:
+            (i, j), (nx, ny) = box.first, box.shape
+            box = Box((i + 10, j + 10), (nx - 20, ny - 20))
+        boxes.append(box)
+        return box
+
+    monkeypatch.setattr(coupled_increment, "box_around", at_first_too_small)
+    found = solve(described, of, TOLERANCE).increments[-1]
+    assert len(boxes) == 2
+    assert boxes[1].shape == box_around(expected.pressure > 0, MARGIN).shape < of.cells
+    np.testing.assert_allclose(
+        found.pressure, expected.pressure, atol=1e-6 * expected.peak_pressure
+    )
+    np.testing.assert_allclose(found.shear, expected.shear, atol=1e-6 * expected.peak_pressure)
+
+
+def test_a_contact_has_room_in_its_box_in_proportion_to_its_width(monkeypatch):
+    """On 2048 cells the push of one step moves an edge by more cells than the least margin has."""
+    margins = []
+
+    def noted(cells, margin):
+        margins.append(margin)
+        return box_around(cells, margin)
+
+    monkeypatch.setattr(coupled_increment, "box_around", noted)
+    for cells in (64, 512):
+        end = solve(scene(press(increments=1)), grid(cells), TOLERANCE).increments[-1]
+        wide = np.count_nonzero(np.any(end.pressure > 0, axis=1))
+        assert margins[-1] >= max(MARGIN, 0.03 * wide)
+    assert margins[0] == MARGIN
