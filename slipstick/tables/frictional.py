@@ -144,10 +144,12 @@ def _onset(place: Sequence[float], times: int, rings: float) -> float:
     ends = radial.solve(asked, plan=decided, fineness=rings).increments
     areas, forces = [], []
     for end in ends:
+        if end.step == 1:
+            continue
         assert end.stick_radius is not None
         assert end.tangential_force is not None
         share = (end.stick_radius / end.contact_radius) ** 2
-        if end.step > 1 and SMALL[0] < share < SMALL[1]:
+        if SMALL[0] < share < SMALL[1]:
             areas.append(share)
             forces.append(end.tangential_force[0] / limit)
     if len(areas) < FEWEST:
