@@ -295,11 +295,6 @@ LIKE = Paraboloid(radius=RADIUS, material=STEEL)
 RUB = CoulombFriction(coefficient=0.1)
 REFUSED = {
     "not the same all around": {"indenter": Ellipsoid(radii=(1e-2, 2e-2), material=RIGID)},
-    "presses while": {
-        "indenter": LIKE,
-        "friction": RUB,
-        "loading": (LoadStep(normal_force=1e3, torque=1e-3),),
-    },
     "moment or a tilt": {"loading": (LoadStep(normal_force=1e3, moment=(1e-3, 0)),)},
     "rim": {"indenter": FlatPunch(radius=1e-3, material=RIGID), "friction": RUB},
     "part within the contact": {
