@@ -3,6 +3,7 @@
 from collections.abc import Callable
 
 from contact_scene import Scene, SurfaceDiscretisation
+from contact_scene.one_thread import one_thread
 from contact_scene.solver_errors import ContactAtWindowEdge
 from contact_scene.standing import Keeper, Standing
 from contact_scene.stored_fields import FieldStore
@@ -21,6 +22,7 @@ Progress = Callable[[Increment], None]
 MOST_ENLARGEMENTS = 5
 
 
+@one_thread()
 def solve(
     scene: Scene,
     grid: SurfaceGrid,

@@ -39,7 +39,8 @@ def some_broken(attempts: Iterable[Attempt]) -> bool:
 @pytest.mark.parametrize(
     ("name", "count"),
     [("lines", 60), ("bytes", 60), ("numbers", 60), ("damage", 57), ("symmetry", 3), ("scale", 2),
-     ("not-a-number", 2), ("soak", 4), ("paths", 20), ("moved", 3), ("turned", 2), ("units", 2)],
+     ("not-a-number", 2), ("soak", 4), ("paths", 20), ("moved", 3), ("turned", 2), ("units", 2),
+     ("bits", 1)],
 )  # fmt: skip
 def test_promise_is_kept(name: str, count: int) -> None:
     assert all_kept(PROMISES[name].attempts(count))

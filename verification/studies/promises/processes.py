@@ -108,7 +108,9 @@ def interrupted(count: int) -> Iterator[Attempt]:
             process.send_signal(signal.SIGINT)
             end = ended(process)
             left = [p.name for p in folder.rglob("*") if ".partial-" in p.name]
-            good = end.code in (0, 128 + signal.SIGINT) and "Traceback" not in end.said
+            # Before the command has begun it dies of the signal, which a shell calls 130, too.
+            ends = (0, 128 + signal.SIGINT, -signal.SIGINT)
+            good = end.code in ends and "Traceback" not in end.said
             told = f"{' '.join(words)}: exit code {end.code}, left {left}: {end.said[-200:]}"
             yield Attempt(good and not left, told)
 
