@@ -217,7 +217,8 @@ def test_killed_run_leaves_a_hidden_directory_that_the_next_run_clears_away(scen
 def test_output_that_nobody_reads_has_a_code_of_its_own(scene: Path) -> None:
     """As under `| head -1`; the results are there."""
     running = command(scene, "--no-figures")
-    for arguments in (running, [*running[:3], "check", str(scene)]):
+    others = ([*running[:3], name, str(scene)] for name in ("check", "plan"))  # text, a table
+    for arguments in (running, *others):
         read, write = os.pipe()
         os.close(read)
         outcome = subprocess.run(

@@ -4,6 +4,8 @@ from collections.abc import Iterable, Sequence
 
 import typer
 
+from slipstick.cli.errors import ExitCode
+
 BETWEEN = "  "  # columns, and half of it at either edge
 WIDE = 200  # columns of a log, where nobody wants a table to be folded at 80
 
@@ -37,7 +39,14 @@ def print_table(
     from rich.table import Table
     from rich.text import Text
 
-    console = Console(highlight=False)
+    class Output(Console):
+        def on_broken_pipe(self) -> None:
+            try:
+                super().on_broken_pipe()
+            except SystemExit:  # with 1, which is a verdict
+                raise SystemExit(ExitCode.NOBODY_READS) from None
+
+    console = Output(highlight=False)
     if not console.is_terminal:
         console.width = WIDE
     headings, rows = list(columns), [list(row) for row in rows]
