@@ -2,7 +2,8 @@
 
 What the increments of a step leave open the steps after it carry on, and may be the first to show.
 So companions are cut otherwise from a step on: what one of them changes against that which is cut
-otherwise from the next step on is the doing of the step.
+otherwise from the next step on is the doing of the step. Where loads turn, steps leave errors of
+either sign in one number, and what all of them change together may be nothing by chance.
 """
 
 from __future__ import annotations
@@ -17,6 +18,8 @@ import numpy as np
 
 from contact_errors.levels import path_changes, recut
 from contact_errors.values import Values
+from contact_scene import Scene
+from contact_scene.load_path import along_one_line
 
 # The first steps of a history are told apart, by a companion each; those after them repeat what
 # they do, and are taken together.
@@ -70,6 +73,22 @@ class ByStep:
             return None
         return path_changes(*self.companions, self.increments, self.matters)
 
+    @cached_property
+    def by_squares(self) -> Sequence[Values] | None:
+        """The same where steps may undo what others did: at least the root of the sum of the
+        squares of what each has left."""
+        if self.together is None:
+            return None
+        return tuple(
+            {
+                name: np.maximum(
+                    size, np.sqrt(sum(alone[end][name] ** 2 for _, alone in self._apart))
+                )
+                for name, size in change.items()
+            }
+            for end, change in enumerate(self.together)
+        )
+
     @property
     def _steps(self) -> list[int]:
         """Whose increments matter."""
@@ -103,6 +122,14 @@ class ByStep:
 
     def _only(self, row: Sequence[int]) -> list[bool]:
         return [step in row for step in range(len(self.matters))]
+
+
+def undone(scene: Scene) -> bool:
+    """Whether steps may undo what others did: a push that turns, or one with torsion beside it."""
+    ramps = scene.load_path()
+    pushed = any(any(ramp.tangential.end) for ramp in ramps)
+    twisted = any(ramp.twisting.end for ramp in ramps)
+    return pushed and (twisted or not along_one_line(ramps))
 
 
 def fewest(

@@ -13,7 +13,7 @@ import numpy as np
 from scipy import ndimage
 
 from contact_errors import estimate
-from contact_errors.by_step import ByStep
+from contact_errors.by_step import ByStep, undone
 from contact_errors.estimate import Numbers
 from contact_errors.half_the_cells import Progress, on_wide_cells
 from contact_errors.levels import Levels
@@ -23,7 +23,7 @@ from contact_errors.values import Values, charged_by_increments, lost_by_steps, 
 from contact_results.cycles import fretting_cycles
 from contact_results.remarks import left_out
 from contact_scene.geometry import SmoothTip
-from contact_scene.stated_error import Companion, Part, StatedErrors
+from contact_scene.stated_error import Part, StatedErrors
 from contact_scene.summary import ContactStatus
 from semi_analytical import Increment, Result
 from semi_analytical.plan import Coupling
@@ -70,11 +70,6 @@ def judged(
     def values(of: Result) -> tuple[Values, ...]:
         return values_of(of, fretting_cycles(of, surface_stress=surface_stress))
 
-    def otherwise_cut(counts: Sequence[int]) -> tuple[tuple[Values, ...] | None, Companion]:
-        differs = "half the cells, other increments"
-        found, made = on_wide_cells(result, result.plan.cut_into(counts), differs, progress)
-        return (None if found is None else values(found)), made
-
     plan, cycles = result.plan, fretting_cycles(result, surface_stress=surface_stress)
     matters = tuple(step.path_matters for step in plan.path)
     by_step = ByStep(plan.increments, matters)
@@ -86,12 +81,17 @@ def judged(
         return unknown, by_step
     companions = [half_the_cells]
     coarse = values(wide)
-    if any(matters):
-        other, made = otherwise_cut(by_step.recut_from(0))
+
+    def otherwise_cut(counts: Sequence[int]) -> tuple[Values, ...] | None:
+        differs = "half the cells, other increments"
+        found, made = on_wide_cells(result, plan.cut_into(counts), differs, progress)
         companions.append(made)
+        return None if found is None else values(found)
+
+    if any(matters):
+        other = otherwise_cut(by_step.recut_from(0))
         if other is not None:
-            solved = (coarse, other)
-            by_step = replace(by_step, companions=solved, solved=lambda n: otherwise_cut(n)[0])
+            by_step = replace(by_step, companions=(coarse, other), solved=otherwise_cut)
     levels = Levels(
         scene=result.scene,
         ground=_Cells(result),
@@ -104,7 +104,7 @@ def judged(
         ratio=wide.grid.spacing[0] / result.grid.spacing[0],
         tolerance=result.tolerance,
         matters=tuple(accumulate(matters, or_)),
-        by_path=by_step.together,
+        by_path=by_step.by_squares if undone(result.scene) else by_step.together,
         charged=charged_by_increments(result, cycles),
         lost=lost_by_steps(fine, cycles),
     )

@@ -1,6 +1,7 @@
 """Errors of a radial result, from one with twice as many orders and points; with friction, from one
 with half the rings and half the increments. A contact at points has two beside it: with half the
 rings and angles, and with half the increments, too; what they change may be of opposite signs.
+Where its loads turn so may what the steps change, and each has a companion of its own.
 """
 
 from __future__ import annotations
@@ -10,6 +11,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from contact_errors.by_step import ByStep
 from contact_errors.estimate import UNKNOWN, Numbers, differences, stated, unsolved
 from contact_errors.prescribed import prescribed
 from contact_errors.rules import rules_for
@@ -50,11 +52,18 @@ def stated_errors(
     """Errors of all numbers at the ends of all steps; solves the companions."""
     cycles, plan = fretting_cycles(result), result.plan
     fine = values_of(result, cycles)
-    beside = [_Companion(result, *way, progress) for way in _ways(plan)]
-    if any(one.values is None for one in beside):
-        changes: Sequence[Values | None] = [None] * len(fine)
+    beside: list[_Companion] = []
+    changes: Sequence[Values | None] = [None] * len(fine)
+
+    def solved(differs: str, other: Plan, fineness: float = HALF) -> Sequence[Values] | None:
+        beside.append(_Companion(result, differs, other, fineness, progress))
+        return beside[-1].values
+
+    if plan.circle is Circle.WHOLE:
+        changes = _turning(fine, plan, solved) or changes
     else:
-        changes = _changes(fine, [one.values or () for one in beside])
+        found = [solved(*way) for way in _ways(plan)]
+        changes = _changes(fine, found) or changes
     charged = charged_by_increments(result, cycles)
     part = _INCREMENTS if plan.coupled or plan.circle else _QUADRATURE
     steps = zip(result.steps, result.scene.load_path(), fine, changes, charged, strict=True)
@@ -121,12 +130,40 @@ class _Companion:
             self.values = values_of(found, fretting_cycles(found))
 
 
-def _changes(fine: Sequence[Values], beside: Sequence[Sequence[Values]]) -> Sequence[Values]:
-    """By companions, times what they are worth."""
-    if len(beside) == 1:
-        return [_times(TIMES, change) for change in differences(fine, beside[0])]
-    rings = differences(fine, beside[0])
-    path = differences(beside[0], beside[1])
+def _turning(
+    fine: Sequence[Values], plan: Plan, solved: Callable[[str, Plan], Sequence[Values] | None]
+) -> Sequence[Values] | None:
+    """By half the rings and angles, and by other increments of each step; None where one of these
+    companions gave no result."""
+
+    def otherwise_cut(counts: Sequence[int]) -> Sequence[Values] | None:
+        return solved(
+            "half the rings and angles, other increments", replace(plan, increments=tuple(counts))
+        )
+
+    by_step = ByStep(plan.increments, (True,) * len(plan.increments))
+    coarse = solved("half the rings and angles", plan)
+    other = None if coarse is None else otherwise_cut(by_step.recut_from(0))
+    if coarse is None or other is None:
+        return None
+    path = replace(by_step, companions=(coarse, other), solved=otherwise_cut).by_squares
+    return None if path is None else _together(differences(fine, coarse), path)
+
+
+def _changes(
+    fine: Sequence[Values], beside: Sequence[Sequence[Values] | None]
+) -> Sequence[Values] | None:
+    """By companions, times what they are worth; None where one gave no result."""
+    known = [values for values in beside if values is not None]
+    if len(known) < len(beside):
+        return None
+    if len(known) == 1:
+        return [_times(TIMES, change) for change in differences(fine, known[0])]
+    return _together(differences(fine, known[0]), differences(known[0], known[1]))
+
+
+def _together(rings: Sequence[Values], path: Sequence[Values]) -> Sequence[Values]:
+    """By rings and by increments, times what they are worth."""
     return [
         {name: BY_RINGS * by_rings[name] + BY_PATH * by_path[name] for name in by_rings}
         for by_rings, by_path in zip(rings, path, strict=True)

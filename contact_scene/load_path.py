@@ -1,8 +1,9 @@
 """The load history resolved: for every step, what each control does from start to end."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from enum import Enum
+from math import hypot
 from typing import Generic, TypeVar
 
 from contact_scene.loading import LoadStep
@@ -10,6 +11,9 @@ from contact_scene.solver_errors import motion_undefined
 
 Vector = tuple[float, float]
 Value = TypeVar("Value", float, Vector)
+
+# The sine of an angle below this is round-off of a load that goes straight.
+STRAIGHT = 1e-9
 
 
 class ControlKind(Enum):
@@ -121,6 +125,16 @@ def load_path(loading: Iterable[LoadStep]) -> tuple[LoadRamp, ...]:
         )
         ramps.append(last)
     return tuple(ramps)
+
+
+def along_one_line(ramps: Sequence[LoadRamp]) -> bool:
+    """Whether all tangential loads are on one line, round-off apart, or are none."""
+    ends = [ramp.tangential.end for ramp in ramps]
+    longest = max(ends, key=lambda end: hypot(*end))
+    return all(
+        abs(longest[0] * end[1] - longest[1] * end[0]) <= STRAIGHT * hypot(*longest) * hypot(*end)
+        for end in ends
+    )
 
 
 def _next(

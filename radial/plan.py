@@ -8,6 +8,7 @@ from math import ceil, hypot
 from contact_scene import ControlKind, LoadRamp, Scene, effect
 from contact_scene.cycles import loop_increments
 from contact_scene.effect import Effect
+from contact_scene.load_path import along_one_line
 from contact_scene.pair import coupling, refuse_contrast
 from contact_scene.scene_text import shape_text
 from contact_scene.solver_errors import UnsupportedScene
@@ -23,8 +24,6 @@ LARGEST_SHARE = 0.05
 ROUND_OFF = 1e-9
 # Of a contact at points: rings, and angles on a half circle; rings where one angle tells all.
 RINGS, ANGLES, ROUND_RINGS = 24, 9, 64
-# The sine of an angle below this is round-off of a load that goes straight.
-STRAIGHT = 1e-9
 ELSEWHERE = "solve it with the semi-analytical solver"
 
 
@@ -84,7 +83,7 @@ def plan(scene: Scene) -> Plan:
     friction, ramps = scene.friction is not None, scene.load_path()
     rubs = couples and scene.friction is not None and scene.friction.uniform != 0
     pushed = friction and any(any(ramp.tangential.end) for ramp in ramps)
-    turns = pushed and _turns(ramps)
+    turns = pushed and not along_one_line(ramps)
     twists = friction and any(_twists(ramp, turns) for ramp in ramps)
     circle = _circle(ramps, rubs, twists, pushed, turns)
     if rubs or circle:
@@ -120,16 +119,6 @@ def _circle(
     if pushed:
         return Circle.WHOLE if twists or turns else Circle.HALF
     return Circle.ONE if twists and (rubs or _presses_while_twisted(ramps)) else None
-
-
-def _turns(ramps: tuple[LoadRamp, ...]) -> bool:
-    """Whether tangential loads are not on one line, round-off apart."""
-    ends = [ramp.tangential.end for ramp in ramps]
-    longest = max(ends, key=lambda end: hypot(*end))
-    return any(
-        abs(longest[0] * end[1] - longest[1] * end[0]) > STRAIGHT * hypot(*longest) * hypot(*end)
-        for end in ends
-    )
 
 
 def _presses_while_twisted(ramps: tuple[LoadRamp, ...]) -> bool:

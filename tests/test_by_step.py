@@ -42,6 +42,16 @@ class History:
         return replace(cut, companions=companions, solved=self.values)
 
 
+def test_steps_that_undo_each_other_leave_what_each_leaves_alone() -> None:
+    """Halves of the increments change the number by the errors .03 and -.04, together by .01."""
+    by_step = History([[0.3, 0.0], [0.3, -0.4]]).by_step((10, 10))
+    assert by_step.together is not None
+    assert by_step.by_squares is not None
+    assert by_step.together[1][NAME] == pytest.approx(0.01)
+    assert by_step.by_squares[1][NAME] == pytest.approx(0.05)
+    assert by_step.by_squares[0][NAME] == pytest.approx(by_step.together[0][NAME])
+
+
 @given(
     st.lists(st.tuples(st.floats(0, 1), st.integers(1, 1000)), min_size=1, max_size=5),
     st.floats(1e-4, 1),

@@ -46,7 +46,7 @@ def solved_in(result: Result, seconds: float) -> Iterator[tuple[str, str]]:
 
 def how_stated(stated: StatedErrors, seconds: float | None) -> Iterator[tuple[str, str]]:
     """Where the errors come from; in how many seconds, if they were measured apart."""
-    made = " and ".join(companion.differs for companion in stated.companions)
+    made = " and ".join(dict.fromkeys(companion.differs for companion in stated.companions))
     yield "errors", f"from {made}" + ("" if seconds is None else f", in {seconds:.2f} s")
     for companion in stated.companions:
         if companion.refused:
