@@ -1,242 +1,42 @@
-"""Torsion of coupled bodies, torsion beside a push, and pushes that turn, by the radial solver."""
+"""Torsion beside a push and pushes that turn, by the radial solver: laws, and what is shown."""
 
 from __future__ import annotations
 
 import math
 from dataclasses import replace
-from functools import cache
 from pathlib import Path
-from typing import Any
 
 import meshio
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
+from turning_contacts import (
+    ALIKE,
+    LIMIT,
+    PATH,
+    PRESS,
+    RADIUS,
+    TORQUE,
+    beside,
+    push,
+    rough,
+    scene,
+    turned,
+    turning,
+    twist,
+)
 
 import radial
 import slipstick
-from contact_errors.on_radii import stated_errors
 from contact_results.figures.rings_above import RingsAbove
 from contact_results.files.surface_file import write_surface
 from contact_results.stress.loaded_bodies import state_of_result, state_of_run
 from contact_results.stress.on_disc import stress_on_disc
 from contact_results.surface import Rings, surface_of
-from contact_scene import (
-    RIGID,
-    Body,
-    CoulombFriction,
-    FlatPunch,
-    IsotropicMaterial,
-    Layer,
-    LoadStep,
-    Paraboloid,
-    Scene,
-)
-from contact_scene.solver_errors import GrossSliding, UnsupportedScene
-from contact_scene.summary import ContactStatus
-from radial.circle import Circle
-from radial.coupling import Coupling
-from radial.ring_layout import laid
-from radial.ring_points import Points
-from radial.sliding import carried_times
-from verification.problems.torsion import LARGEST, LED, TO_AND_FRO, TWISTED
+from contact_scene import LoadStep
+from contact_scene.solver_errors import UnsupportedScene
 
-SOFT = IsotropicMaterial(young_modulus=0.91, poisson_ratio=0.3)
-LOAD, FRICTION = 4 / 3e6, 0.3  # of a ball with R = 1 and E* = 1: a = 1/100
-RADIUS, LIMIT = 0.01, LOAD * FRICTION
-TORQUE = 3 * math.pi / 16 * LIMIT * RADIUS  # at which all slips, of bodies that do not couple
-PRESS = LoadStep(normal_force=LOAD, increments=4)
 Pair = tuple[float, float]
-
-
-def scene(*steps: LoadStep, **more: Any) -> Scene:
-    """A rigid ball on a soft body."""
-    return Scene(
-        **{
-            "indenter": Paraboloid(radius=1.0, material=RIGID),
-            "body": Body(material=SOFT),
-            "friction": CoulombFriction(coefficient=FRICTION),
-            "loading": (PRESS, *steps),
-        }
-        | more
-    )
-
-
-def push(x: float, y: float, increments: int = 3) -> LoadStep:
-    """To shares of µW along x and y."""
-    return LoadStep(tangential_force=(x * LIMIT, y * LIMIT), increments=increments)
-
-
-def twist(share: float, increments: int = 3) -> LoadStep:
-    return LoadStep(torque=share * TORQUE, increments=increments)
-
-
-def rough(asked: Scene, **how: Any) -> radial.Result:
-    """On half the rings, which obey the same laws."""
-    return radial.solve(asked, fineness=0.5, **how)
-
-
-def turned(vector: Any, angle: float) -> Any:
-    (x, y), cos, sin = vector, math.cos(angle), math.sin(angle)
-    return np.array([x * cos - y * sin, x * sin + y * cos])
-
-
-PATH = ((0.6, 0.0), (0.4, 0.5), (0.0, 0.3))
-
-
-@cache
-def turning() -> radial.Result:
-    return rough(scene(*(push(*end) for end in PATH)))
-
-
-@cache
-def beside() -> radial.Result:
-    return rough(scene(twist(0.4), push(0.5, 0.0), twist(-0.3)))
-
-
-# ---- what is solved how -----------------------------------------------------------------------
-
-ALIKE: dict[str, Any] = {
-    "indenter": Paraboloid(radius=1.0, material=SOFT),
-    "body": Body(material=SOFT),
-}
-CALLED_FOR = {
-    "pressed": ((), {}, None),
-    "twisted, alike": ((twist(0.4),), ALIKE, None),
-    "twisted, then pressed": ((twist(0.4), LoadStep(normal_force=2 * LOAD)), ALIKE, Circle.ONE),
-    "twisted, coupled": ((twist(0.4),), {}, Circle.ONE),
-    "pushed": ((push(0.4, 0.0), push(-0.4, 0.0)), {}, Circle.HALF),
-    "pushed, free to turn": (
-        (LoadStep(tangential_force=(0.1 * LIMIT, 0.0), torque=0.0),), {}, Circle.HALF,
-    ),
-    "pushed and twisted": ((push(0.4, 0.0), twist(0.1)), ALIKE, Circle.WHOLE),
-    "turning": ((push(0.4, 0.0), push(0.0, 0.4)), {}, Circle.WHOLE),
-}  # fmt: skip
-
-
-@pytest.mark.parametrize("name", CALLED_FOR)
-def test_angles_are_those_that_loads_call_for(name: str) -> None:
-    steps, bodies, circle = CALLED_FOR[name]
-    assert radial.plan(scene(*steps, **bodies)).circle is circle
-
-
-def test_what_is_not_called_for_costs_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
-    made: list[Circle] = []
-
-    def families(self: Circle, highest: int, really: Any = Circle.families) -> Any:
-        made.append(self)
-        return really(self, highest)
-
-    monkeypatch.setattr(Circle, "families", families)
-    radial.solve(scene(twist(0.4), **ALIKE))
-    assert not made
-    rough(scene(twist(0.4)))
-    assert set(made) == {Circle.ONE}
-    made.clear()
-    rough(scene(push(0.4, 0.0)))
-    assert set(made) == {Circle.ONE, Circle.HALF}
-    # A contact is the same all around until it is pushed.
-    steps = beside().increments
-    assert [step.pressure.ndim for step in steps] == [1] * 7 + [2] * 6
-
-
-@pytest.mark.parametrize(
-    ("more", "words"),
-    [
-        ({"friction": CoulombFriction(coefficient=0.0)}, "coefficient of friction is zero"),
-        ({"indenter": FlatPunch(radius=RADIUS, material=RIGID)}, "rim"),
-    ],
-)
-def test_what_points_do_not_have_is_refused_by_name(more: dict[str, Any], words: str) -> None:
-    led = LoadStep(tangential_shift=(1e-6, 0.0)), LoadStep(twist=1e-4)
-    with pytest.raises(UnsupportedScene, match=words):
-        radial.plan(scene(*led, **more))
-
-
-# ---- closed forms -----------------------------------------------------------------------------
-
-
-@cache
-def at_points(text: str) -> radial.Result:
-    """A twist that needs no points, by them."""
-    asked = Scene.model_validate_json(text)
-    return radial.solve(asked, plan=replace(radial.plan(asked), circle=Circle.ONE))
-
-
-@pytest.mark.parametrize("problem", [TWISTED, LED, TO_AND_FRO])
-def test_points_twist_as_lubkin_and_masing_say(problem: Any) -> None:
-    result = at_points(problem.scene.model_dump_json())
-    for step, exact in zip(result.steps[1:], problem.ends[1:], strict=True):
-        assert_allclose(step.twist, exact.twist, atol=5e-4 * LARGEST.twist)
-        if not hasattr(exact, "moment"):
-            continue
-        assert_allclose(step.torque, exact.moment, rtol=1e-4)
-        assert_allclose(step.stick_radius, exact.stick_radius, atol=4e-3 * problem.radius)
-        inside = step.radii < problem.radius
-        off = np.abs(step.shear_circumferential[inside] - exact.shear(step.radii[inside]))
-        assert np.mean(off) < 5e-3 * np.max(exact.shear(step.radii[inside]))
-
-
-def test_stated_errors_cover_the_closed_forms() -> None:
-    result = at_points(TWISTED.scene.model_dump_json())
-    errors = stated_errors(result)
-    assert [one.differs for one in errors.companions] == [
-        "half the rings",
-        "half the rings and increments",
-    ]
-    for step, exact, stated in zip(
-        result.steps[1:], TWISTED.ends[1:], errors.steps[1:], strict=True
-    ):
-        for name in ("twist", "stick_radius"):
-            true = getattr(exact, name)
-            error = float(np.ravel(stated[name].error)[0])
-            assert abs(getattr(step, name) - true) <= error < 0.1 * true, name
-
-
-def test_all_around_the_whole_circle_is_the_half_and_its_mirror_image() -> None:
-    asked = scene(push(0.6, 0.0), push(0.0, 0.0))
-    half = rough(asked)
-    whole = rough(asked, plan=replace(half.plan, circle=Circle.WHOLE))
-    for one, other in zip(half.increments, whole.increments, strict=True):
-        for name in ("approach", "contact_radius", "tangential_shift", "dissipated_energy"):
-            scale = np.max(np.abs(getattr(one, name)))
-            assert_allclose(getattr(other, name), getattr(one, name), atol=1e-10 * scale)
-        if one.pressure.ndim > 1:
-            assert_allclose(other.pressure[:, : one.pressure.shape[1]], one.pressure,
-                            atol=1e-9 * one.peak_pressure)  # fmt: skip
-
-
-# ---- laws -------------------------------------------------------------------------------------
-
-
-@cache
-def points(circle: Circle) -> Points:
-    asked = scene()
-    return laid(Coupling.of(asked), asked.indenter, [RADIUS], 6, 4, circle, FRICTION)
-
-
-@pytest.mark.parametrize("circle", Circle)
-def test_compliances_are_positive_and_the_same_both_ways(circle: Circle) -> None:
-    found = points(circle).compliance if circle is not Circle.ONE else points(Circle.HALF).round
-    matrix = found if isinstance(found, np.ndarray) else found.compliance
-    assert_allclose(matrix, matrix.T, atol=1e-14 * np.max(matrix))
-    assert np.min(np.linalg.eigvalsh(matrix)) > 0
-
-
-def test_torsion_twists_the_surface_by_the_shear_modulus_alone() -> None:
-    """Reissner and Sagoci 1944: q = 3 M r/(4π a³ √(a² - r²)) turns a disc by 3 M/(16 G a³); in the
-    mean, by the work it does, so that its edge needs no hats: here 2G φ r = ∫ q, q linear."""
-    ring = points(Circle.WHOLE)
-    shear = np.zeros((3, len(ring.radii), ring.count))
-    shear[1] = ring.radii[:, None]
-    moved = (ring.compliance @ shear.ravel()).reshape(shear.shape)
-    assert np.max(np.abs(moved[[0, 2]])) < 1e-12 * np.max(moved[1])
-    stiffer = Body(material=IsotropicMaterial(young_modulus=0.7, poisson_ratio=0.0))
-    other = laid(
-        Coupling.of(scene(body=stiffer)), scene().indenter, [RADIUS], 6, 4, Circle.WHOLE, FRICTION
-    )
-    assert_allclose((other.compliance @ shear.ravel()).reshape(shear.shape), moved, rtol=1e-9,
-                    atol=1e-12 * np.max(moved))  # fmt: skip
 
 
 @pytest.mark.parametrize(("angle", "line"), [(math.pi / 2, (1.0, 0.0)), (math.radians(217), None)])
@@ -315,70 +115,10 @@ def test_motions_lead_where_their_loads_would() -> None:
     assert_allclose(end.tangential_force, by_load[2].tangential_force, atol=0.05 * LIMIT)
 
 
-def test_far_motions_slide_under_what_friction_carries_of_both() -> None:
-    far = LoadStep(twist=0.01, tangential_shift=(5e-5, 3e-5), increments=6)
-    result = rough(scene(far))
-    *_, before, end = result.increments
-    assert end.status is ContactStatus.GROSS_SLIDING
-    assert end.stick_radius == 0
-    assert math.hypot(*end.tangential_force) < 0.9 * LIMIT
-    # What loads do along their motions friction takes at every point along its own.
-    (v, w), turn = (
-        np.subtract(end.tangential_shift, before.tangential_shift), end.twist - before.twist,
-    )  # fmt: skip
-    surface = surface_of(result)
-    x, y = surface.positions
-    lost = FRICTION * end.pressure * np.hypot(v - turn * y, w + turn * x)
-    work = end.tangential_force @ np.array([v, w]) + end.torque * turn
-    assert_allclose(np.sum(lost * surface.weights), work, rtol=5e-3)
-
-
-@pytest.mark.parametrize("modulus", [0.2, 4.0])
-def test_points_twist_films_as_the_solver_without_points_does(modulus: float) -> None:
-    """Ball and body alike, coated both: they do not couple."""
-    film = IsotropicMaterial(young_modulus=modulus * 0.91, poisson_ratio=0.3)
-    layers = (Layer(thickness=RADIUS / 2, material=film),)
-    asked = scene(
-        twist(0.4), body=Body(material=SOFT, layers=layers),
-        indenter=Paraboloid(radius=1.0, material=SOFT, layers=layers),
-    )  # fmt: skip
-    known = radial.solve(asked)
-    found = at_points(asked.model_dump_json()).steps[1]
-    assert known.plan.circle is None
-    assert_allclose(found.twist, known.steps[1].twist, rtol=5e-4)
-    assert_allclose(found.contact_radius, known.steps[1].contact_radius, rtol=1e-3)
-    at = found.radii < 0.9 * found.contact_radius
-    shear = np.interp(found.radii[at], known.steps[1].radii, known.steps[1].shear_circumferential)
-    # Rings of 1/64 of the radius about the front, where shear has a corner.
-    assert np.mean(np.abs(found.shear_circumferential[at] - shear)) < 0.01 * np.max(shear)
-
-
 def test_a_round_contact_has_no_shear_on_its_axis() -> None:
     for end in (beside().steps[0], beside().steps[1]):
         assert end.shear_radial[0] == end.shear_circumferential[0] == 0
         assert abs(end.shear_radial[1]) > 0
-
-
-@pytest.mark.parametrize("share", [3.0, 0.7])
-def test_a_twisted_contact_may_be_pressed_further_or_let_go(share: float) -> None:
-    """Its torque stays what it was asked to be; pressed further, nothing slips any more."""
-    step = LoadStep(normal_force=share * LOAD, increments=4)
-    start, end = rough(scene(twist(0.4), step, **ALIKE)).steps[1:]
-    assert end.torque == start.torque
-    assert end.residuals.torque_equilibrium < 1e-10
-    assert (end.status is ContactStatus.FULL_STICK) == (share > 1)
-    assert (end.stick_radius > start.contact_radius) == (share > 1)
-
-
-def test_stress_below_a_twisted_contact_is_that_of_torsion_alone() -> None:
-    result = at_points(TWISTED.scene.model_dump_json())
-    known = radial.solve(TWISTED.scene)
-    found, exact = (
-        stress_on_disc(state_of_result(one, 2), depths=[0.5 * TWISTED.radius])
-        for one in (result, known)
-    )
-    largest = np.max(np.abs(exact.points.stress))
-    assert_allclose(found.points.stress, exact.points.stress, atol=1e-3 * largest)
 
 
 def test_stress_below_a_turning_push_is_refused_by_name() -> None:
@@ -406,43 +146,3 @@ def test_seen_from_above_the_circle_is_whole(tmp_path: Path) -> None:
     fields = {name: getattr(end, name) for name in ("pressure", "shear_radial")}
     write_surface(surface, fields, tmp_path / "surface.vtu", "")
     assert meshio.read(tmp_path / "surface.vtu").points.shape == (end.pressure.size, 3)
-
-
-# ---- sliding ----------------------------------------------------------------------------------
-
-
-def test_friction_carries_less_of_a_push_beside_torsion() -> None:
-    ring = points(Circle.WHOLE)
-    r = np.repeat(ring.radii, ring.count)
-    limit = np.sqrt(np.maximum(1 - (r / RADIUS) ** 2, 0.0))
-    both = np.array([True, True, True])
-    force, torque = limit @ ring.areas, limit @ ring.levers
-    assert carried_times(ring, limit, np.array([0.6 * force, 0, 0]), both) == pytest.approx(
-        1 / 0.6, rel=1e-6
-    )
-    assert carried_times(ring, limit, np.array([0, 0, torque]), both) == pytest.approx(1, rel=1e-6)
-    given = np.array([0, 0.7 * force, 0.7 * torque])
-    ways = np.linspace(0, np.pi / 2, 2001)
-    slips = np.stack([0 * ways, np.cos(ways), np.sin(ways) / RADIUS], axis=1)
-    sliding = (slips @ ring.ways).reshape(len(ways), 2, -1)
-    least = np.min((np.hypot(sliding[:, 0], sliding[:, 1]) @ limit) / (slips @ given))
-    assert 1 / 1.4 < least < 1 / 0.7  # convex, and within the box of both
-    assert carried_times(ring, limit, given, both) == pytest.approx(least, rel=1e-5)
-    held = carried_times(ring, limit, np.array([0.7 * force, 0, 0]), np.array([True, True, False]))
-    assert held == pytest.approx(1 / 0.7, rel=1e-6)
-
-
-@pytest.mark.parametrize(
-    ("steps", "words"),
-    [
-        ((twist(1.2, 2),), "prescribe the twist"),
-        ((twist(0.8), push(0.8, 0.0)), "slides and turns"),
-        (
-            (push(0.6, 0.0), push(0.6, 0.6), LoadStep(approach=0.5 * RADIUS**2, increments=1)),
-            "not below µW",
-        ),
-    ],
-)
-def test_more_than_friction_carries_is_refused(steps: tuple[LoadStep, ...], words: str) -> None:
-    with pytest.raises(GrossSliding, match=words):
-        rough(scene(*steps))

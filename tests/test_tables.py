@@ -10,6 +10,7 @@ from typing import Any
 import pytest
 from command import outcome
 
+from contact_scene.solver_errors import UnsupportedScene
 from slipstick.tables.catalogue import TABLES
 from slipstick.tables.frictional import gripping, onset
 from slipstick.tables.table import Found, Table
@@ -64,6 +65,11 @@ def test_the_friction_that_grips_is_that_of_integral_equations() -> None:
     assert abs(found.values[0] - reference["mu"]) <= found.left[0] < 3e-3 * reference["mu"]
 
 
+def test_no_friction_grips_where_nothing_rubs() -> None:
+    with pytest.raises(UnsupportedScene, match="no coefficient of friction between"):
+        gripping((1.0, 1.0, 0.5, 0.5), 1)
+
+
 def test_the_last_stick_goes_below_the_limit_of_friction(monkeypatch: Any) -> None:
     """0.976 ± 0.002 on cells, study `gross-sliding`; pressing begins within the first ring."""
     monkeypatch.setattr("slipstick.tables.frictional.PRESSING", 60)
@@ -116,6 +122,9 @@ def test_csv_and_json_have_the_same_numbers_and_provenance() -> None:
         (("punch", "--over", "nu=nan"), "got nan"),
         (("punch", "--over", "a_over_h"), "expected numbers"),
         (("punch", "--over", "h=1"), "'punch' has a_over_h, nu"),
+        (("punch", "--over", "nu=0.3", "--over", "nu=0.5"), "nu is named twice"),
+        (("ball", "--over", "E1_over_E2=1e9"), "at most 1e+08"),
+        (("pressing", "--over", "E1_over_E2=1e-9"), "more than 1e-08"),
     ],
 )
 def test_what_no_table_has_is_refused(arguments: tuple[str, ...], words: str) -> None:

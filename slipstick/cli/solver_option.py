@@ -12,7 +12,7 @@ _OPTION = typer.Option(
     help="'semi-analytical', or finite elements, 'fem' with a penalty and "
     "'fem-complementarity' without one; these read the table fem_reference and ignore "
     "semi_analytical; or 'radial', for bodies of revolution that are pressed: nearly exact, in "
-    "milliseconds; with friction, twisted or pushed along one line, in seconds.",
+    "milliseconds; with friction, pushed, turned or twisted, in seconds.",
     show_default=SolverName.SEMI_ANALYTICAL.value,
 )
 

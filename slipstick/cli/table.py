@@ -24,7 +24,7 @@ def table(
         optional(
             "--over",
             metavar="PARAMETER=V,V,...",
-            help="Other values of a parameter than those of the table; any number of times.",
+            help="Other values of a parameter than those of the table; once for every parameter.",
         ),
     ] = None,
     as_json: Annotated[bool, typer.Option("--json", help="Print JSON instead of CSV.")] = False,
@@ -70,6 +70,11 @@ def _values(chosen: Table, given: Sequence[str]) -> dict[str, list[float]]:
         if name not in chosen.axes:
             names = ", ".join(chosen.axes)
             raise typer.BadParameter(f"--over {text!r}: '{chosen.name}' has {names}")
+        if name in found:
+            raise typer.BadParameter(
+                f"--over {text!r}: {name} is named twice; name all its values at once, "
+                f"{name}=V,V,..."
+            )
         axis = chosen.axes[name]
         try:
             found[name] = [float(number) for number in numbers.split(",")]

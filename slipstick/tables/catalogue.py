@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 
 import numpy as np
 
@@ -10,6 +11,7 @@ from contact_errors.on_radii import FRONT
 from contact_scene import RIGID, FlatPunch
 from radial.bodies import Bodies
 from radial.disc import disc
+from radial.plan import MOST_CONTRAST
 from radial.pressing import Target, pressed
 from radial.surface import pressure
 from semi_analytical.frf.stack import Stack
@@ -43,7 +45,10 @@ RUBBED = (
 )
 COATING = {
     "E1_over_E2": Axis(
-        "Young's modulus of the layer over that of the substrate", (0.25, 0.5, 1.0, 2.0, 4.0)
+        "Young's modulus of the layer over that of the substrate",
+        (0.25, 0.5, 1.0, 2.0, 4.0),
+        1 / MOST_CONTRAST,
+        MOST_CONTRAST,
     ),
     "h_over_aH": Axis(
         "thickness of the layer over Hertz's contact radius on the substrate", (0.25, 1.0)
@@ -53,7 +58,7 @@ COATING = {
 FRICTION = {"mu": Axis("coefficient of friction", (0.1, 0.3))}
 FIGURE = {
     **COATING,
-    "E1_over_E2": Axis(COATING["E1_over_E2"].meaning, (0.5, 1.0, 2.0, 4.0)),
+    "E1_over_E2": replace(COATING["E1_over_E2"], values=(0.5, 1.0, 2.0, 4.0)),
     "h_over_aH": Axis(COATING["h_over_aH"].meaning, (1.0,)),
 }
 
@@ -104,6 +109,8 @@ TABLES: Mapping[str, Table] = {
                 "E1_over_E2": Axis(
                     "Young's modulus of the layer over that of the substrate",
                     (0.1, 0.2, 0.5, 0.8, 1.25, 2.0, 4.0, 10.0),
+                    1 / MOST_CONTRAST,
+                    MOST_CONTRAST,
                 ),
                 "h_over_aH": Axis(
                     "thickness of the layer over Hertz's contact radius on the substrate",

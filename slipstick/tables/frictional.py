@@ -25,7 +25,7 @@ from contact_scene import (
     Scene,
 )
 from contact_scene.march import marked_increments
-from contact_scene.solver_errors import NotConverged
+from contact_scene.solver_errors import NotConverged, UnsupportedScene
 from radial.plan import PATH_INCREMENTS
 from radial.rubbing import Rubbing
 from radial.sheared import Sheared
@@ -101,7 +101,7 @@ def tractions(place: Sequence[float], fineness: int) -> Found:
 
 def gripping(place: Sequence[float], fineness: int) -> Found:
     """The coefficient of friction with which the stick reaches to a share of the contact radius;
-    raises NotConverged where none does."""
+    raises UnsupportedScene where none does."""
     *contact, share = place
 
     def missed(x: float) -> float:
@@ -113,7 +113,12 @@ def gripping(place: Sequence[float], fineness: int) -> Found:
     while last * first > 0:
         low, high = high, high - np.copysign(log(FACTOR), first)
         if abs(high - log(FIRST)) > log(FURTHEST):
-            raise NotConverged(f"the friction of a stick radius of {share:g} a", 0, abs(last), 0.0)
+            raise UnsupportedScene(
+                f"no coefficient of friction between {exp(min(log(FIRST), low)):.3g} and "
+                f"{exp(max(log(FIRST), low)):.3g} lets the stick reach to {share:g} of the contact "
+                "radius; where pressure moves the surfaces alike there is none: name other values "
+                "of c_over_a, nu or E1_over_E2"
+            )
         earlier, last = last, missed(high)
     x = brentq(missed, low, high, xtol=NEAR)
     slope = float(abs((last - earlier) / (high - low)))
