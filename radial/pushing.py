@@ -16,18 +16,19 @@ from radial.circle import Circle
 from radial.coupling import Coupling
 from radial.fields import Increment
 from radial.plan import ANGLES, ELSEWHERE, Plan
-from radial.pressing import pressed
+from radial.pressing import Target, pressed
 from radial.pushed import Pushed, pushed, residuals_of
 from radial.ring_friction import MOST_STEPS, held
 from radial.ring_laws import ABOUT, DOWN, Loads
 from radial.ring_layout import laid
 from radial.ring_points import Points
-from radial.shown import largest_targets
+from radial.shown import largest_targets, targets
 
 Array = NDArray[np.float64]
 Pair = tuple[float, float]
 
 SETTLING, SETTLED = 8, 2  # increments, and layouts, after which the radius of the contact is known
+NARROW = 2.0  # rings: so far apart are those that tell an edge
 EXACT = 0.1  # of the tolerance: what Newton's method is to reach
 NOTHING = (0.0, 0.0, 0.0, 0.0)
 
@@ -63,12 +64,15 @@ class Pushing:
         friction, circle = scene.friction.uniform, plan.circle
         count, highest = round(plan.rings * fineness), round(ANGLES * fineness)
         both = Coupling.of(scene)
-        edges = [
-            max(
-                pressed(both.bodies, scene.indenter, target).contact.radius
-                for target in largest_targets(scene)
-            )
-        ]
+
+        def smooth(target: Target) -> float:
+            """The radius without friction."""
+            return pressed(both.bodies, scene.indenter, target).contact.radius
+
+        largest = max(map(smooth, largest_targets(scene)))
+        # Contacts within the first ring would have no radius at all.
+        ends = {smooth(target) for target in set(targets(scene))}
+        edges = [largest, *(edge for edge in sorted(ends) if edge * count < NARROW * largest)]
 
         def at(circle: Circle) -> Pushing:
             harmonics = 0 if circle is Circle.ONE else highest

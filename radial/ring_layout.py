@@ -37,13 +37,14 @@ def places(count: int, reach: float, edges: Sequence[float]) -> tuple[float, ...
     dense: list[float] = []
     for edge in (1.0, *edges):
         # Near to one that is dense already nothing is gained.
-        if all(abs(edge - other) > 1 / count for other in dense):
+        if all(abs(edge - other) > min(1 / count, edge, other) for other in dense):
             dense.append(edge)
-    about = [edge + off for edge in dense for off in (*-near, 0.0, *near)]
+    # Within the first ring they are dense over the radius of the edge itself.
+    about = [edge + off * min(1.0, edge * count) for edge in dense for off in (*-near, 0.0, *near)]
     even = [*np.arange(1, count) / count, *(1 + np.array(outside))]
     kept = [x for x in even if all(abs(x - edge) > LEAST / count for edge in dense)]
     found = sorted([*about, *(x for x in kept if min(abs(x - y) for y in about) > near[-1])])
-    return (0.0, *(float(x) for x in found if x > near[-1]))
+    return (0.0, *(float(x) for x in found if x > near[-1] * min(1.0, min(dense) * count)))
 
 
 def laid(

@@ -29,6 +29,13 @@ def largest_targets(scene: Scene) -> Iterator[Target]:
             yield Target(max(ends) if force else None, None if force else max(ends))
 
 
+def targets(scene: Scene) -> Iterator[Target]:
+    """What the steps of a history press to."""
+    for ramp in scene.load_path():
+        force = ramp.normal.kind is ControlKind.FORCE
+        yield Target(ramp.normal.end if force else None, None if force else ramp.normal.end)
+
+
 def shown_radii(count: int, largest: Sequence[Pressed], rim: float | None) -> Array:
     """Radii, denser towards the edge of the widest contact and out to twice its radius; none where
     the pressure is infinite [length]."""

@@ -3,6 +3,7 @@ closed form, films."""
 
 from __future__ import annotations
 
+import math
 from dataclasses import replace
 from typing import Any
 
@@ -206,3 +207,13 @@ def test_stress_below_a_twisted_contact_is_that_of_torsion_alone() -> None:
     )
     largest = np.max(np.abs(exact.points.stress))
     assert_allclose(found.points.stress, exact.points.stress, atol=1e-3 * largest)
+
+
+def test_a_contact_let_go_to_a_millionth_of_its_load_is_that_of_hertz() -> None:
+    """A hundredth of the radius is within the first ring of the contact that it was; E* = 1/2."""
+    least = 1e-6 * LOAD
+    let_go = LoadStep(normal_force=least, tangential_force=(0.0, 0.0), increments=3)
+    end = rough(scene(push(0.3, 0.0), let_go, **ALIKE)).steps[-1]
+    radius = math.cbrt(0.75 * least / 0.5)
+    assert end.contact_radius == pytest.approx(radius, rel=1e-2)
+    assert end.approach == pytest.approx(radius**2, rel=1e-2)
