@@ -40,17 +40,17 @@ def held(
     if drag and W is not None and drag >= friction * W:
         raise _slides(drag, friction * W)
     laws = Laws.of(points, friction, loads, before)
-    x = laws.closed() if before is None else np.append(before.tractions, laws.motion)
-    at = laws.at(x, points.compliance @ x[:-4])
-    for step in range(MOST_STEPS):
-        if at.worst <= tolerance:
-            return _ended(laws, at, step)
-        # Where nothing carries the force steps grow without end, until a number is none.
-        with np.errstate(over="ignore", invalid="ignore"):
-            aim = laws.next(at)
-            if aim is None:
-                break
-            at = _nearer(laws, at, aim, SHORTEST if step >= AT_ONCE else 1.0)
+    for x in [laws.closed()] if before is None else laws.starts(before):
+        at = laws.at(x, points.compliance @ x[:-4])
+        for step in range(MOST_STEPS):
+            if at.worst <= tolerance:
+                return _ended(laws, at, before, step)
+            # Where nothing carries the force steps grow without end, until a number is none.
+            with np.errstate(over="ignore", invalid="ignore"):
+                aim = laws.next(at)
+                if aim is None:
+                    break
+                at = _nearer(laws, at, aim, SHORTEST if step >= AT_ONCE else 1.0)
     if np.any(_given(loads)):
         _refuse_sliding(points, friction, loads, before, tolerance)
     raise NotConverged("contact and friction on rings", MOST_STEPS, at.worst, tolerance)
@@ -101,7 +101,7 @@ def _slides(drag: float, carried: float) -> GrossSliding:
     return GrossSliding(f"T = {drag:g} N is not below µW = {carried:g} N: the indenter slides")
 
 
-def _ended(laws: Laws, at: At, steps: int) -> Held:
+def _ended(laws: Laws, at: At, before: Held | None, steps: int) -> Held:
     points, size = laws.points, len(at.z)
     if np.any(at.limit.reshape(-1, points.count)[-1] > 0):
         raise ContactAtZoneEdge("the contact reaches the last ring; lay rings further out")
@@ -111,7 +111,8 @@ def _ended(laws: Laws, at: At, steps: int) -> Held:
     if laws.friction == 0:
         share = np.where(inside, 1.0, np.inf)
     t, motion = at.x[:-4], at.x[-4:]
+    changed = at.x - np.append(before.tractions, before.motion) if before else at.x
     return Held(
-        t, at.u[: 2 * size], laws.slipped(at.u, motion), motion, share,
+        t, at.u[: 2 * size], laws.slipped(at.u, motion), motion, changed, share,
         0.5 * float(t @ at.u), at.worst, steps,
     )  # fmt: skip

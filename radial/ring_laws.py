@@ -16,6 +16,9 @@ Array = NDArray[np.float64]
 LEAST_FRICTION = 1e-2  # of which the limit is more than round-off of the pressure
 # Of rigid motions and what does work on them: T along and across, M about the axis, W.
 ALONG, ACROSS, ABOUT, DOWN = range(4)
+# Of loads that go on as in the last increment: what is round-off of them, how many times as far
+# they go at most, and how much of it aside.
+REST, FURTHEST, ASIDE = 1e-6, 2.0, 0.5
 Led = tuple[float | None, ...]
 
 
@@ -45,6 +48,7 @@ class Held:
     moved      u_r, u_θ times area (2 N,) [length³]
     slipped    Δs of the increment times area (2 N,) [length³]
     motion     shifts along and across, twist, approach (4,) [length, radian]
+    changed    by the increment, tractions and motion (3 N + 4,)
     share      of the limit: |q - Δs/d| over it, ≤ 1 where a point sticks, infinite out of contact
     energy     ½ ∫ (p u_z + q·u) dA [force length]
     missed     of the laws, over the largest pressure, limit and load
@@ -55,6 +59,7 @@ class Held:
     moved: Array
     slipped: Array
     motion: Array
+    changed: Array
     share: Array
     energy: float
     missed: float
@@ -77,7 +82,7 @@ class Held:
 
     def forces(self, points: Points) -> Array:
         """T along and across, M and W that the tractions carry (4,)."""
-        return np.append(points.ways @ self.shear.ravel(), points.areas @ self.pressure)
+        return _carried(points, self.tractions)
 
     def every_angle(self, points: Points) -> Held:
         """The same at points, of a state that is the same all around."""
@@ -88,6 +93,7 @@ class Held:
         return replace(
             self,
             tractions=parts(self.tractions, 3),
+            changed=np.append(parts(self.changed[:-4], 3), self.changed[-4:]),
             moved=parts(self.moved, 2) / points.count,
             slipped=parts(self.slipped, 2) / points.count,
             share=parts(self.share, 1),
@@ -145,6 +151,29 @@ class Laws:
         open_by = (points.compliance @ t)[2 * size :] / points.areas + depth
         return np.append(t, [0.0, 0.0, 0.0, np.max(open_by)])
 
+    def starts(self, before: Held) -> list[Array]:
+        """Tractions and motion gone on from the state before as in its increment, where the loads
+        do so, and those of that state."""
+        leads = [force is not None for force in self.loads.forces]
+        ends = zip(self.loads.forces, self.loads.motions, strict=True)
+        led = np.array([motion if force is None else force for force, motion in ends], dtype=float)
+        x = np.append(before.tractions, before.motion)
+        now, last = (
+            np.where(leads, _carried(self.points, of[:-4]), of[-4:]) for of in (x, before.changed)
+        )
+        further = led - now
+        for way in (slice(ALONG, ABOUT), slice(ABOUT, DOWN), slice(DOWN, None)):
+            size = max(np.linalg.norm(further[way]), np.linalg.norm(last[way]))
+            rests = size <= REST * np.linalg.norm(led[way])
+            further[way], last[way] = (0.0 if rests else of[way] / size for of in (further, last))
+        if not np.any(last):
+            return [x]
+        share = float(further @ last) / float(last @ last)
+        aside = np.linalg.norm(further - share * last)
+        if not 0 < share <= FURTHEST or aside > ASIDE * np.linalg.norm(further):
+            return [x]
+        return [x + share * before.changed, x]
+
     def at(self, x: Array, u: Array) -> At:
         """What is left of the laws.
 
@@ -165,7 +194,7 @@ class Laws:
         worst = max(beyond, np.max(np.abs(missed[2 * size :]))) / peak if peak > 0 else np.inf
         if not np.isfinite(worst):
             return At(x, missed, z, y, limit, u, np.inf)
-        carried = np.append(points.ways @ q, points.areas @ p)
+        carried = _carried(points, t)
         most, depth = points.areas @ np.abs(p), abs(motion[DOWN])
         sizes = (most, most, points.levers @ np.abs(p), most)
         reaches = (depth, depth, depth / points.radii[-1], depth)
@@ -185,88 +214,97 @@ class Laws:
 
     def next(self, at: At) -> Array | None:
         """Where the laws would hold if they went on as they are here; None where nowhere."""
-        points, size, loads = self.points, len(at.z), self.loads
-        inside = np.flatnonzero(at.z > 0)
-        n, length = len(inside), np.hypot(*at.y)[inside]
-        limit = at.limit[inside]
-        slips = length > limit
-        stuck, slid = np.flatnonzero(~slips), np.flatnonzero(slips)
-        safe = np.where(length > 0, length, 1.0)
-        w = at.y[:, inside] / safe
-        every = np.concatenate([inside, size + inside, 2 * size + inside])
-        # Columns, and rows alike: q_r and q_θ of what sticks, q across w of what slips, p; motion.
-        a, r, s = len(stuck), slid, n + slid
-        held, side, press = slice(0, 2 * a), slice(2 * a, 2 * a + len(slid)), 2 * a + len(slid)
-        share = limit[slid] / length[slid]
-        if np.any(share <= 0):
+        points, size = self.points, len(at.z)
+        if self.loads.forces[DOWN] is not None and not np.any(at.z > 0):
             return None
-        A = points.compliance[np.ix_(every, every)]
-        columns = np.zeros((3 * n, press + n + 4))
-        columns[:, :a], columns[:, a : 2 * a] = A[:, stuck], A[:, n + stuck]
-        columns[:, side] = A[:, s] * w[0, slid] - A[:, r] * w[1, slid]
-        columns[:, press:-4] = A[:, 2 * n :]
-        along = A[:, r] * w[0, slid] + A[:, s] * w[1, slid]
-        columns[:, press + slid] += self.friction * along
-        ways = points.ways[:, every[: 2 * n]]
-        columns[: 2 * n, -4:-1] = -ways.T
-        columns[2 * n :, -1] = -points.areas[inside]
-        known = np.concatenate([
-            self.moved[every[: 2 * n]] - self.motion[:DOWN] @ ways, -points.bare[inside],
-        ])  # fmt: skip
-
-        def rows(field: Array, found: Array) -> None:
-            across = slid_ways if field.ndim > 1 else slid_ways[:, :, 0]
-            found[:a], found[a : 2 * a] = field[stuck], field[n + stuck]
-            found[side] = across[0] * field[s] - across[1] * field[r]
-            found[press:-4] = field[2 * n :]
-
-        slid_ways = w[:, slid, None]
-        whole, right = np.zeros((press + n + 4,) * 2), np.zeros(press + n + 4)
-        rows(columns, whole)
-        rows(known, right)
-        own = np.arange(2 * a, press)
-        d = self.d[inside[slid]]
-        whole[own, own] += d * (1 - share) / share
-        ways = ways.reshape(3, 2, n)
-        # Of what a load leads the row is its equilibrium, else its motion.
-        for i, (force, motion) in enumerate(zip(loads.forces, loads.motions, strict=True)):
-            row = whole[i - 4]
-            if force is None:
-                row[i - 4], right[i - 4] = 1.0, motion
-                continue
-            right[i - 4] = force
-            if i == DOWN:
-                row[press:-4] = points.areas[inside]
-                continue
-            outward, around = ways[i]
-            row[held] = ways[i][:, stuck].ravel()
-            row[own] = around[slid] * w[0, slid] - outward[slid] * w[1, slid]
-            row[press + slid] = self.friction * np.sum(ways[i][:, slid] * w[:, slid], axis=0)
+        # No ring further out carries anything; of these K knows tractions by displacements.
+        rings = int(np.max(np.flatnonzero(at.z > 0), initial=0)) // points.count + 1
+        K, m = points.tractions(rings), rings * points.count
+        inside, y, limit = at.z[:m] > 0, at.y[:, :m], at.limit[:m]
+        length = np.hypot(*y)
+        # Displacements that nothing holds: along w and across it where a point slips, anywhere
+        # where it is open.
+        free, apart = np.flatnonzero(~inside | (length > limit)), np.flatnonzero(~inside)
+        n, slips = len(free), inside[free]
+        safe = np.where(slips, length[free], 1.0)
+        c, s = np.where(slips, y[:, free] / safe, [[1.0], [0.0]])
+        share, friction = np.where(slips, [limit[free] / safe, np.full(n, self.friction)], 0.0)
+        own = np.concatenate([free, m + free, 2 * m + apart])
         # Small rings beside large ones, in units in which they are alike.
-        units = np.ones(len(whole))
-        units[held] = np.tile(self.d[inside[stuck]], 2)
-        units[side], units[press:-4] = d, self.d[2 * size + inside]
-        units = 1 / np.sqrt(units)
-        whole *= units
-        whole[:-4] *= units[:-4, None]
-        right[:-4] *= units[:-4]
-        LU, places, failed = lapack.dgetrf(whole.T)
+        units = np.sqrt(self.d[np.concatenate([free, free, 2 * size + apart])])
+        # All is told from here on, so that round-off goes with what is left of the way: tractions
+        # and displacements here, what motion leads, and what displacements miss.
+        t = np.zeros_like(at.x[:-4])
+        t.reshape(3, size)[:, :m] = at.x[:-4].reshape(3, size)[:, :m]
+        u = at.u if np.array_equal(t, at.x[:-4]) else points.compliance @ t
+        t, u = t.reshape(3, size)[:, :m].ravel(), u.reshape(3, size)[:, :m].ravel()
+        tied = points.ways.reshape(3, 2, size)[:, :, :m].reshape(3, -1)
+        moved = self.moved.reshape(2, size)[:, :m].ravel() - self.motion[:DOWN] @ tied
+        led = np.zeros((3 * m, 5))
+        led[: 2 * m, :3], led[2 * m :, 3] = tied.T, points.areas[:m]
+        missed = np.append(moved, -points.bare[:m]) + led[:, :4] @ at.x[-4:] - u
+        led[:, 4] = missed
+        led[own, 4] = 0.0
+        carried = K @ led
+        by_motion = led.T @ carried
+        by_motion[4] += led.T @ t
+        carried[:, 4] += t
+
+        def turn(rows: Array, sense: float = 1.0) -> None:
+            """From outward and around the axis to along w and across it; -1: back."""
+            outward, around = rows[:n].copy(), rows[n : 2 * n].copy()
+            rows[:n] = c[:, None] * outward + sense * s[:, None] * around
+            rows[n : 2 * n] = c[:, None] * around - sense * s[:, None] * outward
+
+        # K is symmetric: of everything unknown, tractions where displacements are free.
+        every = np.concatenate([own[: 2 * n], 2 * m + free])
+        by = np.concatenate([K[np.ix_(own, every)], carried[every].T])
+        turn(by)
+        by[: len(own)] *= units[:, None]
+        by = np.ascontiguousarray(by.T)
+        turn(by)
+        # Rows: µp along w, across it what the law leaves, nothing of what is open; loads.
+        by[:n] -= friction[:, None] * by[2 * n :]
+        by[n : 2 * n] *= (1 - share)[:, None]
+        rows = np.concatenate([by[: 2 * n], by[2 * n :][~slips]]) * units[:, None]
+        across = np.arange(n, 2 * n)
+        rows[across, across] += share
+        slipped = -missed[own[: 2 * n], None]
+        turn(slipped)
+        rows[across, -1] += share * slipped[n:, 0] / units[across]
+        loads = np.concatenate([carried[own], by_motion]).T[:4]
+        turn(loads.T)
+        loads[:, : len(own)] *= units
+        ends = zip(self.loads.forces, self.loads.motions, strict=True)
+        for i, (force, motion) in enumerate(ends):
+            # Of what a load leads the row is its equilibrium, else its motion.
+            if force is None:
+                loads[i], loads[i, i - 5], loads[i, -1] = 0.0, -1.0, motion
+                loads[i, -1] -= at.x[i - 4]
+            else:
+                loads[i, -1] -= force
+        whole = np.concatenate([rows, loads])
+        LU, places, failed = lapack.dgetrf(whole[:, :-1].T)
         if failed:
             return None
-        found = lapack.dgetrs(LU, places, right, trans=1)[0]
-        found += lapack.dgetrs(LU, places, right - whole @ found, trans=1)[0]
-        found *= units
+        found = lapack.dgetrs(LU, places, -whole[:, -1], trans=1)[0]
         if not np.all(np.isfinite(found)):
             return None
-        x = np.zeros_like(at.x)
-        p = found[press:-4]
-        q = np.zeros((2, n))
-        q[:, stuck] = found[:a], found[a : 2 * a]
-        v, most = found[own], self.friction * p[slid]
-        q[:, slid] = most * w[:, slid] + v * np.stack([-w[1, slid], w[0, slid]])
-        x[every] = np.concatenate([*q, p])
-        x[-4:] = found[-4:]
+        further = (found[:-4] * units)[:, None]
+        turn(further, -1.0)
+        u = led @ np.append(found[-4:], 1.0)
+        u[own] += further[:, 0]
+        t = (t + K @ u).reshape(3, m)
+        t[:, ~inside] = 0.0
+        x = np.append(np.zeros(3 * size), at.x[-4:] + found[-4:])
+        x[:-4].reshape(3, size)[:, :m] = t
         return x
+
+
+def _carried(points: Points, tractions: Array) -> Array:
+    """T along and across, M and W (4,)."""
+    q, p = np.split(tractions, [2 * len(points.areas)])
+    return np.append(points.ways @ q, points.areas @ p)
 
 
 def _shortened(y: Array, limit: Array) -> Array:

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import cached_property, lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,6 +20,8 @@ BESIDE_EDGE, FITTED = 0.15, 4
 # How far beyond a front the largest slip is, where no shear is 1 within: of 0.3, 0.5, 0.7 and 1
 # what brings Cattaneo's circle and a coated contact on cells nearest.
 BY_SLIP = 0.5
+# Inverses that are kept, for contacts whose last ring comes and goes; of ways that angles lack.
+MOST_INVERSES, ROUND_OFF = 3, 1e-12
 
 
 @dataclass(frozen=True, eq=False)
@@ -94,14 +97,49 @@ class Points:
     @cached_property
     def compliance(self) -> Array:
         """Displacements times areas by tractions (3 n count,) * 2 [length^5/force]."""
+        return self._over_harmonics(self._ways, self._energies_of_ways)
+
+    @cached_property
+    def tractions(self) -> Callable[[int], Array]:
+        """Of a number of rings about the axis, tractions at their points by displacements times
+        areas (3 rings count,) * 2 [force/length^5], where no other point carries any."""
+        return lru_cache(maxsize=MOST_INVERSES)(self._tractions)
+
+    def _tractions(self, rings: int) -> Array:
+        """Harmonics do not know of each other: each is inverted alone."""
+        back = np.zeros_like(self._ways)
+        norms = np.sum(self._ways**2, axis=2)
+        has = norms > ROUND_OFF * np.max(norms)
+        back[has] = self._ways[has] / norms[has, None]
+        energies = self._energies_of_ways[..., :rings, :rings]
+        inverses = np.zeros_like(energies)
+        for parts, energy, inverse in zip(has.T, energies, inverses, strict=True):
+            kept, n = np.flatnonzero(parts), int(np.sum(parts)) * rings
+            known = energy[np.ix_(kept, kept)].swapaxes(1, 2).reshape(n, n)
+            units = 1 / np.sqrt(np.diag(known))
+            found = units * np.linalg.inv(units[:, None] * known * units) * units[:, None]
+            found = found.reshape(len(kept), rings, len(kept), rings).swapaxes(1, 2)
+            inverse[np.ix_(kept, kept)] = found
+        return self._over_harmonics(back, inverses)
+
+    @cached_property
+    def _ways(self) -> Array:
+        """Harmonics by values at the angles (3, ways, count): one family after the other."""
+        return np.concatenate(self.circle.families(self.highest), axis=1)
+
+    @cached_property
+    def _energies_of_ways(self) -> Array:
+        """Energies of `_ways`, with their norms (ways, 3, 3, n, n)."""
         norms = np.full(len(self.energies), np.pi)
         norms[[0, -1]] = 2 * np.pi
-        ways = np.concatenate(self.circle.families(self.highest), axis=1)
-        # One family after the other, harmonic by harmonic.
-        families = ways.shape[1] // len(norms)
-        norms, energies = np.tile(norms, families), np.concatenate([self.energies] * families)
-        whole = np.einsum("m,amj,mabik,bml->aijbkl", norms, ways, energies, ways, optimize=True)
-        return whole.reshape(3 * len(self.weights) * self.count, -1)
+        families = self._ways.shape[1] // len(norms)
+        return np.concatenate([norms[:, None, None, None, None] * self.energies] * families)
+
+    @staticmethod
+    def _over_harmonics(ways: Array, of_ways: Array) -> Array:
+        """Of points, what is known of every harmonic."""
+        whole = np.einsum("amj,mabik,bml->aijbkl", ways, of_ways, ways, optimize=True)
+        return whole.reshape(ways.shape[0] * ways.shape[2] * of_ways.shape[-1], -1)
 
     @cached_property
     def round(self) -> Points:
@@ -185,11 +223,22 @@ class Points:
 
     def _around(self, field: Array, sense: float, angles: Array) -> Array:
         """A field (n, count) at other angles."""
-        every, whole = self.angles, field
-        if self.circle is Circle.HALF:
-            every = np.concatenate([every, 2 * np.pi - every[::-1]])
-            whole = np.hstack([field, sense * field[:, ::-1]])
-        every = np.append(every, every[0] + 2 * np.pi)
-        whole = np.hstack([whole, whole[:, :1]])
-        spline = CubicSpline(every, whole, axis=1, bc_type="periodic")
-        return np.ascontiguousarray(spline(angles))
+        return field @ self._spline(sense, tuple(angles))
+
+    @cached_property
+    def _spline(self) -> Callable[[float, tuple[float, ...]], Array]:
+        """What values at other angles take of those at `angles` (count, …)."""
+
+        @lru_cache
+        def weights(sense: float, others: tuple[float, ...]) -> Array:
+            every, whole = self.angles, np.eye(self.count)
+            if self.circle is Circle.HALF:
+                every = np.concatenate([every, 2 * np.pi - every[::-1]])
+                whole = np.hstack([whole, sense * whole[:, ::-1]])
+            every = np.append(every, every[0] + 2 * np.pi)
+            whole = np.hstack([whole, whole[:, :1]])
+            return np.ascontiguousarray(
+                CubicSpline(every, whole, axis=1, bc_type="periodic")(np.array(others))
+            )
+
+        return weights

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from functools import cache
 from typing import Any
 
@@ -109,6 +110,37 @@ def test_points_move_as_the_harmonics_of_their_tractions(harmonic: int, way: int
     exact = points.energies[harmonic, :, way] @ RADII
     exact = 2 * math.pi / count * exact[..., None] * ways[:, None]
     assert_allclose(moved, exact, atol=1e-14)
+
+
+@pytest.mark.parametrize("circle", Circle)
+@pytest.mark.parametrize("rings", [1, 4, len(RADII)])
+def test_tractions_of_rings_are_those_that_move_them_so(circle: Circle, rings: int) -> None:
+    points = replace(alike().round if circle is Circle.ONE else alike(), circle=circle)
+    size, m = len(points.areas), rings * points.count
+    some = np.concatenate([way * size + np.arange(m) for way in range(3)])
+    known = points.compliance[np.ix_(some, some)]
+    assert_allclose(points.tractions(rings) @ known, np.eye(3 * m), atol=1e-9)
+
+
+def test_loads_that_go_on_start_from_where_they_lead() -> None:
+    """Half and all of the last way ahead; turned back, or led otherwise, from where they are."""
+    state = after(0.3, 0.5)
+    here = np.append(state.tractions, state.motion)
+
+    def starts(loads: Loads) -> list[Array]:
+        return Laws.of(alike(), FRICTION, loads, state).starts(state)
+
+    for further in (0.5, 1.0, 2.0):
+        first, last = starts(pushed(0.5 + 0.2 * further))
+        assert_allclose(first[-4:], here[-4:] + further * state.changed[-4:], rtol=1e-9)
+        assert np.array_equal(last, here)
+    for loads in (pushed(0.4), pushed(0.95), pushed(0.5), led(1.1 * state.approach, 0.0)):
+        (only,) = starts(loads)
+        assert np.array_equal(only, here)
+    anew = replace(state, changed=np.zeros_like(state.changed))
+    ahead, behind = (held(alike(), FRICTION, pushed(0.7), of, TOLERANCE) for of in (state, anew))
+    assert ahead.steps < behind.steps
+    assert_allclose(ahead.tractions, behind.tractions, atol=10 * TOLERANCE * behind.pressure.max())
 
 
 def test_newtons_method_aims_at_where_the_laws_would_hold() -> None:
