@@ -17,8 +17,9 @@ LEAST_FRICTION = 1e-2  # of which the limit is more than round-off of the pressu
 # Of rigid motions and what does work on them: T along and across, M about the axis, W.
 ALONG, ACROSS, ABOUT, DOWN = range(4)
 # Of loads that go on as in the last increment: what is round-off of them, how many times as far
-# they go at most, and how much of it aside.
-REST, FURTHEST, ASIDE = 1e-6, 2.0, 0.5
+# they go at most (more than twice, so that round-off does not decide about twice), and how much of
+# it aside.
+REST, FURTHEST, ASIDE = 1e-6, 2.1, 0.5
 Led = tuple[float | None, ...]
 
 
@@ -170,7 +171,7 @@ class Laws:
             return [x]
         share = float(further @ last) / float(last @ last)
         aside = np.linalg.norm(further - share * last)
-        if not 0 < share <= FURTHEST or aside > ASIDE * np.linalg.norm(further):
+        if not REST < share <= FURTHEST or aside > ASIDE * np.linalg.norm(further):
             return [x]
         return [x + share * before.changed, x]
 
