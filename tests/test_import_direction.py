@@ -190,7 +190,16 @@ ORDERS = {
     ),
     # Its floors: what judges stands on what is known, what is shown on what was judged.
     "verification": (
-        *("closed_forms", "references", "baselines", "norms", "solver", "convergence", "exhibits"),
+        *(
+            "closed_forms",
+            "references",
+            "baselines",
+            "norms",
+            "cell_means",
+            "solver",
+            "convergence",
+            "exhibits",
+        ),
         *("problems", "laws", "observed", "external_codes"),
         "judging",
         *("running", "regression"),

@@ -56,7 +56,7 @@ from verification.studies.work_precision.recorded_peers import (
     peer_points,
     recorded_peers,
 )
-from verification.studies.work_precision.setting import OPERATIONS, Method, PrecisionCase
+from verification.studies.work_precision.setting import OPERATIONS, OWN, Method, PrecisionCase
 from verification.studies.work_precision.study import STUDY, cases
 from verification.studies.work_precision.usual_route import SampledCoefficients, Sampling
 
@@ -305,13 +305,16 @@ def test_extrapolation_leaves_what_is_not_of_order_two() -> None:
     ("method", "options"),
     [
         (Method.SURFACE, {}),
+        (Method.EDGES, {}),
+        (Method.RADIAL, {}),
         (Method.SAMPLED, {"sampling": (1, 1)}),
         (Method.ELEMENTS, {}),
         (Method.PENALTY, {"penalty": 10.0}),
     ],
 )
 def test_counters_are_the_same_at_every_run(method: Method, options: dict[str, Any]) -> None:
-    case = PrecisionCase("coated", method, 8 if "elements" in method else 16, **options)
+    fineness = OWN if method is Method.RADIAL else 8 if "elements" in method else 16
+    case = PrecisionCase("coated", method, fineness, **options)
     first, second = case.compute(), case.compute()
     clock = {"seconds", "repeats"}
     assert first.model_dump(exclude=clock) == second.model_dump(exclude=clock)

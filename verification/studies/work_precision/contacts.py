@@ -20,8 +20,9 @@ from semi_analytical import SurfaceGrid
 from verification.cases import coated_paraboloid as coated
 from verification.cases.fretting_loop import WINDOW_PER_RADIUS
 from verification.cases.loop_observables import ENERGY_PER_CYCLE, LARGEST_SHIFT_ERROR
+from verification.cell_means import cell_means
 from verification.judging.observable import Observable, error_norm
-from verification.judging.observables import APPROACH, PEAK_PRESSURE, PRESSURE_L2, SHEAR, SHIFT
+from verification.judging.observables import APPROACH, PEAK_PRESSURE, SHIFT
 from verification.judging.pressing_errors import pressure_at, shear_at
 from verification.norms import shear_error
 from verification.problems import paper_scene as paper
@@ -31,6 +32,7 @@ from verification.problems.loop_history import ExactLoop, fretting_loop
 from verification.problems.paper_scene import NU_ZERO
 from verification.problems.problem import OVER_PEAK, Problem
 from verification.problems.sheared import OVER_LIMIT, SLIDING_SHIFT, sheared
+from verification.studies.work_precision.field_errors import PRESSURE, SHEAR
 from verification.studies.work_precision.frozen_route import FrozenHistory
 
 Field = NDArray[np.float64]
@@ -102,8 +104,8 @@ def _pushed(increments: int) -> Problem:
 def _pushed_frozen(history: FrozenHistory) -> Errors:
     (end,) = history.turned
     exact = replace(_pushed(1).ends[-1], tangential_force=end.force)
-    r = np.hypot(*history.grid.coordinates())
-    return {"shear": shear_error(end.shear, exact.shear(r), history.bound),
+    shear = cell_means(exact.shear, *history.grid.coordinates(), history.grid.spacing)
+    return {"shear": shear_error(end.shear, shear, history.bound),
             "shift": (end.shift - exact.shift) / SLIDING_SHIFT}  # fmt: skip
 
 
@@ -140,7 +142,7 @@ HERTZIAN = PreciseContact(
     "hertz",
     "Hertz",
     {"pressure": "pressure, L2", "peak": "peak pressure", "approach": "approach"},
-    (PRESSURE_L2, PEAK_PRESSURE, APPROACH),
+    (PRESSURE, PEAK_PRESSURE, APPROACH),
     lambda _: BALL,
 )
 CATTANEO = PreciseContact(
@@ -156,7 +158,7 @@ COATING = PreciseContact(
     "coated",
     "Coated, E1/E2 = 2, without friction",
     {"pressure": "pressure, L2", "approach": "approach"},
-    (PRESSURE_L2, APPROACH),
+    (PRESSURE, APPROACH),
     lambda _: coated.EXACT,
 )
 INDENTATION = PreciseContact(

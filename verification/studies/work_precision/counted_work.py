@@ -8,7 +8,15 @@ from __future__ import annotations
 
 from math import log2
 
+import numpy as np
+
+import radial
+from contact_scene import Scene
 from fem_reference import Result as Section
+from radial.bodies import Bodies
+from radial.largest_contact import wavenumbers
+from radial.pressing import Target, pressed
+from radial.rubbing import COUNT
 from semi_analytical import Result as Surface
 
 TRANSFORM = 2.5  # operations per value and doubling of a real fast transform
@@ -66,7 +74,38 @@ def factorisations(result: Section) -> int:
     return len(sections) * (2 if _sheared(result) else 1)
 
 
-def systems(result: Section) -> int:
+def ring_unknowns(result: radial.Result, fineness: float) -> int:
+    """Of a dense system of the radial solver: all tractions of rings and angles, shear on rings, or
+    polynomials."""
+    if result.plan.circle:
+        return 3 * result.steps[-1].pressure.size
+    return round(COUNT * fineness) if result.plan.coupled else _orders(result.scene, fineness)
+
+
+def of_rings(result: radial.Result, fineness: float) -> float:
+    """Operations of dense systems. At points these are of what does not stick, beside a product
+    with the inverse of the whole, which is set-up; else each is of another contact radius, whose
+    entries are integrals over the wavenumbers."""
+    n = ring_unknowns(result, fineness)
+    if not result.plan.circle:
+        made = 2 * fineness * wavenumbers(result.scene) * n**2
+        return systems(result) * (made + DENSE * n**3)
+    return sum(i.iterations * (2 * n**2 + DENSE * _loose(i) ** 3) for i in result.increments)
+
+
+def _loose(increment: radial.Increment) -> int:
+    """Tractions where nothing sticks."""
+    assert increment.in_stick is not None
+    return 3 * int(np.sum(~increment.in_stick))
+
+
+def _orders(scene: Scene, fineness: float) -> int:
+    force = scene.loading[-1].normal_force
+    found = pressed(Bodies.of(scene), scene.indenter, Target(force, None), round(fineness))
+    return len(found.contact.layers)
+
+
+def systems(result: Section | radial.Result) -> int:
     """Linear systems of the contact, of all increments."""
     return sum(i.iterations for i in result.increments)
 

@@ -13,7 +13,7 @@ from verification.studies.work_precision.contacts import (
     INDENTATION,
     LOOP,
 )
-from verification.studies.work_precision.setting import Method, PrecisionCase
+from verification.studies.work_precision.setting import OWN, Method, PrecisionCase
 
 CELLS = {
     Level.QUICK: (16, 32, 64, 128),
@@ -34,6 +34,14 @@ ELEMENTS = {
 LOOSE = {Level.QUICK: (1e-4,), Level.STANDARD: (1e-2, 1e-4), Level.FULL: (1e-2, 1e-4)}
 PENALTIES = {Level.QUICK: (1.0, 10.0), Level.STANDARD: (1.0, 10.0, 100.0)}
 SAMPLINGS = {Level.QUICK: ((1, 1), (2, 2)), Level.STANDARD: ((1, 1), (2, 1), (2, 2), (4, 4))}
+# Of the closed form below a ball the radial solver makes none; of a coated one it has round-off.
+RINGS = {
+    Level.QUICK: (OWN // 2, OWN),
+    Level.STANDARD: (OWN // 2, OWN, 3 * OWN // 2),
+    Level.FULL: (OWN // 2, OWN, 3 * OWN // 2, 2 * OWN),
+}
+# Energies and shifts of a loop stay those of cells without edges.
+WITH_EDGES = (HERTZIAN.name, CATTANEO.name, COATING.name, INDENTATION.name)
 INCREMENTS = {Level.QUICK: (5,), Level.STANDARD: (5, 10, 40)}  # beside the usual ones
 MOST_SPRINGS = 64  # elements: finer with springs takes longer than all the rest
 FROZEN_STEPS = {CATTANEO.name: 10, LOOP.name: 3}  # to the first turn
@@ -55,6 +63,11 @@ def of_contact(contact: str, level: Level) -> Iterator[PrecisionCase]:
         for sampling in SAMPLINGS[upper]:
             if 2 * n * sampling[0] * sampling[1] <= MOST_SAMPLES:
                 yield PrecisionCase(contact, Method.SAMPLED, n, sampling=sampling)
+        if contact in WITH_EDGES:
+            yield PrecisionCase(contact, Method.EDGES, n)
+    if contact != HERTZIAN.name:
+        for n in (OWN,) if contact == COATING.name else RINGS[level]:
+            yield PrecisionCase(contact, Method.RADIAL, n)
     for n in ELEMENTS[level]:
         yield PrecisionCase(contact, Method.ELEMENTS, n)
         for penalty in PENALTIES[upper] if n <= MOST_SPRINGS else ():
@@ -77,3 +90,4 @@ def _of_increments(contact: str, level: Level) -> Iterator[PrecisionCase]:
             yield PrecisionCase(contact, Method.SURFACE, n, increments=increments)
         for n in ELEMENTS[max(level, Level.STANDARD)]:
             yield PrecisionCase(contact, Method.ELEMENTS, n, increments=increments)
+        yield PrecisionCase(contact, Method.RADIAL, OWN, increments=increments)

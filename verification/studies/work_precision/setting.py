@@ -5,12 +5,15 @@ from __future__ import annotations
 from dataclasses import dataclass
 from enum import StrEnum
 
-from contact_scene import FiniteElementDiscretisation
+import radial
+from contact_scene import FiniteElementDiscretisation, RadialDiscretisation
+from contact_scene.discretisation import EdgeCorrection
 from fem_reference import Method as Enforcement
 from fem_reference import Result as Section
 from fem_reference import solve as solve_section
 from semi_analytical import Result as Surface
-from semi_analytical import SurfaceGrid, solve
+from semi_analytical import SurfaceGrid, plan, solve
+from semi_analytical.plan import Coupling
 from verification.judging.run import SOLVER_TOLERANCE
 from verification.running.cold_cache import timed
 from verification.running.row import CaseRecord, parameters_of
@@ -20,6 +23,9 @@ from verification.studies.work_precision.frozen_route import FrozenHistory, froz
 from verification.studies.work_precision.usual_route import Sampling, solve_sampled
 
 NO_INCREMENTS = 1
+# Of the radial solver the fineness is in twelfths of what it chooses; fields are told at so many
+# radii, between which a table is interpolated.
+OWN, TOLD = 12, 512
 OPERATIONS = "operations"  # counted work, by the name of its measure
 
 
@@ -27,11 +33,13 @@ class Method(StrEnum):
     """How a contact is solved."""
 
     SURFACE = "semi-analytical"
+    EDGES = "semi-analytical, edges inside cells"
     EXTRAPOLATED = "semi-analytical, extrapolated"
     SAMPLED = "sampled response"
     FROZEN = "sampled response, frozen directions"
     ELEMENTS = "finite elements"
     PENALTY = "finite elements, penalty"
+    RADIAL = "radial"
 
 
 @dataclass(frozen=True)
@@ -39,7 +47,8 @@ class PrecisionCase:
     """A method at a setting.
 
     contact     one of CONTACTS
-    fineness    cells per side of the window, or elements per contact radius
+    fineness    cells per side of the window, elements per contact radius, or twelfths of the rings
+                and orders that the radial solver chooses
     tolerance   of the solver
     penalty     stiffness factor c; 0 without penalty
     sampling    refinement and extension; zeros: exact coefficients
@@ -83,7 +92,11 @@ class PrecisionCase:
     def text(self) -> str:
         """The setting for people."""
         n = self.fineness
-        words = [f"{n} elements per radius" if self.by_sections else f"{n} x {n}"]
+        words = [f"{n} x {n}"]
+        if self.by_sections:
+            words = [f"{n} elements per radius"]
+        elif self.method is Method.RADIAL:
+            words = ["its own rings" if n == OWN else f"{n / OWN:g} times its own rings"]
         words += [f"tolerance {self.tolerance:g}"] if self.tolerance != SOLVER_TOLERANCE else []
         words += [f"c = {self.penalty:g}"] if self.penalty else []
         if any(self.sampling):
@@ -110,6 +123,14 @@ class PrecisionCase:
                 "systems": counted_work.systems(section),
                 "unknowns": counted_work.unknowns(section),
                 "increments": len(section.increments),
+            }
+        elif self.method is Method.RADIAL:
+            rings, seconds, repeats = timed(self._rings)
+            errors, operations = contact.errors_of(rings), counted_work.of_rings(rings, self._finer)
+            counters = {
+                "systems": counted_work.systems(rings),
+                "unknowns": counted_work.ring_unknowns(rings, self._finer),
+                "increments": len(rings.increments),
             }
         else:
             if self.method is Method.FROZEN:
@@ -160,7 +181,19 @@ class PrecisionCase:
         scene = self.solved.posed(self._steps).scene
         if self.method is Method.SAMPLED:
             return solve_sampled(scene, self._grid, self.tolerance, self._sampling)[1]
-        return solve(scene, self._grid, self.tolerance)
+        if self.method is not Method.EDGES:
+            return solve(scene, self._grid, self.tolerance)
+        # Where bodies couple, edges are inside the cells in every increment or not at all.
+        asked: EdgeCorrection = "all" if plan(scene).coupling is Coupling.FULL else "last"
+        return solve(scene, self._grid, self.tolerance, plan=plan(scene, edge=asked))
+
+    @property
+    def _finer(self) -> float:
+        return self.fineness / OWN
+
+    def _rings(self) -> radial.Result:
+        scene = self.solved.posed(self._steps).scene
+        return radial.solve(scene, RadialDiscretisation(rings=TOLD), fineness=self._finer)
 
     def _section(self) -> Section:
         discretisation = FiniteElementDiscretisation(
