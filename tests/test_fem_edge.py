@@ -4,12 +4,14 @@ from math import pi
 
 import numpy as np
 import pytest
-from contact_scenes import LOAD, MU, NU, RADIUS, RIGID_BALL, YOUNG, A, scene, steel
+from contact_scenes import LOAD, MU, NU, RADIUS, RIGID_BALL, YOUNG, A, paraboloid, scene, steel
 from fem_scenes import end, solved
 from scipy.linalg import toeplitz
 
 from fem_reference.contact.box_program import BoxProgram, Total, solve_box
 from fem_reference.contact.ring_edge import edge_radius, stick_area
+from verification.closed_forms.hertz import PointContact
+from verification.closed_forms.moduli import contact_modulus
 from verification.references import load_reference
 
 CENTRE = 200
@@ -46,6 +48,31 @@ def test_edge_of_plane_contact_is_found_within_its_element(beyond: float) -> Non
     # So far out a circle is as good as straight.
     assert edge_radius(np.arange(len(p)) + 1e6, p, last) == pytest.approx(1e6 + a, abs=3e-3)
     assert last + 0.5 != pytest.approx(a, abs=3e-3) or beyond == 0.5
+
+
+@pytest.mark.parametrize(
+    ("lower", "upper", "softer"),
+    [(0.0, 0.0, 1.0), (0.15, 0.15, 1.0), (0.45, 0.45, 1.0), (0.5, 0.5, 1.0), (0.0, 0.49, 5.0)],
+)
+@pytest.mark.parametrize("beyond", [0.1, 0.5, 0.9])
+def test_edge_is_found_whatever_elements_next_to_it_are_of(
+    lower: float, upper: float, softer: float, beyond: float
+) -> None:
+    """Up to the curvature of the contact, of 0.11 h/a of an element where the edge is in its
+    middle, and 0.0012 of an element; at ν = 0 half-planes would be off by 0.016."""
+    per_radius, soft = 32, YOUNG / softer
+    modulus = contact_modulus((YOUNG, lower), (soft, upper))
+    a = PointContact.under_load(LOAD, RADIUS, modulus).contact_radius
+    pressed = scene(
+        {"normal_force": LOAD},
+        friction=None,
+        body=steel(lower),
+        indenter=paraboloid(steel(upper, soft)),
+    )
+    element = a / (per_radius + beyond)
+    found = end(pressed, per_radius, contact_radius=per_radius * element)
+    curvature = {0.1: -0.03, 0.5: -0.11, 0.9: 0.14}[beyond] / per_radius
+    assert (found.contact_radius - a) / element == pytest.approx(curvature, abs=1.2e-3)
 
 
 @pytest.mark.parametrize("elements", [16, 32])

@@ -24,6 +24,7 @@ SHOWN = (2.0, 3.0)  # loaded radii to the sides and in depth
 def stress_on_section(state: LoadedBodies, *, indenter: bool = False) -> StressField:
     """Stress at the nodes of a mesh of its own, as fine over the loaded circle as the contact was
     computed. Raises what `fem_reference.stress.subsurface` raises."""
+    from fem_reference.contact.ring_edge import beyond_pressure
     from fem_reference.stress import SurfaceTractions, subsurface
 
     assert state.discretisation is not None
@@ -32,6 +33,7 @@ def stress_on_section(state: LoadedBodies, *, indenter: bool = False) -> StressF
         angles=state.axes.get("angles"),
         **state.tractions,
         rooted=state.no_root is None,
+        edge=beyond_pressure(state.body, state.indenter),
     )
     # Elements over the circle that is loaded now, not over the largest one.
     asked = state.discretisation.model_copy(update={"contact_radius": None})

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from fem_reference.contact.harmonics.angular_grid import AngularGrid, end_grid, mid_grid
 from fem_reference.contact.penalty import fitted_edge
 from fem_reference.contact.penalty.gauss_points import POINTS_PER_EDGE
-from fem_reference.contact.ring_edge import contact_edge
+from fem_reference.contact.ring_edge import BEYOND, Beyond, contact_edge
 from fem_reference.elasticity.motion import PRESSING, SHEARING, TORSION, Motion, motion
 from fem_reference.fields import Increment
 
@@ -36,6 +36,7 @@ class SurfaceTractions:
     radii   (rings,) [length]
     angles  None, or (angles,) where fields are (rings, angles)
     rooted  whether pressure and shear end in a root of the distance from the edge
+    edge    how far beyond the last ring pressure ends, see `beyond_pressure`
     """
 
     radii: Field
@@ -45,6 +46,7 @@ class SurfaceTractions:
     shear_circumferential: Field | None = None
     shear_along_load: Field | None = None
     rooted: bool = False
+    edge: Beyond = BEYOND
 
     @classmethod
     def of(cls, increment: Increment) -> SurfaceTractions:
@@ -126,7 +128,7 @@ class SurfaceTractions:
         """Radius of the edge on every ray [length]: between rings from the axis on, or between
         Gauss points."""
         if self._per_element == 1:
-            return np.array([contact_edge(self.radii, ray) for ray in self._rays.T])
+            return np.array([contact_edge(self.radii, ray, self.edge) for ray in self._rays.T])
         last = int(np.flatnonzero(self._rays[:, 0] > 0)[-1])
         element = self.radii[last] - self.radii[last - POINTS_PER_EDGE]
         return np.array([fitted_edge.edge_radius(self.radii, self._rays[:, 0], last, element)])

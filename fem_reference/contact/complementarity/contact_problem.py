@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from contact_scene.friction import CoulombFriction
+from fem_reference.contact.ring_edge import Beyond, beyond_pressure
 from fem_reference.elasticity.hats import Hats
 from fem_reference.model import ContactModel
 from fem_reference.plan import Path
@@ -65,6 +66,7 @@ class ContactProblem:
     normal    gap over the hats per pressure (n, n)
     sideways  None where the path has no shear
     open_end  whether the mesh ends at the last ring but the contact may go on
+    edge      how far beyond the last ring pressure ends, see `beyond_pressure`
     """
 
     radii: Field
@@ -73,6 +75,7 @@ class ContactProblem:
     normal: Matrix
     sideways: Sideways | None
     open_end: bool
+    edge: Beyond
 
 
 def contact_problem(model: ContactModel, path: Path) -> ContactProblem:
@@ -85,6 +88,7 @@ def contact_problem(model: ContactModel, path: Path) -> ContactProblem:
         normal=hats.compliance(pressing[Z, :, Z]),
         sideways=_sideways(model, hats, path),
         open_end=not model.ends_at_rim,
+        edge=beyond_pressure(model.scene.body, model.scene.indenter),
     )
 
 

@@ -48,7 +48,7 @@ class Complementarity:
             gap=np.where(p > 0, 0.0, np.maximum(state.gap, 0.0) / problem.weights),
             normal_force=state.normal_force,
             approach=state.approach,
-            contact_radius=contact_edge(problem.radii, p),
+            contact_radius=contact_edge(problem.radii, p, problem.edge),
             peak_pressure=float(np.max(p)),
             residuals=state.residuals,
             iterations=state.steps,

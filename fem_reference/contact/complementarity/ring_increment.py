@@ -106,7 +106,7 @@ def _touching_share(problem: ContactProblem, before: State | None, p: Field) -> 
     pressure, gap = np.zeros_like(p), problem.gap
     if before is not None:
         pressure, gap = before.pressure, before.gap
-    edges = (contact_edge(problem.radii, pressed) for pressed in (pressure, p))
+    edges = (contact_edge(problem.radii, pressed, problem.edge) for pressed in (pressure, p))
     return touching_share(problem.radii, (pressure == 0) & (gap > 0), p == 0, *edges)
 
 

@@ -196,13 +196,11 @@ class _Trial:
                 (before.pressure == 0) & (before.gap > 0),
             )
         )
-        radii = compliance.rings.radii
-        rays = [
-            touching_share(
-                radii, apart, end == 0, contact_edge(radii, start), contact_edge(radii, end)
-            )
-            for start, end, apart in zip(starts, ends, open_before, strict=True)
-        ]
+        radii, table = compliance.rings.radii, compliance.rings.edge
+        rays = []
+        for start, end, apart in zip(starts, ends, open_before, strict=True):
+            edges = (contact_edge(radii, pressure, table) for pressure in (start, end))
+            rays.append(touching_share(radii, apart, end == 0, *edges))
         axis, *rings = np.stack(rays, axis=1)
         return np.concatenate([axis[:1], *rings])
 

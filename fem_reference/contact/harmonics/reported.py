@@ -71,8 +71,8 @@ def _along(direction: tuple[float, float], value: float) -> tuple[float, float]:
 def _contact_area(state: PointState, p: Field) -> float:
     """½∫a² dθ with the radius a of the contact's edge on every ray [length^2]; on the last ring,
     the rim of a flat punch, the edge is the ring. Rays without contact add nothing."""
-    radii = state.compliance.rings.radii
-    edges = [contact_edge(radii, ray) for ray in p.T]
+    rings = state.compliance.rings
+    edges = [contact_edge(rings.radii, ray, rings.edge) for ray in p.T]
     return float(0.5 * np.sum(state.compliance.grid.weights * np.square(edges)))
 
 

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from fem_reference.contact.ring_edge import BEYOND, Beyond, beyond_pressure
 from fem_reference.model import ContactModel
 
 Matrix = NDArray[np.float64]
@@ -20,11 +21,13 @@ class RingCompliance:
     harmonics  for n = 0, 1, …: ∫ φ_i u r dr of the components r, θ, z of the displacement, lower
                body less indenter, per traction with profile φ_k (3, rings, 3, rings)
                [length^5/force]. Symmetric; all of θ is zero for n = 0
+    edge       how far beyond the last ring pressure ends, see `beyond_pressure`
     """
 
     radii: Vector
     areas: Vector
     harmonics: tuple[Matrix, ...]
+    edge: Beyond = BEYOND
 
 
 def ring_compliance(model: ContactModel, highest: int) -> RingCompliance:
@@ -39,4 +42,5 @@ def ring_compliance(model: ContactModel, highest: int) -> RingCompliance:
             for j, b in enumerate(condensed.motion.components):
                 A[a, :, b] = hats.compliance(condensed.matrix[i, :, j])
         harmonics.append(A)
-    return RingCompliance(hats.radii, hats.weights, tuple(harmonics))
+    edge = beyond_pressure(model.scene.body, model.scene.indenter)
+    return RingCompliance(hats.radii, hats.weights, tuple(harmonics), edge)

@@ -69,13 +69,10 @@ EDGE = Expected(
     2.0,
     "the edge is read off the last two pressures by the square root; the next term of the profile "
     "moves it by O(h/a) of a ring, and it lies in the middle of a ring on every mesh. How the last "
-    "pressures tell the edge is that of a half-plane; elements next to the edge comply otherwise, "
-    "which leaves 0.002 h beside 0.12 h²/a at ν = 0.3: 1.87 ± 0.05 of the order up to 64 rings",
-    allowance=0.2,
+    "pressures tell the edge is tabulated for square elements, by their Poisson's ratio: what that "
+    "leaves, 0.0003 h, is far below 0.12 h²/a up to 100 rings",
+    allowance=0.1,
 )
-# Of the outermost materials. Below, what complying otherwise leaves of the first order is as large
-# as the second (0.009 h at ν = 0, an order of 1.5); above, it has the other sign (2.3 at ν = 0.49).
-EDGE_KNOWN = (0.29, 0.42)
 BETWEEN_MESHED_APPROACHES = Expected(
     2.0,
     "between alike bodies shift and energy follow from the approaches of the contact and of the "
@@ -168,11 +165,14 @@ def by_cells(scene: Scene, couples: bool) -> Mapping[str, Expected]:
     return {**orders, **means, "peak_pressure": PEAK}
 
 
-def by_elements(scene: Scene, couples: bool, augmentations: int | None) -> Mapping[str, Expected]:
+def by_elements(
+    scene: Scene, couples: bool, augmentations: int | None, *, squares: bool
+) -> Mapping[str, Expected]:
     """Orders in the side of an element at the contact, by the same names; of smooth shapes only.
 
     couples        whether pressure and shear act on each other
     augmentations  of the penalty method; None without a penalty
+    squares        whether elements at the contact are squares, for which the edge is tabulated
     """
     if not isinstance(scene.indenter, SmoothTip):
         return {}
@@ -180,8 +180,7 @@ def by_elements(scene: Scene, couples: bool, augmentations: int | None) -> Mappi
     orders = {PRESSURE: EDGES, SHEAR: EDGES, "twist": CUSPS}
     orders |= dict.fromkeys((*SHIFTS, "dissipated_energy"), means)
     if augmentations is None:
-        low, high = EDGE_KNOWN
-        edge = {"contact_radius": EDGE} if low <= _poisson_ratio(scene) <= high else {}
+        edge = {"contact_radius": EDGE} if squares else {}
         return orders | edge | {"approach": ENERGY, "peak_pressure": CENTRE}
     layered = any(body.layers for body in (scene.body, scene.indenter))
     springs = (AUGMENTED_LAYER if layered else AUGMENTED) if augmentations else SPRINGS
@@ -227,13 +226,6 @@ def by_period(scene: Scene, couples: bool) -> Mapping[str, Expected]:
     orders = {} if layered else dict.fromkeys(("approach", *SHIFTS), IMAGES)
     shapes = () if couples else ("peak_pressure", "contact_radius", PRESSURE, SHEAR)
     return orders | dict.fromkeys(shapes, IMAGES_SHAPE)
-
-
-def _poisson_ratio(scene: Scene) -> float:
-    """Of the outermost materials, by how much of the approach is theirs."""
-    outermost = [b.elastic_materials[0] for b in (scene.body, scene.indenter) if b.deforms]
-    gives = [(1 - m.poisson_ratio**2) / m.young_modulus for m in outermost]
-    return sum(m.poisson_ratio * g for m, g in zip(outermost, gives, strict=True)) / sum(gives)
 
 
 def _by_force(scene: Scene) -> bool:

@@ -98,7 +98,8 @@ def _of_elements(scene: StudiedScene, method: Method) -> Refinement:
         )
 
     augmentations = asked.augmentations if method is Method.PENALTY else None
-    expected = by_elements(start.contents.scene, start.couples, augmentations)
+    squares = asked.mesher == "tensor"
+    expected = by_elements(start.contents.scene, start.couples, augmentations, squares=squares)
     return Refinement(
         "mesh", levels, expected, "element side / contact radius", start.tolerance, finer=ASKED_BY
     )

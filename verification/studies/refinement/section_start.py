@@ -13,7 +13,7 @@ from fem_reference.scales import Scales
 from verification.studies.refinement.section_level import REACH, SectionLevel
 from verification.studies.refinement.studied_scene import StudiedScene, cut_into
 
-SCOUT_ELEMENTS = 16
+SCOUT_ELEMENTS = 32
 # A history may outgrow the contact at its end by so much, and still fit the zone of fine elements.
 OUTGROWN = 1.02
 
