@@ -28,7 +28,7 @@ from verification.challenge.toml_text import toml_text
 from verification.judging.outcome import Status
 from verification.problems.elliptical import EXACT as ELLIPSE
 from verification.problems.paper_scene import HERTZ
-from verification.report.judgement_sheet import render_sheet
+from verification.report.judgement_sheet import render_sheet, row_texts
 
 POINT = challenges()["hertz_point"]
 NAMES = sorted(challenges())
@@ -198,6 +198,32 @@ def test_a_claimed_uncertainty_must_cover_the_error(u: float, status: Status) ->
     value = HERTZ.approach * (1 + 1e-3)
     found = statuses(POINT, Answer(1e-5, {("approach", 1): (value, u * HERTZ.approach)}))
     assert found["approach: own uncertainty"] is status
+
+
+@pytest.mark.parametrize(
+    ("u", "status"),
+    [(0.25, Status.INCONCLUSIVE), (2e-2, Status.PASS), (4e-4, Status.PASS), (1e-5, Status.FAIL)],
+)
+def test_a_claimed_uncertainty_of_half_the_value_says_nothing(u: float, status: Status) -> None:
+    """Not where one level in three is that far off, nor where it vouches for the class asked."""
+    off = {8e-5: 8e-3 if u == 2e-2 else 5e-4, 4e-5: 3e-4, 2e-5: 2e-4}
+    answers = [
+        Answer(h, {("approach", 1): (HERTZ.approach * (1 + e), u * HERTZ.approach)})
+        for h, e in off.items()
+    ]
+    assert statuses(POINT, *answers)["approach: own uncertainty"] is status
+
+
+def test_an_order_that_no_level_tells_is_not_a_number() -> None:
+    answers = [
+        Answer(h, {("approach", 1): HERTZ.approach * (1 + e)})
+        for h, e in ((8e-5, 1e-4), (4e-5, 8e-4), (2e-5, 5e-5))
+    ]
+    who = Solver("stranger", claimed_orders={"approach": 2.0})
+    rows = {row.quantity: row for row in judged(POINT, who, answers).rows}
+    assert rows["approach: order"].status is Status.INCONCLUSIVE
+    assert "order not known" in rows["approach: order"].because
+    assert row_texts(rows["approach"])[7] == "not known"
 
 
 @pytest.mark.parametrize(("claimed", "status"), [(1.0, Status.PASS), (2.0, Status.FAIL)])

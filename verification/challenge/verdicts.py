@@ -13,7 +13,7 @@ from verification.challenge.answer import Answer, Field, Key, Solver, Vector
 from verification.challenge.asked import AskedField, AskedPoints, AskedValue, Challenge, Grade
 from verification.challenge.halves import Halves
 from verification.challenge.round_table import RoundTable
-from verification.convergence.observed_order import observed_order
+from verification.convergence.observed_order import ILLEGIBLE, observed_order
 from verification.judging.outcome import Status
 
 STALLS_BELOW = 0.5  # upper end of the order's interval
@@ -21,6 +21,7 @@ ORDER_OFF = 0.1
 FEWEST_LEVELS = 3
 SUB_CELLS = 8  # along a side, where the mean over a cell is meant
 KNOWN = 1e-13  # error that no discretisation has by itself
+IDLE = 25.0  # times the error: a standard uncertainty so much larger on every level says nothing
 WHOLE = "–"  # in place of a loading step
 
 
@@ -100,15 +101,43 @@ def _of_value(
     hint = _hint(value, asked)
     yield _judged(key, finest.label, value, asked.value, errors, grade, asked.uncertainty, hint)
     yield from _convergence(key, solver, errors, asked.uncertainty)
-    claimed = finest.uncertainty(key)
-    if claimed is not None:
-        u = math.hypot(claimed, asked.uncertainty * asked.scale)
-        honest = abs(value - asked.value) <= 2 * u
-        yield Row(
-            f"{asked.quantity}: own uncertainty", asked.step, finest.label,
-            Status.PASS if honest else Status.FAIL,
-            f"error {abs(value - asked.value):.3g}, claimed 2u = {2 * claimed:.3g} {asked.unit}",
-        )  # fmt: skip
+    claims = [
+        (one.uncertainty(key), error) for (one, _), (_, error) in zip(found, errors, strict=True)
+    ]
+    yield from _of_claims(asked, finest.label, claims, grade)
+
+
+def _of_claims(
+    asked: AskedValue,
+    level: str,
+    claims: Sequence[tuple[float | None, float]],
+    grade: Grade,
+) -> Iterator[Row]:
+    """Whether the finest level's own uncertainty covers its error, and says something. It is idle
+    where it does not vouch for the class asked, and on every level is far above the error.
+
+    claims  standard uncertainty in the unit asked, and error over the scale, of every level
+    """
+    claimed, error = claims[-1]
+    if claimed is None:
+        return
+    scale = asked.scale
+    honest = error * scale <= 2 * math.hypot(claimed, asked.uncertainty * scale)
+    least = IDLE * 2 * asked.uncertainty
+    idle = 2 * claimed > grade.bound * scale and all(
+        u is not None and u > max(IDLE * e, least) * scale for u, e in claims
+    )
+    status = Status.INCONCLUSIVE if idle else Status.PASS if honest else Status.FAIL
+    because = f"error {error * scale:.3g}, claimed 2u = {2 * claimed:.3g} {asked.unit}"
+    if idle:
+        because += ": so wide that it says nothing"
+    yield Row(f"{asked.quantity}: own uncertainty", asked.step, level, status, because)
+
+
+def order_text(order: tuple[float, float]) -> str:
+    """In words where its interval holds two neighbouring whole orders, or more."""
+    value, half = order
+    return f"{value:.2f} ± {half:.2f}" if half < ILLEGIBLE else "not known"
 
 
 def _of_field(
@@ -214,7 +243,7 @@ def _convergence(
     if fit is None:
         return
     order, half = fit
-    told = f"order {order:.2f} ± {half:.2f}"
+    told = f"order {order_text(fit)}"
     if errors[-1][1] > Grade.A.bound and order + half < STALLS_BELOW:
         yield Row(f"{quantity}: stalls", step, WHOLE, Status.FAIL,
                   f"{told}: finer is hardly better", order=fit)  # fmt: skip

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from verification.challenge.judgement import Judgement
-from verification.challenge.verdicts import WHOLE, Row
+from verification.challenge.verdicts import WHOLE, Row, order_text
 from verification.exhibits.chart import Chart
 from verification.exhibits.log_chart import drawable, log_chart, point_curves
 from verification.exhibits.table import NONE, Table
@@ -24,7 +24,7 @@ def row_texts(row: Row) -> tuple[str, ...]:
         WHOLE if row.error is None else f"{row.error:.2e}",
         WHOLE if row.bound is None else f"{row.bound:g}",
         row.grade or WHOLE,
-        WHOLE if row.order is None else f"{row.order[0]:.2f} ± {row.order[1]:.2f}",
+        WHOLE if row.order is None else order_text(row.order),
         row.because,
     )
 
