@@ -25,16 +25,16 @@ from verification.observed.ring_errors import at_radii
 if TYPE_CHECKING:
     from fem_reference import Result
 
-# From one doubling to the next the order of the shear rises, 1.39, 1.42, 1.44, until the mesh
-# shows: the stick edge moves from node to node. That is beyond 12 increments on 256 elements per
-# radius and beyond 24 on 512; an order read off more is too low.
+# The stick edge moves from node to node: that shows beyond 12 increments on 256 elements per radius
+# and beyond 24 on 512, and an order read off more is too low.
 ELEMENTS = 256
 SLOWLY = NotYetAsymptotic(
-    0.15,
-    "it rises with every doubling, from 1.39 to 1.46 on 512 elements per radius, and increments "
-    "that move the stick edge by few elements say no more of it",
+    0.12,
+    "the next term is of second order and of the other sign: by 1/h = 2 … 12 increments the change "
+    "is h^3/2 (0.0761 - 0.0209 √h) within 0.5 % on 512 elements per radius, whose order rises from "
+    "1.40 to 1.45 and to 1.5 as √h falls",
 )
-INCREMENTS = (2, 3, 4, 6, 8, 12, 16)
+INCREMENTS = (2, 3, 4, 6, 8, 12)
 APART = 2  # levels from some increments to twice as many
 APPROACH, RADIUS, SHEAR = "approach", "contact radius", "shear (L1)"
 EXPECTED = {APPROACH: 2.0, RADIUS: 2.0, SHEAR: 1.5}

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from contact_scene import Body, IsotropicMaterial, Layer
 from contact_scene.residuals import worst
 from semi_analytical.stress import SubsurfaceField, interfaces, subsurface, subsurface_section
+from verification.closed_forms.hamilton_stress import hamilton_stress
 from verification.closed_forms.huber_stress import axis_stress, huber_stress, sliding_axis_shear
 from verification.exhibits.numbers import plain
 from verification.exhibits.table import NONE, Table
@@ -27,6 +28,8 @@ Field = NDArray[np.float64]
 SLIDING = 0.3  # shear over pressure
 AXIS = np.array([0.1, 0.25, 0.48, 1.0, 2.0])  # depths over the contact radius
 OFF_AXIS = np.array([0.2, 0.5, 1.0])
+BELOW = (0.5, 1.0)  # the same
+APART = 16  # cells between places
 XX, YY, ZZ, YZ, XZ = 0, 1, 2, 3, 4
 COATED = Body(
     material=STEEL,
@@ -48,9 +51,10 @@ def subsurface_stress(level: Level = Level.QUICK) -> Case:
         title="Stress below a sliding ball",
         problem=(
             "Hertz's pressure, sampled at the cell centres, and a shear of 0.3 times it, on a "
-            "steel half-space: stress on the axis and in the plane y = 0 against Huber and "
-            "Hamilton. Then the same tractions on a coated body: what must be continuous across "
-            "the interface, what must jump and by how much, and the tractions at the surface."
+            "steel half-space: stress on the axis, in the plane y = 0 and below the whole contact "
+            "against Huber and Hamilton. Then the same tractions on a coated body: what must be "
+            "continuous across the interface, what must jump and by how much, and the tractions "
+            "at the surface."
         ),
         runs=(),
         quantities=(),
@@ -71,6 +75,12 @@ def subsurface_stress(level: Level = Level.QUICK) -> Case:
                 "hertz_off_axis", "largest error of σ_zz and σ_yy in the plane y = 0 at depths "
                 "from 0.2 a, over p₀", "", "256x256", lambda: _off_axis_error(256),
                 Reference(0.0, closed, "Huber 1904"), Required(1e-4, required), 1.0, "p₀",
+            ),
+            Check(
+                "sliding_below", "largest error of the six components of stress below pressure "
+                "and shear, at depths 0.5 a and a all over the window, over p₀", "", "256x256",
+                lambda: _error_below(256), Reference(0.0, closed, "Hamilton 1983"),
+                Required(1e-4, required), 1.0, "p₀",
             ),
             Check(
                 "interface_continuity", "largest jump of σ_zz, σ_xz, σ_yz over p₀ and of u over "
@@ -130,6 +140,20 @@ def _off_axis_error(cells: int) -> float:
     stress = field.stress[len(AXIS) :, ..., 0]
     errors = (stress[:, ZZ] - exact.axial, stress[:, YY] - exact.hoop)
     return float(np.max(np.abs(errors)) / p0)
+
+
+def _error_below(cells: int) -> float:
+    a, p0 = HERTZ.contact_radius, HERTZ.peak_pressure
+    grid, depths = hertz_grid(cells), np.array(BELOW) * HERTZ.contact_radius
+    found = subsurface(Body(material=STEEL), grid, *_tractions(cells), depths.tolist())
+    some = slice(APART // 2, None, APART)
+    X, Y = (at.ravel() for at in np.meshgrid(found.x[some], found.y[some], indexing="ij"))
+    errors = []
+    for depth, stress in zip(depths, found.stress[:, :, some, some], strict=True):
+        places = X, Y, np.full_like(X, depth)
+        exact = hamilton_stress(*places, a, p0, SLIDING * p0, STEEL.poisson_ratio)
+        errors.append(np.max(np.abs(stress.reshape(6, -1) - exact)))
+    return float(np.max(errors) / p0)
 
 
 @cache

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
 from typing import Any
 
@@ -162,6 +163,23 @@ def _shear_stress_sign(patches: Patches) -> None:
     patches.function(field, "_tractions", wrap)
 
 
+def _stress(patches: Patches, change: Callable[[Any], Any]) -> None:
+    """Change the components of stress (nz, 6, nx, ny) below the surface."""
+    patches.function(
+        field,
+        "_field",
+        lambda whole: lambda *given: replace(found := whole(*given), stress=change(found.stress)),
+    )
+
+
+def _planes_exchanged(stress: Any) -> Any:
+    return stress[:, [0, 1, 2, 4, 3, 5]]
+
+
+def _in_plane_halved(stress: Any) -> Any:
+    return np.concatenate([stress[:, :5], 0.5 * stress[:, 5:]], axis=1)
+
+
 LOOP = ("fretting_loop",)
 
 CONTACT_AND_FRICTION = (
@@ -227,5 +245,13 @@ CONTACT_AND_FRICTION = (
     Defect(
         "stress-by-shear-sign", "Stress below the surface is that of the reversed shear.",
         ("subsurface_stress",), _shear_stress_sign,
+    ),
+    Defect(
+        "stress-planes-exchanged", "Below the surface σ_yz and σ_xz are exchanged.",
+        ("subsurface_stress",), lambda patches: _stress(patches, _planes_exchanged),
+    ),
+    Defect(
+        "in-plane-shear-halved", "Below the surface σ_xy is half of what it is.",
+        ("subsurface_stress",), lambda patches: _stress(patches, _in_plane_halved),
     ),
 )  # fmt: skip
