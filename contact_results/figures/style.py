@@ -2,7 +2,6 @@
 
 from collections.abc import Iterator
 from contextlib import contextmanager
-from io import BytesIO
 from pathlib import Path
 from typing import Any
 
@@ -74,8 +73,11 @@ def save(figure: Figure, path: Path, dots_per_inch: int = DOTS_PER_INCH) -> None
     if path.suffix == ".svg":
         figure.savefig(path, metadata={"Date": None, "Creator": None})
         return
-    every = BytesIO()
-    figure.savefig(every, format="png", dpi=dots_per_inch)
-    drawn = Image.open(every).convert("RGB")
+    figure.dpi = dots_per_inch
+    canvas: Any = FigureCanvasAgg(figure)
+    canvas.draw()  # savefig would draw it twice and pack what is to be unpacked again
+    drawn = Image.frombuffer(
+        "RGBA", canvas.get_width_height(), canvas.buffer_rgba(), "raw", "RGBA", 0, 1
+    ).convert("RGB")
     few = drawn.quantize(COLOURS, method=Image.Quantize.MEDIANCUT, dither=Image.Dither.NONE)
     few.save(path, "png", optimize=True, dpi=(dots_per_inch, dots_per_inch))
