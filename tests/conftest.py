@@ -28,11 +28,32 @@ settings.load_profile(
     os.environ.get("HYPOTHESIS_PROFILE") or ("ci" if os.environ.get("CI") == "true" else "dev")
 )
 
+# Files of more than ten CPU seconds begin first: who came last to one would let the others wait.
+LONGEST = (
+    "test_code_quality", "test_error_coverage_truths", "test_cli_run", "test_cli", "test_gallery",
+    "test_fretting_cycles", "test_accuracy", "test_checkpoint", "test_fem_compliance",
+    "test_stress_command", "test_coupled_increment", "test_coupled_histories",
+)  # fmt: skip
+
+
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    place = {name: number for number, name in enumerate(LONGEST)}
+    items.sort(key=lambda item: place.get(item.path.stem, len(LONGEST)))
+
 
 @pytest.fixture
 def rng() -> np.random.Generator:
     """Random numbers that are the same in every run."""
     return np.random.default_rng(20)
+
+
+@pytest.fixture
+def undrawn(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The figures of a run are called for and their files made, without the half second that each
+    takes to draw: for tests of something else."""
+    monkeypatch.setattr(
+        "contact_results.figures.figure_files.save", lambda figure, path, dots: path.touch()
+    )
 
 
 def _forbid_skip(report: pytest.TestReport | pytest.CollectReport) -> None:

@@ -6,13 +6,14 @@ import subprocess
 from pathlib import Path
 
 import pytest
+from conftest import LONGEST
 
 ROOT = Path(__file__).resolve().parents[1]
 # Says its version, runs no code, installs nothing, and repeats whatever else it is asked.
 PYTHON = """#!/bin/sh
 case $1 in -VV) echo Python ;; -c) ;; *) echo "$@" ;; esac
 """
-SPREAD = "--numprocesses auto --dist loadfile"
+SPREAD = "--numprocesses auto --dist loadfile --no-loadscope-reorder"
 
 
 @pytest.fixture
@@ -56,3 +57,7 @@ def test_what_is_compiled_is_kept_whatever_the_environment_says(clone: Path) -> 
         capture_output=True, text=True, check=True,
     ).stdout  # fmt: skip
     assert said == "kept\n"
+
+
+def test_files_that_begin_first_are_there() -> None:
+    assert {*LONGEST} <= {path.stem for path in (ROOT / "tests").glob("test_*.py")}
