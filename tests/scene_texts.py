@@ -12,6 +12,15 @@ material = { young_modulus = "210 GPa", poisson_ratio = 0.3 }
 coefficient = 0.1
 """
 
+STEEL_ON_STEEL = """
+[indenter]
+shape = "sphere"
+radius = "10 mm"
+material = { young_modulus = "210 GPa", poisson_ratio = 0.3 }
+[body]
+material = { young_modulus = "210 GPa", poisson_ratio = 0.3 }
+"""
+
 STEEL_BALL_PRESSED = """
 [indenter]
 shape = "sphere"

@@ -80,10 +80,13 @@ def partial_directories(scene: Path) -> list[str]:
 def test_run_writes_every_file_and_the_same_bytes_in_another_process(
     whole: Path, scene: Path
 ) -> None:
+    """Figures of equal results are equal: see test_run_output."""
     assert set(os.listdir(whole)) == FILES
-    subprocess.run(command(scene), cwd=ROOT, capture_output=True, check=True)
+    subprocess.run(command(scene, "--no-figures"), cwd=ROOT, capture_output=True, check=True)
     jsonschema.validate(summary(scene), summary_schema())
-    for name in FILES - {"timing.json"}:
+    figures = {name for name in FILES if name.endswith(".png")}
+    assert set(os.listdir(scene.parent / "out")) == FILES - figures - {"index.html"}
+    for name in FILES - figures - {"index.html", "timing.json"}:
         assert (scene.parent / "out" / name).read_bytes() == (whole / name).read_bytes()
 
 
@@ -109,6 +112,7 @@ def test_tables_agree_with_the_summary(whole: Path) -> None:
             assert float(last[f"{name} [{unit}]"]) == step[name]
 
 
+@pytest.mark.usefixtures("undrawn")
 def test_rerun_without_friction_removes_what_it_does_not_call_for(whole: Path, scene: Path) -> None:
     shutil.copytree(whole, scene.parent / "out")
     frictionless = SCENE.replace("[friction]\ncoefficient = 0.1\n", "")

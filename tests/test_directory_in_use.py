@@ -10,6 +10,7 @@ from pathlib import Path
 
 import pytest
 from command import slipstick
+from scene_texts import STEEL_ON_STEEL
 
 from contact_results.directory import sole_use
 from contact_results.directory.refusal import OutputRefused
@@ -17,13 +18,7 @@ from contact_results.directory.run_directory import run_directory
 from contact_results.directory.sole_use import in_sole_use
 
 ROOT = Path(__file__).resolve().parents[1]
-SCENE = """
-[indenter]
-shape = "sphere"
-radius = "10 mm"
-material = { young_modulus = "210 GPa", poisson_ratio = 0.3 }
-[body]
-material = { young_modulus = "210 GPa", poisson_ratio = 0.3 }
+SCENE = f"""{STEEL_ON_STEEL}
 [[loading]]
 normal_force = 100
 [semi_analytical]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections import defaultdict
 from collections.abc import Iterator
-from functools import cache
+from functools import cache, partial
 from typing import Any
 
 import numpy as np
@@ -82,13 +82,10 @@ def errors(known: KnownScene, fine: bool, *, stress: bool) -> Iterator[tuple[Tru
     result = solved(known, fine)
     tension = any(truth.quantity == F2 for truth in known.truths)
     steps = values_of(result, fretting_cycles(result, surface_stress=tension))
+    maxima = cache(partial(stress_maxima, result))
     for truth in known.truths:
         if (truth.quantity in STRESSES) is stress and truth.quantity != WORK:
-            found = (
-                stress_maxima(result, truth.step)[truth.quantity][0]
-                if stress
-                else truth.read(steps)
-            )
+            found = maxima(truth.step)[truth.quantity][0] if stress else truth.read(steps)
             if found is None:  # sheared sections tell of no energy stored, and run states no error
                 assert truth.quantity == ENERGY
                 assert known.fineness.solver != CELLS

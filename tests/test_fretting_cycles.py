@@ -229,7 +229,7 @@ def test_a_cycle_that_ends_at_the_limit_of_friction_has_no_slip():
     assert fretting_cycles(solve(described, grid(24), TOLERANCE)) == ()
 
 
-def test_cycles_reach_all_files(tmp_path):
+def test_cycles_reach_all_files(tmp_path, undrawn):
     result = loop(32, PRESS, push(0.8), push(-0.8), push(0.8), push(-0.8))
     write_result(result, tmp_path, surface_stress=True)
     last = fretting_cycles(result, surface_stress=True)[-1]

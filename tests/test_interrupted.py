@@ -10,15 +10,10 @@ from pathlib import Path
 
 import pytest
 from command import signalled
+from scene_texts import STEEL_ON_STEEL
 
 ROOT = Path(__file__).resolve().parents[1]
-SCENE = """
-[indenter]
-shape = "sphere"
-radius = "10 mm"
-material = { young_modulus = "210 GPa", poisson_ratio = 0.3 }
-[body]
-material = { young_modulus = "210 GPa", poisson_ratio = 0.3 }
+SCENE = f"""{STEEL_ON_STEEL}
 [friction]
 coefficient = 0.3
 [[loading]]

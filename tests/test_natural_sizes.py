@@ -89,6 +89,7 @@ def test_figures_are_over_the_sizes_and_say_so() -> None:
     assert frame.extent[1] * units.sizes["length"].size == pytest.approx(0.6e-3)
 
 
+@pytest.mark.usefixtures("undrawn")
 def test_tables_and_summary_stay_in_si(tmp_path: Path) -> None:
     result, plain, normalised = synthetic_result((12, 10)), tmp_path / "SI", tmp_path / "natural"
     for directory in (plain, normalised):

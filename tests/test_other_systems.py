@@ -6,6 +6,8 @@ import subprocess
 import sys
 from pathlib import Path
 
+from scene_texts import STEEL_ON_STEEL
+
 ROOT = Path(__file__).resolve().parents[1]
 # What Python lacks on Windows or on macOS, taken away before the program is imported.
 WITHOUT = """
@@ -24,13 +26,7 @@ def elsewhere(path, *options, **more):
 pathlib.Path.read_text = elsewhere
 import slipstick.cli
 """
-SCENE = """
-[indenter]
-shape = "sphere"
-radius = "10 mm"
-material = { young_modulus = "210 GPa", poisson_ratio = 0.3 }
-[body]
-material = { young_modulus = "210 GPa", poisson_ratio = 0.3 }
+SCENE = f"""{STEEL_ON_STEEL}
 [[loading]]
 normal_force = 100
 """

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from command import slipstick
 from contact_scenes import bump
+from scene_texts import STEEL_ON_STEEL
 
 from contact_scene import Scene, SurfaceDiscretisation, read_scene_file
 from contact_scene.plausibility import implausible
@@ -82,13 +83,9 @@ def test_a_load_that_ends_linear_theory_is_told_whatever_the_material_and_size(E
     assert any("strains of about" in remark for remark in implausible(pressed))
 
 
-COATED = """
-[indenter]
-shape = "sphere"
-radius = "10 mm"
-material = { young_modulus = "210 GPa", poisson_ratio = 0.3 }
-[body]
-material = { young_modulus = "210 GPa", poisson_ratio = 0.3 }
+COATED = (
+    STEEL_ON_STEEL
+    + """
 [[body.layers]]
 thickness = "5 um"
 material = { young_modulus = "400 GPa", poisson_ratio = 0.2 }
@@ -99,6 +96,7 @@ normal_force = 100
 [[loading]]
 tangential_force = [20, 0]
 """
+)
 MISTAKES = {  # of a steel ball on a coated one: the contact radius is 0.19 mm
     "GPa left out": ("body.material.young_modulus=210", 'was "210 GPa" meant?'),
     "MPa below a film": ("body.material.young_modulus=210e3", "strains of about 0.63"),

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import math
-import pickle
 from functools import cache
 from typing import Any
 
 import numpy as np
 import pytest
+from kept_standing import KeptStanding
 from numpy.testing import assert_allclose
 
 import fem_reference
@@ -27,7 +27,6 @@ from contact_scene import (
     Scene,
 )
 from contact_scene.solver_errors import UnsupportedScene
-from contact_scene.standing import Standing
 from contact_scene.summary import ContactStatus
 from radial.rings import OUTSIDE, rings_about
 from radial.sheared import Sheared
@@ -252,27 +251,15 @@ def test_stated_errors_hold_the_true_ones(one: Indentation) -> None:
         assert abs(getattr(end, name) - exact) < error < 0.1 * exact
 
 
-class _Kept:
-    """Keeps one standing, as a file would."""
-
-    def __init__(self, after: int) -> None:
-        self.after, self.bytes = after, b""
-
-    def last(self) -> Standing | None:
-        return pickle.loads(self.bytes) if self.bytes else None
-
-    def keep(self, standing: Standing) -> None:
-        assert isinstance(standing.mark.state, Sheared)
-        if len(standing.increments) == self.after:
-            self.bytes = pickle.dumps(standing)
-
-
 def test_a_solve_that_goes_on_has_the_same_bits() -> None:
-    kept = _Kept(6)
-    whole = radial.solve(scene(*UP_AND_DOWN), keeper=kept).steps[-1]
-    again = radial.solve(scene(*UP_AND_DOWN), keeper=kept).steps[-1]
-    assert again.approach == whole.approach
-    assert np.array_equal(again.shear_radial, whole.shear_radial)  # type: ignore[arg-type]
+    kept = KeptStanding(6, Sheared)
+    whole = radial.solve(scene(*UP_AND_DOWN), keeper=kept)
+    assert kept.bytes
+    again = radial.solve(scene(*UP_AND_DOWN), keeper=kept)
+    assert len(again.increments) == len(whole.increments)
+    last, expected = again.steps[-1], whole.steps[-1]
+    assert last.approach == expected.approach
+    assert np.array_equal(last.shear_radial, expected.shear_radial)  # type: ignore[arg-type]
 
 
 def test_a_map_of_friction_is_refused_by_name() -> None:

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import math
-import pickle
 from dataclasses import replace
 from functools import cache
 from typing import Any
 
 import numpy as np
 import pytest
+from kept_standing import KeptStanding
 from numpy.testing import assert_allclose
 
 import radial
@@ -29,7 +29,6 @@ from contact_scene import (
     Scene,
 )
 from contact_scene.solver_errors import GrossSliding, NotConverged, UnsupportedScene
-from contact_scene.standing import Standing
 from contact_scene.summary import ContactStatus
 from radial.plan import RINGS
 from radial.pushed import Pushed
@@ -295,27 +294,15 @@ def test_pressed_and_pushed_at_once_from_first_touch() -> None:
 # ---- a solve that goes on ---------------------------------------------------------------------
 
 
-class _Kept:
-    """Keeps one standing of a march."""
-
-    def __init__(self, after: int) -> None:
-        self.after, self.bytes = after, b""
-
-    def last(self) -> Standing | None:
-        return pickle.loads(self.bytes) if self.bytes else None
-
-    def keep(self, standing: Standing) -> None:
-        assert isinstance(standing.mark.state, Pushed)
-        if len(standing.increments) == self.after:
-            self.bytes = pickle.dumps(standing)
-
-
 def test_a_solve_that_goes_on_has_the_same_bits() -> None:
-    kept, asked = _Kept(6), scene(PRESS, push(0.6), push(0.0))
-    whole = rough(asked, keeper=kept).steps[-1]
-    again = rough(asked, keeper=kept).steps[-1]
-    assert again.tangential_shift == whole.tangential_shift
-    assert np.array_equal(again.pressure, whole.pressure)
+    kept, asked = KeptStanding(6, Pushed), scene(PRESS, push(0.6), push(0.0))
+    whole = rough(asked, keeper=kept)
+    assert kept.bytes
+    again = rough(asked, keeper=kept)
+    assert len(again.increments) == len(whole.increments)
+    last, expected = again.steps[-1], whole.steps[-1]
+    assert last.tangential_shift == expected.tangential_shift
+    assert np.array_equal(last.pressure, expected.pressure)
 
 
 # ---- what is refused --------------------------------------------------------------------------

@@ -10,15 +10,12 @@ from pathlib import Path
 
 import pytest
 from command import outcome
+from scene_texts import STEEL_ON_STEEL
 
 ROOT = Path(__file__).resolve().parents[1]
-SCENE = """
-[indenter]
-shape = "sphere"
-radius = "10 mm"
-material = { young_modulus = "210 GPa", poisson_ratio = 0.3 }
-[body]
-material = { young_modulus = "210 GPa", poisson_ratio = 0.3 }
+SCENE = (
+    STEEL_ON_STEEL
+    + """
 [[body.layers]]
 thickness = "50 um"
 material = { young_modulus = "70 GPa", poisson_ratio = 0.33 }
@@ -38,6 +35,7 @@ cells = [20, 20]
 [fem_reference]
 elements_per_radius = 6
 """
+)
 INCREMENTS = 4 + 8 + 8
 DOUBLED = ".out.doubled-checkpoint"
 # With a checkpoint after every increment; "DYING" stands for what is done after it.
