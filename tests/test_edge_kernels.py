@@ -80,7 +80,7 @@ def test_a_traction_within_its_cells_moves_what_its_parts_do(coefficients, compo
     parts = parts + 0.3 * rng.normal(size=(3, 1, 1)) * (x[:, None] ** 2 - x**2)
     kernels = EdgeKernels(component, *coefficients)
     within = Within.of(np.zeros(CELLS), i, j, parts)
-    found = EdgeOperator(kernels, CELLS, Convolutions())(within)
+    found = EdgeOperator([[(1, kernels)]], CELLS, Convolutions())(within)[0]
     expected = np.zeros(CELLS)
     K, fine = getattr(coefficients[1], component), np.arange(PARTS) - PARTS // 2
     for place in np.ndindex(CELLS):

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import chain
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,6 +20,8 @@ from semi_analytical.padded_transform import Convolutions, PaddedTransform, Spec
 
 Field = NDArray[np.float64]
 Indices = NDArray[np.intp]
+# Of displacements by tractions.
+Matrix = Sequence[Sequence[tuple[int, EdgeKernels]]]
 
 # A slope of one per cell has a twelfth of a moment; that of its parts is a little less.
 MOMENT = 12 / (1 - 1 / PARTS**2)
@@ -67,41 +70,74 @@ class Within:
 
 
 class EdgeOperator:
-    """Displacement (nx, ny) by what a traction does within its cells; one call is one and a half
-    convolutions."""
+    """Displacements by what tractions do within their cells, of one component of the influence
+    coefficients or, transformed together, of several.
 
-    def __init__(self, kernels: EdgeKernels, shape: tuple[int, int], counter: Convolutions) -> None:
-        self._near = kernels.near
+    A call is half a convolution for every displacement and one for every traction.
+    """
+
+    def __init__(self, kernels: Matrix, shape: tuple[int, int], counter: Convolutions) -> None:
+        """kernels  rows are displacements, columns tractions: sign and kernels of a component"""
         self._transform = PaddedTransform(shape, counter)
-        reach = self._transform.reach
-        x, y = kernels.parity
-        self._spectra = [
-            _spectrum(moment[reach], parity)
-            for moment, parity in zip(kernels.moments, ((-x, y), (x, -y)), strict=True)
+        known: dict[str, tuple[KernelSpectrum, KernelSpectrum]] = {}
+        for _, of in chain.from_iterable(kernels):
+            if of.component not in known:
+                known[of.component] = _spectra(of, self._transform.reach)
+        self._components = known
+        self._matrix = [
+            [(sign * (-1j if of.even else 1), of.component) for sign, of in row] for row in kernels
         ]
-        self._odd = x * y > 0
+        self._near = [
+            np.concatenate([sign * of.near.reshape(-1, PARTS**2) for sign, of in column])
+            for column in zip(*kernels, strict=True)
+        ]
 
-    def __call__(self, within: Within) -> Field:
-        """The displacement at the centres of the cells [length]."""
-        u = self._transform.convolved(within.slopes, 1, self._multiplied)[0]
-        return u + self._by_rest(within)
+    def __call__(self, *within: Within) -> Field:
+        """The displacements (rows, nx, ny) at the centres of the cells by one `Within` per column
+        [length]."""
+        slopes = np.concatenate([w.slopes for w in within])
+        u = self._transform.convolved(slopes, len(self._matrix), self._multiplied)
+        for traction, near in zip(within, self._near, strict=True):
+            u += _by_rest(traction, near, len(self._matrix))
+        return u
 
     def _multiplied(self, spectra: Spectrum, columns: slice) -> Spectrum:
-        total, other = spectra
-        for work, spectrum in zip(spectra, self._spectra, strict=True):
-            work *= spectrum[columns]
-        total += other
-        if self._odd:
-            total *= -1j
-        return spectra[:1]
+        symbols = {
+            name: [spectrum[columns] for spectrum in pair]
+            for name, pair in self._components.items()
+        }
+        u = np.zeros((len(self._matrix), *spectra.shape[1:]), dtype=spectra.dtype)
+        for total, row in zip(u, self._matrix, strict=True):
+            for k, (factor, name) in enumerate(row):
+                along_x, along_y = symbols[name]
+                part = along_x * spectra[2 * k]
+                part += along_y * spectra[2 * k + 1]
+                part *= factor
+                total += part
+        return u
 
-    def _by_rest(self, within: Within) -> Field:
-        u = np.zeros(np.array(within.slopes.shape[1:]) + 2 * REACH)
-        # Not by matrix products, whose rounding depends on the number of threads.
-        seen = np.einsum("nab,ijab->ijn", within.rest, self._near)
-        for i, j in np.ndindex(seen.shape[:2]):
-            np.add.at(u, (within.i + i, within.j + j), seen[i, j])
-        return u[REACH:-REACH, REACH:-REACH]
+
+def _by_rest(within: Within, near: Field, count: int) -> Field:
+    """Displacements (count, nx, ny) of the cells about each by its rest.
+
+    near  (count of offsets, PARTS²) displacement by each part, one displacement after the other
+    """
+    shape = np.array(within.slopes.shape[1:]) + 2 * REACH
+    seen = near @ within.rest.reshape(-1, PARTS**2).T
+    offset = np.arange(2 * REACH + 1)
+    at = (within.i + offset[:, None])[:, None] * shape[1] + (within.j + offset[:, None])
+    u = np.empty((count, *shape))
+    for total, one in zip(u, seen.reshape(count, -1), strict=True):
+        total.flat = np.bincount(at.ravel(), weights=one, minlength=total.size)
+    return u[:, REACH:-REACH, REACH:-REACH]
+
+
+def _spectra(of: EdgeKernels, reach: tuple[slice, slice]) -> tuple[KernelSpectrum, KernelSpectrum]:
+    """Those of the moments along x and y; times -i where the component is even (odd) along both
+    sides."""
+    x, y = of.parity
+    along_x, along_y = (moment[reach] for moment in of.moments)
+    return _spectrum(along_x, (-x, y)), _spectrum(along_y, (x, -y))
 
 
 def _spectrum(moment: Field, parity: tuple[int, int]) -> KernelSpectrum:

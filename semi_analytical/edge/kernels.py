@@ -58,6 +58,11 @@ class EdgeKernels:
         """Along x and y, of the coefficients."""
         return PARITY[self.component]
 
+    @property
+    def even(self) -> bool:
+        """Whether the coefficients are alike along both sides: even, or odd."""
+        return self.parity[0] == self.parity[1]
+
     @cached_property
     def moments(self) -> Field:
         """Displacement at cell offsets i, j >= 0 by tractions x and y on the cell at the origin,

@@ -6,13 +6,12 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.ndimage import distance_transform_edt
 
 from semi_analytical.edge.fit import Indices, Stencil
 from semi_analytical.edge.kernels import PARTS, part_centres
-from semi_analytical.edge.means import Exponent, mean_power, power
+from semi_analytical.edge.means import Exponent, mean_of_smooth, mean_power
 from semi_analytical.edge.quadratic import Quadratic
-from semi_analytical.edge.shape import Mask, edge_shape
+from semi_analytical.edge.shape import Mask, edge_shape, layers_of
 
 Field = NDArray[np.float64]
 
@@ -24,9 +23,12 @@ INSIDE, OUTSIDE = 5.5, 1.5
 # Layers up to which it is all that the fit says: what it says beside the slope fades out from here
 # on, as an end of it would show in the pressure of the next cells.
 WHOLE = 2.5
-# So many times its slopes above zero, a part of a cell has the mean of a power by two terms of its
-# series, to 2e-6.
-SMOOTH = 4.0
+# So many times its slopes above zero, a part of a cell has the mean of a power by its series.
+SMOOTH = 1.5
+# Cells whose parts are found at a time: as many as stay in the cache.
+CHUNK = 256
+X, Y = (at.ravel() for at in np.meshgrid(part_centres(), part_centres(), indexing="ij"))
+MONOMIALS = np.stack([X**0, X, Y, X**2 / 2, X * Y, Y**2 / 2])
 # Radius of a region in cells that is thick enough to be fitted.
 THICK = 1.9
 
@@ -82,49 +84,60 @@ def rim(
     exponent  the traction goes with this power of the distance from the edge
     """
     region = loaded if before is None else loaded & ~before.outer
-    layer = distance_transform_edt(np.pad(region, 1))[1:-1, 1:-1]
+    layer, nearest = layers = layers_of(region)
     if np.max(layer) <= THICK:
         return None
     scale = np.max(means)
-    shape = edge_shape(means / scale, region, STENCIL, rings=0, exponent=exponent, rounds=2)
-    outside = distance_transform_edt(~region)
+    shape = edge_shape(
+        means / scale, region, STENCIL, rings=0, exponent=exponent, rounds=2, layers=layers
+    )
+    outside = np.hypot(*(nearest - np.indices(region.shape)))
     i, j = np.nonzero((layer + outside <= INSIDE) & (outside <= OUTSIDE))
     phi, safe = shape.about_cells(i, j)
+    # Those that the edge cuts first, and then those where no part is cut.
+    order = np.flatnonzero(safe)[np.argsort(layer[i[safe], j[safe]], kind="stable")]
+    i, j, phi = i[order], j[order], phi.chosen(order)
     of_cells = np.broadcast_to(exponent, means.shape)[i, j] if np.ndim(exponent) else exponent
     parts, covered = _in_parts(phi, of_cells)
-    fade = np.clip((layer[i, j] - WHOLE) / (INSIDE - WHOLE), 0, 1)[:, None, None]
-    parts = (1 - fade) * parts + fade * _slopes_alone(means / scale, i, j)
+    parts *= scale
+    fading = np.nonzero(layer[i, j] > WHOLE)[0]
+    fade = (layer[i[fading], j[fading]] - WHOLE)[:, None, None] / (INSIDE - WHOLE)
+    parts[fading] += fade * (_slopes_alone(means, i[fading], j[fading]) - parts[fading])
     inside = region.copy()
-    inside[i[safe], j[safe]] = phi.f[safe] > 0
-    return Rim(
-        inside, i[safe], j[safe], scale * parts[safe], covered[safe], 1 - float(np.mean(safe))
-    )
+    inside[i, j] = phi.f > 0
+    return Rim(inside, i, j, parts, covered, 1 - float(np.mean(safe)))
 
 
 def _in_parts(phi: Quadratic, exponent: Exponent) -> tuple[Field, Field]:
     """Mean of phi_+^exponent over the parts of each cell (n, PARTS, PARTS), and the part of each
     where phi is positive (n,)."""
-    x, y = np.meshgrid(part_centres(), part_centres(), indexing="ij")
-    monomials = np.stack([x**0, x, y, x**2 / 2, x * y, y**2 / 2])
+    parts, covered = np.empty((len(phi.f), PARTS**2)), np.empty(len(phi.f))
+    for first in range(0, len(covered), CHUNK):
+        some = slice(first, first + CHUNK)
+        a = exponent[some] if isinstance(exponent, np.ndarray) else exponent
+        covered[some] = _some_in_parts(phi.chosen(some), a, parts[some])
+    return parts.reshape(-1, PARTS, PARTS), covered
+
+
+def _some_in_parts(phi: Quadratic, exponent: Exponent, parts: Field) -> Field:
+    """The same of some cells, the former into parts (n, PARTS²)."""
     bent = (phi.f_xx + phi.f_yy) / (24 * PARTS**2)
-    factors = np.stack([phi.f + bent, phi.f_x, phi.f_y, phi.f_xx, phi.f_xy, phi.f_yy])
-    # Not by matrix products, whose rounding depends on the number of threads.
-    f = np.einsum("kn,kab->nab", factors, monomials)
+    factors = np.stack([phi.f + bent, phi.f_x, phi.f_y, phi.f_xx, phi.f_xy, phi.f_yy], axis=1)
+    f = factors @ MONOMIALS
     # Over a part of a cell the slope hardly changes.
-    f_x, f_y = (
-        np.broadcast_to((slope / PARTS)[:, None, None], f.shape) for slope in (phi.f_x, phi.f_y)
-    )
-    a = exponent[:, None, None] if isinstance(exponent, np.ndarray) else exponent
+    f_x, f_y = phi.f_x[:, None] / PARTS, phi.f_y[:, None] / PARTS
     slope = np.abs(f_x) + np.abs(f_y)
-    smooth = f > SMOOTH * slope
-    bend = a * (a - 1) / 24 * (f_x**2 + f_y**2) / np.where(smooth, f, np.inf) ** 2
-    parts = power(np.maximum(f, 0.0), a) * (1 + bend)
-    covered = smooth.astype(float)
-    cut = ~smooth & (f > -slope)
-    of_cut = f[cut], f_x[cut], f_y[cut]
-    parts[cut] = mean_power(*of_cut, np.broadcast_to(a, f.shape)[cut] if np.ndim(a) else a)
-    covered[cut] = mean_power(*of_cut, 0.0)
-    return parts, covered.mean(axis=(1, 2))
+    a = exponent[:, None] if isinstance(exponent, np.ndarray) else exponent
+    parts[:] = mean_of_smooth(np.maximum(f, SMOOTH * slope), f_x, f_y, a)
+    if np.all(f >= SMOOTH * slope):
+        return np.ones(len(f))
+    covered = (f > 0).astype(float)
+    parts *= covered
+    cell, part = np.nonzero((f > -slope / 2) & (f < SMOOTH * slope))
+    of_cut = f[cell, part], f_x[cell, 0], f_y[cell, 0]
+    parts[cell, part] = mean_power(*of_cut, a[cell, 0] if isinstance(a, np.ndarray) else a)
+    covered[cell, part] = mean_power(*of_cut, 0.0)
+    return np.asarray(covered.mean(axis=1))
 
 
 def _slopes_alone(means: Field, i: Indices, j: Indices) -> Field:

@@ -130,6 +130,7 @@ def edge_shape(
     exponent: Exponent = 0.5,
     trusted: Mask | None = None,
     rounds: int = 3,
+    layers: tuple[Field, Indices] | None = None,
 ) -> EdgeShape:
     """Shape of the edge of a region.
 
@@ -143,10 +144,11 @@ def edge_shape(
     trusted   (nx, ny) cells of the region that may be data; None for all
     rounds    data of the first are means^(1/alpha), from cells beyond the cut ones; of the others
               `centre_value` with the slope of the last
+    layers    of the region, where they are known: see `layers_of`
     Raises ValueError where no cell is left to be data.
     """
     means = np.where(region, means, 0.0)
-    depth, nearest = _layers(region)
+    depth, nearest = layers or layers_of(region)
     usable = region if trusted is None else region & trusted
     data = usable & (depth >= rings + 0.5)
     inner = usable & (depth >= max(rings, 1) + 0.5)
@@ -171,7 +173,7 @@ def edge_shape(
     return EdgeShape(means, phi, weight, exponent, stencil, depth, nearest)
 
 
-def _layers(region: Mask) -> tuple[Field, Indices]:
+def layers_of(region: Mask) -> tuple[Field, Indices]:
     """Distance of every cell of a region from the nearest outside, (nx, ny), beyond the array too;
     and the nearest cell of the region to every cell, (2, nx, ny)."""
     depth = distance_transform_edt(np.pad(region, 1))[1:-1, 1:-1]

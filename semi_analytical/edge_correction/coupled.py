@@ -34,7 +34,7 @@ from semi_analytical.edge.rim import Rim, rim
 from semi_analytical.edge_correction.mixing import Mixing
 from semi_analytical.edge_correction.operators import EdgeOperators
 from semi_analytical.edge_correction.pressure import ENOUGH, MOST_ROUNDS, MOST_UNSAFE, settles
-from semi_analytical.edge_correction.shear import BESIDE, direction_of_slip, displacement_within
+from semi_analytical.edge_correction.shear import BESIDE, direction_of_slip
 from semi_analytical.increment import State
 from semi_analytical.model import ContactModel
 from semi_analytical.normal import NormalSolution, solve_normal
@@ -166,15 +166,15 @@ class _Problem:
 
         Cells that the contact only reaches into carry what the fit says of them.
         """
-        model, of, cells = self.model, self.operators, self.model.grid.cells
+        model, cells = self.model, self.model.grid.cells
         normal, coupling = model.normal_operator(cells), model.coupling_operator(cells)
         tangential = model.tangential_operator(cells)
         q, p = self.mu * x[:2], x[2]
         by_p = Within.of(p, edge.i, edge.j, edge.parts)
         by_q = _within(q, p, by_p, edge)
         reached = np.where(edge.outer, edge.means, 0.0)
-        gap = self.state.target.gap(model) + of["zz"](by_p) + normal(reached)
-        gap += of["zx"](by_q[0]) + of["zy"](by_q[1]) + coupling.normal_by_shear(q)
+        *u_t, u_z = self.operators.by_all(cells)(*by_q, by_p)
+        gap = self.state.target.gap(model) + u_z + normal(reached) + coupling.normal_by_shear(q)
         load = self.state.target.on(model, Box.whole(cells))
         pressed = solve_normal(
             normal,
@@ -186,10 +186,7 @@ class _Problem:
             ENOUGH,
         )
         p = pressed.pressure + reached
-        # xz and yz are zx and zy with the opposite sign: what moves the surfaces apart at a place
-        # by shear elsewhere moves them sideways there by pressure here.
-        beside = displacement_within(of, by_q) - np.stack([of["zx"](by_p), of["zy"](by_p)])
-        beside += coupling.tangential_by_pressure(p)
+        beside = np.stack(u_t) + coupling.tangential_by_pressure(p)
         sheared = solve_tangential(
             tangential,
             tangential.precondition,

@@ -2,33 +2,65 @@
 
 from __future__ import annotations
 
+from functools import cached_property
+
 from semi_analytical.edge.displacement import EdgeOperator
-from semi_analytical.edge.kernels import PART_OFFSETS, PARTS, EdgeKernels
+from semi_analytical.edge.kernels import PARITY, PART_OFFSETS, PARTS, EdgeKernels
 from semi_analytical.influence.bodies import influence_coefficients
-from semi_analytical.influence.coefficients import InfluenceCoefficients
 from semi_analytical.model import ContactModel
+
+Shape = tuple[int, int]
+Row = tuple[tuple[int, str], ...]
+
+PRESSURE: tuple[Row, ...] = (((1, "zz"),),)
+SHEAR: tuple[Row, ...] = (((1, "xx"), (1, "xy")), ((1, "xy"), (1, "yy")))
+# xz and yz are zx and zy with the opposite sign: what moves the surfaces apart at a place by shear
+# elsewhere moves them sideways there by pressure here.
+COUPLED: tuple[Row, ...] = (
+    ((1, "xx"), (1, "xy"), (-1, "zx")),
+    ((1, "xy"), (1, "yy"), (-1, "zy")),
+    ((1, "zx"), (1, "zy"), (1, "zz")),
+)
 
 
 class EdgeOperators:
-    """Of a model, on its whole window, each built when first asked for."""
+    """Of a model, each built when first asked for, and kept on the whole window and one box."""
 
     def __init__(self, model: ContactModel) -> None:
         self.model = model
-        self._parts: InfluenceCoefficients | None = None
-        self._known: dict[str, EdgeOperator] = {}
+        self._known: dict[tuple[int, Shape], EdgeOperator] = {}
 
-    def __getitem__(self, component: str) -> EdgeOperator:
-        """The operator of a component of the influence coefficients."""
-        if component not in self._known:
-            model = self.model
-            if self._parts is None:
-                dx, dy = model.grid.spacing
-                self._parts = influence_coefficients(
-                    model.scene.body,
-                    model.scene.indenter,
-                    (dx / PARTS, dy / PARTS),
-                    (PART_OFFSETS, PART_OFFSETS),
-                )
-            kernels = EdgeKernels(component, model.coefficients, self._parts)
-            self._known[component] = EdgeOperator(kernels, model.grid.cells, model.convolutions)
-        return self._known[component]
+    def by_pressure(self, shape: Shape) -> EdgeOperator:
+        """u_z by the pressure within the cells of a box."""
+        return self._operator(PRESSURE, shape)
+
+    def by_shear(self, shape: Shape) -> EdgeOperator:
+        """(u_x, u_y) by the shear."""
+        return self._operator(SHEAR, shape)
+
+    def by_all(self, shape: Shape) -> EdgeOperator:
+        """(u_x, u_y, u_z) by shear and pressure (x, y, z)."""
+        return self._operator(COUPLED, shape)
+
+    def _operator(self, rows: tuple[Row, ...], shape: Shape) -> EdgeOperator:
+        key = len(rows), shape
+        if key not in self._known:
+            whole = self.model.grid.cells
+            if shape != whole:
+                for other in [k for k in self._known if k[0] == key[0] and k[1] != whole]:
+                    del self._known[other]
+            kernels = [[(sign, self._kernels[name]) for sign, name in row] for row in rows]
+            self._known[key] = EdgeOperator(kernels, shape, self.model.convolutions)
+        return self._known[key]
+
+    @cached_property
+    def _kernels(self) -> dict[str, EdgeKernels]:
+        model = self.model
+        dx, dy = model.grid.spacing
+        parts = influence_coefficients(
+            model.scene.body,
+            model.scene.indenter,
+            (dx / PARTS, dy / PARTS),
+            (PART_OFFSETS, PART_OFFSETS),
+        )
+        return {name: EdgeKernels(name, model.coefficients, parts) for name in PARITY}

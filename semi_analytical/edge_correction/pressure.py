@@ -99,7 +99,7 @@ class _Problem:
         operator = model.normal_operator(model.grid.cells)
         reached = np.where(edge.outer, edge.means, 0.0)
         within = Within.of(p, edge.i, edge.j, edge.parts)
-        gap = self.gap + self.operators["zz"](within) + operator(reached)
+        gap = self.gap + self.operators.by_pressure(p.shape)(within)[0] + operator(reached)
         solution = solve_normal(
             operator,
             operator.precondition,

@@ -72,12 +72,6 @@ def direction_of_slip(q: VectorField, slips: Mask) -> VectorField:
     return np.asarray(n[:, nearest[0], nearest[1]])
 
 
-def displacement_within(of: EdgeOperators, within: WithinVector) -> VectorField:
-    """u_t (2, nx, ny) by what a shear is within the cells [length]."""
-    x, y = within
-    return np.stack([of["xx"](x) + of["xy"](y), of["xy"](x) + of["yy"](y)])
-
-
 def sliding_shear(
     operators: EdgeOperators, bound: Field, limit: Within, solved: Sheared
 ) -> CorrectedShear:
@@ -96,7 +90,7 @@ def sliding_shear(
         shear=shear,
         within=(x, y),
         slip=slip,
-        displacement=operator(shear) + displacement_within(operators, (x, y)),
+        displacement=operator(shear) + operators.by_shear(bound.shape)(x, y),
         shift=solved.shift,
         stick=nowhere,
         stick_cells=0.0,
@@ -223,7 +217,7 @@ def edge_shear(
     mixing, changes = Mixing(), []
     for number in range(MOST_ROUNDS):
         within = problem.within(q, missing)
-        u = displacement_within(problem.operators, within)
+        u = problem.operators.by_shear(q.shape[1:])(*within)
         try:
             solution = problem.solve(q, motion, missing, u)
         except NotConverged:
