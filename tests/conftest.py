@@ -47,13 +47,17 @@ def rng() -> np.random.Generator:
     return np.random.default_rng(20)
 
 
-@pytest.fixture
-def undrawn(monkeypatch: pytest.MonkeyPatch) -> None:
+def leave_figures_undrawn(patch: pytest.MonkeyPatch) -> None:
     """The figures of a run are called for and their files made, without the half second that each
     takes to draw: for tests of something else."""
-    monkeypatch.setattr(
+    patch.setattr(
         "contact_results.figures.figure_files.save", lambda figure, path, dots: path.touch()
     )
+
+
+@pytest.fixture
+def undrawn(monkeypatch: pytest.MonkeyPatch) -> None:
+    leave_figures_undrawn(monkeypatch)
 
 
 def _forbid_skip(report: pytest.TestReport | pytest.CollectReport) -> None:

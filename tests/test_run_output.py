@@ -12,6 +12,7 @@ import h5py
 import numpy as np
 import pytest
 from command import rows
+from conftest import leave_figures_undrawn
 from synthetic_result import CONVOLUTIONS, ITERATIONS, MU, WORST_RESIDUAL, synthetic_result
 
 from contact_results.directory.file_names import RUN_FILES, SUMMARY
@@ -33,7 +34,9 @@ def written(tmp_path_factory: pytest.TempPathFactory) -> tuple[Result, Path]:
 @pytest.fixture(scope="module")
 def frictionless(tmp_path_factory: pytest.TempPathFactory) -> Path:
     directory = tmp_path_factory.mktemp("frictionless")
-    write_result(synthetic_result(friction=False), directory)
+    with pytest.MonkeyPatch.context() as patch:
+        leave_figures_undrawn(patch)
+        write_result(synthetic_result(friction=False), directory)
     return directory
 
 

@@ -7,19 +7,21 @@ from typing import Any
 
 import numpy as np
 import pytest
+from matplotlib.text import Text
 from synthetic_result import synthetic_result
 
-from contact_results.figures.figure_files import seen_from_above
+from contact_results.figures.figure_files import _figures_called_for, seen_from_above
 from contact_results.figures.hysteresis_plot import hysteresis_plot, moved
-from contact_results.figures.overview import coarser, overview, section_stress
+from contact_results.figures.overview import DOTS_PER_INCH, coarser, overview, section_stress
 from contact_results.figures.run_page import decision_numbers, write_page
-from contact_results.figures.style import figure_style
+from contact_results.figures.style import figure_style, save
+from contact_results.natural_sizes import SI
 from contact_results.number_text import Uncertainty, number_text
 from contact_results.result_files import write_result
 from contact_results.stress.loaded_bodies import state_of_result
 from contact_scene.stated_error import ErrorStatus, StatedError
 
-HOSTILE = "<script>alert(1)</script><img src=http://example.invalid/x.png> $x_{y & \"'"
+HOSTILE = "<script>alert(1)</script><img src=http://example.invalid/x.png> $x_{y$ & \"'"
 
 
 def ended(result: Any, **changes: Any) -> Any:
@@ -27,10 +29,14 @@ def ended(result: Any, **changes: Any) -> Any:
     return replace(result, increments=(*result.increments[:-1], last))
 
 
+def hostile() -> Any:
+    result = synthetic_result()
+    return replace(result, scene=result.scene.model_copy(update={"title": HOSTILE}))
+
+
+@pytest.mark.usefixtures("undrawn")
 def test_a_page_holds_all_figures_and_asks_for_nothing(tmp_path: Path) -> None:
-    result: Any = synthetic_result()
-    hostile = replace(result, scene=result.scene.model_copy(update={"title": HOSTILE}))
-    write_result(hostile, tmp_path)
+    write_result(hostile(), tmp_path)
     page = (tmp_path / "index.html").read_text(encoding="utf-8")
     assert page.count("<img") == len(list(tmp_path.glob("*.png")))
     assert all(source.startswith("data:") for source in re.findall(r'src="([^"]*)', page))
@@ -41,7 +47,17 @@ def test_a_page_holds_all_figures_and_asks_for_nothing(tmp_path: Path) -> None:
     )
     assert sorted(re.findall(r'id="([^"]*)', page)) == sorted(x[1:] for x in set(links) if x[1:])
     assert "default-src 'none'" in page
-    assert (tmp_path / "overview.png").stat().st_size < 200_000
+
+
+def test_the_overview_alone_shows_the_title_and_draws_it_whatever_it_is(tmp_path: Path) -> None:
+    place, titled = tmp_path / "overview.png", set()
+    with figure_style():
+        for name, figure in _figures_called_for(hostile(), (), None, SI):
+            if any("alert(1)" in text.get_text() for text in figure.findobj(Text)):
+                titled.add(name)
+                save(figure, tmp_path / name, DOTS_PER_INCH)
+    assert titled == {place.name}
+    assert place.stat().st_size < 200_000
 
 
 def test_numbers_on_the_page_carry_their_errors(tmp_path: Path) -> None:

@@ -1,6 +1,7 @@
 """Every number of a run has an error, and the error is of the size of what is wrong."""
 
 import json
+from copy import deepcopy
 from dataclasses import replace
 from pathlib import Path
 from types import SimpleNamespace
@@ -8,7 +9,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from command import slipstick
+from command import outcome, slipstick
 from contact_scenes import (
     APPROACH,
     LOAD,
@@ -444,15 +445,23 @@ def test_wide_cells_carry_the_same_force() -> None:
     assert 4 * np.sum(wide.tractions["pressure"]) == pytest.approx(np.sum(pressure))
 
 
-def test_a_run_writes_the_errors_and_counts_their_solves_apart(tmp_path: Path) -> None:
-    path = tmp_path / "scene.toml"
-    path.write_text(FRETTING, encoding="utf-8")
-    runs = []
+@pytest.fixture(scope="module")
+def runs(tmp_path_factory: pytest.TempPathFactory) -> dict[str, tuple[dict[str, Any], str]]:
+    """Summary of a run and what it showed, with errors and without."""
+    folder = tmp_path_factory.mktemp("runs")
+    (folder / "scene.toml").write_text(FRETTING, encoding="utf-8")
+    found = {}
     for option in ("--error", "--no-error"):
-        out = tmp_path / option
-        assert slipstick("run", path, "-o", out, "--no-figures", option) == 0
-        runs.append(json.loads((out / "summary.json").read_text(encoding="utf-8")))
-    with_errors, without = runs
+        asked = ("run", "scene.toml", "-o", option, "--no-figures", option)
+        ended = outcome(*asked, cwd=folder)
+        assert ended.returncode == 0, ended.stderr
+        written = (folder / option / "summary.json").read_text(encoding="utf-8")
+        found[option] = json.loads(written), ended.stdout
+    return found
+
+
+def test_a_run_writes_the_errors_and_counts_their_solves_apart(runs) -> None:
+    with_errors, without = (deepcopy(summary) for summary, _ in runs.values())
     assert {step.pop("errors") is None for step in without["steps"]} == {True}
     assert without.pop("companions") is None
     assert len(with_errors.pop("companions")) == 1
@@ -463,16 +472,11 @@ def test_a_run_writes_the_errors_and_counts_their_solves_apart(tmp_path: Path) -
     assert with_errors == without
 
 
-def test_the_table_shows_what_is_wrong_beside_the_number(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    path = tmp_path / "scene.toml"
-    path.write_text(FRETTING, encoding="utf-8")
-    assert slipstick("run", path, "-o", tmp_path / "out", "--no-figures") == 0
-    assert " ± " in capsys.readouterr().out
-    wide = "semi_analytical.window=[8e-3, 8e-3]"
-    slipstick("run", path, "-o", tmp_path / "out", "--no-figures", "--no-error", "--set", wide)
-    assert "--no-error left them out" in capsys.readouterr().out
+def test_the_table_shows_what_is_wrong_beside_the_number(runs) -> None:
+    shown, alone = (said for _, said in runs.values())
+    assert " ± " in shown
+    assert " ± " not in alone
+    assert "--no-error left them out" in alone
 
 
 def test_every_figure_has_a_caption_with_errors(tmp_path: Path) -> None:
