@@ -9,11 +9,11 @@ import numpy as np
 
 from verification.exhibits.numbers import plain
 from verification.exhibits.table import Table
-from verification.peers.environment import OURSELVES
+from verification.peers.environment import OURS
 
 Record = Mapping[str, Any]
 COLUMNS = (
-    "contact", "cells", "CPU time", "convolutions", "memory", "best other", "its CPU time",
+    "code", "contact", "cells", "CPU time", "convolutions", "memory", "best other", "its CPU time",
     "ours / best",
 )  # fmt: skip
 UNITS = {"CPU time": "s", "memory": "MB", "its CPU time": "s"}
@@ -24,9 +24,9 @@ def cost_table(record: Record) -> Table:
     """Ours on every contact and grid, beside the best of the others on the same."""
     rows = []
     for run in record["runs"]:
-        if run["code"] != OURSELVES.module:
+        if run["code"] not in OURS:
             continue
-        named = (run["contact"], f"{run['cells']} x {run['cells']}")
+        named = (run["code"], run["contact"], f"{run['cells']} x {run['cells']}")
         if "lost" in run:
             rows.append((*named, run["lost"], *("–",) * (len(COLUMNS) - 3)))
             continue
@@ -52,8 +52,9 @@ def exponents(record: Record) -> dict[str, float]:
     from the finest half of the grids and at least three: coarse ones show what does not grow."""
     found: dict[str, list[tuple[int, float]]] = {}
     for run in record["runs"]:
-        if run["code"] == OURSELVES.module and "lost" not in run:
-            found.setdefault(run["contact"], []).append((run["cells"] ** 2, run["seconds"]))
+        if run["code"] in OURS and "lost" not in run:
+            name = ", ".join(filter(None, (run["contact"], run["code"].partition(", ")[2])))
+            found.setdefault(name, []).append((run["cells"] ** 2, run["seconds"]))
     powers = {}
     for contact, points in found.items():
         fine = sorted(points)[-max(FEWEST, (len(points) + 1) // 2) :]
@@ -75,7 +76,7 @@ def _best_other(record: Record, ours: Record) -> Record | None:
     """The cheapest that converged on the same contact and grid."""
     others = (
         run for run in record["runs"]
-        if run["code"] != ours["code"] and run.get("converged")
+        if run["code"] not in OURS and run.get("converged")
         and (run["contact"], run["cells"]) == (ours["contact"], ours["cells"])
     )  # fmt: skip
     return min(others, key=lambda run: float(run["seconds"]), default=None)

@@ -9,7 +9,7 @@ import os
 import subprocess
 import sys
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 FOLDER = "peers"
@@ -24,12 +24,19 @@ class Peer:
     module        that is imported, and whose driver is MODULE_driver, in small letters
     friction      whether it is asked for shear
     settings      for its build, in the environment
+    edges         whether edges shall be inside the cells, which ours alone can do
     """
 
     distribution: str
     module: str
     friction: bool = False
     settings: tuple[tuple[str, str], ...] = ()
+    edges: bool = False
+
+    @property
+    def name(self) -> str:
+        """For people."""
+        return f"{self.module}, edges inside cells" if self.edges else self.module
 
     @property
     def driver(self) -> str:
@@ -38,6 +45,8 @@ class Peer:
 
 
 OURSELVES = Peer("slipstick", "slipstick", friction=True)
+WITH_EDGES = replace(OURSELVES, edges=True)
+OURS = (OURSELVES.name, WITH_EDGES.name)
 PEERS = (
     Peer(
         "aspher==0.1.3.post1", "aspher", friction=True,

@@ -14,11 +14,13 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from contact_results.one_thread import VARIABLES
+from verification.cell_means import cell_means
 from verification.norms import relative_l2, shear_error
 from verification.peers.asked import ASKED, UNIT, AskedContact
-from verification.peers.environment import OURSELVES, PEERS, Installed, Peer, Run
+from verification.peers.environment import OURSELVES, PEERS, WITH_EDGES, Installed, Peer, Run
 from verification.running.provenance import provenance
 
 SECONDS_ALLOWED = 240
@@ -37,10 +39,11 @@ def errors_of(
     if not contact.others:
         return {}
     x = (np.arange(n) + 0.5) * side / n - side / 2
-    r = np.hypot(x[:, None], x[None, :])
+    X, Y = np.meshgrid(x, x, indexing="ij")
+    sides = side / n, side / n
     if not contact.friction:
         errors = {
-            "pressure": relative_l2(pressure, UNIT.pressure(r)),
+            "pressure": relative_l2(pressure, cell_means(UNIT.pressure, X, Y, sides)),
             "peak": float(np.max(pressure)) / UNIT.peak_pressure - 1,
         }
         if found["approach"] is not None:
@@ -50,16 +53,20 @@ def errors_of(
     if shear.shape != (2, n, n) or not np.all(np.isfinite(shear)):
         raise ValueError(f"a shear of shape {shear.shape} is no finite field of 2 x {n} x {n}")
     part = math.cbrt(1 - contact.part)  # stick radius over contact radius
-    exact = contact.friction * (UNIT.pressure(r) - part * UNIT.pressure(r / part))
-    return {"shear": shear_error(shear, exact, contact.friction * pressure)}
+
+    def exact(r: NDArray[np.float64]) -> NDArray[np.float64]:
+        return contact.friction * (UNIT.pressure(r) - part * UNIT.pressure(r / part))
+
+    known = cell_means(exact, X, Y, sides)
+    return {"shear": shear_error(shear, known, contact.friction * pressure)}
 
 
 def one_run(
     python: Path, code: Peer, contact: AskedContact, cells: int, run: Run = subprocess.run
 ) -> dict[str, Any]:
     """One code on one grid, in a process of its own: its record, or `lost` with the reason."""
-    request = contact.request(cells)
-    named = {"code": code.module, "contact": contact.name, "cells": cells}
+    request = {**contact.request(cells), "edges": code.edges}
+    named = {"code": code.name, "contact": contact.name, "cells": cells}
     try:
         done = run(
             [str(python), "-m", code.driver], input=json.dumps(request), capture_output=True,
@@ -89,6 +96,8 @@ def all_runs(
     for contact in contacts:
         for cells in (n for n in contact.cells if n <= most_cells):
             yield one_run(Path(sys.executable), OURSELVES, contact, cells)
+            if contact.others:
+                yield one_run(Path(sys.executable), WITH_EDGES, contact, cells)
             if installed is None or not contact.others:
                 continue
             for peer in installed.peers():

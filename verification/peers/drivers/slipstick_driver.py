@@ -13,7 +13,7 @@ from contact_scene import (
     Rigid,
     Scene,
 )
-from semi_analytical import SurfaceGrid, solve
+from semi_analytical import SurfaceGrid, plan, solve
 from semi_analytical.stress.field import subsurface
 from verification.peers.drivers.exchange import Answer, Request, answer
 from verification.running.cold_cache import cold_cache
@@ -54,7 +54,8 @@ def solve_request(request: Request) -> Answer:
     n = request["cells"]
     scene, grid = scene_of(request), SurfaceGrid((n, n), (request["window"],) * 2)
     with cold_cache():
-        result = solve(scene, grid, request["tolerance"])
+        decided = plan(scene, edge="last" if request.get("edges") else "off")
+        result = solve(scene, grid, request["tolerance"], plan=decided)
         end = result.steps[-1]
         if request["depths"]:
             subsurface(scene.body, result.grid, end.pressure, end.shear, request["depths"])

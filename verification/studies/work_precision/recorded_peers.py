@@ -11,7 +11,7 @@ from verification.exhibits.log_chart import drawable, log_chart, point_curves
 from verification.exhibits.numbers import plain
 from verification.exhibits.table import Table
 from verification.peers.costs import cost_table, growth
-from verification.peers.environment import OURSELVES
+from verification.peers.environment import OURS
 from verification.references import load_reference
 from verification.studies.work_precision.contacts import CATTANEO, HERTZIAN
 from verification.studies.work_precision.point import Point, cheapest, dependable, seconds
@@ -19,7 +19,6 @@ from verification.studies.work_precision.point import Point, cheapest, dependabl
 NAME = "peers"
 OTHERS = "other codes, recorded"
 BESIDE = "semi-analytical, in their turn"  # our own runs of the record
-OURS = OURSELVES.module
 TOLD = (0.01, 0.001)  # errors that costs are told for
 # The first quantity of the contacts that they were asked for.
 JUDGED = {
@@ -62,7 +61,7 @@ def peer_points(record: Record) -> Points:
     for run in record["runs"]:
         if not run.get("converged"):
             continue
-        method = BESIDE if run["code"] == OURS else OTHERS
+        method = BESIDE if run["code"] in OURS else OTHERS
         n = run["cells"]
         for quantity, error in run["errors"].items():
             point = Point(method, run["code"], f"{n} x {n}", n, abs(error), run["seconds"], inf)
@@ -83,9 +82,10 @@ def peer_answer(record: Record) -> str:
                 first.append(ranked[0].curve)
     if not parts:
         return ""
+    won = sum(code in OURS for code in first)
     return (
         f"Other codes in turn with ours, recorded on {record['date']}: ours is the cheapest in "
-        f"{first.count(OURS)} of {len(first)}; cheapest first, {'; '.join(parts)}."
+        f"{won} of {len(first)}; cheapest first, {'; '.join(parts)}."
     )
 
 
