@@ -8,6 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.optimize import lsq_linear
 
+from contact_scene.solver_errors import NotConverged
 from fem_reference.contact import box_program
 from fem_reference.contact.box_program import (
     BoxProgram,
@@ -154,3 +155,25 @@ def test_contact_of_a_parabola_is_solved_by_newton_steps_alone() -> None:
     found = solve_box(program, np.zeros(200, np.int8))
     assert found.steps < 12
     assert_optimal(program, found)
+
+
+def test_who_rests_at_a_bound_without_being_pulled_stays_there() -> None:
+    """Its gradient is zero: it could be free as well, and then would be told so."""
+    lower, endless = np.zeros(2), np.full(2, np.inf)
+    program = BoxProgram(np.array([[4.0, 1.0], [1.0, 2.0]]), np.array([4.0, 1.0]), lower, endless)
+    found = solve_box(program, np.array([0, -1], np.int8))
+    assert found.values.tolist() == [1.0, 0.0]
+    assert found.sides.tolist() == [0, -1]
+    assert found.steps == 1
+
+
+def test_a_descent_that_is_cut_short_tells_its_steps(monkeypatch: pytest.MonkeyPatch) -> None:
+    """One step for each component that meets its bound, and one to see that nothing pulls."""
+    monkeypatch.setattr(box_program, "MOST_STEPS", 0)
+    upper = np.arange(1.0, 6.0)
+    program = BoxProgram(np.eye(5), np.full(5, 10.0), np.zeros(5), upper)
+    assert solve_box(program, np.zeros(5, np.int8)).steps == 6
+    monkeypatch.setattr(box_program, "MOST_RELEASES", 1)
+    with pytest.raises(NotConverged) as caught:
+        solve_box(program, np.zeros(5, np.int8))
+    assert caught.value.iterations == 5

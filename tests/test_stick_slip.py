@@ -1,5 +1,7 @@
 """Stick, slip and what the surfaces remember: friction obeyed in hard and easy histories."""
 
+from itertools import pairwise
+
 import numpy as np
 import pytest
 from contact_scenes import (
@@ -13,6 +15,7 @@ from contact_scenes import (
     A,
     bump,
     grid,
+    hertz,
     paraboloid,
     push,
     scene,
@@ -26,7 +29,7 @@ from semi_analytical import GrossSliding, SurfaceGrid, solve
 from semi_analytical.admissible_shear import magnitude
 from semi_analytical.model import ContactModel
 from semi_analytical.sheared import untouched
-from semi_analytical.shearing import Shearing, TangentialTarget
+from semi_analytical.shearing import Shearing, TangentialTarget, Torsion
 from semi_analytical.stick_slip import shear_residuals
 
 TOLERANCE = 1e-8
@@ -271,3 +274,32 @@ def test_the_last_digits_of_a_motion_are_no_slip(off: float, obeyed: bool) -> No
     load = TangentialTarget(force=np.zeros(2))
     residuals = shear_residuals(model, held, bound, passed, load, untouched((16, 16)))
     assert (residuals.worst < TOLERANCE) is obeyed
+
+
+CARRIED = 3 * np.pi / 16 * LIMIT * A  # torque on Hertz's pressure that slides
+
+
+def test_a_torque_beyond_what_friction_carries_is_refused() -> None:
+    held = solved(PRESS, {"torque": 0.9 * CARRIED}, cells=16).steps[-1]
+    assert held.status is ContactStatus.PARTIAL_SLIP
+    with pytest.raises(GrossSliding, match="torque"):
+        solved(PRESS, {"torque": 1.1 * CARRIED}, cells=16)
+
+
+def test_a_missing_part_of_the_torque_is_told_over_what_friction_carries() -> None:
+    model = ContactModel.of(scene(PRESS, {"torque": 0.5 * CARRIED}), grid(CELLS))
+    x, y = (np.broadcast_to(at, (CELLS, CELLS)) for at in grid(CELLS).coordinates())
+    bound = MU * hertz().pressure(np.hypot(x, y))
+    nothing = np.zeros((2, CELLS, CELLS))
+    held = Shearing(nothing, nothing, np.zeros(3), bound < 0, 0)
+    load = TangentialTarget(force=np.zeros(2), torsion=Torsion(torque=0.5 * CARRIED))
+    found = shear_residuals(model, held, bound, nothing, load, untouched((CELLS, CELLS)))
+    assert found.torque_equilibrium == pytest.approx(0.5, rel=1e-2)
+
+
+def test_the_way_slipped_is_at_least_as_long_as_the_slip_and_never_falls() -> None:
+    increments = solved(PRESS, push(0.8, increments=2), push(-0.8, increments=2)).increments
+    ways = [increment.slip_distance for increment in increments]
+    assert all(np.all(after >= before) for before, after in pairwise(ways))
+    assert np.all(ways[-1] >= magnitude(increments[-1].slip) * (1 - 1e-12))
+    assert np.max(ways[-1]) > 1.5 * np.max(magnitude(increments[-1].slip))

@@ -137,7 +137,8 @@ def _of_claims(
 def order_text(order: tuple[float, float]) -> str:
     """In words where its interval holds two neighbouring whole orders, or more."""
     value, half = order
-    return f"{value:.2f} ± {half:.2f}" if half < ILLEGIBLE else "not known"
+    # Zero has no sign.
+    return f"{round(value, 2) + 0.0:.2f} ± {half:.2f}" if half < ILLEGIBLE else "not known"
 
 
 def _of_field(

@@ -12,7 +12,7 @@ from verification.regression.baseline import COUNTERS, Recording
 from verification.regression.history import Mark, Standing, marks, worst
 from verification.report.templating import environment
 
-STEP, HEIGHT, EDGE = 7.0, 26.0, 4.0  # of a line, in pixels
+STEP, HEIGHT, EDGE = 5.0, 26.0, 4.0  # of a line, in pixels
 LEAST = 1e-6  # of what is allowed: less is drawn as this much
 # Of what solves are made of, that which most of a case's time goes into.
 DEAREST = ("convolutions", "factorizations", "iterations")
@@ -72,7 +72,7 @@ def _row(case: str, standings: Sequence[Standing], found: Sequence[Mark]) -> Cas
         case,
         "" if where is None else where[0],
         _line([None if part is None else max(part, LEAST) for part in parts], worse, standings),
-        counted,
+        counted if _total(last, counted) else "",
         _line(counts, dearer, standings, over_first=True),
         _line(loops, (), standings, over_first=True),
     )

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from verification.challenge.judgement import Judgement
 from verification.challenge.verdicts import WHOLE, Row, order_text
+from verification.convergence.observed_order import ILLEGIBLE
 from verification.exhibits.chart import Chart
 from verification.exhibits.log_chart import drawable, log_chart, point_curves
 from verification.exhibits.table import NONE, Table
@@ -44,7 +45,8 @@ def _verdicts(judgement: Judgement) -> Table:
         columns=COLUMNS,
         rows=tuple(map(row_texts, judgement.rows)),
         note="On the finest level. Classes: A 1e-4, B 1e-3, C 1e-2 of what the error is divided "
-        "by; a pass keeps clear of twice the uncertainty of the reference.",
+        "by; a pass keeps clear of twice the uncertainty of the reference. An order is not known "
+        f"where its 95 % interval is ± {ILLEGIBLE:g} or wider; more levels narrow it.",
         units=NONE,
     )
 
