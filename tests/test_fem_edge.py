@@ -133,3 +133,25 @@ def test_elastic_constants_do_not_move_the_edge() -> None:
         contact_radius=0.95 * A,
     )  # fmt: skip
     assert other.contact_radius == pytest.approx(one.contact_radius, rel=1e-12)
+
+
+def test_two_rings_tell_an_edge_and_one_does_not() -> None:
+    radii = np.arange(6.0)
+    near, far = (edge_radius(radii, np.sqrt(np.maximum(a**2 - radii**2, 0)), 1) for a in (1.2, 1.8))
+    assert 1 < near < far < 2.05
+    alone = np.array([0.0, 0, 0, 0, 0, 1])
+    assert edge_radius(radii, alone, 5, -1) == 4.5
+    assert 3 < edge_radius(radii, np.array([0.0, 0, 0, 0, 1, 2]), 4, -1) < 4
+
+
+@pytest.mark.parametrize("side", [1, -1])
+def test_slip_within_stick_has_its_edge_where_nothing_is_missing_from_the_limit(side: int) -> None:
+    """Whichever way it slips; outside, stick reaches the edge of the contact."""
+    radii, inner, outer = np.arange(60.0), 20.4, 50.3
+    bound = np.sqrt(np.maximum(outer**2 - radii**2, 0))
+    missing = np.minimum(np.sqrt(np.maximum(radii**2 - inner**2, 0)), bound)
+    sides = np.where(radii < inner, side, 0).astype(np.int8)
+    whole = stick_area(radii, bound, np.zeros(60), np.zeros(60, np.int8), outer)
+    assert whole == pytest.approx(pi * outer**2, rel=1e-2)
+    area = stick_area(radii, bound, side * (bound - missing), sides, outer)
+    assert whole - area == pytest.approx(pi * inner**2, rel=1e-2)

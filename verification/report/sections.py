@@ -21,6 +21,7 @@ TITLES = {
     "penalty": "What a penalty costs",
     "stability": "The stability map",
     "seeded-defects": "Seeded defects",
+    "mutants": "What the tests of kernels notice",
     "scoreboard": "Other codes on the same problems",
     "promises": "Under attack: what was tried, how often, the outcome",
 }

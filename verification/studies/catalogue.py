@@ -9,6 +9,7 @@ from verification.running.study import Study
 from verification.studies.cross_check import STUDY as CROSS_CHECK
 from verification.studies.error_budget.study import STUDY as ERROR_BUDGET
 from verification.studies.error_coverage.study import STUDY as ERROR_COVERAGE
+from verification.studies.mutants.study import STUDY as MUTANTS
 from verification.studies.penalty.study import STUDY as PENALTY
 from verification.studies.predicted_costs import STUDY as PREDICTED_COSTS
 from verification.studies.promises.study import STUDY as PROMISES
@@ -53,6 +54,7 @@ STUDIES: dict[str, Study] = {
         PENALTY,
         CROSS_CHECK,
         SEEDED_DEFECTS,
+        MUTANTS,
         WORK_PRECISION,
         ERROR_BUDGET,
         ERROR_COVERAGE,

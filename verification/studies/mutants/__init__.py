@@ -1,0 +1,1 @@
+"""Random mutants of kernels, and whether the kernels' own tests notice."""
