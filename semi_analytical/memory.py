@@ -31,9 +31,10 @@ SHEAR_RESULT = 7
 LIGHT = 4500  # bytes of an increment without its fields
 LIBRARIES = 73 << 20  # of the process that solves
 # Libraries that write and draw, arrays, and what the solver leaves that has not gone back to the
-# system: while maps are drawn, and while the stress of at most 64 x 64 cells is.
-DRAWING, DRAWING_ARRAYS = 75 << 20, 20
-STRESS, STRESS_ARRAYS, STRESS_SHEAR_ARRAYS = 108 << 20, 3, 20
+# system; the stress that is drawn takes no more. Shear has more maps, and bodies that couple leave
+# more.
+DRAWING, DRAWING_ARRAYS = 77 << 20, 20
+DRAWING_SHEAR, DRAWING_COUPLED = 11 << 20, 23 << 20
 
 
 def estimated_bytes(grid: SurfaceGrid, plan: Plan) -> int:
@@ -50,10 +51,9 @@ def estimated_bytes(grid: SurfaceGrid, plan: Plan) -> int:
     work += HISTORY_ARRAYS if increments > 1 else 0
     kept = PRESSURE_RESULT + (SHEAR_RESULT if plan.shear else 0)
     held = min(cells * DOUBLE * kept * increments, MOST_HELD) + LIGHT * increments
-    drawing = DRAWING + cells * DOUBLE * DRAWING_ARRAYS
-    stressed = STRESS_ARRAYS + (STRESS_SHEAR_ARRAYS if plan.shear else 0)
-    stress = STRESS + cells * DOUBLE * stressed
-    return LIBRARIES + held + max(cells * DOUBLE * work + rim, drawing, stress)
+    drawing = DRAWING + cells * DOUBLE * DRAWING_ARRAYS + (DRAWING_SHEAR if plan.shear else 0)
+    drawing += DRAWING_COUPLED if plan.coupling is not Coupling.NONE else 0
+    return LIBRARIES + held + max(cells * DOUBLE * work + rim, drawing)
 
 
 def refuse_if_too_large(grid: SurfaceGrid, plan: Plan) -> None:

@@ -93,3 +93,17 @@ def test_a_traction_within_its_cells_moves_what_its_parts_do(coefficients, compo
             expected[place] += np.sum(parts[k] * seen)
     scale = np.max(np.abs(expected))
     np.testing.assert_allclose(found, expected, rtol=0, atol=0.02 * scale)
+
+
+def test_rests_of_the_same_cell_become_one():
+    """A load that turns adds none where it has been."""
+    ones, slopes = np.ones(CELLS), np.zeros((2, *CELLS))
+    i, j = np.array([2, 3, 5]), np.array([4, 4, 1])
+    one = Within(slopes, i, j, np.ones((3, PARTS, PARTS)))
+    other = Within(slopes, i[1:], j[1:], np.full((2, PARTS, PARTS), 10.0))
+    found = Within.summed(slopes, [(ones, one), (2 * ones, other), (0 * ones, one)])
+    assert sorted(zip(found.i, found.j, found.rest[:, 0, 0], strict=True)) == [
+        (2, 4, 1.0), (3, 4, 21.0), (5, 1, 21.0)
+    ]  # fmt: skip
+    again = Within.summed(slopes, [(ones, found), (ones, one)])
+    assert len(again.i) == 3

@@ -34,6 +34,10 @@ material = { young_modulus = "210 GPa", poisson_ratio = 0.3 }
 FRICTION = "[friction]\ncoefficient = 0.1"
 PUSHED = "[[loading]]\ntangential_force = [60, 0]\nincrements = 2"
 TURNED = "[[loading]]\ntorque = 0.01\nincrements = 1"
+TURNED_ROUND = "".join(
+    f"[[loading]]\ntangential_force = [{force}, 0]\nincrements = 2\n"
+    for force in (60, -60, 60, -60)
+)
 UNLOADED = "[[loading]]\nnormal_force = 500\nincrements = 20"
 
 pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="the peak is read from /proc")
@@ -41,7 +45,7 @@ pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="the peak is rea
 
 def scene(cells: int | tuple[int, int], *, nu: float = 0.3, layer: str = "", then: str = "") -> str:
     nx, ny = (cells, cells) if isinstance(cells, int) else cells
-    friction = FRICTION if then in (PUSHED, TURNED) or nu == 0 else ""
+    friction = FRICTION if then in (PUSHED, TURNED, TURNED_ROUND) or nu == 0 else ""
     return SCENE.format(cells=[nx, ny], nu=nu, layer=layer, friction=friction, then=then)
 
 
@@ -49,12 +53,14 @@ slow = pytest.mark.slow
 SCENES = {
     "libraries": scene(32),
     "pressed": scene(512),
+    "edge not seen in the stress": scene(94, layer=LAYER),
     "pressed, large": pytest.param(scene(1024), marks=slow),
     "long": pytest.param(scene((16, 16384)), marks=slow),
     "many increments": pytest.param(scene(256, then=UNLOADED), marks=slow),
     "coated": pytest.param(scene(1024, layer=LAYER), marks=slow),
     "sheared": pytest.param(scene(256, then=PUSHED), marks=slow),
     "sheared, large": pytest.param(scene(512, then=PUSHED), marks=slow),
+    "sheared, turned round": pytest.param(scene(256, then=TURNED_ROUND), marks=slow),
     "turned": pytest.param(scene(256, then=TURNED), marks=slow),
     "coated and sheared": pytest.param(scene(512, layer=LAYER, then=PUSHED), marks=slow),
     "coupled": pytest.param(scene(256, nu=0.0), marks=slow),

@@ -55,6 +55,8 @@ def write_figures(
             add_caption(figure, name, result, errors, units.note)
             dots = DOTS_PER_INCH if name != file_names.OVERVIEW_FIGURE else OF_OVERVIEW
             save(figure, directory / name, dots)
+            # Its parts refer to one another: the next would be drawn before they have gone.
+            figure.clear()
 
 
 def _figures_called_for(

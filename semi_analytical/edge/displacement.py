@@ -54,19 +54,19 @@ class Within:
         rest = rest - by_x[:, None, None] * x[:, None] - by_y[:, None, None] * x
         return cls(slopes, i, j, rest)
 
-    def times(self, factor: Field) -> Within:
-        """The rest alone times a field (nx, ny) that hardly changes from cell to cell."""
-        of_cells = factor[self.i, self.j]
-        some = of_cells != 0
-        rest = of_cells[some, None, None] * self.rest[some]
-        return Within(self.slopes, self.i[some], self.j[some], rest)
-
     @classmethod
-    def together(cls, slopes: Field, rests: Sequence[Within]) -> Within:
-        """These slopes, and all these rests."""
-        parts = ((w.i, w.j, w.rest) for w in rests)
-        i, j, rest = (np.concatenate(part) for part in zip(*parts, strict=True))
-        return cls(slopes, i, j, rest)
+    def summed(cls, slopes: Field, terms: Sequence[tuple[Field, Within]]) -> Within:
+        """These slopes, and the rests times fields (nx, ny) that hardly change from cell to cell;
+        once where several have the same cell, or each turn of a load would add its own."""
+        ny = slopes.shape[2]
+        some = [factor[w.i, w.j] != 0 for factor, w in terms]
+        each = [(w.i * ny + w.j)[of] for of, (_, w) in zip(some, terms, strict=True)]
+        cells = np.unique(np.concatenate(each))
+        rest = np.zeros((len(cells), PARTS, PARTS))
+        for of, at, (factor, w) in zip(some, each, terms, strict=True):
+            scale = factor[w.i[of], w.j[of], None, None]
+            rest[np.searchsorted(cells, at)] += scale * w.rest[of]
+        return cls(slopes, cells // ny, cells % ny, rest)
 
 
 class EdgeOperator:

@@ -264,7 +264,7 @@ def _times(ratio: Field, q: Field, p: Field, by_p: Within, edge: Rim) -> Within:
     slopes = np.stack(list(np.gradient(q))) * (p > 0)
     along_edge = ratio * by_p.slopes + p * np.stack(list(np.gradient(ratio)))
     slopes[:, edge.i, edge.j] = along_edge[:, edge.i, edge.j]
-    return Within.together(slopes, [by_p.times(ratio)])
+    return Within.summed(slopes, [(ratio, by_p)])
 
 
 def _allowed(x: Field) -> Field:

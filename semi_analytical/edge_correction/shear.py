@@ -82,7 +82,7 @@ def sliding_shear(
     slip = direction_of_slip(solved.shear, magnitude(solved.shear) > 0)
     shear, nowhere = bound * slip, np.zeros(bound.shape, dtype=bool)
     x, y = (
-        Within.together(n * limit.slopes + np.stack(np.gradient(n)) * bound, [limit.times(n)])
+        Within.summed(n * limit.slopes + np.stack(np.gradient(n)) * bound, [(n, limit)])
         for n in slip
     )
     operator = operators.model.tangential_operator(bound.shape)
@@ -166,12 +166,12 @@ class ShearProblem:
             outer = n * self.limit.slopes + turns - along[k] * of_d.slopes
             outer += since_turn * within_last[k].slopes
             since = np.stack(np.gradient(q[k] - last[k])) + within_last[k].slopes
-            parts = (
-                self.limit.times(np.where(deep, 0.0, n)),
-                of_d.times(-along[k]),
-                within_last[k].times(np.where(deep, 1.0, since_turn)),
+            terms = (
+                (np.where(deep, 0.0, n), self.limit),
+                (-along[k], of_d),
+                (np.where(deep, 1.0, since_turn), within_last[k]),
             )
-            found.append(Within.together(np.where(deep, since, outer), parts))
+            found.append(Within.summed(np.where(deep, since, outer), terms))
         return found[0], found[1]
 
     def solve(

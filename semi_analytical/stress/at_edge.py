@@ -26,7 +26,7 @@ BOX = 2
 # Small cells along a side: beyond the box, and in it at a depth of one cell.
 PARTS, PARTS_AT_A_CELL = 4, 6
 # Observers, and small cells or points that they see, that are treated at once.
-OBSERVERS, SEEN = 256, 1 << 17
+OBSERVERS, SEEN = 64, 1 << 15
 
 
 def stress_at_surface(
