@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
+from contact_results.directory.parents import create_parents, remove_empty
 from contact_results.directory.refusal import OutputRefused
 
 
@@ -14,17 +15,11 @@ def atomic_file(path: Path) -> Iterator[Path]:
     """Give a path beside `path` to write to; it takes the name when the block ends without error.
 
     A file of that name is replaced. Raises OutputRefused if the directory cannot be made or the
-    name is a directory's, a device's or a queue's; an OSError of the block, as that of a full disk,
-    names `path`.
+    name is a directory's, a device's, a queue's or a link's that leads nowhere; an
+    OSError of the block, as that of a full disk, names `path`.
     """
-    try:
-        path.parent.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise OutputRefused(f"cannot create {path.parent}: {error.strerror}") from error
-    if path.is_dir():
-        raise OutputRefused(f"{path} is a directory where a file should go; move it")
-    if path.exists() and not path.is_file():
-        raise OutputRefused(f"{path} is not a regular file, and one would take its place")
+    refuse_what_is_in_the_way(path)
+    created = create_parents(path)
     temporary = path.with_name(f".{secrets.token_hex(4)}.{path.name}")
     try:
         yield temporary
@@ -37,3 +32,18 @@ def atomic_file(path: Path) -> Iterator[Path]:
         raise
     finally:
         temporary.unlink(missing_ok=True)
+        remove_empty(created)
+
+
+def refuse_what_is_in_the_way(path: Path) -> None:
+    """Raise OutputRefused where no file could go, or one would take the place of something else."""
+    try:
+        os.lstat(path)
+    except FileNotFoundError:
+        return
+    except OSError as error:
+        raise OutputRefused(f"cannot write {path}: {error.strerror}") from error
+    if path.is_dir():
+        raise OutputRefused(f"{path} is a directory where a file should go; move it")
+    if not path.is_file():
+        raise OutputRefused(f"{path} is not a regular file, and one would take its place")

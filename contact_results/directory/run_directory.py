@@ -18,6 +18,7 @@ from pathlib import Path
 
 from contact_results.directory.directory_lock import acquire, release
 from contact_results.directory.file_names import RUN_FILES, SUMMARY, TIMING
+from contact_results.directory.parents import create_parents, remove_empty
 from contact_results.directory.refusal import OutputRefused
 from contact_results.directory.sole_use import in_sole_use
 from contact_results.directory.stop_signals import cleaned_up_when_stopped, stop_signals_held
@@ -35,10 +36,10 @@ def run_directory(target: Path, *, overwrite: bool = False) -> Iterator[Path]:
     """
     target = Path(os.path.realpath(target))
     _refuse_what_is_in_the_way(target, overwrite)
-    created = _create_parents(target)
+    created = create_parents(target)
 
     def remove_created() -> None:
-        _remove_empty(created)
+        remove_empty(created)
 
     try:
         with (
@@ -60,16 +61,18 @@ def files_at_once(target: Path, summary: str, earlier: Sequence[str]) -> Iterato
 
     summary  the first of the old ones to go, the last of the new ones to come
     earlier  what goes even where nothing new has its name
+    raises   OutputRefused before the block is entered
     """
     target = Path(os.path.realpath(target))
-    created = _create_parents(target)
+    _refuse_files_above(target)
+    created = create_parents(target)
     try:
         with _staging(target) as staging:
             yield staging
             with stop_signals_held():
                 _publish(staging, target, summary, earlier)
     finally:
-        _remove_empty(created)
+        remove_empty(created)
 
 
 @contextmanager
@@ -105,10 +108,15 @@ def _name_file(error: OSError, staging: Path, target: Path) -> None:
         error.filename, error.filename2 = str(target / name), None
 
 
-def _refuse_what_is_in_the_way(target: Path, overwrite: bool) -> None:
+def _refuse_files_above(target: Path) -> None:
+    """Raise OutputRefused for what is no directory there, or above."""
     for place in (target, *target.parents):
         if place.exists() and not place.is_dir():
             raise OutputRefused(f"{place} is a file; --output needs a directory")
+
+
+def _refuse_what_is_in_the_way(target: Path, overwrite: bool) -> None:
+    _refuse_files_above(target)
     if not target.is_dir():
         return
     ours = _is_earlier_run(target)
@@ -129,16 +137,6 @@ def _is_earlier_run(directory: Path) -> bool:
     except (OSError, ValueError):
         return False
     return isinstance(record, dict) and record.get("program") == "slipstick"
-
-
-def _create_parents(target: Path) -> list[Path]:
-    """Create what is missing above `target`; return it, innermost first."""
-    missing = [parent for parent in target.parents if not parent.exists()]
-    try:
-        target.parent.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise OutputRefused(f"cannot create {target.parent}: {error.strerror}") from error
-    return missing
 
 
 def _create_staging(target: Path) -> tuple[Path, int | None]:
@@ -231,12 +229,3 @@ def _flush(path: Path) -> None:
         os.fsync(descriptor)
     finally:
         os.close(descriptor)
-
-
-def _remove_empty(directories: list[Path]) -> None:
-    """Remove these directories, innermost first, as far as nothing is in them."""
-    for directory in directories:
-        try:
-            directory.rmdir()
-        except OSError:
-            return

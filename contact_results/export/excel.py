@@ -33,6 +33,7 @@ def write_excel(stored: Stored, path: Path) -> None:
     an empty cell. Raises Refused for a table of too many rows, or where XlsxWriter is missing."""
     try:
         from xlsxwriter import Workbook
+        from xlsxwriter.exceptions import FileCreateError
     except ImportError:
         raise Refused(
             "a workbook is written by XlsxWriter, which is not installed: pip install "
@@ -50,7 +51,10 @@ def write_excel(stored: Stored, path: Path) -> None:
         _explain(book.add_worksheet("columns"), stored, tables, bold)
         for name, table in tables.items():
             _fill(book.add_worksheet(name), table, bold)
-        book.close()
+        try:
+            book.close()
+        except FileCreateError as error:  # an OSError, wrapped
+            raise error.args[0] from None
 
 
 def _explain(sheet: Any, stored: Stored, tables: Any, bold: Any) -> None:

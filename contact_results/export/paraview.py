@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from contact_results.directory.atomic_file import atomic_file
+from contact_results.directory.run_directory import files_at_once
 from contact_results.files.stored_run import StoredRun
 from contact_results.files.stored_values import ends_of_steps
 from contact_results.files.surface_file import POLAR, SCALARS, VECTORS, write_surface
@@ -21,14 +21,14 @@ def write_paraview(run: StoredRun, directory: Path) -> None:
     ends = ends_of_steps(steps)
     there = [name for name in NAMES if name in run.increments]
     entries = []
-    for row in ends.tolist():
-        step = int(steps[row])
-        file = f"surface_step_{step}.vtu"
-        fields = {name: run.increments.at(name, row) for name in there}
-        write_surface(surface, fields, directory / file, run.convention)
-        entries.append(f'<DataSet timestep="{step}" file="{file}"/>\n')
-    with atomic_file(directory / COLLECTION) as temporary:
-        temporary.write_text(
+    with files_at_once(directory, COLLECTION, ()) as staging:
+        for row in ends.tolist():
+            step = int(steps[row])
+            file = f"surface_step_{step}.vtu"
+            fields = {name: run.increments.at(name, row) for name in there}
+            write_surface(surface, fields, staging / file, run.convention)
+            entries.append(f'<DataSet timestep="{step}" file="{file}"/>\n')
+        (staging / COLLECTION).write_text(
             '<VTKFile type="Collection" version="0.1">\n<Collection>\n'
             f"{''.join(entries)}</Collection>\n</VTKFile>\n",
             encoding="ascii",

@@ -34,7 +34,7 @@ def bench(
     """  # fmt: skip
     import json
 
-    from contact_results.directory.atomic_file import atomic_file
+    from contact_results.directory.atomic_file import atomic_file, refuse_what_is_in_the_way
     from slipstick.cli.terminal import print_table
     from verification.peers.asked import ASKED
     from verification.peers.costs import cost_table, growth
@@ -43,6 +43,8 @@ def bench(
 
     if output is not None and not output.parent.is_dir():
         raise typer.BadParameter(f"there is no directory {output.parent} to write {output.name} to")
+    if output is not None:
+        refuse_what_is_in_the_way(output)
     installed = made_environment(peers_directory()) if peers else None
     for distribution, reason in (installed.missing if installed else {}).items():
         typer.echo(f"left out: {distribution}: {reason}", err=True)

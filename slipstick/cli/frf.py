@@ -187,9 +187,11 @@ def _print_table(response: FrequencyResponse) -> None:
 
 
 def _write(response: FrequencyResponse, directory: Path, title: str) -> None:
+    from contact_results.directory.run_directory import files_at_once
     from contact_results.figures.frf_plot import write_frf_figures
-    from contact_results.files.frequency_response import write_responses
+    from contact_results.files.frequency_response import TABLE, write_responses
 
-    write_responses(response, directory)
-    write_frf_figures(response, directory, title)
+    with files_at_once(directory, TABLE, ()) as staging:
+        write_responses(response, staging)
+        write_frf_figures(response, staging, title)
     typer.echo(f"table and figures in {directory}")

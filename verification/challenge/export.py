@@ -12,8 +12,8 @@ from typing import Any
 
 import numpy as np
 
-from contact_results.directory.atomic_file import atomic_file
 from contact_results.directory.refusal import Refused
+from contact_results.directory.run_directory import files_at_once
 from contact_scene.load_path import ControlKind, LoadRamp
 from verification.challenge.asked import Challenge
 from verification.challenge.toml_text import toml_text
@@ -57,9 +57,9 @@ def export(challenge: Challenge, directory: Path, *, blind: bool) -> None:
     if not blind:
         files["reference.json"] = reference
     files[MANIFEST] = json.dumps(manifest, indent=1) + "\n"
-    for name, text in files.items():
-        with atomic_file(directory / name) as unfinished:
-            unfinished.write_text(text, encoding="utf-8")
+    with files_at_once(directory, ANSWERS, ()) as staging:
+        for name, text in files.items():
+            (staging / name).write_text(text, encoding="utf-8")
 
 
 def digest(text: str) -> str:

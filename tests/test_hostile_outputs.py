@@ -1,0 +1,156 @@
+"""Every command that writes, into places that take nothing: an exit code and one error that says
+why, and nothing half-written."""
+
+import os
+import resource
+import shutil
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+import pytest
+from command import outcome
+
+pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="limits and queues of Linux")
+
+SCENE = """
+[indenter]
+shape = "sphere"
+radius = "10 mm"
+material = { young_modulus = "210 GPa", poisson_ratio = 0.3 }
+[body]
+material = { young_modulus = "210 GPa", poisson_ratio = 0.3 }
+[[loading]]
+normal_force = 100
+[semi_analytical]
+cells = [16, 16]
+edge = "off"
+"""
+QUICK = ("--no-figures", "--no-error")
+COMMANDS = {
+    "run": ("run", "scene.toml", *QUICK, "-o"),
+    "run, elements": ("run", "scene.toml", *QUICK, "--solver", "fem", "-o"),
+    "run, radial": ("run", "scene.toml", *QUICK, "--solver", "radial", "-o"),
+    "stress": ("stress", "scene.toml", *QUICK, "-o"),
+    "frf": ("frf", "scene.toml", "--points", "2", "-o"),
+    "challenge": ("challenge", "export", "hertz_point", "-o"),
+    "history": ("history", "baselines", "baselines", "-o"),
+    "judge": ("judge", "answered", "--page"),
+    "export, matlab": ("export", "run", "--to", "matlab", "-o"),
+    "export, excel": ("export", "run", "--to", "excel", "-o"),
+    "export, vtu": ("export", "run", "--to", "vtu", "-o"),
+}
+# These look where they write before they compute, and keep what is done where they are cut off.
+LONG = {
+    "verify": ("verify", "classical_forms", "--workers", "1", "-o"),
+    "study": ("study", "mesh", "scene.toml", "--levels", "4", "--workers", "1", "-o"),
+    "bench": ("bench", "--no-peers", "--cells", "32", "-o"),
+    "baseline": ("baseline", "--accept", "--because", "so", "--from", "report.json", "--to"),
+}
+ROOT = Path(__file__).resolve().parents[1]
+
+
+@pytest.fixture(scope="module")
+def made(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A scene, a run of it, a challenge that is answered, and baselines."""
+    folder = tmp_path_factory.mktemp("made")
+    (folder / "scene.toml").write_text(SCENE, encoding="utf-8")
+    assert outcome("run", "scene.toml", *QUICK, "-o", "run", cwd=folder).returncode == 0
+    export = ("challenge", "export", "hertz_point", "-o", "answered")
+    assert outcome(*export, cwd=folder).returncode == 0
+    answers = folder / "answered"
+    (answers / "solver.toml").write_text('[solver]\nname = "theirs"\n', encoding="utf-8")
+    with open(answers / "levels.csv", "a", encoding="utf-8") as levels:
+        levels.write("1,solved,,0.01,mm,,\n")
+    lines = (answers / "answers.csv").read_text(encoding="utf-8").splitlines()
+    lines[1] = lines[1].replace(",,", ",1,", 1)
+    (answers / "answers.csv").write_text("\n".join(lines) + "\n", encoding="utf-8")
+    (folder / "baselines").mkdir()
+    kept = ROOT / "verification/baselines/hertz_point.json"
+    shutil.copy(kept, folder / "baselines")
+    return folder
+
+
+@pytest.fixture
+def place(made: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """A directory of one's own with links to all that; its output is to be `out`."""
+    monkeypatch.setenv("SLIPSTICK_CACHE_DIR", str(tmp_path / "cache"))
+    inside = tmp_path / "inside"
+    inside.mkdir()
+    for path in made.iterdir():
+        (inside / path.name).symlink_to(path)
+    return inside
+
+
+def everything(folder: Path) -> dict[Path, bytes | None]:
+    """Names and contents of what is there, plain files' contents only."""
+    return {
+        path: path.read_bytes() if path.is_file() and not path.is_symlink() else None
+        for path in sorted(folder.rglob("*"))
+    }
+
+
+@contextmanager
+def files_of_at_most(size: int) -> Iterator[None]:
+    """As on a disk that has no more room."""
+    before = resource.getrlimit(resource.RLIMIT_FSIZE)
+    resource.setrlimit(resource.RLIMIT_FSIZE, (size, before[1]))
+    try:
+        yield
+    finally:
+        resource.setrlimit(resource.RLIMIT_FSIZE, before)
+
+
+def in_the_way(kind: str, place: Path) -> str:
+    """Put something where the output should go; its name for the command."""
+    out = place / "out"
+    if kind == "queue":
+        os.mkfifo(out)
+    elif kind == "loop":
+        out.symlink_to("out")
+    elif kind == "inside a loop":
+        out.symlink_to("out")
+        return "out/inside"
+    elif kind == "below a file":
+        out.write_text("mine", encoding="utf-8")
+        return "out/inside"
+    elif kind == "no name":
+        return "a\0b"
+    elif kind == "long":
+        return 300 * "a"
+    return "out"
+
+
+@pytest.mark.parametrize(
+    "kind", ["queue", "loop", "inside a loop", "below a file", "no name", "long"]
+)
+@pytest.mark.parametrize("words", (COMMANDS | LONG).values(), ids=COMMANDS | LONG)
+def test_what_is_in_the_way_is_named_and_left_alone(
+    words: tuple[str, ...], kind: str, place: Path
+) -> None:
+    name = in_the_way(kind, place)
+    before = everything(place)
+    ended = outcome(*words, name, cwd=place)
+    assert ended.returncode == 2, ended.stderr
+    assert everything(place) == before
+
+
+@pytest.mark.parametrize("words", COMMANDS.values(), ids=COMMANDS)
+def test_a_full_disk_ends_the_command_and_leaves_nothing(
+    words: tuple[str, ...], place: Path
+) -> None:
+    before = everything(place)
+    with files_of_at_most(60):
+        ended = outcome(*words, "out", cwd=place)
+    assert ended.returncode == 4, ended.stderr
+    assert "File too large" in ended.stderr
+    assert everything(place) == before
+
+
+@pytest.mark.parametrize("words", COMMANDS.values(), ids=COMMANDS)
+def test_the_same_output_twice_is_replaced_or_refused(words: tuple[str, ...], place: Path) -> None:
+    first = outcome(*words, "out", cwd=place)
+    assert first.returncode in (0, 1), first.stderr
+    again = outcome(*words, "out", cwd=place)
+    assert again.returncode in (first.returncode, 2), again.stderr
