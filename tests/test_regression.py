@@ -476,6 +476,12 @@ DAMAGE: dict[str, Callable[[str], str]] = {
     "other level": lambda text: text.replace('"quick"', '"quickest"'),
     "other version": lambda text: text.replace('"schema_version": 1', '"schema_version": 9'),
     "not finite": lambda text: re.sub(r'"allowed": [^,]*', '"allowed": NaN', text),
+    "no finite error": lambda text: re.sub(r'"value": [^,]*', '"value": 1e308', text),
+    "less than nothing allowed": lambda text: re.sub(r'"allowed": [^,]*', '"allowed": -1.0', text),
+    "less than no work": lambda text: re.sub(r'"iterations": \d+', '"iterations": -1', text),
+    "work beyond doubles": lambda text: re.sub(
+        r'"iterations": \d+', f'"iterations": {10**400}', text
+    ),
     "words for numbers": lambda text: re.sub(r'"value": [^,]*', '"value": "small"', text),
 }
 

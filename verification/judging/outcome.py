@@ -3,8 +3,9 @@
 import math
 import sys
 from enum import StrEnum
+from typing import Annotated, TypeAlias
 
-from pydantic import model_validator
+from pydantic import Field, model_validator
 
 from contact_scene.description import Description
 from contact_scene.summary import EffectSummary
@@ -24,6 +25,9 @@ FOUND_IN_A_RUN = (RESIDUAL, VIOLATION, IMBALANCE)
 
 TOLERANCE_KINDS = ("required", "derived", "order")
 SAME_BUT_FOR_ROUNDING = 1e-12
+
+# Of work done: more than any run takes is damage, and may be more than a number of a page holds.
+Count: TypeAlias = Annotated[int, Field(ge=0, le=10**15)]
 
 
 class Status(StrEnum):
@@ -139,8 +143,8 @@ def _contradiction(verdict: Verdict) -> str:
         return f"its tolerance is {verdict.tolerance_kind!r}, not {', '.join(TOLERANCE_KINDS)}"
     # Uncertainties that are derived vanish where refinement changes nothing.
     allows = verdict.allowed > 0 or (verdict.allowed == 0 and verdict.tolerance_kind == "derived")
-    if not (verdict.scale > 0 and allows):
-        return f"it allows {verdict.allowed:g} of {verdict.scale:g}; both are positive"
+    if not (verdict.scale > 0 and allows and math.isfinite(verdict.allowed * verdict.scale)):
+        return f"it allows {verdict.allowed:g} of {verdict.scale:g}; both are positive, and finite"
     if not _is_error(verdict):
         return (
             f"its error is {verdict.error}, but its value is {verdict.value}, its reference "
@@ -216,10 +220,10 @@ class RunRecord(Description):
     null where this one has them, or there is no such run."""
 
     tolerance: float
-    increments: int
-    iterations: int
-    convolutions: int
-    factorizations: int = 0
+    increments: Count
+    iterations: Count
+    convolutions: Count
+    factorizations: Count = 0
     """Sparse factorisations of finite elements."""
 
     largest_residual: float | None

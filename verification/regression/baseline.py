@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+import math
+from typing import TYPE_CHECKING, Annotated
+
+from pydantic import Field, model_validator
 
 from contact_scene.description import Description
 from verification.judging.outcome import (
     FOUND_IN_A_RUN,
+    Count,
     FindingRecord,
     RunRecord,
     Status,
@@ -32,8 +36,22 @@ class RecordedQuantity(Description):
     unit: str
     value: float | None
     reference: float
-    allowed: float
+    allowed: Annotated[float, Field(ge=0)]
     status: Status
+
+    @model_validator(mode="after")
+    def _has_an_error(self) -> RecordedQuantity:
+        if self.error is not None and not math.isfinite(self.error / (self.allowed or 1.0)):
+            raise ValueError(
+                f"{self.name} [{self.run}]: value {self.value}, reference {self.reference} and "
+                f"allowed {self.allowed} make no finite error"
+            )
+        return self
+
+    @property
+    def error(self) -> float | None:
+        """|value - reference|; None for a value that is not finite."""
+        return None if self.value is None else abs(self.value - self.reference)
 
     @property
     def key(self) -> Key:
@@ -59,10 +77,10 @@ class RecordedRun(Description):
     """Deterministic counts of a solve."""
 
     label: str
-    increments: int
-    iterations: int
-    convolutions: int
-    factorizations: int
+    increments: Count
+    iterations: Count
+    convolutions: Count
+    factorizations: Count
 
 
 class RecordedBy(Description):
@@ -89,7 +107,7 @@ class Recording(Description):
     quantities: tuple[RecordedQuantity, ...]
     findings: tuple[RecordedFinding, ...]
     runs: tuple[RecordedRun, ...]
-    loops: float | None = None
+    loops: Annotated[float, Field(ge=0)] | None = None
     """CPU time in calibration loops; see `running.calibration`."""
 
 

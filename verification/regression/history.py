@@ -57,9 +57,9 @@ class Mark:
 def part_of_allowed(quantity: RecordedQuantity) -> float | None:
     """The error over what is allowed; None for an order, where nothing is allowed, and for a value
     that is not finite."""
-    if quantity.tolerance_kind == "order" or quantity.value is None or quantity.allowed == 0:
+    if quantity.tolerance_kind == "order" or quantity.error is None or quantity.allowed == 0:
         return None
-    return abs(quantity.value - quantity.reference) / quantity.allowed
+    return quantity.error / quantity.allowed
 
 
 def worst(recording: Recording) -> tuple[str, float] | None:
