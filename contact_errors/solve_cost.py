@@ -14,7 +14,8 @@ from collections.abc import Sequence
 from dataclasses import asdict, dataclass
 from functools import cache
 from hashlib import sha256
-from math import log2, sqrt
+from math import inf, log2, sqrt
+from pathlib import Path
 
 import semi_analytical
 from contact_results.directory.atomic_file import atomic_file
@@ -22,6 +23,7 @@ from contact_results.directory.code_digest import SOLVERS, code_digest
 from contact_results.directory.machine import machine
 from contact_scene import Body, CoulombFriction, IsotropicMaterial, LoadStep, Paraboloid, Scene
 from contact_scene.kept_arrays import cache_directory
+from contact_scene.own_file import open_own
 
 Cells = tuple[int, int]
 
@@ -94,8 +96,8 @@ def machine_speed() -> Speed:
     identity = repr(machine()).encode() + code_digest(SOLVERS)
     name = f"{sha256(identity).hexdigest()}.speed"
     if directory is not None:
-        with contextlib.suppress(OSError, ValueError, TypeError):
-            return Speed(**json.loads((directory / name).read_text(encoding="utf-8")))
+        with contextlib.suppress(OSError, ValueError, TypeError, AttributeError, OverflowError):
+            return _kept(directory / name)
     speed = measured_speed()
     if directory is not None:
         with contextlib.suppress(OSError):
@@ -103,6 +105,15 @@ def machine_speed() -> Speed:
             with atomic_file(directory / name) as temporary:
                 temporary.write_text(json.dumps(asdict(speed)), encoding="utf-8")
     return speed
+
+
+def _kept(path: Path) -> Speed:
+    """Raises OSError for a file of somebody else's, and what damage raises."""
+    with open_own(path) as file:
+        numbers = {name: float(number) for name, number in json.load(file).items()}
+    if not all(0 < number < inf for number in numbers.values()):
+        raise ValueError(f"{path}: expected positive seconds, got {numbers}")
+    return Speed(**numbers)
 
 
 def measured_speed() -> Speed:

@@ -131,3 +131,19 @@ def test_what_no_table_has_is_refused(arguments: tuple[str, ...], words: str) ->
     ended = outcome("table", *arguments, cwd=ROOT)
     assert ended.returncode == 2
     assert words in " ".join(re.sub("[│\n]", " ", ended.stderr).split())
+
+
+@pytest.mark.parametrize(
+    "value", ["5e-324", "1e-300", "1e300", "inf", "nan", "-1e300", "9" * 10_000]
+)
+@pytest.mark.parametrize(
+    ("name", "axis"), [(table.name, axis) for table in TABLES.values() for axis in table.axes]
+)
+def test_parameters_of_no_contact_are_refused(name: str, axis: str, value: str) -> None:
+    """Or they are within the bounds of a parameter that may be as near to zero as that."""
+    if TABLES[name].axes[axis].least <= 0 < float(value) < 1e-200:
+        return
+    ended = outcome("table", name, "--over", f"{axis}={value}", cwd=ROOT)
+    assert ended.returncode == 2
+    assert "expected more than" in " ".join(re.sub("[│\n]", " ", ended.stderr).split())
+    assert len(ended.stderr) < 3000

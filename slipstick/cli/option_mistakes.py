@@ -5,6 +5,9 @@ from typing import Any
 import typer
 from typer.core import TyperCommand
 
+# Characters of a message: a value that nobody reads to its end is not repeated to its end.
+LONGEST = 600
+
 
 class WordedCommand(TyperCommand):
     """A command that tells a bad value in our words instead of a validator's."""
@@ -14,8 +17,25 @@ class WordedCommand(TyperCommand):
         try:
             return super().parse_args(ctx, args)
         except typer.BadParameter as error:
-            error.message = _in_our_words(error)
+            error.message = _in_short(_in_our_words(error))
             raise
+
+    def invoke(self, ctx: Any) -> Any:
+        """Call the function; raises BadParameter, too."""
+        try:
+            return super().invoke(ctx)
+        except typer.BadParameter as error:
+            error.message = _in_short(error.message)
+            raise
+
+
+def _in_short(message: str) -> str:
+    """Its begin and its end."""
+    left_out = len(message) - LONGEST
+    if left_out <= 0:
+        return message
+    half = LONGEST // 2
+    return f"{message[:half]} ... {left_out} characters ... {message[-half:]}"
 
 
 def _in_our_words(error: typer.BadParameter) -> str:

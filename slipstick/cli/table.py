@@ -83,10 +83,10 @@ def _values(chosen: Table, given: Sequence[str]) -> dict[str, list[float]]:
                 f"--over {text!r}: expected numbers such as {name}=0.5,1"
             ) from None
         for value in found[name]:
-            if not (axis.least < value <= axis.most and value < float("inf")):
-                most = "" if axis.most == float("inf") else f" and at most {axis.most:g}"
+            if not axis.least < value <= axis.most:
                 raise typer.BadParameter(
-                    f"--over {text!r}: got {value:g}, expected more than {axis.least:g}{most}"
+                    f"--over {text!r}: got {value:g}, expected more than {axis.least:g} and at "
+                    f"most {axis.most:g}"
                 )
     return found
 

@@ -43,6 +43,8 @@ RUBBED = (
     "twice the change of a number by twice as many rings and increments, what is left of the load, "
     f"and {ROUND_OFF:g} of the number for round-off"
 )
+# Nothing rubs more; a ball then sticks all over, and rings have no slip to tell.
+MOST_FRICTION = 10.0
 COATING = {
     "E1_over_E2": Axis(
         "Young's modulus of the layer over that of the substrate",
@@ -55,7 +57,7 @@ COATING = {
     ),
     "nu": Axis("Poisson's ratio of both", (0.3,), -1.0, 0.5),
 }
-FRICTION = {"mu": Axis("coefficient of friction", (0.1, 0.3))}
+FRICTION = {"mu": Axis("coefficient of friction", (0.1, 0.3), most=MOST_FRICTION)}
 FIGURE = {
     **COATING,
     "E1_over_E2": replace(COATING["E1_over_E2"], values=(0.5, 1.0, 2.0, 4.0)),
@@ -179,7 +181,7 @@ TABLES: Mapping[str, Table] = {
         ),
         Table(
             "onset",
-            {**FIGURE, "mu": Axis(FRICTION["mu"].meaning, (0.1,))},
+            {**FIGURE, "mu": replace(FRICTION["mu"], values=(0.1,))},
             {"T_over_muW": "tangential force at which the last stick goes, over mu W"},
             "A rigid paraboloid, pressed with friction from first touch and then pushed "
             f"{ON_COATING}{HERTZ}",

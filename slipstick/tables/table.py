@@ -14,6 +14,10 @@ UNCERTAINTY = (
 )
 
 
+# Of parameters that have no bounds of their own: farther from one nothing is a contact.
+FARTHEST = 1e12
+
+
 @dataclass(frozen=True)
 class Axis:
     """A parameter.
@@ -26,8 +30,8 @@ class Axis:
 
     meaning: str
     values: tuple[float, ...]
-    least: float = 0.0
-    most: float = float("inf")
+    least: float = 1 / FARTHEST
+    most: float = FARTHEST
 
 
 @dataclass(frozen=True)
