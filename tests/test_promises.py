@@ -92,7 +92,7 @@ def test_lopsided_solver_breaks_the_promise(monkeypatch: pytest.MonkeyPatch) -> 
 def test_solver_that_knows_where_the_middle_is_breaks_the_promise(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    monkeypatch.setattr(solvers, "OPEN", 1e-9)
+    monkeypatch.setattr(solvers, "left_open", lambda *_: 1e-17)
     assert some_broken(solvers.moved(3))
 
 

@@ -60,7 +60,8 @@ PROMISES = {
             (6, 60), solvers.symmetric, "of what is allowed",
         ),
         Promise(
-            "moved", f"the moved problem has that answer within {solvers.OPEN:g} tolerances",
+            "moved", "the moved problem has that answer within what the tolerance on gaps leaves "
+            "open of the pressure of a cell",
             "drawn rough surfaces, moved by some cells, at tolerances 1e-8, 1e-10 and 1e-12",
             (6, 60), solvers.moved, "of what is allowed",
         ),

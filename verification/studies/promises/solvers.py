@@ -25,6 +25,7 @@ from contact_scene import (
 )
 from semi_analytical import SurfaceGrid, plan, solve
 from semi_analytical.history import marked
+from semi_analytical.influence.bodies import influence_coefficients
 from semi_analytical.model import ContactModel
 from verification.studies.promises.promise import Attempt
 
@@ -33,9 +34,6 @@ TOLERANCE = 1e-8
 # arithmetic takes. Where they do, iterations stop at the tolerance, and rounding decides where
 # within it: two answers are as far apart as it leaves open.
 ROUNDING = 1e-12
-# Tolerances by which two answers may differ whose residuals are within it, but that were come to
-# on other ways.
-OPEN = 10.0
 MU, YOUNG, NU, LOAD, RADIUS = 0.1, 420e9, 0.3, 1e3, 0.018
 CELLS, WINDOW = (24, 20), (1.4e-3, 1.6e-3)
 DRIFT, GROWTH = 1e-6, 0.01
@@ -136,7 +134,8 @@ def moved(count: int) -> Iterator[Attempt]:
 
     A window does not move along, and iterations begin with a pressure on all of it: on coarser
     cells, into which an odd move does not even fit. They so stop elsewhere within the tolerance
-    (even moves 3e-10 apart at 1e-8, odd ones 3e-8), and the promise is a multiple of that.
+    (even moves 3e-10 apart at 1e-8, odd ones 3e-8), and the promise is what that leaves open: see
+    `left_open`.
     """
     chance, spacing, cells = random.Random(16), WINDOW[0] / CELLS[0], (32, 30)
     x, y = (spacing * (np.arange(n) - 0.5 * (n - 1)) for n in cells)
@@ -163,9 +162,20 @@ def moved(count: int) -> Iterator[Attempt]:
             float(np.max(np.abs(other.pressure - np.roll(plain.pressure, shift, (0, 1)))) / peak),
             float(np.max(np.abs(other.shear - np.roll(plain.shear, shift, (1, 2)))) / (MU * peak)),
         )
-        allowed = OPEN * tolerance
+        allowed = left_open(described, plain, tolerance)
         told = f"moved by {shift}, ν = {nu:g}, tolerance {tolerance:g}: {apart:.1e}"
         yield Attempt(apart <= allowed, told, apart / allowed)
+
+
+def left_open(described: Scene, end: Any, tolerance: float) -> float:
+    """How far apart the tractions of two answers within the tolerance may be, over the largest.
+
+    The tolerance bounds gaps, over the approach δ. A cell answers a gap by the pressure gap/K, K
+    its displacement by its own unit pressure, which are δ/(K p₀) tolerances: more on smaller cells.
+    """
+    spacing = WINDOW[0] / CELLS[0], WINDOW[0] / CELLS[0]
+    own = influence_coefficients(described.body, described.indenter, spacing, (1, 1)).zz[0, 0]
+    return tolerance * float(end.approach / (own * np.max(end.pressure)))
 
 
 def scaled(count: int) -> Iterator[Attempt]:
