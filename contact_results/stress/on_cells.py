@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from contact_results.stress.loaded_bodies import LoadedBodies
 from contact_results.stress.points import FittedEdge, StressField, StressPoints
+from contact_scene.one_thread import one_thread
 
 if TYPE_CHECKING:
     from contact_scene import Body
@@ -26,6 +27,7 @@ Indices = NDArray[np.int64]
 MARGIN = 1.6
 
 
+@one_thread()
 def stress_on_cells(
     state: LoadedBodies,
     *,

@@ -16,12 +16,14 @@ from contact_results.stress.loaded_bodies import LoadedBodies
 from contact_results.stress.points import StressField, StressPoints
 from contact_results.surface import Rings
 from contact_scene.geometry import ShapedBody
+from contact_scene.one_thread import one_thread
 from contact_scene.solver_errors import UnsupportedScene
 
 SHOWN = 3.0  # contact radii to the sides and in depth
 NAMES = ("x", "y", "depth", "material", "displacement", "stress", "at_edge")
 
 
+@one_thread()
 def stress_on_disc(
     state: LoadedBodies, *, indenter: bool = False, depths: Sequence[float] | None = None
 ) -> StressField:

@@ -9,6 +9,7 @@ import numpy as np
 
 from contact_results.stress.loaded_bodies import LoadedBodies
 from contact_results.stress.points import StressField, StressPoints
+from contact_scene.one_thread import one_thread
 
 if TYPE_CHECKING:
     from fem_reference.stress import SectionField
@@ -21,6 +22,7 @@ NEAR = 5.0  # loaded radii that files reach, of the hundreds that stand for a ha
 SHOWN = (2.0, 3.0)  # loaded radii to the sides and in depth
 
 
+@one_thread()
 def stress_on_section(state: LoadedBodies, *, indenter: bool = False) -> StressField:
     """Stress at the nodes of a mesh of its own, as fine over the loaded circle as the contact was
     computed. Raises what `fem_reference.stress.subsurface` raises."""

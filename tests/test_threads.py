@@ -1,0 +1,42 @@
+"""Whoever allows two threads of linear algebra gets the same bytes."""
+
+import re
+from pathlib import Path
+
+import pytest
+
+from verification.studies.promises.commands import results, run
+
+SCENE = (Path(__file__).resolve().parents[1] / "scenes" / "coated_ball.toml").read_text("utf-8")
+QUICK = ("--no-figures", "--no-error")
+
+
+@pytest.fixture
+def folder(tmp_path: Path) -> Path:
+    scene = re.sub(r"cells = .*", "cells = [64, 64]", SCENE)
+    assert scene != SCENE
+    (tmp_path / "scene.toml").write_text(scene, encoding="utf-8")
+    return tmp_path
+
+
+@pytest.mark.parametrize(
+    "solver", ["semi-analytical", "radial", pytest.param("fem", marks=pytest.mark.slow)]
+)
+def test_stress_of_a_run_has_the_same_bytes_by_two_threads(folder: Path, solver: str) -> None:
+    """Of a run that is read back: the libraries are loaded by the stress itself."""
+    run(folder, "run", "scene.toml", "--solver", solver, "-o", "run", *QUICK)
+    found = []
+    for threads in (1, 2):
+        out = f"stress-{threads}"
+        ended = run(folder, "stress", "run", "-o", out, *QUICK, threads=threads)
+        assert ended.code == 0, ended.said
+        found.append(results(folder / out))
+    assert found[0]
+    assert found[0] == found[1]
+
+
+def test_a_table_has_the_same_bytes_by_two_threads(folder: Path) -> None:
+    words = ("table", "ball", "--over", "E1_over_E2=0.5,2", "--over", "h_over_aH=0.1,1")
+    one, two = (run(folder, *words, threads=threads).out for threads in (1, 2))
+    assert one.count("\n") > 4
+    assert one == two
