@@ -53,16 +53,24 @@ class Pushing:
     most_spent: float = 4.0 * MOST_STEPS
 
     @classmethod
-    def of(cls, scene: Scene, asked: RadialDiscretisation, plan: Plan, fineness: float) -> Pushing:
+    def of(
+        cls,
+        scene: Scene,
+        asked: RadialDiscretisation,
+        plan: Plan,
+        fineness: float,
+        around: float = 1.0,
+    ) -> Pushing:
         """That of a scene.
 
         fineness  how many times as many rings and angles as it takes
+        around    how many times as many angles besides
         """
         assert scene.friction is not None
         assert scene.friction.uniform is not None
         assert plan.circle is not None
         friction, circle = scene.friction.uniform, plan.circle
-        count, highest = round(plan.rings * fineness), round(ANGLES * fineness)
+        count, highest = round(plan.rings * fineness), round(ANGLES * fineness * around)
         both = Coupling.of(scene)
 
         def smooth(target: Target) -> float:

@@ -19,13 +19,12 @@ from slipstick.tables.frictional import (
     BALL,
     FORCE,
     MODULUS,
-    OF_FIT,
     OF_RING,
     gripping,
-    onset,
     scalars,
     tractions,
 )
+from slipstick.tables.onset import OF_FIT, onset
 from slipstick.tables.table import ROUND_OFF, Axis, Found, Table
 
 LEBEDEV = (
@@ -188,8 +187,9 @@ TABLES: Mapping[str, Table] = {
             "Coulomb's law as a vector law at points of rings and angles, in the increments of the "
             "load and in their limit; for layers by exact frequency responses",
             onset,
-            "twice the change of a number by half as many rings and angles again and twice as many "
-            f"increments, and {OF_FIT:g} that the stick area leaves where it ends",
+            "twice the change of a number by half as many rings and angles again, and "
+            f"{OF_FIT:g} that the fit leaves of where the last stick goes",
+            seconds=70.0,
         ),
     )
 }

@@ -1,17 +1,15 @@
-"""A rigid ball pressed on a coated body with friction, and pushed until nothing sticks, in units of
-Hertz's contact of the same force on the substrate."""
+"""A rigid ball pressed on a coated body with friction, in units of Hertz's contact of the same
+force on the bare substrate."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
 from functools import lru_cache
 from math import exp, log, pi
 
 import numpy as np
 from scipy.optimize import brentq
 
-import radial
 from contact_errors.on_radii import FRONT
 from contact_scene import (
     RIGID,
@@ -25,7 +23,7 @@ from contact_scene import (
     Scene,
 )
 from contact_scene.march import marked_increments
-from contact_scene.solver_errors import NotConverged, UnsupportedScene
+from contact_scene.solver_errors import UnsupportedScene
 from radial.plan import PATH_INCREMENTS
 from radial.rubbing import Rubbing
 from radial.sheared import Sheared
@@ -39,11 +37,6 @@ BESIDE = 0.05  # of the contact radius: so near to a front tractions are as unce
 OF_RING = 2e-5  # of p_H: what rings leave of a traction where two numbers of them happen to agree
 # The coefficient of friction is sought from here on, by such factors, and to such a part of itself.
 FIRST, FACTOR, FURTHEST, NEAR = 0.1, 2.0, 1e3, 1e-4
-# Increments of a push: pressing, to a part of µW, and from there to another.
-PRESSING, PUSHES = 10, ((0.8, 8), (0.99, 10))
-SMALL = (0.01, 0.15)  # stick areas over that of the contact which tell where there is none
-FEWEST = 4
-OF_FIT = 2e-4  # T/µW: what the power of the stick area beyond 3/2 leaves
 
 
 def scene(place: Sequence[float], *steps: LoadStep) -> Scene:
@@ -124,41 +117,3 @@ def gripping(place: Sequence[float], fineness: int) -> Found:
     slope = float(abs((last - earlier) / (high - low)))
     friction = exp(float(x))
     return Found((friction,), NEAR, (friction * FRONT / slope,))
-
-
-def onset(place: Sequence[float], fineness: int) -> Found:
-    """T/µW at which the last stick goes, in the limit of fine increments; half as many rings and
-    angles again where all is to be finer."""
-    rings = (1 + fineness) / 2
-    coarse, fine = (_onset(place, times * fineness, rings) for times in (1, 2))
-    return Found((2 * fine - coarse,), 0.0, (OF_FIT,))
-
-
-def _onset(place: Sequence[float], times: int, rings: float) -> float:
-    """With so many times as many increments: the stick area A falls in line with the shift, and the
-    force goes with it but for what the stick still carries, T = T₀ - αA - βA^(3/2); so Cattaneo's
-    contact, where α = 0."""
-    limit = place[-1] * FORCE
-    steps = (
-        LoadStep(tangential_force=(part * limit, 0.0), increments=count * times)
-        for part, count in PUSHES
-    )
-    asked = scene(place, *steps)
-    decided = radial.plan(asked)
-    decided = replace(decided, increments=(PRESSING * times, *decided.increments[1:]))
-    ends = radial.solve(asked, plan=decided, fineness=rings).increments
-    areas, forces = [], []
-    for end in ends:
-        if end.step == 1:
-            continue
-        assert end.stick_radius is not None
-        assert end.tangential_force is not None
-        share = (end.stick_radius / end.contact_radius) ** 2
-        if SMALL[0] < share < SMALL[1]:
-            areas.append(share)
-            forces.append(end.tangential_force[0] / limit)
-    if len(areas) < FEWEST:
-        raise NotConverged("where a stick area ends (too few increments)", len(areas), 0.0, 0.0)
-    A = np.array(areas)
-    basis = np.stack([np.ones_like(A), A, A**1.5], axis=1)
-    return float(np.linalg.lstsq(basis, np.array(forces), rcond=None)[0][0])
