@@ -17,21 +17,22 @@ from contact_results.directory.checkpoint import Checkpoint
 from contact_scene import kept_arrays
 from contact_scene.kept_arrays import SUFFIX, remembered
 
-SCENE = """
+PUSHED = """[[loading]]
+tangential_force = ["60 N", 0]
+increments = 2
+"""
+SCENE = f"""
 [indenter]
 shape = "sphere"
 radius = "18 mm"
 material = "rigid"
 [body]
-material = { young_modulus = "210 GPa", poisson_ratio = 0.3 }
+material = {{ young_modulus = "210 GPa", poisson_ratio = 0.3 }}
 [friction]
 coefficient = 0.1
 [[loading]]
 normal_force = "1 kN"
-[[loading]]
-tangential_force = ["60 N", 0]
-increments = 2
-[semi_analytical]
+{PUSHED}[semi_analytical]
 cells = [16, 16]
 edge = "off"
 """
@@ -73,8 +74,8 @@ def expected(tmp_path_factory: pytest.TempPathFactory) -> dict[str, bytes]:
     return run(tmp_path_factory.mktemp("expected"), "--no-figures")
 
 
-def run(directory: Path, *options: str) -> dict[str, bytes]:
-    (directory / "scene.toml").write_text(SCENE, encoding="utf-8")
+def run(directory: Path, *options: str, scene: str = SCENE) -> dict[str, bytes]:
+    (directory / "scene.toml").write_text(scene, encoding="utf-8")
     ended = outcome("run", "scene.toml", "-o", "out", "--no-error", *options, cwd=directory)
     assert ended.returncode == 0, ended.stderr
     assert {path.name for path in directory.iterdir()} == {"scene.toml", "out"}
@@ -96,13 +97,17 @@ def test_a_run_writes_the_same_bytes_whatever_the_clocks_do(
 
 
 def test_so_it_does_with_figures(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Those of a contact without friction: all get their caption and their file in one place."""
+    pressed = SCENE.replace("[friction]\ncoefficient = 0.1\n", "").replace(PUSHED, "")
     written = []
     for name in ("before", "after"):
         (tmp_path / name).mkdir()
-        written.append(run(tmp_path / name))
+        written.append(run(tmp_path / name, scene=pressed))
         set_clocks(monkeypatch, CLOCKS["to and fro"])
-    assert any(name.endswith(".png") for name in written[0])
-    assert written[0] == written[1]
+    before, after = written
+    assert any(name.endswith(".png") for name in before)
+    assert before.keys() == after.keys()
+    assert [name for name in before if before[name] != after[name]] == []
 
 
 @pytest.mark.parametrize("age", AGES)
