@@ -31,7 +31,13 @@ class Correct(Protocol):
     """See `edge_correction.state.EdgeCorrection`."""
 
     def __call__(
-        self, last: State | None, state: State, *, way_known: bool, tolerance: float
+        self,
+        last: State | None,
+        state: State,
+        *,
+        way_known: bool,
+        on_the_way: bool,
+        tolerance: float,
     ) -> Corrected | None: ...
 
 
@@ -121,6 +127,7 @@ class _Solver:
             last,
             after,
             way_known=last is before or not matters,
+            on_the_way=fraction < 1,
             tolerance=self.tolerance,
         )
         return replace(after, corrected=edges)
