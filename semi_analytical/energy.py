@@ -176,13 +176,21 @@ def unresolved_work(before: Configuration, after: Configuration, cell_area: floa
     begins, ends = (p0 == 0) & (p1 > 0), (p0 > 0) & (p1 == 0)
     closing = float(np.sum(p1[begins] * before.gap[begins]))
     opening = float(np.sum(p0[ends] * after.gap[ends]))
+    return (0.5 * (closing - opening) + _unresolved_sliding(before, after)) * cell_area
+
+
+def _unresolved_sliding(before: Configuration, after: Configuration) -> float:
+    """Σ (κf - ½ (q₀ + q₁))·(s₁ - s₀)."""
+    assert before.slipped is not None
+    assert after.slipped is not None
     slipped = after.slipped - before.slipped
+    if not np.any(slipped):
+        return 0.0
     friction = sliding_friction(
         before.shear, after.shear, -slipped, before.friction_limit, after.friction_limit
     )
     missed = after.touching * friction - 0.5 * (before.shear + after.shear)
-    sliding = float(np.sum(missed * slipped))
-    return (0.5 * (closing - opening) + sliding) * cell_area
+    return float(np.sum(missed * slipped))
 
 
 def friction_changed(before: Configuration, after: Configuration, cell_area: float) -> float:

@@ -22,7 +22,14 @@ from verification.judging.case import Level
 from verification.judging.outcome import Status
 from verification.peers.asked import ASKED, CATTANEO, HERTZ, UNIT, AskedContact
 from verification.peers.costs import cost_table, exponents
-from verification.peers.environment import OURSELVES, PEERS, WITH_EDGES, Peer, made_environment
+from verification.peers.environment import (
+    FAILED,
+    OURSELVES,
+    PEERS,
+    WITH_EDGES,
+    Peer,
+    made_environment,
+)
 from verification.peers.measure import errors_of, one_run
 from verification.problems.layered_scene import coated, film
 from verification.report.prices import price_table
@@ -433,6 +440,24 @@ def test_a_peer_that_cannot_be_installed_is_left_out_and_named(tmp_path: Path) -
     assert all("==" in peer.distribution for peer in PEERS)
 
 
+def test_what_could_not_be_installed_is_not_tried_again(tmp_path: Path) -> None:
+    """A build that waits for a download is ended, and remembered; the reason is told again."""
+    asked: list[str] = []
+
+    def run(command: list[str], **options: Any) -> subprocess.CompletedProcess[str]:
+        if "install" in command:
+            asked.append(command[-1])
+            raise subprocess.TimeoutExpired(command, options["timeout"])
+        return subprocess.CompletedProcess(command, int("tamaas" in command[-1]), "", "")
+
+    first, second = (made_environment(tmp_path, run=run) for _ in range(2))
+    assert asked == ["tamaas==2.9.0"]
+    assert first.missing == second.missing == {"tamaas==2.9.0": "not installed within 180 s"}
+    (tmp_path / FAILED).unlink()
+    made_environment(tmp_path, run=run)
+    assert asked == ["tamaas==2.9.0"] * 2
+
+
 def test_errors_of_a_peer_are_those_of_the_study() -> None:
     request = ASKED["hertz"].request(16)
     found = answered("hertz", 16)
@@ -465,6 +490,13 @@ def test_costs_grow_by_the_power_that_they_were_made_with() -> None:
     ]  # fmt: skip
     assert exponents({"runs": runs})["hertz"] == pytest.approx(1.1)
     assert exponents({"runs": runs[:2]}) == {}
+
+
+def test_a_lost_run_is_a_row_with_its_reason() -> None:
+    lost = {"code": "slipstick", "contact": "hertz", "cells": 64, "lost": "gave up"}
+    table = cost_table({"runs": [lost]})
+    assert len(table.rows[0]) == len(table.columns)
+    assert "gave up" in table.rows[0]
 
 
 def test_the_cheapest_other_code_is_the_one_that_ours_is_beside() -> None:

@@ -30,7 +30,7 @@ def bench(
 
     One thread, each run in a process of its own: CPU seconds, convolutions, memory, the ratio to
     the cheapest other code, and how the cost grows with the grid. About two minutes of CPU to 256
-    cells a side, ten to 1024.
+    cells a side, ten to 1024. The first time other codes are installed, each within three minutes.
     """  # fmt: skip
     import json
 
@@ -38,7 +38,7 @@ def bench(
     from slipstick.cli.terminal import print_table
     from verification.peers.asked import ASKED
     from verification.peers.costs import cost_table, growth
-    from verification.peers.environment import made_environment, peers_directory
+    from verification.peers.environment import FAILED, made_environment, peers_directory
     from verification.peers.measure import all_runs, record_of
 
     if output is not None and not output.parent.is_dir():
@@ -48,6 +48,9 @@ def bench(
     installed = made_environment(peers_directory()) if peers else None
     for distribution, reason in (installed.missing if installed else {}).items():
         typer.echo(f"left out: {distribution}: {reason}", err=True)
+    if installed is not None and installed.missing:
+        failed = peers_directory() / FAILED
+        typer.echo(f"not tried again until {failed} is removed", err=True)
     runs = []
     for run in all_runs(installed, cells, tuple(ASKED.values())):
         runs.append(run)

@@ -28,7 +28,7 @@ def cost_table(record: Record) -> Table:
             continue
         named = (run["code"], run["contact"], f"{run['cells']} x {run['cells']}")
         if "lost" in run:
-            rows.append((*named, run["lost"], *("–",) * (len(COLUMNS) - 3)))
+            rows.append((*named, run["lost"], *("–",) * (len(COLUMNS) - len(named) - 1)))
             continue
         best = _best_other(record, run)
         beside = ("–", "–", "–")

@@ -5,6 +5,7 @@ A peer whose installation fails is left out, with the reason; the others do not 
 
 from __future__ import annotations
 
+import json
 import os
 import subprocess
 import sys
@@ -12,7 +13,13 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
+from contact_results.directory.atomic_file import atomic_file
+
 FOLDER = "peers"
+# Why peers could not be installed: a build that waits for what it may not download would take
+# minutes of every run.
+FAILED = "failed.json"
+SECONDS_TO_INSTALL = 180
 EIGEN = Path("/usr/include/eigen3")  # of the package libeigen3-dev: else the build downloads it
 
 
@@ -83,27 +90,43 @@ def peers_directory() -> Path:
 def made_environment(directory: Path, run: Run = subprocess.run) -> Installed:
     """The environment in a directory, made or completed.
 
+    What could not be installed once is not tried again until `FAILED` there is removed.
+
     run  as `subprocess.run`
     """
     python = directory / "bin" / "python"
     if not python.exists():
         run([sys.executable, "-m", "venv", str(directory)], check=True)
+    failed = directory / FAILED
+    known = json.loads(failed.read_text(encoding="utf-8")) if failed.exists() else {}
     missing = {}
     for peer in PEERS:
-        reason = _installed(python, peer, run)
+        reason = _installed(python, peer, run, known.get(peer.distribution, ""))
         if reason:
             missing[peer.distribution] = reason
+    if missing != known:
+        with atomic_file(failed) as unfinished:
+            text = json.dumps(missing, indent=1, ensure_ascii=False)
+            unfinished.write_text(text, encoding="utf-8")
     return Installed(python, missing)
 
 
-def _installed(python: Path, peer: Peer, run: Run) -> str:
-    """Install one if it is not there; why that failed, or nothing."""
+def _installed(python: Path, peer: Peer, run: Run, failed: str) -> str:
+    """Install one if it is not there and has not failed before; why that failed, or nothing."""
     probe = [str(python), "-c", f"import {peer.module}"]
     if run(probe, capture_output=True, text=True, check=False).returncode == 0:
         return ""
+    if failed:
+        return failed
     settings = {name: value for name, value in peer.settings if EIGEN.exists()}
     install = [str(python), "-m", "pip", "install", "--quiet", peer.distribution]
-    done = run(install, capture_output=True, text=True, check=False, env={**os.environ, **settings})
+    try:
+        done = run(
+            install, capture_output=True, text=True, check=False,
+            env={**os.environ, **settings}, timeout=SECONDS_TO_INSTALL,
+        )  # fmt: skip
+    except subprocess.TimeoutExpired:
+        return f"not installed within {SECONDS_TO_INSTALL} s"
     if done.returncode == 0:
         done = run(probe, capture_output=True, text=True, check=False)
     if done.returncode == 0:

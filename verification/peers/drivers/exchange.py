@@ -8,6 +8,7 @@ import statistics
 import sys
 import time
 from collections.abc import Callable, Iterable, Mapping
+from contextlib import AbstractContextManager, nullcontext
 from importlib import import_module
 from pathlib import Path
 from typing import Any
@@ -54,17 +55,27 @@ def approach_of(gap: Array, displacement: Array, pressure: Array) -> float:
     return float(np.sum(pressure * (displacement + gap)) / np.sum(pressure))
 
 
-def answer(solve: Callable[[Request], Answer], *modules: str) -> None:
+def answer(
+    solve: Callable[[Request], Answer],
+    *modules: str,
+    around: Callable[[], AbstractContextManager[None]] = nullcontext,
+) -> None:
     """Read a request, solve it several times, write the answer with the median of CPU seconds and
-    the memory [MB] on top of what the imported modules take, which are not part of the seconds."""
+    the memory [MB] on top of what the imported modules take, which are not part of the seconds.
+
+    around  each solve, not part of the seconds either
+    """
     request = json.load(sys.stdin)
     with os.fdopen(os.dup(sys.stdout.fileno()), "w") as out:
         os.dup2(sys.stderr.fileno(), sys.stdout.fileno())  # whatever the code prints goes there
-        json.dump(_answered(solve, request, modules), out)
+        json.dump(_answered(solve, request, modules, around), out)
 
 
 def _answered(
-    solve: Callable[[Request], Answer], request: Request, modules: Iterable[str]
+    solve: Callable[[Request], Answer],
+    request: Request,
+    modules: Iterable[str],
+    around: Callable[[], AbstractContextManager[None]],
 ) -> Answer:
     for module in modules:
         import_module(module)
@@ -72,9 +83,10 @@ def _answered(
     before = _memory("VmRSS")
     try:
         while len(seconds) < MOST_REPEATS and sum(seconds) < ENOUGH_SECONDS:
-            started = time.process_time()
-            found = solve(request)
-            seconds.append(time.process_time() - started)
+            with around():
+                started = time.process_time()
+                found = solve(request)
+                seconds.append(time.process_time() - started)
     except CannotDo as error:
         return {"cannot": str(error)}
     memory = _memory("VmHWM") - before
