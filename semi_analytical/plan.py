@@ -16,7 +16,7 @@ MOST_CONTRAST = 1e12
 
 # What edges inside the cells cost, on 64² to 256².
 CHEAP = "20 to 150 convolutions each time"
-DEAR = "four to six times the convolutions"
+DEAR = "three to five times the convolutions"
 
 
 class Coupling(StrEnum):
