@@ -96,7 +96,7 @@ def test_stick_goes_at_the_limit_of_friction_where_pressure_moves_no_surface_pas
 def test_the_command_says_how_long_a_slow_table_takes(tmp_path: Path) -> None:
     slow = outcome("table", "onset", "--over", "E1_over_E2=1", "--over", "nu=0.5", cwd=tmp_path)
     assert slow.returncode == 0
-    assert "rows: 1, about 70 s of one core each" in slow.stderr
+    assert "rows: 1, about 60 s of one core each" in slow.stderr
     quick = outcome("table", "punch", "--over", "nu=0.5", "--over", "a_over_h=1", cwd=tmp_path)
     assert not quick.stderr
 

@@ -14,9 +14,10 @@ from radial import Plan, Result
 from radial.circle import Circle
 from slipstick.solvers.solver import Pairs, Progress, increments_text
 
-# Seconds of one core for an increment of a contact at points (24 rings, 9 angles on a half circle:
-# 0.05 to 0.15), and how many increments there are where their limit is taken.
-SECONDS = {Circle.ONE: 0.01, Circle.HALF: 0.08, Circle.WHOLE: 0.8}
+# Seconds of one core for an increment of a contact at points, matrices with it: 64 rings; 24 rings
+# times 9 angles on a half circle; times 18 on the whole one. And how many increments there are
+# where their limit is taken.
+SECONDS = {Circle.ONE: 0.009, Circle.HALF: 0.06, Circle.WHOLE: 0.17}
 WITH_TWICE = 3
 
 
@@ -67,7 +68,7 @@ class OnRadii:
         if plan.circle:
             count = sum(plan.increments) if plan.circle is Circle.ONE else plan.turned
             seconds = SECONDS[plan.circle] * count * (WITH_TWICE if fineness.extrapolated else 1)
-            yield "time", f"about {seconds:.1g} s of one core, a third more for the errors"
+            yield "time", f"about {seconds:.2g} s of one core, a third more for the errors"
         yield "memory", f"about {estimated_bytes(scene, plan) / 2**20:.0f} MiB"
 
     def reasons(self, plan: Plan) -> Sequence[tuple[str, str, str]]:

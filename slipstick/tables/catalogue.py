@@ -189,7 +189,7 @@ TABLES: Mapping[str, Table] = {
             onset,
             "twice the change of a number by half as many rings and angles again, and "
             f"{OF_FIT:g} that the fit leaves of where the last stick goes",
-            seconds=70.0,
+            seconds=60.0,
         ),
     )
 }
