@@ -64,6 +64,8 @@ USUAL: Mapping[str, Usual] = {
 # Softer than rubber and larger than a ball: numbers of a scene without units, or in its own.
 _SOFTEST, _LARGEST = 1e6, 0.1
 _STEEP = 1.0  # heights that differ by more than their distance
+# Solids so stiff change their volume: rubber does not, gold (0.44) and lead are the last that do.
+_STIFF, _INCOMPRESSIBLE = 2e10, 0.46
 # Contact radii beyond which nothing shows of what is below a layer, and those that a layer has
 # where nothing shows of it; softer and stiffer ones by so much the less.
 _DEEP, _THIN = 20.0, 1e-4
@@ -85,7 +87,13 @@ def unlikely(scene: Scene, **fineness: BaseModel) -> tuple[str, ...]:
         return ()
     parts = [_numbers(scene, ()), *(_numbers(part, (name,)) for name, part in fineness.items())]
     unusual = chain.from_iterable(map(_unusual, parts))
-    return (*unusual, *_steep(scene), *_of_no_effect(scene, pressed), *_far(pressed))
+    return (
+        *unusual,
+        *_stiff_and_incompressible(scene),
+        *_steep(scene),
+        *_of_no_effect(scene, pressed),
+        *_far(pressed),
+    )
 
 
 def _unusual(numbers: Iterator[tuple[Path, float]]) -> Iterator[str]:
@@ -132,6 +140,21 @@ def _without_units(scene: Scene) -> bool:
     moduli = [value for path, value in known if path[-1] == "young_modulus"]
     radii = [value for path, value in known if {"radius", "radii"} & {*path}]
     return max(moduli) < _SOFTEST and min(radii, default=1.0) >= _LARGEST
+
+
+def _stiff_and_incompressible(scene: Scene) -> Iterator[str]:
+    for name, body in (("body", scene.body), ("indenter", scene.indenter)):
+        layers = ((f"{name}.layers[{n}]", layer) for n, layer in enumerate(body.layers, 1))
+        for place, one in ((name, body), *layers):
+            material = one.material
+            if not isinstance(material, IsotropicMaterial):
+                continue
+            E, nu = material.young_modulus, material.poisson_ratio
+            if E > _STIFF and nu > _INCOMPRESSIBLE:
+                yield (
+                    f"{place}.material.poisson_ratio: {nu:g} is above the usual {_INCOMPRESSIBLE:g} "
+                    f"of what is as stiff as {quantity(E, 'Pa')}"
+                )
 
 
 def _steep(scene: Scene) -> Iterator[str]:

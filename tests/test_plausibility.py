@@ -106,6 +106,8 @@ MISTAKES = {  # of a steel ball on a coated one: the contact radius is 0.19 mm
     "mm for um": ('body.layers[1].thickness="50 mm"', "hardly anything shows of what lies below"),
     "nm for um": ('body.layers[1].thickness="5 nm"', "hardly anything shows of it"),
     "a sign before a ratio": ("body.material.poisson_ratio=-0.3", "below the usual 0"),
+    "rubber's ratio of steel": ("body.material.poisson_ratio=0.5", "of what is as stiff as 210"),
+    "the same of a film": ("body.layers[1].material.poisson_ratio=0.49", "body.layers[1]"),
     "per cent": ("friction.coefficient=30", 'was "30 per cent" meant?'),
     "MN for kN": ('loading[1].normal_force="1 MN"', "strains of about"),
     "mm of shift": ('loading[2]={tangential_shift=["0.5 mm",0]}', "further than the contact"),
