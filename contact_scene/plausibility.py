@@ -144,16 +144,15 @@ def _without_units(scene: Scene) -> bool:
 
 def _stiff_and_incompressible(scene: Scene) -> Iterator[str]:
     for name, body in (("body", scene.body), ("indenter", scene.indenter)):
-        layers = ((f"{name}.layers[{n}]", layer) for n, layer in enumerate(body.layers, 1))
-        for place, one in ((name, body), *layers):
-            material = one.material
+        layers = ((f"{name}.layers[{n}]", film.material) for n, film in enumerate(body.layers, 1))
+        for place, material in ((name, body.material), *layers):
             if not isinstance(material, IsotropicMaterial):
                 continue
             E, nu = material.young_modulus, material.poisson_ratio
             if E > _STIFF and nu > _INCOMPRESSIBLE:
                 yield (
-                    f"{place}.material.poisson_ratio: {nu:g} is above the usual {_INCOMPRESSIBLE:g} "
-                    f"of what is as stiff as {quantity(E, 'Pa')}"
+                    f"{place}.material.poisson_ratio: {nu:g} is above the usual "
+                    f"{_INCOMPRESSIBLE:g} of what is as stiff as {quantity(E, 'Pa')}"
                 )
 
 
