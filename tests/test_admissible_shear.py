@@ -8,6 +8,7 @@ from hypothesis import strategies as st
 from semi_analytical.admissible_shear import (
     FixedShift,
     ShearSum,
+    _Shifted,
     magnitude,
     project,
     project_on_discs,
@@ -157,3 +158,17 @@ def test_without_friction_nothing_is_carried(target):
     q, _ = target.full_slip(nothing, np.zeros(2))
     np.testing.assert_array_equal(q, np.zeros((2, 5, 4)))
     assert not FixedShift(np.ones(2)).exhausts(nothing + 1)
+
+
+def test_a_multiplier_is_found_in_few_steps_however_large_beside_the_shear(rng, monkeypatch):
+    """What rounding leaves of it is no defect to go on about; nor is nothing at all."""
+    steps = []
+    newton_step = _Shifted.newton_step
+    monkeypatch.setattr(_Shifted, "newton_step", lambda s: steps.append(s) or newton_step(s))
+    bound, total = np.ones((7, 7)), np.array([1e-3, -2e-3])
+    y = 1e3 + 1e-3 * rng.standard_normal((2, 7, 7))
+    project(y, bound, total, np.zeros(2))
+    assert 1 <= len(steps) < 20
+    steps.clear()
+    project(0 * y, bound, 0 * total)
+    assert not steps

@@ -2,8 +2,9 @@
 
 import numpy as np
 import pytest
+from scipy.ndimage import binary_erosion
 
-from semi_analytical.contact_area import _coverage, covered_cells, stuck_cells
+from semi_analytical.contact_area import _coverage, _fit, covered_cells, stuck_cells
 
 # Semi-axes in cells, and how well the area is found: a small contact has few cells for the fits.
 ELLIPSES = {
@@ -136,3 +137,24 @@ def test_part_of_a_cell_is_that_of_the_line_alone(rng):
     f = np.array([-0.4998, -0.2, 0.0, 0.3, 0.4999])
     for slopes in ((np.ones(5), np.zeros(5)), (np.zeros(5), -np.ones(5))):
         np.testing.assert_allclose(_coverage(f, *slopes), 0.5 + f, rtol=1e-12)
+
+
+def test_a_fit_has_value_and_slope_of_a_quadratic_where_it_is_asked_for():
+    """Both slopes with their signs, in units of the largest value."""
+    x, y = np.indices((24, 24)) - 11.5
+    phi = 9 + 0.3 * x - 0.2 * y - 0.01 * x**2 + 0.02 * x * y - 0.03 * y**2
+    i, j = np.array([8, 12, 15]), np.array([11, 7, 14])
+    f, f_x, f_y, *_ = _fit(phi, np.ones((24, 24), dtype=bool), i, j) * np.max(phi)
+    at_x, at_y = i - 11.5, j - 11.5
+    np.testing.assert_allclose(f, phi[i, j], rtol=1e-6)
+    np.testing.assert_allclose(f_x, 0.3 - 0.02 * at_x + 0.02 * at_y, rtol=1e-6)
+    np.testing.assert_allclose(f_y, -0.2 + 0.02 * at_x - 0.06 * at_y, rtol=1e-6)
+
+
+def test_twelve_cells_well_inside_are_enough_for_a_fit():
+    """Of a small contact these are all that are surrounded by others."""
+    values = dome((3.1, 2.9), cells=12)
+    inside = values > 0
+    assert np.count_nonzero(binary_erosion(inside, np.ones((3, 3)))) == 12
+    assert covered_cells(values, inside) == pytest.approx(np.pi * 3.1 * 2.9, rel=0.02)
+    assert np.count_nonzero(inside) == 32

@@ -177,3 +177,32 @@ def test_a_descent_that_is_cut_short_tells_its_steps(monkeypatch: pytest.MonkeyP
     with pytest.raises(NotConverged) as caught:
         solve_box(program, np.zeros(5, np.int8))
     assert caught.value.iterations == 5
+
+
+def test_units_of_single_components_do_not_matter_to_the_descent(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """Of several that pull it releases by force over the root of their own stiffness, and takes as
+    many steps. Few directions are stiff, so that bounds are met that have to be left again."""
+    monkeypatch.setattr(box_program, "MOST_STEPS", 0)
+    free = np.zeros(12, np.int8)
+    for seed in range(30):
+        rng = np.random.default_rng(seed)
+        B = rng.normal(size=(12, 3))
+        A = B @ B.T + 0.1 * np.eye(12)
+        one = BoxProgram(A, A @ (2 * rng.normal(size=12)), -rng.random(12), rng.random(12))
+        s = 2.0 ** rng.integers(-3, 4, 12)
+        two = BoxProgram(A * np.outer(s, s), one.right * s, one.lower / s, one.upper / s)
+        found, other = solve_box(one, free), solve_box(two, free)
+        assert other.steps == found.steps
+        assert np.array_equal(other.values * s, found.values)
+
+
+@given(programs(total=True))
+def test_the_descent_starts_within_the_bounds_and_with_the_total(program: BoxProgram) -> None:
+    """From anywhere else it would not be downhill along faces of the box."""
+    start = box_program._feasible(program)
+    slack = 1e-12 * (1 + np.max(np.abs(start)))
+    assert np.all((start >= program.lower - slack) & (start <= program.upper + slack))
+    if program.total is not None:
+        assert program.total.weights @ start == pytest.approx(program.total.value, abs=ENOUGH)

@@ -155,3 +155,31 @@ def test_slip_within_stick_has_its_edge_where_nothing_is_missing_from_the_limit(
     assert whole == pytest.approx(pi * outer**2, rel=1e-2)
     area = stick_area(radii, bound, side * (bound - missing), sides, outer)
     assert whole - area == pytest.approx(pi * inner**2, rel=1e-2)
+
+
+@pytest.mark.parametrize("step", [1, -1])
+def test_three_rings_tell_an_advancing_front(step: int) -> None:
+    """What is further in does not move the edge; with two rings alone it would seem to stand."""
+    radii = 10 + np.arange(8.0)
+    values = np.maximum(4.5 - np.arange(8.0), 0) ** 1.5
+    if step < 0:
+        values = values[::-1].copy()
+
+    def edge_of_last(count: int) -> float:
+        first = 4 if step > 0 else 3
+        rings = slice(5 - count, None) if step > 0 else slice(0, first + count)
+        return edge_radius(radii[rings], values[rings], count - 1 if step > 0 else first, step)
+
+    assert edge_of_last(3) == edge_of_last(5)
+    assert step * edge_of_last(3) > step * edge_of_last(2) + 0.1
+
+
+@pytest.mark.parametrize("way", [1, -1])
+def test_slip_narrower_than_an_element_is_found_by_what_is_missing_from_the_limit(way: int) -> None:
+    """All rings stick, but stick ends before contact does."""
+    stick, contact = 150.3, 150.8
+    missing, bound = plane_contact(stick), plane_contact(contact)
+    radii = np.arange(len(bound)) + 1e6
+    nothing = np.zeros(len(bound), np.int8)
+    area = stick_area(radii, bound, way * (bound - missing), nothing, 1e6 + contact)
+    assert np.sqrt(area / pi) - 1e6 == pytest.approx(stick, abs=3e-3)

@@ -146,3 +146,12 @@ def test_swapping_the_bodies_turns_the_coupling_round(component):
     below = influence_coefficients(elastic, rigid, (1, 2), (6, 5))
     above = influence_coefficients(rigid, elastic, (1, 2), (6, 5))
     np.testing.assert_array_equal(getattr(above, component), -getattr(below, component))
+
+
+@pytest.mark.parametrize("component", POINT)
+@pytest.mark.parametrize("cell", CELLS.values(), ids=CELLS)
+def test_a_unit_of_length_costs_no_digit(component, cell):
+    """In one that differs by a power of two, all bits are the same: logarithms are of ratios."""
+    unit = 2.0**-20
+    one, other = coefficients(cell), coefficients((unit * cell[0], unit * cell[1]))
+    np.testing.assert_array_equal(getattr(other, component), unit * getattr(one, component))

@@ -303,3 +303,24 @@ def test_the_way_slipped_is_at_least_as_long_as_the_slip_and_never_falls() -> No
     assert all(np.all(after >= before) for before, after in pairwise(ways))
     assert np.all(ways[-1] >= magnitude(increments[-1].slip) * (1 - 1e-12))
     assert np.max(ways[-1]) > 1.5 * np.max(magnitude(increments[-1].slip))
+
+
+def test_energy_dissipated_per_area_never_falls_and_adds_up_to_all_of_it() -> None:
+    cell = grid(CELLS).cell_area
+    history = solved(PRESS, push(0.8, increments=2), push(-0.8, increments=2)).increments
+    for before, after in pairwise(history):
+        assert np.all(after.dissipation >= before.dissipation)
+        assert np.sum(after.dissipation) * cell == pytest.approx(after.dissipated_energy, rel=1e-12)
+    assert history[-1].dissipated_energy > 0
+
+
+@pytest.mark.parametrize("held", [{}, {"twist": 1e-9}], ids=["no twist", "twist held"])
+def test_a_slide_that_turns_slides_again_once_shear_has_turned_too(held: dict[str, float]) -> None:
+    """Meanwhile nothing sticks, and friction does less than it could along the new way."""
+    turns = slide(100.5, 0.5), slide(100.5, 100)
+    steps = solved(PRESS, *({**way, **held} for way in (slide(100), *turns))).steps
+    assert [step.status for step in steps[1:]] == [
+        ContactStatus.GROSS_SLIDING,
+        ContactStatus.NO_STICK_AREA_LEFT,
+        ContactStatus.GROSS_SLIDING,
+    ]

@@ -14,24 +14,36 @@ from verification.studies.mutants.runs import HEALTHY, KERNELS, MutantRun, drawn
 EACH = {Level.QUICK: 2, Level.STANDARD: 24, Level.FULL: 24}
 PROMISED, ENOUGH = 0.9, 150
 NOT_SAID = "nothing sees it"
-RIDGE = "1e-09 * np.eye(6) * (np.trace(normal, axis1=1, axis2=2)[:, None, None] + 1e-30)"
+TRACE = "np.trace(normal, axis1=1, axis2=2)[:, None, None] + 1e-30"
+RIDGE = f"1e-09 * np.eye(6) * ({TRACE})"
+SUMMED = "np.sum(y, axis=(1, 2), where=open_cells)"
 # Of those that nothing can see: kernel, what stood there and what was made of it, and why.
 EQUAL = {
     ("surface", "(1 - 2 * nu) * one", "(1 - 2 * nu) / one"): "one is an array of ones",
+    ("surface", "(3 - 4 * nu) * one", "(3 - 4 * nu) / one"): "one is an array of ones",
     ("contact_area", "s * t", "s / t"): "s and t are 1 or -1",
     ("contact_area", "along[0] - along[1]", "along[0] + along[1]"):
         "they differ where both are positive, and there the part is cut off at one",
     ("contact_area", "LENGTH ** 2", "LENGTH * 2"): "another width of the weights of the fit",
     ("contact_area", RIDGE, RIDGE.replace("eye(6) *", "eye(6) /")):
         "another ridge far below what the cells decide",
+    ("contact_area", TRACE, TRACE.replace("+ 1e-30", "- 1e-30")):
+        "below the last digit of a trace, and without any cell to fit the fit is zero",
+    ("stick_slip", "residuals.worst <= tolerance", "residuals.worst < tolerance"):
+        "they differ where both are equal to the last bit: one attempt more",
+    ("stick_slip", "work >= power * (1 - SLIDING)", "work > power * (1 - SLIDING)"):
+        "they differ where both are equal to the last bit, as at rest, and what rests sticks",
     ("admissible_shear", "-excess", "--excess"): "where the search for the only multiplier begins",
+    ("admissible_shear", f"{SUMMED} - total", f"{SUMMED} + total"):
+        "where the search for the only multiplier begins",
     ("admissible_shear", "length > bound", "length >= bound"): "on the bound the factor is one",
     ("box_program", "MOST_STEPS + 1", "MOST_STEPS - 1"):
         "two steps fewer before the other method, which finds the same",
-    ("box_program", "sides < 0", "sides <= 0"): "the gradient of free components is zero",
+    ("box_program", "sides < 0", "sides <= 0"):
+        "free components are solved for, and their gradient is zero",
     ("box_program", "sides > 0", "sides >= 0"): "the gradient of free components is zero",
-    ("box_program", "1 / np.sqrt(np.diag(program.matrix))", "1 * np.sqrt(np.diag(program.matrix))"):
-        "which component is released first, not where it ends",
+    ("box_program", "-1", "--1"): "the bounds of what is fixed are equal: it is at either",
+    ("box_program", "step < 0", "step <= 0"): "no bound is asked of what makes no step",
 }  # fmt: skip
 
 
