@@ -31,13 +31,7 @@ class Correct(Protocol):
     """See `edge_correction.state.EdgeCorrection`."""
 
     def __call__(
-        self,
-        last: State | None,
-        state: State,
-        *,
-        way_known: bool,
-        on_the_way: bool,
-        tolerance: float,
+        self, last: State | None, state: State, *, way_known: bool, tolerance: float
     ) -> Corrected | None: ...
 
 
@@ -127,7 +121,6 @@ class _Solver:
             last,
             after,
             way_known=last is before or not matters,
-            on_the_way=fraction < 1,
             tolerance=self.tolerance,
         )
         return replace(after, corrected=edges)

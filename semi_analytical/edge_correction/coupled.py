@@ -48,8 +48,6 @@ WithinVector = tuple[Within, Within]
 
 # Of pressure and shear in a round, Σ|Δp|/Σp and Σ|Δq|/Σµp: what follows is a fifth of it.
 SETTLED = 1e-5
-# On the way to the end of a step: what follows is a fifth of it, a fiftieth of what is wanted of p.
-SETTLED_ON_THE_WAY = 2e-5
 # Of the largest pressure, below which a cell does not tell the ratio of shear to pressure.
 TOLD = 0.02
 # Of cells outwards from there that have the ratio of those beside: more than a rim has.
@@ -65,20 +63,13 @@ class CoupledEdgeCorrection:
         self._operators = EdgeOperators(model)
 
     def __call__(
-        self,
-        last: State | None,
-        state: State,
-        *,
-        way_known: bool,
-        on_the_way: bool,
-        tolerance: float,
+        self, last: State | None, state: State, *, way_known: bool, tolerance: float
     ) -> Corrected | None:
         """The state with its edges inside the cells; None where that is not safe: the contact is
         too thin, its edge is rough, all slides, or the rounds do not settle.
 
-        last        the state before, the corrected one where there is one; None before first touch
-        way_known   whether it is that of the increment before: friction remembers the way
-        on_the_way  to the end of a step, where fewer rounds do
+        last       the state before, the corrected one where there is one; None before first touch
+        way_known  whether it is that of the increment before: friction remembers the way
         """
         solved = state.sheared
         assert solved is not None
@@ -92,8 +83,7 @@ class CoupledEdgeCorrection:
             before = edged or last.sheared
             assert before.shift is not None
             target = before.displacement - rigid(model, before.shift)
-        problem = _Problem(self._operators, state, solved, solved.shift, target, tolerance)
-        return problem.corrected(SETTLED_ON_THE_WAY if on_the_way else SETTLED)
+        return _Problem(self._operators, state, solved, solved.shift, target, tolerance).corrected()
 
 
 class _Answer(NamedTuple):
@@ -145,11 +135,8 @@ class _Problem:
         beta = outermost_beta(self.model.scene)
         return np.asarray(0.5 + np.arctan(beta * np.sum(ratio * outward, axis=0)) / np.pi)
 
-    def corrected(self, settled: float) -> Corrected | None:
-        """The state of the last round; None where it is not safe.
-
-        settled  change in a round, Σ|Δp|/Σp and Σ|Δq|/Σµp, after which none follows
-        """
+    def corrected(self) -> Corrected | None:
+        """The state of the last round; None where it is not safe."""
         p, shift, mixing = self.state.pressing.pressure, self.shift, Mixing()
         x = np.concatenate([self.solved.shear / self.mu, p[None]])
         edge, changes = self._rim(p, None), []
@@ -164,7 +151,7 @@ class _Problem:
             change = answer.tractions - x
             sizes = np.sum(np.abs(change[2])), np.sum(magnitude(change[:2]))
             changes.append(float(max(sizes) / np.sum(x[2])))
-            if changes[-1] < settled or number == MOST_ROUNDS - 1:
+            if changes[-1] < SETTLED or number == MOST_ROUNDS - 1:
                 break
             x = _allowed(x + change if number == 0 else mixing.next(x, change))
             edge = self._rim(x[2], edge)

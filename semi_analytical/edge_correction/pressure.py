@@ -33,8 +33,6 @@ Field = NDArray[np.float64]
 MOST_ROUNDS = 8
 # Of the pressure in a round, Σ|Δp|/Σp: below what is left of the error of a radius at 256 cells.
 SETTLED = 1e-6
-# On the way to the end of a step: what follows is a fifth of it, a fiftieth of what cells leave.
-SETTLED_ON_THE_WAY = 1e-5
 # Part of its residual that the solve of a round leaves.
 ENOUGH = 0.1
 # To be accepted: the change that the rounds leave, and its part of the first; the part of the edge
@@ -44,17 +42,10 @@ MOST_UNSAFE = 0.03
 
 
 def edge_pressure(
-    operators: EdgeOperators,
-    target: NormalTarget,
-    pressure: Field,
-    tolerance: float,
-    settled: float = SETTLED,
+    operators: EdgeOperators, target: NormalTarget, pressure: Field, tolerance: float
 ) -> Corrected | None:
     """A solved pressure (nx, ny) with its edge inside the cells; None where that is not safe: the
-    contact is too thin, its edge is rough, or the rounds do not settle.
-
-    settled  change of the pressure in a round, Σ|Δp|/Σp, after which none follows
-    """
+    contact is too thin, its edge is rough, or the rounds do not settle."""
     problem = _Problem(operators, target, tolerance)
     edge, p, mixing, changes = rim(pressure, pressure > 0), pressure, Mixing(), []
     for number in range(MOST_ROUNDS):
@@ -66,7 +57,7 @@ def edge_pressure(
             return None
         change = answer - p
         changes.append(float(np.sum(np.abs(change)) / np.sum(p)))
-        if changes[-1] < settled:
+        if changes[-1] < SETTLED:
             break
         p = answer if number == 0 else np.maximum(mixing.next(p, change), 0.0)
         edge = rim(p, p > 0, edge)

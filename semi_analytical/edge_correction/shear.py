@@ -26,6 +26,7 @@ from semi_analytical.edge_correction.pressure import (
     ENOUGH,
     MOST_ROUNDS,
     MOST_UNSAFE,
+    SETTLED,
     settles,
 )
 from semi_analytical.sheared import Sheared
@@ -107,7 +108,6 @@ class ShearProblem:
     target   u_t - shift of the state before (2, nx, ny) [length]
     before   its shear (2, nx, ny), and what that is within the cells
     turned   direction of its slip (2, nx, ny) where it is turned round; None where it goes on
-    settled  change in a round, Σ|Δq|/Σµp, after which none follows
     """
 
     operators: EdgeOperators
@@ -119,7 +119,6 @@ class ShearProblem:
     before: tuple[VectorField, WithinVector]
     turned: VectorField | None
     tolerance: float
-    settled: float
 
     def full(self, bound: Field, slip: VectorField, before: VectorField) -> VectorField:
         """The shear if all slipped; turned round, if all did that slipped before."""
@@ -227,7 +226,7 @@ def edge_shear(
         change = answer - q
         changes.append(float(np.sum(magnitude(change)) / np.sum(problem.bound)))
         edge, stick = missing.edge, (problem.bound > 0) & ~solution.in_slip
-        if changes[-1] < problem.settled or number == MOST_ROUNDS - 1:
+        if changes[-1] < SETTLED or number == MOST_ROUNDS - 1:
             break
         q = answer if number == 0 else mixing.next(q, change)
         next_missing = problem.missing(

@@ -9,11 +9,7 @@ import numpy as np
 from semi_analytical.edge.corrected import Corrected, CorrectedShear
 from semi_analytical.edge.displacement import Within
 from semi_analytical.edge_correction.operators import EdgeOperators
-from semi_analytical.edge_correction.pressure import (
-    SETTLED,
-    SETTLED_ON_THE_WAY,
-    edge_pressure,
-)
+from semi_analytical.edge_correction.pressure import edge_pressure
 from semi_analytical.edge_correction.shear import ShearProblem, edge_shear, sliding_shear
 from semi_analytical.increment import State
 from semi_analytical.model import ContactModel
@@ -27,43 +23,33 @@ class EdgeCorrection:
         self._operators = EdgeOperators(model)
 
     def __call__(
-        self,
-        last: State | None,
-        state: State,
-        *,
-        way_known: bool,
-        on_the_way: bool,
-        tolerance: float,
+        self, last: State | None, state: State, *, way_known: bool, tolerance: float
     ) -> Corrected | None:
         """The state with its edges inside the cells; None where that is not safe.
 
-        last        a state before, the corrected one where there is one; None before first touch
-        way_known   whether what surfaces remember of the way from there is told by its ends
-        on_the_way  to the end of a step, where fewer rounds do
+        last       a state before, the corrected one where there is one; None before first touch
+        way_known  whether what surfaces remember of the way from there is told by its ends
         """
-        settled = SETTLED_ON_THE_WAY if on_the_way else SETTLED
         sheared = state.sheared
         if sheared is None:
-            return self._pressed(last, state, tolerance, settled)
+            return self._pressed(last, state, tolerance)
         free = not np.any(sheared.shear) or not np.any(sheared.in_stick)
         before = last if way_known else None
         if not free and not _leads_to(before, state, sheared):
             return None
-        pressed = self._pressed(last, state, tolerance, settled)
+        pressed = self._pressed(last, state, tolerance)
         if pressed is None:
             return None
-        shear = self._sheared(before, state, sheared, pressed, tolerance, settled)
+        shear = self._sheared(before, state, sheared, pressed, tolerance)
         return None if shear is None else replace(pressed, sheared=shear)
 
-    def _pressed(
-        self, last: State | None, state: State, tolerance: float, settled: float
-    ) -> Corrected | None:
+    def _pressed(self, last: State | None, state: State, tolerance: float) -> Corrected | None:
         """The pressure; of one that has not changed it is known."""
         p, target = state.pressing.pressure, state.target
         known = last.corrected if last and last.target == target else None
         if known and last and np.array_equal(last.pressing.pressure, p):
             return known
-        return edge_pressure(self._operators, target, p, tolerance, settled)
+        return edge_pressure(self._operators, target, p, tolerance)
 
     def _sheared(
         self,
@@ -72,7 +58,6 @@ class EdgeCorrection:
         solved: Sheared,
         pressed: Corrected,
         tolerance: float,
-        settled: float,
     ) -> CorrectedShear | None:
         """The shear at a corrected pressure."""
         model, contact = self._operators.model, pressed.edge
@@ -115,7 +100,6 @@ class EdgeCorrection:
             before=(last.shear, last.within),
             turned=last.slip if turned else None,
             tolerance=tolerance,
-            settled=settled,
         )
         return edge_shear(problem, solved, before.sheared.shear)
 
