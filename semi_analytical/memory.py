@@ -19,11 +19,13 @@ TORSION_ARRAYS = 6
 # Spectra of the coupling, and the Krylov vectors of a Newton step with their displacements.
 COUPLING_ARRAYS = {Coupling.NONE: 0, Coupling.ONE_WAY: 33, Coupling.FULL: 42}
 # Spectra of what tractions do within the cells, and that along the edge, in about as many cells as
-# a side has.
-EDGE_ARRAYS = 19
-EDGE_SHEAR_ARRAYS = 22
-EDGE_RIM = 75_000  # bytes per cell of the longer side
-EDGE_SHEAR_RIM = 185_000
+# a side has; more of it where loads turn, whose edges stay inside the cells.
+EDGE_ARRAYS = 25
+EDGE_SHEAR, EDGE_SHEAR_ARRAYS = 31 << 20, 46
+EDGE_RIM = 41_000  # bytes per cell of the longer side
+EDGE_SHEAR_RIM = 86_000
+EDGE_TURNED_RIM = 150_000
+PUSHED_ONCE = 2  # steps: pressed, then pushed
 # Arrays that every increment leaves behind: pressure and gap; shear, slip, its distance and
 # dissipation, and masks.
 PRESSURE_RESULT = 2
@@ -47,7 +49,9 @@ def estimated_bytes(grid: SurfaceGrid, plan: Plan) -> int:
     rim = 0
     if plan.edge != "off":
         work += EDGE_ARRAYS + (EDGE_SHEAR_ARRAYS if plan.shear else 0)
-        rim = (EDGE_RIM + (EDGE_SHEAR_RIM if plan.shear else 0)) * max(grid.cells)
+        along = EDGE_RIM + (EDGE_SHEAR_RIM if plan.shear else 0)
+        along += EDGE_TURNED_RIM if plan.shear and len(plan.path) > PUSHED_ONCE else 0
+        rim = along * max(grid.cells) + (EDGE_SHEAR if plan.shear else 0)
     work += HISTORY_ARRAYS if increments > 1 else 0
     kept = PRESSURE_RESULT + (SHEAR_RESULT if plan.shear else 0)
     held = min(cells * DOUBLE * kept * increments, MOST_HELD) + LIGHT * increments
