@@ -70,7 +70,8 @@ def test_memory_grows_with_cells_increments_and_shear(monkeypatch):
     sizes = [memory.estimated_bytes(grid(64), p) for p in (small, sheared, long)]
     assert sizes == sorted(sizes)
     large, larger = (memory.estimated_bytes(grid(cells), sheared) for cells in (1024, 2048))
-    fixed = memory.estimated_bytes(grid(16), sheared) - memory.STRESS
+    drawn = memory.DRAWING + memory.DRAWING_SHEAR
+    fixed = memory.estimated_bytes(grid(16), sheared) - drawn
     assert larger - fixed == pytest.approx(4 * (large - fixed), rel=0.2)
     monkeypatch.setattr(memory, "available_bytes", lambda: sizes[1])
     memory.refuse_if_too_large(grid(64), sheared)
