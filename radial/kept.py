@@ -34,6 +34,7 @@ def kept_within(most: int) -> Callable[[Callable[P, R]], Callable[P, R]]:
             found[key] = value
             return value
 
+        remembered.cache_clear = found.clear  # type: ignore[attr-defined]  # as functools has it
         return remembered
 
     return of

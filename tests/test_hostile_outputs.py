@@ -11,16 +11,11 @@ from pathlib import Path
 
 import pytest
 from command import outcome
+from scene_texts import STEEL_ON_STEEL
 
 pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="limits and queues of Linux")
 
-SCENE = """
-[indenter]
-shape = "sphere"
-radius = "10 mm"
-material = { young_modulus = "210 GPa", poisson_ratio = 0.3 }
-[body]
-material = { young_modulus = "210 GPa", poisson_ratio = 0.3 }
+SCENE = f"""{STEEL_ON_STEEL}
 [[loading]]
 normal_force = 100
 [semi_analytical]

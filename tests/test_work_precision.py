@@ -15,6 +15,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from radial.wavenumbers import _even_transforms, waves
 from semi_analytical.frf.stack import Stack, stack_of
 from semi_analytical.influence.layered import LayeredCoefficients
 from verification.cell_means import cell_means
@@ -336,6 +337,16 @@ def test_a_measurement_starts_from_an_empty_cache(monkeypatch: pytest.MonkeyPatc
         assert list(place.iterdir()) == []
     assert os.environ[CACHE] == "/somewhere/else"
     assert not place.exists()
+
+
+def test_a_measurement_finds_nothing_in_memory() -> None:
+    """What contacts have in common is made again, with its functions called."""
+    asked = waves(0.01, 1.0, 1.0)
+    with cold_cache():
+        first = _even_transforms(asked, 2)
+        assert _even_transforms(asked, 2) is first
+    with cold_cache():
+        assert _even_transforms(asked, 2) is not first
 
 
 def test_sampled_coefficients_tend_to_the_exact_ones() -> None:

@@ -67,12 +67,14 @@ PROMISES = {
         ),
         Promise(
             "turned", f"no direction is another than the others, within {revolution.WITHIN:g}",
-            "contacts of revolution pushed along drawn lines, by finite elements and on radii",
+            "contacts of revolution pushed along drawn lines, by finite elements at a tolerance of "
+            "1e-10 and on radii",
             (6, 60), revolution.turned, "of what is allowed",
         ),
         Promise(
             "units", f"units change no answer by more than {revolution.WITHIN:g}",
-            "lengths and moduli times 1e-6 to 1e6, by finite elements and on radii",
+            "lengths and moduli times 1e-6 to 1e6, by finite elements at a tolerance of 1e-10 and "
+            "on radii",
             (6, 60), revolution.scaled, "of what is allowed",
         ),
         Promise(
