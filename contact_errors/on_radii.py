@@ -74,7 +74,7 @@ def stated_errors(
                 name: EXACT
                 if name in prescribed(ramp)
                 else UNKNOWN
-                if changed is None or name not in finite
+                if changed is None or name not in finite or name not in changed
                 else _stated(
                     name,
                     part,
@@ -165,7 +165,11 @@ def _changes(
 def _together(rings: Sequence[Values], path: Sequence[Values]) -> Sequence[Values]:
     """By rings and by increments, times what they are worth."""
     return [
-        {name: BY_RINGS * by_rings[name] + BY_PATH * by_path[name] for name in by_rings}
+        {
+            name: BY_RINGS * by_rings[name] + BY_PATH * by_path[name]
+            for name in by_rings
+            if name in by_path
+        }
         for by_rings, by_path in zip(rings, path, strict=True)
     ]
 

@@ -90,13 +90,17 @@ class State:
     ] = None
     stick_area: Annotated[
         float | None,
-        Reported("m^2", "Area that sticks, with sub-cell accuracy; null without friction."),
+        Reported(
+            "m^2",
+            "Area that sticks, with sub-cell accuracy; null without friction, or of a contact too "
+            "small for rings to tell it.",
+        ),
     ] = None
     stick_radius: Annotated[
         float | None,
         Reported(
             "m",
-            "Radius of the circle of the stick area, sqrt(area / pi); null without friction.",
+            "Radius of the circle of the stick area, sqrt(area / pi); null as the area is.",
             key=True,
         ),
     ] = None

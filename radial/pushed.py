@@ -27,10 +27,12 @@ class Pushed:
     held    tractions and motion
     circle  what of it tells all
     asked   loads as they were prescribed
-    radius  of the circle of the contact area [length]
+    radius  of the circle of the contact area; of a contact of so few rings that they do not tell
+            it, that without friction [length]
     begun   the same at the start of the increment [length]
-    through  of the circle of what sticks through the increment [length]
-    stuck   of the circle of the stick area at its end [length]
+    through  of the circle of what sticks through the increment; None where rings do not tell it
+             [length]
+    stuck   of the circle of the stick area at its end; None where rings do not tell it [length]
     slip    since particles touched (2, points) [length]
     carried  forces that the tractions carry
     worked  work of the loads since the start of the history [force length]
@@ -43,8 +45,8 @@ class Pushed:
     asked: Loads
     radius: float
     begun: float
-    through: float
-    stuck: float
+    through: float | None
+    stuck: float | None
     slip: Array
     carried: Array
     worked: float
@@ -63,11 +65,11 @@ class Pushed:
 
     @property
     def status(self) -> ContactStatus:
-        """Whether all, some or nothing sticks."""
+        """Whether all, some or nothing sticks; where rings do not tell it, none says nothing."""
         share = self.held.share[np.isfinite(self.held.share)]
         if np.all(share <= 1):
             return ContactStatus.FULL_STICK
-        if np.any(share <= 1) or self.stuck > 0:
+        if np.any(share <= 1) or self.stuck is None or self.stuck > 0:
             return ContactStatus.PARTIAL_SLIP
         slides = any(motion is not None for motion in self.asked.motions[:DOWN])
         return ContactStatus.GROSS_SLIDING if slides else ContactStatus.NO_STICK_AREA_LEFT
@@ -81,15 +83,16 @@ def _either(asked: tuple[float | None, ...], found: Array) -> tuple[float, ...]:
 
 def pushed(
     points: Points, friction: float, end: Held, last: Held | None, slip: Array, asked: Loads,
-    before: Pushed | None,
+    before: Pushed | None, smooth: float | None,
 ) -> Pushed:  # fmt: skip
     """What an increment leaves.
 
     last, slip  tractions and motion at its start, and slip until then, at the points
     before      the contact at its start
+    smooth      radius without friction, where rings do not tell that of the contact [length]
     """
     areas, nothing = points.areas, np.zeros(len(points.areas))
-    radius = sqrt(points.contact_area(end.pressure) / pi)
+    radius = sqrt(points.contact_area(end.pressure) / pi) if smooth is None else smooth
     begun = before.radius if before else 0.0
     passed = -end.slipped.reshape(2, -1) / areas * _touched(points, end, begun, radius)
     start = last.shear if last else np.zeros((2, len(nothing)))
@@ -98,12 +101,14 @@ def pushed(
     carried, motion = end.forces(points), last.motion if last else np.zeros(4)
     both = carried + (before.carried if before else 0.0)
     distance = np.hypot(*end.slipped.reshape(2, -1)) / areas
-    through = sqrt(min(points.stick_area(end.share, distance) / pi, radius**2))
+    through = None
+    if smooth is None:
+        through = sqrt(min(points.stick_area(end.share, distance) / pi, radius**2))
     turned = points.circle is not Circle.ONE or end.motion[ABOUT] != motion[ABOUT]
     open_ = np.hypot(*(end.shear - start)) * np.hypot(*passed)
     return Pushed(
         end, points.circle, asked, radius, begun, through,
-        through if turned else _front(radius, begun, through, before),
+        through if turned or through is None else _front(radius, begun, through, before),
         slip - passed, carried,
         (before.worked if before else 0.0) + 0.5 * float(both @ (end.motion - motion)),
         (before.lost if before else 0.0) + float(np.sum(rubbing * passed, axis=0) @ areas),
@@ -126,7 +131,7 @@ def _front(radius: float, begun: float, through: float, before: Pushed | None) -
     """Stick radius at the end of an increment of pressing: what sticks through it is the disc half
     way, so that half an increment more is on the line through this one and the one before, unless
     the load has turned between them [length]."""
-    if before is None:
+    if before is None or before.through is None:
         return through
     half, last = 0.5 * (radius - begun), 0.5 * (begun - before.begun)
     if half * last <= 0:

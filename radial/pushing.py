@@ -12,6 +12,7 @@ from contact_scene.march import Reached
 from contact_scene.pair import coupling
 from contact_scene.solver_errors import NotConverged, UnsupportedScene
 from contact_scene.summary import ContactStatus
+from radial.bodies import Bodies
 from radial.circle import Circle
 from radial.coupling import Coupling
 from radial.fields import Increment
@@ -153,6 +154,7 @@ class Pushing:
         beside = (*loads.forces[:ABOUT], *loads.motions[:ABOUT])
         turned = any(beside) or (before is not None and before.circle is not Circle.ONE)
         points = self.points if turned else self.points.round
+        self._refuse_within_first(points, loads.motions[DOWN])
         last = before.held if before else None
         slip = before.slip if before else np.zeros((2, len(points.areas)))
         if last is not None and before is not None and before.circle is not points.circle:
@@ -163,7 +165,23 @@ class Pushing:
             self.taken.append(error.iterations)
             raise
         self.taken.append(end.steps)
-        return pushed(points, self.friction, end, last, slip, loads, before)
+        smooth = None if points.tells(end.pressure) else self._smooth_radius(loads)
+        return pushed(points, self.friction, end, last, slip, loads, before, smooth)
+
+    def _smooth_radius(self, loads: Loads) -> float:
+        """Without friction [length]."""
+        target = Target(loads.forces[DOWN], loads.motions[DOWN])
+        return pressed(Bodies.of(self.scene), self.scene.indenter, target).contact.radius
+
+    def _refuse_within_first(self, points: Points, approach: float | None) -> None:
+        """Raises UnsupportedScene for an approach at which no ring touches in the mean."""
+        depth = float(np.min(points.bare / points.areas))
+        if approach is not None and approach <= depth:
+            raise UnsupportedScene(
+                f"at an approach of {approach:.3g} m the contact is within the first of the "
+                "rings, laid out for the largest contact, of which none touches below "
+                f"{depth:.3g} m; take fewer increments, or prescribe the normal force"
+            )
 
     def report(self, reached: Reached[Pushed], last: Increment | None) -> Increment:
         """The contact on rings and angles; raises NotConverged above the tolerance."""

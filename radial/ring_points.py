@@ -17,6 +17,7 @@ Array = NDArray[np.float64]
 FINER, AROUND = 16, 180  # places per element and half circle, where a front is looked for
 # Nodes that tell an edge: so far from the last one with pressure, over its radius, and how many.
 BESIDE_EDGE, FITTED = 0.15, 4
+FEWEST = 2  # rings of a contact whose edge they tell
 # How far beyond a front the largest slip is, where no shear is 1 within: of 0.3, 0.5, 0.7 and 1
 # what brings Cattaneo's circle and a coated contact on cells nearest.
 BY_SLIP = 0.5
@@ -149,6 +150,10 @@ class Points:
     def every_angle(self, field: Array) -> Array:
         """Of the points, from one (…, n) of `round`; what is times the area still is so."""
         return np.repeat(field, self.count, axis=-1)
+
+    def tells(self, pressure: Array) -> bool:
+        """Whether the contact is so many rings large that they tell its edge and what sticks."""
+        return bool(np.any(pressure[FEWEST * self.count :] > 0))
 
     def contact_area(self, pressure: Array) -> float:
         """Within the edge at which p² would end [length²]: linear in r² between the last two nodes,

@@ -13,7 +13,8 @@ from kept_standing import KeptStanding
 from numpy.testing import assert_allclose
 
 import radial
-from contact_errors.on_radii import stated_errors
+from contact_errors.on_radii import _together, stated_errors
+from contact_errors.values import values_of
 from contact_results.surface import surface_of
 from contact_scene import (
     RIGID,
@@ -291,6 +292,39 @@ def test_pressed_and_pushed_at_once_from_first_touch() -> None:
     assert end.approach == pytest.approx(RADIUS**2, rel=1e-5)  # half the rings
 
 
+# ---- contacts of few rings --------------------------------------------------------------------
+
+CONE = Cone(slope_angle=math.radians(1), material=RIGID)
+SIDEWAYS = LoadStep(tangential_shift=(1e-6, 0.0), increments=1)
+
+
+def test_a_contact_below_two_rings_has_the_radius_without_friction_and_no_known_stick() -> None:
+    """A cone's goes with its approach, a = 2 δ/(π tan α): here from .4 of a ring on."""
+    steps = LoadStep(approach=1e-4, increments=30), SIDEWAYS
+    ends = rough(scene(*steps, indenter=CONE)).increments
+    few = [end for end in ends if end.stick_radius is None]
+    assert [end.index for end in few] == [1, 2, 3, 4, 5]
+    for end in few:
+        radius = 2 * end.approach / (math.pi * math.tan(CONE.slope_angle))
+        assert end.contact_radius == pytest.approx(radius, rel=1e-9)
+        assert end.status is ContactStatus.PARTIAL_SLIP
+
+
+def test_of_a_number_that_a_companion_does_not_have_no_error_is_known() -> None:
+    result = rough(scene(PRESS, push(0.6, 1)))
+    steps = [values_of(result, ())[0], values_of(result, ())[1]]
+    coarse = [steps[0], {name: v for name, v in steps[1].items() if name != "stick_radius"}]
+    for by in (_together(steps, coarse), _together(coarse, steps)):
+        assert by[0].keys() == steps[0].keys()
+        assert steps[1].keys() - by[1].keys() == {"stick_radius"}
+
+
+def test_an_approach_at_which_no_ring_touches_is_refused_by_name() -> None:
+    asked = scene(LoadStep(approach=1e-4, increments=700), SIDEWAYS)
+    with pytest.raises(UnsupportedScene, match=r"within the first of the rings.*fewer increments"):
+        rough(asked)
+
+
 # ---- a solve that goes on ---------------------------------------------------------------------
 
 
@@ -357,8 +391,7 @@ def test_an_increment_that_does_not_converge_is_cut_few_times(monkeypatch: Any) 
 def test_a_cone_on_a_coating_is_pushed() -> None:
     film = IsotropicMaterial(young_modulus=3.0, poisson_ratio=0.3)
     body = Body(material=SOFT, layers=(Layer(thickness=RADIUS, material=film),))
-    cone = Cone(slope_angle=math.radians(1), material=RIGID)
-    end = rough(scene(PRESS, push(0.5), body=body, indenter=cone)).steps[1]
+    end = rough(scene(PRESS, push(0.5), body=body, indenter=CONE)).steps[1]
     assert end.residuals.worst < 1e-10
     assert end.tangential_shift is not None
     assert end.tangential_shift[0] > 0
