@@ -24,7 +24,9 @@ MOST_ITERATIONS_PER_STEP = 200
 # In one solve; the pressures of plate-like films on 48 x 48 cells were found within 8 000.
 MOST_ITERATIONS = 20_000
 MOST_HALVINGS = 5
-# Part of the residual that solves leave while cells still let go: their answers are not kept.
+# Part of the residual that solves leave while cells still come and go, and while they still let go:
+# those answers are not kept.
+MOVING = 0.3
 ROUGHLY = 0.5
 # Part of what the slope promises by which the energy must fall.
 LEAST_FALL = 0.1
@@ -89,7 +91,7 @@ def solve_normal(
     problem = _Problem(displace, precondition, h, allowed, load)
     p = load.admissible(np.where(allowed, start, 0.0))
     u = displace(p)
-    iterations, first = 0, np.inf
+    iterations, first, last = 0, np.inf, None
     for number in range(MOST_STEPS):
         motion = load.motion(p, u + h)
         closure = load.closure(motion)
@@ -101,9 +103,11 @@ def solve_normal(
             return NormalSolution(p, u, motion, iterations, first)
         if iterations > MOST_ITERATIONS:
             break
-        # Deep enough to reach the tolerance if the contact set is right, shallow while it is not.
-        depth = max(0.05, 0.3 * aim / residual)
         contact = allowed & ((p > 0) | (g < 0))
+        # Deep enough to reach the tolerance once the contact set is right, shallow while it moves.
+        settled = last is not None and np.array_equal(contact, last)
+        depth = max(0.0 if settled else MOVING, 0.3 * aim / residual)
+        last = contact
         newton, newton_u, spent = _solve_on(contact, problem, p, u, closure, depth)
         iterations += spent
         p, u, spent = _step_toward(newton, newton_u, problem, p, u, g, closure)
@@ -119,12 +123,11 @@ def _solve_on(
     Conjugate gradients until the residual norm has fallen by the factor `depth`.
     """
     inside = contact.astype(np.float64)
+    projected = problem.load.projection(inside)
     p, u = p * inside, u.copy()
-    constrained = problem.load.constraint(inside, problem.precondition)
-    r = inside * (closure - problem.h - u)
-    r, z = constrained(r, inside * problem.precondition(r))
+    r = projected(closure - problem.h - u)
+    t = z = projected(problem.precondition(r))
     rz = first = np.sum(r * z)
-    t = z
     iterations = 0
     while rz > depth**2 * first and iterations < MOST_ITERATIONS_PER_STEP:
         iterations += 1
@@ -132,8 +135,8 @@ def _solve_on(
         step = rz / np.sum(t * A_t)
         p += step * t
         u += step * A_t
-        r = r - step * inside * A_t
-        r, z = constrained(r, inside * problem.precondition(r))
+        r = r - step * projected(A_t)
+        z = projected(problem.precondition(r))
         rz, last = np.sum(r * z), rz
         t = z + (rz / last) * t
     return p, u, iterations

@@ -19,9 +19,9 @@ Vector = NDArray[np.float64]
 Map = Callable[[Field], Field]
 
 Motion = float | Vector
-# Takes residuals of the gap and their images under the preconditioner, and returns both without the
-# part that belongs to a rigid motion whose force is given.
-Constraint = Callable[[Field, Field], tuple[Field, Field]]
+# Takes a field and returns what of it is in contact, without its part along rigid motions whose
+# force is given: orthogonal, so that the preconditioner between two of it stays symmetric.
+Projection = Callable[[Field], Field]
 
 
 class NormalLoad(Protocol):
@@ -43,8 +43,8 @@ class NormalLoad(Protocol):
     def admissible(self, p: Field) -> Field:
         """A pressure without tension that carries the load, near the one given."""
 
-    def constraint(self, inside: Field, precondition: Map) -> Constraint:
-        """Keeps given forces as they are while the pressure changes; `inside` is 1 in contact."""
+    def projection(self, inside: Field) -> Projection:
+        """To changes of the pressure that keep given forces; `inside` is 1 in contact, else 0."""
 
     def less(self, carried: Field) -> NormalLoad:
         """The load without pressures (nx, ny) that cells beside its own carry."""
@@ -80,16 +80,16 @@ class PressureSum:
         p = np.maximum(p, 0.0)
         return np.asarray(p * (self.total / np.sum(p)))
 
-    def constraint(self, inside: Field, precondition: Map) -> Constraint:
-        """The residual is known up to a rigid shift, the approach. It is projected out in the
-        metric of the preconditioner, so that the sum of the pressure stays as it is."""
-        response = inside * precondition(inside)
+    def projection(self, inside: Field) -> Projection:
+        """What is left without the mean: the approach is a rigid shift, and the sum of the
+        pressure stays."""
+        count = np.sum(inside)
 
-        def constrained(r: Field, z: Field) -> tuple[Field, Field]:
-            shift = np.sum(z) / np.sum(response)
-            return r - shift * inside, z - shift * response
+        def projected(field: Field) -> Field:
+            shift = np.sum(field * inside) / count
+            return np.asarray((field - shift) * inside)
 
-        return constrained
+        return projected
 
     def less(self, carried: Field) -> NormalLoad:
         """What is left of the sum."""
@@ -126,9 +126,9 @@ class FixedApproach:
         """Cut off at zero."""
         return np.maximum(p, 0.0)
 
-    def constraint(self, inside: Field, precondition: Map) -> Constraint:
-        """No force is given."""
-        return lambda r, z: (r, z)
+    def projection(self, inside: Field) -> Projection:
+        """All of it: no force is given."""
+        return lambda field: field * inside
 
     def less(self, carried: Field) -> NormalLoad:
         """The same: no force is given."""

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from contact_scene.solver_errors import NotConverged
 from semi_analytical.multipliers import MOST_SWEEPS, find_multiplier
-from semi_analytical.normal_load import Constraint, Map, Motion, NormalLoad
+from semi_analytical.normal_load import Motion, NormalLoad, Projection
 
 Field = NDArray[np.float64]
 Mask = NDArray[np.bool_]
@@ -124,19 +124,17 @@ class PressureMoments:
         shifted, multiplier = find_multiplier(shifted_by, np.zeros(len(sums)))
         return shifted.p if shifted.settled(multiplier) else None
 
-    def constraint(self, inside: Field, precondition: Map) -> Constraint:
-        """Projects the rigid motions out in the metric of the preconditioner."""
+    def projection(self, inside: Field) -> Projection:
+        """What is left of a least-squares fit of the rigid motions."""
         units = inside * self.shapes
-        responses = np.stack([inside * precondition(unit) for unit in units])
-        inverse = np.linalg.pinv(_products(units, responses), rcond=1e-14, hermitian=True)
+        inverse = np.linalg.pinv(_products(units, units), rcond=1e-14, hermitian=True)
 
-        def constrained(r: Field, z: Field) -> tuple[Field, Field]:
-            shares = inverse @ np.array([np.sum(unit * z) for unit in units])
-            for share, unit, response in zip(shares, units, responses, strict=True):
-                r, z = r - share * unit, z - share * response
-            return r, z
+        def projected(field: Field) -> Field:
+            shares = inverse @ np.array([np.sum(unit * field) for unit in units])
+            motion = sum(share * unit for share, unit in zip(shares, units, strict=True))
+            return np.asarray(field * inside - motion)
 
-        return constrained
+        return projected
 
     def less(self, carried: Field) -> NormalLoad:
         """What is left of the sums."""
