@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from contextlib import suppress
+from subprocess import CalledProcessError
 from typing import Any
 
 import numpy as np
@@ -16,6 +17,7 @@ from verification.adapters import calculix, getfem, half_spaces, radius, section
 from verification.challenge.cases import challenges
 from verification.challenge.door import Posed, posed
 from verification.challenge.judgement import Judgement
+from verification.external_codes import under_force
 from verification.external_codes.calculix_deck import Fineness
 from verification.external_codes.coated_scene import CoatedScene
 from verification.judging.outcome import Status
@@ -210,6 +212,18 @@ def test_what_the_decks_do_not_tell_is_refused(
         judge(name, calculix.answer, 1)
 
 
+def test_a_deck_that_ccx_does_not_solve_is_given_up(monkeypatch: pytest.MonkeyPatch) -> None:
+    def fails(scene: CoatedScene, fineness: Fineness) -> dict[str, Any]:
+        raise CalledProcessError(255, ["ccx", "-i", "deck"])
+
+    monkeypatch.setattr(calculix.shutil, "which", lambda name: name)
+    monkeypatch.setattr(under_force, "run_calculix", fails)
+    found = judge("hertz_point", calculix.answer, 1)
+    assert found.exit_code() == 3
+    (told,) = (row for row in found.rows if row.quantity == "solved")
+    assert "ccx" in told.because
+
+
 def test_the_approach_at_which_a_deck_has_the_force_is_found(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
@@ -223,7 +237,7 @@ def test_the_approach_at_which_a_deck_has_the_force_is_found(
         }  # fmt: skip
 
     monkeypatch.setattr(calculix.shutil, "which", lambda name: name)
-    monkeypatch.setattr(calculix, "run_calculix", run)
+    monkeypatch.setattr(under_force, "run_calculix", run)
     found = calculix.answer(posed("hertz_point"), 0)
     approach = found.value(("approach", 1))
     assert approach == pytest.approx(HERTZ.approach / 1.03 ** (2 / 3), rel=1e-9)

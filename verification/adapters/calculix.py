@@ -5,26 +5,23 @@ from __future__ import annotations
 
 import shutil
 from collections.abc import Mapping
-from math import log, pi, sqrt
+from math import pi
+from subprocess import SubprocessError
 from typing import Any
 
 import numpy as np
 
-from verification.adapters.own_numbers import pressed_alone, scene_of
+from verification.adapters.own_numbers import given_up, pressed_alone, scene_of
 from verification.challenge.answer import Answer, Field, Key, Solver, Vector
 from verification.challenge.door import CannotDo, Posed
 from verification.closed_forms.hertz import PointContact
 from verification.external_codes.calculix_deck import Fineness
 from verification.external_codes.coated_scene import POISSON_RATIO, CoatedScene
-from verification.external_codes.run_calculix import run_calculix
+from verification.external_codes.nodal_pressure import at_axis, edge_of, on_nodes
+from verification.external_codes.under_force import COARSEST, under_force
 
 CALCULIX = Solver("CalculiX")
-COARSEST, STIFFNESS = 16, 1000.0  # elements over the Hertz radius, springs in E*/a_H; both double
-REACH = 1.6  # Hertz radii of equal elements
 PRESSED, RUBBED = 4, 20  # increments without and with friction
-RUNS = 3  # to find the approach at which the force is the one asked for
-NEAR = 1e-5  # to that force: tractions that are told are of the last run
-RISE = 1.5  # of the logarithm of the force with that of the approach, to begin with
 
 
 def answer(posed: Posed, level: int) -> Answer:
@@ -33,22 +30,12 @@ def answer(posed: Posed, level: int) -> Answer:
         raise CannotDo("ccx is not installed: apt-get install calculix-ccx")
     scene_of(posed)
     contrast, thickness, friction, hertz = _dimensionless(posed)
-    times = 2**level
-    fineness = Fineness(COARSEST * times, STIFFNESS * times, REACH)
-    approach, rise, tried = 1.0, RISE, []
     increments = RUBBED if friction else PRESSED
-    for _ in range(RUNS):
-        scene = CoatedScene(posed.name, contrast, thickness, friction, approach, increments)
-        found = run_calculix(scene, fineness)
-        force = found["normal_force"]
-        tried.append((log(approach), log(force)))
-        if len(tried) > 1:
-            (x0, y0), (x1, y1) = tried[-2:]
-            rise = (y1 - y0) / (x1 - x0)
-        approach *= force ** (-1 / rise)
-        if abs(force - 1) < NEAR:
-            break
-    return _answer(posed, hertz, approach, found, fineness)
+    scene = CoatedScene(posed.name, contrast, thickness, friction, 1.0, increments)
+    try:
+        return _answer(posed, hertz, *under_force(scene, 2**level))
+    except (SubprocessError, ValueError) as error:
+        return given_up(posed, COARSEST * 2**level, error)
 
 
 def _dimensionless(posed: Posed) -> tuple[float, float, float, PointContact]:
@@ -73,27 +60,22 @@ def _dimensionless(posed: Posed) -> tuple[float, float, float, PointContact]:
 
 
 def _answer(
-    posed: Posed, hertz: PointContact, approach: float, found: Mapping[str, Any], fineness: Fineness
+    posed: Posed, hertz: PointContact, approach: float, found: Mapping[str, Any], on: Fineness
 ) -> Answer:
     """Back in SI: radii and tractions are over those of Hertz."""
     a, p0 = hertz.contact_radius, hertz.peak_pressure
-    r = np.array(found["radii"]) * a
-    of: Mapping[str, Vector] = {
-        "pressure": np.array(found["pressure"]) * p0, "shear_radial": np.array(found["shear"]) * p0
+    r, pressure = on_nodes(found)
+    of: Mapping[str, Vector] = {"pressure": pressure, "shear_radial": np.array(found["shear"])}
+    edge = edge_of(r, pressure)
+    own = {
+        "approach": approach * hertz.approach, "contact_radius": edge * a,
+        "central_pressure": at_axis(r, pressure, edge) * p0,
     }  # fmt: skip
-    h = a / fineness.elements
-    own = {"approach": approach * hertz.approach, "contact_radius": _edge(r, of["pressure"])}
     scalars: dict[Key, float] = {(q, s): own[q] for q, s in posed.asked if q in own}
-    inner, outer = np.maximum(r - h / 2, 0), r + h / 2
-    area = pi * (outer**2 - inner**2)
-    fields = {key: Field(r, np.zeros_like(r), of[key[0]], area) for key in posed.fields}
-    points = {key: np.interp(places[:, 0], r, of[key[0]]) for key, places in posed.places.items()}
-    return Answer(h, scalars, fields, points=points)
-
-
-def _edge(r: Vector, pressure: Vector) -> float:
-    """Where the square of the pressure, a line in r² near the edge, would vanish: nodes next to the
-    edge ripple."""
-    near = np.flatnonzero(r > 0.6 * r[-1])[:-3]
-    slope, at_axis = np.polyfit(r[near] ** 2, pressure[near] ** 2, 1)
-    return sqrt(-at_axis / slope)
+    ends = np.array([0.0, *(r[1:] + r[:-1]) / 2, (3 * r[-1] - r[-2]) / 2]) * a
+    area = pi * np.diff(ends**2)
+    fields = {key: Field(r * a, np.zeros_like(r), of[key[0]] * p0, area) for key in posed.fields}
+    points = {
+        key: np.interp(places[:, 0] / a, r, of[key[0]]) * p0 for key, places in posed.places.items()
+    }
+    return Answer(on.finest * a, scalars, fields, points=points)

@@ -6,7 +6,6 @@ from collections.abc import Sequence
 
 from contact_scene import Scene
 from contact_scene.increment import State
-from contact_scene.solver_errors import NotConverged
 from verification.challenge.answer import Answer, Key
 from verification.challenge.door import CannotDo, Posed
 
@@ -25,7 +24,7 @@ def pressed_alone(posed: Posed) -> bool:
     return not more and named == {"normal_force"}
 
 
-def given_up(posed: Posed, fineness: int, error: NotConverged) -> Answer:
+def given_up(posed: Posed, fineness: int, error: Exception) -> Answer:
     """Of a level whose history did not get to its end: nothing of it is trusted.
 
     fineness  cells or elements over a contact radius, which is about a third of the window

@@ -8,6 +8,7 @@ face-to-face penalty, with regularised Coulomb friction.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
@@ -26,6 +27,7 @@ BOX = 100.0  # Hertz radii
 GROWTH = 1.3  # from one element to the next
 BORE = 1e-3  # Hertz radii; with nodes on the axis the faces of the expanded wedge degenerate
 FINE = 1.0  # Hertz radii of equal elements, unless told otherwise
+AT_EDGE = 8  # elements in one of the others
 
 # Nodes of a CAX8 by column and row, counterclockwise with rows downwards; its upper face is S3 and
 # its lower S1.
@@ -41,11 +43,30 @@ class Fineness:
     elements   per Hertz radius
     stiffness  of the contact springs k in k E*/a_H per area, normal and tangential
     reach      of the equal elements, in Hertz radii; the contact must end within
+    edge       of the contact, in Hertz radii, towards which elements shrink to 1/AT_EDGE of that;
+               None: they are equal
     """
 
     elements: int
     stiffness: float
     reach: float = FINE
+    edge: float | None = None
+
+    @property
+    def lines(self) -> list[float]:
+        """Radii of the ball's elements, over the Hertz radius."""
+        if self.edge is None:
+            return [n * self.finest for n in range(round(self.reach * self.elements) + 1)]
+        inwards, outwards = (
+            _without_sliver(_until([0.0], self.finest, end, 1 / self.elements))
+            for end in (self.edge, self.reach - self.edge)
+        )
+        return [*(self.edge - x for x in inwards[:0:-1]), *(self.edge + x for x in outwards)]
+
+    @property
+    def finest(self) -> float:
+        """The smallest element, over the Hertz radius."""
+        return 1 / self.elements / (1 if self.edge is None else AT_EDGE)
 
 
 class _Section:
@@ -69,14 +90,13 @@ class _Section:
 
 def calculix_deck(scene: CoatedScene, fineness: Fineness) -> str:
     """The whole input file; its lines depend on nothing but the arguments."""
-    first = 1 / fineness.elements
-    equal = round(fineness.reach * fineness.elements)
-    radii = _grown([n * first for n in range(equal + 1)])
+    touching = fineness.lines
+    radii = _grown(touching)
     radii[0] = BORE
-    film = _until([0.0], first, scene.thickness)
+    film = _until([0.0], fineness.finest, scene.thickness)
     depths = _with_midpoints(_grown(film))
     body = _Section(radii, (len(depths) - 1) // 2, 0, 0)
-    ball = _Section(radii[: equal + 1], 1, max(body.nodes.values()),
+    ball = _Section(radii[: len(touching)], 1, max(body.nodes.values()),
                     max(body.elements.values()))  # fmt: skip
     return "\n".join(
         (
@@ -155,19 +175,23 @@ def _loading(scene: CoatedScene, body: _Section, depths: Sequence[float]) -> Ite
 def _grown(lines: list[float]) -> list[float]:
     """The lines and more, each step longer than the last, out to the box."""
     step = (lines[-1] - lines[-2]) * GROWTH
-    more = _until(lines, step, BOX)
-    if len(more) > 2 and more[-1] - more[-2] < 0.5 * (more[-2] - more[-3]):
-        del more[-2]
-    return more
+    return _without_sliver(_until(lines, step, BOX))
 
 
-def _until(lines: list[float], step: float, end: float) -> list[float]:
+def _until(lines: list[float], step: float, end: float, largest: float = math.inf) -> list[float]:
     """The lines and more from `step` on, the last at `end`."""
     more = list(lines)
     while more[-1] + step < end:
         more.append(more[-1] + step)
-        step *= GROWTH
+        step = min(step * GROWTH, largest)
     return [*more, end]
+
+
+def _without_sliver(lines: list[float]) -> list[float]:
+    """Less the last but one if it is too close to the last."""
+    if len(lines) > 2 and lines[-1] - lines[-2] < 0.5 * (lines[-2] - lines[-3]):
+        return [*lines[:-2], lines[-1]]
+    return lines
 
 
 def _with_midpoints(lines: Sequence[float]) -> list[float]:

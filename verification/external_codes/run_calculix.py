@@ -28,6 +28,8 @@ SCENES = (FRICTIONLESS, FRICTIONAL)
 # Coarse and fine at one stiffness, then the fine mesh with softer springs.
 FINENESSES = (Fineness(16, 1000.0), Fineness(32, 1000.0), Fineness(32, 500.0))
 
+LONGEST = 1800.0  # seconds of one run
+
 
 def deck_hash(deck: str) -> str:
     """By which a deck is known again."""
@@ -35,15 +37,19 @@ def deck_hash(deck: str) -> str:
 
 
 def run_calculix(scene: CoatedScene, fineness: Fineness) -> dict[str, Any]:
-    """One run; CalledProcessError if ccx fails, ValueError if it leaves no result."""
+    """One run.
+
+    raises  CalledProcessError if ccx fails, TimeoutExpired if it does not end, ValueError if it
+            leaves no result
+    """
     deck = calculix_deck(scene, fineness)
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         (folder / "deck.inp").write_text(deck, encoding="ascii")
         before = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime
         subprocess.run(
-            ["ccx", "-i", "deck"], cwd=folder, check=True, stdout=subprocess.DEVNULL,
-            env=os.environ | {"OMP_NUM_THREADS": "1"},
+            ["ccx", "-i", "deck"], cwd=folder, check=True, timeout=LONGEST,
+            stdout=subprocess.DEVNULL, env=os.environ | {"OMP_NUM_THREADS": "1"},
         )  # fmt: skip
         spent = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime - before
         tractions = read_tractions((folder / "deck.frd").read_text(encoding="ascii"))
