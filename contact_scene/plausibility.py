@@ -44,7 +44,6 @@ _MODULUS = Usual(1e3, 2e12, "Pa", {"GPa": 1e9, "MPa": 1e6})
 _SIZE = Usual(1e-9, 1.0, "m", {"mm": 1e-3, "um": 1e-6})
 _STEP = Usual(1e-12, 1e-3, "m", {"um": 1e-6, "nm": 1e-9})
 _DEGREE = {"deg": math.pi / 180}
-_ROTATION = Usual(0.0, 0.1, "rad", _DEGREE)
 _FRICTION = Usual(0.0, 5.0, "", {"per cent": 1e-2})
 
 # By key. From gels to diamond, from the tip of a microscope to a wheel.
@@ -56,7 +55,8 @@ USUAL: Mapping[str, Usual] = {
     **dict.fromkeys(("approach", "tangential_shift"), _STEP),
     "normal_force": Usual(1e-12, 1e9, "N", {}),
     **dict.fromkeys(("coefficient", "map"), _FRICTION),
-    **dict.fromkeys(("tilt", "twist"), _ROTATION),
+    "twist": Usual(0.0, 0.1, "rad", _DEGREE),
+    "tilt": Usual(0.0, 0.02, "rad", _DEGREE),  # about 1 deg: what a bad mounting has
     "slope_angle": Usual(0.0, 0.36, "rad", _DEGREE),  # 20 deg: cones as steep as indenters
     "poisson_ratio": Usual(0.0, 0.5, "", {}, signed=True),
     "tolerance": Usual(0.0, 1e-3, "", {}),
@@ -66,6 +66,11 @@ _SOFTEST, _LARGEST = 1e6, 0.1
 _STEEP = 1.0  # heights that differ by more than their distance
 # Solids so stiff change their volume: rubber does not, gold (0.44) and lead are the last that do.
 _STIFF, _INCOMPRESSIBLE = 2e10, 0.46
+# Below, but for exactly none, there is only beryllium: diamond and quartz have 0.07.
+_UNSQUEEZED = 0.06
+# Mean pressure over E* that only the hardest ceramics and diamond bear: hardness is 0.01 to 0.04 of
+# the modulus in steels, 0.05 in ceramics, 0.1 in diamond.
+_HARD = 0.05
 # Contact radii beyond which nothing shows of what is below a layer, and those that a layer has
 # where nothing shows of it; softer and stiffer ones by so much the less.
 _DEEP, _THIN = 20.0, 1e-4
@@ -89,10 +94,11 @@ def unlikely(scene: Scene, **fineness: BaseModel) -> tuple[str, ...]:
     unusual = chain.from_iterable(map(_unusual, parts))
     return (
         *unusual,
-        *_stiff_and_incompressible(scene),
+        *_ratios_of_stiff(scene),
         *_steep(scene),
         *_of_no_effect(scene, pressed),
         *_far(pressed),
+        *_yielding(pressed),
     )
 
 
@@ -142,18 +148,20 @@ def _without_units(scene: Scene) -> bool:
     return max(moduli) < _SOFTEST and min(radii, default=1.0) >= _LARGEST
 
 
-def _stiff_and_incompressible(scene: Scene) -> Iterator[str]:
+def _ratios_of_stiff(scene: Scene) -> Iterator[str]:
     for name, body in (("body", scene.body), ("indenter", scene.indenter)):
         layers = ((f"{name}.layers[{n}]", film.material) for n, film in enumerate(body.layers, 1))
         for place, material in ((name, body.material), *layers):
             if not isinstance(material, IsotropicMaterial):
                 continue
             E, nu = material.young_modulus, material.poisson_ratio
-            if E > _STIFF and nu > _INCOMPRESSIBLE:
-                yield (
-                    f"{place}.material.poisson_ratio: {nu:g} is above the usual "
-                    f"{_INCOMPRESSIBLE:g} of what is as stiff as {quantity(E, 'Pa')}"
-                )
+            if E <= _STIFF or nu <= 0 or _UNSQUEEZED <= nu <= _INCOMPRESSIBLE:
+                continue
+            side, limit = ("above", _INCOMPRESSIBLE) if nu > 0.25 else ("below", _UNSQUEEZED)
+            yield (
+                f"{place}.material.poisson_ratio: {nu:g} is {side} the usual {limit:g} of what is "
+                f"as stiff as {quantity(E, 'Pa')}"
+            )
 
 
 def _steep(scene: Scene) -> Iterator[str]:
@@ -207,15 +215,32 @@ def _far(pressed: tuple[ExpectedContact, ...]) -> Iterator[str]:
                 return
 
 
+def _yielding(pressed: tuple[ExpectedContact, ...]) -> Iterator[str]:
+    """On the first step whose pressure hardly anything so stiff bears."""
+    for end in pressed:
+        if end.modulus > _STIFF and _HARD < end.strain <= SMALL_STRAIN:
+            yield (
+                f"loading[{end.ramp.step}].{_led_by(end)} presses with about "
+                f"{quantity(end.strain * end.modulus, 'Pa', 2)} in the mean, {end.strain:.2g} of "
+                f"E* = {quantity(end.modulus, 'Pa')}: all but diamond and the hardest ceramics "
+                "yield before, and the theory knows no yield"
+            )
+            return
+
+
+def _led_by(end: ExpectedContact) -> str:
+    """The control that leads a step, and its end."""
+    by_force = end.ramp.normal.kind is ControlKind.FORCE
+    load = quantity(end.ramp.normal.end, "N" if by_force else "m")
+    return f"{'normal_force' if by_force else 'approach'}: {load}"
+
+
 def _strained(pressed: tuple[ExpectedContact, ...]) -> Iterator[str]:
     """On the first step that would press far beyond linear elasticity."""
     for end in pressed:
         if end.strain > SMALL_STRAIN:
-            by_force = end.ramp.normal.kind is ControlKind.FORCE
-            load = quantity(end.ramp.normal.end, "N" if by_force else "m")
-            name = "normal_force" if by_force else "approach"
             yield (
-                f"loading[{end.ramp.step}].{name}: {load} on E* = {quantity(end.modulus, 'Pa')} "
+                f"loading[{end.ramp.step}].{_led_by(end)} on E* = {quantity(end.modulus, 'Pa')} "
                 f"makes strains of about {end.strain:.2g}, where the theory of small ones has ended"
             )
             return
