@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,7 +13,7 @@ from contact_scene import Scene
 from contact_scene.pair import contact_modulus
 from radial.wavenumbers import Waves, waves
 from semi_analytical.frf.stack import Stack, stack_of
-from semi_analytical.frf.surface import remainder_scalars
+from semi_analytical.frf.surface import SurfaceScalars, remainder_scalars
 
 Array = NDArray[np.float64]
 
@@ -20,6 +21,8 @@ Array = NDArray[np.float64]
 REACH = 24.0
 # Of the wavenumber at which the softest part of the layers begins to be felt.
 LONGEST_WAVE = 1e-2
+# Radii whose layers are kept: pressure, shear and gap of a contact all ask for them.
+KEPT = 4
 
 
 @dataclass(frozen=True)
@@ -57,11 +60,18 @@ class Bodies:
         least = LONGEST_WAVE * min(longest(stack, radius) for stack in self.layered)
         return waves(REACH * radius / self.thickness, least, reach, fineness)
 
-    def excess(self, k: Array) -> Array:
-        """X - 1 with X = k E* F_zz / 2 at wavenumbers k [1/length]: what the layers add to the
+    def excess(self, waves: Waves, radius: float) -> Array:
+        """X - 1 with X = k E* F_zz / 2 at wavenumbers k = κ/radius: what the layers add to the
         half-spaces of the outermost materials, relative to that [1]."""
-        added = np.sum([remainder_scalars(stack, k).c22 for stack in self.layered], axis=0)
-        return np.asarray(0.5 * self.modulus * k * added)
+        added = np.sum([added_by(stack, waves, radius).c22 for stack in self.layered], axis=0)
+        return np.asarray(0.5 * self.modulus * (waves.rule[0] / radius) * added)
+
+
+@lru_cache(maxsize=KEPT)
+def added_by(stack: Stack, waves: Waves, radius: float) -> SurfaceScalars:
+    """What the layers of a body add to a half-space of its outermost material, at wavenumbers
+    κ/radius (κ,) [length²/force · length]."""
+    return remainder_scalars(stack, waves.rule[0] / radius)
 
 
 def longest(stack: Stack, radius: float) -> float:

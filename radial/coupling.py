@@ -10,13 +10,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from contact_scene import Scene
-from radial.bodies import Bodies
+from radial.bodies import Bodies, added_by
 from radial.disc import Disc
 from radial.quadrature import unit_gauss
 from radial.rings import Rings
 from radial.wavenumbers import Waves
 from semi_analytical.frf.stack import Stack, stack_of
-from semi_analytical.frf.surface import remainder_scalars
 
 Array = NDArray[np.float64]
 
@@ -99,7 +98,7 @@ class Coupling:
         total = np.zeros((4, len(k)))
         for stack, sign in self.stacks:
             if stack.layers:
-                added = remainder_scalars(stack, k)
+                added = added_by(stack, waves, radius)
                 total += (added.c11, sign * added.c12, added.c22, added.csh)
         return k * total
 

@@ -168,8 +168,7 @@ def disc(
     count = orders(bodies.thickness / radius, shape.apex) * fineness
     count = min(count, most or count)
     waves = bodies.waves(radius, fineness=fineness)
-    places, weights = waves.rule
-    excess = weights * bodies.excess(places / radius)
+    excess = waves.rule[1] * bodies.excess(waves, radius)
     by_profile = -waves.shifted_transform(shape.abel)
     best: Disc | None = None
     while True:

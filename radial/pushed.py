@@ -12,8 +12,8 @@ from contact_scene.friction import sliding_friction
 from contact_scene.residuals import Residuals
 from contact_scene.summary import ContactStatus
 from radial.circle import Circle
-from radial.ring_laws import ABOUT, ACROSS, ALONG, DOWN, Held, Loads
 from radial.ring_points import Points
+from radial.ring_state import ABOUT, ACROSS, ALONG, DOWN, Held, Loads
 
 Array = NDArray[np.float64]
 

@@ -20,9 +20,9 @@ from radial.plan import ANGLES, ELSEWHERE, Plan
 from radial.pressing import Target, pressed
 from radial.pushed import Pushed, pushed, residuals_of
 from radial.ring_friction import MOST_STEPS, held
-from radial.ring_laws import ABOUT, DOWN, Loads
 from radial.ring_layout import laid
 from radial.ring_points import Points
+from radial.ring_state import ABOUT, DOWN, Loads
 from radial.shown import largest_targets, targets
 
 Array = NDArray[np.float64]

@@ -13,7 +13,7 @@ from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.special import j0, j1, jv
+from scipy.special import j0, j1
 
 from radial.harmonic_kernels import alike
 from radial.quadrature import unit_gauss
@@ -28,6 +28,7 @@ APART = ((2, 4, 11), (4, 9, 7))  # elements between which there are 2 … 3, 4 �
 FAR, FAR_POINTS = 9, 5
 WAVE_POINTS = 6
 KEPT = 8
+BEYOND = 32  # orders above the highest, where ratios of neighbours begin: J is nothing there
 MOST_AT_ONCE = 1 << 21  # numbers: 16 MiB
 
 
@@ -128,14 +129,22 @@ def transforms(nodes: tuple[float, ...], highest: int, kappa: Array) -> Array:
 
 
 def bessel_functions(highest: int, at: Array) -> Iterator[Array]:
-    """J_0 … J_highest: by the recurrence upwards where that is stable, beyond the order."""
-    near = at <= highest
+    """J_0 … J_highest: by the recurrence upwards as long as the order is below the argument, from
+    there on by the ratios of neighbours, which the recurrence downwards tells (Gautschi 1967)."""
     last, now = j0(at), j1(at)
     yield last
-    for m in range(1, highest + 1):
-        if m > 1:
-            last, now = now, 2 * (m - 1) / np.where(near, 1.0, at) * now - last
-            now[near] = jv(m, at[near])
+    if highest:
+        yield now
+    near = at < highest
+    small, safe = at[near], np.maximum(at, 1.0)
+    ratio, ratios = np.zeros_like(small), {}
+    for m in range(highest + BEYOND, 1, -1):
+        ratio = small / (2 * m - small * ratio)
+        if m <= highest:
+            ratios[m] = ratio
+    for m in range(2, highest + 1):
+        last, now = now, 2 * (m - 1) / safe * now - last
+        now[near] = np.where(small < m, ratios[m] * last[near], now[near])
         yield now
 
 

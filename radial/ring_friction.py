@@ -16,8 +16,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from contact_scene.solver_errors import ContactAtZoneEdge, GrossSliding, NotConverged
-from radial.ring_laws import ABOUT, DOWN, At, Held, Laws, Loads
+from radial.ring_laws import At, Laws
+from radial.ring_newton import aimed
 from radial.ring_points import Points
+from radial.ring_state import ABOUT, DOWN, Held, Loads
 from radial.sliding import carried_times
 
 Array = NDArray[np.float64]
@@ -47,7 +49,7 @@ def held(
                 return _ended(laws, at, before, step)
             # Where nothing carries the force steps grow without end, until a number is none.
             with np.errstate(over="ignore", invalid="ignore"):
-                aim = laws.next(at)
+                aim = aimed(laws, at)
                 if aim is None:
                     break
                 at = _nearer(laws, at, aim, SHORTEST if step >= AT_ONCE else 1.0)

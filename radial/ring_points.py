@@ -21,8 +21,9 @@ FEWEST = 2  # rings of a contact whose edge they tell
 # How far beyond a front the largest slip is, where no shear is 1 within: of 0.3, 0.5, 0.7 and 1
 # what brings Cattaneo's circle and a coated contact on cells nearest.
 BY_SLIP = 0.5
-# Inverses that are kept, for contacts whose last ring comes and goes; of ways that angles lack.
-MOST_INVERSES, ROUND_OFF = 3, 1e-12
+# Inverses that are kept, for contacts whose last ring comes and goes: so many, and as long as there
+# is room [byte]; of ways that angles lack.
+INVERSES, ROOM, ROUND_OFF = 3, 1 << 23, 1e-12
 
 
 @dataclass(frozen=True, eq=False)
@@ -101,10 +102,24 @@ class Points:
         return self._over_harmonics(self._ways, self._energies_of_ways)
 
     @cached_property
+    def softness(self) -> Array:
+        """Of every traction what it moves where it acts (3 n count,) [length^5/force]; of those
+        along the surface, which turn into each other, the mean."""
+        outward, around, down = np.diagonal(self.compliance).reshape(3, -1)
+        beside = (outward + around) / 2
+        return np.concatenate([beside, beside, down])
+
+    def of_rings(self, field: Array, rings: int) -> Array:
+        """Of a vector (3 n count,) what it is on a number of rings about the axis."""
+        return np.ascontiguousarray(field.reshape(3, -1)[:, : rings * self.count]).ravel()
+
+    @cached_property
     def tractions(self) -> Callable[[int], Array]:
         """Of a number of rings about the axis, tractions at their points by displacements times
-        areas (3 rings count,) * 2 [force/length^5], where no other point carries any."""
-        return lru_cache(maxsize=MOST_INVERSES)(self._tractions)
+        areas (3 rings count,) * 2 where no other point carries any, in units in which `softness` is
+        1 [1]."""
+        kept = max(INVERSES, ROOM // self.compliance.nbytes)
+        return lru_cache(maxsize=kept)(self._tractions)
 
     def _tractions(self, rings: int) -> Array:
         """Harmonics do not know of each other: each is inverted alone."""
@@ -121,7 +136,11 @@ class Points:
             found = units * np.linalg.inv(units[:, None] * known * units) * units[:, None]
             found = found.reshape(len(kept), rings, len(kept), rings).swapaxes(1, 2)
             inverse[np.ix_(kept, kept)] = found
-        return self._over_harmonics(back, inverses)
+        found = self._over_harmonics(back, inverses)
+        units = np.sqrt(self.of_rings(self.softness, rings))
+        found *= units
+        found *= units[:, None]
+        return found
 
     @cached_property
     def _ways(self) -> Array:
@@ -139,8 +158,13 @@ class Points:
     @staticmethod
     def _over_harmonics(ways: Array, of_ways: Array) -> Array:
         """Of points, what is known of every harmonic."""
-        whole = np.einsum("amj,mabik,bml->aijbkl", ways, of_ways, ways, optimize=True)
-        return whole.reshape(ways.shape[0] * ways.shape[2] * of_ways.shape[-1], -1)
+        (_, count, angles), nodes = ways.shape, of_ways.shape[-1]
+        whole = np.empty((3, nodes, angles, 3, nodes, angles))
+        for a, b in np.ndindex(3, 3):
+            both = (ways[a, :, :, None] * ways[b, :, None]).reshape(count, -1)
+            block = of_ways[:, a, b].reshape(count, -1).T @ both
+            whole[a, :, :, b] = block.reshape(nodes, nodes, angles, angles).swapaxes(1, 2)
+        return whole.reshape(3 * nodes * angles, -1)
 
     @cached_property
     def round(self) -> Points:
@@ -208,11 +232,11 @@ class Points:
         if self.circle is not Circle.ONE:
             halves = 1 if self.circle is Circle.HALF else 2
             left = self._around(left, 1.0, np.pi * (np.arange(halves * AROUND) + 0.5) / AROUND)
-        nodes = np.arange(len(self.radii))
-        edges = np.interp(np.linspace(0, nodes[-1], FINER * nodes[-1] + 1), nodes, self.radii)
-        middle = (edges[1:] + edges[:-1]) / 2
-        sticks = np.array([np.interp(middle, self.radii, values) > 0 for values in left.T])
-        return float(np.pi * np.mean(sticks, axis=0) @ np.diff(edges**2))
+        share = (np.arange(FINER)[:, None] + 0.5) / FINER
+        sticks = (1 - share) * left[:-1, None] + share * left[1:, None] > 0
+        inner, length = self.radii[:-1, None], np.diff(self.radii)[:, None]
+        edges = inner + length * np.arange(FINER + 1) / FINER
+        return float(np.pi * np.sum(np.mean(sticks, axis=-1) * np.diff(edges**2)))
 
     def shown(self, field: Array, sense: float) -> Array:
         """A field at the angles of `shown_angles` (n, angles), by a spline in θ.

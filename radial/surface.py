@@ -83,7 +83,7 @@ def displacement(contact: Disc, x: Array) -> Array:
     reach = 2.0 ** np.ceil(np.log2(np.max(x)))  # few lengths, which contacts have in common
     waves = contact.bodies.waves(contact.radius, float(reach))
     places, weights = waves.rule
-    felt = weights * contact.bodies.excess(places / contact.radius)
+    felt = weights * contact.bodies.excess(waves, contact.radius)
     felt *= contact.wave_transform(waves)
     added = np.zeros_like(x)
     for first in range(0, len(felt), AT_ONCE):

@@ -24,12 +24,11 @@ from numpy.typing import NDArray
 from scipy.special import j1
 
 from contact_scene import Scene
-from radial.bodies import Bodies
+from radial.bodies import Bodies, added_by
 from radial.disc import Disc, orders
 from radial.friction_limit import FrictionLimit
 from radial.quadrature import unit_gauss
 from semi_analytical.frf.stack import Stack, stack_of
-from semi_analytical.frf.surface import remainder_scalars
 
 Array = NDArray[np.float64]
 
@@ -108,8 +107,9 @@ class Torsion:
             return np.zeros(0), np.zeros(0)
         a = self.contact.radius
         of_layers = Bodies(self.layered, self.modulus)
-        places, weights = of_layers.waves(a, fineness=self.fineness).rule
-        added = np.sum([remainder_scalars(stack, places / a).csh for stack in self.layered], axis=0)
+        waves = of_layers.waves(a, fineness=self.fineness)
+        places, weights = waves.rule
+        added = np.sum([added_by(stack, waves, a).csh for stack in self.layered], axis=0)
         return places, np.asarray(weights * self.modulus * places / a * added)
 
     def slipped(self, stick: float) -> Slipped:

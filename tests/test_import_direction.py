@@ -108,7 +108,8 @@ ORDERS = {
         ),
         *("below", "pressing", "rings", "coupling", "stick_slip", "sheared"),
         *("harmonic_kernels", "ring_energies", "ring_compliance"),
-        *("circle", "ring_points", "ring_layout", "ring_laws", "sliding", "ring_friction"),
+        *("circle", "ring_points", "ring_layout", "ring_state", "ring_laws", "ring_newton"),
+        *("sliding", "ring_friction"),
         *("friction_limit", "torsion", "twist_path"),
         *(
             "plan",

@@ -38,6 +38,7 @@ from contact_scene.solver_errors import NotConverged, UnsupportedScene
 from radial.bodies import Bodies
 from radial.disc import disc
 from radial.surface import displacement, pressure
+from semi_analytical.frf.surface import remainder_scalars
 from verification.closed_forms.coated_indentation import LayeredSurface
 from verification.closed_forms.coated_indentation import flat_punch as coated_punch
 from verification.closed_forms.coated_indentation import paraboloid as coated_paraboloid
@@ -229,7 +230,11 @@ def _scene(indenter: ShapedBody, body: Body, **step: Any) -> Scene:
 
 
 def _compliance(bodies: Bodies) -> Any:
-    return lambda k: 2 * (1 + bodies.excess(k)) / (k * bodies.modulus)
+    def compliance(k: Any) -> Any:
+        added = sum(remainder_scalars(stack, k).c22 for stack in bodies.layered)
+        return 2 / (k * bodies.modulus) + added
+
+    return compliance
 
 
 HISTORY = Scene(

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 from scipy.integrate import dblquad
-from scipy.special import hyp2f1
+from scipy.special import hyp2f1, jv
 
 from contact_scene import RIGID, Body, IsotropicMaterial, Layer, LoadStep, Paraboloid, Scene
 from radial import ring_energies
@@ -196,6 +196,16 @@ def test_shear_like_that_of_gross_slip_draws_the_disc_as_in_print(nu: float) -> 
     for found, exact in ((radial, of_r), (hoop, of_t)):
         expected = on_hats(x, exact)
         assert_allclose(found, expected, atol=3e-4 * np.abs(expected).max())
+
+
+@pytest.mark.parametrize("highest", [0, 1, 2, 10, 40])
+def test_bessel_functions_of_all_orders_are_those_of_scipy(highest: int) -> None:
+    at = np.concatenate([[0.0], np.geomspace(1e-8, 300, 2000), highest + np.linspace(-1, 1, 41)])
+    at = np.abs(at)
+    found = list(ring_energies.bessel_functions(highest, at))
+    assert len(found) == highest + 1
+    for m, values in enumerate(found):
+        assert_allclose(values, jv(m, at), atol=2e-14)
 
 
 def test_transforms_of_thin_films_are_not_all_held_at_once(monkeypatch: Any) -> None:
