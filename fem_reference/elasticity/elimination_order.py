@@ -33,26 +33,25 @@ def elimination_keys(points: NDArray[np.float64], quads: Indices, elements: Indi
 
 
 def _leaves(points: NDArray[np.float64], quads: Indices) -> Indices:
-    """(e,) number of the leaf of every element, by repeated halving."""
+    """(e,) number of the leaf of every element, by repeated halving of all subtrees at once."""
     corners = points[:, quads]
     low, high = corners.min(axis=1), corners.max(axis=1)
     middle = 0.5 * (low + high)
     depth = max(0, int(np.ceil(np.log2(quads.shape[1] / LEAF))))
     leaf = np.zeros(quads.shape[1], dtype=np.int64)
-
-    def halve(group: Indices, level: int) -> None:
-        if level == depth or group.size < 2:
-            return
+    outwards = np.argsort(middle, axis=1)
+    for level in reversed(range(depth)):
+        _, group, size = np.unique(leaf, return_inverse=True, return_counts=True)
+        median_at = np.cumsum(size) - size + size // 2
+        below, price = [], []
+        for a, by_place in enumerate(outwards):
+            by_group = by_place[np.argsort(group[by_place], kind="stable")]
+            median = middle[a, by_group[median_at]][group]
+            below.append(middle[a] < median)
+            cut = np.bincount(group, (low[a] < median) & (high[a] >= median))
+            unequal = np.abs(2 * np.bincount(group, below[a]) - size) / size
+            price.append(cut * (1.0 + unequal) + size * (unequal == 1.0))
         # Across the axis along which fewer elements stand in the way of the cut.
-        medians = np.partition(middle[:, group], group.size // 2, axis=1)[:, group.size // 2, None]
-        below = middle[:, group] < medians
-        cut = (low[:, group] < medians) & (high[:, group] >= medians)
-        unequal = np.abs(2 * below.sum(axis=1) - group.size) / group.size
-        axis = int(np.argmin(cut.sum(axis=1) * (1.0 + unequal) + group.size * (unequal == 1.0)))
-        side = below[axis]
-        leaf[group[~side]] += 1 << (depth - 1 - level)
-        halve(group[side], level + 1)
-        halve(group[~side], level + 1)
-
-    halve(np.arange(quads.shape[1]), 0)
+        side = np.where((price[0] <= price[1])[group], *below)
+        leaf += (~side & (size > 1)[group]) * (1 << level)
     return leaf

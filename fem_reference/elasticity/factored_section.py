@@ -113,8 +113,9 @@ def _assembled(
     """The stiffness between all displacements; explicit zeros stay, for they will be filled."""
     stiffness = element_stiffness(basis, section, motion.harmonic, motion.components)
     dofs, factor = _of_elements(basis, numbering)
-    stiffness *= factor[:, None] * factor
-    place = [np.broadcast_to(one, stiffness.shape).ravel() for one in (dofs[:, None], dofs)]
+    stiffness *= factor[:, :, None] * factor[:, None]
+    both = (dofs[:, :, None], dofs[:, None])
+    place = [np.broadcast_to(one, stiffness.shape).ravel() for one in both]
     size = numbering.dofs.size
     return coo_array((stiffness.ravel(), tuple(place)), shape=(size, size)).tocsr()
 
@@ -124,9 +125,9 @@ def _with_pressure(
 ) -> csr_array:
     """Volume strain = p / lambda in the mixed elements, beside the forces of the pressure."""
     mixed, first = dilatation(section).mixed, numbering.dofs.size
-    volume = volume_strain(basis, motion.harmonic, motion.components)[..., mixed]
-    dofs, factor = (one[:, None, mixed] for one in _of_elements(basis, numbering))
-    rows = np.broadcast_to(numbering.pressure.T - first, volume.shape).ravel()
+    volume = volume_strain(basis, motion.harmonic, motion.components)[mixed]
+    dofs, factor = (one[mixed, :, None] for one in _of_elements(basis, numbering))
+    rows = np.broadcast_to((numbering.pressure - first)[:, None], volume.shape).ravel()
     columns = np.broadcast_to(dofs, volume.shape).ravel()
     shape = (numbering.pressure.size, first)
     expansion = coo_array(((volume * factor).ravel(), (rows, columns)), shape=shape)
@@ -136,9 +137,9 @@ def _with_pressure(
 
 
 def _of_elements(basis: Basis, numbering: Numbering) -> tuple[Dofs, Field]:
-    """(9 c, e) degrees of freedom of the elements, component by component, and their factors."""
+    """(e, 9 c) degrees of freedom of the elements, component by component, and their factors."""
     shape = (-1, basis.nelems)
     return (
-        numbering.dofs[:, basis.element_dofs].reshape(shape),
-        numbering.factor[:, basis.element_dofs].reshape(shape),
+        numbering.dofs[:, basis.element_dofs].reshape(shape).T,
+        numbering.factor[:, basis.element_dofs].reshape(shape).T,
     )

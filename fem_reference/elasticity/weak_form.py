@@ -7,9 +7,8 @@ same way, so the angle is integrated out and n enters the strains as a number:
     e_tt = (u_r + n u_t)/r    g_rt = u_t,r - (u_t + n u_r)/r
     e_zz = u_z,z              g_tz = u_t,z - n u_z/r
 
-Forms are of one component of each displacement, `w.trial` and `w.test`, in the harmonic `w.n`, and
-integrate over r dr dz (see `section_basis`). All of a vector element at once would take the
-products with the components that are zero as well: three times the time.
+Energies are integrals over r dr dz (see `section_basis`), of every element one product of matrices
+of its strains: a scikit-fem form for each pair of components would take four times the time.
 """
 
 from dataclasses import dataclass
@@ -17,7 +16,7 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from skfem import Basis, BilinearForm
+from skfem import Basis
 
 from fem_reference.elasticity.section_basis import pressure_basis
 from fem_reference.mesh.section_mesh import SectionMesh
@@ -29,7 +28,7 @@ Components = tuple[int, ...]
 STIFFEST = 1e4
 """Largest lambda / mu of an element whose pressure is no unknown."""
 
-NORMAL, SHEAR = ("rr", "tt", "zz"), ("rz", "rt", "tz")
+NORMAL = ("rr", "tt", "zz")
 
 
 def strains(u: Any, component: int, n: int) -> dict[str, Field]:
@@ -46,74 +45,67 @@ def strains(u: Any, component: int, n: int) -> dict[str, Field]:
     return found
 
 
-@BilinearForm  # type: ignore[untyped-decorator]
-def distortion(u: Any, v: Any, w: Any) -> Any:
-    """2 mu e : e, the energy without the resistance to a change of volume."""
-    e, f = strains(u, w.trial, w.n), strains(v, w.test, w.n)
-    normal = sum(e[k] * f[k] for k in NORMAL if k in e and k in f)
-    return w.mu * (2.0 * normal + sum(e[k] * f[k] for k in SHEAR if k in e and k in f))
-
-
-@BilinearForm  # type: ignore[untyped-decorator]
-def expansion(u: Any, q: Any, w: Any) -> Any:
-    """q tr e, the work of a pressure."""
-    e = strains(u, w.trial, w.n)
-    return q * sum(e[k] for k in NORMAL if k in e)
-
-
-@BilinearForm  # type: ignore[untyped-decorator]
-def product(p: Any, q: Any, _: Any) -> Any:
-    """p q."""
-    return p * q
-
-
 def element_stiffness(
     basis: Basis, section: SectionMesh, harmonic: int, components: Components
 ) -> Field:
-    """(9 c, 9 c, e) stiffness of every element, component by component.
+    """(e, 9 c, 9 c) stiffness of every element, component by component.
 
     The volume strain is projected onto functions linear in an element (Q2-P1), in every material:
     that keeps nearly incompressible layers from locking, and is exact for quadratic displacements.
     Where `dilatation` says so, the resistance to it is left out: there the pressure is an unknown.
     """
-    c = len(components)
-    stiffness = np.empty((c, 9, c, 9, basis.nelems))
-    by_volume = volume_strain(basis, harmonic, components).reshape(c, 9, 3, -1)
-    mu, resistance = shear_moduli(section)[:, None], dilatation(section).resistance
-    for k, trial in enumerate(components):
-        for m, test in enumerate(components[: k + 1]):
-            block = _local(distortion, basis, basis, n=harmonic, trial=trial, test=test, mu=mu)
-            block += np.einsum("ipe,jpe->ije", resistance * by_volume[k], by_volume[m])
-            stiffness[k, :, m] = block
-            stiffness[m, :, k] = block.transpose(1, 0, 2)
-    return stiffness.reshape(9 * c, 9 * c, -1)
+    strain = _strains_of(basis, harmonic, components)
+    volume = _projected_volume(basis, strain)
+    # The distortion stores 2 mu e : e, which counts the shear g = 2 e of two places once.
+    weight = np.sqrt(shear_moduli(section)[:, None] * basis.dx)[:, None]
+    for name, field in strain.items():
+        field *= np.sqrt(2.0) * weight if name in NORMAL else weight
+    root = np.concatenate(list(strain.values()), axis=2)
+    stiffness = root @ root.transpose(0, 2, 1)
+    resistance = dilatation(section).resistance[:, None, None]
+    stiffness += (resistance * volume) @ volume.transpose(0, 2, 1)
+    return np.asarray(stiffness)
 
 
 def volume_strain(basis: Basis, harmonic: int, components: Components) -> Field:
-    """(9 c, 3, e) projections of the volume strain onto linear functions, orthonormal in every
+    """(e, 9 c, 3) projections of the volume strain onto linear functions, orthonormal in every
     element."""
-    pressure = pressure_basis(basis)
-    moments = [_local(expansion, basis, pressure, n=harmonic, trial=k) for k in components]
-    return _orthonormal(pressure, np.concatenate(moments).T).T
+    return _projected_volume(basis, _strains_of(basis, harmonic, components))
 
 
 def volume_strain_at(basis: Basis, points: Basis, strain: Field) -> Field:
-    """(e, q) the volume strain of projections (3, e), at the points of another basis."""
-    linear = np.stack([np.asarray(field[0]) for field in pressure_basis(points).basis])
-    functions = _orthonormal(pressure_basis(basis), linear.transpose(1, 0, 2))
-    return np.einsum("pe,epq->eq", strain, functions)
+    """(e, q) the volume strain of projections (e, 3), at the points of another basis."""
+    return np.einsum("ep,epq->eq", strain, _orthonormal(basis, _linear(points)))
 
 
-def _orthonormal(pressure: Basis, linear: Field) -> Field:
-    """(e, 3, ...) what linear functions become that are made orthonormal in their element."""
-    gram = _local(product, pressure, pressure).transpose(2, 0, 1)
+def _strains_of(basis: Basis, harmonic: int, components: Components) -> dict[str, Field]:
+    """(e, 9 c, q) strains of every element's functions, component by component."""
+    elements, points = basis.dx.shape
+    found: dict[str, Field] = {}
+    for k, component in enumerate(components):
+        for i, (u,) in enumerate(basis.basis, start=k * basis.Nbfun):
+            for name, field in strains(u, component, harmonic).items():
+                if name not in found:
+                    found[name] = np.zeros((elements, len(components) * basis.Nbfun, points))
+                found[name][:, i] = field
+    return found
+
+
+def _projected_volume(basis: Basis, strain: dict[str, Field]) -> Field:
+    volume = sum(strain[name] for name in NORMAL if name in strain) * basis.dx[:, None]
+    return np.asarray(volume @ _orthonormal(basis, _linear(basis)).transpose(0, 2, 1))
+
+
+def _linear(basis: Basis) -> Field:
+    """(e, 3, q) the functions of the pressure."""
+    return np.stack([np.asarray(field[0]) for field in pressure_basis(basis).basis], axis=1)
+
+
+def _orthonormal(basis: Basis, linear: Field) -> Field:
+    """(e, 3, q) what linear functions become that are made orthonormal in their element."""
+    functions = _linear(basis)
+    gram = (functions * basis.dx[:, None]) @ functions.transpose(0, 2, 1)
     return np.asarray(np.linalg.solve(np.linalg.cholesky(gram), linear))
-
-
-def _local(form: BilinearForm, of: Basis, on: Basis, **parameters: Any) -> Field:
-    """(trial functions, test functions, e) of every element."""
-    found = form.elemental(of, on, **parameters).data
-    return np.asarray(found.reshape(of.Nbfun, on.Nbfun, -1))
 
 
 @dataclass(frozen=True, eq=False)

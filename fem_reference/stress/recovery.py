@@ -68,8 +68,8 @@ class Recovery:
             strain |= {name: strain[name] + part for name, part in found.items()}
         # The volume strain resists as its projection onto linear functions does.
         expansion = volume_strain(self.basis, of.harmonic, of.components)
-        local = u[:, self.basis.element_dofs].reshape(len(expansion), -1)
-        volume = volume_strain_at(self.basis, self.at, np.einsum("ipe,ie->pe", expansion, local))
+        local = u[:, self.basis.element_dofs].reshape(-1, len(expansion))
+        volume = volume_strain_at(self.basis, self.at, np.einsum("eip,ie->ep", expansion, local))
         pressing = dilatation(self.section).resistance[:, None] * volume
         mu = shear_moduli(self.section)[:, None]
         total = np.zeros((6, len(self.node)))
