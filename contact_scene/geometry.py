@@ -47,6 +47,11 @@ class ShapedBody(Body):
         return False
 
     @property
+    def is_even(self) -> bool:
+        """Whether the gap is the same at (x, y), (-x, y) and (x, -y)."""
+        return self.is_of_revolution
+
+    @property
     def rim(self) -> float | None:
         """Radius of an edge that bounds the contact whatever the load [length]; None without."""
         return None
@@ -79,7 +84,15 @@ class ShapedBody(Body):
         return None
 
 
-_SAID = {"gap_exponent", "is_of_revolution", "rim", "extent", "contact_at", "contact_under"}
+_SAID = {
+    "gap_exponent",
+    "is_of_revolution",
+    "is_even",
+    "rim",
+    "extent",
+    "contact_at",
+    "contact_under",
+}
 
 
 class SmoothTip(ShapedBody):
@@ -157,6 +170,11 @@ class Ellipsoid(SmoothTip):
     def is_of_revolution(self) -> bool:
         """Where its radii are the same."""
         return self.radii[0] == self.radii[1]
+
+    @property
+    def is_even(self) -> bool:
+        """It is."""
+        return True
 
     @property
     def tip_radii(self) -> Pair:
@@ -241,6 +259,12 @@ class HeightMap(ShapedBody):
     def gap_exponent(self) -> float:
         """Of the bumps that it touches with."""
         return 2
+
+    @property
+    def is_even(self) -> bool:
+        """Where its heights are, to the last bit."""
+        heights = self.file.values
+        return all(np.array_equal(heights, np.flip(heights, axis)) for axis in (0, 1))
 
     @property
     def extent(self) -> Pair:

@@ -43,12 +43,14 @@ class Box:
         return inside
 
 
-def box_around(cells: Mask, margin: int) -> Box:
+def box_around(cells: Mask, margin: int, *, quarter: bool = False) -> Box:
     """The smallest box with sides of whole quanta around marked cells and a margin.
 
-    A side that does not fit becomes the side of the window.
+    A side that does not fit becomes the side of the window. Of a quarter of the window, the same
+    quarter of the box around the cells and their images.
     """
-    sides = [_side(np.any(cells, axis=1 - axis), margin) for axis in (0, 1)]
+    side = _half_side if quarter else _side
+    sides = [side(np.any(cells, axis=1 - axis), margin) for axis in (0, 1)]
     return Box((sides[0][0], sides[1][0]), (sides[0][1], sides[1][1]))
 
 
@@ -62,3 +64,9 @@ def _side(marked: Mask, margin: int) -> tuple[int, int]:
         return 0, available
     middle_first = (at[0] + at[-1] + 1 - length) // 2
     return int(np.clip(middle_first, 0, available - length)), int(length)
+
+
+def _half_side(marked: Mask, margin: int) -> tuple[int, int]:
+    """The same of one half of the axis, which starts in the middle of the box."""
+    _, length = _side(np.concatenate([marked[::-1], marked]), margin)
+    return 0, length // 2

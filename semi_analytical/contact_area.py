@@ -7,14 +7,19 @@ same holds at the edge of the stick zone for the shear that is missing from full
 pressure of a smaller contact (Cattaneo 1938; Mindlin and Deresiewicz 1953 after a reversal).
 """
 
+from typing import Any
+
 import numpy as np
 from numpy.typing import NDArray
-from scipy.ndimage import binary_dilation, binary_erosion, distance_transform_edt
+from scipy.ndimage import distance_transform_edt
+
+from semi_analytical.part import WHOLE, Part
 
 Field = NDArray[np.float64]
 Mask = NDArray[np.bool_]
 
 REACH = 4
+FRAME = REACH + 1  # trusted are cells whose neighbours are inside
 LENGTH = 1.7
 LEAST_CELLS = 12
 AT_ONCE = 4096  # fits, of four kilobytes each: a long contact has tens of thousands
@@ -24,29 +29,34 @@ LEAST_FALL = 0.9
 FLAT = 1e-12
 
 
-def covered_cells(values: Field, inside: Mask) -> float:
+def covered_cells(values: Field, inside: Mask, part: Part = WHOLE) -> float:
     """Area of a region in cells, its edge cells counted by the part that is covered.
 
     values  (nx, ny), positive inside, falling like a square root towards the edge
     inside  cells whose centre is in the region
+    part    of the window that both are given on; the area is that in the whole window
     Edge cells are counted whole or not at all where the region is too thin for a fit and where
     the values do not fall towards the edge (below a flat punch they rise).
     """
-    square = np.ones((3, 3), dtype=bool)
-    trusted = binary_erosion(inside, square)
-    edge = binary_dilation(inside, square) & ~trusted
-    i, j = np.nonzero(edge)
+    framed = _framed(inside, part)
+    trusted = np.zeros_like(framed)
+    trusted[1:-1, 1:-1] = ~_near(~framed)
+    core = slice(FRAME, -FRAME)
+    near = _near(framed)[FRAME - 1 : 1 - FRAME, FRAME - 1 : 1 - FRAME]
+    i, j = np.nonzero(near & ~trusted[core, core])
     if len(i) == 0:
-        return float(np.count_nonzero(inside))
+        return float(part.images * np.count_nonzero(inside))
+    phi = _framed(np.square(values / np.max(values)), part)
     pieces = range(0, len(i), AT_ONCE)
-    fits = [_fit(values**2, trusted, i[k : k + AT_ONCE], j[k : k + AT_ONCE]) for k in pieces]
+    fits = [_fit(phi, trusted, i[k : k + AT_ONCE], j[k : k + AT_ONCE]) for k in pieces]
     *fit, mean, count = np.concatenate(fits, axis=1)
     centre_inside = inside[i, j]
     parts = np.clip(
         _coverage(*fit), np.where(centre_inside, 0.5, 0), np.where(centre_inside, 1, 0.5)
     )
     believed = (count >= LEAST_CELLS) & (fit[0] < LEAST_FALL * mean)
-    return float(np.count_nonzero(trusted) + np.sum(np.where(believed, parts, centre_inside)))
+    whole = np.count_nonzero(trusted[core, core])
+    return float(part.images * (whole + np.sum(np.where(believed, parts, centre_inside))))
 
 
 def stuck_cells(shear: Field, bound: Field, in_stick: Mask) -> float:
@@ -68,19 +78,40 @@ def stuck_cells(shear: Field, bound: Field, in_stick: Mask) -> float:
     return covered_cells(np.sqrt(missing[0] ** 2 + missing[1] ** 2), in_stick)
 
 
+def _framed(field: NDArray[Any], part: Part) -> NDArray[Any]:
+    """A field (nx, ny) with a frame: its images beyond mirror planes, else nothing."""
+    nx, ny = field.shape
+    framed = np.zeros((nx + 2 * FRAME, ny + 2 * FRAME), dtype=field.dtype)
+    framed[FRAME:-FRAME, FRAME:-FRAME] = field
+    if part.quarter:
+        images = slice(2 * FRAME - 1, FRAME - 1, -1)
+        framed[:FRAME] = framed[images]
+        framed[:, :FRAME] = framed[:, images]
+    return framed
+
+
+def _near(marked: Mask) -> Mask:
+    """Cells (nx - 2, ny - 2), all but the outermost, that are marked or touch one that is."""
+    along = marked[:-2] | marked[1:-1] | marked[2:]
+    return np.asarray(along[:, :-2] | along[:, 1:-1] | along[:, 2:])
+
+
 def _fit(phi: Field, trusted: Mask, i: NDArray[np.intp], j: NDArray[np.intp]) -> Field:
     """Value and gradient (x, y) per cell of weighted quadratic fits about the cells (i, j), the
-    mean of what was fitted, and the number of cells that each fit could use: (5, cells)."""
+    mean of what was fitted, and the number of cells that each fit could use: (5, cells).
+
+    phi, trusted  framed
+    """
     shift = np.arange(-REACH, REACH + 1)
     di, dj = (grid.ravel() for grid in np.meshgrid(shift, shift, indexing="ij"))
-    pad = ((REACH, REACH), (REACH, REACH))
-    at = (i[:, None] + di + REACH, j[:, None] + dj + REACH)
-    use = np.pad(trusted, pad)[at]
+    rows = phi.shape[1]
+    at = ((i + FRAME) * rows + j + FRAME)[:, None] + (di * rows + dj)
+    use = np.take(trusted, at)
     weight = use * np.exp(-(di**2 + dj**2) / (2 * LENGTH**2))
     basis = np.stack([np.ones_like(di), di, dj, di * di, di * dj, dj * dj], axis=-1).astype(float)
     products = (basis[:, :, None] * basis[:, None, :]).reshape(-1, 36)
     normal = (weight @ products).reshape(-1, 6, 6)
-    right = (weight * (np.pad(phi, pad)[at] / np.max(phi))) @ basis
+    right = (weight * np.take(phi, at)) @ basis
     mean = right[:, 0] / np.maximum(normal[:, 0, 0], 1e-30)
     # The ridge decides only what the cells at hand do not.
     normal += 1e-9 * np.eye(6) * (np.trace(normal, axis1=1, axis2=2)[:, None, None] + 1e-30)

@@ -79,13 +79,15 @@ def fitted_window(scene: Scene) -> Pair:
     """
     if scene.indenter.extent is not None:
         return scene.indenter.extent
-    loads = _largest_loads(scene)
+    decided = plan(scene)
+    loads = _largest_loads(scene, decided.tilt)
     semi_axes = _guessed_semi_axes(scene, loads[0])
     window = (2 * MARGIN * semi_axes[0], 2 * MARGIN * semi_axes[1])
     for _ in range(MOST_ENLARGEMENTS):
         grid = SurfaceGrid((SCOUT_CELLS, SCOUT_CELLS), window)
+        model = ContactModel.of(scene, grid, even=decided.quarter)
         try:
-            marked = np.any([_contact(scene, grid, load) for load in loads], axis=0)
+            marked = np.any([_contact(model, load) for load in loads], axis=0)
         except ContactAtWindowEdge:
             window = (GROWTH * window[0], GROWTH * window[1])
             continue
@@ -104,12 +106,12 @@ def fitted_window(scene: Scene) -> Pair:
     )
 
 
-def _contact(scene: Scene, grid: SurfaceGrid, load: NormalTarget) -> NDArray[np.bool_]:
+def _contact(model: ContactModel, load: NormalTarget) -> NDArray[np.bool_]:
     """Cells in contact, none where it is too small for the grid."""
     try:
-        return np.asarray(press(ContactModel.of(scene, grid), load, SCOUT_TOLERANCE).pressure > 0)
+        return np.asarray(press(model, load, SCOUT_TOLERANCE).pressure > 0)
     except ContactNotResolved:
-        return np.zeros(grid.cells, dtype=bool)
+        return np.zeros(model.grid.cells, dtype=bool)
 
 
 def _extents(contact: NDArray[np.bool_], grid: SurfaceGrid) -> tuple[float, float]:
@@ -121,10 +123,9 @@ def _extents(contact: NDArray[np.bool_], grid: SurfaceGrid) -> tuple[float, floa
     )
 
 
-def _largest_loads(scene: Scene) -> list[NormalTarget]:
+def _largest_loads(scene: Scene, tilts: bool) -> list[NormalTarget]:
     """Loads among which is the one whose contact reaches farthest from the origin: the largest
     force and the largest approach of the history, and those that tilt or lean most."""
-    tilts = plan(scene).tilt
     ends = [normal_target(ramp, None, 1.0, tilts) for ramp in scene.load_path()]
     measures = (_size, *((partial(_lean, 0), partial(_lean, 1)) if tilts else ()))
     kinds = [[end for end in ends if _control(end) == kind] for kind in _CONTROLS]

@@ -13,12 +13,20 @@ from semi_analytical.coupled_operator import STIFFNESSES, CoupledOperator, Perio
 from semi_analytical.grid import SurfaceGrid
 from semi_analytical.influence.bodies import influence_coefficients
 from semi_analytical.influence.coefficients import InfluenceCoefficients
+from semi_analytical.mirrored_operator import MirroredNormalOperator
+from semi_analytical.mirrored_transform import mirrored_offsets
 from semi_analytical.operator import CouplingOperator, NormalOperator, TangentialOperator
 from semi_analytical.padded_transform import Convolutions, offsets_for
+from semi_analytical.part import Part, part_of
 
 Field = NDArray[np.float64]
 Operator = TypeVar(
-    "Operator", NormalOperator, TangentialOperator, CouplingOperator, CoupledOperator
+    "Operator",
+    NormalOperator,
+    MirroredNormalOperator,
+    TangentialOperator,
+    CouplingOperator,
+    CoupledOperator,
 )
 
 COARSEST = 16
@@ -29,26 +37,40 @@ class ContactModel:
 
     gap           undeformed gap (nx, ny) [length]
     convolutions  counter shared by all operators of this model and its coarser ones
+    even          whether pressures without shear are even about x = 0 and y = 0
     """
 
     def __init__(
-        self, scene: Scene, grid: SurfaceGrid, gap: Field, convolutions: Convolutions
+        self,
+        scene: Scene,
+        grid: SurfaceGrid,
+        gap: Field,
+        convolutions: Convolutions,
+        *,
+        even: bool = False,
     ) -> None:
         self.scene = scene
         self.grid = grid
         self.gap = gap
         self.convolutions = convolutions
+        self.even = even
         self._normal: dict[tuple[int, int], NormalOperator] = {}
+        self._mirrored: dict[tuple[int, int], MirroredNormalOperator] = {}
         self._tangential: dict[tuple[int, int], TangentialOperator] = {}
         self._coupling: dict[tuple[int, int], CouplingOperator] = {}
         self._coupled: dict[tuple[int, int], CoupledOperator] = {}
         self._inverse: dict[tuple[int, int], PeriodicInverse] = {}
 
     @classmethod
-    def of(cls, scene: Scene, grid: SurfaceGrid) -> "ContactModel":
+    def of(cls, scene: Scene, grid: SurfaceGrid, *, even: bool = False) -> "ContactModel":
         """The model of a scene, its gap taken at the cell centres."""
         x, y = grid.coordinates()
-        return cls(scene, grid, scene.indenter.initial_gap(x, y), Convolutions())
+        return cls(scene, grid, scene.indenter.initial_gap(x, y), Convolutions(), even=even)
+
+    @cached_property
+    def part(self) -> Part:
+        """The part of the window that tells pressures without shear."""
+        return part_of(self.gap, even=self.even)
 
     @cached_property
     def friction(self) -> CoulombFriction:
@@ -63,8 +85,11 @@ class ContactModel:
     @cached_property
     def coefficients(self) -> InfluenceCoefficients:
         """Influence coefficients at all offsets that an operator on this grid reads."""
+        nx, ny = self.grid.cells
+        quarter = nx // 2, ny // 2
+        offsets = mirrored_offsets(quarter) if self.part.quarter else offsets_for((nx, ny))
         return influence_coefficients(
-            self.scene.body, self.scene.indenter, self.grid.spacing, offsets_for(self.grid.cells)
+            self.scene.body, self.scene.indenter, self.grid.spacing, offsets
         )
 
     @cached_property
@@ -91,6 +116,18 @@ class ContactModel:
             self._normal[shape] = NormalOperator(self.coefficients, shape, self.convolutions)
         return self._normal[shape]
 
+    def pressure_operator(self, shape: tuple[int, int]) -> NormalOperator | MirroredNormalOperator:
+        """The same on a box of cells of the part that tells pressures without shear."""
+        if not self.part.quarter:
+            return self.normal_operator(shape)
+        if shape not in self._mirrored:
+            nx, ny = self.grid.cells
+            self._forget_other_boxes(self._mirrored, shape, (nx // 2, ny // 2))
+            self._mirrored[shape] = MirroredNormalOperator(
+                self.coefficients, shape, self.convolutions
+            )
+        return self._mirrored[shape]
+
     def tangential_operator(self, shape: tuple[int, int]) -> TangentialOperator:
         """Shear to tangential displacement on a box of cells."""
         if shape not in self._tangential:
@@ -101,12 +138,16 @@ class ContactModel:
         return self._tangential[shape]
 
     def _forget_other_boxes(
-        self, operators: dict[tuple[int, int], Operator], shape: tuple[int, int]
+        self,
+        operators: dict[tuple[int, int], Operator],
+        shape: tuple[int, int],
+        whole: tuple[int, int] | None = None,
     ) -> None:
-        """Keep the operator on the whole window and one more: a contact that grows passes through
-        many boxes and hardly ever returns to one."""
-        if shape != self.grid.cells:
-            for other in operators.keys() - {self.grid.cells}:
+        """Keep the operator on the whole window, or its part, and one more: a contact that grows
+        passes through many boxes and hardly ever returns to one."""
+        whole = whole or self.grid.cells
+        if shape != whole:
+            for other in operators.keys() - {whole}:
                 del operators[other]
 
     def coupling_operator(self, shape: tuple[int, int]) -> CouplingOperator:
@@ -141,7 +182,10 @@ class ContactModel:
         nx, ny = self.grid.cells
         if nx % 2 or ny % 2 or min(nx, ny) <= COARSEST:
             return None
-        return ContactModel(self.scene, self.grid.coarsened(), halved(self.gap), self.convolutions)
+        gap = halved(self.gap)
+        return ContactModel(
+            self.scene, self.grid.coarsened(), gap, self.convolutions, even=self.even
+        )
 
 
 def halved(values: Field) -> Field:

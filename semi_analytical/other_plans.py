@@ -3,7 +3,7 @@
 from dataclasses import replace
 
 from contact_scene.effect import COUPLING, Effect
-from semi_analytical.plan import Coupling, Plan
+from semi_analytical.plan import MIRROR_PLANES, Coupling, Plan
 
 # Names of the effects that can be computed where they vanish.
 COMPUTED = ("tangential load", "tilt", "torsion", COUPLING)
@@ -17,6 +17,7 @@ def all_effects(plan: Plan) -> Plan:
         tilt=True,
         torsion=True,
         coupling=Coupling.FULL,
+        quarter=False,
         effects=tuple(_forced(effect) for effect in plan.effects),
     )
 
@@ -32,7 +33,9 @@ def one_way(plan: Plan) -> Plan:
 
 
 def _forced(effect: Effect) -> Effect:
-    """An effect that is computed although it is off says so."""
+    """An effect that is computed although it is off says so, and what is not made use of, too."""
+    if effect.name == MIRROR_PLANES and effect.on:
+        return replace(effect, on=False, why=f"not made use of, though {effect.why}")
     if effect.name not in COMPUTED or effect.on:
         return effect
     return replace(effect, on=True, why=f"forced on, though {effect.why}")

@@ -14,6 +14,8 @@ from semi_analytical.path_increments import Bodies, StepIncrements, path_increme
 # Of the shear moduli within a body: beyond, its influence coefficients lose the softest part.
 MOST_CONTRAST = 1e12
 
+# Name of the effect that lets a quarter of the window tell pressures.
+MIRROR_PLANES = "mirror planes"
 # What edges inside the cells cost, on 64² to 256².
 CHEAP = "20 to 150 convolutions each time"
 DEAR = "three to five times the convolutions"
@@ -38,6 +40,8 @@ class Plan:
     coupling    whether and how pressure and shear act on each other's problem
     path        how many increments each loading step takes, and why
     edge        at the end of which increments edges are put inside the cells
+    quarter     whether pressures without shear are even about x = 0 and y = 0: a quarter of the
+                window tells them
     effects     every effect with its reason, as shown to people
     """
 
@@ -48,6 +52,7 @@ class Plan:
     path: tuple[StepIncrements, ...]
     effects: tuple[Effect, ...]
     edge: EdgeCorrection = "off"
+    quarter: bool = False
 
     @property
     def increments(self) -> tuple[int, ...]:
@@ -86,6 +91,7 @@ def plan(scene: Scene, path_accuracy: float = PATH_ACCURACY, edge: EdgeCorrectio
     coupled = friction and couples
     shear = friction and (loaded or coupled)
     tilt = any(step.moment is not None or any(step.tilt or (0, 0)) for step in scene.loading)
+    even = scene.indenter.is_even and not tilt
     torsion = shear and any(step.torque is not None or step.twist for step in scene.loading)
     effects = (
         effect.PRESSURE,
@@ -97,13 +103,14 @@ def plan(scene: Scene, path_accuracy: float = PATH_ACCURACY, edge: EdgeCorrectio
         Effect("torsion", torsion, _why_torsion(friction, torsion)),
         effect.coupled(scene, coupled, why),
         effect.load_history(len(scene.loading) > 1 and shear),
+        Effect(MIRROR_PLANES, even, _why_even(even, tilt, coupled)),
         Effect("edge correction", *_edges(scene, edge, torsion, coupled)),
     )
     acting = Coupling.FULL if coupled else Coupling.NONE
     bodies = Bodies(coupled, dundurs_beta(scene), scene.friction or FRICTIONLESS)
     path = path_increments(scene, shear, bodies, path_accuracy)
     corrected = edge if effects[-1].on else "off"
-    return Plan(shear, tilt, torsion, acting, path, effects, corrected)
+    return Plan(shear, tilt, torsion, acting, path, effects, corrected, even)
 
 
 def _tangentially_loaded(scene: Scene) -> bool:
@@ -127,6 +134,19 @@ def _why_tilt(tilt: bool) -> str:
     if tilt:
         return "a step names a moment or a tilt"
     return "no step names a moment or a tilt: the indenter is held upright"
+
+
+def _why_even(even: bool, tilt: bool, coupled: bool) -> str:
+    """Why a quarter of the window tells the pressure, or not."""
+    if tilt:
+        return "the indenter tilts"
+    if not even:
+        return "the indenter does not say that it is even about x = 0 and y = 0"
+    pressures = "first pressures" if coupled else "pressures"
+    return (
+        f"the indenter is even about x = 0 and y = 0 and stays level: a quarter of the window "
+        f"tells {pressures}, where it has an even number of cells along both sides"
+    )
 
 
 def _why_torsion(friction: bool, torsion: bool) -> str:

@@ -12,6 +12,7 @@ from semi_analytical.contact_area import covered_cells
 from semi_analytical.model import ContactModel, doubled
 from semi_analytical.normal import solve_normal
 from semi_analytical.normal_load import FixedApproach, Motion, NormalLoad, PressureSum
+from semi_analytical.part import WHOLE, Part
 from semi_analytical.residuals import complementarity, penetration
 
 Field = NDArray[np.float64]
@@ -77,9 +78,10 @@ class NormalTarget:
             return 0.0
         return float(np.min(model.gap - _plane(model, self.tilting.tilt)))
 
-    def on(self, model: ContactModel, box: Box) -> NormalLoad:
-        """The load on that gap, as the solver sees it in a box of one grid."""
-        total = None if self.force is None else self.force / model.grid.cell_area
+    def on(self, model: ContactModel, box: Box, part: Part = WHOLE) -> NormalLoad:
+        """The load on that gap, as the solver sees it in a box of one grid, or of its part, where
+        nothing tilts."""
+        total = None if self.force is None else self.force / model.grid.cell_area / part.images
         if self.tilting is not None and self.tilting.moment is not None:
             from semi_analytical.tilting import PressureMoments
 
@@ -116,36 +118,38 @@ def press(model: ContactModel, target: NormalTarget, tolerance: float) -> Pressi
     raises  ContactAtWindowEdge, ContactNotResolved, NotConverged
     """
     refuse_unresolved_contact(model, target)
-    start, iterations = nested_start(model, target)
-    box = box_around(start > 0, MARGIN)
-    whole = Box.whole(model.grid.cells)
-    gap = target.gap(model)
+    start, iterations = _nested_start(model, target)
+    part = model.part
+    gap = part.of(target.gap(model))
+    box = box_around(start > 0, MARGIN, quarter=part.quarter)
+    whole = Box.whole(gap.shape)
     allowed = np.isfinite(gap)
-    load = target.on(model, whole)
+    load = target.on(model, whole, part)
     aim, residual = tolerance, np.inf
     for _ in range(MOST_ATTEMPTS):
-        operator = model.normal_operator(box.shape)
+        operator = model.pressure_operator(box.shape)
         solution = solve_normal(
             operator,
             operator.precondition,
             gap[box.slices],
-            target.on(model, box),
+            target.on(model, box, part),
             start[box.slices],
             0.5 * aim,
         )
         iterations += solution.iterations
-        p = box.embed(solution.pressure, model.grid.cells)
-        u = model.normal_operator(whole.shape)(p)
+        p = box.embed(solution.pressure, whole.shape)
+        u = model.pressure_operator(whole.shape)(p)
         g = np.where(allowed, gap, np.inf) + u - load.closure(solution.motion)
         overlap = load.overlap(solution.motion, gap, allowed)
         measures = (complementarity(p, g, overlap), penetration(g, overlap))
         residual = worst(*measures)
         if residual <= tolerance:
+            covered = covered_cells(p, p > 0, part)
+            p, u = part.unfolded(p), part.unfolded(u)
             refuse_contact_at_edge(p, model)
             approach, tilt = target.reached(model, solution.motion)
-            covered = covered_cells(p, p > 0)
             return Pressing(p, u, approach, *measures, covered, iterations, tilt)
-        overlap_outside = np.min(np.where(box.mask(model.grid.cells), 0.0, g)) < 0
+        overlap_outside = np.min(np.where(box.mask(whole.shape), 0.0, g)) < 0
         box, aim = (whole, aim) if overlap_outside else (box, 0.1 * aim)
         start = np.where(p > 0, p, np.where(g < 0, np.min(p[p > 0]), 0.0))
     raise NotConverged("the pressure", iterations, residual, tolerance)
@@ -154,21 +158,31 @@ def press(model: ContactModel, target: NormalTarget, tolerance: float) -> Pressi
 def nested_start(model: ContactModel, target: NormalTarget) -> tuple[Field, int]:
     """A first pressure: the frictionless solution of the coarser model, found the same way, and
     the iterations spent on all the coarser grids."""
-    coarse = model.coarse
+    start, iterations = _nested_start(model, target)
+    return model.part.unfolded(start), iterations
+
+
+def _nested_start(model: ContactModel, target: NormalTarget) -> tuple[Field, int]:
+    """The same, on the part of the window that tells pressures."""
+    coarse, part = model.coarse, model.part
+    touchable = np.isfinite(part.of(model.gap))
     if coarse is None or not _touches(coarse, target):
-        return np.where(np.isfinite(model.gap), 1.0, 0.0), 0
-    start, iterations = nested_start(coarse, target)
-    operator = coarse.normal_operator(coarse.grid.cells)
+        return np.where(touchable, 1.0, 0.0), 0
+    start, iterations = _nested_start(coarse, target)
+    gap = coarse.part.of(target.gap(coarse))
+    operator = coarse.pressure_operator(gap.shape)
     solution = solve_normal(
         operator,
         operator.precondition,
-        target.gap(coarse),
-        target.on(coarse, Box.whole(coarse.grid.cells)),
+        gap,
+        target.on(coarse, Box.whole(gap.shape), coarse.part),
         start,
         COARSE_TOLERANCE,
     )
-    finer = np.where(np.isfinite(model.gap), _on_half_cells(solution.pressure), 0.0)
-    return finer, iterations + solution.iterations
+    finer = _on_half_cells(solution.pressure)
+    if part.quarter and not coarse.part.quarter:  # with a cell on a plane
+        finer = part.of(finer)
+    return np.where(touchable, finer, 0.0), iterations + solution.iterations
 
 
 def _on_half_cells(pressure: Field) -> Field:

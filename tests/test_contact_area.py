@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 from scipy.ndimage import binary_erosion
 
-from semi_analytical.contact_area import _coverage, _fit, covered_cells, stuck_cells
+from semi_analytical.contact_area import _coverage, _fit, _framed, covered_cells, stuck_cells
+from semi_analytical.part import WHOLE, Part
 
 # Semi-axes in cells, and how well the area is found: a small contact has few cells for the fits.
 ELLIPSES = {
@@ -36,6 +37,14 @@ def test_two_contacts_count_both():
     both = one + other
     total = covered_cells(one, one > 0) + covered_cells(other, other > 0)
     assert covered_cells(both, both > 0) == pytest.approx(total, rel=1e-12)
+
+
+@pytest.mark.parametrize("cells", [2, 6, 40, 72])
+def test_a_quarter_tells_the_area(cells):
+    values = dome((17.0, 11.0), cells=cells)
+    quarter = Part(quarter=True)
+    told = covered_cells(quarter.of(values), quarter.of(values > 0), quarter)
+    assert told == pytest.approx(covered_cells(values, values > 0), rel=1e-12)
 
 
 def test_area_does_not_depend_on_the_unit_of_the_values():
@@ -140,11 +149,12 @@ def test_part_of_a_cell_is_that_of_the_line_alone(rng):
 
 
 def test_a_fit_has_value_and_slope_of_a_quadratic_where_it_is_asked_for():
-    """Both slopes with their signs, in units of the largest value."""
+    """Both slopes with their signs."""
     x, y = np.indices((24, 24)) - 11.5
     phi = 9 + 0.3 * x - 0.2 * y - 0.01 * x**2 + 0.02 * x * y - 0.03 * y**2
     i, j = np.array([8, 12, 15]), np.array([11, 7, 14])
-    f, f_x, f_y, *_ = _fit(phi, np.ones((24, 24), dtype=bool), i, j) * np.max(phi)
+    framed, everywhere = (_framed(field, WHOLE) for field in (phi, phi > -np.inf))
+    f, f_x, f_y, *_ = _fit(framed, everywhere, i, j)
     at_x, at_y = i - 11.5, j - 11.5
     np.testing.assert_allclose(f, phi[i, j], rtol=1e-6)
     np.testing.assert_allclose(f_x, 0.3 - 0.02 * at_x + 0.02 * at_y, rtol=1e-6)

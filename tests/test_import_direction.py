@@ -23,11 +23,14 @@ PACKAGES = (
 
 ORDER = (
     "grid",
+    "part",
     "frf",
     "influence",
     "kernel_spectrum",
     "padded_transform",
     "operator",
+    "mirrored_transform",
+    "mirrored_operator",
     "coupled_operator",
     "edge",
     "stress",

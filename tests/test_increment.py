@@ -7,6 +7,7 @@ from contact_scenes import LOAD, PRESS, RIGID_BALL, A, grid, push, scene
 from semi_analytical import SurfaceGrid, plan, pressing, solve
 from semi_analytical.box import box_around
 from semi_analytical.history import march
+from semi_analytical.mirrored_operator import MirroredNormalOperator
 from semi_analytical.model import ContactModel
 from semi_analytical.normal import solve_normal
 from semi_analytical.operator import NormalOperator, TangentialOperator
@@ -29,6 +30,7 @@ def calls(monkeypatch):
         monkeypatch.setattr(kind, "__call__", counted)
 
     spy(NormalOperator)
+    spy(MirroredNormalOperator)
     spy(TangentialOperator)
     return made
 
@@ -63,7 +65,7 @@ def test_without_a_push_no_shear_operator_is_built(loading, more, monkeypatch):
 def test_shear_costs_nothing_until_the_first_push(calls):
     seen = []
     solve(scene(PRESS, push(0.5)), grid(), TOLERANCE, lambda _: seen.append(kinds(calls)))
-    assert seen[0] == {NormalOperator}
+    assert seen[0] == {MirroredNormalOperator}
 
 
 def test_pressure_is_not_solved_again_where_the_normal_load_is_held(calls):
@@ -86,8 +88,8 @@ def test_pressure_takes_few_iterations_and_hardly_more_convolutions(cells, calls
 
     monkeypatch.setattr(pressing, "solve_normal", spied)
     solve(scene(PRESS, friction=None), SurfaceGrid((cells, cells), (3 * A, 3 * A)), TOLERANCE)
-    spent = sum(count for size, count in iterations if size > cells / 2)
-    convolved = sum(max(shape) > cells / 2 for _, shape in calls)
+    spent = sum(count for size, count in iterations if size > cells / 4)
+    convolved = sum(max(shape) > cells / 4 for _, shape in calls)
     assert spent <= 9
     # Besides one per iteration: the start, admissible parts of two steps, the check on the window.
     assert convolved <= spent + 4
@@ -96,7 +98,7 @@ def test_pressure_takes_few_iterations_and_hardly_more_convolutions(cells, calls
 def test_convolutions_count_what_was_convolved(calls):
     result = solve(scene(PRESS, push(0.5)), grid(), TOLERANCE)
     for increment, kind, price in [
-        (result.increments[0], NormalOperator, 1),
+        (result.increments[0], MirroredNormalOperator, 1),
         (result.increments[1], TangentialOperator, 2),
     ]:
         assert increment.convolutions == price * sum(kind is made for made, _ in calls)
@@ -104,11 +106,11 @@ def test_convolutions_count_what_was_convolved(calls):
 
 def test_a_growing_contact_does_not_gather_operators():
     problem = scene({**PRESS, **push(0.5), "increments": 8})
-    model = ContactModel.of(problem, grid(128))
+    model = ContactModel.of(problem, grid(128), even=True)
     boxes = set()
     for increment in march(model, plan(problem), TOLERANCE):
         boxes.add(box_around(increment.in_contact, 4).shape)
-        assert len(model._normal) <= 2
+        assert len(model._mirrored) <= 2
         assert len(model._tangential) <= 2
     assert len(boxes) > 3
 

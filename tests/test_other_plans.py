@@ -14,8 +14,10 @@ from coupled_scenes import push as coupled_push
 from contact_results.difference import largest_difference
 from contact_scene import LoadStep
 from semi_analytical import Coupling, all_effects, one_way, plan, solve
+from semi_analytical.mirrored_transform import Cosines
 from semi_analytical.operator import CouplingOperator
 from semi_analytical.other_plans import COMPUTED
+from semi_analytical.plan import MIRROR_PLANES
 from slipstick.cli.run import _print_saving
 from verification.cases.goodman_indentation import goodman_indentation_on
 from verification.judging.judgement import judge
@@ -46,18 +48,20 @@ def transformed(monkeypatch):
     grids too: what a solve costs, by whatever products it goes."""
     spent = [0]
 
-    def counted(name, axes):
-        transform = getattr(np.fft, name)
+    def counted(owner, name, axes):
+        transform = getattr(owner, name)
 
-        def counting(values, *given, **more):
-            result = transform(values, *given, **more)
-            spent[0] += axes * max(np.size(values), np.size(result))
+        def counting(*given, **more):
+            result = transform(*given, **more)
+            spent[0] += axes * max(np.size(given[-1 if owner is Cosines else 0]), np.size(result))
             return result
 
-        monkeypatch.setattr(np.fft, name, counting)
+        monkeypatch.setattr(owner, name, counting)
 
     for name, axes in {"rfft": 1, "fft": 1, "ifft": 1, "irfft": 1, "rfft2": 2, "irfft2": 2}.items():
-        counted(name, axes)
+        counted(np.fft, name, axes)
+    for name in ("forward", "back"):
+        counted(Cosines, name, 1)
     return spent
 
 
@@ -93,8 +97,9 @@ def test_forcing_says_what_it_forces():
     assert forced.shear
     assert forced.increments == decided.increments
     changed = [e for e, old in zip(forced.effects, decided.effects, strict=True) if e != old]
-    assert {e.name for e in changed} == set(COMPUTED)
-    assert all(e.on and "forced on" in e.why for e in changed)
+    assert {e.name for e in changed} == {*COMPUTED, MIRROR_PLANES}
+    assert all(e.on and "forced on" in e.why for e in changed if e.name in COMPUTED)
+    assert not forced.quarter
 
 
 def test_forcing_twice_changes_nothing():

@@ -114,6 +114,15 @@ def test_what_says_it_is_of_revolution_looks_the_same_all_around(shape, r) -> No
     assert np.all((around >= least * (1 - 1e-14)) & (around <= most * (1 + 1e-14)))
 
 
+@given(ALL, st.floats(1e-9, 0.5), st.floats(0, 2 * np.pi))
+def test_what_says_it_is_even_looks_the_same_in_both_mirrors(shape, reach, angle) -> None:
+    if not shape.is_even:
+        return
+    x, y = np.multiply(shape.extent or (1.0, 1.0), reach) * (np.cos(angle), np.sin(angle))
+    gaps = shape.initial_gap(np.array([x, -x, x]), np.array([y, y, -y]))
+    np.testing.assert_allclose(gaps, gaps[0], rtol=1e-12)
+
+
 @given(ALL)
 def test_beyond_a_rim_nothing_touches_and_below_it_all_does(shape) -> None:
     if shape.rim is None:
@@ -159,6 +168,7 @@ def test_a_contact_grows_with_the_load(shape, approach, modulus) -> None:
 def test_a_gap_of_its_own_inherits_nothing_that_another_shape_says() -> None:
     for shape in NEW[:2]:
         assert not shape.is_of_revolution
+        assert not shape.is_even
         assert shape.gap_exponent is shape.rim is shape.extent is None
         assert shape.contact_at(1e-6) is shape.contact_under(1.0, 1e9) is None
 

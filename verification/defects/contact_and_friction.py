@@ -60,8 +60,8 @@ def _slip_reversed(patches: Patches) -> None:
 def _deeper(patches: Patches) -> None:
     whole = vars(ContactModel)["of"].__func__
 
-    def of(cls: Any, scene: Any, grid: Any) -> Any:
-        model = whole(cls, scene, grid)
+    def of(cls: Any, *given: Any, **more: Any) -> Any:
+        model = whole(cls, *given, **more)
         model.gap = 1.003 * model.gap
         return model
 

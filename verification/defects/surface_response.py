@@ -13,14 +13,16 @@ from semi_analytical.influence import layered_response
 from semi_analytical.influence.closed_form import HalfSpaceCoefficients
 from semi_analytical.influence.coefficients import Composite
 from semi_analytical.influence.layered_response import Components
+from semi_analytical.mirrored_operator import MirroredNormalOperator
 from semi_analytical.operator import CouplingOperator, NormalOperator, TangentialOperator
 from verification.defects.defect import Defect, Patches
 
-Operator = type[NormalOperator | TangentialOperator | CouplingOperator]
+Operator = type[NormalOperator | MirroredNormalOperator | TangentialOperator | CouplingOperator]
+NORMAL: tuple[Operator, ...] = (NormalOperator, MirroredNormalOperator)
 
 
-def scaled(patches: Patches, owner: Operator, factor: float) -> None:
-    """An operator whose displacements are multiplied by a factor."""
+def scaled(patches: Patches, owners: tuple[Operator, ...], factor: float) -> None:
+    """Operators whose displacements are multiplied by a factor."""
 
     def wrap(whole: Any) -> Any:
         def built(self: Any, *given: Any) -> None:
@@ -29,7 +31,8 @@ def scaled(patches: Patches, owner: Operator, factor: float) -> None:
 
         return built
 
-    patches.method(owner, "__init__", wrap)
+    for owner in owners:
+        patches.method(owner, "__init__", wrap)
 
 
 def _periodic(patches: Patches) -> None:
@@ -40,7 +43,13 @@ def _periodic(patches: Patches) -> None:
         nx, ny = pressure.shape
         return np.fft.irfft2(spectrum, period)[:nx, :ny]
 
+    def images_of_quarter(self: MirroredNormalOperator, pressure: Any) -> Any:
+        self._transform.counter.count += 1
+        symbol = self.symbols[0].quarter[:-1:2, :-1:2]
+        return self._transform.filtered(pressure, lambda a, columns: a * symbol[columns])
+
     patches.attribute(NormalOperator, "__call__", images)
+    patches.attribute(MirroredNormalOperator, "__call__", images_of_quarter)
 
 
 def _without_mean(patches: Patches) -> None:
@@ -165,12 +174,12 @@ COUPLED = ("frictional_indentation",)
 SURFACE_RESPONSE = (
     Defect(
         "coupling-sign", "Pressure draws the surface away from the load instead of towards it.",
-        COUPLED, lambda patches: scaled(patches, CouplingOperator, -1.0),
+        COUPLED, lambda patches: scaled(patches, (CouplingOperator,), -1.0),
     ),
     Defect(
         "coupling-0p99", "The coupling of pressure and shear is too weak by 1 %.",
         ("no_slip_indentation", "frictional_indentation"),
-        lambda patches: scaled(patches, CouplingOperator, 0.99),
+        lambda patches: scaled(patches, (CouplingOperator,), 0.99),
     ),
     Defect(
         "coupling-of-bodies-added", "The coupling of the upper body is added, not subtracted.",
@@ -191,17 +200,17 @@ SURFACE_RESPONSE = (
     Defect(
         "normal-bias", "Normal displacements are too large by 0.3 %.",
         ("dissimilar_bodies", "hertz_approach_control"),
-        lambda patches: scaled(patches, NormalOperator, 1.003),
+        lambda patches: scaled(patches, NORMAL, 1.003),
     ),
     Defect(
         "normal-bias-stiff", "Normal displacements are too small by 0.3 %.",
         ("dissimilar_bodies", "hertz_approach_control"),
-        lambda patches: scaled(patches, NormalOperator, 1 / 1.003),
+        lambda patches: scaled(patches, NORMAL, 1 / 1.003),
     ),
     Defect(
         "tangential-bias", "Tangential displacements are too large by 0.3 %.",
         ("cattaneo_mindlin",),
-        lambda patches: scaled(patches, TangentialOperator, 1.003),
+        lambda patches: scaled(patches, (TangentialOperator,), 1.003),
     ),
     Defect(
         "shear-across-omitted", "Shear along y does not move the surface along x.",

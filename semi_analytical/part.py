@@ -1,0 +1,61 @@
+"""The part of the window that pressures are solved on: all of it, or a quarter."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+Field = NDArray[np.float64]
+
+# What rounding leaves between images of a gap, relative to the largest.
+ROUND_OFF = 1e-9
+
+
+@dataclass(frozen=True)
+class Part:
+    """All cells of the window, or its quarter x > 0, y > 0 where fields are even about both planes.
+
+    Indices of the quarter count from the planes.
+    """
+
+    quarter: bool
+
+    @property
+    def images(self) -> int:
+        """How often the part is in the window."""
+        return 4 if self.quarter else 1
+
+    def of(self, field: Field) -> Field:
+        """A field of the window (nx, ny) on the part."""
+        if not self.quarter:
+            return field
+        nx, ny = field.shape
+        return np.ascontiguousarray(field[nx // 2 :, ny // 2 :])
+
+    def unfolded(self, field: Field) -> Field:
+        """A field of the part on the window (nx, ny)."""
+        if not self.quarter:
+            return field
+        half = np.concatenate([field[::-1], field])
+        return np.concatenate([half[:, ::-1], half], axis=1)
+
+
+WHOLE = Part(quarter=False)
+
+
+def part_of(gap: Field, *, even: bool) -> Part:
+    """The part on which to solve below a gap (nx, ny): with a cell on a plane, the whole.
+
+    even    whether the gap is known to be the same at (±x, ±y)
+    raises  ValueError if it is not, to rounding
+    """
+    if not even or any(count % 2 for count in gap.shape):
+        return WHOLE
+    part = Part(quarter=True)
+    finite = np.isfinite(gap)
+    images = part.unfolded(part.of(gap))
+    largest = np.max(np.abs(gap), where=finite, initial=0.0)
+    apart = np.abs(np.subtract(gap, images, out=np.zeros_like(gap), where=finite))
+    if not (np.array_equal(finite, np.isfinite(images)) and np.max(apart) <= ROUND_OFF * largest):
+        raise ValueError("the indenter says that it is even about x = 0 and y = 0; its gap is not")
+    return part
