@@ -21,7 +21,7 @@ from contact_scenes import (
 from hypothesis import given
 from hypothesis import strategies as st
 
-from contact_scene import HeightMap, Layer, Paraboloid
+from contact_scene import Ellipsoid, HeightMap, Layer, Paraboloid
 from contact_scene.geometry import Gap
 from contact_scene.solver_errors import ContactAtWindowEdge, ContactNotResolved
 from semi_analytical import SurfaceGrid, plan, solve
@@ -217,6 +217,21 @@ def test_a_shape_that_is_not_what_it_says_is_found_out():
     )
     with pytest.raises(ValueError, match="says that it is even"):
         solve(described, grid(), 1e-8)
+
+
+class Leaf(Ellipsoid):
+    """Derived from a shape that is even, which it is not."""
+
+    def initial_gap(self, x, y) -> Gap:
+        """Along a diagonal."""
+        return super().initial_gap(np.add(x, y), np.subtract(x, y))
+
+
+def test_a_gap_of_its_own_is_not_taken_for_even():
+    described = scene(PRESS, friction=None).model_copy(
+        update={"indenter": Leaf(radii=(RADIUS, 3 * RADIUS), material=steel())}
+    )
+    assert not plan(described).quarter
 
 
 def test_a_first_pressure_covers_the_window_for_whoever_asks():
