@@ -11,6 +11,8 @@ DOUBLE = 8
 # results of an increment. Measured of whole runs on fitted windows, of which the contact takes nine
 # tenths along each side.
 PRESSURE_ARRAYS = 32
+# Fewer where a quarter of the window tells the pressure and no shear comes after it.
+QUARTER_SAVES = 8
 HISTORY_ARRAYS = 4
 SHEAR_ARRAYS = 57
 # Arms and unit motions, and what they are multiplied with.
@@ -43,7 +45,9 @@ def estimated_bytes(grid: SurfaceGrid, plan: Plan) -> int:
     """Largest memory of a process that runs, libraries and figures included [byte]."""
     cells = grid.cells[0] * grid.cells[1]
     increments = sum(plan.increments)
+    quarter = plan.quarter and not (grid.cells[0] % 2 or grid.cells[1] % 2)
     work = PRESSURE_ARRAYS + (SHEAR_ARRAYS if plan.shear else 0)
+    work -= QUARTER_SAVES if quarter and not plan.shear else 0
     work += (TILT_ARRAYS if plan.tilt else 0) + (TORSION_ARRAYS if plan.torsion else 0)
     work += COUPLING_ARRAYS[plan.coupling]
     rim = 0
