@@ -11,6 +11,7 @@ from contact_results.remarks import remarks
 from contact_scene import Body, IsotropicMaterial, LoadStep, Paraboloid, RadialDiscretisation, Scene
 from contact_scene.pair import outermost_beta
 from semi_analytical import SurfaceGrid, plan, solve
+from semi_analytical.edge_correction.stick_area import stick_area
 from verification.problems.layered_scene import coated, film, half_space, pressed, rigid_ball
 from verification.problems.paper_scene import FRICTION_LIMIT, HERTZ, RADIUS, pressing
 from verification.problems.shifted_grid import ShiftedGrid
@@ -113,6 +114,14 @@ def test_pushed_the_shear_carries_the_force_and_is_its_mirror_image():
     for field, sign in ((end.pressure, 1), (end.shear[0], 1), (end.shear[1], -1)):
         image = sign * field[:, ::-1]
         np.testing.assert_allclose(field, image, rtol=0, atol=1e-5 * np.max(end.pressure))
+
+
+def test_pushed_the_stick_area_is_that_of_the_shear():
+    """Slip spreads on one side, on the other the zone that pressing has left ends."""
+    result = pushed("all")
+    for end in result.steps:
+        cells = stick_area(end.shear, MU * end.pressure, end.in_stick)
+        assert end.stick_area == cells * result.grid.cell_area
 
 
 def test_pushed_no_later_state_knows_of_the_correction():

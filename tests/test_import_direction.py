@@ -90,6 +90,7 @@ ORDERS = {
         "operators",
         "pressure",
         "shear",
+        "stick_area",
         "coupled",
         "state",
     ),

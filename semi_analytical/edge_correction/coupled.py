@@ -26,7 +26,6 @@ from contact_scene.pair import outermost_beta
 from contact_scene.solver_errors import NotConverged
 from semi_analytical.admissible_shear import ShearSum, Vector, magnitude
 from semi_analytical.box import Box
-from semi_analytical.contact_area import stuck_cells
 from semi_analytical.edge.corrected import Corrected, CorrectedShear
 from semi_analytical.edge.displacement import Within
 from semi_analytical.edge.peak import peak_of
@@ -35,6 +34,7 @@ from semi_analytical.edge_correction.mixing import Mixing
 from semi_analytical.edge_correction.operators import EdgeOperators
 from semi_analytical.edge_correction.pressure import ENOUGH, MOST_ROUNDS, MOST_UNSAFE, settles
 from semi_analytical.edge_correction.shear import BESIDE, direction_of_slip
+from semi_analytical.edge_correction.stick_area import stick_area
 from semi_analytical.increment import State
 from semi_analytical.model import ContactModel
 from semi_analytical.normal import NormalSolution, solve_normal
@@ -230,7 +230,7 @@ class _Problem:
                 displacement=answer.displacement,
                 shift=sheared.motion,
                 stick=stick,
-                stick_cells=stuck_cells(sheared.shear, bound, stick),
+                stick_cells=stick_area(sheared.shear, bound, stick),
                 change=change,
             ),
         )

@@ -1,0 +1,83 @@
+"""Area of the stick zone where bodies couple: parts of its border move out while others move in.
+
+What is missing from full slip along n, the direction of slip, d = µp - q·n, vanishes at the border.
+Where slip spreads it goes with the root of the distance, like the pressure of a smaller contact
+(Cattaneo 1938); where stick spreads, as in pressing, it is of a higher order, s^(3/2): what has
+just stuck is still at the limit. Of both laws each place has the one that fits. Shear across n
+passes the border smoothly, and would hide it in the length of what is missing.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from semi_analytical.contact_area import stuck_cells
+from semi_analytical.edge.fit import NARROW, WIDE, Stencil
+from semi_analytical.edge.shape import Mask, edge_shape, layers_of
+from semi_analytical.edge_correction.shear import direction_of_slip
+
+Field = NDArray[np.float64]
+VectorField = NDArray[np.float64]
+Layers = tuple[Field, NDArray[np.intp]]
+
+# Exponent of the distance, and of what it is fitted in: a smoother fall needs more cells.
+LAWS = ((0.5, NARROW), (1.5, WIDE))
+# Radius of a zone in cells that is thick enough to be fitted.
+THICK = 3.0
+# Layers inside and outside the border of cells that it may cut.
+CUT = 1.5
+
+
+@dataclass(frozen=True)
+class _Parts:
+    """Of the cells along the border, by one law: the part of each that sticks, and how far the fit
+    misses its data in falls over a cell, infinite where there is none to believe (n,)."""
+
+    stuck: Field
+    missed: Field
+
+
+def stick_area(shear: VectorField, bound: Field, stick: Mask) -> float:
+    """Area of the stick zone in cells.
+
+    shear  q (2, nx, ny), means over cells as they are with the edge of contact inside
+    bound  friction limit µp (nx, ny), zero outside the contact
+    stick  cells that stick (nx, ny)
+    Cells count whole where neither law fits; of a zone too thin for fits see `stuck_cells`.
+    """
+    slips = (bound > 0) & ~stick
+    depth, nearest = layers = layers_of(stick)
+    if not np.any(slips) or np.max(depth) < THICK:
+        return stuck_cells(shear, bound, stick)
+    along = np.sum(shear * direction_of_slip(shear, slips), axis=0)
+    missing = np.where(stick, np.maximum(bound - along, 0.0), 0.0)
+    outside = np.hypot(*(nearest - np.indices(stick.shape)))
+    i, j = np.nonzero((depth <= CUT) & (outside <= CUT))
+    by = [_parts(missing / np.max(missing), stick, layers, i, j, *law) for law in LAWS]
+    missed = np.stack([parts.missed for parts in by])
+    best = np.argmin(missed, axis=0)
+    stuck = np.stack([parts.stuck for parts in by])[best, np.arange(len(i))]
+    covered = stick.astype(float)
+    told = np.isfinite(np.min(missed, axis=0))
+    covered[i[told], j[told]] = stuck[told]
+    return float(np.sum(covered))
+
+
+def _parts(
+    missing: Field,
+    stick: Mask,
+    layers: Layers,
+    i: NDArray[np.intp],
+    j: NDArray[np.intp],
+    exponent: float,
+    stencil: Stencil,
+) -> _Parts:
+    """Of cells (i, j) along the border."""
+    shape = edge_shape(missing, stick, stencil, rings=0, exponent=exponent, rounds=2, layers=layers)
+    phi, safe = shape.about_cells(i, j)
+    fits = shape.fits(*layers[1][:, i, j])
+    missed = fits.rms / np.maximum(fits.quadratic.slope, np.finfo(float).tiny)
+    return _Parts(phi.cell_mean(0.0), np.where(safe, missed, np.inf))
