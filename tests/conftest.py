@@ -1,5 +1,6 @@
 """What every test shares: Hypothesis profiles, a seeded generator, and no skipping in CI."""
 
+import gc
 import os
 from collections.abc import Generator
 
@@ -39,6 +40,16 @@ LONGEST = (
     "test_coupled_histories", "test_fem_harmonics", "test_work_precision", "test_stress_on_disc",
     "test_stress_influence", "test_fem_stress",
 )  # fmt: skip
+
+
+@pytest.hookimpl(wrapper=True)
+def pytest_collection() -> Generator[None, object, object]:
+    """Nothing that is imported goes again, and nobody need look through it for garbage."""
+    gc.disable()
+    found = yield
+    gc.enable()
+    gc.freeze()
+    return found
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:

@@ -52,7 +52,7 @@ TILTED = (
     LoadStep(normal_force=100.0, moment=(0.0, 1e-3), increments=2),
     LoadStep(tangential_force=(20.0, 0.0), increments=2),
 )
-SURFACE = SurfaceDiscretisation(cells=(24, 24), edge="off")
+SURFACE = SurfaceDiscretisation(cells=(16, 16), edge="off")
 SECTION = FiniteElementDiscretisation(elements_per_radius=4, contact_radius=2e-4)
 Solve = Callable[[Keeper | None], Any]
 

@@ -9,17 +9,25 @@ import pytest
 
 ROOT = Path(__file__).resolve().parents[1]
 
+# mypy keeps nearly all that it makes: looking for garbage is a fifth of its time.
+MYPY = """
+import gc
+gc.disable()
+gc.enable = lambda: None
+from mypy.__main__ import console_entry
+console_entry()
+"""
 COMMANDS = {
-    "lint": ("ruff", "check", "--no-fix", "."),
-    "format": ("ruff", "format", "--check", "."),
-    "types": ("mypy",),
-    "spelling": ("codespell_lib",),
+    "lint": ("-m", "ruff", "check", "--no-fix", "."),
+    "format": ("-m", "ruff", "format", "--check", "."),
+    "types": ("-c", MYPY),
+    "spelling": ("-m", "codespell_lib"),
 }
 
 
 @pytest.mark.parametrize("command", COMMANDS.values(), ids=COMMANDS)
 def test_code_reads_clean(command: tuple[str, ...]) -> None:
     outcome = subprocess.run(
-        [sys.executable, "-m", *command], cwd=ROOT, capture_output=True, text=True, check=False
+        [sys.executable, *command], cwd=ROOT, capture_output=True, text=True, check=False
     )
     assert outcome.returncode == 0, outcome.stdout + outcome.stderr

@@ -115,7 +115,11 @@ NAMED = {
     "torque": contact_scenes.scene(
         PRESS, {"torque": 0.3 * LIMIT * A}, {"torque": -0.3 * LIMIT * A, **push(0.2)}
     ),
-    "free to tilt": punch(PRESS, {"moment": (0.02 * LOAD * A, 0.1 * LOAD * A)}, push(0.4)),
+    "free to tilt": punch(
+        {**PRESS, "increments": 4},
+        {"moment": (0.02 * LOAD * A, 0.1 * LOAD * A), "increments": 2},
+        push(0.4, increments=4),
+    ),
     "no friction": coupled_scenes.scene(PRESS, slide(3), friction=0.0),
 }
 

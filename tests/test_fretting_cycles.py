@@ -121,7 +121,7 @@ def test_the_energy_of_a_cycle_is_four_times_its_ruiz_work(fine):
 def test_it_does_not_matter_where_in_the_cycle_one_begins():
     """From no force, up, down and back to none: the same range of slip and the same friction."""
     around, from_nothing = (
-        fretting_cycles(loop(32, PRESS, *steps), surface_stress=True)[-1]
+        fretting_cycles(loop(24, PRESS, *steps), surface_stress=True)[-1]
         for steps in ((push(0.9), push(-0.9), push(0.9)), (push(0.9), push(-0.9), push(0.0)))
     )
     for name in ("slip_amplitude", "ruiz_f1", "ruiz_f2"):
@@ -156,7 +156,7 @@ def test_a_sliding_contact_finds_the_tension_of_its_trailing_edge():
 
 def test_parameters_scale_with_length_and_modulus():
     length, modulus = 1e-3, 1e2
-    one = loop(32, PRESS, push(0.8), push(-0.8), push(0.8))
+    one = loop(20, PRESS, push(0.8), push(-0.8), push(0.8))
     force = modulus * length**2
     loads = [
         {"normal_force": force * LOAD, "tangential_force": (force * x * LIMIT, 0.0)}
@@ -178,7 +178,7 @@ def test_parameters_scale_with_length_and_modulus():
 
 def test_a_force_along_y_gives_the_same_turned_by_a_quarter():
     along_x, along_y = (
-        fretting_cycles(solve(contact_scenes.scene(PRESS, *steps), grid(32), TOLERANCE),
+        fretting_cycles(solve(contact_scenes.scene(PRESS, *steps), grid(20), TOLERANCE),
                         surface_stress=True)[0]
         for steps in (
             (push(0.8), push(-0.8), push(0.8)),
@@ -230,7 +230,7 @@ def test_a_cycle_that_ends_at_the_limit_of_friction_has_no_slip():
 
 
 def test_cycles_reach_all_files(tmp_path, undrawn):
-    result = loop(32, PRESS, push(0.8), push(-0.8), push(0.8), push(-0.8))
+    result = loop(16, PRESS, push(0.8), push(-0.8), push(0.8), push(-0.8))
     write_result(result, tmp_path, surface_stress=True)
     last = fretting_cycles(result, surface_stress=True)[-1]
     steps = json.loads((tmp_path / "summary.json").read_text(encoding="utf-8"))["steps"]

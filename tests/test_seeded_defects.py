@@ -84,12 +84,20 @@ def test_defects_are_many_and_name_cases_of_the_catalogue() -> None:
         assert defect.broken.endswith(".")
 
 
+@pytest.fixture(scope="module")
+def left() -> list[dict[tuple[str, str], Any]]:
+    """What names stood for when the last defect had been taken out."""
+    return [namespaces()]
+
+
 @pytest.mark.parametrize("name", DEFECTS)
-def test_defect_changes_something_and_leaves_nothing_behind(name: str) -> None:
-    before = namespaces()
+def test_defect_changes_something_and_leaves_nothing_behind(
+    name: str, left: list[dict[tuple[str, str], Any]]
+) -> None:
     with planted(DEFECTS[name]):
         during = namespaces()
-    after = namespaces()
+    after, before = namespaces(), left.pop()
+    left.append(after)
     assert different(before, during)
     assert not different(before, {key: after[key] for key in before})
 

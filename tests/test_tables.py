@@ -67,8 +67,16 @@ def test_the_friction_that_grips_is_that_of_integral_equations() -> None:
 
 
 def test_no_friction_grips_where_nothing_rubs() -> None:
-    with pytest.raises(UnsupportedScene, match="no coefficient of friction between"):
+    with pytest.raises(UnsupportedScene, match="under any"):
         gripping((1.0, 1.0, 0.5, 0.5), 1)
+
+
+def test_friction_beyond_all_that_is_tried_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("slipstick.tables.frictional.FURTHEST", 3.0)
+    with pytest.raises(
+        UnsupportedScene, match=r"between 0\.1 and 0\.2 lets the stick reach to 0\.9"
+    ):
+        gripping((1.0, 1.0, 0.3, 0.9), 1)
 
 
 @pytest.mark.slow

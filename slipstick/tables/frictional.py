@@ -10,6 +10,7 @@ from math import exp, log, pi
 import numpy as np
 from scipy.optimize import brentq
 
+import radial
 from contact_errors.on_radii import FRONT
 from contact_scene import (
     RIGID,
@@ -96,6 +97,12 @@ def gripping(place: Sequence[float], fineness: int) -> Found:
     """The coefficient of friction with which the stick reaches to a share of the contact radius;
     raises UnsupportedScene where none does."""
     *contact, share = place
+    if not radial.plan(scene((*contact, FIRST))).coupled:
+        raise UnsupportedScene(
+            f"no coefficient of friction lets the stick reach to {share:g} of the contact radius: "
+            "pressure moves the surfaces alike, and all sticks under any; name other values of nu "
+            "or E1_over_E2"
+        )
 
     def missed(x: float) -> float:
         found = pressed((*contact, exp(x)), PATH_INCREMENTS // 2 * fineness, fineness)
@@ -109,8 +116,7 @@ def gripping(place: Sequence[float], fineness: int) -> Found:
             raise UnsupportedScene(
                 f"no coefficient of friction between {exp(min(log(FIRST), low)):.3g} and "
                 f"{exp(max(log(FIRST), low)):.3g} lets the stick reach to {share:g} of the contact "
-                "radius; where pressure moves the surfaces alike there is none: name other values "
-                "of c_over_a, nu or E1_over_E2"
+                "radius: name other values of c_over_a, nu or E1_over_E2"
             )
         earlier, last = last, missed(high)
     x = brentq(missed, low, high, xtol=NEAR)
