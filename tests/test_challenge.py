@@ -16,6 +16,7 @@ import pytest
 
 from contact_scene import Body, load_scene
 from slipstick.cli import main
+from tests.cell_means import ellipse_means
 from verification import Answer, CannotDo, Field, Solver, judge
 from verification.adapters import surface
 from verification.challenge.asked import Challenge, Patch
@@ -164,6 +165,18 @@ def test_leaving_out_the_edge_does_not_carry_the_load() -> None:
         statuses(POINT, Answer(1e-5, fields={("pressure", 1): whole}))["pressure: load carried"]
         is Status.PASS
     )
+
+
+def test_right_means_over_cells_are_of_the_best_class() -> None:
+    """Their error is that of the judge's own means, next to the edge too."""
+    field = exact_field(POINT, cells=32)
+    side, (a, p0) = np.sqrt(field.area[0]), (HERTZ.contact_radius, HERTZ.peak_pressure)
+    at = field.x.reshape(32, 32) / side + 15.5, field.y.reshape(32, 32) / side + 15.5
+    assert np.allclose(at, np.indices((32, 32)))
+    means = p0 * ellipse_means(32, (a / side, a / side), (15.5, 15.5)).ravel()
+    answer = Answer(1e-5, fields={("pressure", 1): replace(field, value=means)})
+    (row, *_) = judged(POINT, Solver("cells", sampling="cell"), [answer]).rows
+    assert (row.quantity, row.grade) == ("pressure", "A")
 
 
 def test_points_that_stand_for_all_others_do_not_spread_the_load() -> None:

@@ -18,7 +18,7 @@ from hypothesis import strategies as st
 from radial.wavenumbers import _even_transforms, waves
 from semi_analytical.frf.stack import Stack, stack_of
 from semi_analytical.influence.layered import LayeredCoefficients
-from verification.cell_means import cell_means
+from verification.cell_means import round_means
 from verification.judging.case import Level
 from verification.judging.outcome import Status
 from verification.peers.asked import ASKED, CATTANEO, HERTZ, UNIT, AskedContact
@@ -379,8 +379,8 @@ def answered(contact: str, cells: int) -> dict[str, Any]:
     x = (np.arange(cells) + 0.5) * side - request["window"] / 2
     X, Y = np.meshgrid(x, x, indexing="ij")
     unit, c = UNIT, (1 - asked.part) ** (1 / 3)
-    pressure = cell_means(unit.pressure, X, Y, (side, side))
-    shear = cell_means(
+    pressure = round_means(unit.pressure, X, Y, (side, side))
+    shear = round_means(
         lambda r: asked.friction * (unit.pressure(r) - c * unit.pressure(r / c)), X, Y, (side, side)
     )
     return {

@@ -9,17 +9,15 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from verification.challenge.answer import Answer, Field, Key, Solver, Vector
+from verification.cell_means import cell_means
+from verification.challenge.answer import Answer, Key, Solver
 from verification.challenge.asked import AskedField, AskedPoints, AskedValue, Challenge, Grade
-from verification.challenge.halves import Halves
-from verification.challenge.round_table import RoundTable
 from verification.convergence.observed_order import ILLEGIBLE, observed_order
 from verification.judging.outcome import Status
 
 STALLS_BELOW = 0.5  # upper end of the order's interval
 ORDER_OFF = 0.1
 FEWEST_LEVELS = 3
-SUB_CELLS = 8  # along a side, where the mean over a cell is meant
 KNOWN = 1e-13  # error that no discretisation has by itself
 IDLE = 25.0  # times the error: a standard uncertainty so much larger on every level says nothing
 WHOLE = "–"  # in place of a loading step
@@ -151,7 +149,8 @@ def _of_field(
     errors, carried, spread = [], 0.0, 0.0
     for one, field in found:
         if solver.sampling == "cell":
-            exact = _cell_means(asked.traction, field)
+            side = np.sqrt(field.area)
+            exact = cell_means(asked.traction.at, field.x, field.y, (side, side))
         else:
             exact = asked.traction.at(field.x, field.y)
         off = np.abs(field.value - exact)
@@ -200,14 +199,6 @@ def _of_points(
         errors.append((one.h, float(np.max(np.abs(values - asked.values)) / asked.scale)))
     yield _judged(key, found[-1][0].label, None, None, errors, grade, asked.uncertainty, "")
     yield from _convergence(key, solver, errors, asked.uncertainty)
-
-
-def _cell_means(traction: Halves | RoundTable, field: Field) -> Vector:
-    """Over square cells of a field's areas."""
-    side = np.sqrt(field.area)
-    offsets = (np.arange(SUB_CELLS) + 0.5) / SUB_CELLS - 0.5
-    parts = [traction.at(field.x + i * side, field.y + j * side) for i in offsets for j in offsets]
-    return np.asarray(np.mean(parts, axis=0))
 
 
 def _judged(

@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from contact_results.one_thread import VARIABLES
-from verification.cell_means import cell_means
+from verification.cell_means import round_means
 from verification.norms import relative_l2, shear_error
 from verification.peers.asked import ASKED, UNIT, AskedContact
 from verification.peers.environment import OURSELVES, PEERS, WITH_EDGES, Installed, Peer, Run
@@ -43,7 +43,7 @@ def errors_of(
     sides = side / n, side / n
     if not contact.friction:
         errors = {
-            "pressure": relative_l2(pressure, cell_means(UNIT.pressure, X, Y, sides)),
+            "pressure": relative_l2(pressure, round_means(UNIT.pressure, X, Y, sides)),
             "peak": float(np.max(pressure)) / UNIT.peak_pressure - 1,
         }
         if found["approach"] is not None:
@@ -57,7 +57,7 @@ def errors_of(
     def exact(r: NDArray[np.float64]) -> NDArray[np.float64]:
         return contact.friction * (UNIT.pressure(r) - part * UNIT.pressure(r / part))
 
-    known = cell_means(exact, X, Y, sides)
+    known = round_means(exact, X, Y, sides)
     return {"shear": shear_error(shear, known, contact.friction * pressure)}
 
 

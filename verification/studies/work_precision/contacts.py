@@ -20,7 +20,7 @@ from semi_analytical import SurfaceGrid
 from verification.cases import coated_paraboloid as coated
 from verification.cases.fretting_loop import WINDOW_PER_RADIUS
 from verification.cases.loop_observables import ENERGY_PER_CYCLE, LARGEST_SHIFT_ERROR
-from verification.cell_means import cell_means
+from verification.cell_means import round_means
 from verification.judging.observable import Observable, error_norm
 from verification.judging.observables import APPROACH, PEAK_PRESSURE, SHIFT
 from verification.judging.pressing_errors import pressure_at, shear_at
@@ -104,7 +104,7 @@ def _pushed(increments: int) -> Problem:
 def _pushed_frozen(history: FrozenHistory) -> Errors:
     (end,) = history.turned
     exact = replace(_pushed(1).ends[-1], tangential_force=end.force)
-    shear = cell_means(exact.shear, *history.grid.coordinates(), history.grid.spacing)
+    shear = round_means(exact.shear, *history.grid.coordinates(), history.grid.spacing)
     return {"shear": shear_error(end.shear, shear, history.bound),
             "shift": (end.shift - exact.shift) / SLIDING_SHIFT}  # fmt: skip
 

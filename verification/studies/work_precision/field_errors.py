@@ -15,7 +15,7 @@ from contact_results.quantities import shear_of
 from contact_results.surface import Surface, surface_of
 from semi_analytical import SurfaceGrid
 from verification import norms
-from verification.cell_means import cell_means
+from verification.cell_means import round_means
 from verification.judging import field_errors
 from verification.judging.observable import error_norm
 from verification.problems.paper_scene import FRICTION
@@ -55,7 +55,7 @@ def shear_l1(result: Any, step: int, problem: Problem) -> float:
 
 def _means(exact: Callable[[Field], Field], grid: SurfaceGrid) -> Field:
     x, y = grid.coordinates()
-    return cell_means(exact, x, y, grid.spacing)
+    return round_means(exact, x, y, grid.spacing)
 
 
 def _radii(surface: Surface) -> Field:
