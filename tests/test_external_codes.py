@@ -19,10 +19,12 @@ from verification.external_codes.calculix_deck import (
 )
 from verification.external_codes.calculix_result import read_normal_force, read_tractions
 from verification.external_codes.coated_scene import FRICTIONLESS, HERTZ, far_displacement
+from verification.external_codes.nodal_pressure import up_to_edge
 from verification.external_codes.recorded import NAME, Recorded, recorded
 from verification.external_codes.run_calculix import FINENESSES, SCENES, deck_hash
 from verification.judging.outcome import Status
 from verification.judging.verdicts import judge_quantity
+from verification.problems.coated_ball import ROWS, coated_ball, solved_here
 from verification.references import load_reference
 
 COARSE = Fineness(10, 1000.0)
@@ -230,3 +232,26 @@ def test_frictionless_contact_is_that_of_the_external_code():
     assert len(judged) == 4
     for quantity in judged:
         assert judge_quantity(quantity, case, results).status is Status.PASS
+
+
+@pytest.mark.parametrize("row", ROWS, ids=lambda row: f"E1_over_E2={row['E1_over_E2']:g}")
+def test_edge_and_pressure_are_those_that_nodes_of_half_open_elements_hide(row):
+    """Values next to the edge are the means of what two faces tell, each kept above the least of
+    its points of integration."""
+    exact = solved_here(coated_ball(row)).ends[0]
+    a, p0 = exact.contact_radius, float(exact.pressure(np.zeros(1))[0])
+    r = a * np.array(Fineness(24, 1000.0, 1.25, 1.0).lines[1:])
+    r = r[: np.flatnonzero(r > a)[0] + 1]
+    known = exact.pressure(r) / p0
+    told = known.copy()
+    told[-2:] = 0.1, 0.02  # an edge on a node, and a face beyond that touches a little
+    edge, pressure = up_to_edge(r / a, told)
+    assert edge == pytest.approx(1.0, abs=3e-4)
+    assert np.max(np.abs(pressure - known)) < 0.04 < 0.09 < np.max(np.abs(told - known))
+
+
+def test_pressure_of_few_nodes_is_taken_as_it_is():
+    r, told = np.linspace(0.2, 1.0, 5), np.array([1.0, 0.9, 0.8, 0.5, 0.1])
+    edge, pressure = up_to_edge(r, told)
+    assert edge == pytest.approx(0.9)
+    assert np.array_equal(pressure, told)

@@ -17,7 +17,7 @@ from verification.challenge.door import CannotDo, Posed
 from verification.closed_forms.hertz import PointContact
 from verification.external_codes.calculix_deck import Fineness
 from verification.external_codes.coated_scene import POISSON_RATIO, CoatedScene
-from verification.external_codes.nodal_pressure import at_axis, edge_of, on_nodes
+from verification.external_codes.nodal_pressure import at_axis, on_nodes, up_to_edge
 from verification.external_codes.under_force import COARSEST, under_force
 
 CALCULIX = Solver("CalculiX")
@@ -25,7 +25,7 @@ PRESSED, RUBBED = 4, 20  # increments without and with friction
 
 
 def answer(posed: Posed, level: int) -> Answer:
-    """On COARSEST elements over the Hertz radius, twice as many, …; CannotDo without `ccx`."""
+    """On COARSEST elements over the contact radius, twice as many, …; CannotDo without `ccx`."""
     if shutil.which("ccx") is None:
         raise CannotDo("ccx is not installed: apt-get install calculix-ccx")
     scene_of(posed)
@@ -64,9 +64,10 @@ def _answer(
 ) -> Answer:
     """Back in SI: radii and tractions are over those of Hertz."""
     a, p0 = hertz.contact_radius, hertz.peak_pressure
-    r, pressure = on_nodes(found)
-    of: Mapping[str, Vector] = {"pressure": pressure, "shear_radial": np.array(found["shear"])}
-    edge = edge_of(r, pressure)
+    r, told = on_nodes(found)
+    edge, pressure = up_to_edge(r, told)
+    shear = np.array(found["shear"]) * (pressure / told)  # of µp there as much as the nodes tell
+    of: Mapping[str, Vector] = {"pressure": pressure, "shear_radial": shear}
     own = {
         "approach": approach * hertz.approach, "contact_radius": edge * a,
         "central_pressure": at_axis(r, pressure, edge) * p0,

@@ -40,14 +40,14 @@ Node = tuple[int, int]
 class Fineness:
     """How fine a deck is.
 
-    elements   per Hertz radius
+    elements   per Hertz radius; whole where they are equal
     stiffness  of the contact springs k in k E*/a_H per area, normal and tangential
     reach      of the equal elements, in Hertz radii; the contact must end within
     edge       of the contact, in Hertz radii, towards which elements shrink to 1/AT_EDGE of that;
                None: they are equal
     """
 
-    elements: int
+    elements: float
     stiffness: float
     reach: float = FINE
     edge: float | None = None
@@ -90,7 +90,7 @@ class _Section:
 
 def calculix_deck(scene: CoatedScene, fineness: Fineness) -> str:
     """The whole input file; its lines depend on nothing but the arguments."""
-    touching = fineness.lines
+    touching, per_radius = fineness.lines, f"{fineness.elements:g} per Hertz radius"
     radii = _grown(touching)
     radii[0] = BORE
     film = _until([0.0], fineness.finest, scene.thickness)
@@ -101,7 +101,7 @@ def calculix_deck(scene: CoatedScene, fineness: Fineness) -> str:
     return "\n".join(
         (
             "*HEADING",
-            f"{scene.name}: {fineness.elements} per Hertz radius, stiffness {fineness.stiffness:g}",
+            f"{scene.name}: {per_radius}, stiffness {fineness.stiffness:g}",
             *_mesh(scene, body, ball, depths, len(film) - 1),
             *_contact(scene, fineness),
             *_loading(scene, body, depths),
