@@ -20,7 +20,7 @@ from radial.memory import refuse_if_too_large
 from radial.plan import Plan
 from radial.plan import plan as plan_of
 from radial.pressing import Pressed, Target, pressed
-from radial.shown import largest_targets, refuse_no_disc, shown_radii
+from radial.shown import largest_targets, refuse_no_disc, refuse_round_off, shown_radii
 from radial.surface import displacement, largest_pressure, pressure
 
 Array = NDArray[np.float64]
@@ -171,6 +171,7 @@ class _Solver:
         the tolerance."""
         state = reached.state
         contact, x = state.contact, self.radii / state.contact.radius
+        refuse_round_off(contact, self.tolerance)
         p = pressure(contact, x)
         gap = np.zeros_like(x)
         apart = x > 1

@@ -12,6 +12,9 @@ point slips along w, w·q = µp, so that q across w is left.
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import suppress
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -26,6 +29,7 @@ Array = NDArray[np.float64]
 
 MOST_STEPS = 60
 SHORTEST = 2.0**-6  # of a step of Newton's method
+FURTHEST = 4.0  # that a load moves in a step, over what slips and what gives way to friction
 AT_ONCE = 12  # steps that are taken whole: what slips is found sooner than by shorter ones
 
 
@@ -42,7 +46,7 @@ def held(
     if drag and W is not None and drag >= friction * W:
         raise _slides(drag, friction * W)
     laws = Laws.of(points, friction, loads, before)
-    for x in [laws.closed()] if before is None else laws.starts(before):
+    for x in _starts(laws, before, tolerance):
         at = laws.at(x, points.compliance @ x[:-4])
         for step in range(MOST_STEPS):
             if at.worst <= tolerance:
@@ -52,10 +56,25 @@ def held(
                 aim = aimed(laws, at)
                 if aim is None:
                     break
+                aim = _within_reach(laws, at, aim)
                 at = _nearer(laws, at, aim, SHORTEST if step >= AT_ONCE else 1.0)
     if np.any(_given(loads)):
         _refuse_sliding(points, friction, loads, before, tolerance)
     raise NotConverged("contact and friction on rings", MOST_STEPS, at.worst, tolerance)
+
+
+def _starts(laws: Laws, before: Held | None, tolerance: float) -> Iterator[Array]:
+    """Tractions and motion to begin from: after those of the laws, where all of them slip on the
+    way and nothing tells how far a load moves them, those of a contact whose motion rests."""
+    if before is None:
+        yield laws.closed()
+        return
+    yield from laws.starts(before)
+    if any(force is not None for force in laws.loads.forces[:DOWN]):
+        resting = laws.loads.resting(before.motion)
+        with suppress(NotConverged):
+            state = held(laws.points, laws.friction, resting, before, tolerance)
+            yield np.append(state.tractions, state.motion)
 
 
 def _given(loads: Loads) -> Array:
@@ -86,6 +105,21 @@ def _refuse_sliding(
         f"friction carries {times:.4g} times T = {drag:g} N with a torque of {torque:g} N m: the "
         "indenter slides and turns; reduce them, or prescribe shift and twist"
     )
+
+
+def _within_reach(laws: Laws, at: At, aim: Array) -> Array:
+    """The aim, or as far on the way to it as what slips tells: where all does, a load leads further
+    the less of it is left, without end."""
+    points, inside = laws.points, at.z > 0
+    led = np.array([force is not None for force in laws.loads.forces[:DOWN]])
+    if not np.any(led) or not np.any(inside):
+        return aim
+    further = np.where(led, aim[-4:-1] - at.x[-4:-1], 0.0)
+    edge = points.radii[int(np.max(np.flatnonzero(inside))) // points.count]
+    distance = np.hypot(*further[:ABOUT]) + edge * abs(further[ABOUT])
+    slip = np.max(np.hypot(*laws.slipped(at.u, at.x[-4:]).reshape(2, -1)) / points.areas * inside)
+    reach = FURTHEST * (slip + laws.friction * abs(at.x[-1]))
+    return aim if distance <= reach else at.x + reach / distance * (aim - at.x)
 
 
 def _nearer(laws: Laws, at: At, aim: Array, shortest: float) -> At:

@@ -33,6 +33,12 @@ class Loads:
         beside = (None if force is None else 0.0 for force in self.forces[:DOWN])
         return Loads((*beside, self.forces[DOWN]), self.motions)
 
+    def resting(self, motion: Array) -> Loads:
+        """The same with what T and M lead at rest where it was."""
+        led = zip(self.forces[:DOWN], self.motions[:DOWN], motion, strict=False)
+        beside = (float(was) if force is not None else now for force, now, was in led)
+        return Loads((*(None,) * DOWN, self.forces[DOWN]), (*beside, self.motions[DOWN]))
+
 
 @dataclass(frozen=True)
 class Held:

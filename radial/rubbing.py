@@ -20,7 +20,7 @@ from radial.fields import Increment
 from radial.pressing import LARGEST_STEP, LEAST_POWER, NEAR, ROUND_OFF, Pressed, Target, pressed
 from radial.rings import Rings, place_of, rings_about
 from radial.sheared import Sheared, finite_pressure, sheared, stick_share
-from radial.shown import largest_targets, refuse_no_disc, shown_radii
+from radial.shown import largest_targets, refuse_no_disc, refuse_round_off, shown_radii
 from radial.stick_slip import Rubbed, Signs, rubbed
 from radial.surface import displacement, pressure
 
@@ -164,6 +164,7 @@ class Rubbing:
         the tolerance."""
         state = reached.state
         end, indenter, r = state.end, self.scene.indenter, self.radii
+        refuse_round_off(end.contact, self.tolerance)
         places = end.radius * end.rings.places
         n = end.rings.count
         bare = indenter.initial_gap(places, 0.0)

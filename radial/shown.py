@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from math import ceil, log10
 
 import numpy as np
 from numpy.typing import NDArray
 
 from contact_scene import ControlKind, Scene
 from contact_scene.solver_errors import UnsupportedScene
+from radial.disc import Disc
 from radial.plan import ELSEWHERE
 from radial.pressing import Pressed, Target
 
@@ -60,3 +62,15 @@ def refuse_no_disc(radii: Array, p: Array, gap: Array) -> None:
                 f"the surfaces {what}, {radii[np.argmax(wrong)]:.4g} m from the axis, and this "
                 f"solver takes contacts on one disc; {ELSEWHERE}"
             )
+
+
+def refuse_round_off(contact: Disc, tolerance: float) -> None:
+    """Raise UnsupportedScene where round-off leaves more of the approach than the tolerance: no
+    number of polynomials has made it less."""
+    if contact.missed > tolerance:
+        enough = 10.0 ** ceil(log10(contact.missed))
+        raise UnsupportedScene(
+            f"layers as thin and unlike as these leave {contact.missed:.1g} of the approach to "
+            f"round-off, and the tolerance is {tolerance:.1g}; ask for [radial] tolerance = "
+            f"{enough:.0e}, or {ELSEWHERE}"
+        )

@@ -222,6 +222,24 @@ def test_the_cells_of_the_other_solver_converge_to_it() -> None:
     assert errors[1] < errors[0] / 2
 
 
+@pytest.mark.parametrize("friction", [None, CoulombFriction(coefficient=0.1)])
+def test_round_off_of_thin_and_unlike_layers_is_refused_by_its_name(
+    friction: CoulombFriction | None,
+) -> None:
+    """A film of a million times the stiffness: a tolerance that round-off lets be is told."""
+    film = IsotropicMaterial(young_modulus=2.1e17, poisson_ratio=0.3)
+    asked = Scene(
+        indenter=Paraboloid(radius=0.018, material=RIGID),
+        body=Body(material=STEEL, layers=(Layer(thickness=3.9e-6, material=film),)),
+        friction=friction,
+        loading=(LoadStep(normal_force=1e3, increments=1),),
+    )
+    with pytest.raises(UnsupportedScene, match=r"round-off.* tolerance = 1e-09"):
+        radial.solve(asked)
+    (end,) = radial.solve(asked, RadialDiscretisation(tolerance=1e-9)).steps
+    assert end.worst_residual < 1e-9
+
+
 # ---- histories, errors and files --------------------------------------------------------------
 
 

@@ -13,9 +13,11 @@ from numpy.testing import assert_allclose
 from turning_contacts import (
     ALIKE,
     LIMIT,
+    LOAD,
     PATH,
     PRESS,
     RADIUS,
+    SOFT,
     TORQUE,
     beside,
     push,
@@ -33,7 +35,7 @@ from contact_results.files.surface_file import write_surface
 from contact_results.stress.loaded_bodies import state_of_result, state_of_run
 from contact_results.stress.on_disc import stress_on_disc
 from contact_results.surface import Rings, surface_of
-from contact_scene import LoadStep
+from contact_scene import Body, CoulombFriction, IsotropicMaterial, Layer, LoadStep
 from contact_scene.solver_errors import UnsupportedScene
 
 Pair = tuple[float, float]
@@ -113,6 +115,31 @@ def test_motions_lead_where_their_loads_would() -> None:
     assert end.tangential_force is not None
     assert_allclose(end.torque, by_load[2].torque, atol=0.05 * TORQUE)  # by another path
     assert_allclose(end.tangential_force, by_load[2].tangential_force, atol=0.05 * LIMIT)
+
+
+@pytest.mark.parametrize(
+    ("thickness", "share", "increments"), [(1.0, 0.2, 1), (0.2, 0.2, 2), (0.2, 0.3, 1)]
+)
+def test_a_twisted_ball_is_let_go_and_lifted_almost_wholly_at_once(
+    thickness: float, share: float, increments: int
+) -> None:
+    """All slips on the way, and nothing tells how far no torque turns the ball."""
+    lifted = LoadStep(normal_force=1e-6 * LOAD, increments=increments)
+    film = Body(
+        material=SOFT,
+        layers=(Layer(thickness=thickness * RADIUS, material=_stiffer(2.0)),),
+    )
+    press = PRESS.model_copy(update={"increments": increments})
+    steps = press, twist(share, increments), twist(0.0, increments), lifted
+    asked = scene(loading=steps, body=film, friction=CoulombFriction(coefficient=0.1))
+    *_, let_go, end = radial.solve(asked).steps
+    assert end.torque == 0
+    assert end.residuals.torque_equilibrium < 1e-10
+    assert abs(end.twist) < 2 * abs(let_go.twist)
+
+
+def _stiffer(times: float) -> IsotropicMaterial:
+    return IsotropicMaterial(young_modulus=times * SOFT.young_modulus, poisson_ratio=0.3)
 
 
 def test_a_round_contact_has_no_shear_on_its_axis() -> None:
