@@ -19,7 +19,7 @@ PER_WAVE_RUBBING, RINGS = 8_600, 36_000_000
 PER_WAVE_KEPT, MOST_KEPT = 8_300, 39_000_000
 # Of contacts at points, whose rings and angles are always as many: figures are drawn when what the
 # solve has taken is free again.
-PUSHED, WHOLE, PER_WAVE_PUSHED, DRAWN = 133 << 20, 295 << 20, 8_600, 181 << 20
+PUSHED, WHOLE, PER_WAVE_PUSHED, DRAWN = 133 << 20, 246 << 20, 8_600, 181 << 20
 
 
 def estimated_bytes(scene: Scene, plan: Plan) -> int:
