@@ -44,6 +44,11 @@ class SurfaceGrid:
         """Cell centres along y, symmetric about zero, shape (ny,) [length]."""
         return _centres(self.cells[1], self.spacing[1])
 
+    @property
+    def even(self) -> bool:
+        """Whether cells lie alike on both sides of x = 0 and of y = 0."""
+        return all(np.array_equal(at, -at[::-1]) for at in (self.x, self.y))
+
     def coordinates(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """Cell centres X, Y, each of shape (nx, ny) [length]."""
         x, y = np.meshgrid(self.x, self.y, indexing="ij")

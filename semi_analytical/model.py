@@ -63,9 +63,13 @@ class ContactModel:
 
     @classmethod
     def of(cls, scene: Scene, grid: SurfaceGrid, *, even: bool = False) -> "ContactModel":
-        """The model of a scene, its gap taken at the cell centres."""
+        """The model of a scene, its gap taken at the cell centres.
+
+        even  whether pressures without shear are even about x = 0 and y = 0
+        """
         x, y = grid.coordinates()
-        return cls(scene, grid, scene.indenter.initial_gap(x, y), Convolutions(), even=even)
+        gap = scene.indenter.initial_gap(x, y)
+        return cls(scene, grid, gap, Convolutions(), even=even and grid.even)
 
     @cached_property
     def part(self) -> Part:

@@ -34,6 +34,7 @@ from semi_analytical.operator import NormalOperator
 from semi_analytical.padded_transform import Convolutions
 from semi_analytical.part import Part
 from semi_analytical.pressing import NormalTarget, nested_start
+from verification.problems.shifted_grid import ShiftedGrid
 
 QUARTER = Part(quarter=True)
 ROUND_OFF = 1e-13
@@ -232,6 +233,14 @@ def test_a_gap_of_its_own_is_not_taken_for_even():
         update={"indenter": Leaf(radii=(RADIUS, 3 * RADIUS), material=steel())}
     )
     assert not plan(described).quarter
+
+
+@pytest.mark.parametrize("offset", [(0.0, 0.0), (0.5, 0.0), (0.1, 0.35)])
+def test_cells_that_lie_beside_the_axis_are_solved_as_they_are(offset):
+    """The indenter is even, but what they see of it is not."""
+    beside = ShiftedGrid((8, 8), (3 * A, 3 * A), offset)
+    part = ContactModel.of(scene(PRESS), beside, even=True).part
+    assert part.quarter == (offset == (0.0, 0.0))
 
 
 def test_a_first_pressure_covers_the_window_for_whoever_asks():
