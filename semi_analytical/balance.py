@@ -7,7 +7,7 @@ import numpy as np
 from semi_analytical.energy import NOTHING_YET, Configuration, after_increment
 from semi_analytical.increment import State
 from semi_analytical.model import ContactModel
-from semi_analytical.sheared import rigid, untouched
+from semi_analytical.sheared import rigid
 
 
 def balanced(
@@ -21,7 +21,7 @@ def balanced(
     """
     end = configuration(model, after)
     if before is None:
-        spent, start = NOTHING_YET, Configuration.at_rest(model.gap, len(end.forces))
+        spent, start = NOTHING_YET, Configuration.at_rest(model.gap, end)
     else:
         spent, start = before.energy, configuration(model, before)
     dissipated = 0.0 if after.sheared is None else after.sheared.dissipated_energy
@@ -32,9 +32,25 @@ def balanced(
 
 
 def configuration(model: ContactModel, state: State) -> Configuration:
-    """What the balance needs of a state; without friction its tangential part is nothing."""
-    pressing = state.pressing
-    sheared = state.sheared or untouched(model.grid.cells)
+    """What the balance needs of a state; where no shear arises its tangential fields are empty."""
+    pressing, sheared = state.pressing, state.sheared
+    gap = model.gap + pressing.displacement - pressing.closure(model)
+    force = state.target.force
+    normal = state.normal_force if force is None else force
+    if sheared is None:
+        nothing = np.zeros((2, 0, 0))
+        return Configuration(
+            pressure=pressing.pressure,
+            normal_displacement=pressing.displacement,
+            gap=gap,
+            shear=nothing,
+            friction_limit=nothing[0],
+            tangential_displacement=nothing,
+            slipped=nothing,
+            touching=nothing[0],
+            forces=np.array([normal, *(state.moment or ())]),
+            motions=np.array([pressing.approach, *(pressing.tilt or ())]),
+        )
     shift = sheared.shift
     slipped = motions = None
     if shift is not None:
@@ -42,13 +58,11 @@ def configuration(model: ContactModel, state: State) -> Configuration:
         motions = np.array(
             [pressing.approach, *shift, *(pressing.tilt or ()), *_some(sheared.twist)]
         )
-    force = state.target.force
-    normal = state.normal_force if force is None else force
     moments = *(state.moment or ()), *_some(sheared.torque)
     return Configuration(
         pressure=pressing.pressure,
         normal_displacement=pressing.displacement,
-        gap=model.gap + pressing.displacement - pressing.closure(model),
+        gap=gap,
         shear=sheared.shear,
         friction_limit=model.friction.limit(sheared.pressure),
         tangential_displacement=sheared.displacement,

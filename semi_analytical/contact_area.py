@@ -7,6 +7,7 @@ same holds at the edge of the stick zone for the shear that is missing from full
 pressure of a smaller contact (Cattaneo 1938; Mindlin and Deresiewicz 1953 after a reversal).
 """
 
+from functools import lru_cache
 from typing import Any
 
 import numpy as np
@@ -102,14 +103,11 @@ def _fit(phi: Field, trusted: Mask, i: NDArray[np.intp], j: NDArray[np.intp]) ->
 
     phi, trusted  framed
     """
-    shift = np.arange(-REACH, REACH + 1)
-    di, dj = (grid.ravel() for grid in np.meshgrid(shift, shift, indexing="ij"))
+    di, dj, nearness, basis, products = _stencil()
     rows = phi.shape[1]
     at = ((i + FRAME) * rows + j + FRAME)[:, None] + (di * rows + dj)
     use = np.take(trusted, at)
-    weight = use * np.exp(-(di**2 + dj**2) / (2 * LENGTH**2))
-    basis = np.stack([np.ones_like(di), di, dj, di * di, di * dj, dj * dj], axis=-1).astype(float)
-    products = (basis[:, :, None] * basis[:, None, :]).reshape(-1, 36)
+    weight = use * nearness
     normal = (weight @ products).reshape(-1, 6, 6)
     right = (weight * np.take(phi, at)) @ basis
     mean = right[:, 0] / np.maximum(normal[:, 0, 0], 1e-30)
@@ -117,6 +115,18 @@ def _fit(phi: Field, trusted: Mask, i: NDArray[np.intp], j: NDArray[np.intp]) ->
     normal += 1e-9 * np.eye(6) * (np.trace(normal, axis1=1, axis2=2)[:, None, None] + 1e-30)
     f, f_x, f_y = np.linalg.solve(normal, right[..., None])[:, :3, 0].T
     return np.stack([f, f_x, f_y, mean, np.count_nonzero(use, axis=1)])
+
+
+@lru_cache(maxsize=1)
+def _stencil() -> tuple[NDArray[Any], ...]:
+    """Of the cells around one: how far off along x and y, their weights, the terms of a quadratic
+    (cells, 6), and the products of all pairs of terms (cells, 36)."""
+    shift = np.arange(-REACH, REACH + 1)
+    di, dj = (grid.ravel() for grid in np.meshgrid(shift, shift, indexing="ij"))
+    nearness = np.exp(-(di**2 + dj**2) / (2 * LENGTH**2))
+    basis = np.stack([np.ones_like(di), di, dj, di * di, di * dj, dj * dj], axis=-1).astype(float)
+    products = (basis[:, :, None] * basis[:, None, :]).reshape(-1, 36)
+    return di, dj, nearness, basis, products
 
 
 def _coverage(f: Field, f_x: Field, f_y: Field) -> Field:

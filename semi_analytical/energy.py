@@ -46,7 +46,8 @@ Vector = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Configuration:
-    """A state as its energy sees it; fields on the whole window.
+    """A state as its energy sees it; fields on the whole window, but tangential ones without cells
+    where no shear arises.
 
     pressure, normal_displacement       p and u_z (nx, ny)
     gap                                 g (nx, ny); not finite at most where p is always zero
@@ -69,23 +70,20 @@ class Configuration:
     motions: Vector | None
 
     @classmethod
-    def at_rest(cls, gap: Field, pairs: int) -> Configuration:
-        """Before first touch: no load, no motion.
-
-        pairs  how many conjugate pairs of force and motion there are
-        """
-        nothing = np.zeros((2, *gap.shape))
+    def at_rest(cls, gap: Field, after: Configuration) -> Configuration:
+        """Before first touch: no load, no motion; with the fields of a state that comes after."""
+        nothing, unsheared = np.zeros_like(gap), np.zeros_like(after.shear)
         return cls(
-            pressure=nothing[0],
-            normal_displacement=nothing[0],
+            pressure=nothing,
+            normal_displacement=nothing,
             gap=gap,
-            shear=nothing,
-            friction_limit=nothing[0],
-            tangential_displacement=nothing,
-            slipped=nothing,
-            touching=nothing[0],
-            forces=np.zeros(pairs),
-            motions=np.zeros(pairs),
+            shear=unsheared,
+            friction_limit=np.zeros_like(after.friction_limit),
+            tangential_displacement=unsheared,
+            slipped=unsheared,
+            touching=np.zeros_like(after.touching),
+            forces=np.zeros_like(after.forces),
+            motions=np.zeros_like(after.forces),
         )
 
 

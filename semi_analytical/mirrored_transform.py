@@ -35,14 +35,20 @@ class Cosines:
     """Values at `cells` places (i + ½) h along the last axis, to the amplitudes of cos(π k x/m h),
     k < m, and back; zero from the last cell to m h."""
 
-    def __init__(self, cells: int, m: int) -> None:
+    def __init__(self, cells: int, m: int, forward: Field | None = None) -> None:
         self.cells, self.m = cells, m
-        self._forward: Field | None = None
-        if cells <= MOST_BY_MATRIX:
+        self._forward = forward
+        if forward is None and cells <= MOST_BY_MATRIX:
             turn = 2 * np.cos(np.pi / (2 * m) * np.arange(4 * m))
             self._forward = turn[np.outer(2 * np.arange(cells) + 1, np.arange(m)) % (4 * m)]
-            self._back = np.ascontiguousarray(self._forward.T / (2 * m))
+        if self._forward is not None:
+            self._back = self._forward.T / (2 * m)
             self._back[0] /= 2
+
+    def unpadded(self) -> "Cosines":
+        """Those of half the length m: every second one."""
+        every = None if self._forward is None else np.ascontiguousarray(self._forward[:, ::2])
+        return Cosines(self.cells, self.m // 2, every)
 
     def forward(self, values: Field) -> Field:
         """(…, cells) to (…, m)."""
@@ -70,7 +76,7 @@ class MirroredTransform:
         self.reach = (slice(nx), slice(ny))
         self.period = (nx - 1, ny - 1)
         self._padded = tuple(map(Cosines, shape, self.period))
-        self._unpadded = tuple(Cosines(n, m // 2) for n, m in zip(shape, self.period, strict=True))
+        self._unpadded = tuple(side.unpadded() for side in self._padded)
 
     def convolved(self, values: Field, multiply: Multiply) -> Field:
         """A field of a field, both (nx, ny)."""
@@ -86,6 +92,8 @@ def _filtered(values: Field, sides: tuple[Cosines, ...], multiply: Multiply) -> 
     """A field with its amplitudes multiplied, both (nx, ny)."""
     x, y = sides
     lines = y.forward(values)
+    if lines.size <= BLOCK // 2:
+        return y.back(x.back(multiply(x.forward(lines.T), slice(y.m))).T)
     for columns in _blocks(y.m, max(1, BLOCK // x.m)):
         lines[:, columns] = x.back(multiply(x.forward(lines[:, columns].T), columns)).T
     result = np.empty_like(values)

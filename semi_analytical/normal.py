@@ -60,8 +60,8 @@ class _Problem:
     def residual(self, p: Field, g: Field, overlap: float) -> float:
         """The larger of complementarity and penetration, relative to the overlap."""
         total = np.sum(p)  # zero where a step under a fixed approach has overshot
-        complementarity = np.sum(np.abs(g) * p) / total if total > 0 else 0.0
-        penetration = -np.min(g, where=self.allowed, initial=0.0)
+        complementarity = np.vdot(np.abs(g), p) / total if total > 0 else 0.0
+        penetration = -np.min(np.where(self.allowed, g, 0.0))
         return worst(complementarity, penetration) / overlap
 
 
@@ -127,17 +127,17 @@ def _solve_on(
     p, u = p * inside, u.copy()
     r = projected(closure - problem.h - u)
     t = z = projected(problem.precondition(r))
-    rz = first = np.sum(r * z)
+    rz = first = np.vdot(r, z)
     iterations = 0
     while rz > depth**2 * first and iterations < MOST_ITERATIONS_PER_STEP:
         iterations += 1
         A_t = problem.displace(t)
-        step = rz / np.sum(t * A_t)
+        step = rz / np.vdot(t, A_t)
         p += step * t
         u += step * A_t
         r = r - step * projected(A_t)
         z = projected(problem.precondition(r))
-        rz, last = np.sum(r * z), rz
+        rz, last = np.vdot(r, z), rz
         t = z + (rz / last) * t
     return p, u, iterations
 
@@ -216,8 +216,8 @@ def _let_go(
 
 def _falls(d: Field, d_u: Field, g: Field) -> bool:
     """Whether a change of the pressure lowers the energy as much as its slope promises."""
-    slope = np.sum(d * g)
-    return bool(slope + 0.5 * np.sum(d * d_u) <= LEAST_FALL * slope)
+    slope = np.vdot(d, g)
+    return bool(slope + 0.5 * np.vdot(d, d_u) <= LEAST_FALL * slope)
 
 
 def _gradient_step(problem: _Problem, p: Field, u: Field, g: Field) -> tuple[Field, Field]:

@@ -65,7 +65,7 @@ class PressureSum:
 
     def motion(self, p: Field, s: Field) -> Motion:
         """The approach: the multiplier of the sum."""
-        return float(np.sum(p * s) / np.sum(p))
+        return float(np.vdot(p, s) / np.sum(p))
 
     def closure(self, motion: Motion) -> float | Field:
         """The approach, everywhere the same."""
@@ -86,7 +86,7 @@ class PressureSum:
         count = np.sum(inside)
 
         def projected(field: Field) -> Field:
-            shift = np.sum(field * inside) / count
+            shift = np.vdot(field, inside) / count
             return np.asarray((field - shift) * inside)
 
         return projected

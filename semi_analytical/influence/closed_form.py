@@ -46,6 +46,8 @@ class RectangleIntegrals:
     @cached_property
     def yy_r3(self) -> Field:
         """Integral of y^2 / r^3."""
+        if self._X.size == self._Y.size and np.array_equal(self._X[:, 0], self._Y[0]):
+            return self.xx_r3.T
         return self._corners(self._X * np.arcsinh(self._Y / np.abs(self._X)))
 
     @cached_property
