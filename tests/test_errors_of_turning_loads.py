@@ -14,7 +14,7 @@ MU = 0.3
 LIMIT = MU * LOAD
 SLOW = pytest.mark.slow
 FINENESS: dict[str, Any] = {
-    "semi-analytical": slipstick.SurfaceDiscretisation(cells=(64, 64), edge="off"),
+    "semi-analytical": slipstick.SurfaceDiscretisation(cells=(32, 32), edge="off"),
     "radial": slipstick.RadialDiscretisation(rings=8),
 }
 ALONG, ACROSS, BACK = (LIMIT / 3, 0.0), (0.2 * LIMIT, 0.8 * LIMIT / 3), (-LIMIT / 3, 0.0)

@@ -17,7 +17,7 @@ from contact_scene.accuracy_reached import AccuracyReached, AccuracySettings
 from contact_scene.increment import SCALARS
 
 STEEL = slipstick.IsotropicMaterial(young_modulus=210e9, poisson_ratio=0.3)
-COUNTS = (1, 40, 40, 40)
+COUNTS = (1, 12, 12, 12)
 SCENE = slipstick.Scene(
     indenter=slipstick.Paraboloid(radius=18e-3, material=STEEL),
     body=slipstick.Body(material=STEEL),

@@ -44,7 +44,7 @@ def pushed(solver: str, count: int) -> slipstick.Scene:
 many = pytest.param(10_000, marks=[pytest.mark.slow, pytest.mark.timeout(3600)])
 
 
-@pytest.mark.parametrize("count", [400, many])
+@pytest.mark.parametrize("count", [150, many])
 @pytest.mark.parametrize("solver", FINENESS)
 def test_memory_is_flat_and_the_end_that_of_a_few(
     solver: str, count: int, monkeypatch: pytest.MonkeyPatch

@@ -215,11 +215,11 @@ def test_on_many_cells_newton_alone_leads_to_the_end(monkeypatch):
     monkeypatch.setattr(globalisation, "solve_coupled", None)
     described = scene(press(increments=5), push(0.2, increments=1))
     products = {}
-    for cells in (64, 384):
+    for cells in (48, 288):
         increments = solve(described, grid(cells), TOLERANCE).increments
         assert all(increment.halvings == 0 for increment in increments)
         products[cells] = sum(increment.convolutions for increment in increments)
-    assert products[384] < 1.5 * products[64]
+    assert products[288] < 1.5 * products[48]
 
 
 def test_newton_alone_presses_and_pushes_in_one_increment_each(monkeypatch):

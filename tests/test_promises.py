@@ -118,7 +118,7 @@ def test_reading_elsewhere_breaks_the_promise(monkeypatch: pytest.MonkeyPatch) -
         return sound(path)
 
     monkeypatch.setattr(paths, "read_scene_file", curious)
-    broken = [attempt.told for attempt in paths.escaping(20) if not attempt.kept]
+    broken = [attempt.told for attempt in paths.escaping(6) if not attempt.kept]
     assert broken
     assert all("opened" in told for told in broken)
 
