@@ -272,9 +272,23 @@ def test_a_slip_of_sign_or_unit_is_named() -> None:
 
 
 def test_a_number_that_is_none_fails() -> None:
-    assert statuses(POINT, Answer(1e-5, {("approach", 1): float("nan")})) == {
-        "approach": Status.FAIL
-    }
+    answer = Answer(1e-5, {("approach", 1): float("nan")})
+    (row,) = judged(POINT, Solver("s"), [answer]).rows
+    assert (row.status, row.because) == (Status.FAIL, "no finite number")
+
+
+def test_a_field_that_the_finest_level_lacks_leaves_it_open() -> None:
+    """Or who left out the worst would be judged by the rest."""
+    coarse, fine = exact(POINT, cells=100), exact(POINT, h=5e-6)
+    found = judged(POINT, Solver("s"), [coarse, fine])
+    assert found.exit_code(strict=True) == 6
+    (told,) = (row for row in found.rows if row.quantity == "pressure: finest level")
+    assert (told.status, told.because) == (
+        Status.INCONCLUSIVE, f"not answered there; judged on level {coarse.label}"
+    )  # fmt: skip
+    gave_up = replace(fine, gave_up={1: "too long"})
+    rows = judged(POINT, Solver("s"), [coarse, gave_up]).rows
+    assert "pressure: finest level" not in {row.quantity for row in rows}
 
 
 # ---- files --------------------------------------------------------------------------------------
@@ -436,6 +450,27 @@ def test_what_is_no_file_of_a_challenge_is_refused_by_name(
     (filled / name).write_text(content)
     assert slipstick("judge", filled) == 2
     assert said in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("head", "value", "said"),
+    [
+        ("pressure", "1", "1_1.csv:1: no traction of step 1, expected 'pressure [Pa]'"),
+        ("pressure [GPa]", "1", "1_1.csv:1: no traction of step 1, expected 'pressure [Pa]'"),
+        ("pressure [Pa]", "1,2", "below its head: the number of columns changed from 4 to 5 at"),
+        ("pressure [Pa]", "high", "below its head: could not convert string 'high'"),
+    ],
+)
+def test_a_mistake_in_a_table_of_tractions_is_named(
+    filled: Path, capsys: pytest.CaptureFixture[str], head: str, value: str, said: str
+) -> None:
+    (filled / "fields").mkdir(exist_ok=True)
+    table = f"x [m], y [m], area [m^2], {head}\n0,0,1e-10,1\n0,0,1e-10,{value}\n"
+    (filled / "fields" / "1_1.csv").write_text(table)
+    assert slipstick("judge", filled) == 2
+    error = capsys.readouterr().err
+    assert said in error
+    assert "usecols" not in error
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="has no such devices and queues")

@@ -77,7 +77,7 @@ class Answer:
 class Solver:
     """Who answers.
 
-    sampling      whether a field's value is that at the point or the mean over its area
+    sampling      of fields: "point", or "cell" for means over squares of the areas
     knows_answer  quantities that the discretisation is given, as a radius that a mesh is cut to
     meshless      whether numbers may be right to rounding on every level, as those of series are
     claims        grade, and orders by quantity

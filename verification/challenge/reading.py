@@ -39,6 +39,7 @@ _ENERGIES = {"J": "1", "mJ": "1e-3", "uJ": "1e-6", "µJ": "1e-6", "N m": "1", "N
 ENERGY = Kind("J", '"3 uJ"', MappingProxyType({unit: Decimal(f) for unit, f in _ENERGIES.items()}))
 KINDS = {"m": LENGTH, "Pa": PRESSURE, "J": ENERGY, "N m": MOMENT, "rad": ROTATION}
 MOST_BYTES = 100_000_000
+IN_PASCAL = " [Pa]"  # after the name of a traction, in the head of its table
 EXACT = Context(prec=40)
 SOLVED, GAVE_UP = "solved", "gave up"
 
@@ -207,29 +208,28 @@ def _fields(
     folder: Path, challenge: Challenge, levels: Mapping[str, Any]
 ) -> dict[str, dict[Key, Field]]:
     found: dict[str, dict[Key, Field]] = {}
-    asked = {(f.quantity, f.step) for f in challenge.fields}
     for path in sorted(folder.glob("*")) if folder.is_dir() else ():
         level, _, step = path.stem.rpartition("_")
         if path.suffix != ".csv" or level not in levels or not step.isdigit():
             raise Refused(f"{path}: expected LEVEL_STEP.csv, with a level of {LEVELS}")
-        header = _text(path).partition("\n")[0].strip().split(",")
-        columns = {name.strip().removesuffix(" [Pa]"): k for k, name in enumerate(header)}
-        quantities = [q for q, s in asked if q in columns and s == int(step)]
+        header = [name.strip() for name in _text(path).partition("\n")[0].split(",")]
+        here = [f.quantity for f in challenge.fields if f.step == int(step)]
+        quantities = [q for q in here if f"{q}{IN_PASCAL}" in header]
         if missing := [name for name in FIELD_COLUMNS if name not in header]:
             raise Refused(f"{path}:1: no column {', '.join(missing)}")
         if not quantities:
-            raise Refused(
-                f"{path}:1: no traction that is asked in step {step}: {', '.join(header)}"
-            )
+            expected = " or ".join(f"'{q}{IN_PASCAL}'" for q in here) or "none"
+            raise Refused(f"{path}:1: no traction of step {step}, expected {expected}")
         try:
             table = np.loadtxt(path, delimiter=",", skiprows=1, ndmin=2)
         except ValueError as error:
-            raise Refused(f"{path}: {error}") from None
+            reason = str(error).partition("; use `usecols`")[0]
+            raise Refused(f"{path}, below its head: {reason}") from None
         x, y, area = (table[:, header.index(name)] for name in FIELD_COLUMNS)
         if not np.all(area > 0):
             raise Refused(f"{path}: areas must be positive")
         for quantity in quantities:
-            value = table[:, columns[quantity]]
+            value = table[:, header.index(f"{quantity}{IN_PASCAL}")]
             found.setdefault(level, {})[quantity, int(step)] = Field(x, y, value, area)
     return found
 

@@ -146,6 +146,10 @@ def _of_field(
     found = [(one, one.fields[key]) for one in levels if key in one.fields]
     if not found:
         return
+    last = levels[-1]
+    if key not in last.fields and not {0, asked.step} & last.gave_up.keys():
+        yield Row(f"{asked.quantity}: finest level", asked.step, last.label, Status.INCONCLUSIVE,
+                  f"not answered there; judged on level {found[-1][0].label}")  # fmt: skip
     errors, carried, spread = [], 0.0, 0.0
     for one, field in found:
         if solver.sampling == "cell":
@@ -219,6 +223,7 @@ def _judged(
         status, because = Status.INCONCLUSIVE, "the reference is not certain enough to tell"
     else:
         status, because = Status.FAIL, f"beyond class {grade}{hint}"
+        because = because if math.isfinite(error) else "no finite number"
     met = next((one for one in Grade if error + wide <= one.bound), None)
     fit = _order(errors, wide)
     return Row(
@@ -238,7 +243,7 @@ def _convergence(
     told = f"order {order_text(fit)}"
     if errors[-1][1] > Grade.A.bound and order + half < STALLS_BELOW:
         yield Row(f"{quantity}: stalls", step, WHOLE, Status.FAIL,
-                  f"{told}: finer is hardly better", order=fit)  # fmt: skip
+                  f"order below {order + half:.2f}: finer is hardly better", order=fit)  # fmt: skip
     claimed = solver.claimed_orders.get(quantity)
     if claimed is None:
         return
