@@ -75,8 +75,11 @@ class MirroredTransform:
         nx, ny = mirrored_offsets(shape)
         self.reach = (slice(nx), slice(ny))
         self.period = (nx - 1, ny - 1)
-        self._padded = tuple(map(Cosines, shape, self.period))
-        self._unpadded = tuple(side.unpadded() for side in self._padded)
+        sides = dict(zip(shape, self.period, strict=True))  # one where both are alike
+        padded = {n: Cosines(n, m) for n, m in sides.items()}
+        unpadded = {n: side.unpadded() for n, side in padded.items()}
+        self._padded = tuple(padded[n] for n in shape)
+        self._unpadded = tuple(unpadded[n] for n in shape)
 
     def convolved(self, values: Field, multiply: Multiply) -> Field:
         """A field of a field, both (nx, ny)."""
