@@ -113,7 +113,7 @@ def test_area_of_a_stuck_ring() -> None:
     sides = np.zeros(40, np.int8)
     sides[:11], sides[30:36] = 1, 1
     bound = np.where(radii < 36, 1.0, 0.0)
-    area = stick_area(radii, bound, np.where(sides != 0, 1.0, 0.0), sides, 35.5)
+    area = stick_area(radii, bound, np.where(sides != 0, bound, 0.0)[None], sides != 0, 35.5)
     assert area == pytest.approx(pi * (29.5**2 - 10.5**2), rel=0.06)
 
 
@@ -151,9 +151,9 @@ def test_slip_within_stick_has_its_edge_where_nothing_is_missing_from_the_limit(
     bound = np.sqrt(np.maximum(outer**2 - radii**2, 0))
     missing = np.minimum(np.sqrt(np.maximum(radii**2 - inner**2, 0)), bound)
     sides = np.where(radii < inner, side, 0).astype(np.int8)
-    whole = stick_area(radii, bound, np.zeros(60), np.zeros(60, np.int8), outer)
+    whole = stick_area(radii, bound, np.zeros((1, 60)), np.zeros(60, bool), outer)
     assert whole == pytest.approx(pi * outer**2, rel=1e-2)
-    area = stick_area(radii, bound, side * (bound - missing), sides, outer)
+    area = stick_area(radii, bound, side * (bound - missing)[None], sides != 0, outer)
     assert whole - area == pytest.approx(pi * inner**2, rel=1e-2)
 
 
@@ -180,6 +180,6 @@ def test_slip_narrower_than_an_element_is_found_by_what_is_missing_from_the_limi
     stick, contact = 150.3, 150.8
     missing, bound = plane_contact(stick), plane_contact(contact)
     radii = np.arange(len(bound)) + 1e6
-    nothing = np.zeros(len(bound), np.int8)
-    area = stick_area(radii, bound, way * (bound - missing), nothing, 1e6 + contact)
+    nothing = np.zeros(len(bound), bool)
+    area = stick_area(radii, bound, way * (bound - missing)[None], nothing, 1e6 + contact)
     assert np.sqrt(area / pi) - 1e6 == pytest.approx(stick, abs=3e-3)

@@ -16,9 +16,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from contact_scene.body import Body
-from fem_reference.contact.box_program import Sides
 
 Field = NDArray[np.float64]
+Mask = NDArray[np.bool_]
 Beyond = tuple[float, ...]
 
 # Distance of the edge beyond the last ring, in elements, by powers of the ratio of the last two
@@ -94,27 +94,29 @@ def contact_edge(radii: Field, pressure: Field, table: Beyond) -> float:
 
 
 def stick_area(
-    radii: Field, bound: Field, shear: Field, sides: Sides, contact_radius: float
+    radii: Field, bound: Field, shear: Field, slips: Mask, contact_radius: float
 ) -> float:
     """Area of the rings that stick, their edges found between the rings [length^2].
 
     bound  friction limit (n,), zero where there can be no shear
-    sides  0 where the surfaces stick or are apart, ±1 where they slip
+    shear  its components (c, n), one or two
+    slips  (n,) neither where the surfaces stick nor where they are apart
     """
     if not np.any(bound > 0):
         return 0.0
     last = int(np.flatnonzero(bound > 0)[-1])
-    stuck = sides[: last + 1] == 0
+    stuck = ~slips[: last + 1]
     if bound[0] == 0:
         stuck[0] = stuck[1]
     area = 0.0
     if stuck[last]:
         rim = last == len(radii) - 1
-        outer = contact_radius if rim else edge_radius(radii, bound - np.abs(shear), last)
+        left = bound - np.sqrt(np.sum(shear**2, axis=0))
+        outer = contact_radius if rim else edge_radius(radii, left, last)
         area = pi * min(outer, contact_radius) ** 2
     for ring in np.flatnonzero(stuck[1:] != stuck[:-1]).tolist():
-        if stuck[ring]:
-            area += pi * edge_radius(radii, bound - sides[ring + 1] * shear, ring) ** 2
-        else:
-            area -= pi * edge_radius(radii, bound - sides[ring] * shear, ring + 1, -1) ** 2
+        at, beside, step = (ring, ring + 1, 1) if stuck[ring] else (ring + 1, ring, -1)
+        # Missing from slip the way that the neighbour slips: after a reversal not the nearer limit.
+        missing = bound - shear[:, beside] @ shear / bound[beside]
+        area += step * pi * edge_radius(radii, missing, at, step) ** 2
     return float(area)

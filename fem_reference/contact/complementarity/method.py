@@ -61,7 +61,9 @@ class Complementarity:
         assert sideways is not None
         bound = sideways.friction.limit(sideways.limited(state.pressure))
         in_stick = (state.pressure > 0) & (slid.sides == 0) & (sideways.friction.largest > 0)
-        stuck = stick_area(pressed.radii, bound, slid.shear, slid.sides, pressed.contact_radius)
+        stuck = stick_area(
+            pressed.radii, bound, slid.shear[None], slid.sides != 0, pressed.contact_radius
+        )
         sheared = replace(
             pressed,
             status=slid.status,

@@ -73,7 +73,7 @@ class HarmonicMethod:
 
     def increment(self, state: PointState, place: Place) -> Increment:
         """The state as it is reported."""
-        return reported(state, self.direction, place)
+        return reported(state, self.model.friction, self.direction, place)
 
     @cached_property
     def _on_rings(self) -> PointContact:

@@ -5,16 +5,19 @@ from math import pi, sqrt
 import numpy as np
 from numpy.typing import NDArray
 
+from contact_scene.friction import CoulombFriction
 from contact_scene.march import Place
 from contact_scene.summary import ContactStatus
 from fem_reference.contact.harmonics.point_state import PointState
-from fem_reference.contact.ring_edge import contact_edge
+from fem_reference.contact.ring_edge import contact_edge, stick_area
 from fem_reference.fields import Increment
 
 Field = NDArray[np.float64]
 
 
-def reported(state: PointState, direction: tuple[float, float], place: Place) -> Increment:
+def reported(
+    state: PointState, friction: CoulombFriction, direction: tuple[float, float], place: Place
+) -> Increment:
     """Fields on (rings, angles), or on (rings,) as long as nothing depends on θ.
 
     direction  of the tangential load, from which angles count
@@ -31,7 +34,7 @@ def reported(state: PointState, direction: tuple[float, float], place: Place) ->
     def shown(values: Field) -> Field:
         return values[:, 0] if axisymmetric else values
 
-    contact_area = _contact_area(state, p)
+    edges = _edges(state, p)
     return Increment(
         step=place.step,
         index=place.index,
@@ -42,7 +45,7 @@ def reported(state: PointState, direction: tuple[float, float], place: Place) ->
         gap=shown(gap),
         normal_force=state.normal_force,
         approach=state.approach,
-        contact_radius=sqrt(contact_area / pi),
+        contact_radius=sqrt(_contact_area(state, edges) / pi),
         peak_pressure=float(np.max(p)),
         residuals=state.residuals,
         iterations=state.solves,
@@ -53,7 +56,7 @@ def reported(state: PointState, direction: tuple[float, float], place: Place) ->
         slip_radial=shown(s_r),
         slip_circumferential=None if axisymmetric else s_theta,
         in_stick=in_stick[:, 0] if axisymmetric else in_stick,
-        stick_radius=sqrt(_stick_area(state, contact_area) / pi),
+        stick_radius=sqrt(_stick_area(state, friction, edges) / pi),
         tangential_force=_along(direction, state.tangential_force),
         tangential_shift=None if shift is None else _along(direction, shift),
         dissipated_energy=state.dissipated_energy,
@@ -68,17 +71,33 @@ def _along(direction: tuple[float, float], value: float) -> tuple[float, float]:
     return value * x, value * y
 
 
-def _contact_area(state: PointState, p: Field) -> float:
-    """½∫a² dθ with the radius a of the contact's edge on every ray [length^2]; on the last ring,
-    the rim of a flat punch, the edge is the ring. Rays without contact add nothing."""
+def _edges(state: PointState, p: Field) -> Field:
+    """Radius of the contact's edge on every ray (angles,) [length]: on the last ring, the rim of a
+    flat punch, the ring; 0 without contact."""
     rings = state.compliance.rings
-    edges = [contact_edge(rings.radii, ray, rings.edge) for ray in p.T]
+    return np.array([contact_edge(rings.radii, ray, rings.edge) for ray in p.T])
+
+
+def _contact_area(state: PointState, edges: Field) -> float:
+    """½∫a² dθ with the radius a of the contact's edge on every ray [length^2]."""
     return float(0.5 * np.sum(state.compliance.grid.weights * np.square(edges)))
 
 
-def _stick_area(state: PointState, contact_area: float) -> float:
-    """Area that the sticking points stand for: known to parts of an element in radius and of a
-    sector in angle [length^2]."""
+def _stick_area(state: PointState, friction: CoulombFriction, edges: Field) -> float:
+    """½∫c² dθ with the radius c of the edge of stick on every ray, between the rings
+    [length^2]."""
+    contact_area = _contact_area(state, edges)
     if state.status is ContactStatus.FULL_STICK:
         return contact_area
-    return min(float(np.sum(state.compliance.areas[state.in_stick])), contact_area)
+    compliance = state.compliance
+    bound = friction.limit(state.pressure) * compliance.carries_shear
+    slips = (state.pressure > 0) & ~state.in_stick
+    rays = zip(
+        compliance.scalar_on_grid(bound).T,
+        compliance.vector_on_grid(state.shear).transpose(2, 0, 1),
+        compliance.scalar_on_grid(slips).T,
+        edges,
+        strict=True,
+    )
+    areas = [stick_area(compliance.rings.radii, *ray) for ray in rays]
+    return min(float(np.sum(compliance.grid.weights * areas) / (2 * pi)), contact_area)
