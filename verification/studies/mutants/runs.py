@@ -8,6 +8,7 @@ import shutil
 import subprocess
 import sys
 from dataclasses import dataclass
+from functools import cache
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
@@ -71,7 +72,12 @@ class MutantRun:
 
 def of_kernel(kernel: str) -> tuple[Mutant, ...]:
     """All its mutants."""
-    return tuple(mutants((ROOT / kernel).read_text(encoding="utf-8")))
+    return _of_text((ROOT / kernel).read_text(encoding="utf-8"))
+
+
+@cache
+def _of_text(source: str) -> tuple[Mutant, ...]:
+    return tuple(mutants(source))
 
 
 def drawn(kernel: str, count: int) -> tuple[MutantRun, ...]:
