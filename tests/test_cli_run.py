@@ -13,6 +13,7 @@ from pathlib import Path
 import jsonschema
 import pytest
 from command import outcome, rows
+from conftest import leave_figures_undrawn
 from scene_texts import COARSE, STEEL_BALL_PRESSED
 
 from contact_results.directory.file_names import SUMMARY
@@ -50,10 +51,12 @@ def scene(tmp_path: Path) -> Path:
 
 @pytest.fixture(scope="module")
 def whole(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """The results of the scene with everything in them."""
+    """The results of the scene with everything in them, their figures undrawn."""
     scene = tmp_path_factory.mktemp("whole") / "scene.toml"
     scene.write_text(SCENE, encoding="utf-8")
-    ended = run(scene)
+    with pytest.MonkeyPatch.context() as patch:
+        leave_figures_undrawn(patch)
+        ended = run(scene)
     assert ended.returncode == 0, ended.stderr
     return scene.parent / "out"
 

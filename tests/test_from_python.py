@@ -2,6 +2,7 @@
 
 import subprocess
 import sys
+from functools import cache
 from pathlib import Path
 from typing import Any, get_args
 
@@ -39,6 +40,11 @@ COARSE: dict[str, Any] = {
     for solver in SolverName
 } | {SolverName.RADIAL: slipstick.RadialDiscretisation(rings=8)}
 SHEARED = [solver for solver in SolverName if solver is not SolverName.RADIAL]
+
+
+@cache
+def solved(scene: slipstick.Scene) -> Any:
+    return slipstick.solve(scene, discretisation=COARSE["semi-analytical"])
 
 
 @pytest.mark.parametrize("name", slipstick.__all__)
@@ -143,8 +149,7 @@ def test_a_wrong_name_or_discretisation_is_told_with_what_was_expected() -> None
 def test_what_is_no_run_is_refused_by_name(tmp_path: Path) -> None:
     with pytest.raises(FileNotFoundError, match=r"is no run: it has no summary.json"):
         slipstick.load(tmp_path)
-    write_result(slipstick.solve(SCENE, discretisation=COARSE["semi-analytical"]), tmp_path,
-                 with_figures=False)  # fmt: skip
+    write_result(solved(SCENE), tmp_path, with_figures=False)
     (tmp_path / "result.h5").write_bytes(b"something else")
     with pytest.raises(ValueError, match=r"is not the result.h5 of a run"):
         slipstick.load(tmp_path)
@@ -173,7 +178,7 @@ def test_a_summary_is_not_paired_with_the_fields_of_another_run(
     changed: dict[str, Any], complaint: str, tmp_path: Path
 ) -> None:
     for name, scene in (("one", SCENE.model_copy(update=changed)), ("other", SCENE)):
-        result = slipstick.solve(scene, discretisation=COARSE["semi-analytical"])
+        result = solved(scene)
         slipstick.save(result, tmp_path / name, figures=False)
     (tmp_path / "other" / "result.h5").replace(tmp_path / "one" / "result.h5")
     with pytest.raises(ValueError, match=rf"are of different runs: {complaint}"):
@@ -191,7 +196,7 @@ def test_tables_of_another_run_are_not_exported(
     changed: dict[str, Any], complaint: str, tmp_path: Path
 ) -> None:
     for name, scene in (("one", SCENE.model_copy(update=changed)), ("other", SCENE)):
-        result = slipstick.solve(scene, discretisation=COARSE["semi-analytical"])
+        result = solved(scene)
         slipstick.save(result, tmp_path / name, figures=False)
     assert slipstick.load(tmp_path / "one").tables["increments"]
     (tmp_path / "other" / "increments.csv").replace(tmp_path / "one" / "increments.csv")
