@@ -17,13 +17,14 @@ from radial.circle import Circle
 from radial.coupling import Coupling
 from radial.fields import Increment
 from radial.plan import ANGLES, ELSEWHERE, Plan
-from radial.pressing import Target, pressed
+from radial.pressing import Pressed, Target, pressed
 from radial.pushed import Pushed, pushed, residuals_of
 from radial.ring_friction import MOST_STEPS, held
 from radial.ring_layout import laid
 from radial.ring_points import Points
 from radial.ring_state import ABOUT, DOWN, Loads
 from radial.shown import largest_targets, targets
+from radial.surface import pressure
 
 Array = NDArray[np.float64]
 Pair = tuple[float, float]
@@ -160,7 +161,10 @@ class Pushing:
         if last is not None and before is not None and before.circle is not points.circle:
             last, slip = last.every_angle(points), points.every_angle(slip)
         try:
-            end = held(points, self.friction, _moving(points, loads), last, EXACT * self.tolerance)
+            end = held(
+                points, self.friction, _moving(points, loads), last, EXACT * self.tolerance,
+                None if last else self._without_friction(points, loads),
+            )  # fmt: skip
         except NotConverged as error:
             self.taken.append(error.iterations)
             raise
@@ -170,8 +174,21 @@ class Pushing:
 
     def _smooth_radius(self, loads: Loads) -> float:
         """Without friction [length]."""
+        return self._pressed(loads).contact.radius
+
+    def _pressed(self, loads: Loads) -> Pressed:
+        """The contact without friction."""
         target = Target(loads.forces[DOWN], loads.motions[DOWN])
-        return pressed(Bodies.of(self.scene), self.scene.indenter, target).contact.radius
+        return pressed(Bodies.of(self.scene), self.scene.indenter, target)
+
+    def _without_friction(self, points: Points, loads: Loads) -> Array:
+        """Tractions and motion without friction: far fewer steps lead on from them than from a
+        contact that is closed as far as rings go."""
+        found = self._pressed(loads)
+        p = pressure(found.contact, points.radii / found.contact.radius)
+        p[~np.isfinite(p)] = p[1]
+        beside = np.zeros(2 * len(points.areas))
+        return np.concatenate([beside, np.repeat(p, points.count), [0.0, 0.0, 0.0, found.approach]])
 
     def _refuse_within_first(self, points: Points, approach: float | None) -> None:
         """Raises UnsupportedScene for an approach at which no ring touches in the mean."""

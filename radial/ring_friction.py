@@ -34,11 +34,17 @@ AT_ONCE = 12  # steps that are taken whole: what slips is found sooner than by s
 
 
 def held(
-    points: Points, friction: float, loads: Loads, before: Held | None, tolerance: float
+    points: Points,
+    friction: float,
+    loads: Loads,
+    before: Held | None,
+    tolerance: float,
+    smooth: Array | None = None,
 ) -> Held:
     """The state under loads.
 
     before  the state from which surfaces slip; None: they have not touched
+    smooth  tractions and motion without friction, where they are known, to begin from then
     raises  NotConverged; GrossSliding from T = µW on, and where T and M are more than friction
             carries of the pressure without them; ContactAtZoneEdge at the last ring
     """
@@ -46,7 +52,7 @@ def held(
     if drag and W is not None and drag >= friction * W:
         raise _slides(drag, friction * W)
     laws = Laws.of(points, friction, loads, before)
-    for x in _starts(laws, before, tolerance):
+    for x in _starts(laws, before, tolerance, smooth):
         at = laws.at(x, points.compliance @ x[:-4])
         for step in range(MOST_STEPS):
             if at.worst <= tolerance:
@@ -63,10 +69,14 @@ def held(
     raise NotConverged("contact and friction on rings", MOST_STEPS, at.worst, tolerance)
 
 
-def _starts(laws: Laws, before: Held | None, tolerance: float) -> Iterator[Array]:
+def _starts(
+    laws: Laws, before: Held | None, tolerance: float, smooth: Array | None
+) -> Iterator[Array]:
     """Tractions and motion to begin from: after those of the laws, where all of them slip on the
     way and nothing tells how far a load moves them, those of a contact whose motion rests."""
     if before is None:
+        if smooth is not None:
+            yield smooth
         yield laws.closed()
         return
     yield from laws.starts(before)

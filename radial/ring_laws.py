@@ -13,7 +13,7 @@ from radial.ring_state import ABOUT, ALONG, DOWN, Held, Loads, carried
 
 Array = NDArray[np.float64]
 
-LEAST_FRICTION = 1e-2  # of which the limit is more than round-off of the pressure
+LEAST_FRICTION = 1e-4  # of which the limit is more than round-off of the pressure
 # Of loads that go on as in the last increment: what is round-off of them, how many times as far
 # they go at most (more than twice, so that round-off does not decide about twice), and how much of
 # it aside.

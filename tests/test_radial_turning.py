@@ -138,6 +138,24 @@ def test_a_twisted_ball_is_let_go_and_lifted_almost_wholly_at_once(
     assert abs(end.twist) < 2 * abs(let_go.twist)
 
 
+@pytest.mark.parametrize("friction", [0.003, 0.1])
+def test_a_ball_on_a_stiff_film_is_pressed_in_few_increments(friction: float) -> None:
+    """To a sixth of the radius at first, far within rings laid for the whole."""
+    layer = Layer(thickness=0.1 * RADIUS, material=_stiffer(10.0))
+    steps = (
+        PRESS.model_copy(update={"increments": 6}),
+        twist(0.1 * friction, 1),
+        LoadStep(normal_force=0.9 * LOAD, increments=1),
+    )
+    given = {
+        "body": Body(material=SOFT, layers=(layer,)),
+        "friction": CoulombFriction(coefficient=friction),
+    }
+    pressed = radial.solve(scene(loading=steps, **given)).steps[0]
+    alone = radial.solve(scene(**(given | {"friction": None}))).steps[0]
+    assert pressed.approach == pytest.approx(alone.approach, rel=0.01)
+
+
 def _stiffer(times: float) -> IsotropicMaterial:
     return IsotropicMaterial(young_modulus=times * SOFT.young_modulus, poisson_ratio=0.3)
 
