@@ -13,6 +13,7 @@ from contact_scene.residuals import worst
 from contact_scene.solver_errors import NotConverged
 from semi_analytical.admissible_shear import Field, Vector, VectorField
 from semi_analytical.coupled_problem import CoupledProblem, CoupledSolution
+from semi_analytical.linearised_shear import Point
 from semi_analytical.normal import solve_normal
 from semi_analytical.normal_load import NormalLoad
 from semi_analytical.tangential import TangentialSolution, solve_tangential
@@ -46,7 +47,8 @@ def solve_coupled(
     to be in equilibrium with that shear, solves the coupled problem.
     raises  NotConverged
     """
-    p, q, first_motion = pressure, shear, motion
+    p, first, first_motion = pressure, Point(shear, problem.shear(shear)), motion
+    point = first
     iterations, enough = 0, ENOUGH
     history = _Anderson(problem.normal_load)
     for rounds in range(1, MOST_ROUNDS + 1):
@@ -57,21 +59,21 @@ def solve_coupled(
         else:
             sheared = solve_tangential(
                 problem.shear,
-                problem.precondition_shear,
+                problem.invert_shear,
                 bound,
                 problem.target - problem.shear_by_pressure(p),
                 problem.tangential_load,
-                q,
+                point,
                 motion,
                 problem.self_compliance,
                 tolerance,
                 enough,
             )
-        q, motion = sheared.shear, sheared.motion
+        point, motion = sheared.point, sheared.motion
         pressed = solve_normal(
             problem.normal,
             problem.precondition_normal,
-            problem.gap + problem.normal_by_shear(q),
+            problem.gap + problem.normal_by_shear(point.shear),
             problem.normal_load,
             p,
             tolerance,
@@ -82,12 +84,12 @@ def solve_coupled(
         if residual <= tolerance:
             closing = pressed.motion
             return CoupledSolution(
-                p, q, closing, motion, sheared.in_slip, at_limit, iterations, rounds
+                p, point.shear, closing, motion, sheared.in_slip, at_limit, iterations, rounds
             )
         if iterations > MOST_ITERATIONS:
             break
         if rounds == LATE and residual > HOPELESS:
-            p, q, motion = pressure, shear, first_motion
+            p, point, motion = pressure, first, first_motion
             history = _Anderson(problem.normal_load, CAUTIOUS)
             continue
         # Where the pressure already fits, only the shear goes on.

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 Field = NDArray[np.float64]
 Mask = NDArray[np.bool_]
 
-# Sides are multiples of this, so that a box can be halved several times and few shapes occur.
+# Sides are multiples of this, so that a box can be halved and few shapes occur.
 QUANTUM = 16
 
 

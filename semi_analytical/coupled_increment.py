@@ -132,7 +132,7 @@ def _problem(
         normal=pressed,
         precondition_normal=pressed.precondition,
         shear=sheared,
-        precondition_shear=sheared.precondition,
+        invert_shear=lambda v: model.shear_inverse(box.shape)(v),  # built where it is needed
         normal_by_shear=coupling.normal_by_shear,
         shear_by_pressure=coupling.tangential_by_pressure,
         together=together,

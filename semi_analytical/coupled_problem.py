@@ -20,9 +20,10 @@ class CoupledProblem:
     normal, shear            u_z by pressure, u_t by shear
     normal_by_shear          u_z by shear
     shear_by_pressure        u_t by pressure
+    invert_shear             see `tangential.solve_tangential`
     together                 (u_x, u_y, u_z) by (q_x, q_y, p): all four of them at once
     precondition_together    roughly the inverse without the coupling, and behind that the shears of
-                             one component that the graded preconditioner asks for
+                             one component that are held back (see `periodic_inverse`)
     gap                      undeformed gap (nx, ny), infinite where the bodies can never touch
     friction_limit           pressure (nx, ny) -> largest shear (nx, ny), in proportion
     target                   u_t - motion of the state before (2, nx, ny)
@@ -32,7 +33,7 @@ class CoupledProblem:
     normal: Callable[[Field], Field]
     precondition_normal: Callable[[Field], Field]
     shear: Callable[[VectorField], VectorField]
-    precondition_shear: Callable[[VectorField], VectorField]
+    invert_shear: Callable[[VectorField], VectorField]
     normal_by_shear: Callable[[VectorField], Field]
     shear_by_pressure: Callable[[Field], VectorField]
     together: Callable[[Field], Field]

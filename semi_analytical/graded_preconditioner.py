@@ -15,9 +15,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from semi_analytical.coupled_operator import RATIO, STIFFNESSES
 from semi_analytical.coupled_problem import CoupledProblem
 from semi_analytical.generalised_derivative import Zones
+from semi_analytical.grades import shares
 
 Vector = NDArray[np.float64]
 
@@ -27,19 +27,13 @@ class GradedPreconditioner:
 
     def __init__(self, zones: Zones, problem: CoupledProblem) -> None:
         self._zones, self._inverse = zones, problem.precondition_together
-        d, last = zones.turning / problem.self_compliance, STIFFNESSES[-1]
-        grade = np.log(np.maximum(d, 1 / RATIO)) / np.log(RATIO) + 1
-        number = np.arange(len(STIFFNESSES) + 1)[:, None]
-        hats = np.maximum(0.0, 1 - np.abs(np.minimum(grade, number[-1]) - number))
-        self._shares = np.sqrt(hats)
-        # Beyond the last grade its stiffness is too small.
-        self._shares[-1] *= np.sqrt((1 + last) / (1 + np.maximum(d, last)))
+        self._shares = shares(zones.turning / problem.self_compliance)
 
     def __call__(self, rows: Vector) -> Vector:
         """M rows."""
         zones, slip, shares = self._zones, self._zones.slip, self._shares
         shape = zones.contact.shape
-        v: NDArray[Any] = np.zeros((3 + len(STIFFNESSES), zones.contact.size), dtype=np.float32)
+        v: NDArray[Any] = np.zeros((2 + len(shares), zones.contact.size), dtype=np.float32)
         v[:3] = zones.field(rows).reshape(3, -1)
         v[:2, slip] *= shares[0]
         v[3:, slip] = shares[1:] * zones.parts(rows)[1]

@@ -7,6 +7,7 @@ from numpy.typing import NDArray
 
 from contact_scene.residuals import Residuals
 from semi_analytical.admissible_shear import magnitude
+from semi_analytical.behind import Behind, further_shear
 from semi_analytical.edge.corrected import Corrected
 from semi_analytical.energy import NOTHING_YET, Energy
 from semi_analytical.model import ContactModel
@@ -16,21 +17,6 @@ from semi_analytical.shearing import TangentialTarget
 from semi_analytical.stick_slip import slip_and_stick
 
 Field = NDArray[np.float64]
-
-
-@dataclass(frozen=True)
-class Behind:
-    """What the next increment but one needs of a state, to go on as the path went: of `State`,
-    `Pressing` and `Sheared`."""
-
-    target: NormalTarget
-    pressure: Field
-    shear: Field
-    normal_force: float
-    approach: float
-    covered_cells: float
-    force: Field
-    shift: Field
 
 
 @dataclass(frozen=True)
@@ -68,6 +54,7 @@ class State:
             target=self.target,
             pressure=pressing.pressure,
             shear=sheared.shear,
+            displacement=sheared.displacement,
             normal_force=self.normal_force,
             approach=pressing.approach,
             covered_cells=pressing.covered_cells,
@@ -135,11 +122,16 @@ def solve_increment(
     if tangential is None:
         return State(normal, normal_force, pressing, None, moment)
     last = before.sheared if before is not None else None
+    seen = before.seen() if before is not None else None
+    ahead = behind = None
+    if before is not None and seen is not None and seen.target == normal:
+        ahead, behind = further_shear(seen, before.behind, tangential), seen
     sheared = slip_and_stick(
         model,
         pressing.pressure,
         last or untouched(model.grid.cells),
         tangential,
         tolerance,
+        ahead,
     )
-    return State(normal, normal_force, pressing, sheared, moment)
+    return State(normal, normal_force, pressing, sheared, moment, behind=behind)

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from contact_scene import CoulombFriction, Scene
 from contact_scene.friction import FRICTIONLESS
 from contact_scene.solver_errors import UnsupportedScene
-from semi_analytical.coupled_operator import STIFFNESSES, CoupledOperator, PeriodicInverse
+from semi_analytical.coupled_operator import CoupledOperator
 from semi_analytical.grid import SurfaceGrid
 from semi_analytical.influence.bodies import influence_coefficients
 from semi_analytical.influence.coefficients import InfluenceCoefficients
@@ -18,6 +18,7 @@ from semi_analytical.mirrored_transform import mirrored_offsets
 from semi_analytical.operator import CouplingOperator, NormalOperator, TangentialOperator
 from semi_analytical.padded_transform import Convolutions, offsets_for
 from semi_analytical.part import Part, part_of
+from semi_analytical.periodic_inverse import PeriodicInverse
 
 Field = NDArray[np.float64]
 Operator = TypeVar(
@@ -60,6 +61,7 @@ class ContactModel:
         self._coupling: dict[tuple[int, int], CouplingOperator] = {}
         self._coupled: dict[tuple[int, int], CoupledOperator] = {}
         self._inverse: dict[tuple[int, int], PeriodicInverse] = {}
+        self._shear_inverse: dict[tuple[int, int], PeriodicInverse] = {}
 
     @classmethod
     def of(cls, scene: Scene, grid: SurfaceGrid, *, even: bool = False) -> "ContactModel":
@@ -176,9 +178,20 @@ class ContactModel:
         """Roughly all displacements to all tractions on a box of cells, slip graded."""
         if shape not in self._inverse:
             self._inverse.clear()
-            stiffness = self.self_compliance * STIFFNESSES
-            self._inverse[shape] = PeriodicInverse(self.coupled_operator(shape), stiffness)
+            together = self.coupled_operator(shape)
+            self._inverse[shape] = PeriodicInverse(
+                together.tangential, self.self_compliance, together.normal, np.float32
+            )
         return self._inverse[shape]
+
+    def shear_inverse(self, shape: tuple[int, int]) -> PeriodicInverse:
+        """Roughly tangential displacements to shear on a box of cells, slip graded."""
+        if shape not in self._shear_inverse:
+            self._shear_inverse.clear()
+            self._shear_inverse[shape] = PeriodicInverse(
+                self.tangential_operator(shape), self.self_compliance
+            )
+        return self._shear_inverse[shape]
 
     @cached_property
     def coarse(self) -> "ContactModel | None":

@@ -81,7 +81,7 @@ class TangentialOperator:
             odd_transform(coefficients.xy[reach]),
         )
 
-    @cached_property
+    @property
     def inverse(self) -> tuple[Field, Field, Field]:
         """Roughly the spectra of the inverse, xx, yy and xy, with the unpadded period."""
         xx, yy, xy = (symbol.unpadded() for symbol in self.symbols)
@@ -105,15 +105,6 @@ class TangentialOperator:
         q_y *= yy
         q_y += across
         return spectra
-
-    def precondition(self, displacement: Field) -> Field:
-        """Roughly the shear that causes a tangential displacement, both (2, nx, ny)."""
-        period = self.transform.period
-        xx, yy, xy = self.inverse
-        u_x, u_y = np.fft.rfft2(displacement, period)
-        spectrum = np.stack([xx * u_x + xy * u_y, xy * u_x + yy * u_y])
-        _, nx, ny = displacement.shape
-        return np.fft.irfft2(spectrum, period)[:, :nx, :ny]
 
 
 class CouplingOperator:

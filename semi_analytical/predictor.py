@@ -13,7 +13,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from semi_analytical.increment import Behind, State
+from semi_analytical.behind import FURTHEST, Behind, further
+from semi_analytical.increment import State
 from semi_analytical.model import ContactModel
 from semi_analytical.pressing import NormalTarget
 from semi_analytical.shearing import TangentialTarget
@@ -21,11 +22,6 @@ from semi_analytical.shearing import TangentialTarget
 Field = NDArray[np.float64]
 VectorField = NDArray[np.float64]
 Start = tuple[Field, VectorField]
-
-# Relative: a load that turns more is not the way to go on.
-STRAIGHT = 1e-6
-# In logarithms of the load, over the last increment: beyond, that tells nothing of the next one.
-FURTHEST = 2.0
 
 
 @dataclass(frozen=True)
@@ -76,19 +72,10 @@ def predicted(
 
 
 def _straight_on(now: Behind, behind: Behind | None, tangential: TangentialTarget) -> Start:
-    """As much further as the tangential load goes in the same direction; else as before."""
-    if behind is None or behind.target != now.target or tangential.torsion is not None:
+    """As much further as the tangential load goes straight on; else as before."""
+    part = further(now, behind, tangential)
+    if behind is None or part == 0:
         return now.pressure, now.shear
-    if tangential.force is not None:
-        way, last = tangential.force - now.force, now.force - behind.force
-    else:
-        assert tangential.shift is not None
-        way, last = tangential.shift - now.shift, now.shift - behind.shift
-    sizes = float(np.hypot(*way)), float(np.hypot(*last))
-    turn = np.hypot(*(way * sizes[1] - last * sizes[0]))
-    if sizes[1] == 0 or turn > STRAIGHT * sizes[0] * sizes[1]:
-        return now.pressure, now.shear
-    part = sizes[0] / sizes[1]
     p = now.pressure + part * (now.pressure - behind.pressure)
     return np.maximum(p, 0.0), now.shear + part * (now.shear - behind.shear)
 

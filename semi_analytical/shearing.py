@@ -1,6 +1,6 @@
-"""The shear of a model at a given pressure: the box around the contact, nested grids within."""
+"""The shear of a model at a given pressure, solved in the box around the contact."""
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,13 +13,11 @@ from semi_analytical.admissible_shear import (
     VectorField,
 )
 from semi_analytical.box import box_around
-from semi_analytical.model import ContactModel, doubled, halved
-from semi_analytical.tangential import TangentialSolution, solve_tangential
+from semi_analytical.linearised_shear import Point
+from semi_analytical.model import ContactModel
+from semi_analytical.tangential import solve_tangential
 
 Field = NDArray[np.float64]
-
-COARSE_TOLERANCE = 1e-4
-COARSEST = 16
 
 
 @dataclass(frozen=True)
@@ -68,40 +66,12 @@ class TangentialTarget:
         return FixedShift(self.shift)
 
 
-@dataclass(frozen=True)
-class _Problem:
-    """The shear problem on a box of cells of one model (see tangential.solve_tangential)."""
-
-    model: ContactModel
-    bound: Field
-    target: VectorField
-    start: VectorField
-    motion: Vector
-    load: TangentialTarget
-    rotation: VectorField | None
-
-    def halved(self) -> "_Problem | None":
-        """The same on twice as large cells."""
-        nx, ny = self.bound.shape
-        if self.model.coarse is None or nx % 2 or ny % 2 or min(nx, ny) <= COARSEST:
-            return None
-        return _Problem(
-            self.model.coarse,
-            halved(self.bound),
-            halved(self.target),
-            halved(self.start),
-            self.motion,
-            self.load,
-            None if self.rotation is None else halved(self.rotation),
-        )
-
-
 def shear(
     model: ContactModel,
     bound: Field,
     target: VectorField,
     load: TangentialTarget,
-    start: VectorField,
+    start: Point,
     motion: Vector,
     tolerance: float,
 ) -> Shearing:
@@ -109,45 +79,30 @@ def shear(
 
     bound          friction limit µp, not zero everywhere
     target         c, from the state before (see tangential.solve_tangential)
-    start, motion  of the state before
+    start, motion  first guesses
     raises         NotConverged
     """
+    cells = model.grid.cells
     box = box_around(bound > 0, margin=0)
     inside = (..., *box.slices)
     rotation = None if load.torsion is None else model.rotation[inside]
-    problem = _Problem(
-        model, bound[box.slices], target[inside], start[inside], motion, load, rotation
-    )
-    solution = _solve(problem, tolerance)
-    q = box.embed(solution.shear, model.grid.cells)
-    return Shearing(
-        shear=q,
-        displacement=model.tangential_operator(model.grid.cells)(q),
-        motion=solution.motion,
-        in_slip=box.embed(solution.in_slip.astype(np.float64), model.grid.cells) > 0,
-        iterations=solution.iterations,
-    )
-
-
-def _solve(problem: _Problem, tolerance: float) -> TangentialSolution:
-    """Start from the solution on twice as large cells, which starts from the next one."""
-    start, motion, spent = problem.start, problem.motion, 0
-    coarse = problem.halved()
-    if coarse is not None:
-        solution = _solve(coarse, COARSE_TOLERANCE)
-        share = solution.shear / np.where(coarse.bound > 0, coarse.bound, 1.0)
-        start, motion = doubled(share) * problem.bound, solution.motion
-        spent = solution.iterations
-    operator = problem.model.tangential_operator(problem.bound.shape)
+    operator = model.tangential_operator(box.shape)
     solution = solve_tangential(
         operator,
-        operator.precondition,
-        problem.bound,
-        problem.target,
-        problem.load.on(problem.model.grid.cell_area, problem.rotation),
-        start,
+        model.shear_inverse(box.shape),
+        bound[box.slices],
+        target[inside],
+        load.on(model.grid.cell_area, rotation),
+        Point(start.shear[inside], start.displacement[inside]),
         motion,
-        problem.model.self_compliance,
+        model.self_compliance,
         tolerance,
     )
-    return replace(solution, iterations=spent + solution.iterations)
+    q, u = box.embed(solution.shear, cells), solution.displacement
+    return Shearing(
+        shear=q,
+        displacement=u if box.shape == cells else model.tangential_operator(cells)(q),
+        motion=solution.motion,
+        in_slip=box.embed(solution.in_slip.astype(np.float64), cells) > 0,
+        iterations=solution.iterations,
+    )

@@ -17,6 +17,7 @@ from semi_analytical.full_slip import (
     refuse_excessive_torque,
     unresisted,
 )
+from semi_analytical.linearised_shear import Point
 from semi_analytical.model import ContactModel
 from semi_analytical.residuals import friction_cone, slip_direction
 from semi_analytical.sheared import (
@@ -45,9 +46,11 @@ def slip_and_stick(
     last: Sheared,
     load: TangentialTarget,
     tolerance: float,
+    ahead: Point | None = None,
 ) -> Sheared:
     """Shear the contact from the state `last` to a force or shift, at a given pressure.
 
+    ahead   a first guess of the shear with its displacement; that of the last state if absent
     raises  NotConverged; GrossSliding if a force exceeds what friction can carry
     """
     bound = model.friction.limit(pressure)
@@ -57,16 +60,17 @@ def slip_and_stick(
     if ended is not None:
         return ended
     target = surface_target(model, last, load)
+    start, motion = ahead or Point(last.shear, last.displacement), first_motion(last, load)
     aim, iterations = tolerance, 0
     for _ in range(MOST_ATTEMPTS):
-        motion = first_motion(last, load)
-        solution = shear(model, bound, target, load, last.shear, motion, 0.5 * aim)
+        solution = shear(model, bound, target, load, start, motion, 0.5 * aim)
         iterations += solution.iterations
         # How far the indenter's particles moved past the body's in this increment.
         passed = rigid(model, solution.motion) + target - solution.displacement
         residuals = shear_residuals(model, solution, bound, passed, load, last)
         if residuals.worst <= tolerance:
             return advanced(model, pressure, bound, last, load, solution, passed, residuals)
+        start, motion = Point(solution.shear, solution.displacement), solution.motion
         aim *= 0.1
     raise NotConverged("the shear", iterations, residuals.worst, tolerance)
 

@@ -2,6 +2,8 @@
 
 import numpy as np
 
+from semi_analytical.grades import STIFFNESSES
+
 
 def compliance(rng, size: int) -> np.ndarray:
     """A random symmetric positive definite matrix with a decent condition number."""
@@ -12,6 +14,19 @@ def compliance(rng, size: int) -> np.ndarray:
 def as_map(matrix: np.ndarray):
     """The matrix as a map of fields of any shape."""
     return lambda field: (matrix @ field.ravel()).reshape(field.shape)
+
+
+def graded_inverse(matrix: np.ndarray):
+    """A preconditioner of shears: the inverse of the diagonal, and of its mean where slip is held
+    back."""
+    diagonal = np.diag(matrix)
+
+    def divided(fields):
+        held = np.mean(diagonal) * (1 + STIFFNESSES[:, None, None])
+        shear = fields[:2] / diagonal.reshape(fields[:2].shape)
+        return np.concatenate([shear, fields[2:] / held[: len(fields) - 2]])
+
+    return divided
 
 
 def rough_inverse(matrix: np.ndarray):

@@ -4,13 +4,13 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from random_compliance import as_map, compliance, rough_inverse
+from random_compliance import as_map, compliance, graded_inverse, rough_inverse
 
 from contact_scene.solver_errors import NotConverged
 from semi_analytical import alternation
 from semi_analytical.admissible_shear import FixedShift, ShearSum, magnitude, project_on_discs
 from semi_analytical.alternation import solve_coupled
-from semi_analytical.coupled_operator import STIFFNESSES
+from semi_analytical.grades import STIFFNESSES
 from semi_analytical.coupled_problem import CoupledProblem
 from semi_analytical.globalisation import solve_together
 from semi_analytical.normal_load import FixedApproach, PressureSum
@@ -53,7 +53,7 @@ class DenseContact:
             normal=as_map(A_zz),
             precondition_normal=rough_inverse(A_zz),
             shear=as_map(A_tt),
-            precondition_shear=rough_inverse(A_tt),
+            invert_shear=graded_inverse(A_tt),
             normal_by_shear=lambda q: (A_zt @ q.ravel()).reshape(SHAPE),
             shear_by_pressure=lambda p: (A_zt.T @ p.ravel()).reshape(2, *SHAPE),
             together=as_map(self.matrix),

@@ -29,8 +29,13 @@ ORDER = (
     "kernel_spectrum",
     "padded_transform",
     "operator",
+<<<<<<< HEAD
     "mirrored_transform",
     "mirrored_operator",
+=======
+    "grades",
+    "periodic_inverse",
+>>>>>>> 36d357e (Find uncoupled shear in a third of the convolutions)
     "coupled_operator",
     "edge",
     "stress",
@@ -41,6 +46,8 @@ ORDER = (
     "normal_load",
     "normal",
     "tilting",
+    "shear_zones",
+    "linearised_shear",
     "tangential",
     "torsion",
     "contact_area",
@@ -57,6 +64,7 @@ ORDER = (
     "sheared",
     "full_slip",
     "stick_slip",
+    "behind",
     "increment",
     "balance",
     "one_way_increment",

@@ -10,14 +10,15 @@ from random_compliance import compliance
 from test_alternation import LOADS, DenseContact, assert_lawful
 
 from semi_analytical import globalisation, newton_increment, solve
-from semi_analytical.coupled_operator import STIFFNESSES, PeriodicInverse
 from semi_analytical.coupled_problem import PATCHES
 from semi_analytical.generalised_derivative import Natural, Point, Zones
 from semi_analytical.globalisation import solve_together
+from semi_analytical.grades import STIFFNESSES
 from semi_analytical.krylov import least_residual
 from semi_analytical.linearised_increment import LinearisedIncrement
 from semi_analytical.model import ContactModel
 from semi_analytical.newton_increment import solve_by_newton
+from semi_analytical.periodic_inverse import PeriodicInverse
 from semi_analytical.predictor import Lens, predicted
 from semi_analytical.pressing import NormalTarget
 from semi_analytical.shearing import TangentialTarget
@@ -44,14 +45,16 @@ def test_the_fused_product_is_that_of_the_operators_and_takes_three_convolutions
     np.testing.assert_allclose(u[2], u_z, rtol=0, atol=1e-14 * np.max(np.abs(u_z)))
 
 
-def test_the_periodic_inverse_is_that_of_both_preconditioners_in_single_precision(rng):
+def test_the_periodic_inverse_of_coupled_bodies_is_that_of_both_problems_in_single_precision(rng):
     contact = model()
     A, shape = contact.coupled_operator((32, 16)), (32, 16)
     stiffness = contact.self_compliance * STIFFNESSES
     u = 1e-9 * rng.standard_normal((3 + len(stiffness), *shape))
-    t = PeriodicInverse(A, stiffness)(u)
-    expected = [*A.tangential.precondition(u[:2]), A.normal.precondition(u[2])]
-    np.testing.assert_allclose(t[:3], expected, rtol=0, atol=1e-5 * np.max(np.abs(expected)))
+    t = contact.periodic_inverse(shape)(u)
+    sheared = np.delete(u, 2, axis=0)
+    expected = PeriodicInverse(A.tangential, contact.self_compliance)(sheared)
+    expected = np.insert(expected, 2, A.normal.precondition(u[2]), axis=0)
+    np.testing.assert_allclose(t, expected, rtol=0, atol=1e-5 * np.max(np.abs(expected)))
     # The stiffer a cell is held, the nearer it is to its own spring.
     np.testing.assert_allclose(t[-1], u[-1] / stiffness[-1], rtol=0, atol=0.1 * np.max(t[-1]))
 

@@ -4,14 +4,16 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from random_compliance import as_map, compliance, rough_inverse
+from random_compliance import as_map, compliance, graded_inverse
 from scipy.optimize import minimize
 
 from semi_analytical.admissible_shear import FixedShift, ShearSum, magnitude
+from semi_analytical.linearised_shear import Point
 from semi_analytical.tangential import solve_tangential
 
 TOLERANCE = 1e-11
 SHAPE = (3, 4)
+AT_REST = Point(np.zeros((2, *SHAPE)), np.zeros((2, *SHAPE)))
 
 
 @st.composite
@@ -28,11 +30,11 @@ def solved(problem, load, tolerance=TOLERANCE):
     A, bound, target = problem
     return solve_tangential(
         as_map(A),
-        rough_inverse(A),
+        graded_inverse(A),
         bound,
         target,
         load,
-        np.zeros((2, *SHAPE)),
+        AT_REST,
         np.zeros(2),
         float(np.mean(np.diag(A))),
         tolerance,

@@ -36,6 +36,7 @@ from semi_analytical.edge_correction.pressure import ENOUGH, MOST_ROUNDS, MOST_U
 from semi_analytical.edge_correction.shear import BESIDE, direction_of_slip
 from semi_analytical.edge_correction.stick_area import stick_area
 from semi_analytical.increment import State
+from semi_analytical.linearised_shear import Point
 from semi_analytical.model import ContactModel
 from semi_analytical.normal import NormalSolution, solve_normal
 from semi_analytical.sheared import Sheared, rigid
@@ -189,11 +190,11 @@ class _Problem:
         beside = np.stack(u_t) + coupling.tangential_by_pressure(p)
         sheared = solve_tangential(
             tangential,
-            tangential.precondition,
+            model.shear_inverse(cells),
             model.friction.limit(p),
             self.target - beside,
             ShearSum(self.solved.force / model.grid.cell_area),
-            q,
+            Point(q, tangential(q)),
             shift,
             model.self_compliance,
             self.tolerance,

@@ -29,6 +29,7 @@ from semi_analytical.edge_correction.pressure import (
     SETTLED,
     settles,
 )
+from semi_analytical.linearised_shear import Point
 from semi_analytical.sheared import Sheared
 from semi_analytical.tangential import TangentialSolution, solve_tangential
 
@@ -186,11 +187,11 @@ class ShearProblem:
         reached = magnitude(missing.full - missing.edge.means * missing.slip)
         return solve_tangential(
             operator,
-            operator.precondition,
+            model.shear_inverse(model.grid.cells),
             np.where(missing.edge.outer, np.minimum(reached, self.bound), self.bound),
             self.target - u,
             ShearSum(self.force / model.grid.cell_area),
-            q,
+            Point(q, operator(q)),
             motion,
             model.self_compliance,
             self.tolerance,

@@ -1,0 +1,28 @@
+"""Slip graded by how much it is held back.
+
+Where a cell slips, turning its shear takes a stiffness d besides that of the surface, which grows
+from nothing at the border of stick to many times the self-compliance K₀. With hats χ_j² over log d,
+which add up to one, every cell has its shares of grades of stiffness d_j = K₀ 4^(j-1), and χ_0 of
+no stiffness at all.
+"""
+
+import numpy as np
+from numpy.typing import NDArray
+
+Field = NDArray[np.float64]
+Vector = NDArray[np.float64]
+
+RATIO = 4.0
+# Over the self-compliance.
+STIFFNESSES: Vector = np.array([1.0, RATIO, RATIO**2, RATIO**3])
+
+
+def shares(stiffness: Field) -> Field:
+    """χ (1 + grades, …) of stiffnesses d/K₀ (…)."""
+    grade = np.log(np.maximum(stiffness, 1 / RATIO)) / np.log(RATIO) + 1
+    number = np.arange(len(STIFFNESSES) + 1).reshape(-1, *np.ones(grade.ndim, dtype=int))
+    found = np.sqrt(np.maximum(0.0, 1 - np.abs(np.minimum(grade, len(STIFFNESSES)) - number)))
+    # Beyond the last grade its stiffness is too small.
+    last = STIFFNESSES[-1]
+    found[-1] *= np.sqrt((1 + last) / (1 + np.maximum(stiffness, last)))
+    return np.asarray(found)
