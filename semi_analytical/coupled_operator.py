@@ -1,9 +1,5 @@
 """All three displacements by all three tractions at once: the fused product of coupled bodies."""
 
-from collections.abc import Iterator
-from contextlib import contextmanager
-from typing import Any
-
 import numpy as np
 from numpy.typing import NDArray
 

@@ -10,7 +10,6 @@ from collections.abc import Callable
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 
 from semi_analytical.admissible_shear import Field, VectorField, magnitude
 from semi_analytical.grades import shares

@@ -10,9 +10,9 @@ from contact_scene.solver_errors import NotConverged
 from semi_analytical import alternation
 from semi_analytical.admissible_shear import FixedShift, ShearSum, magnitude, project_on_discs
 from semi_analytical.alternation import solve_coupled
-from semi_analytical.grades import STIFFNESSES
 from semi_analytical.coupled_problem import CoupledProblem
 from semi_analytical.globalisation import solve_together
+from semi_analytical.grades import STIFFNESSES
 from semi_analytical.normal_load import FixedApproach, PressureSum
 
 TOLERANCE = 1e-11
