@@ -1,13 +1,11 @@
 """Roughly the inverse of the generalised derivative, graded by how much slip is held back.
 
-On stick the tangential operator alone acts; where a cell slips, d is added to it, which grows from
-nothing at the border of stick to many times the self-compliance. Neither the inverse of the
-operator nor that of the diagonal fits in between. So slip is graded: with hats χ_j² over log d,
-which add up to one,
+On stick the tangential operator alone acts; where a cell slips, d is added to it. Neither the
+inverse of the operator nor that of the diagonal fits in between. So slip is graded (see `grades`):
 
-    M = Π F⁻¹ Π + Σ_j χ_j t (f + d_j)⁻¹ t χ_j,    Π = stick + χ_0 t t,    d_j = K₀ 4^(j-1)
+    M = Π F⁻¹ Π + Σ_j χ_j t (f + d_j)⁻¹ t χ_j,    Π = stick + χ_0 t t
 
-F the tangential spectrum with the unpadded period, f its scalar mean and K₀ the self-compliance.
+F the tangential spectrum with the unpadded period and f its scalar mean.
 """
 
 from typing import Any

@@ -66,9 +66,11 @@ class ShearZones:
     def preconditioned(self, v: VectorField, inverse: Map) -> VectorField:
         """Roughly the free shear that the derivative makes free displacements v of,
 
-            M = Π χ_0 F⁻¹ χ_0 Π + Σ_j χ_j t (F + d_j)⁻¹ t χ_j,    χ_0 = 1 where it sticks
+            M = Π χ_0 F⁻¹ χ_0 Π + Σ_j χ_j t (f + d_j)⁻¹ t χ_j,    χ_0 = 1 where it sticks
 
-        inverse  of grades: see periodic_inverse
+        with F, f and the shares χ_j of grades as in `periodic_inverse` and `grades`.
+
+        inverse  F⁻¹ of two components, then the (f + d_j)⁻¹ of one each
         """
         given = np.empty((len(self._shares) + 1, *v.shape[1:]))
         unheld = self._shares[0] + self._stick

@@ -56,7 +56,10 @@ def test_the_periodic_inverse_of_coupled_bodies_is_that_of_both_problems_in_sing
     expected = np.insert(expected, 2, A.normal.precondition(u[2]), axis=0)
     np.testing.assert_allclose(t, expected, rtol=0, atol=1e-5 * np.max(np.abs(expected)))
     # The stiffer a cell is held, the nearer it is to its own spring.
-    np.testing.assert_allclose(t[-1], u[-1] / stiffness[-1], rtol=0, atol=0.1 * np.max(t[-1]))
+    held = stiffness[:, None, None]
+    off = np.linalg.norm(held * t[3:] - u[3:], axis=(1, 2)) / np.linalg.norm(u[3:], axis=(1, 2))
+    assert np.all(np.diff(off) < 0)
+    assert off[-1] < 0.2
 
 
 def test_gmres_leaves_nothing_that_unknowns_or_free_motions_explain(rng):
