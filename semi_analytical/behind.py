@@ -50,7 +50,7 @@ def further(now: Behind, behind: Behind | None, tangential: TangentialTarget) ->
         way, last = tangential.shift - now.shift, now.shift - behind.shift
     along, size = float(np.sum(way * last)), float(np.sum(last * last))
     across = abs(float(way[0] * last[1] - way[1] * last[0]))
-    if along <= 0 or across > STRAIGHT * along or along > FURTHEST * size:
+    if not 0 < along <= FURTHEST * size or across > STRAIGHT * along:
         return 0.0
     return along / size
 

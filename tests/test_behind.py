@@ -57,6 +57,7 @@ def test_nothing_goes_on_from_another_normal_load_from_nothing_or_in_a_twist():
     straight = TangentialTarget(force=SECOND.force + WAY)
     assert further(SECOND, FIRST, straight) > 0
     assert further(SECOND, None, straight) == 0
+    assert further(SECOND, replace(FIRST, force=SECOND.force), straight) == 0
     assert further(SECOND, replace(FIRST, target=NormalTarget(force=0.9)), straight) == 0
     assert further(SECOND, FIRST, replace(straight, torsion=Torsion(twist=0.0))) == 0
 
