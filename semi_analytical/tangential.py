@@ -119,8 +119,10 @@ def solve_tangential(
     zones: ShearZones | None = None
     carriers: list[VectorField] | None = None
     taken: tuple[Point, float] | None = None  # with its distance from P(z)
-    iterations, first = 0, np.inf
+    iterations, first, residual = 0, np.inf, np.inf
     for number in range(MOST_STEPS):
+        if not np.isfinite(natural.error):
+            break
         found = ShearZones(natural.z, bound, self_compliance)
         settled = found.same(zones)
         zones = found

@@ -7,6 +7,7 @@ from hypothesis import strategies as st
 from random_compliance import as_map, compliance, graded_inverse
 from scipy.optimize import minimize
 
+from contact_scene.solver_errors import NotConverged
 from semi_analytical.admissible_shear import FixedShift, ShearSum, magnitude
 from semi_analytical.linearised_shear import Point
 from semi_analytical.tangential import solve_tangential
@@ -115,3 +116,23 @@ def test_an_ample_limit_leaves_the_linear_problem(rng):
     expected = np.linalg.solve(A, (target + np.array([1.0, -2.0])[:, None, None]).ravel())
     np.testing.assert_allclose(solution.shear.ravel(), expected, atol=1e-6)
     assert not np.any(solution.in_slip)
+
+
+@pytest.mark.parametrize("value", [np.nan, np.inf])
+@pytest.mark.parametrize("call", [1, 2, 3])
+def test_a_displacement_that_is_no_number_ends_as_not_converged(value, call, rng):
+    A, bound = compliance(rng, 24), 0.2 + rng.random(SHAPE)
+    calls = []
+
+    def displace(q):
+        calls.append(q)
+        u = as_map(A)(q)
+        if len(calls) == call:
+            u[0, 0, 0] = value
+        return u
+
+    load, target = ShearSum(np.array([0.5, 0.1]) * np.sum(bound)), np.zeros((2, *SHAPE))
+    with np.errstate(all="ignore"), pytest.raises(NotConverged):
+        solve_tangential(
+            displace, graded_inverse(A), bound, target, load, AT_REST, np.zeros(2), 1.0, TOLERANCE
+        )
