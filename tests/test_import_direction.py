@@ -29,13 +29,10 @@ ORDER = (
     "kernel_spectrum",
     "padded_transform",
     "operator",
-<<<<<<< HEAD
     "mirrored_transform",
     "mirrored_operator",
-=======
     "grades",
     "periodic_inverse",
->>>>>>> 36d357e (Find uncoupled shear in a third of the convolutions)
     "coupled_operator",
     "edge",
     "stress",
