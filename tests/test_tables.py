@@ -10,10 +10,10 @@ from typing import Any
 import pytest
 from command import outcome
 
-from contact_scene.solver_errors import UnsupportedScene
+from contact_scene.solver_errors import NotConverged, UnsupportedScene
 from slipstick.tables.catalogue import TABLES
 from slipstick.tables.frictional import gripping
-from slipstick.tables.onset import _onset, onset
+from slipstick.tables.onset import _enough, _onset, onset
 from slipstick.tables.table import Found, Table
 from verification.references import load_reference
 
@@ -91,6 +91,14 @@ def test_the_last_stick_goes_where_it_does_on_cells() -> None:
 def test_increments_on_rings_lose_the_last_stick_when_those_on_cells_do() -> None:
     """In the same 32 increments of the shift; half as many rings as the table takes leave 0.003."""
     assert _onset((2.0, 1.0, 0.3, 0.1), 1, 0.5) == pytest.approx(0.9781, abs=3e-3)
+
+
+def test_increments_are_as_many_as_tell_where_the_last_stick_goes() -> None:
+    """Of a stiff film and much friction it goes within too few of the usual ones."""
+    place = 4.0, 0.3, 0.45, 0.3
+    with pytest.raises(NotConverged, match="too few increments"):
+        _onset(place, 1, 1.0)
+    assert _enough(place) == 2
 
 
 def test_stick_goes_at_the_limit_of_friction_where_pressure_moves_no_surface_past_the_other() -> (

@@ -9,6 +9,7 @@ function of the shift. So the force is smooth in y = D^(2/3) and ends where y do
 from __future__ import annotations
 
 from collections.abc import Sequence
+from contextlib import suppress
 from dataclasses import replace
 from functools import lru_cache
 
@@ -32,6 +33,7 @@ AROUND = 2.0
 FINER = 1.5  # rings and angles that tell what rings and angles leave
 # Increments: of pressing, up to a part of µW that tells how far the shift goes, and of the shift.
 PRESSING, FIRST, PART, SHIFTS = 10, 8, 0.5, 32
+TIMES = (1, 2, 4)  # as many, until the last stick has enough of them
 BEYOND = 1.1  # of the shift at which Cattaneo's stick would go
 MOST, DEGREE = 0.05, 3  # of D that is fitted, by which power of y
 OF_FIT = 2e-4  # T/µW: what other choices of the two leave
@@ -44,11 +46,21 @@ def onset(place: Sequence[float], fineness: int) -> Found:
     if not radial.plan(scene(place)).coupled:
         return Found((1.0,))
     where = tuple(place)
-    coarse, fine = (_onset(where, times, 1.0) for times in (1, 2))
+    times = _enough(where)
+    coarse, fine = (_onset(where, more, 1.0) for more in (times, 2 * times))
     found = 2 * fine - coarse
     if fineness > 1:
-        found += _onset(where, 1, FINER) - coarse
+        found += _onset(where, times, FINER) - coarse
     return Found((found,), 0.0, (OF_FIT,))
+
+
+def _enough(place: tuple[float, ...]) -> int:
+    """How many times as many increments tell where the last stick goes."""
+    for times in TIMES[:-1]:
+        with suppress(NotConverged):
+            _onset(place, times, 1.0)
+            return times
+    return TIMES[-1]
 
 
 @lru_cache(maxsize=KEPT)
