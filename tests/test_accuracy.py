@@ -180,11 +180,11 @@ def test_a_larger_section_and_less_overlap_follow_from_their_errors() -> None:
 
 
 def test_partial_slip_is_as_accurate_as_was_asked() -> None:
-    made = climbed(scene(PRESS, push(0.6), push(-0.6), push(0.6)), "2%, dissipated_energy 2%")
+    made = climbed(scene(PRESS, push(0.6), push(-0.6), push(0.6)), "1%, dissipated_energy 1%")
     end = made.rung.result.steps[-1]
     exact = PartialSlip(LOAD, A, MU, tangential_modulus((YOUNG, NU), (YOUNG, NU)), 60.0)
     assert made.accuracy.met
-    assert end.tangential_shift[0] == pytest.approx(exact.shift, rel=2e-2)
+    assert end.tangential_shift[0] == pytest.approx(exact.shift, rel=1e-2)
     assert {"tangential_shift", "energy_per_cycle"} <= set(made.accuracy.asked)
     assert set(made.accuracy.left_out) == {"twist"}
 

@@ -74,8 +74,7 @@ def test_motions_are_met_to_a_ten_thousandth(known) -> None:
 @pytest.mark.parametrize(
     ("known", "share"),
     [
-        *((known, "1%") for known in (coated, loop)),
-        (indentation, "2%"),
+        *((known, "1%") for known in (coated, loop, indentation)),
         *(pytest.param(k, "0.1%", marks=NIGHTLY) for k in (coated, loop, indentation)),
         *(pytest.param(figure_4, share, marks=NIGHTLY) for share in ("1%", "0.1%")),
     ],
