@@ -55,7 +55,8 @@ def test_ball_is_told_by_its_contact_radius(radii: float, large: bool) -> None:
     ball = Paraboloid(radius=MILLIMETRE, material=RIGID)
     result = solved(ball, Body(material=STEEL), radii**2 * MILLIMETRE)
     assert bool(remarks(result)) is large
-    assert summary_of(result, ()).remarks == remarks(result)
+    said = summary_of(result, ()).remarks
+    assert tuple(told for told in said if told.startswith("strains of")) == remarks(result)
 
 
 @pytest.mark.parametrize("base", [RIGID, STEEL])

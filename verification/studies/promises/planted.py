@@ -17,6 +17,7 @@ from fem_reference import Method
 from fem_reference import solve as solve_on_rings
 from fem_reference.elasticity.factored_section import FactoredSection
 from semi_analytical import SurfaceGrid, solve
+from semi_analytical.mirrored_transform import MirroredTransform
 from semi_analytical.padded_transform import PaddedTransform
 from verification.running.cold_cache import cold_cache
 from verification.studies.promises.promise import Attempt
@@ -44,12 +45,13 @@ def planted(count: int) -> Iterator[Attempt]:
 
     ways: tuple[tuple[type, str, int, Computed], ...] = (
         (PaddedTransform, "convolved", 60, on_cells),
+        (MirroredTransform, "convolved", 33, on_cells),
         (FactoredSection, "compliance", 1, partial(on_rings, Method.COMPLEMENTARITY)),
         (FactoredSection, "compliance", 1, partial(on_rings, Method.PENALTY)),
     )
     healthy = [compute().steps[-1].pressure for *_, compute in ways]
     for number in range(count):
-        way = (0, 0, 1, 0, 0, 2)[number % 6]
+        way = (1, 0, 2, 1, 0, 3)[number % 6]
         of, name, calls, compute = ways[way]
         value = chance.choice((math.nan, math.inf, -math.inf))
         with cold_cache():
