@@ -26,3 +26,9 @@ def shares(stiffness: Field) -> Field:
     last = STIFFNESSES[-1]
     found[-1] *= np.sqrt((1 + last) / (1 + np.maximum(stiffness, last)))
     return np.asarray(found)
+
+
+def beyond(stiffness: Field) -> Field:
+    """Part of stiffnesses d/K₀ (…) that lies beyond the last grade: all from the next one on."""
+    last = STIFFNESSES[-1]
+    return np.asarray(np.clip(np.log(np.maximum(stiffness, last) / last) / np.log(RATIO), 0, 1))

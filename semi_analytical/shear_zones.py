@@ -12,7 +12,7 @@ from functools import cached_property
 import numpy as np
 
 from semi_analytical.admissible_shear import Field, VectorField, magnitude
-from semi_analytical.grades import shares
+from semi_analytical.grades import beyond, shares
 
 Map = Callable[[VectorField], VectorField]
 
@@ -61,14 +61,25 @@ class ShearZones:
 
     @cached_property
     def _shares(self) -> Field:
-        return shares(self.turning / self._self_compliance) * self.slip
+        found = shares(self.turning / self._self_compliance) * self.slip
+        found[-1] *= np.sqrt(1 - self._beyond)
+        return found
+
+    @cached_property
+    def _beyond(self) -> Field:
+        return beyond(self.turning / self._self_compliance)
+
+    @cached_property
+    def _alone(self) -> Field:
+        return self._beyond / (self._self_compliance + self.turning)
 
     def preconditioned(self, v: VectorField, inverse: Map) -> VectorField:
         """Roughly the free shear that the derivative makes free displacements v of,
 
             M = Π χ_0 F⁻¹ χ_0 Π + Σ_j χ_j t (f + d_j)⁻¹ t χ_j,    χ_0 = 1 where it sticks
 
-        with F, f and the shares χ_j of grades as in `periodic_inverse` and `grades`.
+        with F, f and the shares χ_j of grades as in `periodic_inverse` and `grades`. Far beyond the
+        last grade f is nothing beside d: there M goes over to t (K₀ + d)⁻¹ t.
 
         inverse  F⁻¹ of two components, then the (f + d_j)⁻¹ of one each
         """
@@ -79,5 +90,7 @@ class ShearZones:
         np.multiply(self._shares[1:], along, out=given[2:])
         found = inverse(given)
         free = self.free(unheld * found[:2])
-        free += self._tangent * np.einsum("kij,kij->ij", self._shares[1:], found[2:])
+        turned = np.einsum("kij,kij->ij", self._shares[1:], found[2:])
+        turned += self._alone * along
+        free += self._tangent * turned
         return free

@@ -90,3 +90,9 @@ def test_a_loop_takes_few_products_on_any_cells():
 )
 def test_other_paths_take_few_products_too(steps):
     assert np.max(products(scene(PRESS, *steps), 64)) < 40
+
+
+@pytest.mark.parametrize(("step", "most"), [(push(0.99999), 16), (slide(50.0), 9)])
+def test_where_all_slips_few_products_do(step, most):
+    """Grades alone, without what lies beyond the last, took 25 and 11."""
+    assert np.max(products(scene(PRESS, {**step, "increments": 1}), 64)) < most
