@@ -54,7 +54,7 @@ def part_of(gap: Field, *, even: bool) -> Part:
     for image in (gap[::-1], gap[:, ::-1]):
         if np.array_equal(gap, image):  # as a rule, and soon known
             continue
-        largest = np.max(gap, where=np.isfinite(gap), initial=0.0)
+        largest = np.max(np.abs(gap), where=np.isfinite(gap), initial=0.0)
         if not np.allclose(gap, image, rtol=0.0, atol=ROUND_OFF * largest):
             raise ValueError("the indenter says that it is even about x = 0 and y = 0: it is not")
     return Part(quarter=True)

@@ -32,7 +32,7 @@ from semi_analytical.mirrored_transform import MOST_BY_MATRIX, mirrored_offsets
 from semi_analytical.model import ContactModel
 from semi_analytical.operator import NormalOperator
 from semi_analytical.padded_transform import Convolutions
-from semi_analytical.part import Part
+from semi_analytical.part import Part, part_of
 from semi_analytical.pressing import NormalTarget, nested_start
 from verification.problems.shifted_grid import ShiftedGrid
 
@@ -218,6 +218,16 @@ def test_a_shape_that_is_not_what_it_says_is_found_out():
     )
     with pytest.raises(ValueError, match="says that it is even"):
         solve(described, grid(), 1e-8)
+
+
+def test_round_off_is_told_from_a_lie_by_the_size_of_the_gap_whatever_its_sign():
+    """As at the cells of a map where its cubic dips below the lowest height."""
+    gap = bump(6, A) - 1.0
+    gap[0, 0] *= 1 + 1e-15
+    assert part_of(gap, even=True) == QUARTER
+    gap[0, 0] *= 1 + 1e-6
+    with pytest.raises(ValueError, match="says that it is even"):
+        part_of(gap, even=True)
 
 
 class Leaf(Ellipsoid):
