@@ -144,8 +144,8 @@ def _why_even(even: bool, tilt: bool, coupled: bool) -> str:
         return "the indenter does not say that it is even about x = 0 and y = 0"
     pressures = "first pressures" if coupled else "pressures"
     return (
-        f"the indenter is even about x = 0 and y = 0 and stays level: a quarter of the window "
-        f"tells {pressures}, where it has an even number of cells along both sides"
+        f"even about x = 0 and y = 0: a quarter of the window tells {pressures}, where its cell "
+        f"counts are even"
     )
 
 
