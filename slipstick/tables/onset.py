@@ -63,7 +63,6 @@ def _enough(place: tuple[float, ...]) -> int:
     return TIMES[-1]
 
 
-@lru_cache(maxsize=KEPT)
 def _onset(place: tuple[float, ...], times: int, rings: float) -> float:
     """With so many times as many increments, and rings and angles."""
     first = _marched(place, LoadStep(tangential_force=(PART * place[-1] * FORCE, 0.0)), FIRST, 0.5)
@@ -81,10 +80,12 @@ def _onset(place: tuple[float, ...], times: int, rings: float) -> float:
     return float(CubicSpline(shifts, forces)(end))
 
 
+@lru_cache(maxsize=KEPT)
 def _marched(
     place: tuple[float, ...], step: LoadStep, increments: int, rings: float
-) -> list[tuple[float, float, float]]:
-    """T/µW, shift and D^(2/3) of increments of a push, up to the first with nothing left."""
+) -> tuple[tuple[float, float, float], ...]:
+    """T/µW, shift and D^(2/3) of increments of a push, up to the first with nothing left: kept,
+    for what has too few increments is asked for again, and the first push by every number."""
     asked: Scene = scene(place, step)
     decided = replace(radial.plan(asked), increments=(PRESSING, increments))
     solver = Pushing.of(asked, RadialDiscretisation(), decided, rings, AROUND)
@@ -100,4 +101,4 @@ def _marched(
         found.append((force / (friction * FORCE), shift, deficit ** (2 / 3)))
         if deficit == 0:
             break
-    return found
+    return tuple(found)
