@@ -10,7 +10,6 @@ from collections.abc import Iterator
 from math import ceil, log2, pi, sqrt
 
 import numpy as np
-from numpy.polynomial import chebyshev
 from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
@@ -18,6 +17,7 @@ Array = NDArray[np.float64]
 # Chebyshev nodes of one panel: the interpolation error stays below 1e-13 even where a stiff film on
 # a thin incompressible layer makes the response wave (16: 3e-11).
 NODES = 20
+AT_ONCE = 1 << 11  # places whose polynomials a processor holds close by
 
 
 def panel_edges(core: float, reach: float) -> Array:
@@ -50,6 +50,26 @@ def places_on_panels(edges: Array, r: Array) -> Iterator[tuple[int, NDArray[np.i
         yield panel, inside, (2 * r[inside] - low - high) / (high - low)
 
 
-def polynomials(place: Array) -> Array:
-    """The Chebyshev polynomials at places on a panel, (places, NODES)."""
-    return np.asarray(chebyshev.chebvander(place, NODES - 1))
+def interpolated(coefficients: Array, place: Array) -> Array:
+    """What functions with coefficients (NODES, functions) on a panel are at places on it,
+    (functions, places)."""
+    found = np.empty((coefficients.shape[1], len(place)))
+    for start in range(0, len(place), AT_ONCE):
+        some = slice(start, start + AT_ONCE)
+        found[:, some] = coefficients.T @ _polynomials(place[some])
+    return found
+
+
+def _polynomials(place: Array) -> Array:
+    """The Chebyshev polynomials at places on a panel, (NODES, places): twice as many again at a
+    time, by T_{m+k} = 2 T_m T_k - T_{m-k}."""
+    found = np.empty((NODES, len(place)))
+    found[0], found[1] = 1.0, place
+    known = 2
+    while known < NODES:
+        last = known - 1
+        more = found[known : known + last]
+        np.multiply(2 * found[last], found[1 : 1 + len(more)], out=more)
+        more -= found[:last][::-1][: len(more)]
+        known += len(more)
+    return found

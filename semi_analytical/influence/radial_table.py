@@ -28,10 +28,10 @@ from semi_analytical.influence.hankel_points import faded_points, hankel_points
 from semi_analytical.influence.radial_panels import (
     NODES,
     coefficients_of,
+    interpolated,
     nodes_between,
     panel_edges,
     places_on_panels,
-    polynomials,
 )
 
 Array = NDArray[np.float64]
@@ -69,7 +69,7 @@ class RadialTable:
         coefficients = self.coefficients[:, :, functions]
         values = np.empty((len(r), coefficients.shape[2]))
         for panel, inside, place in places_on_panels(self.edges, r):
-            values[inside] = polynomials(place) @ coefficients[panel]
+            values[inside] = interpolated(coefficients[panel], place).T
         return values
 
 

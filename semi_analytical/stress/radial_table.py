@@ -20,10 +20,10 @@ from semi_analytical.frf.stack import Stack
 from semi_analytical.influence.hankel_points import faded_points, hankel_points
 from semi_analytical.influence.radial_panels import (
     coefficients_of,
+    interpolated,
     nodes_between,
     panel_edges,
     places_on_panels,
-    polynomials,
 )
 from semi_analytical.stress.radial_functions import ORDERS, integrands
 
@@ -49,7 +49,7 @@ class DepthTable:
         coefficients = self.coefficients[level]
         values = np.empty((coefficients.shape[2], len(r)))
         for panel, inside, place in places_on_panels(self.edges, r):
-            values[:, inside] = coefficients[panel].T @ polynomials(place).T
+            values[:, inside] = interpolated(coefficients[panel], place)
         return values
 
 
