@@ -7,7 +7,6 @@ import shutil
 import signal
 import subprocess
 import sys
-import time
 from pathlib import Path
 
 import jsonschema
@@ -33,7 +32,6 @@ increments = 3
 """
     + COARSE
 )
-LONG = ("--set", "loading[2].increments=50000")  # minutes, if nobody stopped it
 FILES = {
     "summary.json", "timing.json", "result.h5", "profiles.csv", "increments.csv",
     "columns.csv",
@@ -179,24 +177,36 @@ def test_full_disk_ends_with_one_message_and_nothing_written(scene: Path) -> Non
     assert os.listdir(scene.parent) == [scene.name]
 
 
-def stopped_run(scene: Path, number: signal.Signals, after: float) -> tuple[int, str]:
-    """Exit code of a long run that gets a signal some seconds after it has begun to solve, and
-    what it said then."""
-    process = subprocess.Popen(
-        command(scene, *LONG), cwd=ROOT, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE
-    )
-    try:
-        assert process.stderr is not None
-        assert process.stderr.readline().startswith(b"step 1/3")
-        time.sleep(after)
-        process.send_signal(number)
-        said = process.communicate(timeout=600)[1].decode()
-        return process.returncode, "".join(
-            line for line in said.splitlines(True) if not line.startswith("step ")
-        )
-    finally:
-        process.kill()
-        process.communicate()
+# Which increment it is told by what it would keep; nothing is kept, however long the run takes.
+STOPPED = """
+import signal
+import contact_results.directory.checkpoint as checkpoint
+from slipstick.cli import main
+checkpoint.SECONDS_BETWEEN = float("inf")
+signal.signal(signal.SIGINT, signal.default_int_handler)  # a job in the background ignores it
+keep, done = checkpoint.Checkpoint.keep, []
+def keep_and_signal(self, standing):
+    keep(self, standing)
+    done.append(standing)
+    if len(done) == {after}:
+        signal.raise_signal({number:d})
+checkpoint.Checkpoint.keep = keep_and_signal
+main()
+"""
+
+
+def stopped_run(scene: Path, number: signal.Signals, after: int) -> tuple[int, str]:
+    """Exit code of a run that gets a signal after so many of its six increments, and what it said
+    then."""
+    program = STOPPED.format(after=after, number=number)
+    _, _, module, *arguments = command(scene)
+    assert module == "slipstick"
+    ended = subprocess.run(
+        [sys.executable, "-c", program, *arguments],
+        cwd=ROOT, capture_output=True, text=True, check=False,
+    )  # fmt: skip
+    said = ended.stderr.splitlines(keepends=True)
+    return ended.returncode, "".join(line for line in said if not line.startswith("step "))
 
 
 @pytest.mark.parametrize(("number", "code"), [(signal.SIGTERM, 143), (signal.SIGINT, 130)])
@@ -206,7 +216,7 @@ def test_stopped_run_leaves_earlier_results_and_nothing_else(
     assert run(scene, "--no-figures", "--no-error").returncode == 0
     out = scene.parent / "out"
     before = {path.name: path.read_bytes() for path in out.iterdir()}
-    for after in (0.0, 0.13):
+    for after in (1, 4):
         said = "interrupted; nothing is kept yet: the same command begins anew\n"
         assert stopped_run(scene, number, after) == (code, said)
         assert {path.name: path.read_bytes() for path in out.iterdir()} == before
@@ -214,7 +224,7 @@ def test_stopped_run_leaves_earlier_results_and_nothing_else(
 
 
 def test_killed_run_leaves_a_hidden_directory_that_the_next_run_clears_away(scene: Path) -> None:
-    assert stopped_run(scene, signal.SIGKILL, 0.1) == (-signal.SIGKILL, "")
+    assert stopped_run(scene, signal.SIGKILL, 2) == (-signal.SIGKILL, "")
     assert len(partial_directories(scene)) == 1
     assert not (scene.parent / "out").exists()
     assert run(scene, "--no-figures", "--no-error").returncode == 0

@@ -26,7 +26,8 @@ cells = [16, 16]
 """
 # With a checkpoint after every increment; "INTERRUPTED" stands for what interrupts it.
 PROGRAM = f"""
-import sys
+import signal, sys
+signal.signal(signal.SIGINT, signal.default_int_handler)  # a job in the background ignores it
 sys.path.insert(0, {str(ROOT)!r})
 import contact_results.directory.checkpoint as checkpoint
 checkpoint.SECONDS_BETWEEN, checkpoint.SHARE = 0.0, float("inf")
