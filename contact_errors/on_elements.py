@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from itertools import accumulate, pairwise
+from itertools import accumulate
 from math import pi
 from operator import or_
 
@@ -13,6 +13,7 @@ import numpy as np
 
 from contact_errors import estimate
 from contact_errors.by_step import ByStep
+from contact_errors.coarse_film import CoarseFilm
 from contact_errors.element_rules import (
     HARMONICS,
     LEAST_ANNULUS,
@@ -30,7 +31,7 @@ from contact_errors.rules import Lengthscale, Rule
 from contact_errors.values import Values, charged_by_increments, lost_by_steps, values_of
 from contact_results.cycles import fretting_cycles
 from contact_scene import FiniteElementDiscretisation, Scene
-from contact_scene.solver_errors import SolverError
+from contact_scene.solver_errors import SolverError, SurfacesOverlap
 from contact_scene.stated_error import Companion, Part, StatedErrors
 from contact_scene.summary import ContactStatus
 from fem_reference import Increment, Method, Path, Result, solve
@@ -44,9 +45,9 @@ CUSPED = (Path.PRESSING_WITH_FRICTION, Path.HARMONICS)
 FEWEST_ELEMENTS = 3  # of a companion, over the contact radius
 # In elements: below them a number has not converged, however small its differences are.
 LEAST = {Lengthscale.CONTACT: 3.0, Lengthscale.STICK: 1.0, Lengthscale.ANNULUS: 0.5}
-LEAST_LAYER = 2.0  # of what the layers blur
-# A film so many times as stiff as what it lies on bends over that.
-BENDS = 3.0
+# Overlap, relative to what the bodies move, that a companion may leave where it cannot do with what
+# the run may: the more it leaves the further it is from that.
+ANY_OVERLAP = 1.0
 
 
 def stated_errors(
@@ -137,12 +138,20 @@ class _Companion:
             increments=run.plan.increments,
         )
         try:
-            found = solve(self.scene, self.mesh, run.method, progress)
+            found = self._on_any_mesh(run.method, progress)
         except SolverError as error:
             return None, made.model_copy(update={"refused": str(error)})
         spent = sum(increment.iterations for increment in found.increments)
         counts = {"increments": found.plan.increments, "iterations": spent}
         return found, made.model_copy(update=counts)
+
+    def _on_any_mesh(self, method: Method, progress: Progress | None) -> Result:
+        """Its result, with more overlap where its elements leave more than the run may."""
+        try:
+            return solve(self.scene, self.mesh, method, progress)
+        except SurfacesOverlap:
+            looser = self.mesh.model_copy(update={"overlap": ANY_OVERLAP})
+            return solve(self.scene, looser, method, progress)
 
 
 def _half(result: Result) -> FiniteElementDiscretisation:
@@ -183,7 +192,7 @@ class _Elements:
     def _per(self, step: int, rule: Rule) -> float:
         contact, stick, lengthscale = self._contact(step), self._stick(step), rule.lengthscale
         if lengthscale is Lengthscale.FILM:
-            return float(np.sqrt(contact * min(contact, self._layer)))
+            return float(np.sqrt(contact * min(contact, self._film.layer)))
         if stick is None or lengthscale in (Lengthscale.CONTACT, Lengthscale.CUSP):
             return contact
         if lengthscale is Lengthscale.STICK:
@@ -201,10 +210,9 @@ class _Elements:
         contact, stick, lengthscale = self._contact(step), self._stick(step), rule.lengthscale
         if contact < LEAST[Lengthscale.CONTACT]:
             return False
-        if self._layer < LEAST_LAYER:
-            stands_on_rim = name == "peak_pressure" and self._stiff_film
-            if lengthscale is Lengthscale.FILM or stands_on_rim:
-                return False
+        film = self._film
+        if film.hides(name) or (film.is_thin and lengthscale is Lengthscale.FILM):
+            return False
         if lengthscale is Lengthscale.CUSP and self._slides(step):
             return True
         if lengthscale in (Lengthscale.STICK, Lengthscale.CUSP):
@@ -224,8 +232,11 @@ class _Elements:
         parts: dict[Part, Numbers] = {"section": self._section(name) * largest}
         if rule.lengthscale is Lengthscale.STICK:
             parts["elements"] = self._missed(step) * largest
-        if name == "peak_pressure" and self._layer < LEAST_LAYER:
-            parts["elements"] = np.full_like(largest, self._rim_of_film(end))
+        if self._film.hides(name):
+            left = self._film.left(name, end, largest)
+            if left is None:
+                return None
+            parts["elements"] = left
         if end.overlap is not None and end.approach:
             overlap = end.overlap / abs(end.approach)
             cusp = self.result.plan.path in CUSPED
@@ -249,20 +260,10 @@ class _Elements:
         return None if radius is None else self._per_length * radius
 
     @property
-    def _layer(self) -> float:
-        """Elements over the thickness of the thinnest layer; infinite without one."""
-        scene = self.result.scene
-        return self._per_length * min(scene.body.thinnest, scene.indenter.thinnest)
-
-    @property
-    def _stiff_film(self) -> bool:
-        """Whether a layer bends over what is below it and presses most at its rim."""
-        bodies = self.result.scene.body, self.result.scene.indenter
-        return any(
-            upper.young_modulus > BENDS * lower.young_modulus
-            for body in bodies
-            for upper, lower in pairwise(body.elastic_materials)
-        )
+    def _film(self) -> CoarseFilm:
+        """The thinnest layer on these elements."""
+        rubbed = self.result.plan.path in CUSPED
+        return CoarseFilm.of(self.result.scene, self._per_length, rubbed)
 
     @property
     def _per_length(self) -> float:
@@ -277,14 +278,6 @@ class _Elements:
         """Part of the stick radius that a slip annulus of less than an element takes, unseen."""
         contact, stick = self._contact(step), self._stick(step)
         return 1 / contact if stick is not None and contact - stick < LEAST_ANNULUS else 0.0
-
-    def _rim_of_film(self, end: Increment) -> float:
-        """Pressure at the rim beyond the largest inside, which elements that are coarse against a
-        film cannot tell from a film that stands on its rim [pressure]."""
-        inside = end.radii < end.contact_radius - LEAST_LAYER / self._per_length
-        if not np.any(inside):
-            return 0.0
-        return end.peak_pressure - float(np.max(end.pressure[inside]))
 
     def _by_sectors(self, name: str, end: Increment) -> float:
         """Error of the stick radius [length] or area [length^2] by sectors."""

@@ -161,6 +161,58 @@ def test_the_error_of_the_peak_covers_what_springs_press_on_the_rim_of_a_film() 
     assert stated.steps[0]["peak_pressure"].status is ErrorStatus.NOT_CONVERGED
 
 
+def on_film(stiffer: float, thickness: float, increments: int | None = None, **friction: float):
+    """The ball on a film so many times as stiff as its base, of so many radii."""
+    film = Layer(
+        thickness=thickness * A, material=steel(young_modulus=stiffer * LOOSE.young_modulus)
+    )
+    return Scene(
+        indenter=RIGID_BALL,
+        body=Body(material=LOOSE, layers=(film,)),
+        loading=({**PRESS, "increments": increments} if increments else PRESS,),
+        friction=friction or None,
+    )
+
+
+def test_the_error_of_the_peak_is_more_than_what_two_coarse_meshes_have_alike_by_chance() -> None:
+    """Neither has a ring on which the film stands."""
+    result = solve(on_film(100, 0.01), elements(16), Method.PENALTY)
+    exact = radial.solve(result.scene).steps[0].peak_pressure
+    stated = stated_errors(result)
+    assert 1e-3 * exact < abs(result.steps[0].peak_pressure - exact)
+    assert abs(result.steps[0].peak_pressure - exact) <= error(stated, "peak_pressure")
+    assert stated.steps[0]["peak_pressure"].status is ErrorStatus.NOT_CONVERGED
+
+
+def test_what_is_lost_on_the_rim_of_a_film_thinner_than_elements_is_said_not_to_be_known() -> None:
+    """Far too much of it, however fine the increments; peaks there are not told at all."""
+    exact = radial.solve(on_film(100, 0.03, 2, coefficient=1.0)).steps[0].dissipated_energy
+    result = solve(on_film(100, 0.03, 80, coefficient=1.0), elements(13))
+    (errors,) = stated_errors(result).steps
+    lost = errors["dissipated_energy"]
+    off = abs(result.steps[0].dissipated_energy - exact)
+    assert exact < off <= lost.error
+    assert lost.status is ErrorStatus.NOT_CONVERGED
+    assert errors["peak_pressure"].error is None
+    assert errors["approach"].status is ErrorStatus.ESTIMATED
+
+
+def test_slip_narrower_than_half_an_element_tells_nothing_of_what_is_lost_on_a_film() -> None:
+    """In finer increments it misses nearly all of it."""
+    result = solve(on_film(0.1, 0.1, 20, coefficient=1.0), elements(8))
+    (errors,) = stated_errors(result).steps
+    assert errors["dissipated_energy"].error is None
+    assert errors["approach"].status is ErrorStatus.ESTIMATED
+
+
+def test_a_companion_whose_springs_give_way_more_than_those_of_the_run_still_tells_errors() -> None:
+    result = solve(on_film(0.1, 0.01, 4, coefficient=1.0), elements(16), Method.PENALTY)
+    stated = stated_errors(result)
+    assert all(companion.refused is None for companion in stated.companions)
+    truth = solve(on_film(0.1, 0.01, 64, coefficient=1.0), elements(64)).steps[0]
+    assert abs(result.steps[0].approach - truth.approach) <= error(stated, "approach")
+
+
 PUSHED_ON_A_COATING = Scene(
     indenter=RIGID_BALL,
     body=COATED,
