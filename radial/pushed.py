@@ -100,10 +100,10 @@ def pushed(
     rubbing = sliding_friction(start, end.shear, passed, *limits)
     carried, motion = end.forces(points), last.motion if last else np.zeros(4)
     both = carried + (before.carried if before else 0.0)
-    distance = np.hypot(*end.slipped.reshape(2, -1)) / areas
     through = None
     if smooth is None:
-        through = sqrt(min(points.stick_area(end.share, distance) / pi, radius**2))
+        stuck = points.stick_area(end.share, end.shear, friction * end.pressure)
+        through = sqrt(min(stuck / pi, radius**2))
     turned = points.circle is not Circle.ONE or end.motion[ABOUT] != motion[ABOUT]
     open_ = np.hypot(*(end.shear - start)) * np.hypot(*passed)
     return Pushed(

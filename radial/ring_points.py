@@ -11,16 +11,14 @@ from numpy.typing import NDArray
 from scipy.interpolate import CubicSpline
 
 from radial.circle import Circle
+from radial.stick_border import stick_area
 
 Array = NDArray[np.float64]
 
-FINER, AROUND = 16, 180  # places per element and half circle, where a front is looked for
+FINER = 16  # places per element, where a front is looked for
 # Nodes that tell an edge: so far from the last one with pressure, over its radius, and how many.
 BESIDE_EDGE, FITTED = 0.15, 4
 FEWEST = 2  # rings of a contact whose edge they tell
-# How far beyond a front the largest slip is, where no shear is 1 within: of 0.3, 0.5, 0.7 and 1
-# what brings Cattaneo's circle and a coated contact on cells nearest.
-BY_SLIP = 0.5
 # Inverses that are kept, for contacts whose last ring comes and goes: so many, and as long as there
 # is room [byte]; of ways that angles lack.
 INVERSES, ROOM, ROUND_OFF = 3, 1 << 23, 1e-12
@@ -216,27 +214,28 @@ class Points:
         beyond = zeros.real[(zeros.imag == 0) & (zeros.real > r[last - 1] ** 2)]
         return float(np.min(beyond) if len(beyond) else r[last] ** 2)
 
-    def stick_area(self, share: Array, slipped: Array) -> float:
-        """Where nothing slips, linear in r, a spline in θ [length²]: no count of points.
+    def stick_area(self, share: Array, shear: Array, bound: Array) -> float:
+        """Where nothing slips [length²]: no count of points. What is the same all around ends where
+        the share of the limit, linear in r, is 1; of what is pushed see `stick_border`.
 
-        share    of the limit, as `Held` has it
-        slipped  how far, in any unit: of what is pushed slip tells how far beyond a front a point
-                 is, over the largest, for the share beyond 1 goes with the size of the increment
+        share  of the limit, as `Held` has it
+        shear  q_r and q_θ (2, n count)
+        bound  µp
         """
-        beyond = share - 1
-        if self.circle is not Circle.ONE and np.any(share > 1):
-            largest = np.max(slipped, where=np.isfinite(share), initial=0.0)
-            beyond = BY_SLIP * (slipped / largest) ** (2 / 3)
-        left = np.where(share < 1, 1 - share, -np.where(np.isfinite(share), beyond, 1.0))
-        left = np.clip(left, -1.0, 1.0).reshape(-1, self.count)
-        if self.circle is not Circle.ONE:
-            halves = 1 if self.circle is Circle.HALF else 2
-            left = self._around(left, 1.0, np.pi * (np.arange(halves * AROUND) + 0.5) / AROUND)
-        share = (np.arange(FINER)[:, None] + 0.5) / FINER
-        sticks = (1 - share) * left[:-1, None] + share * left[1:, None] > 0
-        inner, length = self.radii[:-1, None], np.diff(self.radii)[:, None]
-        edges = inner + length * np.arange(FINER + 1) / FINER
-        return float(np.pi * np.sum(np.mean(sticks, axis=-1) * np.diff(edges**2)))
+        sticks = share.reshape(-1, self.count) < 1
+        if self.circle is Circle.ONE:
+            left = np.clip(np.where(np.isfinite(share), 1 - share, -1.0), -1.0, 1.0)
+            parts = (np.arange(FINER) + 0.5) / FINER
+            inside = (1 - parts) * left[:-1, None] + parts * left[1:, None] > 0
+            inner, length = self.radii[:-1, None], np.diff(self.radii)[:, None]
+            edges = inner + length * np.arange(FINER + 1) / FINER
+            return float(np.pi * np.sum(inside * np.diff(edges**2)))
+        q = shear.reshape(2, -1, self.count)
+        p = bound.reshape(-1, self.count)
+        if self.circle is Circle.HALF:
+            q = np.concatenate([q, np.array([1, -1])[:, None, None] * q[..., ::-1]], axis=-1)
+            p, sticks = (np.concatenate([field, field[:, ::-1]], axis=-1) for field in (p, sticks))
+        return stick_area(self.radii, q, p, sticks)
 
     def shown(self, field: Array, sense: float) -> Array:
         """A field at the angles of `shown_angles` (n, angles), by a spline in θ.

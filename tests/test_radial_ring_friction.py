@@ -166,10 +166,9 @@ def test_a_pushed_ball_sticks_and_shifts_by_cattaneo_and_mindlin(share: float) -
     state = after(share)
     exact = PartialSlip(LOAD, 1.0, FRICTION, 1.0, share * LIMIT)
     assert_allclose(state.motion[0], exact.shift, atol=OF_SHIFT * VIRGIN.sliding_shift)
-    distance = np.hypot(*state.slipped.reshape(2, -1)) / alike().areas
-    radius = math.sqrt(alike().stick_area(state.share, distance) / math.pi)
-    # Between two rings, by the slip of one increment.
-    assert_allclose(radius, exact.stick_radius, atol=0.3 / COUNT)
+    stuck = alike().stick_area(state.share, state.shear, FRICTION * state.pressure)
+    # Between two rings, in one increment.
+    assert_allclose(math.sqrt(stuck / math.pi), exact.stick_radius, atol=0.05 / COUNT)
 
 
 def test_shear_is_that_of_cattaneo_and_mindlin_all_around() -> None:

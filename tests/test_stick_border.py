@@ -1,0 +1,126 @@
+"""Stick areas from the border between points: closed forms whose values are those of points."""
+
+from dataclasses import replace
+from functools import cache
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+from test_fem_edge import plane_contact
+
+import radial
+from radial.circle import Circle
+from radial.ring_points import Points
+from radial.stick_border import stick_area
+from verification.cases.cross_check_tangential import SCENE
+from verification.problems.paper_scene import HERTZ
+
+Array = NDArray[np.float64]
+
+RINGS = np.arange(9.0)
+
+
+def waves_contact(half: float, count: int, off: float) -> Array:
+    """Pressure of a wave cos θ under a flat, at points that know as many harmonics (Westergaard
+    1939, Bearing pressures and cracks): u = Σ p_k e^ikθ / |k|, mean sin²(α/2) of the half angle α.
+
+    half, off  α and the place of the points, in points
+    """
+    step = 2 * np.pi / count
+    places = (np.arange(count) - count // 2 + off) * step
+    waves = np.abs(np.fft.fftfreq(count, 1 / count))
+    of_waves = np.divide(1.0, waves, where=waves > 0, out=np.zeros(count))
+    answer = np.fft.ifft(of_waves[:, None] * np.fft.fft(np.eye(count), axis=0), axis=0).real
+    touching = np.abs(places) < half * step
+    while True:
+        n = np.flatnonzero(touching)
+        system = np.block([
+            [answer[np.ix_(n, n)], np.ones((len(n), 1))], [np.ones((1, len(n))) / count, 0.0]
+        ])  # fmt: skip
+        *p, deep = np.linalg.solve(
+            system, np.append(np.cos(places[n]), np.sin(half * step / 2) ** 2)
+        )
+        whole = np.zeros(count)
+        whole[n] = p
+        overlap = np.cos(places) - answer @ whole - deep
+        then = np.where(touching, whole > 0, overlap > 1e-12)
+        if np.array_equal(then, touching):
+            return whole
+        touching = then
+
+
+@pytest.mark.parametrize("beyond", [0.0, 0.2, 0.4, 0.6, 0.75])
+@pytest.mark.parametrize("turning", [0.0, 0.7])
+def test_a_sector_that_sticks_is_as_wide_as_the_contact_of_harmonics(
+    beyond: float, turning: float
+) -> None:
+    """All of its rings alike; the shear keeps one way, or goes on turning around."""
+    half, count = 30 + beyond, 256
+    missing = waves_contact(half, count, 0.0)
+    sticks = np.tile(missing > 0, (len(RINGS), 1))
+    angles = 2 * np.pi * np.arange(count) / count
+    size = 2.0 - missing
+    way = turning * np.sin(angles) - angles
+    shear = np.stack([size * np.cos(way), size * np.sin(way)])
+    whole = np.broadcast_to(shear[:, None], (2, len(RINGS), count))
+    area = stick_area(RINGS, whole, np.full(sticks.shape, 2.0), sticks)
+    width = area / (np.pi * RINGS[-1] ** 2) * count / 2
+    assert width == pytest.approx(half, abs=0.01 if turning == 0 else 0.05)
+
+
+@pytest.mark.parametrize("beyond", [0.05, 0.3, 0.5, 0.8, 0.99])
+@pytest.mark.parametrize("count", [6, 7])
+def test_a_disc_that_sticks_is_as_wide_as_the_plane_contact_on_hats(
+    beyond: float, count: int
+) -> None:
+    missing = plane_contact(150 + beyond)
+    radii, sticks = np.arange(len(missing)) * 1.0, missing > 0
+    size = np.tile(200.0 - missing, (count, 1)).T
+    angles = 2 * np.pi * np.arange(count) / count
+    shear = np.stack([size * np.cos(angles), -size * np.sin(angles)])
+    whole = np.tile(sticks, (count, 1)).T
+    area = stick_area(radii, shear, np.full(size.shape, 200.0), whole)
+    assert np.sqrt(area / np.pi) == pytest.approx(150 + beyond, abs=6e-3)
+
+
+def test_all_that_sticks_counts_and_nothing_else() -> None:
+    shear, bound = np.zeros((2, 9, 8)), np.ones((9, 8))
+    for share in (0.0, 1.0):
+        area = stick_area(RINGS, shear, bound, np.full((9, 8), share > 0))
+        assert area == pytest.approx(share * np.pi * RINGS[-1] ** 2)
+
+
+@cache
+def pushed(fineness: float) -> radial.Result:
+    return radial.solve(SCENE, fineness=fineness)
+
+
+# Stick radius over that of Hertz at .3, .6 and .9 µW by cells with their edges inside in every
+# increment, 128 a side, in the same increments (64: .440, .3408, .1763; 96: .4359, .3348, .1742).
+BY_CELLS = (0.4351, 0.3351, 0.1748)
+
+
+@pytest.mark.parametrize(("fineness", "allowed"), [(1.0, 0.0045), (1.5, 0.0035)])
+def test_the_stick_of_a_pushed_coated_ball_is_that_of_cells_with_their_edges_inside(
+    fineness: float, allowed: float
+) -> None:
+    """As parts of the contact area; on 24 and on 36 rings."""
+    for end, by_cells in zip(pushed(fineness).steps[1:], BY_CELLS, strict=True):
+        assert end.stick_radius is not None
+        area = end.contact_radius**2
+        off = end.stick_radius**2 - (by_cells * HERTZ.contact_radius) ** 2
+        assert abs(off) < allowed * area
+
+
+def test_points_of_half_a_circle_and_of_all_of_it_stick_alike() -> None:
+    half = Points(RINGS, np.ones((7, 3, 3, 9, 9)), np.ones(9), np.ones(9), np.ones(9), Circle.HALF)
+    whole = replace(half, circle=Circle.WHOLE)
+    r, angles = RINGS[:, None], half.angles
+    share = np.hypot(r * np.cos(angles) + 2, r * np.sin(angles)) / 4
+    bound = np.ones_like(share)
+    shear = np.minimum(share, 1.0) * np.stack([np.cos(angles) * bound, -np.sin(angles) * bound])
+    mirrored = [np.concatenate([f, f[:, ::-1]], axis=1) for f in (share, bound)]
+    both = np.concatenate([shear, np.array([1, -1])[:, None, None] * shear[..., ::-1]], axis=-1)
+    one = half.stick_area(share.ravel(), shear.reshape(2, -1), bound.ravel())
+    other = whole.stick_area(mirrored[0].ravel(), both.reshape(2, -1), mirrored[1].ravel())
+    assert one == pytest.approx(other, rel=1e-13)
