@@ -7,7 +7,6 @@ same holds at the edge of the stick zone for the shear that is missing from full
 pressure of a smaller contact (Cattaneo 1938; Mindlin and Deresiewicz 1953 after a reversal).
 """
 
-from functools import lru_cache
 from typing import Any
 
 import numpy as np
@@ -24,8 +23,19 @@ FRAME = REACH + 1  # trusted are cells whose neighbours are inside
 LENGTH = 1.7
 LEAST_CELLS = 12
 AT_ONCE = 4096  # fits, of four kilobytes each: a long contact has tens of thousands
+# Of the cells around one: how far off along x and y, their weights, the terms of a quadratic
+# (cells, 6), and the products of all pairs of terms (cells, 36).
+DI, DJ = (shift.ravel() for shift in np.mgrid[-REACH : REACH + 1, -REACH : REACH + 1])
+NEARNESS = np.exp(-(DI**2 + DJ**2) / (2 * LENGTH**2))
+BASIS = np.stack([np.ones_like(DI), DI, DJ, DI * DI, DI * DJ, DJ * DJ], axis=-1).astype(float)
+PRODUCTS = (BASIS[:, :, None] * BASIS[:, None, :]).reshape(-1, 36)
+# What is added to the diagonal of a fit, relative to its trace.
+RIDGE = 1e-9 * np.eye(6)
 # The fit at an edge cell must lie below this part of what it was fitted to.
 LEAST_FALL = 0.9
+# Of a unit cell, and the signs with which they count in the area below a plane.
+CORNERS = np.array([(0.5, 0.5), (0.5, -0.5), (-0.5, 0.5), (-0.5, -0.5)])
+CORNER_SIGNS = np.array([1.0, -1.0, -1.0, 1.0])
 # Smallest slope that is told from none, per cell and relative to the largest value.
 FLAT = 1e-12
 
@@ -103,42 +113,28 @@ def _fit(phi: Field, trusted: Mask, i: NDArray[np.intp], j: NDArray[np.intp]) ->
 
     phi, trusted  framed
     """
-    di, dj, nearness, basis, products = _stencil()
     rows = phi.shape[1]
-    at = ((i + FRAME) * rows + j + FRAME)[:, None] + (di * rows + dj)
+    at = ((i + FRAME) * rows + j + FRAME)[:, None] + (DI * rows + DJ)
     use = np.take(trusted, at)
-    weight = use * nearness
-    normal = (weight @ products).reshape(-1, 6, 6)
-    right = (weight * np.take(phi, at)) @ basis
+    weight = use * NEARNESS
+    normal = (weight @ PRODUCTS).reshape(-1, 6, 6)
+    right = (weight * np.take(phi, at)) @ BASIS
     mean = right[:, 0] / np.maximum(normal[:, 0, 0], 1e-30)
     # The ridge decides only what the cells at hand do not.
-    normal += 1e-9 * np.eye(6) * (np.trace(normal, axis1=1, axis2=2)[:, None, None] + 1e-30)
+    normal += RIDGE * (np.trace(normal, axis1=1, axis2=2)[:, None, None] + 1e-30)
     f, f_x, f_y = np.linalg.solve(normal, right[..., None])[:, :3, 0].T
-    return np.stack([f, f_x, f_y, mean, np.count_nonzero(use, axis=1)])
-
-
-@lru_cache(maxsize=1)
-def _stencil() -> tuple[NDArray[Any], ...]:
-    """Of the cells around one: how far off along x and y, their weights, the terms of a quadratic
-    (cells, 6), and the products of all pairs of terms (cells, 36)."""
-    shift = np.arange(-REACH, REACH + 1)
-    di, dj = (grid.ravel() for grid in np.meshgrid(shift, shift, indexing="ij"))
-    nearness = np.exp(-(di**2 + dj**2) / (2 * LENGTH**2))
-    basis = np.stack([np.ones_like(di), di, dj, di * di, di * dj, dj * dj], axis=-1).astype(float)
-    products = (basis[:, :, None] * basis[:, None, :]).reshape(-1, 36)
-    return di, dj, nearness, basis, products
+    return np.stack([f, f_x, f_y, mean, use.sum(axis=1)])
 
 
 def _coverage(f: Field, f_x: Field, f_y: Field) -> Field:
     """Part of a unit cell where f + f_x x + f_y y > 0."""
-    b, c = np.maximum(np.abs(f_x), np.abs(f_y)), np.minimum(np.abs(f_x), np.abs(f_y))
-    b = np.maximum(b, FLAT)
-    along = [np.maximum(f + s * b / 2, 0.0) for s in (1, -1)]
+    steep = np.abs([f_x, f_y])
+    b, c = np.maximum(steep.max(axis=0), FLAT), steep.min(axis=0)
+    along = np.maximum(f + np.multiply.outer([0.5, -0.5], b), 0.0)
     straight = (along[0] - along[1]) / b
-    c = np.maximum(c, 1e-3 * b)
-    corners = sum(
-        s * t * np.maximum(f + s * b / 2 + t * c / 2, 0.0) ** 2 for s in (1, -1) for t in (1, -1)
-    )
-    oblique = corners / (2 * b * c)
-    part = np.where(np.minimum(np.abs(f_x), np.abs(f_y)) < 1e-3 * b, straight, oblique)
+    least = 1e-3 * b
+    d = np.maximum(c, least)
+    corners = np.maximum(f + CORNERS @ [b, d], 0.0)
+    oblique = (CORNER_SIGNS @ np.square(corners)) / (2 * b * d)
+    part = np.where(c < least, straight, oblique)
     return np.asarray(np.clip(part, 0.0, 1.0))

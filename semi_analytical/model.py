@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 from contact_scene import CoulombFriction, Scene
 from contact_scene.friction import FRICTIONLESS
 from contact_scene.solver_errors import UnsupportedScene
+from semi_analytical.bearing import modulus_of
 from semi_analytical.coupled_operator import CoupledOperator
 from semi_analytical.grid import SurfaceGrid
 from semi_analytical.influence.bodies import influence_coefficients
@@ -30,7 +31,9 @@ Operator = TypeVar(
     CoupledOperator,
 )
 
-COARSEST = 16
+# A grid of no more cells along a side is not halved: from a pressure by Hertz's law it is solved in
+# less than its coarser grids would take.
+COARSEST = 64
 
 
 class ContactModel:
@@ -114,6 +117,12 @@ class ContactModel:
     def self_compliance(self) -> float:
         """Tangential displacement of a cell by its own unit shear [length^3/force]."""
         return float(0.5 * (self.coefficients.xx[0, 0] + self.coefficients.yy[0, 0]))
+
+    @property
+    def bearing_modulus(self) -> float:
+        """E* as a contact half as wide as the window feels it [force/length^2]."""
+        nx, ny = self.grid.cells
+        return modulus_of(self.coefficients.zz[: nx // 4 + 1, : ny // 4 + 1], self.grid.spacing)
 
     def normal_operator(self, shape: tuple[int, int]) -> NormalOperator:
         """Pressure to normal displacement on a box of cells."""

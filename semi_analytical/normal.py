@@ -12,7 +12,6 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from contact_scene.residuals import worst
 from contact_scene.solver_errors import NotConverged
 from semi_analytical.normal_load import Map, Motion, NormalLoad
 
@@ -59,10 +58,11 @@ class _Problem:
 
     def residual(self, p: Field, g: Field, overlap: float) -> float:
         """The larger of complementarity and penetration, relative to the overlap."""
-        total = np.sum(p)  # zero where a step under a fixed approach has overshot
+        total = p.sum()  # zero where a step under a fixed approach has overshot
         complementarity = np.vdot(np.abs(g), p) / total if total > 0 else 0.0
-        penetration = -np.min(np.where(self.allowed, g, 0.0))
-        return worst(complementarity, penetration) / overlap
+        penetration = -np.where(self.allowed, g, 0.0).min()
+        # A NaN is larger than any number.
+        return float(np.maximum(complementarity, penetration) / overlap)
 
 
 def solve_normal(
@@ -93,9 +93,9 @@ def solve_normal(
     u = displace(p)
     iterations, first, last = 0, np.inf, None
     for number in range(MOST_STEPS):
-        motion = load.motion(p, u + h)
-        closure = load.closure(motion)
-        g = u + h - closure
+        s = u + h
+        motion = load.motion(p, s)
+        g = s - load.closure(motion)
         residual = problem.residual(p, g, load.overlap(motion, h, allowed))
         first = residual if number == 0 else first
         aim = max(tolerance, enough * first)
@@ -105,27 +105,26 @@ def solve_normal(
             break
         contact = allowed & ((p > 0) | (g < 0))
         # Deep enough to reach the tolerance once the contact set is right, shallow while it moves.
-        settled = last is not None and np.array_equal(contact, last)
+        settled = last is not None and bool((contact == last).all())
         depth = max(0.0 if settled else MOVING, 0.3 * aim / residual)
         last = contact
-        newton, newton_u, spent = _solve_on(contact, problem, p, u, closure, depth)
+        newton, newton_u, spent = _solve_on(contact, problem, p, u, g, depth)
         iterations += spent
-        p, u, spent = _step_toward(newton, newton_u, problem, p, u, g, closure)
+        p, u, spent = _step_toward(newton, newton_u, problem, p, u, g)
         iterations += spent
     raise NotConverged("the pressure", iterations, residual, tolerance)
 
 
 def _solve_on(
-    contact: Mask, problem: _Problem, p: Field, u: Field, closure: float | Field, depth: float
+    contact: Mask, problem: _Problem, p: Field, u: Field, g: Field, depth: float
 ) -> tuple[Field, Field, int]:
-    """Close the gap on a given contact set; returns pressure, displacement, iterations.
+    """Close the gap g on a contact set that holds all pressed cells; returns pressure,
+    displacement, iterations.
 
     Conjugate gradients until the residual norm has fallen by the factor `depth`.
     """
-    inside = contact.astype(np.float64)
-    projected = problem.load.projection(inside)
-    p, u = p * inside, u.copy()
-    r = projected(closure - problem.h - u)
+    projected = problem.load.projection(contact.astype(np.float64))
+    r = projected(-g)
     t = z = projected(problem.precondition(r))
     rz = first = np.vdot(r, z)
     iterations = 0
@@ -133,9 +132,9 @@ def _solve_on(
         iterations += 1
         A_t = problem.displace(t)
         step = rz / np.vdot(t, A_t)
-        p += step * t
-        u += step * A_t
-        r = r - step * projected(A_t)
+        p = p + step * t
+        u = u + step * A_t
+        r -= step * projected(A_t)
         z = projected(problem.precondition(r))
         rz, last = np.vdot(r, z), rz
         t = z + (rz / last) * t
@@ -149,7 +148,6 @@ def _step_toward(
     p: Field,
     u: Field,
     g: Field,
-    closure: float | Field,
 ) -> tuple[Field, Field, int]:
     """To the Newton point, cut off at zero, or half as far until the energy falls enough.
 
@@ -160,13 +158,13 @@ def _step_toward(
     for _ in range(MOST_HALVINGS):
         target = newton if step == 1 else p + step * (newton - p)
         target_u = newton_u if step == 1 else u + step * (newton_u - u)
-        if np.min(target) < 0:
+        if target.min() < 0:
             target = problem.load.admissible(target)
             target_u = problem.displace(target)
         if _falls(target - p, target_u - u, g):
             return target, target_u, 0
         step /= 2
-    lower, lower_u, spent = _let_go(newton, newton_u, problem, p, u, closure)
+    lower, lower_u, spent = _let_go(newton, newton_u, problem, p, u, g)
     if np.sum((lower - p) * g) < 0:
         return lower, lower_u, spent
     return *_gradient_step(problem, p, u, g), spent
@@ -178,7 +176,7 @@ def _let_go(
     problem: _Problem,
     p: Field,
     u: Field,
-    closure: float | Field,
+    g: Field,
 ) -> tuple[Field, Field, int]:
     """Towards the Newton point until the first cells let go, then without these towards the next
     one, until none is in tension (Lawson and Hanson 1974, chapter 23).
@@ -204,12 +202,12 @@ def _let_go(
             target = problem.load.admissible(target)
             target_u = problem.displace(target)
             iterations += 1
-            if _falls(target - p, target_u - u, u + problem.h - closure):
+            if _falls(target - p, target_u - u, g):
                 break
             many //= 2
         contact = contact & (part_of_way > part)
-        p, u = np.where(contact, target, 0.0), target_u
-        newton, newton_u, spent = _solve_on(contact, problem, p, u, closure, ROUGHLY)
+        p, u, g = np.where(contact, target, 0.0), target_u, g + (target_u - u)
+        newton, newton_u, spent = _solve_on(contact, problem, p, u, g, ROUGHLY)
         iterations += spent
     return newton, newton_u, iterations
 

@@ -31,6 +31,13 @@ class NormalLoad(Protocol):
     def touches(self, gap: Field) -> bool:
         """Whether some pressure below an undeformed gap can carry the load."""
 
+    def bearing_depth(self, gaps: Vector, stiffness: Vector) -> float:
+        """Below what gap the cells bear the load, by Hertz's law (see `bearing`) [length].
+
+        gaps       undeformed, of all cells, in ascending order [length]
+        stiffness  Σp over the depth, where so many cells bear [force/length^3]
+        """
+
     def motion(self, p: Field, s: Field) -> Motion:
         """The motion that closes a gap s best, as the pressure weighs it."""
 
@@ -63,9 +70,14 @@ class PressureSum:
         """Whether there is a body to press on."""
         return bool(np.isfinite(np.min(gap)))
 
+    def bearing_depth(self, gaps: Vector, stiffness: Vector) -> float:
+        """As the area grows with the depth, so that both carry the sum."""
+        bearing = int(np.searchsorted(stiffness * gaps, self.total))
+        return float(self.total / stiffness[max(bearing - 1, 0)])
+
     def motion(self, p: Field, s: Field) -> Motion:
         """The approach: the multiplier of the sum."""
-        return float(np.vdot(p, s) / np.sum(p))
+        return float(np.vdot(p, s) / p.sum())
 
     def closure(self, motion: Motion) -> float | Field:
         """The approach, everywhere the same."""
@@ -73,21 +85,22 @@ class PressureSum:
 
     def overlap(self, motion: Motion, gap: Field, allowed: Mask) -> float:
         """The approach."""
-        return float(np.abs(motion))
+        return abs(float(motion))
 
     def admissible(self, p: Field) -> Field:
         """Cut off at zero and scaled to the sum."""
         p = np.maximum(p, 0.0)
-        return np.asarray(p * (self.total / np.sum(p)))
+        return np.asarray(p * (self.total / p.sum()))
 
     def projection(self, inside: Field) -> Projection:
         """What is left without the mean: the approach is a rigid shift, and the sum of the
         pressure stays."""
-        count = np.sum(inside)
+        count = inside.sum()
 
         def projected(field: Field) -> Field:
-            shift = np.vdot(field, inside) / count
-            return np.asarray((field - shift) * inside)
+            left = field - np.vdot(field, inside) / count
+            left *= inside
+            return left
 
         return projected
 
@@ -110,6 +123,10 @@ class FixedApproach:
         """Whether the approach closes the gap somewhere."""
         return float(np.min(gap)) < self.approach
 
+    def bearing_depth(self, gaps: Vector, stiffness: Vector) -> float:
+        """Half of the approach."""
+        return 0.5 * self.approach
+
     def motion(self, p: Field, s: Field) -> Motion:
         """The approach."""
         return self.approach
@@ -120,7 +137,7 @@ class FixedApproach:
 
     def overlap(self, motion: Motion, gap: Field, allowed: Mask) -> float:
         """The approach."""
-        return float(np.abs(motion))
+        return abs(float(motion))
 
     def admissible(self, p: Field) -> Field:
         """Cut off at zero."""

@@ -7,6 +7,7 @@ from numpy.typing import NDArray
 
 from contact_scene.residuals import worst
 from contact_scene.solver_errors import ContactAtWindowEdge, ContactNotResolved, NotConverged
+from semi_analytical.bearing import bearing_pressure
 from semi_analytical.box import Box, box_around
 from semi_analytical.contact_area import covered_cells
 from semi_analytical.model import ContactModel, doubled
@@ -165,9 +166,11 @@ def nested_start(model: ContactModel, target: NormalTarget) -> tuple[Field, int]
 def _nested_start(model: ContactModel, target: NormalTarget) -> tuple[Field, int]:
     """The same, on the part of the window that tells pressures."""
     coarse, part = model.coarse, model.part
-    touchable = np.isfinite(part.of(model.gap))
     if coarse is None or not _touches(coarse, target):
-        return np.where(touchable, 1.0, 0.0), 0
+        gap = part.of(target.gap(model))
+        load = target.on(model, Box.whole(gap.shape), part)
+        area = part.images * model.grid.cell_area
+        return bearing_pressure(gap, load, model.bearing_modulus, area), 0
     start, iterations = _nested_start(coarse, target)
     gap = coarse.part.of(target.gap(coarse))
     operator = coarse.pressure_operator(gap.shape)
@@ -182,6 +185,7 @@ def _nested_start(model: ContactModel, target: NormalTarget) -> tuple[Field, int
     finer = _on_half_cells(solution.pressure)
     if part.quarter and not coarse.part.quarter:  # with a cell on a plane
         finer = part.of(finer)
+    touchable = np.isfinite(part.of(model.gap))
     return np.where(touchable, finer, 0.0), iterations + solution.iterations
 
 

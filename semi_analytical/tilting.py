@@ -12,7 +12,13 @@ from numpy.typing import NDArray
 
 from contact_scene.solver_errors import NotConverged
 from semi_analytical.multipliers import MOST_SWEEPS, find_multiplier
-from semi_analytical.normal_load import Motion, NormalLoad, Projection
+from semi_analytical.normal_load import (
+    FixedApproach,
+    Motion,
+    NormalLoad,
+    PressureSum,
+    Projection,
+)
 
 Field = NDArray[np.float64]
 Mask = NDArray[np.bool_]
@@ -61,6 +67,12 @@ class PressureMoments:
     def touches(self, gap: Field) -> bool:
         """Whether there are bodies to press on, on all sides of where the force acts."""
         return self._is_carried_on(self.cells)
+
+    def bearing_depth(self, gaps: Vector, stiffness: Vector) -> float:
+        """As if the force acted at the origin."""
+        if self.total is None:
+            return FixedApproach(self.approach or 0.0).bearing_depth(gaps, stiffness)
+        return PressureSum(self.total).bearing_depth(gaps, stiffness)
 
     def motion(self, p: Field, s: Field) -> Motion:
         """The least squares of the gap left, weighed by the pressure."""

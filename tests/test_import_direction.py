@@ -41,6 +41,7 @@ ORDER = (
     "energy",
     "residuals",
     "normal_load",
+    "bearing",
     "normal",
     "tilting",
     "shear_zones",

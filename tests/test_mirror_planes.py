@@ -254,8 +254,8 @@ def test_cells_that_lie_beside_the_axis_are_solved_as_they_are(offset):
 
 
 def test_a_first_pressure_covers_the_window_for_whoever_asks():
-    """Below a grid with a cell on a plane, too: 100 cells, 50, 25."""
-    on = SurfaceGrid((100, 100), (3 * A, 3 * A))
+    """Below a grid with a cell on a plane, too: 260 cells, 130, 65."""
+    on = SurfaceGrid((260, 260), (3 * A, 3 * A))
     target = NormalTarget(force=LOAD)
     (told, spent), (full, full_spent) = (
         nested_start(ContactModel.of(scene(PRESS), on, even=even), target) for even in (True, False)
