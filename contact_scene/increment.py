@@ -248,9 +248,10 @@ class ReportedIncrement(Cost, State, WithFields):
     worst_residual: float = field(init=False)
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "worst_residual", self.residuals.worst)
+        values = vars(self)
+        values["worst_residual"] = self.residuals.worst
         for name in SCALARS:
-            object.__setattr__(self, name, _unsigned_zero(getattr(self, name)))
+            values[name] = _unsigned_zero(values[name])
 
 
 SCALARS: Mapping[str, Reported] = {**reported(State), **reported(Cost)}

@@ -19,8 +19,8 @@ Field = NDArray[np.float64]
 
 
 def bearing_pressure(gap: Field, load: NormalLoad, modulus: float, area: float) -> Field:
-    """Pressure (nx, ny) below an undeformed gap (nx, ny), the same everywhere where it would
-    be in no cell.
+    """Pressure (nx, ny) below an undeformed gap (nx, ny); the same everywhere where the cells that
+    bear by Hertz cannot carry the load.
 
     modulus  E* [force/length^2]
     area     of a cell, with its images beyond mirror planes [length^2]
@@ -29,10 +29,10 @@ def bearing_pressure(gap: Field, load: NormalLoad, modulus: float, area: float) 
     gaps = np.sort(gap[touchable])
     radii = np.sqrt(area / pi * np.arange(1, gaps.size + 1))
     depth = load.bearing_depth(gaps, 8 / 3 * modulus / area * radii)
-    if not depth > gaps[0]:
+    bears = gap < depth
+    if not load.touches(np.where(bears, gap, np.inf)):
         return np.where(touchable, 1.0, 0.0)
-    bearing = np.searchsorted(gaps, depth)
-    factor = 4 * modulus / (pi * radii[bearing - 1])
+    factor = 4 * modulus / (pi * radii[np.count_nonzero(bears) - 1])
     return np.asarray(factor * np.sqrt(depth * np.maximum(depth - gap, 0.0)))
 
 

@@ -107,7 +107,7 @@ def _start(
     tangential: TangentialTarget,
 ) -> tuple[Field, VectorField, int]:
     """First pressure and shear: as the path predicts them; where it does not, the pressure of a
-    frictionless contact on a coarser grid, which knows how far the contact reaches, and the shear
+    frictionless contact, roughly, which knows how far the contact reaches, and the shear
     of the state before. With the iterations that took."""
     guess = None if before is None else predicted(model, before, normal, tangential)
     if guess is not None:

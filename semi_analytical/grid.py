@@ -47,12 +47,13 @@ class SurfaceGrid:
     @property
     def even(self) -> bool:
         """Whether cells lie alike on both sides of x = 0 and of y = 0."""
-        return all(np.array_equal(at, -at[::-1]) for at in (self.x, self.y))
+        return all(bool((at == -at[::-1]).all()) for at in (self.x, self.y))
 
     def coordinates(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """Cell centres X, Y, each of shape (nx, ny) [length]."""
-        x, y = np.meshgrid(self.x, self.y, indexing="ij")
-        return x, y
+        return np.repeat(self.x[:, None], self.cells[1], axis=1), np.tile(
+            self.y, (self.cells[0], 1)
+        )
 
     def refined(self, factor: int = 2) -> "SurfaceGrid":
         """The same window with `factor` times as many cells along each side."""

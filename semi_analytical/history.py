@@ -7,7 +7,7 @@ from typing import Protocol
 import numpy as np
 
 from contact_scene import LoadRamp
-from contact_scene.march import Place, Reached, marked_increments
+from contact_scene.march import Reached, marked_increments
 from contact_scene.standing import Mark, Standing
 from semi_analytical.balance import balanced
 from semi_analytical.contact_area import stuck_cells
@@ -127,21 +127,18 @@ class _Solver:
 
     def report(self, reached: Reached[State], last: Increment | None) -> Increment:
         """The state, with what the increment has changed and cost."""
-        return replace(
-            _increment(self.model, reached.before, reached.state, reached.place),
-            halvings=reached.halvings,
-            rounds=reached.state.rounds,
-            convolutions=int(np.ceil(reached.spent)),
-        )
+        return _increment(self.model, reached)
 
 
-def _increment(model: ContactModel, before: State | None, state: State, place: Place) -> Increment:
-    """The state as it is reported, with what the increment from the state before has changed."""
+def _increment(model: ContactModel, reached: Reached[State]) -> Increment:
+    """The state as it is reported, with what the increment from the state before has changed and
+    cost."""
+    before, state = reached.before, reached.state
     pressing, sheared, cell = state.pressing, state.sheared, model.grid.cell_area
     p = pressing.pressure
     force, tilt = state.target.force, pressing.tilt
     pressed = Increment(
-        **vars(place),
+        **vars(reached.place),
         pressure=p,
         gap=model.gap + pressing.displacement - pressing.closure(model),
         normal_force=state.normal_force if force is None else force,
@@ -156,7 +153,9 @@ def _increment(model: ContactModel, before: State | None, state: State, place: P
         energy_imbalance=state.energy.imbalance(before.energy if before else NOTHING_YET),
         residuals=residuals_of(model, state),
         iterations=state.iterations,
-        convolutions=0,
+        halvings=reached.halvings,
+        rounds=state.rounds,
+        convolutions=int(np.ceil(reached.spent)),
     )
     if state.corrected is not None:
         pressed = _with_edges(pressed, state.corrected, model, state.target)

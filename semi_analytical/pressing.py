@@ -157,36 +157,44 @@ def press(model: ContactModel, target: NormalTarget, tolerance: float) -> Pressi
 
 
 def nested_start(model: ContactModel, target: NormalTarget) -> tuple[Field, int]:
-    """A first pressure: the frictionless solution of the coarser model, found the same way, and
-    the iterations spent on all the coarser grids."""
-    start, iterations = _nested_start(model, target)
+    """A first pressure: the frictionless solution of the coarser model, found the same way, or,
+    where there is none, roughly that of the model; and all the iterations that took."""
+    found = _rough if model.coarse is None else _nested_start
+    start, iterations = found(model, target)
     return model.part.unfolded(start), iterations
 
 
 def _nested_start(model: ContactModel, target: NormalTarget) -> tuple[Field, int]:
-    """The same, on the part of the window that tells pressures."""
+    """A first pressure on the part of the window that tells pressures: by the coarser model, or by
+    Hertz's law."""
     coarse, part = model.coarse, model.part
     if coarse is None or not _touches(coarse, target):
         gap = part.of(target.gap(model))
         load = target.on(model, Box.whole(gap.shape), part)
         area = part.images * model.grid.cell_area
         return bearing_pressure(gap, load, model.bearing_modulus, area), 0
-    start, iterations = _nested_start(coarse, target)
-    gap = coarse.part.of(target.gap(coarse))
-    operator = coarse.pressure_operator(gap.shape)
+    pressure, iterations = _rough(coarse, target)
+    finer = _on_half_cells(pressure)
+    if part.quarter and not coarse.part.quarter:  # with a cell on a plane
+        finer = part.of(finer)
+    touchable = np.isfinite(part.of(model.gap))
+    return np.where(touchable, finer, 0.0), iterations
+
+
+def _rough(model: ContactModel, target: NormalTarget) -> tuple[Field, int]:
+    """The pressure on that part to the accuracy of a first guess."""
+    start, iterations = _nested_start(model, target)
+    gap = model.part.of(target.gap(model))
+    operator = model.pressure_operator(gap.shape)
     solution = solve_normal(
         operator,
         operator.precondition,
         gap,
-        target.on(coarse, Box.whole(gap.shape), coarse.part),
+        target.on(model, Box.whole(gap.shape), model.part),
         start,
         COARSE_TOLERANCE,
     )
-    finer = _on_half_cells(solution.pressure)
-    if part.quarter and not coarse.part.quarter:  # with a cell on a plane
-        finer = part.of(finer)
-    touchable = np.isfinite(part.of(model.gap))
-    return np.where(touchable, finer, 0.0), iterations + solution.iterations
+    return solution.pressure, iterations + solution.iterations
 
 
 def _on_half_cells(pressure: Field) -> Field:

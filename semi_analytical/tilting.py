@@ -66,7 +66,7 @@ class PressureMoments:
 
     def touches(self, gap: Field) -> bool:
         """Whether there are bodies to press on, on all sides of where the force acts."""
-        return self._is_carried_on(self.cells)
+        return self._is_carried_on(self.cells & np.isfinite(gap))
 
     def bearing_depth(self, gaps: Vector, stiffness: Vector) -> float:
         """As if the force acted at the origin."""
