@@ -1,6 +1,7 @@
 """The part of the window that pressures are solved on: all of it, or a quarter."""
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -38,6 +39,27 @@ class Part:
             return field
         half = np.concatenate([field[::-1], field])
         return np.concatenate([half[:, ::-1], half], axis=1)
+
+    def framed(self, field: NDArray[Any], width: int) -> NDArray[Any]:
+        """A field of the part (nx, ny) in a frame of so many cells: its images beyond mirror
+        planes, else nothing."""
+        nx, ny = field.shape
+        framed = np.zeros((nx + 2 * width, ny + 2 * width), dtype=field.dtype)
+        framed[width : width + nx, width : width + ny] = field
+        if self.quarter:
+            images = slice(2 * width - 1, width - 1, -1)
+            framed[:width] = framed[images]
+            framed[:, :width] = framed[:, images]
+        return framed
+
+    def differences(self, field: Field) -> Field:
+        """Slopes per cell of a field of the part along both axes (2, nx, ny): central differences,
+        but at the ends of the window."""
+        slopes = np.stack([np.gradient(field, axis=axis) for axis in (0, 1)])
+        if self.quarter:
+            slopes[0, 0] = (field[1] - field[0]) / 2
+            slopes[1, :, 0] = (field[:, 1] - field[:, 0]) / 2
+        return slopes
 
 
 WHOLE = Part(quarter=False)

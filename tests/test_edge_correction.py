@@ -126,7 +126,7 @@ def test_every_patch_has_its_edge_inside_the_cells():
 
 
 def test_beside_a_patch_that_is_too_thin_the_pressure_stays():
-    of, grid = bumps(40, *PATCHES)
+    of, grid = bumps(32, *PATCHES)
     plain, asked = (solved(of, edge, grid).steps[-1] for edge in ("off", "last"))
     assert asked.edge_change is None
     np.testing.assert_array_equal(plain.pressure, asked.pressure)

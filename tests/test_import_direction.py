@@ -30,6 +30,7 @@ ORDER = (
     "padded_transform",
     "operator",
     "mirrored_transform",
+    "sines",
     "mirrored_operator",
     "grades",
     "periodic_inverse",
@@ -89,7 +90,7 @@ ORDERS = {
     "semi_analytical": ORDER,
     "semi_analytical.edge": (
         *("means", "quadratic", "fit", "shape"),
-        *("kernels", "displacement", "rim", "peak", "corrected"),
+        *("kernels", "displacement", "mirrored_displacement", "rim", "peak", "corrected"),
     ),
     "semi_analytical.edge_correction": (
         "mixing",

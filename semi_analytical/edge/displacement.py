@@ -17,6 +17,7 @@ from semi_analytical.kernel_spectrum import (
     odd_transform,
 )
 from semi_analytical.padded_transform import Convolutions, PaddedTransform, Spectrum
+from semi_analytical.part import WHOLE, Part
 
 Field = NDArray[np.float64]
 Indices = NDArray[np.intp]
@@ -25,6 +26,9 @@ Matrix = Sequence[Sequence[tuple[int, EdgeKernels]]]
 
 # A slope of one per cell has a twelfth of a moment; that of its parts is a little less.
 MOMENT = 12 / (1 - 1 / PARTS**2)
+X, Y = (at.ravel() for at in np.meshgrid(part_centres(), part_centres(), indexing="ij"))
+# One and both places at the parts of a cell: what mean and slopes go with.
+LINEAR = np.stack([np.ones(PARTS**2), X, Y], axis=-1)
 
 
 @dataclass(frozen=True)
@@ -42,17 +46,39 @@ class Within:
     rest: Field
 
     @classmethod
-    def of(cls, means: Field, i: Indices, j: Indices, parts: Field) -> Within:
-        """From means (nx, ny) by central differences, and in the cells (i, j) by parts."""
-        loaded = means != 0
-        slopes = np.stack([np.gradient(means, axis=axis) * loaded for axis in (0, 1)])
-        rest = parts - parts.mean(axis=(1, 2), keepdims=True)
-        x = part_centres()
-        by_x = MOMENT * np.einsum("nab,a->n", rest, x) / PARTS**2
-        by_y = MOMENT * np.einsum("nab,b->n", rest, x) / PARTS**2
-        slopes[:, i, j] = by_x, by_y
-        rest = rest - by_x[:, None, None] * x[:, None] - by_y[:, None, None] * x
-        return cls(slopes, i, j, rest)
+    def of(cls, means: Field, i: Indices, j: Indices, parts: Field, part: Part = WHOLE) -> Within:
+        """From means (nx, ny) by central differences, and in the cells (i, j) by parts.
+
+        part  of the window that all are on
+        """
+        slopes = part.differences(means) * (means != 0)
+        values = parts.reshape(-1, PARTS**2)
+        told = values @ (LINEAR / [1, 1 / MOMENT, 1 / MOMENT] / PARTS**2)
+        slopes[:, i, j] = told[:, 1:].T
+        rest = values - told @ LINEAR.T
+        return cls(slopes, i, j, rest.reshape(parts.shape))
+
+    @classmethod
+    def nothing(cls, cells: tuple[int, ...]) -> Within:
+        """Of no traction on these cells."""
+        none = np.zeros(0, dtype=int)
+        return cls(np.zeros((2, *cells)), none, none, np.zeros((0, PARTS, PARTS)))
+
+    def unfolded(self, part: Part) -> Within:
+        """On the whole window what an even traction is on its part."""
+        if not part.quarter:
+            return self
+        slopes, i, j, rest = self.slopes, self.i, self.j, self.rest
+        for axis, (nx, ny) in enumerate((slopes.shape[1:], (2 * slopes.shape[1], slopes.shape[2]))):
+            images = np.flip(slopes, axis + 1).copy()
+            images[axis] *= -1
+            slopes = np.concatenate([images, slopes], axis + 1)
+            at, beside = (i, j) if axis == 0 else (j, i)
+            count = (nx, ny)[axis]
+            at, beside = np.concatenate([count - 1 - at, count + at]), np.tile(beside, 2)
+            i, j = (at, beside) if axis == 0 else (beside, at)
+            rest = np.concatenate([np.flip(rest, axis + 1), rest])
+        return Within(slopes, i, j, rest)
 
     @classmethod
     def summed(cls, slopes: Field, terms: Sequence[tuple[Field, Within]]) -> Within:
@@ -82,7 +108,7 @@ class EdgeOperator:
         known: dict[str, tuple[KernelSpectrum, KernelSpectrum]] = {}
         for _, of in chain.from_iterable(kernels):
             if of.component not in known:
-                known[of.component] = _spectra(of, self._transform.reach)
+                known[of.component] = spectra_of(of, self._transform.reach)
         self._components = known
         self._matrix = [
             [(sign * (-1j if of.even else 1), of.component) for sign, of in row] for row in kernels
@@ -98,7 +124,8 @@ class EdgeOperator:
         slopes = np.concatenate([w.slopes for w in within])
         u = self._transform.convolved(slopes, len(self._matrix), self._multiplied)
         for traction, near in zip(within, self._near, strict=True):
-            u += _by_rest(traction, near, len(self._matrix))
+            moved = around(traction, near, len(self._matrix))
+            u += moved[:, REACH:-REACH, REACH:-REACH]
         return u
 
     def _multiplied(self, spectra: Spectrum, columns: slice) -> Spectrum:
@@ -117,8 +144,8 @@ class EdgeOperator:
         return u
 
 
-def _by_rest(within: Within, near: Field, count: int) -> Field:
-    """Displacements (count, nx, ny) of the cells about each by its rest.
+def around(within: Within, near: Field, count: int) -> Field:
+    """Displacements (count, nx + 2 REACH, ny + 2 REACH) of the cells about each by its rest.
 
     near  (count of offsets, PARTS²) displacement by each part, one displacement after the other
     """
@@ -129,10 +156,12 @@ def _by_rest(within: Within, near: Field, count: int) -> Field:
     u = np.empty((count, *shape))
     for total, one in zip(u, seen.reshape(count, -1), strict=True):
         total.flat = np.bincount(at.ravel(), weights=one, minlength=total.size)
-    return u[:, REACH:-REACH, REACH:-REACH]
+    return u
 
 
-def _spectra(of: EdgeKernels, reach: tuple[slice, slice]) -> tuple[KernelSpectrum, KernelSpectrum]:
+def spectra_of(
+    of: EdgeKernels, reach: tuple[slice, slice]
+) -> tuple[KernelSpectrum, KernelSpectrum]:
     """Those of the moments along x and y; times -i where the component is even (odd) along both
     sides."""
     x, y = of.parity

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from semi_analytical.edge.quadratic import Quadratic
+from semi_analytical.part import WHOLE, Part
 
 Field = NDArray[np.float64]
 Indices = NDArray[np.intp]
@@ -44,15 +45,22 @@ class Fits:
 
 
 def fit_about(
-    data: Field, weight: Field, i: Indices, j: Indices, stencil: Stencil, degree: int = 2
+    data: Field,
+    weight: Field,
+    i: Indices,
+    j: Indices,
+    stencil: Stencil,
+    degree: int = 2,
+    part: Part = WHOLE,
 ) -> Fits:
     """Least squares about the cells (i, j), shape (n,).
 
     data    (nx, ny) cell means
     weight  (nx, ny) beside that of the stencil; zero where there are none
     degree  1 or 2; of 1 nothing bends
+    part    of the window that they are given on
     """
-    data, weight = (np.pad(field, stencil.reach) for field in (data, weight))
+    data, weight = (part.framed(field, stencil.reach) for field in (data, weight))
     found, rms = np.zeros((6, len(i))), np.empty(len(i))
     number = np.empty(len(i), dtype=int)
     for first in range(0, len(i), CHUNK):

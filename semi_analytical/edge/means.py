@@ -22,6 +22,7 @@ DEEP = 3.0
 POINTS, WEIGHTS = (half / 2 for half in np.polynomial.legendre.leggauss(4))
 MOST_TURNS = 80
 SMOOTH_TURNS = 6
+FEW_TURNS = 80
 SETTLED = 1e-13
 
 
@@ -124,10 +125,13 @@ def _oblique(f: Field, b: Field, c: Field, a: Exponent) -> tuple[Field, Field]:
     return mean / ((a + 1) * (a + 2) * b * c), slope
 
 
-def centre_value(mean: Field, f_x: Field, f_y: Field, exponent: Exponent) -> Field:
+def centre_value(
+    mean: Field, f_x: Field, f_y: Field, exponent: Exponent, near: Field | None = None
+) -> Field:
     """The f for which `mean_power` gives a mean, shape of mean.
 
     mean  of the power over the cell, positive
+    near  values near those that are asked for, at which a step of Newton's method is enough
     Between mean^(1/exponent) ± half the sum of the slopes.
     """
     shape = np.broadcast_shapes(mean.shape, f_x.shape, f_y.shape)
@@ -137,8 +141,11 @@ def centre_value(mean: Field, f_x: Field, f_y: Field, exponent: Exponent) -> Fie
     target = power(mean, np.divide(1, a))
     f = np.empty(target.shape)
     deep = target > DEEP * (b + c)
-    for where, inverse in ((deep, _smooth_centre), (~deep, _cut_centre)):
-        f[where] = inverse(target[where], b[where], c[where], _among(a, f.shape, where))
+    cut = ~deep
+    f[deep] = _smooth_centre(target[deep], b[deep], c[deep], _among(a, f.shape, deep))
+    start = target[cut] if near is None else near.ravel()[cut]
+    turns = MOST_TURNS if near is None else FEW_TURNS
+    f[cut] = _cut_centre(target[cut], b[cut], c[cut], _among(a, f.shape, cut), start, turns)
     return f.reshape(shape)
 
 
@@ -150,15 +157,16 @@ def _smooth_centre(target: Field, b: Field, c: Field, a: Exponent) -> Field:
     return f
 
 
-def _cut_centre(target: Field, b: Field, c: Field, a: Exponent) -> Field:
-    """By Newton's method on mean^(1/a), which is almost linear in f.
+def _cut_centre(target: Field, b: Field, c: Field, a: Exponent, start: Field, turns: int) -> Field:
+    """By so many turns of Newton's method on mean^(1/a), which is almost linear in f.
 
     target  mean^(1/a)
     """
     half = (b + c) / 2
-    low, high, f = -half, target + half, target.copy()
+    low, high = -half, target + half
+    f = np.clip(start, low, high)
     k = np.arange(f.size)
-    for _ in range(MOST_TURNS):
+    for _ in range(turns):
         a_k = _among(a, f.shape, k)
         found, slope = _cut_with_slope(f[k], b[k], c[k], a_k)
         value = power(found, np.divide(1, a_k))

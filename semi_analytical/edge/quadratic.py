@@ -67,10 +67,23 @@ class Quadratic:
             )
         )
 
+    def mirrored(self, axis: int) -> Quadratic:
+        """Their images beyond the plane that cells are counted from along an axis."""
+        image = dict(vars(self))
+        place, slope = ("x", "f_x") if axis == 0 else ("y", "f_y")
+        image[place] = -1 - image[place]
+        image[slope], image["f_xy"] = -image[slope], -self.f_xy
+        return Quadratic(**image)
+
     def cell_mean(self, exponent: float | Field) -> Field:
         """Mean of phi_+^exponent over the unit cell about every place, by the slope there; 0 gives
         the covered part."""
         return mean_power(self.mean, self.f_x, self.f_y, exponent)
+
+    @property
+    def cut(self) -> NDArray[np.bool_]:
+        """Whether the linear part, about the mean, vanishes somewhere in the unit cell."""
+        return np.asarray(np.abs(self.mean) < (np.abs(self.f_x) + np.abs(self.f_y)) / 2)
 
     @property
     def mean(self) -> Field:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,7 +12,8 @@ from semi_analytical.edge.fit import Indices, Stencil
 from semi_analytical.edge.kernels import PARTS, part_centres
 from semi_analytical.edge.means import Exponent, mean_of_smooth, mean_power
 from semi_analytical.edge.quadratic import Quadratic
-from semi_analytical.edge.shape import Mask, edge_shape, layers_of
+from semi_analytical.edge.shape import Former, Mask, depth_of, edge_shape
+from semi_analytical.part import WHOLE, Part
 
 Field = NDArray[np.float64]
 
@@ -20,17 +22,44 @@ STENCIL = Stencil(4, 2.2)
 # Layers of cells inside and outside the edge. Farther in a traction is a slope within a cell, to
 # 1/500 of it; farther out it is zero.
 INSIDE, OUTSIDE = 5.5, 1.5
-# Layers up to which it is all that the fit says: what it says beside the slope fades out from here
-# on, as an end of it would show in the pressure of the next cells.
-WHOLE = 2.5
+# Layers up to which it is what the fit says; farther in second differences tell as much. They fade
+# out, as an end of them would show in the pressure of the next cells.
+FITTED = 2.5
 # So many times its slopes above zero, a part of a cell has the mean of a power by its series.
 SMOOTH = 1.5
 # Cells whose parts are found at a time: as many as stay in the cache.
 CHUNK = 256
 X, Y = (at.ravel() for at in np.meshgrid(part_centres(), part_centres(), indexing="ij"))
 MONOMIALS = np.stack([X**0, X, Y, X**2 / 2, X * Y, Y**2 / 2])
+# Mean of X²/2 over the parts of a cell.
+HALF_SQUARE = np.mean(X**2) / 2
 # Radius of a region in cells that is thick enough to be fitted.
 THICK = 1.9
+
+
+class Band(NamedTuple):
+    """Cells along the edge of a region (nx, ny), by their distance from the nearest outside.
+
+    depth   (nx, ny) that distance
+    fitted  cells (i, j) inside and outside that are fitted
+    deep    those farther in, and how much of their second differences they have
+    """
+
+    region: Mask
+    depth: Field
+    fitted: tuple[Indices, Indices]
+    deep: tuple[Indices, Indices]
+    fade: Field
+
+
+class Fitted(NamedTuple):
+    """What was fitted where: phi about the fitted cells of the band, whether to believe it, and
+    what the next fit of about the same region starts from."""
+
+    band: Band
+    about: Quadratic
+    safe: Mask
+    former: Former
 
 
 @dataclass(frozen=True)
@@ -42,6 +71,8 @@ class Rim:
     parts    (n, PARTS, PARTS) mean of the traction in the parts of each
     covered  (n,) part of each inside the edge
     unsafe   part of all cells along the edge that are not fitted well
+    part     of the window that all are on
+    fitted   what it was made of
     """
 
     region: Mask
@@ -50,6 +81,8 @@ class Rim:
     parts: Field
     covered: Field
     unsafe: float
+    part: Part
+    fitted: Fitted
 
     @property
     def outer(self) -> Mask:
@@ -67,14 +100,18 @@ class Rim:
 
     @property
     def area(self) -> float:
-        """Of the region, in cells."""
+        """Of the region and its images, in cells."""
         covered = self.region.astype(float)
         covered[self.i, self.j] = self.covered
-        return float(np.sum(covered))
+        return self.part.images * float(np.sum(covered))
 
 
 def rim(
-    means: Field, loaded: Mask, before: Rim | None = None, exponent: Exponent = 0.5
+    means: Field,
+    loaded: Mask,
+    before: Rim | None = None,
+    exponent: Exponent = 0.5,
+    part: Part = WHOLE,
 ) -> Rim | None:
     """The rim of a region of tractions; None where it is too thin to have one.
 
@@ -82,30 +119,106 @@ def rim(
     loaded    (nx, ny) cells where it is positive
     before    the rim of about the same region: cells outside it are no data, but what comes of it
     exponent  the traction goes with this power of the distance from the edge
+    part      of the window that all are given on
     """
-    region = loaded if before is None else loaded & ~before.outer
-    layer, nearest = layers = layers_of(region)
-    if np.max(layer) <= THICK:
+    fitted = _fitted(means, loaded, before, exponent, part)
+    if fitted is None:
         return None
-    scale = np.max(means)
-    shape = edge_shape(
-        means / scale, region, STENCIL, rings=0, exponent=exponent, rounds=2, layers=layers
+    (i, j), phi, safe = fitted.band.fitted, fitted.about, fitted.safe
+    deep = _by_differences(means, fitted.band, part)
+    unsafe = np.count_nonzero(~safe) / (len(safe) + len(deep))
+    i, j, phi = i[safe], j[safe], phi.chosen(safe)
+    parts, covered = _in_parts(
+        phi, exponent[i, j] if isinstance(exponent, np.ndarray) else exponent
     )
-    outside = np.hypot(*(nearest - np.indices(region.shape)))
-    i, j = np.nonzero((layer + outside <= INSIDE) & (outside <= OUTSIDE))
-    phi, safe = shape.about_cells(i, j)
-    # Those that the edge cuts first, and then those where no part is cut.
-    order = np.flatnonzero(safe)[np.argsort(layer[i[safe], j[safe]], kind="stable")]
-    i, j, phi = i[order], j[order], phi.chosen(order)
-    of_cells = np.broadcast_to(exponent, means.shape)[i, j] if np.ndim(exponent) else exponent
-    parts, covered = _in_parts(phi, of_cells)
-    parts *= scale
-    fading = np.nonzero(layer[i, j] > WHOLE)[0]
-    fade = (layer[i[fading], j[fading]] - WHOLE)[:, None, None] / (INSIDE - WHOLE)
-    parts[fading] += fade * (_slopes_alone(means, i[fading], j[fading]) - parts[fading])
-    inside = region.copy()
+    inside = fitted.band.region.copy()
     inside[i, j] = phi.f > 0
-    return Rim(inside, i, j, parts, covered, 1 - float(np.mean(safe)))
+    deep_i, deep_j = fitted.band.deep
+    return Rim(
+        region=inside,
+        i=np.concatenate([i, deep_i]),
+        j=np.concatenate([j, deep_j]),
+        parts=np.concatenate([np.max(means) * parts, deep]),
+        covered=np.concatenate([covered, np.ones(len(deep))]),
+        unsafe=unsafe,
+        part=part,
+        fitted=fitted,
+    )
+
+
+def area_within(means: Field, edge: Rim, exponent: Exponent = 0.5) -> float:
+    """Area in cells of a region that a rim is about, when its tractions are these means (nx, ny):
+    all around it, in the whole window."""
+    fitted = _fitted(means, means > 0, edge, exponent, edge.part)
+    if fitted is None:
+        return edge.area
+    covered = fitted.band.region.astype(float)
+    i, j = (at[fitted.safe] for at in fitted.band.fitted)
+    covered[i, j] = fitted.about.chosen(fitted.safe).cell_mean(0.0)
+    return edge.part.images * float(np.sum(covered))
+
+
+def _fitted(
+    means: Field, loaded: Mask, before: Rim | None, exponent: Exponent, part: Part
+) -> Fitted | None:
+    """phi in the cells along the edge; see `rim`."""
+    region = loaded if before is None else loaded & ~before.outer
+    same = before is not None and np.array_equal(region, before.fitted.band.region)
+    band = before.fitted.band if before and same else _band(region, part)
+    if np.max(band.depth) <= THICK:
+        return None
+    shape = edge_shape(
+        means / np.max(means),
+        region,
+        STENCIL,
+        rings=0,
+        exponent=exponent,
+        rounds=2,
+        depth=band.depth,
+        part=part,
+        former=before.fitted.former if before else None,
+    )
+    i, j = band.fitted
+    phi, safe = shape.about_cells(i, j)
+    # Told once: cells that are cut and then not would keep the rounds from settling.
+    cut = before.fitted.former.cut if before and same else _marked(region.shape, i, j, phi.cut)
+    slopes = part.differences(shape.phi)
+    slopes[:, i, j] = phi.f_x, phi.f_y
+    return Fitted(band, phi, safe, Former(shape.phi, slopes, cut))
+
+
+def _band(region: Mask, part: Part) -> Band:
+    depth = depth_of(region, part)
+    around = part.framed(region, 1)
+    along = around[:-2] | around[1:-1] | around[2:]
+    touched = along[:, :-2] | along[:, 1:-1] | along[:, 2:]
+    i, j = np.nonzero(touched & (depth <= FITTED))
+    # Those that the edge cuts first, and then those where no part is cut.
+    order = np.argsort(depth[i, j], kind="stable")
+    deep_i, deep_j = np.nonzero((depth > FITTED) & (depth <= INSIDE))
+    fade = (INSIDE - depth[deep_i, deep_j]) / (INSIDE - FITTED)
+    return Band(region, depth, (i[order], j[order]), (deep_i, deep_j), fade)
+
+
+def _by_differences(means: Field, band: Band, part: Part) -> Field:
+    """Parts (n, PARTS, PARTS) of the traction in the deep cells."""
+    i, j = (at + 1 for at in band.deep)
+    p = part.framed(means, 1)
+    centre, fade = p[i, j], band.fade
+    lower, upper, left, right = p[i - 1, j], p[i + 1, j], p[i, j - 1], p[i, j + 1]
+    corners = p[i + 1, j + 1] + p[i - 1, j - 1] - p[i + 1, j - 1] - p[i - 1, j + 1]
+    f_xx, f_yy = fade * (lower + upper - 2 * centre), fade * (left + right - 2 * centre)
+    f = centre - HALF_SQUARE * (f_xx + f_yy)
+    slopes = (upper - lower) / 2, (right - left) / 2
+    factors = np.stack([f, *slopes, f_xx, fade * corners / 4, f_yy], axis=1)
+    return (factors @ MONOMIALS).reshape(-1, PARTS, PARTS)
+
+
+def _marked(cells: tuple[int, ...], i: Indices, j: Indices, which: Mask) -> Mask:
+    """Cells (nx, ny) of those that are marked."""
+    marked = np.zeros(cells, dtype=bool)
+    marked[i, j] = which
+    return marked
 
 
 def _in_parts(phi: Quadratic, exponent: Exponent) -> tuple[Field, Field]:
@@ -138,10 +251,3 @@ def _some_in_parts(phi: Quadratic, exponent: Exponent, parts: Field) -> Field:
     parts[cell, part] = mean_power(*of_cut, a[cell, 0] if isinstance(a, np.ndarray) else a)
     covered[cell, part] = mean_power(*of_cut, 0.0)
     return np.asarray(covered.mean(axis=1))
-
-
-def _slopes_alone(means: Field, i: Indices, j: Indices) -> Field:
-    """Parts (n, PARTS, PARTS) of a traction with the slopes of central differences."""
-    along_x, along_y = (np.gradient(means, axis=axis)[i, j, None, None] for axis in (0, 1))
-    x = part_centres()
-    return np.asarray(means[i, j, None, None] + along_x * x[:, None] + along_y * x)

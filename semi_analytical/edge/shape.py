@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,6 +13,7 @@ from scipy.ndimage import distance_transform_edt
 from semi_analytical.edge.fit import Fits, Indices, Stencil, fit_about
 from semi_analytical.edge.means import Exponent, centre_value, power
 from semi_analytical.edge.quadratic import Quadratic
+from semi_analytical.part import WHOLE, Part
 
 Field = NDArray[np.float64]
 Mask = NDArray[np.bool_]
@@ -28,6 +31,15 @@ REFITS = 3
 TOUCHING = np.array([[1, -1, 0, 0, 1, 1, -1, -1], [0, 0, 1, -1, 1, -1, 1, -1]])
 
 
+class Former(NamedTuple):
+    """phi at the centres of cells (nx, ny), its slopes (2, nx, ny), and the cells that its edge
+    cuts."""
+
+    phi: Field
+    slopes: Field
+    cut: Mask
+
+
 @dataclass(frozen=True)
 class EdgeShape:
     """phi on the cells of a region, ready to be fitted anywhere near its edge.
@@ -38,7 +50,7 @@ class EdgeShape:
     exponent   alpha, a number or (nx, ny)
     stencil    of the fits
     depth      (nx, ny) distance to the nearest cell outside of the region, zero there
-    nearest    (2, nx, ny) indices of the nearest cell of the region
+    part       of the window that all are on
     """
 
     means: Field
@@ -47,11 +59,17 @@ class EdgeShape:
     exponent: Exponent
     stencil: Stencil
     depth: Field
-    nearest: Indices
+    part: Part = WHOLE
+
+    @cached_property
+    def nearest(self) -> Indices:
+        """(2, nx, ny) indices of the nearest cell of the region."""
+        found = distance_transform_edt(self.depth == 0, return_distances=False, return_indices=True)
+        return np.asarray(found)
 
     def fits(self, i: Indices, j: Indices) -> Fits:
         """Fits about cells of the region, shape (n,)."""
-        return fit_about(self.phi, self.weight, i, j, self.stencil)
+        return fit_about(self.phi, self.weight, i, j, self.stencil, part=self.part)
 
     def nearest_to(self, x: Field, y: Field) -> Indices:
         """Cells of the region nearest to places (n,), indices (2, n)."""
@@ -73,20 +91,43 @@ class EdgeShape:
         it: outside of it the mean of what the nearest say, as a mirror image would have it."""
         inside = self.depth[i, j] > 0
         fits = self.fits(i[inside], j[inside])
+        phi, safe = fits.quadratic, believed(fits)
         row = np.full(np.add(self.means.shape, 2), -1)
-        row[i[inside] + 1, j[inside] + 1] = np.arange(len(fits.count))
+        row[i[inside] + 1, j[inside] + 1] = np.arange(len(safe))
+        near, near_safe = self._with_images(phi, safe, row)
         beside = row[i[~inside, None] + 1 + TOUCHING[0], j[~inside, None] + 1 + TOUCHING[1]]
         share = (beside >= 0).astype(float)
         share[np.any(share[:, :4] > 0, axis=1), 4:] = 0.0
         share /= np.sum(share, axis=1, keepdims=True)
-        x, y, safe = i.astype(float), j.astype(float), believed(fits)
-        at = fits.quadratic.chosen(beside).about(x[~inside, None], y[~inside, None])
+        x, y = i.astype(float), j.astype(float)
+        at = near.chosen(beside).about(x[~inside, None], y[~inside, None])
         parts = np.empty((8, len(i)))
-        parts[:, inside] = list(vars(fits.quadratic).values())
+        parts[:, inside] = list(vars(phi).values())
         parts[:, ~inside] = [np.sum(share * part, axis=1) for part in vars(at).values()]
         trusted = np.empty(len(i), dtype=bool)
-        trusted[inside], trusted[~inside] = safe, np.all(safe[beside] | (share == 0), axis=1)
+        trusted[inside] = safe
+        trusted[~inside] = np.all(near_safe[beside] | (share == 0), axis=1)
         return Quadratic(*parts), trusted
+
+    def _with_images(self, phi: Quadratic, safe: Mask, row: Indices) -> tuple[Quadratic, Mask]:
+        """Fits about cells, and behind them those of their images next to mirror planes.
+
+        row  (nx + 2, ny + 2) which fit is that of a cell, -1 for none: filled in for images
+        """
+        if not self.part.quarter:
+            return phi, safe
+        number = np.arange(len(safe))
+        images = [number]
+        fits = [phi]
+        for axis, place in enumerate((phi.x, phi.y)):
+            of = np.flatnonzero(place == 0)
+            first = sum(len(some) for some in images)
+            along = (phi.y if axis == 0 else phi.x)[of].astype(int) + 1
+            row[(0, along) if axis == 0 else (along, 0)] = first + np.arange(len(of))
+            images.append(of)
+            fits.append(phi.chosen(of).mirrored(axis))
+        parts = zip(*(vars(fit).values() for fit in fits), strict=True)
+        return Quadratic(*map(np.concatenate, parts)), safe[np.concatenate(images)]
 
     def edge_points(self, i: Indices, j: Indices) -> tuple[Quadratic, Mask]:
         """phi about the points of the edge nearest to cells (n,), and whether to believe it.
@@ -130,7 +171,9 @@ def edge_shape(
     exponent: Exponent = 0.5,
     trusted: Mask | None = None,
     rounds: int = 3,
-    layers: tuple[Field, Indices] | None = None,
+    depth: Field | None = None,
+    part: Part = WHOLE,
+    former: Former | None = None,
 ) -> EdgeShape:
     """Shape of the edge of a region.
 
@@ -144,11 +187,13 @@ def edge_shape(
     trusted   (nx, ny) cells of the region that may be data; None for all
     rounds    data of the first are means^(1/alpha), from cells beyond the cut ones; of the others
               `centre_value` with the slope of the last
-    layers    of the region, where they are known: see `layers_of`
+    depth     of the region, where it is known: see `depth_of`
+    part      of the window that all are given on
+    former    phi of nearly the same means: its slopes are those of the only round
     Raises ValueError where no cell is left to be data.
     """
     means = np.where(region, means, 0.0)
-    depth, nearest = layers or layers_of(region)
+    depth = depth_of(region, part) if depth is None else depth
     usable = region if trusted is None else region & trusted
     data = usable & (depth >= rings + 0.5)
     inner = usable & (depth >= max(rings, 1) + 0.5)
@@ -158,24 +203,28 @@ def edge_shape(
             "left to fit its edge to; take smaller cells"
         )
     band = usable & (depth < ASKED + 1.5 * stencil.reach)
-    # Farther in the differences of data tell the slope, which hardly matters there.
-    i, j = np.nonzero(band & (depth < max(rings, 1) + 2))
     of_band = exponent[band] if isinstance(exponent, np.ndarray) else exponent
     phi, weight = power(means, np.divide(1, exponent)), inner.astype(float)
+    if former is not None:
+        x, y = (slope[band] for slope in former.slopes)
+        phi[band] = centre_value(means[band], x, y, of_band, former.phi[band])
+        weight = np.where(former.cut, CUT_WEIGHT, 1.0) * data
+        return EdgeShape(means, phi, weight, exponent, stencil, depth, part)
+    # Farther in the differences of data tell the slope, which hardly matters there.
+    i, j = np.nonzero(band & (depth < max(rings, 1) + 2))
     for _ in range(rounds - 1):
-        quadratic = fit_about(phi, weight, i, j, stencil).quadratic
-        slopes = np.stack([np.gradient(phi, axis=axis) for axis in (0, 1)])
+        quadratic = fit_about(phi, weight, i, j, stencil, part=part).quadratic
+        slopes = part.differences(phi)
         slopes[:, i, j] = quadratic.f_x, quadratic.f_y
         phi[band] = centre_value(means[band], slopes[0][band], slopes[1][band], of_band)
-        cut = np.abs(quadratic.mean) < (np.abs(quadratic.f_x) + np.abs(quadratic.f_y)) / 2
         weight = data.astype(float)
-        weight[i, j] *= np.where(cut, CUT_WEIGHT, 1.0)
-    return EdgeShape(means, phi, weight, exponent, stencil, depth, nearest)
+        weight[i, j] *= np.where(quadratic.cut, CUT_WEIGHT, 1.0)
+    return EdgeShape(means, phi, weight, exponent, stencil, depth, part)
 
 
-def layers_of(region: Mask) -> tuple[Field, Indices]:
-    """Distance of every cell of a region from the nearest outside, (nx, ny), beyond the array too;
-    and the nearest cell of the region to every cell, (2, nx, ny)."""
-    depth = distance_transform_edt(np.pad(region, 1))[1:-1, 1:-1]
-    nearest = distance_transform_edt(~region, return_distances=False, return_indices=True)
-    return np.asarray(depth), np.asarray(nearest)
+def depth_of(region: Mask, part: Part = WHOLE) -> Field:
+    """Distance of every cell of a region from the nearest outside (nx, ny), beyond the window too;
+    zero outside."""
+    frame = (0, 1) if part.quarter else (1, 1)
+    depth = distance_transform_edt(np.pad(region, frame))[frame[0] : -1, frame[0] : -1]
+    return np.asarray(depth)

@@ -6,6 +6,7 @@ from functools import cached_property
 
 from semi_analytical.edge.displacement import EdgeOperator
 from semi_analytical.edge.kernels import PARITY, PART_OFFSETS, PARTS, EdgeKernels
+from semi_analytical.edge.mirrored_displacement import MirroredEdgeOperator
 from semi_analytical.influence.bodies import influence_coefficients
 from semi_analytical.model import ContactModel
 
@@ -30,9 +31,17 @@ class EdgeOperators:
         self.model = model
         self._known: dict[tuple[int, Shape], EdgeOperator] = {}
 
-    def by_pressure(self, shape: Shape) -> EdgeOperator:
-        """u_z by the pressure within the cells of a box."""
-        return self._operator(PRESSURE, shape)
+    def by_pressure(self, shape: Shape) -> EdgeOperator | MirroredEdgeOperator:
+        """u_z by the pressure within the cells of the part that tells pressures."""
+        if not self.model.part.quarter:
+            return self._operator(PRESSURE, shape)
+        return self._mirrored
+
+    @cached_property
+    def _mirrored(self) -> MirroredEdgeOperator:
+        nx, ny = self.model.grid.cells
+        kernels, counter = self._kernels["zz"], self.model.convolutions
+        return MirroredEdgeOperator(kernels, (nx // 2, ny // 2), counter)
 
     def by_shear(self, shape: Shape) -> EdgeOperator:
         """(u_x, u_y) by the shear."""

@@ -20,7 +20,7 @@ from semi_analytical.box import Box
 from semi_analytical.edge.corrected import Corrected
 from semi_analytical.edge.displacement import Within
 from semi_analytical.edge.peak import peak_of
-from semi_analytical.edge.rim import Rim, rim
+from semi_analytical.edge.rim import Rim, area_within, rim
 from semi_analytical.edge_correction.mixing import Mixing
 from semi_analytical.edge_correction.operators import EdgeOperators
 from semi_analytical.model import ContactModel
@@ -31,8 +31,11 @@ from semi_analytical.pressing import NormalTarget
 Field = NDArray[np.float64]
 
 MOST_ROUNDS = 8
-# Of the pressure in a round, Σ|Δp|/Σp: below what is left of the error of a radius at 256 cells.
-SETTLED = 1e-6
+# Root mean square error that edges inside the cells leave in the end, of a pressure on N cells that
+# carry it: LEFT_BY_ONE N^-LEFT_FALLS, within a third, of circles and ellipses of 8 to 100 cells per
+# radius. The rounds have settled where the next one would change the pressure by about as much.
+LEFT_BY_ONE, LEFT_FALLS = 0.006, 0.575
+SETTLED = 2.5
 # Part of its residual that the solve of a round leaves.
 ENOUGH = 0.1
 # To be accepted: the change that the rounds leave, and its part of the first; the part of the edge
@@ -46,8 +49,9 @@ def edge_pressure(
 ) -> Corrected | None:
     """A solved pressure (nx, ny) with its edge inside the cells; None where that is not safe: the
     contact is too thin, its edge is rough, or the rounds do not settle."""
-    problem = _Problem(operators, target, tolerance)
-    edge, p, mixing, changes = rim(pressure, pressure > 0), pressure, Mixing(), []
+    problem, part = _Problem(operators, target, tolerance), operators.model.part
+    p, mixing, changes = part.of(pressure), Mixing(), list[float]()
+    edge = rim(p, p > 0, part=part)
     for number in range(MOST_ROUNDS):
         if edge is None or edge.unsafe > MOST_UNSAFE:
             return None
@@ -57,13 +61,25 @@ def edge_pressure(
             return None
         change = answer - p
         changes.append(float(np.sum(np.abs(change)) / np.sum(p)))
-        if changes[-1] < SETTLED:
+        settled = has_settled(change, p, int(part.images * np.count_nonzero(p)))
+        # Base solutions are so far off that nothing is to be learnt from the first change.
+        p = answer if number == 0 else problem.load.admissible(mixing.next(p, change))
+        if settled:
             break
-        p = answer if number == 0 else np.maximum(mixing.next(p, change), 0.0)
-        edge = rim(p, p > 0, edge)
+        edge = rim(p, p > 0, edge, part=part)
     if edge is None or not settles(changes):
         return None
-    return problem.corrected(answer, solved, edge, changes[-1])
+    return problem.corrected(p, solved, edge, changes[-1])
+
+
+def has_settled(change: Field, scale: Field, cells: int) -> bool:
+    """Whether what a round changes is as little as the error that is left in the end.
+
+    scale  what it is relative to, in root mean square
+    cells  that carry it
+    """
+    left = LEFT_BY_ONE * max(cells, 1) ** -LEFT_FALLS
+    return bool(np.linalg.norm(change) <= SETTLED * left * np.linalg.norm(scale))
 
 
 def settles(changes: list[float]) -> bool:
@@ -83,11 +99,11 @@ class _Problem:
 
     @cached_property
     def load(self) -> NormalLoad:
-        return self.target.on(self.model, Box.whole(self.model.grid.cells))
+        return self.target.on(self.model, Box.whole(self.gap.shape), self.model.part)
 
     @cached_property
     def gap(self) -> Field:
-        return self.target.gap(self.model)
+        return self.model.part.of(self.target.gap(self.model))
 
     def solve(self, p: Field, edge: Rim) -> tuple[Field, _Solved]:
         """The pressure with the edge where it is, and the solution of its cells.
@@ -96,9 +112,9 @@ class _Problem:
         that is left to the others is theirs to find.
         """
         model = self.model
-        operator = model.normal_operator(model.grid.cells)
+        operator = model.pressure_operator(p.shape)
         reached = np.where(edge.outer, edge.means, 0.0)
-        within = Within.of(p, edge.i, edge.j, edge.parts)
+        within = Within.of(p, edge.i, edge.j, edge.parts, model.part)
         gap = self.gap + self.operators.by_pressure(p.shape)(within)[0] + operator(reached)
         solution = solve_normal(
             operator,
@@ -116,7 +132,10 @@ class _Problem:
         """The pressure of the last round, as a state."""
         approach, tilt = self.target.reached(self.model, solved.motion)
         gap = np.where(edge.region, 0.0, np.maximum(solved.gap, 0.0))
-        return Corrected(p, peak_of(p), gap, approach, edge.area, change, edge, tilt)
+        area = area_within(p, edge)
+        unfolded = self.model.part.unfolded
+        p, gap = unfolded(p), unfolded(gap)
+        return Corrected(p, peak_of(p), gap, approach, area, change, edge, tilt)
 
 
 class _Solved(NamedTuple):

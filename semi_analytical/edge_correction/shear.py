@@ -26,7 +26,7 @@ from semi_analytical.edge_correction.pressure import (
     ENOUGH,
     MOST_ROUNDS,
     MOST_UNSAFE,
-    SETTLED,
+    has_settled,
     settles,
 )
 from semi_analytical.linearised_shear import Point
@@ -104,7 +104,7 @@ class ShearProblem:
     """An increment at its corrected pressure.
 
     bound    µp (nx, ny) [force/length^2]
-    limit    µp within the cells, in `contact.parts` along the edge of the contact
+    limit    µp within the cells
     force    (2,) that the shear carries, that of cells however the shear is led
     target   u_t - shift of the state before (2, nx, ny) [length]
     before   its shear (2, nx, ny), and what that is within the cells
@@ -113,7 +113,6 @@ class ShearProblem:
 
     operators: EdgeOperators
     bound: Field
-    contact: Rim
     limit: Within
     force: Vector
     target: VectorField
@@ -227,9 +226,10 @@ def edge_shear(
         change = answer - q
         changes.append(float(np.sum(magnitude(change)) / np.sum(problem.bound)))
         edge, stick = missing.edge, (problem.bound > 0) & ~solution.in_slip
-        if changes[-1] < SETTLED or number == MOST_ROUNDS - 1:
-            break
         q = answer if number == 0 else mixing.next(q, change)
+        settled = has_settled(change, problem.bound, int(np.count_nonzero(problem.bound)))
+        if settled or number == MOST_ROUNDS - 1:
+            break
         next_missing = problem.missing(
             q, problem.bound, problem.before[0], stick | edge.outer, edge
         )

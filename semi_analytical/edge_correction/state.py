@@ -60,11 +60,11 @@ class EdgeCorrection:
         tolerance: float,
     ) -> CorrectedShear | None:
         """The shear at a corrected pressure."""
-        model, contact = self._operators.model, pressed.edge
+        model, edge = self._operators.model, pressed.edge
         bound = model.friction.limit(pressed.pressure)
         if not np.any(solved.shear):
             nothing = np.zeros_like(solved.shear)
-            still = Within.of(nothing[0], contact.i[:0], contact.j[:0], contact.parts[:0])
+            still = Within.nothing(bound.shape)
             return CorrectedShear(
                 shear=nothing,
                 within=(still, still),
@@ -72,12 +72,13 @@ class EdgeCorrection:
                 displacement=nothing,
                 shift=solved.shift,
                 stick=pressed.pressure > 0,
-                stick_cells=contact.area,
+                stick_cells=edge.area,
                 change=0.0,
             )
         mu = model.friction.uniform
         assert mu is not None
-        limit = Within.of(bound, contact.i, contact.j, mu * contact.parts)
+        on_part = Within.of(edge.part.of(bound), edge.i, edge.j, mu * edge.parts, edge.part)
+        limit = on_part.unfolded(edge.part)
         if not np.any(solved.in_stick):
             return sliding_shear(self._operators, bound, limit, solved)
         assert before is not None
@@ -93,7 +94,6 @@ class EdgeCorrection:
         problem = ShearProblem(
             operators=self._operators,
             bound=bound,
-            contact=contact,
             limit=limit,
             force=solved.force,
             target=last.displacement - rigid(model, last.shift),

@@ -13,15 +13,15 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.ndimage import distance_transform_edt
 
 from semi_analytical.contact_area import stuck_cells
 from semi_analytical.edge.fit import NARROW, WIDE, Stencil
-from semi_analytical.edge.shape import Mask, edge_shape, layers_of
+from semi_analytical.edge.shape import Mask, depth_of, edge_shape
 from semi_analytical.edge_correction.shear import direction_of_slip
 
 Field = NDArray[np.float64]
 VectorField = NDArray[np.float64]
-Layers = tuple[Field, NDArray[np.intp]]
 
 # Exponent of the distance, and of what it is fitted in: a smoother fall needs more cells.
 LAWS = ((0.5, NARROW), (1.5, WIDE))
@@ -49,14 +49,14 @@ def stick_area(shear: VectorField, bound: Field, stick: Mask) -> float:
     Cells count whole where neither law fits; of a zone too thin for fits see `stuck_cells`.
     """
     slips = (bound > 0) & ~stick
-    depth, nearest = layers = layers_of(stick)
+    depth = depth_of(stick)
     if not np.any(slips) or np.max(depth) < THICK:
         return stuck_cells(shear, bound, stick)
     along = np.sum(shear * direction_of_slip(shear, slips), axis=0)
     missing = np.where(stick, np.maximum(bound - along, 0.0), 0.0)
-    outside = np.hypot(*(nearest - np.indices(stick.shape)))
+    outside = distance_transform_edt(~stick)
     i, j = np.nonzero((depth <= CUT) & (outside <= CUT))
-    by = [_parts(missing / np.max(missing), stick, layers, i, j, *law) for law in LAWS]
+    by = [_parts(missing / np.max(missing), stick, depth, i, j, *law) for law in LAWS]
     missed = np.stack([parts.missed for parts in by])
     best = np.argmin(missed, axis=0)
     stuck = np.stack([parts.stuck for parts in by])[best, np.arange(len(i))]
@@ -69,15 +69,15 @@ def stick_area(shear: VectorField, bound: Field, stick: Mask) -> float:
 def _parts(
     missing: Field,
     stick: Mask,
-    layers: Layers,
+    depth: Field,
     i: NDArray[np.intp],
     j: NDArray[np.intp],
     exponent: float,
     stencil: Stencil,
 ) -> _Parts:
     """Of cells (i, j) along the border."""
-    shape = edge_shape(missing, stick, stencil, rings=0, exponent=exponent, rounds=2, layers=layers)
+    shape = edge_shape(missing, stick, stencil, rings=0, exponent=exponent, rounds=2, depth=depth)
     phi, safe = shape.about_cells(i, j)
-    fits = shape.fits(*layers[1][:, i, j])
+    fits = shape.fits(*shape.nearest[:, i, j])
     missed = fits.rms / np.maximum(fits.quadratic.slope, np.finfo(float).tiny)
     return _Parts(phi.cell_mean(0.0), np.where(safe, missed, np.inf))
