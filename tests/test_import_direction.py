@@ -95,6 +95,7 @@ ORDERS = {
     "semi_analytical.edge_correction": (
         "mixing",
         "operators",
+        "closing",
         "pressure",
         "shear",
         "stick_area",

@@ -22,8 +22,8 @@ DEEP = 3.0
 POINTS, WEIGHTS = (half / 2 for half in np.polynomial.legendre.leggauss(4))
 MOST_TURNS = 80
 SMOOTH_TURNS = 6
-FEW_TURNS = 80
-SETTLED = 1e-13
+# The next turn would leave its square.
+SETTLED = 1e-8
 
 
 def mean_power(f: Field, f_x: Field, f_y: Field, exponent: Exponent) -> Field:
@@ -114,24 +114,21 @@ def _straight(f: Field, b: Field, c: Field, a: Exponent) -> tuple[Field, Field]:
 
 
 def _oblique(f: Field, b: Field, c: Field, a: Exponent) -> tuple[Field, Field]:
-    mean, slope = np.zeros(f.shape), np.zeros(f.shape)
-    for s in (1, -1):
-        for t in (1, -1):
-            corner = np.maximum(f + s * b / 2 + t * c / 2, 0.0)
-            of_corner = s * t * power(corner, a + 1)
-            slope += of_corner
-            mean += corner * of_corner
-    slope /= (a + 1) * b * c
-    return mean / ((a + 1) * (a + 2) * b * c), slope
+    half, other = b / 2, c / 2
+    sides = np.stack([f + half, f - half])
+    # Those of which one is added, and those of which one is taken away.
+    corners = np.maximum(np.stack([sides + other, sides - other]), 0.0)
+    of_corners = power(corners, a + 1)
+    of_corners[(0, 1), (1, 0)] *= -1
+    slope = np.sum(of_corners, axis=(0, 1)) / ((a + 1) * b * c)
+    mean = np.sum(corners * of_corners, axis=(0, 1)) / ((a + 1) * (a + 2) * b * c)
+    return mean, slope
 
 
-def centre_value(
-    mean: Field, f_x: Field, f_y: Field, exponent: Exponent, near: Field | None = None
-) -> Field:
+def centre_value(mean: Field, f_x: Field, f_y: Field, exponent: Exponent) -> Field:
     """The f for which `mean_power` gives a mean, shape of mean.
 
     mean  of the power over the cell, positive
-    near  values near those that are asked for, at which a step of Newton's method is enough
     Between mean^(1/exponent) ± half the sum of the slopes.
     """
     shape = np.broadcast_shapes(mean.shape, f_x.shape, f_y.shape)
@@ -141,11 +138,8 @@ def centre_value(
     target = power(mean, np.divide(1, a))
     f = np.empty(target.shape)
     deep = target > DEEP * (b + c)
-    cut = ~deep
-    f[deep] = _smooth_centre(target[deep], b[deep], c[deep], _among(a, f.shape, deep))
-    start = target[cut] if near is None else near.ravel()[cut]
-    turns = MOST_TURNS if near is None else FEW_TURNS
-    f[cut] = _cut_centre(target[cut], b[cut], c[cut], _among(a, f.shape, cut), start, turns)
+    for where, inverse in ((deep, _smooth_centre), (~deep, _cut_centre)):
+        f[where] = inverse(target[where], b[where], c[where], _among(a, f.shape, where))
     return f.reshape(shape)
 
 
@@ -157,16 +151,24 @@ def _smooth_centre(target: Field, b: Field, c: Field, a: Exponent) -> Field:
     return f
 
 
-def _cut_centre(target: Field, b: Field, c: Field, a: Exponent, start: Field, turns: int) -> Field:
-    """By so many turns of Newton's method on mean^(1/a), which is almost linear in f.
+def _first_centre(target: Field, b: Field, c: Field, a: Exponent) -> Field:
+    """Near the f that is asked for: where the edge cuts off a corner, exactly; where it cuts off
+    two, by the larger slope alone; else the value without slopes."""
+    mean = (a + 1) * b * power(target, a)
+    corner, side = power((a + 2) * c * mean, 1 / (a + 2)), power(mean, 1 / (a + 1))
+    f = np.where(side <= b, side - b / 2, target)
+    return np.asarray(np.where(corner < c, corner - (b + c) / 2, f))
+
+
+def _cut_centre(target: Field, b: Field, c: Field, a: Exponent) -> Field:
+    """By Newton's method on mean^(1/a), which is almost linear in f.
 
     target  mean^(1/a)
     """
     half = (b + c) / 2
-    low, high = -half, target + half
-    f = np.clip(start, low, high)
+    low, high, f = -half, target + half, _first_centre(target, b, c, a)
     k = np.arange(f.size)
-    for _ in range(turns):
+    for _ in range(MOST_TURNS):
         a_k = _among(a, f.shape, k)
         found, slope = _cut_with_slope(f[k], b[k], c[k], a_k)
         value = power(found, np.divide(1, a_k))

@@ -20,9 +20,13 @@ def peak_of(means: Field) -> float:
     of the square of the slope; the largest mean where these are not all in contact, or have no peak
     between them.
     """
-    i, j = np.unravel_index(np.argmax(means), means.shape)
-    squares = means**2 + sum(np.gradient(means, axis=axis) ** 2 for axis in (0, 1)) / 12
-    fit = fit_about(squares, (means > 0).astype(float), np.array([i]), np.array([j]), NEXT)
+    i, j = (int(at) for at in np.unravel_index(np.argmax(means), means.shape))
+    # Beyond the neighbours those that tell their slopes.
+    across = NEXT.reach + 1
+    about = np.pad(means, across)[i : i + 2 * across + 1, j : j + 2 * across + 1]
+    squares = about**2 + sum(np.gradient(about, axis=axis) ** 2 for axis in (0, 1)) / 12
+    middle = np.array([across])
+    fit = fit_about(squares, (about > 0).astype(float), middle, middle, NEXT)
     q = fit.quadratic
     determinant = q.f_xx * q.f_yy - q.f_xy**2
     if fit.count[0] < (2 * NEXT.reach + 1) ** 2 or q.f_xx[0] >= 0 or determinant[0] <= 0:

@@ -28,7 +28,7 @@ FITTED = 2.5
 # So many times its slopes above zero, a part of a cell has the mean of a power by its series.
 SMOOTH = 1.5
 # Cells whose parts are found at a time: as many as stay in the cache.
-CHUNK = 256
+CHUNK = 512
 X, Y = (at.ravel() for at in np.meshgrid(part_centres(), part_centres(), indexing="ij"))
 MONOMIALS = np.stack([X**0, X, Y, X**2 / 2, X * Y, Y**2 / 2])
 # Mean of X²/2 over the parts of a cell.
@@ -61,6 +61,13 @@ class Fitted(NamedTuple):
     safe: Mask
     former: Former
 
+    def area(self, part: Part) -> float:
+        """Of the region and its images, in cells."""
+        covered = self.band.region.astype(float)
+        i, j = (at[self.safe] for at in self.band.fitted)
+        covered[i, j] = self.about.chosen(self.safe).cell_mean(0.0)
+        return part.images * float(np.sum(covered))
+
 
 @dataclass(frozen=True)
 class Rim:
@@ -69,7 +76,6 @@ class Rim:
     region   (nx, ny) cells whose centre is inside the edge
     i, j     the cells (n,)
     parts    (n, PARTS, PARTS) mean of the traction in the parts of each
-    covered  (n,) part of each inside the edge
     unsafe   part of all cells along the edge that are not fitted well
     part     of the window that all are on
     fitted   what it was made of
@@ -79,7 +85,6 @@ class Rim:
     i: Indices
     j: Indices
     parts: Field
-    covered: Field
     unsafe: float
     part: Part
     fitted: Fitted
@@ -88,7 +93,7 @@ class Rim:
     def outer(self) -> Mask:
         """(nx, ny) cells that the region reaches into, and whose centre is outside."""
         reached = np.zeros(self.region.shape, dtype=bool)
-        reached[self.i, self.j] = self.covered > 0
+        reached[self.i, self.j] = np.any(self.parts > 0, axis=(1, 2))
         return reached & ~self.region
 
     @property
@@ -101,9 +106,7 @@ class Rim:
     @property
     def area(self) -> float:
         """Of the region and its images, in cells."""
-        covered = self.region.astype(float)
-        covered[self.i, self.j] = self.covered
-        return self.part.images * float(np.sum(covered))
+        return self.fitted.area(self.part)
 
 
 def rim(
@@ -128,9 +131,7 @@ def rim(
     deep = _by_differences(means, fitted.band, part)
     unsafe = np.count_nonzero(~safe) / (len(safe) + len(deep))
     i, j, phi = i[safe], j[safe], phi.chosen(safe)
-    parts, covered = _in_parts(
-        phi, exponent[i, j] if isinstance(exponent, np.ndarray) else exponent
-    )
+    parts = _in_parts(phi, exponent[i, j] if isinstance(exponent, np.ndarray) else exponent)
     inside = fitted.band.region.copy()
     inside[i, j] = phi.f > 0
     deep_i, deep_j = fitted.band.deep
@@ -139,7 +140,6 @@ def rim(
         i=np.concatenate([i, deep_i]),
         j=np.concatenate([j, deep_j]),
         parts=np.concatenate([np.max(means) * parts, deep]),
-        covered=np.concatenate([covered, np.ones(len(deep))]),
         unsafe=unsafe,
         part=part,
         fitted=fitted,
@@ -150,12 +150,7 @@ def area_within(means: Field, edge: Rim, exponent: Exponent = 0.5) -> float:
     """Area in cells of a region that a rim is about, when its tractions are these means (nx, ny):
     all around it, in the whole window."""
     fitted = _fitted(means, means > 0, edge, exponent, edge.part)
-    if fitted is None:
-        return edge.area
-    covered = fitted.band.region.astype(float)
-    i, j = (at[fitted.safe] for at in fitted.band.fitted)
-    covered[i, j] = fitted.about.chosen(fitted.safe).cell_mean(0.0)
-    return edge.part.images * float(np.sum(covered))
+    return edge.area if fitted is None else fitted.area(edge.part)
 
 
 def _fitted(
@@ -184,7 +179,7 @@ def _fitted(
     cut = before.fitted.former.cut if before and same else _marked(region.shape, i, j, phi.cut)
     slopes = part.differences(shape.phi)
     slopes[:, i, j] = phi.f_x, phi.f_y
-    return Fitted(band, phi, safe, Former(shape.phi, slopes, cut))
+    return Fitted(band, phi, safe, Former(slopes, cut))
 
 
 def _band(region: Mask, part: Part) -> Band:
@@ -221,19 +216,18 @@ def _marked(cells: tuple[int, ...], i: Indices, j: Indices, which: Mask) -> Mask
     return marked
 
 
-def _in_parts(phi: Quadratic, exponent: Exponent) -> tuple[Field, Field]:
-    """Mean of phi_+^exponent over the parts of each cell (n, PARTS, PARTS), and the part of each
-    where phi is positive (n,)."""
-    parts, covered = np.empty((len(phi.f), PARTS**2)), np.empty(len(phi.f))
-    for first in range(0, len(covered), CHUNK):
+def _in_parts(phi: Quadratic, exponent: Exponent) -> Field:
+    """Mean of phi_+^exponent over the parts of each cell (n, PARTS, PARTS)."""
+    parts = np.empty((len(phi.f), PARTS**2))
+    for first in range(0, len(parts), CHUNK):
         some = slice(first, first + CHUNK)
         a = exponent[some] if isinstance(exponent, np.ndarray) else exponent
-        covered[some] = _some_in_parts(phi.chosen(some), a, parts[some])
-    return parts.reshape(-1, PARTS, PARTS), covered
+        _some_in_parts(phi.chosen(some), a, parts[some])
+    return parts.reshape(-1, PARTS, PARTS)
 
 
-def _some_in_parts(phi: Quadratic, exponent: Exponent, parts: Field) -> Field:
-    """The same of some cells, the former into parts (n, PARTS²)."""
+def _some_in_parts(phi: Quadratic, exponent: Exponent, parts: Field) -> None:
+    """The same of some cells, into parts (n, PARTS²)."""
     bent = (phi.f_xx + phi.f_yy) / (24 * PARTS**2)
     factors = np.stack([phi.f + bent, phi.f_x, phi.f_y, phi.f_xx, phi.f_xy, phi.f_yy], axis=1)
     f = factors @ MONOMIALS
@@ -242,12 +236,10 @@ def _some_in_parts(phi: Quadratic, exponent: Exponent, parts: Field) -> Field:
     slope = np.abs(f_x) + np.abs(f_y)
     a = exponent[:, None] if isinstance(exponent, np.ndarray) else exponent
     parts[:] = mean_of_smooth(np.maximum(f, SMOOTH * slope), f_x, f_y, a)
-    if np.all(f >= SMOOTH * slope):
-        return np.ones(len(f))
-    covered = (f > 0).astype(float)
-    parts *= covered
-    cell, part = np.nonzero((f > -slope / 2) & (f < SMOOTH * slope))
+    not_smooth = f < SMOOTH * slope
+    if not np.any(not_smooth):
+        return
+    parts *= f > 0
+    cell, part = np.nonzero(not_smooth & (f > -slope / 2))
     of_cut = f[cell, part], f_x[cell, 0], f_y[cell, 0]
     parts[cell, part] = mean_power(*of_cut, a[cell, 0] if isinstance(a, np.ndarray) else a)
-    covered[cell, part] = mean_power(*of_cut, 0.0)
-    return np.asarray(covered.mean(axis=1))

@@ -32,10 +32,8 @@ TOUCHING = np.array([[1, -1, 0, 0, 1, 1, -1, -1], [0, 0, 1, -1, 1, -1, 1, -1]])
 
 
 class Former(NamedTuple):
-    """phi at the centres of cells (nx, ny), its slopes (2, nx, ny), and the cells that its edge
-    cuts."""
+    """Slopes of phi per cell (2, nx, ny), and the cells that its edge cuts."""
 
-    phi: Field
     slopes: Field
     cut: Mask
 
@@ -207,7 +205,7 @@ def edge_shape(
     phi, weight = power(means, np.divide(1, exponent)), inner.astype(float)
     if former is not None:
         x, y = (slope[band] for slope in former.slopes)
-        phi[band] = centre_value(means[band], x, y, of_band, former.phi[band])
+        phi[band] = centre_value(means[band], x, y, of_band)
         weight = np.where(former.cut, CUT_WEIGHT, 1.0) * data
         return EdgeShape(means, phi, weight, exponent, stencil, depth, part)
     # Farther in the differences of data tell the slope, which hardly matters there.

@@ -10,22 +10,20 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from contact_scene.solver_errors import NotConverged
 from semi_analytical.box import Box
 from semi_analytical.edge.corrected import Corrected
 from semi_analytical.edge.displacement import Within
 from semi_analytical.edge.peak import peak_of
 from semi_analytical.edge.rim import Rim, area_within, rim
+from semi_analytical.edge_correction.closing import Closed, closed
 from semi_analytical.edge_correction.mixing import Mixing
 from semi_analytical.edge_correction.operators import EdgeOperators
 from semi_analytical.model import ContactModel
-from semi_analytical.normal import solve_normal
-from semi_analytical.normal_load import Motion, NormalLoad
+from semi_analytical.normal_load import NormalLoad
 from semi_analytical.pressing import NormalTarget
 
 Field = NDArray[np.float64]
@@ -55,15 +53,12 @@ def edge_pressure(
     for number in range(MOST_ROUNDS):
         if edge is None or edge.unsafe > MOST_UNSAFE:
             return None
-        try:
-            answer, solved = problem.solve(p, edge)
-        except NotConverged:
-            return None
-        change = answer - p
+        solved = problem.solve(p, edge)
+        change = solved.pressure - p
         changes.append(float(np.sum(np.abs(change)) / np.sum(p)))
         settled = has_settled(change, p, int(part.images * np.count_nonzero(p)))
         # Base solutions are so far off that nothing is to be learnt from the first change.
-        p = answer if number == 0 else problem.load.admissible(mixing.next(p, change))
+        p = solved.pressure if number == 0 else problem.load.admissible(mixing.next(p, change))
         if settled:
             break
         edge = rim(p, p > 0, edge, part=part)
@@ -105,30 +100,27 @@ class _Problem:
     def gap(self) -> Field:
         return self.model.part.of(self.target.gap(self.model))
 
-    def solve(self, p: Field, edge: Rim) -> tuple[Field, _Solved]:
-        """The pressure with the edge where it is, and the solution of its cells.
+    def solve(self, p: Field, edge: Rim) -> Closed:
+        """The pressure with the edge where it is.
 
         Cells that the contact only reaches into carry what the fit says of them, and the load
         that is left to the others is theirs to find.
         """
-        model = self.model
-        operator = model.pressure_operator(p.shape)
+        operator = self.model.pressure_operator(p.shape)
         reached = np.where(edge.outer, edge.means, 0.0)
-        within = Within.of(p, edge.i, edge.j, edge.parts, model.part)
-        gap = self.gap + self.operators.by_pressure(p.shape)(within)[0] + operator(reached)
-        solution = solve_normal(
+        within = Within.of(p, edge.i, edge.j, edge.parts, self.model.part)
+        return closed(
             operator,
             operator.precondition,
-            np.where(edge.outer, np.inf, gap),
+            self.gap + self.operators.by_pressure(p.shape)(within)[0],
             self.load.less(reached),
-            np.where(edge.outer, 0.0, p),
-            self.tolerance,
+            edge.region,
+            p,
+            reached,
             ENOUGH,
         )
-        gap += solution.displacement - self.load.closure(solution.motion)
-        return solution.pressure + reached, _Solved(gap, solution.motion)
 
-    def corrected(self, p: Field, solved: _Solved, edge: Rim, change: float) -> Corrected:
+    def corrected(self, p: Field, solved: Closed, edge: Rim, change: float) -> Corrected:
         """The pressure of the last round, as a state."""
         approach, tilt = self.target.reached(self.model, solved.motion)
         gap = np.where(edge.region, 0.0, np.maximum(solved.gap, 0.0))
@@ -136,8 +128,3 @@ class _Problem:
         unfolded = self.model.part.unfolded
         p, gap = unfolded(p), unfolded(gap)
         return Corrected(p, peak_of(p), gap, approach, area, change, edge, tilt)
-
-
-class _Solved(NamedTuple):
-    gap: Field
-    motion: Motion
