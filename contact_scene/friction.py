@@ -17,6 +17,9 @@ Field = NDArray[np.float64]
 Pair = tuple[float, float]
 Where = tuple[slice, slice] | EllipsisType
 
+# What rounding leaves between coefficients that are meant to be the same, relative to the largest.
+ROUND_OFF = 1e-14
+
 
 class FrictionMap(Description):
     """Coefficients of friction that vary over the surface."""
@@ -54,6 +57,16 @@ class FrictionMap(Description):
             )
         )
         return L_x, L_y
+
+    @property
+    def is_even(self) -> bool:
+        """Whether the coefficient is the same at (±x, ±y), to rounding."""
+        values = self.map.values
+        images = values[::-1], values[:, ::-1]
+        nearly = ROUND_OFF * float(np.max(values))
+        return self.origin == (0.0, 0.0) and all(
+            np.allclose(values, image, rtol=0.0, atol=nearly) for image in images
+        )
 
     def on(self, cells: tuple[int, int], spacing: Pair) -> "FrictionMap":
         """The coefficients at the centres of other cells about the origin of the contact.
@@ -103,6 +116,11 @@ class CoulombFriction(Description):
         if self.varying is None:
             return self
         return CoulombFriction(coefficient=self.varying.on(cells, spacing))
+
+    @property
+    def is_even(self) -> bool:
+        """Whether the coefficient is the same at (±x, ±y), to rounding."""
+        return self.varying is None or self.varying.is_even
 
     @property
     def largest(self) -> float:

@@ -63,9 +63,14 @@ class TangentialLoad(Protocol):
 
 @dataclass(frozen=True)
 class ShearSum:
-    """Force control: the sum Σq of all cell shears, T / cell area, shape (2,)."""
+    """Force control: the sum Σq of all cell shears, T / cell area, shape (2,).
+
+    even  components that are told so; the others are odd about mirror planes: whatever their sums
+          here, with those of the images they vanish, and do not move the indenter
+    """
 
     total: Vector
+    even: tuple[bool, bool] = (True, True)
 
     def rigid(self, motion: Vector) -> VectorField:
         """The shift, everywhere the same."""
@@ -75,25 +80,25 @@ class ShearSum:
         self, y: VectorField, bound: Field, gamma: float, motion: Vector
     ) -> tuple[VectorField, Vector]:
         """By projection; the multiplier of the sum is γ times the shift."""
-        q, multiplier = project(y, bound, self.total, gamma * motion)
+        q, multiplier = project(y, bound, self.total, gamma * motion, self.even)
         return q, multiplier / gamma
 
     def admissible(self, q: VectorField, bound: Field) -> VectorField:
         """On the discs, with the sum."""
-        return project(q, bound, self.total)[0]
+        return project(q, bound, self.total, even=self.even)[0]
 
     def free_motions(self, shape: tuple[int, ...]) -> tuple[VectorField, ...]:
-        """Along x and along y."""
-        return tuple(np.broadcast_to(everywhere(e), shape) for e in np.eye(2))
+        """Along x and along y, or one of these."""
+        return tuple(np.broadcast_to(everywhere(e), shape) for e in np.eye(2)[list(self.even)])
 
     @property
     def given(self) -> Vector:
         """The sum."""
-        return self.total
+        return self.total[list(self.even)]
 
     def forces(self, q: VectorField) -> Vector:
         """The sum of a shear."""
-        return np.asarray(np.sum(q, axis=(1, 2)))
+        return np.array([np.sum(one) for one, even in zip(q, self.even, strict=True) if even])
 
     def exhausts(self, bound: Field) -> bool:
         """Whether the force is at the friction limit or beyond."""
@@ -165,19 +170,24 @@ def project_on_discs(y: VectorField, bound: Field) -> VectorField:
 
 
 def project(
-    y: VectorField, bound: Field, total: Vector, guess: Vector | None = None
+    y: VectorField,
+    bound: Field,
+    total: Vector,
+    guess: Vector | None = None,
+    even: tuple[bool, bool] = (True, True),
 ) -> tuple[VectorField, Vector]:
     """The nearest shear with |q| <= bound and Σq = total, and the multiplier λ of the sum.
 
     y      any shear (2, nx, ny)
     bound  friction limit µp (nx, ny); |total| must be less than its sum
     guess  where to start the search for λ
+    even   components that have a sum; λ is zero of others
     """
     if guess is None:
         open_cells = bound > 0
         excess = np.sum(y, axis=(1, 2), where=open_cells) - total
-        guess = -excess / np.count_nonzero(open_cells)
-    shifted, multiplier = find_multiplier(lambda m: _Shifted.by(m, y, bound, total), guess)
+        guess = -excess / np.count_nonzero(open_cells) * even
+    shifted, multiplier = find_multiplier(lambda m: _Shifted.by(m, y, bound, total, even), guess)
     return shifted.q, multiplier
 
 
@@ -188,7 +198,8 @@ class _Shifted:
     z, length  y + λ (2, nx, ny) and its length (nx, ny)
     outside    where that is longer than the bound
     scale, q   factor of the cut (nx, ny), and q = scale z
-    defect     Σq - total (2,), the gradient of the dual function of λ
+    defect     Σq - total (2,), the gradient of the dual function of λ; zero of what has no sum
+    even       components that have a sum
     capacity   sum of the bound
     """
 
@@ -198,18 +209,26 @@ class _Shifted:
     scale: Field
     q: VectorField
     defect: Vector
+    even: tuple[bool, bool]
     capacity: float
 
     @classmethod
-    def by(cls, multiplier: Vector, y: VectorField, bound: Field, total: Vector) -> "_Shifted":
+    def by(
+        cls,
+        multiplier: Vector,
+        y: VectorField,
+        bound: Field,
+        total: Vector,
+        even: tuple[bool, bool],
+    ) -> "_Shifted":
         """Shift `y` by a multiplier and cut it off."""
         z = y + everywhere(multiplier)
         length = magnitude(z)
         outside = length > bound
         scale = np.where(outside, bound / np.where(outside, length, 1.0), 1.0) * (bound > 0)
         q = z * scale
-        defect = np.sum(q, axis=(1, 2)) - total
-        return cls(z, length, outside, scale, q, defect, float(np.sum(bound)))
+        defect = (np.sum(q, axis=(1, 2)) - total) * even
+        return cls(z, length, outside, scale, q, defect, even, float(np.sum(bound)))
 
     @property
     def strength(self) -> float:
@@ -230,7 +249,7 @@ class _Shifted:
         w = np.where(self.outside, self.scale / np.where(self.outside, self.length**2, 1.0), 0.0)
         x, y = self.z
         xx, yy = np.sum(self.scale - w * x * x), np.sum(self.scale - w * y * y)
-        xy = -np.sum(w * x * y)
+        xy = -np.sum(w * x * y) if all(self.even) else 0.0
         damping = 1e-3 * (xx + yy) * np.sum(np.abs(self.defect)) / self.capacity
         matrix = np.array([[xx + damping, xy], [xy, yy + damping]])
         return -np.linalg.solve(matrix, self.defect)

@@ -46,8 +46,8 @@ Vector = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Configuration:
-    """A state as its energy sees it; fields on the whole window, but tangential ones without cells
-    where no shear arises.
+    """A state as its energy sees it; fields on the window or the part of it that tells shear, but
+    tangential ones without cells where no shear arises.
 
     pressure, normal_displacement       p and u_z (nx, ny)
     gap                                 g (nx, ny); not finite at most where p is always zero
@@ -137,6 +137,7 @@ def after_increment(
 
     spent       those at its start
     dissipated  since the start of the history, None where undefined [force length]
+    cell_area   of a cell, times the images that it stands for
     path_matters  whether the end depends on how finely the loading step is cut
     """
     elastic = elastic_energy(after, cell_area)

@@ -61,23 +61,25 @@ def at_limit(
     model: ContactModel, pressure: Field, last: Sheared, load: TangentialTarget
 ) -> Sheared:
     """Force control at the friction limit: the traction is known, the shift is not."""
-    bound, force = model.friction.limit(pressure), load.force
+    bound, force = model.friction_limit(pressure), load.force
     assert force is not None
     q = bound * (force / np.hypot(*force))[:, None, None]
-    defect = np.sum(q, axis=(1, 2)) - force / model.grid.cell_area
+    defect = model.shear_part.resultant(q) - force / model.grid.cell_area
     twist, torque = torsion_reached(model, load, np.zeros(2), q)
     return replace(
         last,
         shear=q,
         pressure=pressure,
-        displacement=model.tangential_operator(model.grid.cells)(q),
+        displacement=model.shear_operator(bound.shape)(q),
         shift=None,
         in_stick=np.zeros_like(bound, dtype=bool),
         dissipated_energy=None,
         status=ContactStatus.GROSS_SLIDING,
         force=force,
         residuals=ShearResiduals(
-            friction_cone(q, bound), None, float(np.hypot(*defect) / np.sum(bound))
+            friction_cone(q, bound),
+            None,
+            float(np.hypot(*defect) / np.sum(bound) / model.shear_part.images),
         ),
         iterations=0,
         twist=twist,
@@ -99,7 +101,7 @@ def unresisted(
     motion        of the load
     """
     nothing = np.zeros_like(last.shear)
-    touching = touching_share(last.pressure, pressure, model.gap)
+    touching = touching_share(last.pressure, pressure, model.shear_gap)
     twist, torque = torsion_reached(model, load, motion, nothing)
     after = replace(
         last,

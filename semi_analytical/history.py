@@ -14,7 +14,7 @@ from semi_analytical.contact_area import stuck_cells
 from semi_analytical.edge.corrected import Corrected
 from semi_analytical.energy import NOTHING_YET
 from semi_analytical.fields import Increment
-from semi_analytical.increment import State, reached_moment, residuals_of, solve_increment
+from semi_analytical.increment import State, reached_moment, residuals_of, solve_increment, unfolded
 from semi_analytical.load_targets import normal_target, tangential_target
 from semi_analytical.model import ContactModel
 from semi_analytical.plan import Coupling, Plan
@@ -118,8 +118,8 @@ class _Solver:
             return after
         last = before if self.plan.edge == "all" else start
         edges = self.correct(
-            last,
-            after,
+            None if last is None else unfolded(last, self.model.shear_part),
+            unfolded(after, self.model.shear_part),
             way_known=last is before or not matters,
             tolerance=self.tolerance,
         )
@@ -127,14 +127,15 @@ class _Solver:
 
     def report(self, reached: Reached[State], last: Increment | None) -> Increment:
         """The state, with what the increment has changed and cost."""
-        return _increment(self.model, reached)
+        return _increment(self.model, last, reached)
 
 
-def _increment(model: ContactModel, reached: Reached[State]) -> Increment:
-    """The state as it is reported, with what the increment from the state before has changed and
-    cost."""
-    before, state = reached.before, reached.state
+def _increment(model: ContactModel, last: Increment | None, reached: Reached[State]) -> Increment:
+    """The state on the whole window as it is reported, with what the increment after the last one
+    has changed and cost."""
+    state = unfolded(reached.state, model.shear_part)
     pressing, sheared, cell = state.pressing, state.sheared, model.grid.cell_area
+    before = reached.before
     p = pressing.pressure
     force, tilt = state.target.force, pressing.tilt
     pressed = Increment(
@@ -183,7 +184,7 @@ def _increment(model: ContactModel, reached: Reached[State]) -> Increment:
         dissipated_energy=sheared.dissipated_energy,
         dissipation_uncertainty=state.energy.uncertain,
     )
-    return _traced(increment, before, sheared)
+    return _traced(increment, last, sheared)
 
 
 def _with_edges(
@@ -206,19 +207,20 @@ def _with_edges(
     )
 
 
-def _traced(increment: Increment, before: State | None, sheared: Sheared) -> Increment:
+def _traced(increment: Increment, last: Increment | None, sheared: Sheared) -> Increment:
     """With what slip leaves on the surface and had left there before the increment; nothing where
     the motion is undefined."""
     if sheared.dissipated_energy is None:
         return increment
-    last = before.sheared if before is not None else None
-    last = last or untouched(sheared.in_stick.shape)
+    nothing = untouched(sheared.in_stick.shape)
+    slip = last.slip if last else None
+    dissipation = last.dissipation if last else None
     traced = replace(
         increment,
-        slip_before=last.slip,
+        slip_before=nothing.slip if slip is None else slip,
         slip_distance=sheared.slip_distance,
         dissipation=sheared.dissipation,
-        dissipation_before=last.dissipation,
+        dissipation_before=nothing.dissipation if dissipation is None else dissipation,
     )
     lost, slipped = traced.dissipation_increment, traced.slip_increment
     return replace(

@@ -1,5 +1,6 @@
 """The discrete contact model: gap, friction limit and operators on one grid, and a coarser one."""
 
+from dataclasses import replace
 from functools import cached_property
 from typing import TypeVar
 
@@ -15,10 +16,11 @@ from semi_analytical.grid import SurfaceGrid
 from semi_analytical.influence.bodies import influence_coefficients
 from semi_analytical.influence.coefficients import InfluenceCoefficients
 from semi_analytical.mirrored_operator import MirroredNormalOperator
+from semi_analytical.mirrored_shear import MirroredPeriodicInverse, MirroredTangentialOperator
 from semi_analytical.mirrored_transform import mirrored_offsets
 from semi_analytical.operator import CouplingOperator, NormalOperator, TangentialOperator
 from semi_analytical.padded_transform import Convolutions, offsets_for
-from semi_analytical.part import Part, part_of
+from semi_analytical.part import WHOLE, Part, part_of
 from semi_analytical.periodic_inverse import PeriodicInverse
 
 Field = NDArray[np.float64]
@@ -27,6 +29,7 @@ Operator = TypeVar(
     NormalOperator,
     MirroredNormalOperator,
     TangentialOperator,
+    MirroredTangentialOperator,
     CouplingOperator,
     CoupledOperator,
 )
@@ -42,6 +45,8 @@ class ContactModel:
     gap           undeformed gap (nx, ny) [length]
     convolutions  counter shared by all operators of this model and its coarser ones
     even          whether pressures without shear are even about x = 0 and y = 0
+    along         component of shear that is even about both as well, the other being odd about
+                  both; None where a quarter does not tell shear
     """
 
     def __init__(
@@ -52,34 +57,65 @@ class ContactModel:
         convolutions: Convolutions,
         *,
         even: bool = False,
+        along: int | None = None,
     ) -> None:
         self.scene = scene
         self.grid = grid
         self.gap = gap
         self.convolutions = convolutions
         self.even = even
+        self._along = along
         self._normal: dict[tuple[int, int], NormalOperator] = {}
         self._mirrored: dict[tuple[int, int], MirroredNormalOperator] = {}
         self._tangential: dict[tuple[int, int], TangentialOperator] = {}
+        self._mirrored_shear: dict[tuple[int, int], MirroredTangentialOperator] = {}
         self._coupling: dict[tuple[int, int], CouplingOperator] = {}
         self._coupled: dict[tuple[int, int], CoupledOperator] = {}
         self._inverse: dict[tuple[int, int], PeriodicInverse] = {}
         self._shear_inverse: dict[tuple[int, int], PeriodicInverse] = {}
+        self._mirrored_inverse: dict[tuple[int, int], MirroredPeriodicInverse] = {}
 
     @classmethod
-    def of(cls, scene: Scene, grid: SurfaceGrid, *, even: bool = False) -> "ContactModel":
+    def of(
+        cls, scene: Scene, grid: SurfaceGrid, *, even: bool = False, along: int | None = None
+    ) -> "ContactModel":
         """The model of a scene, its gap taken at the cell centres.
 
-        even  whether pressures without shear are even about x = 0 and y = 0
+        even, along  see the class
         """
         x, y = grid.coordinates()
         gap = scene.indenter.initial_gap(x, y)
-        return cls(scene, grid, gap, Convolutions(), even=even and grid.even)
+        return cls(scene, grid, gap, Convolutions(), even=even and grid.even, along=along)
 
     @cached_property
     def part(self) -> Part:
         """The part of the window that tells pressures without shear."""
         return part_of(self.gap, even=self.even)
+
+    @cached_property
+    def shear_part(self) -> Part:
+        """The part of the window that tells shear."""
+        told = self._along is not None and self.part.quarter
+        return replace(self.part, along=self._along) if told else WHOLE
+
+    @property
+    def shear_cells(self) -> tuple[int, int]:
+        """How many it has along its sides."""
+        return self.shear_part.cells(self.grid.cells)
+
+    @property
+    def shear_area(self) -> float:
+        """Area of a cell with its images [length^2]."""
+        return self.grid.cell_area * self.shear_part.images
+
+    @cached_property
+    def shear_gap(self) -> Field:
+        """The undeformed gap there [length]."""
+        return self.shear_part.of(self.gap)
+
+    def friction_limit(self, pressure: Field) -> Field:
+        """µp under a pressure there [force/length^2]."""
+        return self.friction.limit(pressure, self.shear_part.slices(self.grid.cells))
 
     @cached_property
     def friction(self) -> CoulombFriction:
@@ -94,9 +130,8 @@ class ContactModel:
     @cached_property
     def coefficients(self) -> InfluenceCoefficients:
         """Influence coefficients at all offsets that an operator on this grid reads."""
-        nx, ny = self.grid.cells
-        quarter = nx // 2, ny // 2
-        offsets = mirrored_offsets(quarter) if self.part.quarter else offsets_for((nx, ny))
+        cells = self.part.cells(self.grid.cells)
+        offsets = mirrored_offsets(cells) if self.part.quarter else offsets_for(cells)
         return influence_coefficients(
             self.scene.body, self.scene.indenter, self.grid.spacing, offsets
         )
@@ -136,8 +171,7 @@ class ContactModel:
         if not self.part.quarter:
             return self.normal_operator(shape)
         if shape not in self._mirrored:
-            nx, ny = self.grid.cells
-            self._forget_other_boxes(self._mirrored, shape, (nx // 2, ny // 2))
+            self._forget_other_boxes(self._mirrored, shape, self.part.cells(self.grid.cells))
             self._mirrored[shape] = MirroredNormalOperator(
                 self.coefficients, shape, self.convolutions
             )
@@ -151,6 +185,20 @@ class ContactModel:
                 self.coefficients, shape, self.convolutions
             )
         return self._tangential[shape]
+
+    def shear_operator(
+        self, shape: tuple[int, int]
+    ) -> TangentialOperator | MirroredTangentialOperator:
+        """The same on a box of cells of the part that tells shear."""
+        along = self.shear_part.along
+        if along is None:
+            return self.tangential_operator(shape)
+        if shape not in self._mirrored_shear:
+            self._forget_other_boxes(self._mirrored_shear, shape, self.shear_cells)
+            self._mirrored_shear[shape] = MirroredTangentialOperator(
+                self.coefficients, shape, along, self.convolutions
+            )
+        return self._mirrored_shear[shape]
 
     def _forget_other_boxes(
         self,
@@ -201,6 +249,18 @@ class ContactModel:
                 self.tangential_operator(shape), self.self_compliance
             )
         return self._shear_inverse[shape]
+
+    def shear_preconditioner(
+        self, shape: tuple[int, int]
+    ) -> PeriodicInverse | MirroredPeriodicInverse:
+        """The same on a box of cells of the part that tells shear."""
+        operator = self.shear_operator(shape)
+        if isinstance(operator, TangentialOperator):
+            return self.shear_inverse(shape)
+        if shape not in self._mirrored_inverse:
+            self._mirrored_inverse.clear()
+            self._mirrored_inverse[shape] = MirroredPeriodicInverse(operator, self.self_compliance)
+        return self._mirrored_inverse[shape]
 
     @cached_property
     def coarse(self) -> "ContactModel | None":

@@ -85,7 +85,7 @@ class TangentialOperator:
     def inverse(self) -> tuple[Field, Field, Field]:
         """Roughly the spectra of the inverse, xx, yy and xy, with the unpadded period."""
         xx, yy, xy = (symbol.unpadded() for symbol in self.symbols)
-        return _inverse_2x2(xx, yy, xy)
+        return inverse_2x2(xx, yy, xy)
 
     def mean(self) -> Field:
         """Of the spectra of the xx and yy coefficients, with the unpadded period."""
@@ -149,7 +149,7 @@ class CouplingOperator:
         return np.stack([p * symbol[columns] for symbol in self.symbols])
 
 
-def _inverse_2x2(xx: Field, yy: Field, xy: Field) -> tuple[Field, Field, Field]:
+def inverse_2x2(xx: Field, yy: Field, xy: Field) -> tuple[Field, Field, Field]:
     """Inverse of the symmetric matrix [[xx, xy], [xy, yy]] at every wavenumber; where one is not
     positive definite, of the matrix with the magnitudes of its eigenvalues instead: films much
     stiffer than their base wave beyond the period, and conjugate gradients need a positive

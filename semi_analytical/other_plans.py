@@ -18,6 +18,7 @@ def all_effects(plan: Plan) -> Plan:
         torsion=True,
         coupling=Coupling.FULL,
         quarter=False,
+        along=None,
         effects=tuple(_forced(effect) for effect in plan.effects),
     )
 
@@ -29,7 +30,7 @@ def one_way(plan: Plan) -> Plan:
     """
     why = "asked for: pressure acts on the shear problem, shear not on the pressure problem"
     effects = (replace(e, on=True, why=why) if e.name == COUPLING else e for e in plan.effects)
-    return replace(plan, shear=True, coupling=Coupling.ONE_WAY, effects=tuple(effects))
+    return replace(plan, shear=True, coupling=Coupling.ONE_WAY, along=None, effects=tuple(effects))
 
 
 def _forced(effect: Effect) -> Effect:

@@ -1,12 +1,13 @@
-"""The part of the window that pressures are solved on: all of it, or a quarter."""
+"""The part of the window that tractions are solved on: all of it, or a quarter."""
 
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
 Field = NDArray[np.float64]
+AnyField = TypeVar("AnyField", bound=NDArray[Any])
 
 # What rounding leaves between images of a gap, relative to the largest.
 ROUND_OFF = 1e-9
@@ -17,28 +18,59 @@ class Part:
     """All cells of the window, or its quarter x > 0, y > 0 where fields are even about both planes.
 
     Indices of the quarter count from the planes.
+
+    along  component of vectors that is even about both planes as well; the other is odd about both.
+           None where no vectors are told by the quarter
     """
 
     quarter: bool
+    along: int | None = None
 
     @property
     def images(self) -> int:
         """How often the part is in the window."""
         return 4 if self.quarter else 1
 
+    @property
+    def even(self) -> tuple[bool, bool]:
+        """Whether the sums of vectors' components are as many times those on the part; those of odd
+        ones vanish."""
+        return (True, True) if self.along is None else (self.along == 0, self.along == 1)
+
+    def cells(self, window: tuple[int, int]) -> tuple[int, int]:
+        """How many there are of the cells of the window."""
+        return (window[0] // 2, window[1] // 2) if self.quarter else window
+
+    def slices(self, window: tuple[int, int]) -> tuple[slice, slice]:
+        """Which of the cells of the window they are."""
+        nx, ny = self.cells(window)
+        return slice(window[0] - nx, None), slice(window[1] - ny, None)
+
     def of(self, field: Field) -> Field:
         """A field of the window (nx, ny) on the part."""
+        return np.ascontiguousarray(field[self.slices(field.shape)]) if self.quarter else field
+
+    def unfolded(self, field: AnyField, sign: int = 1) -> AnyField:
+        """A field of the part on the window (nx, ny), even about both planes or odd about both."""
         if not self.quarter:
             return field
         nx, ny = field.shape
-        return np.ascontiguousarray(field[nx // 2 :, ny // 2 :])
+        whole = np.empty_like(field, shape=(2 * nx, 2 * ny))
+        image = field if sign > 0 else 0.0 - field  # zeros stay positive
+        whole[nx:, ny:], whole[:nx, :ny] = field, field[::-1, ::-1]
+        whole[:nx, ny:], whole[nx:, :ny] = image[::-1], image[:, ::-1]
+        return whole
 
-    def unfolded(self, field: Field) -> Field:
-        """A field of the part on the window (nx, ny)."""
+    def unfolded_vector(self, field: Field) -> Field:
+        """A vector field of the part (2, …) on the window (2, nx, ny)."""
         if not self.quarter:
             return field
-        half = np.concatenate([field[::-1], field])
-        return np.concatenate([half[:, ::-1], half], axis=1)
+        signs = (1 if even else -1 for even in self.even)
+        return np.stack([self.unfolded(one, sign) for one, sign in zip(field, signs, strict=True)])
+
+    def resultant(self, field: Field) -> Field:
+        """Sums of the components of a vector field over the whole window (2,)."""
+        return np.where(self.even, self.images * np.sum(field, axis=(1, 2)), 0.0)
 
     def framed(self, field: NDArray[Any], width: int) -> NDArray[Any]:
         """A field of the part (nx, ny) in a frame of so many cells: its images beyond mirror

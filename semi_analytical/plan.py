@@ -14,7 +14,7 @@ from semi_analytical.path_increments import Bodies, StepIncrements, path_increme
 # Of the shear moduli within a body: beyond, its influence coefficients lose the softest part.
 MOST_CONTRAST = 1e12
 
-# Name of the effect that lets a quarter of the window tell pressures.
+# Name of the effect that lets a quarter of the window tell tractions.
 MIRROR_PLANES = "mirror planes"
 # What edges inside the cells cost, on 64² to 256².
 CHEAP = "20 to 150 convolutions each time"
@@ -42,6 +42,8 @@ class Plan:
     edge        at the end of which increments edges are put inside the cells
     quarter     whether pressures without shear are even about x = 0 and y = 0: a quarter of the
                 window tells them
+    along       which component of shear is then even about both as well, the other being odd about
+                both: a quarter tells shear, too; None where it does not
     effects     every effect with its reason, as shown to people
     """
 
@@ -53,6 +55,7 @@ class Plan:
     effects: tuple[Effect, ...]
     edge: EdgeCorrection = "off"
     quarter: bool = False
+    along: int | None = None
 
     @property
     def increments(self) -> tuple[int, ...]:
@@ -93,6 +96,7 @@ def plan(scene: Scene, path_accuracy: float = PATH_ACCURACY, edge: EdgeCorrectio
     tilt = any(step.moment is not None or any(step.tilt or (0, 0)) for step in scene.loading)
     even = scene.indenter.is_even and not tilt
     torsion = shear and any(step.torque is not None or step.twist for step in scene.loading)
+    along, told = _told(scene, shear, coupled, torsion)
     effects = (
         effect.PRESSURE,
         effect.second_body(scene),
@@ -103,14 +107,16 @@ def plan(scene: Scene, path_accuracy: float = PATH_ACCURACY, edge: EdgeCorrectio
         Effect("torsion", torsion, _why_torsion(friction, torsion)),
         effect.coupled(scene, coupled, why),
         effect.load_history(len(scene.loading) > 1 and shear),
-        Effect(MIRROR_PLANES, even, _why_even(even, tilt, coupled)),
+        Effect(MIRROR_PLANES, even, _why_even(even, tilt, told)),
         Effect("edge correction", *_edges(scene, edge, torsion, coupled)),
     )
     acting = Coupling.FULL if coupled else Coupling.NONE
     bodies = Bodies(coupled, dundurs_beta(scene), scene.friction or FRICTIONLESS)
     path = path_increments(scene, shear, bodies, path_accuracy)
     corrected = edge if effects[-1].on else "off"
-    return Plan(shear, tilt, torsion, acting, path, effects, corrected, even)
+    return Plan(
+        shear, tilt, torsion, acting, path, effects, corrected, even, along if even else None
+    )
 
 
 def _tangentially_loaded(scene: Scene) -> bool:
@@ -136,16 +142,35 @@ def _why_tilt(tilt: bool) -> str:
     return "no step names a moment or a tilt: the indenter is held upright"
 
 
-def _why_even(even: bool, tilt: bool, coupled: bool) -> str:
-    """Why a quarter of the window tells the pressure, or not."""
+def _told(scene: Scene, shear: bool, coupled: bool, torsion: bool) -> tuple[int | None, str]:
+    """Along which axis all loads push where a quarter of the window tells the shear below an even
+    indenter, too, and in words what it tells."""
+    if coupled:
+        return None, "first pressures"
+    if not shear:
+        return None, "pressures"
+    if torsion:
+        return None, "pressures, but not shear, for the indenter twists"
+    if scene.friction is not None and not scene.friction.is_even:
+        return None, "pressures, but not shear, for friction is not even"
+    axes = {axis for ramp in scene.load_path() for axis in (0, 1) if ramp.tangential.end[axis]}
+    if len(axes) != 1:
+        return None, "pressures, but not shear, for not all loads push along the same axis"
+    return axes.pop(), "pressures and shear, at a third of the price"
+
+
+def _why_even(even: bool, tilt: bool, told: str) -> str:
+    """Why a quarter of the window tells tractions, or not.
+
+    told  which, below an even indenter
+    """
     if tilt:
         return "the indenter tilts"
     if not even:
         return "the indenter does not say that it is even about x = 0 and y = 0"
-    pressures = "first pressures" if coupled else "pressures"
     return (
-        f"even about x = 0 and y = 0: a quarter of the window tells {pressures}, where its cell "
-        f"counts are even"
+        f"even about x = 0 and y = 0: a quarter of the window tells {told}, where its cell counts "
+        f"are even"
     )
 
 

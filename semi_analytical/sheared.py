@@ -1,6 +1,6 @@
 """The tangential part of a state, and what it means for the increment that starts from it."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -9,6 +9,7 @@ from contact_scene.residuals import ShearResiduals
 from contact_scene.summary import ContactStatus
 from semi_analytical.admissible_shear import everywhere
 from semi_analytical.model import ContactModel
+from semi_analytical.part import Part
 from semi_analytical.shearing import TangentialTarget
 
 Field = NDArray[np.float64]
@@ -19,7 +20,7 @@ Vector = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Sheared:
-    """The tangential part of a state, all fields on the whole window.
+    """The tangential part of a state, all fields on the part of the window that tells shear.
 
     pressure           p that the shear is below (nx, ny) [force/length^2]
     touching           part of the increment for which cells are in contact (nx, ny), of those that
@@ -55,6 +56,22 @@ class Sheared:
         """Shift, and twist where there is one."""
         assert self.shift is not None
         return self.shift if self.twist is None else np.array([*self.shift, self.twist])
+
+    def unfolded(self, part: Part) -> "Sheared":
+        """The same on the whole window."""
+        if not part.quarter:
+            return self
+        return replace(
+            self,
+            shear=part.unfolded_vector(self.shear),
+            pressure=part.unfolded(self.pressure),
+            touching=part.unfolded(self.touching),
+            displacement=part.unfolded_vector(self.displacement),
+            slip=part.unfolded_vector(self.slip),
+            slip_distance=part.unfolded(self.slip_distance),
+            dissipation=part.unfolded(self.dissipation),
+            in_stick=part.unfolded(self.in_stick),
+        )
 
 
 def untouched(cells: tuple[int, int]) -> Sheared:

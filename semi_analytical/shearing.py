@@ -15,6 +15,7 @@ from semi_analytical.admissible_shear import (
 from semi_analytical.box import box_around
 from semi_analytical.linearised_shear import Point
 from semi_analytical.model import ContactModel
+from semi_analytical.part import WHOLE, Part
 from semi_analytical.tangential import solve_tangential
 
 Field = NDArray[np.float64]
@@ -22,8 +23,8 @@ Field = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Shearing:
-    """Shear and its displacement on the whole window, the motion of the load, slip zone, and
-    iterations."""
+    """Shear and its displacement on the part of the window that tells shear, the motion of the
+    load, slip zone, and iterations."""
 
     shear: VectorField
     displacement: VectorField
@@ -49,19 +50,22 @@ class TangentialTarget:
     shift: Vector | None = None
     torsion: Torsion | None = None
 
-    def on(self, cell_area: float, rotation: VectorField | None) -> TangentialLoad:
+    def on(
+        self, cell_area: float, rotation: VectorField | None, part: Part = WHOLE
+    ) -> TangentialLoad:
         """The load as the solver sees it on cells of this area.
 
         rotation  (-y, x) of the cells (2, nx, ny) [length]; None where nothing twists
+        part      of the window that the cells are of; all of it where something twists
         """
-        total = None if self.force is None else self.force / cell_area
+        total = None if self.force is None else self.force / cell_area / part.images
         if self.torsion is not None and self.torsion.torque is not None:
             assert rotation is not None
             from semi_analytical.torsion import ShearMoments
 
             return ShearMoments(rotation, self.torsion.torque / cell_area, total, self.shift)
         if total is not None:
-            return ShearSum(total)
+            return ShearSum(total, part.even)
         assert self.shift is not None
         return FixedShift(self.shift)
 
@@ -75,24 +79,23 @@ def shear(
     motion: Vector,
     tolerance: float,
 ) -> Shearing:
-    """Solve the shear problem of one increment; all fields on the whole window.
+    """Solve the shear problem of one increment; all fields on the part that tells shear.
 
     bound          friction limit µp, not zero everywhere
     target         c, from the state before (see tangential.solve_tangential)
     start, motion  first guesses
     raises         NotConverged
     """
-    cells = model.grid.cells
-    box = box_around(bound > 0, margin=0)
+    part, cells = model.shear_part, bound.shape
+    box = box_around(bound > 0, margin=0, quarter=part.quarter)
     inside = (..., *box.slices)
     rotation = None if load.torsion is None else model.rotation[inside]
-    operator = model.tangential_operator(box.shape)
     solution = solve_tangential(
-        operator,
-        model.shear_inverse(box.shape),
+        model.shear_operator(box.shape),
+        model.shear_preconditioner(box.shape),
         bound[box.slices],
         target[inside],
-        load.on(model.grid.cell_area, rotation),
+        load.on(model.grid.cell_area, rotation, part),
         Point(start.shear[inside], start.displacement[inside]),
         motion,
         model.self_compliance,
@@ -101,7 +104,7 @@ def shear(
     q, u = box.embed(solution.shear, cells), solution.displacement
     return Shearing(
         shear=q,
-        displacement=u if box.shape == cells else model.tangential_operator(cells)(q),
+        displacement=u if box.shape == cells else model.shear_operator(cells)(q),
         motion=solution.motion,
         in_slip=box.embed(solution.in_slip.astype(np.float64), cells) > 0,
         iterations=solution.iterations,

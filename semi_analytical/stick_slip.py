@@ -48,12 +48,13 @@ def slip_and_stick(
     tolerance: float,
     ahead: Point | None = None,
 ) -> Sheared:
-    """Shear the contact from the state `last` to a force or shift, at a given pressure.
+    """Shear the contact from the state `last` to a force or shift, at a given pressure; all fields
+    on the part of the window that tells shear.
 
     ahead   a first guess of the shear with its displacement; that of the last state if absent
     raises  NotConverged; GrossSliding if a force exceeds what friction can carry
     """
-    bound = model.friction.limit(pressure)
+    bound = model.friction_limit(pressure)
     if last.shift is None:
         raise motion_undefined()
     ended = _without_solving(model, pressure, bound, last, load)
@@ -93,7 +94,7 @@ def _without_solving(
     moved = last.shear, last.shift, last.displacement
     if load.torsion is None and not any(np.any(a) for a in (load.force, *moved)):
         return replace(last, pressure=pressure, in_stick=bound > 0, iterations=0)
-    if not force_reaches_limit(load.force, float(np.sum(bound)) * model.grid.cell_area):
+    if not force_reaches_limit(load.force, float(np.sum(bound)) * model.shear_area):
         return None
     if np.any(bound):
         return at_limit(model, pressure, last, load)
@@ -116,8 +117,8 @@ def shear_residuals(
     q = solution.shear
     equilibrium = None
     if load.force is not None:
-        defect = np.sum(q, axis=(1, 2)) - load.force / model.grid.cell_area
-        equilibrium = float(np.hypot(*defect) / np.sum(bound))
+        defect = model.shear_part.resultant(q) - load.force / model.grid.cell_area
+        equilibrium = float(np.hypot(*defect) / np.sum(bound) / model.shear_part.images)
     torque_equilibrium = None
     if load.torsion is not None and load.torsion.torque is not None:
         missing = torque_of(model, q) - load.torsion.torque
@@ -144,16 +145,16 @@ def advanced(
     residuals: ShearResiduals,
 ) -> Sheared:
     """The accepted state: slip and dissipation are added to those of the state before."""
-    q, cell = solution.shear, model.grid.cell_area
+    q = solution.shear
     # A residual of the solver may point against the shear; friction lets nothing slip that way.
     backward = q[0] * passed[0] + q[1] * passed[1] < 0
     in_stick = (bound > 0) & (~solution.in_slip | backward)
-    touching = touching_share(last.pressure, pressure, model.gap)
+    touching = touching_share(last.pressure, pressure, model.shear_gap)
     slips = ((pressure > 0) | (last.pressure > 0)) & ~in_stick
     slipped = np.where(slips, touching * passed, 0.0)
-    friction = sliding_friction(last.shear, q, passed, model.friction.limit(last.pressure), bound)
+    friction = sliding_friction(last.shear, q, passed, model.friction_limit(last.pressure), bound)
     lost = np.sum(friction * slipped, axis=0)
-    force = np.sum(q, axis=(1, 2)) * cell
+    force = model.shear_part.resultant(q) * model.grid.cell_area
     assert last.dissipated_energy is not None
     twist, torque = torsion_reached(model, load, solution.motion, q)
     after = Sheared(
@@ -166,7 +167,7 @@ def advanced(
         slip_distance=last.slip_distance + np.hypot(*slipped),
         dissipation=last.dissipation + lost,
         in_stick=in_stick,
-        dissipated_energy=last.dissipated_energy + float(np.sum(lost)) * cell,
+        dissipated_energy=last.dissipated_energy + float(np.sum(lost)) * model.shear_area,
         status=ContactStatus.NO_STICK_AREA_LEFT,
         force=force if load.force is None else load.force,
         residuals=residuals,
@@ -182,7 +183,7 @@ def _status(model: ContactModel, after: Sheared, bound: Field, last: Sheared) ->
         everything = np.count_nonzero(after.in_stick) == np.count_nonzero(bound)
         return ContactStatus.FULL_STICK if everything else ContactStatus.PARTIAL_SLIP
     if after.twist is None:
-        work, power = float(np.hypot(*after.force)) / model.grid.cell_area, float(np.sum(bound))
+        work, power = float(np.hypot(*after.force)) / model.shear_area, float(np.sum(bound))
     else:
         moved = rigid(model, after.motion) - rigid(model, last.motion)
         work, power = float(np.sum(after.shear * moved)), float(np.sum(bound * magnitude(moved)))

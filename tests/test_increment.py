@@ -8,6 +8,7 @@ from semi_analytical import SurfaceGrid, plan, pressing, solve
 from semi_analytical.box import box_around
 from semi_analytical.history import march
 from semi_analytical.mirrored_operator import MirroredNormalOperator
+from semi_analytical.mirrored_shear import MirroredTangentialOperator
 from semi_analytical.model import ContactModel
 from semi_analytical.normal import solve_normal
 from semi_analytical.operator import NormalOperator, TangentialOperator
@@ -32,6 +33,7 @@ def calls(monkeypatch):
     spy(NormalOperator)
     spy(MirroredNormalOperator)
     spy(TangentialOperator)
+    spy(MirroredTangentialOperator)
     return made
 
 
@@ -54,6 +56,7 @@ def test_without_a_push_no_shear_operator_is_built(loading, more, monkeypatch):
         raise AssertionError("a shear operator is built")
 
     monkeypatch.setattr(TangentialOperator, "__init__", refuse)
+    monkeypatch.setattr(MirroredTangentialOperator, "__init__", refuse)
     for increment in solve(scene(*loading, **more), grid(), TOLERANCE).increments:
         assert increment.shear is None
         assert increment.slip is None
@@ -74,7 +77,7 @@ def test_pressure_is_not_solved_again_where_the_normal_load_is_held(calls):
             calls.clear()
 
     solve(scene(PRESS, push(0.5), push(-0.5)), grid(), TOLERANCE, after)
-    assert kinds(calls) == {TangentialOperator}
+    assert kinds(calls) == {MirroredTangentialOperator}
 
 
 @pytest.mark.parametrize("cells", [64, 128])
@@ -98,19 +101,19 @@ def test_convolutions_count_what_was_convolved(calls):
     result = solve(scene(PRESS, push(0.5)), grid(), TOLERANCE)
     for increment, kind, price in [
         (result.increments[0], MirroredNormalOperator, 1),
-        (result.increments[1], TangentialOperator, 2),
+        (result.increments[1], MirroredTangentialOperator, 2),
     ]:
         assert increment.convolutions == price * sum(kind is made for made, _ in calls)
 
 
 def test_a_growing_contact_does_not_gather_operators():
     problem = scene({**PRESS, **push(0.5), "increments": 8})
-    model = ContactModel.of(problem, grid(128), even=True)
+    model = ContactModel.of(problem, grid(128), even=True, along=0)
     boxes = set()
     for increment in march(model, plan(problem), TOLERANCE):
         boxes.add(box_around(increment.in_contact, 4).shape)
         assert len(model._mirrored) <= 2
-        assert len(model._tangential) <= 2
+        assert len(model._mirrored_shear) <= 2
     assert len(boxes) > 3
 
 

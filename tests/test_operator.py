@@ -13,7 +13,7 @@ from semi_analytical.operator import (
     CouplingOperator,
     NormalOperator,
     TangentialOperator,
-    _inverse_2x2,
+    inverse_2x2,
 )
 from semi_analytical.padded_transform import Convolutions, offsets_for
 from semi_analytical.periodic_inverse import PeriodicInverse
@@ -184,6 +184,6 @@ def test_inverse_has_the_magnitudes_of_the_eigenvalues(xx, yy, xy):
     values, vectors = np.linalg.eigh([[xx, xy], [xy, yy]])
     if np.min(np.abs(values)) > 1e-3:
         expected = vectors @ np.diag(1 / np.abs(values)) @ vectors.T
-        got = _inverse_2x2(*(np.array([[value]]) for value in (xx, yy, xy)))
+        got = inverse_2x2(*(np.array([[value]]) for value in (xx, yy, xy)))
         got = np.array([[got[0], got[2]], [got[2], got[1]]]).reshape(2, 2)
         np.testing.assert_allclose(got, expected, atol=1e-10 * np.max(np.abs(expected)))

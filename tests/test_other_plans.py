@@ -18,6 +18,7 @@ from semi_analytical.mirrored_transform import Cosines
 from semi_analytical.operator import CouplingOperator
 from semi_analytical.other_plans import COMPUTED
 from semi_analytical.plan import MIRROR_PLANES
+from semi_analytical.sines import Sines
 from slipstick.cli.run import _print_saving
 from verification.cases.goodman_indentation import goodman_indentation_on
 from verification.judging.judgement import judge
@@ -53,15 +54,18 @@ def transformed(monkeypatch):
 
         def counting(*given, **more):
             result = transform(*given, **more)
-            spent[0] += axes * max(np.size(given[-1 if owner is Cosines else 0]), np.size(result))
+            spent[0] += axes * max(
+                np.size(given[-1 if owner in (Cosines, Sines) else 0]), np.size(result)
+            )
             return result
 
         monkeypatch.setattr(owner, name, counting)
 
     for name, axes in {"rfft": 1, "fft": 1, "ifft": 1, "irfft": 1, "rfft2": 2, "irfft2": 2}.items():
         counted(np.fft, name, axes)
-    for name in ("forward", "back"):
-        counted(Cosines, name, 1)
+    for waves in (Cosines, Sines):
+        for name in ("forward", "back"):
+            counted(waves, name, 1)
     return spent
 
 

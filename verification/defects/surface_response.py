@@ -14,11 +14,19 @@ from semi_analytical.influence.closed_form import HalfSpaceCoefficients
 from semi_analytical.influence.coefficients import Composite
 from semi_analytical.influence.layered_response import Components
 from semi_analytical.mirrored_operator import MirroredNormalOperator
+from semi_analytical.mirrored_shear import MirroredTangentialOperator
 from semi_analytical.operator import CouplingOperator, NormalOperator, TangentialOperator
 from verification.defects.defect import Defect, Patches
 
-Operator = type[NormalOperator | MirroredNormalOperator | TangentialOperator | CouplingOperator]
+Operator = type[
+    NormalOperator
+    | MirroredNormalOperator
+    | TangentialOperator
+    | MirroredTangentialOperator
+    | CouplingOperator
+]
 NORMAL: tuple[Operator, ...] = (NormalOperator, MirroredNormalOperator)
+TANGENTIAL: tuple[Operator, ...] = (TangentialOperator, MirroredTangentialOperator)
 
 
 def scaled(patches: Patches, owners: tuple[Operator, ...], factor: float) -> None:
@@ -210,7 +218,7 @@ SURFACE_RESPONSE = (
     Defect(
         "tangential-bias", "Tangential displacements are too large by 0.3 %.",
         ("cattaneo_mindlin",),
-        lambda patches: scaled(patches, (TangentialOperator,), 1.003),
+        lambda patches: scaled(patches, TANGENTIAL, 1.003),
     ),
     Defect(
         "shear-across-omitted", "Shear along y does not move the surface along x.",

@@ -6,6 +6,7 @@ import math
 import random
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from dataclasses import replace
 from functools import partial
 from typing import Any
 
@@ -16,7 +17,8 @@ from contact_scene.solver_errors import SolverError
 from fem_reference import Method
 from fem_reference import solve as solve_on_rings
 from fem_reference.elasticity.factored_section import FactoredSection
-from semi_analytical import SurfaceGrid, solve
+from semi_analytical import Plan, SurfaceGrid, plan, solve
+from semi_analytical.mirrored_shear import MirroredTangentialOperator
 from semi_analytical.mirrored_transform import MirroredTransform
 from semi_analytical.padded_transform import PaddedTransform
 from verification.running.cold_cache import cold_cache
@@ -37,21 +39,24 @@ def planted(count: int) -> Iterator[Attempt]:
     window = (3e-3 * CONTACT, 3e-3 * CONTACT)
     coarse = FiniteElementDiscretisation(elements_per_radius=4, box=10.0, harmonics=2)
 
-    def on_cells() -> Any:
-        return solve(described, SurfaceGrid((20, 20), window), TOLERANCE)
+    def on_cells(told: Plan) -> Any:
+        return solve(described, SurfaceGrid((20, 20), window), TOLERANCE, plan=told)
 
     def on_rings(method: Method) -> Any:
         return solve_on_rings(described, coarse, method)
 
+    told = plan(described)
+    on_quarter, on_window = partial(on_cells, told), partial(on_cells, replace(told, along=None))
     ways: tuple[tuple[type, str, int, Computed], ...] = (
-        (PaddedTransform, "convolved", 60, on_cells),
-        (MirroredTransform, "convolved", 33, on_cells),
+        (PaddedTransform, "convolved", 60, on_window),
+        (MirroredTransform, "convolved", 33, on_quarter),
+        (MirroredTangentialOperator, "__call__", 60, on_quarter),
         (FactoredSection, "compliance", 1, partial(on_rings, Method.COMPLEMENTARITY)),
         (FactoredSection, "compliance", 1, partial(on_rings, Method.PENALTY)),
     )
     healthy = [compute().steps[-1].pressure for *_, compute in ways]
     for number in range(count):
-        way = (1, 0, 2, 1, 0, 3)[number % 6]
+        way = (1, 0, 3, 2, 1, 0, 4, 2)[number % 8]
         of, name, calls, compute = ways[way]
         value = chance.choice((math.nan, math.inf, -math.inf))
         with cold_cache():
