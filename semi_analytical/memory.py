@@ -15,6 +15,8 @@ PRESSURE_ARRAYS = 32
 QUARTER_SAVES = 8
 HISTORY_ARRAYS = 4
 SHEAR_ARRAYS = 57
+# Fewer where a quarter tells the shear, too; edges inside the cells ask for the window.
+QUARTER_SHEAR_SAVES = 22
 # Arms and unit motions, and what they are multiplied with.
 TILT_ARRAYS = 10
 TORSION_ARRAYS = 6
@@ -48,6 +50,8 @@ def estimated_bytes(grid: SurfaceGrid, plan: Plan) -> int:
     quarter = plan.quarter and not (grid.cells[0] % 2 or grid.cells[1] % 2)
     work = PRESSURE_ARRAYS + (SHEAR_ARRAYS if plan.shear else 0)
     work -= QUARTER_SAVES if quarter and not plan.shear else 0
+    told = quarter and plan.along is not None
+    work -= QUARTER_SHEAR_SAVES if told and plan.edge == "off" else 0
     work += (TILT_ARRAYS if plan.tilt else 0) + (TORSION_ARRAYS if plan.torsion else 0)
     work += COUPLING_ARRAYS[plan.coupling]
     rim = 0

@@ -17,7 +17,7 @@ from semi_analytical.kernel_spectrum import even_transform, odd_transform
 from semi_analytical.mirrored_transform import BLOCK, Cosines
 from semi_analytical.operator import inverse_2x2
 from semi_analytical.padded_transform import Convolutions
-from semi_analytical.sines import Sines, at_sines
+from semi_analytical.sines import Sines, at_sines, cosines
 
 Field = NDArray[np.float64]
 VectorField = NDArray[np.float64]
@@ -51,7 +51,7 @@ class MirroredTangentialOperator:
             even_transform(coefficients.yy[reach]),
             odd_transform(coefficients.xy[reach]),
         )
-        even = Cosines(shape[0], m_x), Cosines(shape[1], m_y)
+        even = cosines(shape[0], m_x), cosines(shape[1], m_y)
         odd = Sines(shape[0], m_x), Sines(shape[1], m_y)
         self._sides = _in_order(even, odd, along)
 
@@ -105,7 +105,7 @@ class MirroredPeriodicInverse:
         self._pair = PairOfSpectra(*inverse_2x2(xx, yy, xy), tangential.along)
         nx, ny = tangential.shape
         my, mx = self._turning[0].shape
-        even, odd = (Cosines(nx, mx), Cosines(ny, my)), (Sines(nx, mx), Sines(ny, my))
+        even, odd = (cosines(nx, mx), cosines(ny, my)), (Sines(nx, mx), Sines(ny, my))
         self._sides = _in_order(even, odd, tangential.along)
         self._turned = [odd] * len(STIFFNESSES)
 

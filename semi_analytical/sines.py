@@ -5,13 +5,19 @@ cosines: see `mirrored_transform`. Sines have the wavenumbers 1 … m, cosines 0
 be multiplied alike, that of m is kept in the place of 0, where no odd field has any.
 """
 
+from collections.abc import Sequence
+
 import numpy as np
 from numpy.typing import NDArray
 from scipy.fft import dst, idst
 
-from semi_analytical.mirrored_transform import MOST_BY_MATRIX
+from semi_analytical.mirrored_transform import Cosines
 
 Field = NDArray[np.float64]
+
+# Cells along a side up to which products with the matrices of sines and cosines are cheaper than
+# FFTs and their rearrangement, of vectors and what turns them.
+MOST_BY_MATRIX = 96
 
 
 class Sines:
@@ -22,9 +28,7 @@ class Sines:
         self.cells, self.m = cells, m
         self._forward: Field | None = None
         if cells <= MOST_BY_MATRIX:
-            turn = 2 * np.sin(np.pi / (2 * m) * np.arange(4 * m))
-            wavenumbers = np.array([m, *range(1, m)])
-            self._forward = turn[np.outer(2 * np.arange(cells) + 1, wavenumbers) % (4 * m)]
+            self._forward = _waves(np.sin, cells, m, [m, *range(1, m)])
             self._back = self._forward.T / (2 * m)
             self._back[0] /= 2
 
@@ -41,6 +45,18 @@ class Sines:
             return amplitudes @ self._back
         found = idst(np.roll(amplitudes, -1, axis=-1), type=2, axis=-1, overwrite_x=True)
         return np.asarray(found[..., : self.cells])
+
+
+def cosines(cells: int, m: int) -> Cosines:
+    """Those beside the sines, by a matrix where these are."""
+    matrix = _waves(np.cos, cells, m, range(m)) if cells <= MOST_BY_MATRIX else None
+    return Cosines(cells, m, matrix)
+
+
+def _waves(wave: np.ufunc, cells: int, m: int, wavenumbers: Sequence[int]) -> Field:
+    """Twice the waves at the places of the cells (cells, wavenumbers)."""
+    turn = 2 * wave(np.pi / (2 * m) * np.arange(4 * m))
+    return np.asarray(turn[np.outer(2 * np.arange(cells) + 1, wavenumbers) % (4 * m)])
 
 
 def at_sines(spectrum: Field) -> Field:

@@ -8,11 +8,12 @@ from hypothesis import strategies as st
 
 from semi_analytical.influence.bodies import influence_coefficients
 from semi_analytical.mirrored_shear import MirroredPeriodicInverse, MirroredTangentialOperator
-from semi_analytical.mirrored_transform import MOST_BY_MATRIX, mirrored_offsets
+from semi_analytical.mirrored_transform import mirrored_offsets
 from semi_analytical.operator import TangentialOperator
 from semi_analytical.padded_transform import Convolutions
 from semi_analytical.part import WHOLE, Part
 from semi_analytical.periodic_inverse import PeriodicInverse
+from semi_analytical.sines import MOST_BY_MATRIX
 
 ROUND_OFF = 1e-13
 LONG = MOST_BY_MATRIX + 2
