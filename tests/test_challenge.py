@@ -19,7 +19,7 @@ from slipstick.cli import main
 from tests.cell_means import ellipse_means
 from verification import Answer, CannotDo, Field, Solver, judge
 from verification.adapters import surface
-from verification.challenge.asked import Challenge, Patch
+from verification.challenge.asked import Challenge, Grade, Patch
 from verification.challenge.cases import challenges
 from verification.challenge.cases_at_places import PLACES
 from verification.challenge.door import Posed
@@ -38,7 +38,7 @@ NAMES = sorted(challenges())
 def exact_field(challenge: Challenge, step: int = 1, cells: int = 400) -> Field:
     """The reference at the centres of cells, coarse enough to carry the load to 1e-3."""
     (asked,) = (f for f in challenge.fields if f.step == step)
-    half = 1.05 * asked.traction.reach
+    half = 1.05 * max(asked.traction.semi_axes)
     x = (np.arange(cells) + 0.5) * 2 * half / cells - half
     x, y = (part.ravel() for part in np.meshgrid(x, x, indexing="ij"))
     area = np.full(x.size, (2 * half / cells) ** 2)
@@ -165,6 +165,50 @@ def test_leaving_out_the_edge_does_not_carry_the_load() -> None:
         statuses(POINT, Answer(1e-5, fields={("pressure", 1): whole}))["pressure: load carried"]
         is Status.PASS
     )
+
+
+@pytest.mark.parametrize(
+    "name", ["hertz_point", "hertz_elliptical", "coated_paraboloid/E1_over_E2=4"]
+)
+@pytest.mark.parametrize(("cells", "reach"), [(47, 0.95), (180, 0.98)])
+def test_who_leaves_out_the_rim_has_not_answered(name: str, cells: int, reach: float) -> None:
+    """There the errors are largest, and of the load only a hundredth."""
+    challenge = challenges()[name]
+    whole = exact_field(challenge, cells=cells)
+    (asked,) = challenge.fields
+    b_x, b_y = asked.traction.semi_axes
+    key, failing = ("pressure", 1), {1.0: set(), reach: {"pressure: contact covered"}}
+    for kept, failed in failing.items():
+        inside = np.hypot(whole.x / b_x, whole.y / b_y) < kept
+        part = Field(*(getattr(whole, n)[inside] for n in ("x", "y", "value", "area")))
+        answer = replace(exact(challenge), fields={key: part})
+        found = judged(challenge, Solver("s"), [answer], Grade("C"))
+        told = {row.quantity for row in found.rows if row.status is Status.FAIL}
+        assert told == failed or (cells < 99 and told >= failed != set())
+        assert (found.grade == "none") == bool(failed)
+
+
+@pytest.mark.parametrize("beyond", [0, 3])
+@pytest.mark.parametrize("off", [0.0, 0.4, 0.9])
+def test_rings_cover_the_contact_with_the_last_node_in_it_or_beyond(
+    off: float, beyond: int
+) -> None:
+    (asked,) = POINT.fields
+    h = HERTZ.contact_radius / (24 + off)
+    r = h * np.arange(25 + beyond)
+    ends = np.maximum(np.array([r - h / 2, r + h / 2]), 0.0)
+    area = np.pi * np.diff(ends**2, axis=0)[0]
+    field = Field(r, np.zeros_like(r), asked.traction.at(r, np.zeros_like(r)), area)
+    key, told = ("pressure", 1), "pressure: contact covered"
+    assert statuses(POINT, Answer(h, fields={key: field}))[told] is Status.PASS
+    short = Field(*(getattr(field, n)[:22] for n in ("x", "y", "value", "area")))
+    assert statuses(POINT, Answer(h, fields={key: short}))[told] is Status.FAIL
+
+
+def test_a_field_that_nobody_answered_is_told() -> None:
+    found = judged(POINT, Solver("s"), [exact(POINT)])
+    assert found.omitted == (("pressure", 1, False),)
+    assert found.line.endswith("1 of 4 omitted")
 
 
 def test_right_means_over_cells_are_of_the_best_class() -> None:
@@ -542,7 +586,7 @@ def test_a_body_that_is_five_per_cent_too_stiff_fails_in_everything() -> None:
     found = judge("hertz_point", stiff, levels=2, at_least="C")
     failed = {row.quantity for row in found.rows if row.status is Status.FAIL}
     numbers = {"approach", "contact_radius", "central_pressure", "pressure"}
-    assert failed == numbers | {"pressure: spread of the load"}
+    assert failed == numbers | {"pressure: spread of the load", "pressure: contact covered"}
 
 
 def test_the_problem_that_a_solver_sees_has_no_answer() -> None:

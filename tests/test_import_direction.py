@@ -205,7 +205,7 @@ ORDERS = {
     "verification.challenge": (
         *("halves", "round_table", "asked", "often_asked", "frictional_cases", "cases_at_places"),
         *("paper_figure", "tilted_cases", "cases", "toml_text", "export", "answer", "reading"),
-        *("verdicts", "judgement", "door", "named_solver"),
+        *("coverage", "verdicts", "judgement", "door", "named_solver"),
     ),
     "slipstick": (
         *("solvers", "path_errors", "solving", "stored_run", "tables", "cli", "__main__"),

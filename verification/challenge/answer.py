@@ -21,7 +21,7 @@ class Field:
     x, y   where [m]
     value  [Pa]
     area   that each point stands for [m²]
-    Raises ValueError for arrays of unequal lengths.
+    Raises ValueError for arrays of unequal lengths, without points, or areas that are not positive.
     """
 
     x: Vector
@@ -34,6 +34,10 @@ class Field:
         if len(set(sizes.values())) > 1:
             told = ", ".join(f"{size} of {name}" for name, size in sizes.items())
             raise ValueError(f"a field needs as many numbers of each: {told}")
+        if not sizes["x"]:
+            raise ValueError("a field needs points; leave out what has none")
+        if not np.all(np.asarray(self.area) > 0):
+            raise ValueError("areas of a field must be positive")
 
 
 @dataclass(frozen=True)
@@ -64,8 +68,8 @@ class Answer:
         return found[0] if isinstance(found, tuple) else found
 
     def has(self, key: Key) -> bool:
-        """Whether a number, or the numbers at places, are answered."""
-        return key in self.scalars or key in self.points
+        """Whether a number, the numbers at places, or a field are answered."""
+        return key in self.scalars or key in self.points or key in self.fields
 
     def uncertainty(self, key: Key) -> float | None:
         """That the answerer claims, standard."""

@@ -82,9 +82,9 @@ class Halves:
         return sum(term.spread for term in self.terms)
 
     @property
-    def reach(self) -> float:
-        """The largest semi-axis [length]."""
-        return max(max(term.semi_axes) for term in self.terms)
+    def semi_axes(self) -> tuple[float, float]:
+        """Of the largest term, in which the others lie [length]."""
+        return max(term.semi_axes for term in self.terms)
 
     def document(self) -> dict[str, Any]:
         """As it is written for others."""

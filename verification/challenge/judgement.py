@@ -40,9 +40,11 @@ class Judgement:
         if any(required for *_, required in self.omitted):
             return "partial"
         judged = [row for row in self.rows if row.error is not None and row.bound is not None]
-        if not judged or any(r.grade is None and ":" not in r.quantity for r in judged):
+        errors = [row for row in judged if ":" not in row.quantity]
+        unsound = any(":" in r.quantity and r.status is Status.FAIL for r in self.rows)
+        if unsound or not errors or any(row.grade is None for row in errors):
             return "none"
-        return max(row.grade for row in judged if row.grade is not None)
+        return max(row.grade for row in errors if row.grade is not None)
 
     @property
     def line(self) -> str:
@@ -52,7 +54,8 @@ class Judgement:
             for status in (Status.PASS, Status.FAIL, Status.INCONCLUSIVE)
         )
         grade = self.grade if self.grade in ("none", "partial") else f"class {self.grade}"
-        left_out = f"{len(self.omitted)} of {len(self.challenge.numbers)} omitted"
+        asked = len(self.challenge.numbers) + len(self.challenge.fields)
+        left_out = f"{len(self.omitted)} of {asked} omitted"
         return f"{self.challenge.name} | {self.solver.name} | {grade} | {counts}, {left_out}"
 
     def exit_code(self, *, strict: bool = False) -> int:

@@ -53,9 +53,9 @@ class RoundTable:
         return float(np.pi * np.sum(width[:, None] * weights * q * r**power))
 
     @property
-    def reach(self) -> float:
-        """The largest radius [length]."""
-        return float(self.radii[-1])
+    def semi_axes(self) -> tuple[float, float]:
+        """The largest radius, twice [length]."""
+        return float(self.radii[-1]), float(self.radii[-1])
 
     def document(self) -> dict[str, Any]:
         """As it is written for others."""

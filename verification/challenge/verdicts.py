@@ -10,8 +10,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from verification.cell_means import cell_means
-from verification.challenge.answer import Answer, Key, Solver
+from verification.challenge.answer import Answer, Field, Key, Solver
 from verification.challenge.asked import AskedField, AskedPoints, AskedValue, Challenge, Grade
+from verification.challenge.coverage import covered
 from verification.convergence.observed_order import ILLEGIBLE, observed_order
 from verification.judging.outcome import Status
 
@@ -73,10 +74,12 @@ def omitted(challenge: Challenge, answers: Sequence[Answer]) -> list[tuple[str, 
     finest = min(answers, key=lambda one: one.h)
     if 0 in finest.gave_up:
         return []
+    asked = [(v.quantity, v.step, v.required) for v in challenge.numbers]
+    asked += [(f.quantity, f.step, False) for f in challenge.fields]
     return [
-        (v.quantity, v.step, v.required)
-        for v in challenge.numbers
-        if not finest.has((v.quantity, v.step)) and v.step not in finest.gave_up
+        (quantity, step, required)
+        for quantity, step, required in asked
+        if not finest.has((quantity, step)) and step not in finest.gave_up
     ]
 
 
@@ -150,7 +153,7 @@ def _of_field(
     if key not in last.fields and not {0, asked.step} & last.gave_up.keys():
         yield Row(f"{asked.quantity}: finest level", asked.step, last.label, Status.INCONCLUSIVE,
                   f"not answered there; judged on level {found[-1][0].label}")  # fmt: skip
-    errors, carried, spread = [], 0.0, 0.0
+    errors = []
     for one, field in found:
         if solver.sampling == "cell":
             side = np.sqrt(field.area)
@@ -164,25 +167,35 @@ def _of_field(
         else:
             error = float(np.sum(field.area * off) / asked.scale)
         errors.append((one.h, error))
-        forces = field.value * field.area
-        carried = float(np.sum(forces))
-        spread = float(np.sum(forces * (field.x**2 + field.y**2)))
-    finest = found[-1][0].label
+    finest, field = found[-1][0].label, found[-1][1]
     yield _judged(key, finest, None, None, errors, grade, asked.uncertainty, "")
     yield from _convergence(key, solver, errors, asked.uncertainty)
-    # Points that stand for others than those around them carry the load, but not where it is.
-    bound = max(grade.bound, Grade.B.bound)
-    reach = asked.scale * asked.traction.reach**2
-    for name, has, should, scale in (
-        ("load carried", carried, asked.total, asked.scale),
-        ("spread of the load", spread, asked.traction.spread, reach),
-    ):
-        missed = abs(has - should) / scale
+    yield from _of_areas(asked, field, finest, max(grade.bound, Grade.B.bound))
+
+
+def _of_areas(asked: AskedField, field: Field, level: str, bound: float) -> Iterator[Row]:
+    """Whether points stand for those around them, and for all of the contact: else they carry the
+    load but not where it is, or have only the places that are easy."""
+    forces, exact = field.value * field.area, asked.traction
+    reach = asked.scale * max(exact.semi_axes) ** 2
+    area, scatter = covered(field, exact.semi_axes)
+    for name, sums, has, should, scale, least in (
+        ("load carried", "Σ value·area", np.sum(forces), asked.total, asked.scale, 0.0),
+        ("spread of the load", "Σ value·area·r²",
+         np.sum(forces * (field.x**2 + field.y**2)), exact.spread, reach, 0.0),
+        ("contact covered", "Σ area in the contact, over its own", area, 1.0, 1.0, scatter),
+    ):  # fmt: skip
+        missed, allowed = abs(float(has) - should) / scale, max(bound, least)
+        if missed <= allowed:
+            status, because = Status.PASS, sums
+        else:
+            of = (
+                f"{float(has) / should:.4g} of what it should be" if should else f"{has:.3g}, not 0"
+            )
+            status, because = Status.FAIL, f"{sums}: {of}"
         yield Row(
-            f"{asked.quantity}: {name}", asked.step, finest,
-            Status.PASS if missed <= bound else Status.FAIL,
-            "Σ value·area" if name == "load carried" else "Σ value·area·r²",
-            has, should, missed, bound,
+            f"{asked.quantity}: {name}", asked.step, level, status, because,
+            float(has), should, missed, allowed,
         )  # fmt: skip
 
 
