@@ -33,6 +33,7 @@ from verification.report.judgement_sheet import render_sheet, row_texts
 
 POINT = challenges()["hertz_point"]
 NAMES = sorted(challenges())
+LEVEL_HEAD = "level,status,reason,h,h_unit,unknowns,cpu_seconds\n"
 
 
 def exact_field(challenge: Challenge, step: int = 1, cells: int = 400) -> Field:
@@ -321,6 +322,20 @@ def test_a_number_that_is_none_fails() -> None:
     assert (row.status, row.because) == (Status.FAIL, "no finite number")
 
 
+@pytest.mark.parametrize("name", ["hertz_point", "sliding_stress"])
+def test_a_number_that_the_finest_level_lacks_leaves_it_open(name: str) -> None:
+    challenge = challenges()[name]
+    number = challenge.numbers[-1]
+    key, whole = (number.quantity, number.step), exact(challenge)
+    parts = {
+        part: {k: v for k, v in getattr(whole, part).items() if k != key}
+        for part in ("scalars", "points")
+    }
+    found = judged(challenge, Solver("s"), [whole, replace(whole, h=5e-6, **parts)])
+    (told,) = (row for row in found.rows if row.quantity == f"{number.quantity}: finest level")
+    assert told.status is Status.INCONCLUSIVE
+
+
 def test_a_field_that_the_finest_level_lacks_leaves_it_open() -> None:
     """Or who left out the worst would be judged by the rest."""
     coarse, fine = exact(POINT, cells=100), exact(POINT, h=5e-6)
@@ -479,6 +494,36 @@ def test_a_changed_problem_is_refused(
     [
         ("manifest.json", "[" * 100_000, "manifest.json: not the manifest of a challenge"),
         ("solver.toml", "a = " + "[" * 100_000, "solver.toml: "),
+        (
+            "answers.csv",
+            "level;load_step;quantity;value;unit;u\n",
+            "columns are separated by commas",
+        ),
+        (
+            "answers.csv",
+            "level,load_step,quantity,value,units,u\n",
+            "no column unit; expected level",
+        ),
+        (
+            "answers.csv",
+            "level,load_step,quantity,value,unit,u\n1,1,approach,8,4,um,\n",
+            "answers.csv:2: more values than columns; commas are between them",
+        ),
+        ("levels.csv", f"{LEVEL_HEAD}1,solved,,4.5,mm,,\n", "at most 0.0012 m, that of its window"),
+        (
+            "levels.csv",
+            f"{LEVEL_HEAD}1,solved,,4,um,,\n2,solved,,5,um,,\n",
+            "levels.csv:3: h is 5e-06 m",
+        ),
+        ("levels.csv", f"{LEVEL_HEAD}1,solved,,nan,um,,\n", "levels.csv:2: h is nan m"),
+        (
+            "levels.csv",
+            f"{LEVEL_HEAD}1,solved,,4,um,nan,\n",
+            "unknowns is nan, expected a positive",
+        ),
+        ("answers.json", "[]", "answers.json: expected an object with lists of records 'levels'"),
+        ("answers.json", "{", "answers.json: "),
+        ("answers.json", '{"levels": [{"level": 1}]}', "levels[0]: no status, reason, h, h_unit"),
         ("solver.toml", "solver = 3", "solver.toml: solver is 3, expected a table"),
         ("solver.toml", "claims = []\nsolver.name = 'a'", "claims is [], expected a table"),
         (
@@ -499,22 +544,68 @@ def test_what_is_no_file_of_a_challenge_is_refused_by_name(
 @pytest.mark.parametrize(
     ("head", "value", "said"),
     [
-        ("pressure", "1", "1_1.csv:1: no traction of step 1, expected 'pressure [Pa]'"),
+        ("pressure", "1", "no traction of step 1, expected 'pressure [Pa]'; there is 'x [m]'"),
+        ("pressure [Pa]", None, "1_1.csv:1: no points; leave out a field that has none"),
         ("pressure [GPa]", "1", "1_1.csv:1: no traction of step 1, expected 'pressure [Pa]'"),
         ("pressure [Pa]", "1,2", "below its head: the number of columns changed from 4 to 5 at"),
         ("pressure [Pa]", "high", "below its head: could not convert string 'high'"),
     ],
 )
 def test_a_mistake_in_a_table_of_tractions_is_named(
-    filled: Path, capsys: pytest.CaptureFixture[str], head: str, value: str, said: str
+    filled: Path, capsys: pytest.CaptureFixture[str], head: str, value: str | None, said: str
 ) -> None:
     (filled / "fields").mkdir(exist_ok=True)
-    table = f"x [m], y [m], area [m^2], {head}\n0,0,1e-10,1\n0,0,1e-10,{value}\n"
-    (filled / "fields" / "1_1.csv").write_text(table)
+    rows = "" if value is None else f"0,0,1e-10,1\n0,0,1e-10,{value}\n"
+    (filled / "fields" / "1_1.csv").write_text(f"x [m], y [m], area [m^2], {head}\n{rows}")
     assert slipstick("judge", filled) == 2
     error = capsys.readouterr().err
     assert said in error
     assert "usecols" not in error
+
+
+def test_a_traction_that_is_not_asked_of_a_step_is_named(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    slipstick("challenge", "export", "cattaneo_mindlin", "-o", tmp_path)
+    assert "`x [m],y [m],area [m^2],shear_x [Pa]`" in (tmp_path / "problem.md").read_text()
+    named(tmp_path)
+    (tmp_path / "fields").mkdir()
+    (tmp_path / "fields" / "1_1.csv").write_text("x [m],y [m],area [m^2],pressure [Pa]\n0,0,1,1\n")
+    assert slipstick("judge", tmp_path) == 2
+    assert "no traction of step 1 is asked, but of step 2, 3, 4, 5" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("name", ["cattaneo_mindlin", "sliding_stress"])
+def test_one_file_answers_as_all_tables_do(
+    name: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    challenge, lines = challenges()[name], []
+    for folder, at_once in ((tmp_path / "tables", False), (tmp_path / "one", True)):
+        slipstick("challenge", "export", name, "-o", folder)
+        fill(folder, exact(challenge, 1e-3, cells=48), challenge)
+        if at_once:
+            in_one_file(folder)
+        assert slipstick("judge", folder) == 0
+        lines.append(capsys.readouterr().out)
+    assert lines[0].replace("tables", "one") == lines[1]
+    assert " 0 of " in lines[1]
+
+
+def in_one_file(folder: Path) -> None:
+    """The tables of a folder as answers.json in their place."""
+    parts: dict[str, list[dict[str, object]]] = {"fields": []}
+    for part, table in (("levels", "levels.csv"), ("values", "answers.csv")):
+        with (folder / table).open() as file:
+            parts[part] = list(csv.DictReader(file))
+        (folder / table).unlink()
+    for file in sorted((folder / "fields").iterdir()):
+        head = file.read_text().partition("\n")[0].split(",")
+        numbers = np.loadtxt(file, delimiter=",", skiprows=1)
+        columns: dict[str, object] = dict(zip(head, numbers.T.tolist(), strict=True))
+        level, step = file.stem.split("_")
+        parts["fields"].append({"level": level, "load_step": step, **columns})
+        file.unlink()
+    (folder / "answers.json").write_text(json.dumps(parts))
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="has no such devices and queues")

@@ -204,7 +204,8 @@ ORDERS = {
     ),
     "verification.challenge": (
         *("halves", "round_table", "asked", "often_asked", "frictional_cases", "cases_at_places"),
-        *("paper_figure", "tilted_cases", "cases", "toml_text", "export", "answer", "reading"),
+        *("paper_figure", "tilted_cases", "cases", "toml_text", "export", "answer"),
+        *("answer_files", "field_tables", "reading"),
         *("coverage", "verdicts", "judgement", "door", "named_solver"),
     ),
     "slipstick": (

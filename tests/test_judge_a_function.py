@@ -29,6 +29,30 @@ def raises(problem, level):
 def cannot(problem, level):
     raise CannotDo("balls only")
 
+def nothing(problem, level):
+    return None
+
+def no_values(problem, level):
+    return Answer(1e-5, {("approach", 1): None})
+
+def typo(problem, level):
+    return Answer(1e-5, {("aproach", 1): HERTZ.approach})
+
+def alone(problem, level):
+    return Answer(1e-5, {"approach": HERTZ.approach})
+
+def word(problem, level):
+    return Answer(1e-5, {("approach", 1): "8 um"})
+
+def three(problem, level):
+    return Answer(1e-5, {("approach", 1): [1.0, 2.0, 3.0]})
+
+def endless(problem, level):
+    return Answer(float("nan"), {("approach", 1): HERTZ.approach})
+
+def rising(problem, level):
+    return Answer(1e-5 * (1 + level), {("approach", 1): HERTZ.approach})
+
 number = 3
 """
 
@@ -53,6 +77,14 @@ def judge(*arguments: object) -> int:
         ("cannot", ("--strict",), 6, "cannot: balls only"),
         ("missing", (), 2, "has no function 'missing'"),
         ("number", (), 2, "has no function 'number'"),
+        ("nothing", (), 2, "NoneType came back, expected an Answer"),
+        ("no_values", (), 2, "nothing to judge"),
+        ("typo", (), 2, "('aproach', 1) is not asked; asked: ('approach', 1)"),
+        ("alone", (), 2, "'approach', expected a quantity and a loading step"),
+        ("word", (), 2, "is '8 um', expected a number"),
+        ("three", (), 2, "has 3 numbers, expected one"),
+        ("endless", (), 2, "h is nan, expected a positive length"),
+        ("rising", ("--levels", "2"), 2, "levels go from coarse to fine"),
     ],
 )
 def test_the_exit_code_says_how_a_function_did(
@@ -89,6 +121,7 @@ def test_a_file_imports_what_lies_beside_it(
         (("none.py:solve",), "needs --case"),
         (("none.py:solve", "--case", "hertz_pont"), "hertz_point"),
         (("folder", "--case", "hertz_point"), "--case is for a function"),
+        (("folder",), "expected the folder of 'slipstick challenge export'"),
     ],
 )
 def test_what_names_no_solver_is_refused(

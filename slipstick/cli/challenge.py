@@ -43,8 +43,11 @@ def challenge(
     if action is Action.LIST:
         from slipstick.cli.terminal import print_table
 
-        rows = [(one.name, str(len(one.values)), one.title) for one in known.values()]
-        print_table(("challenge", "numbers", "title"), rows)
+        rows = [
+            (one.name, str(len(one.numbers)), str(len(one.fields)), one.title)
+            for one in known.values()
+        ]
+        print_table(("challenge", "numbers", "fields", "title"), rows)
         return
     if case is None:
         raise typer.BadParameter(f"name a challenge; there are {', '.join(known)}")

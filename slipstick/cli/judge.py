@@ -90,6 +90,7 @@ def _solved(
     name: str, case: str | None, levels: int, grade: GradeName | None, strict: bool
 ) -> Judgement:
     """Of a function; ends the command where it cannot or raises."""
+    from contact_results.directory.refusal import Refused
     from slipstick.cli.errors import ExitCode
     from slipstick.cli.name_mistakes import unknown_names
     from verification.challenge.answer import Solver
@@ -105,6 +106,8 @@ def _solved(
     solve = named_solver(name)
     try:
         return judge_solver(case, solve, levels, grade, Solver(name))
+    except Refused as reason:
+        raise Refused(f"{case} by {name}: {reason}") from None
     except CannotDo as reason:
         typer.echo(f"{case} | {name} | cannot: {reason}")
         raise typer.Exit(ExitCode.INCONCLUSIVE if strict else ExitCode.PASS) from None

@@ -30,14 +30,17 @@ class Field:
     area: Vector
 
     def __post_init__(self) -> None:
-        sizes = {name: np.size(getattr(self, name)) for name in ("x", "y", "value", "area")}
+        for name in ("x", "y", "value", "area"):
+            flat = np.ravel(np.asarray(getattr(self, name), dtype=np.float64))
+            object.__setattr__(self, name, flat)
+        sizes = {name: getattr(self, name).size for name in ("x", "y", "value", "area")}
         if len(set(sizes.values())) > 1:
             told = ", ".join(f"{size} of {name}" for name, size in sizes.items())
             raise ValueError(f"a field needs as many numbers of each: {told}")
-        if not sizes["x"]:
-            raise ValueError("a field needs points; leave out what has none")
-        if not np.all(np.asarray(self.area) > 0):
-            raise ValueError("areas of a field must be positive")
+        if not self.x.size:
+            raise ValueError("no points; leave out a field that has none")
+        if not np.all(self.area > 0):
+            raise ValueError("areas must be positive")
 
 
 @dataclass(frozen=True)

@@ -2,13 +2,19 @@
 
 from __future__ import annotations
 
+import math
 import time
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
+from functools import cache
+from itertools import pairwise
 from typing import Any
 
+import numpy as np
+
+from contact_results.directory.refusal import Refused
 from verification.challenge.answer import Answer, Key, Solver, Vector
-from verification.challenge.asked import Grade
+from verification.challenge.asked import Challenge, Grade
 from verification.challenge.cases import challenges
 from verification.challenge.judgement import Judgement, judged
 
@@ -79,15 +85,68 @@ def judge(
     solver
         Who it is; None: the function's name.
 
-    Raises what `solve` raises, and KeyError for an unknown challenge.
+    Raises what `solve` raises, Refused for what is no answer to this challenge, and KeyError for an
+    unknown challenge.
     """
     problem, answers = posed(name), []
     for level in range(levels):
         started = time.process_time()
-        answer = solve(problem, level)
+        answer = _checked(solve(problem, level), challenges()[name], level)
         spent = time.process_time() - started
         seconds = spent if answer.seconds is None else answer.seconds
         answers.append(replace(answer, label=answer.label or str(level), seconds=seconds))
+    found = [one for one in answers if 0 not in one.gave_up]
+    for coarse, fine in pairwise(found):
+        if fine.h > coarse.h:
+            raise Refused(
+                f"h is {fine.h:g} m on level {fine.label} after {coarse.h:g} m on level "
+                f"{coarse.label}; levels go from coarse to fine"
+            )
+    if not any(one.scalars or one.points or one.fields or one.gave_up for one in answers):
+        raise Refused("nothing is answered; there is nothing to judge")
     who = solver or Solver(getattr(solve, "__name__", "solver"))
     grade = None if at_least is None else Grade(at_least)
     return judged(challenges()[name], who, answers, grade)
+
+
+def _checked(answer: object, challenge: Challenge, level: int) -> Answer:
+    """What a function returned, in numbers. More than is asked is let pass, but by names that some
+    challenge asks for: others are slips."""
+    if not isinstance(answer, Answer):
+        raise Refused(f"level {level}: {type(answer).__name__} came back, expected an Answer")
+    if not 0 < answer.h < math.inf:
+        raise Refused(f"level {level}: h is {answer.h!r}, expected a positive length [m]")
+    steps = max((ramp.step for ramp in challenge.ramps), default=1)
+    for key in (*answer.scalars, *answer.fields, *answer.points):
+        if not isinstance(key, tuple) or len(key) != 2:
+            raise Refused(f"level {level}: {key!r}, expected a quantity and a loading step")
+        if key[0] not in _names() or key[1] not in range(1, steps + 1):
+            known = ", ".join(map(repr, _asked(challenge)))
+            raise Refused(f"level {level}: {key!r} is not asked; asked: {known}")
+    scalars: dict[Key, float | tuple[float, float]] = {}
+    given = {key: value for key, value in answer.scalars.items() if value is not None}
+    for key, value in given.items():
+        try:
+            numbers = np.ravel(np.asarray(value, dtype=np.float64))
+        except (ValueError, TypeError):
+            raise Refused(f"level {level}: {key!r} is {value!r}, expected a number") from None
+        if numbers.size == 1:
+            scalars[key] = float(numbers[0])
+        elif isinstance(value, tuple) and numbers.size == 2:
+            scalars[key] = float(numbers[0]), float(numbers[1])
+        else:
+            raise Refused(
+                f"level {level}: {key!r} has {numbers.size} numbers, expected one, or a pair "
+                "with its uncertainty"
+            )
+    return replace(answer, scalars=scalars)
+
+
+def _asked(challenge: Challenge) -> list[Key]:
+    return [(one.quantity, one.step) for one in (*challenge.numbers, *challenge.fields)]
+
+
+@cache
+def _names() -> frozenset[str]:
+    """Quantities that challenges ask for."""
+    return frozenset(name for one in challenges().values() for name, _ in _asked(one))

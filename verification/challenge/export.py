@@ -28,6 +28,7 @@ POINT_COLUMNS = ("quantity", "load_step", "point", "x [m]", "y [m]", "z [m]")
 POINT = "point"  # a column more, where numbers at places are asked
 LEVEL_COLUMNS = ("level", "status", "reason", "h", "h_unit", "unknowns", "cpu_seconds")
 FIELD_COLUMNS = ("x [m]", "y [m]", "area [m^2]")
+IN_PASCAL = " [Pa]"  # after the name of a traction, in the head of its table
 TEMPLATES = Path(__file__).parent / "templates"
 GIVEN = ("scene.toml", "asked.csv", POINTS)  # must come back as they went
 
@@ -110,8 +111,18 @@ def _problem(challenge: Challenge) -> str:
         title=challenge.title, problem=challenge.problem,
         steps="\n".join(steps) or "1. the tractions as told above",
         window=f"{challenge.window * 1e3:g} mm square", source=challenge.source,
+        fields=_own_points(challenge),
         shares=challenge.shares or "nothing",
     )  # fmt: skip
+
+
+def _own_points(challenge: Challenge) -> str:
+    """What is said of tractions, where there are any."""
+    if not challenge.fields:
+        return ""
+    step, heads = challenge.fields[0].step, list(FIELD_COLUMNS)
+    heads += [f"{f.quantity}{IN_PASCAL}" for f in challenge.fields if f.step == step]
+    return "\n" + _template_text("fields.md").format(step=step, columns=",".join(heads)).rstrip()
 
 
 def _ends(ramp: LoadRamp) -> Iterator[str]:

@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-import csv
 import json
 import math
 import tomllib
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from decimal import Context, Decimal, InvalidOperation
 from pathlib import Path
 from types import MappingProxyType
@@ -16,14 +15,13 @@ import numpy as np
 
 from contact_results.directory.refusal import Refused
 from contact_scene.units import LENGTH, MOMENT, PRESSURE, ROTATION, Kind, UnknownUnit
-from verification.challenge.answer import SAMPLINGS, Answer, Field, Key, Solver, Vector
+from verification.challenge.answer import SAMPLINGS, Answer, Key, Solver, Vector
+from verification.challenge.answer_files import IN_ONE, rows, text_of
 from verification.challenge.asked import AskedPoints, Challenge, Grade
 from verification.challenge.cases import challenges
 from verification.challenge.export import (
     ANSWER_COLUMNS,
     ANSWERS,
-    FIELD_COLUMNS,
-    FIELDS,
     GIVEN,
     LEVEL_COLUMNS,
     LEVELS,
@@ -34,12 +32,11 @@ from verification.challenge.export import (
     SOLVER,
     digest,
 )
+from verification.challenge.field_tables import read_fields
 
 _ENERGIES = {"J": "1", "mJ": "1e-3", "uJ": "1e-6", "µJ": "1e-6", "N m": "1", "N mm": "1e-3"}
 ENERGY = Kind("J", '"3 uJ"', MappingProxyType({unit: Decimal(f) for unit, f in _ENERGIES.items()}))
 KINDS = {"m": LENGTH, "Pa": PRESSURE, "J": ENERGY, "N m": MOMENT, "rad": ROTATION}
-MOST_BYTES = 100_000_000
-IN_PASCAL = " [Pa]"  # after the name of a traction, in the head of its table
 EXACT = Context(prec=40)
 SOLVED, GAVE_UP = "solved", "gave up"
 
@@ -50,12 +47,13 @@ def read_answers(directory: Path) -> tuple[Challenge, Solver, tuple[Answer, ...]
     Raises Refused with file, line, what came and what is expected.
     """
     challenge = _challenge(directory)
+    file = directory / (IN_ONE if (directory / IN_ONE).exists() else ANSWERS)
     solver = _solver(directory / SOLVER)
-    levels = dict(_levels(directory / LEVELS))
+    levels = dict(_levels(directory, challenge.window))
     values: dict[str, dict[Key, float | tuple[float, float]]] = {name: {} for name in levels}
     at_places: dict[str, dict[Key, Vector]] = {name: {} for name in levels}
     filled: set[tuple[str, Key, int]] = set()
-    for where, level, key, point, value in _values(directory / ANSWERS, challenge):
+    for where, level, key, point, value in _values(directory, challenge):
         if level not in levels:
             known = ", ".join(levels) or "none"
             raise Refused(f"{where}: level {level!r} is not in {LEVELS}; there are {known}")
@@ -73,10 +71,10 @@ def read_answers(directory: Path) -> tuple[Challenge, Solver, tuple[Answer, ...]
             open_ones = [n for n in range(1, 1 + len(each)) if (level, key, n) not in filled]
             if open_ones:
                 raise Refused(
-                    f"{directory / ANSWERS}: {key[0]} of step {key[1]} on level {level} has no "
+                    f"{file}: {key[0]} of step {key[1]} on level {level} has no "
                     f"value at point {', '.join(map(str, open_ones))}; fill in all or none"
                 )
-    fields = _fields(directory / FIELDS, challenge, levels)
+    fields = read_fields(directory, challenge, levels)
     answers = tuple(
         Answer(
             scalars=values[name], points=at_places[name], fields=fields.get(name, {}),
@@ -85,14 +83,19 @@ def read_answers(directory: Path) -> tuple[Challenge, Solver, tuple[Answer, ...]
         for name, level in levels.items()
     )  # fmt: skip
     if not any(a.scalars or a.points or a.fields or a.gave_up for a in answers):
-        raise Refused(f"{directory / ANSWERS}: no value is filled in; there is nothing to judge")
+        raise Refused(f"{file}: no value is filled in; there is nothing to judge")
     return challenge, solver, answers
 
 
 def _challenge(directory: Path) -> Challenge:
     path = directory / MANIFEST
+    if not path.exists():
+        raise Refused(
+            f"{path}: no such file; expected the folder of 'slipstick challenge export', or "
+            "FILE.py:FUNCTION"
+        )
     try:
-        manifest = json.loads(_text(path))
+        manifest = json.loads(text_of(path))
         schema, name, version = (manifest[key] for key in ("schema", "case", "case_version"))
         files = {given: manifest["files"][given] for given in GIVEN}
     except (ValueError, KeyError, TypeError, RecursionError) as error:
@@ -108,14 +111,14 @@ def _challenge(directory: Path) -> Challenge:
             f"{challenge.version}; export it again"
         )
     for given, sha in files.items():
-        if digest(_text(directory / given)) != sha:
+        if digest(text_of(directory / given)) != sha:
             raise Refused(f"{directory / given}: differs from what was exported; export it again")
     return challenge
 
 
 def _solver(path: Path) -> Solver:
     try:
-        content = tomllib.loads(_text(path))
+        content = tomllib.loads(text_of(path))
     except (tomllib.TOMLDecodeError, RecursionError) as error:
         raise Refused(f"{path}: {error}") from None
     tables = {key: content.get(key, {}) for key in ("solver", "convention", "claims")}
@@ -147,32 +150,41 @@ def _solver(path: Path) -> Solver:
     )  # fmt: skip
 
 
-def _levels(path: Path) -> Iterator[tuple[str, dict[str, Any]]]:
+def _levels(folder: Path, window: float) -> Iterator[tuple[str, dict[str, Any]]]:
     seen: set[str] = set()
-    for where, row in _rows(path, LEVEL_COLUMNS):
+    coarser = window
+    for where, row in rows(folder, LEVELS, LEVEL_COLUMNS):
         name, status = row["level"], row["status"]
         if not name or name in seen:
             raise Refused(f"{where}: level {name!r} {'twice' if name else 'has no name'}")
         seen.add(name)
         if status not in (SOLVED, GAVE_UP):
             raise Refused(f"{where}: status {status!r}, expected {SOLVED!r} or {GAVE_UP!r}")
-        unknowns, seconds = (row[k] and _number(where, row[k]) for k in ("unknowns", "cpu_seconds"))
+        unknowns, seconds = (_counted(where, k, row[k]) for k in ("unknowns", "cpu_seconds"))
+        h = _si(where, row["h"], row["h_unit"], LENGTH)
+        if not 0 < h <= coarser:
+            than = "its window" if coarser == window else "the level before"
+            raise Refused(
+                f"{where}: h is {h:g} m, expected a length of at most {coarser:g} m, that of "
+                f"{than}: levels go from coarse to fine"
+            )
+        coarser = h
         yield (
             name,
             {
-                "h": _positive(where, _si(where, row["h"], row["h_unit"], LENGTH)),
+                "h": h,
                 "gave_up": {0: row["reason"] or "no reason given"} if status == GAVE_UP else {},
-                "unknowns": int(unknowns) if unknowns else None,
-                "seconds": float(seconds) if seconds else None,
+                "unknowns": None if unknowns is None else int(unknowns),
+                "seconds": seconds,
             },
         )
 
 
 def _values(
-    path: Path, challenge: Challenge
+    folder: Path, challenge: Challenge
 ) -> Iterator[tuple[str, str, Key, int, float | tuple[float, float]]]:
     """Place in the file, level, key, point (0: none), value with u if one is given."""
-    for where, row in _rows(path, ANSWER_COLUMNS):
+    for where, row in rows(folder, ANSWERS, ANSWER_COLUMNS):
         if not row["value"]:
             continue
         step = _step(where, row["load_step"])
@@ -204,58 +216,6 @@ def _point(where: str, text: str, asked: AskedPoints) -> int:
     return int(text)
 
 
-def _fields(
-    folder: Path, challenge: Challenge, levels: Mapping[str, Any]
-) -> dict[str, dict[Key, Field]]:
-    found: dict[str, dict[Key, Field]] = {}
-    for path in sorted(folder.glob("*")) if folder.is_dir() else ():
-        level, _, step = path.stem.rpartition("_")
-        if path.suffix != ".csv" or level not in levels or not step.isdigit():
-            raise Refused(f"{path}: expected LEVEL_STEP.csv, with a level of {LEVELS}")
-        header = [name.strip() for name in _text(path).partition("\n")[0].split(",")]
-        here = [f.quantity for f in challenge.fields if f.step == int(step)]
-        quantities = [q for q in here if f"{q}{IN_PASCAL}" in header]
-        if missing := [name for name in FIELD_COLUMNS if name not in header]:
-            raise Refused(f"{path}:1: no column {', '.join(missing)}")
-        if not quantities:
-            expected = " or ".join(f"'{q}{IN_PASCAL}'" for q in here) or "none"
-            raise Refused(f"{path}:1: no traction of step {step}, expected {expected}")
-        try:
-            table = np.loadtxt(path, delimiter=",", skiprows=1, ndmin=2)
-        except ValueError as error:
-            reason = str(error).partition("; use `usecols`")[0]
-            raise Refused(f"{path}, below its head: {reason}") from None
-        x, y, area = (table[:, header.index(name)] for name in FIELD_COLUMNS)
-        if not np.all(area > 0):
-            raise Refused(f"{path}: areas must be positive")
-        for quantity in quantities:
-            value = table[:, header.index(f"{quantity}{IN_PASCAL}")]
-            found.setdefault(level, {})[quantity, int(step)] = Field(x, y, value, area)
-    return found
-
-
-def _rows(path: Path, columns: tuple[str, ...]) -> Iterator[tuple[str, dict[str, str]]]:
-    reader = csv.DictReader(_text(path).splitlines(), restkey="more")
-    if missing := [name for name in columns if name not in (reader.fieldnames or ())]:
-        raise Refused(f"{path}:1: no column {', '.join(missing)}; expected {', '.join(columns)}")
-    for row in reader:
-        if "more" in row:
-            raise Refused(f"{path}:{reader.line_num}: more values than columns")
-        yield f"{path}:{reader.line_num}", {k: (v or "").strip() for k, v in row.items()}
-
-
-def _text(path: Path) -> str:
-    try:
-        if path.exists() and not path.is_file():
-            raise Refused(f"{path}: is not a regular file")
-        if path.stat().st_size > MOST_BYTES:
-            raise Refused(f"{path}: larger than {MOST_BYTES // 10**6} MB")
-        return path.read_text(encoding="utf-8-sig")
-    except (OSError, UnicodeDecodeError) as error:
-        reason = getattr(error, "strerror", None) or "not text in UTF-8"
-        raise Refused(f"{path}: {reason}") from None
-
-
 def _step(where: str, text: str) -> int:
     if not text.isdigit() or len(text) > 6:
         raise Refused(f"{where}: load_step {text!r}, expected a whole number from 1")
@@ -269,10 +229,14 @@ def _number(where: str, text: str) -> float:
         raise Refused(f"{where}: {text!r} is no number") from None
 
 
-def _positive(where: str, value: float) -> float:
-    if not 0 < value < math.inf:
-        raise Refused(f"{where}: h is {value:g}, expected a positive length")
-    return value
+def _counted(where: str, name: str, text: str) -> float | None:
+    """None where nobody counted."""
+    if not text:
+        return None
+    number = _number(where, text)
+    if not 0 <= number < math.inf:
+        raise Refused(f"{where}: {name} is {text}, expected a positive number, or none")
+    return number
 
 
 def _si(where: str, text: str, unit: str, kind: Kind) -> float:

@@ -12,7 +12,7 @@ import numpy as np
 from verification.cell_means import cell_means
 from verification.challenge.answer import Answer, Field, Key, Solver
 from verification.challenge.asked import AskedField, AskedPoints, AskedValue, Challenge, Grade
-from verification.challenge.coverage import covered
+from verification.challenge.coverage import sums_of
 from verification.convergence.observed_order import ILLEGIBLE, observed_order
 from verification.judging.outcome import Status
 
@@ -90,6 +90,7 @@ def _of_value(
     found = [(one, value) for one in levels if (value := one.value(key)) is not None]
     if not found:
         return
+    yield from _not_on_finest(key, found[-1][0], levels[-1])
     errors = [(one.h, abs(value - asked.value) / asked.scale) for one, value in found]
     finest, value = found[-1]
     known = not solver.meshless and _known(asked, errors)
@@ -149,10 +150,7 @@ def _of_field(
     found = [(one, one.fields[key]) for one in levels if key in one.fields]
     if not found:
         return
-    last = levels[-1]
-    if key not in last.fields and not {0, asked.step} & last.gave_up.keys():
-        yield Row(f"{asked.quantity}: finest level", asked.step, last.label, Status.INCONCLUSIVE,
-                  f"not answered there; judged on level {found[-1][0].label}")  # fmt: skip
+    yield from _not_on_finest(key, found[-1][0], levels[-1])
     errors = []
     for one, field in found:
         if solver.sampling == "cell":
@@ -176,26 +174,16 @@ def _of_field(
 def _of_areas(asked: AskedField, field: Field, level: str, bound: float) -> Iterator[Row]:
     """Whether points stand for those around them, and for all of the contact: else they carry the
     load but not where it is, or have only the places that are easy."""
-    forces, exact = field.value * field.area, asked.traction
-    reach = asked.scale * max(exact.semi_axes) ** 2
-    area, scatter = covered(field, exact.semi_axes)
-    for name, sums, has, should, scale, least in (
-        ("load carried", "Σ value·area", np.sum(forces), asked.total, asked.scale, 0.0),
-        ("spread of the load", "Σ value·area·r²",
-         np.sum(forces * (field.x**2 + field.y**2)), exact.spread, reach, 0.0),
-        ("contact covered", "Σ area in the contact, over its own", area, 1.0, 1.0, scatter),
-    ):  # fmt: skip
-        missed, allowed = abs(float(has) - should) / scale, max(bound, least)
+    for name, sums, has, should, scale, least in sums_of(asked, field):
+        missed, allowed = abs(has - should) / scale, max(bound, least)
         if missed <= allowed:
             status, because = Status.PASS, sums
         else:
-            of = (
-                f"{float(has) / should:.4g} of what it should be" if should else f"{has:.3g}, not 0"
-            )
+            of = f"{has / should:.4g} of what it should be" if should else f"{has:.3g}, not 0"
             status, because = Status.FAIL, f"{sums}: {of}"
         yield Row(
             f"{asked.quantity}: {name}", asked.step, level, status, because,
-            float(has), should, missed, allowed,
+            has, should, missed, allowed,
         )  # fmt: skip
 
 
@@ -214,8 +202,17 @@ def _of_points(
                 f"each of the {len(asked.places)} places"
             )
         errors.append((one.h, float(np.max(np.abs(values - asked.values)) / asked.scale)))
+    yield from _not_on_finest(key, found[-1][0], levels[-1])
     yield _judged(key, found[-1][0].label, None, None, errors, grade, asked.uncertainty, "")
     yield from _convergence(key, solver, errors, asked.uncertainty)
+
+
+def _not_on_finest(key: Key, judged: Answer, finest: Answer) -> Iterator[Row]:
+    """Or who left out the worst would be judged by the rest."""
+    quantity, step = key
+    if not finest.has(key) and not {0, step} & finest.gave_up.keys():
+        yield Row(f"{quantity}: finest level", step, finest.label, Status.INCONCLUSIVE,
+                  f"not answered there; judged on level {judged.label}")  # fmt: skip
 
 
 def _judged(
