@@ -196,9 +196,9 @@ def test_rings_cover_the_contact_with_the_last_node_in_it_or_beyond(
 ) -> None:
     (asked,) = POINT.fields
     h = HERTZ.contact_radius / (24 + off)
-    r = h * np.arange(25 + beyond)
+    r = h * np.arange(25.0 + beyond)
     ends = np.maximum(np.array([r - h / 2, r + h / 2]), 0.0)
-    area = np.pi * np.diff(ends**2, axis=0)[0]
+    area = np.asarray(np.pi * np.diff(ends**2, axis=0)[0], dtype=np.float64)
     field = Field(r, np.zeros_like(r), asked.traction.at(r, np.zeros_like(r)), area)
     key, told = ("pressure", 1), "pressure: contact covered"
     assert statuses(POINT, Answer(h, fields={key: field}))[told] is Status.PASS
@@ -327,11 +327,13 @@ def test_a_number_that_the_finest_level_lacks_leaves_it_open(name: str) -> None:
     challenge = challenges()[name]
     number = challenge.numbers[-1]
     key, whole = (number.quantity, number.step), exact(challenge)
-    parts = {
-        part: {k: v for k, v in getattr(whole, part).items() if k != key}
-        for part in ("scalars", "points")
-    }
-    found = judged(challenge, Solver("s"), [whole, replace(whole, h=5e-6, **parts)])
+    fine = replace(
+        whole,
+        h=5e-6,
+        scalars={k: v for k, v in whole.scalars.items() if k != key},
+        points={k: v for k, v in whole.points.items() if k != key},
+    )
+    found = judged(challenge, Solver("s"), [whole, fine])
     (told,) = (row for row in found.rows if row.quantity == f"{number.quantity}: finest level")
     assert told.status is Status.INCONCLUSIVE
 
@@ -390,7 +392,7 @@ def write(folder: Path, *rows: tuple[str, ...]) -> None:
 def fill(folder: Path, answer: Answer, challenge: Challenge) -> None:
     """Write an answer as a stranger would."""
     named(folder)
-    rows = [
+    rows: list[tuple[str, ...]] = [
         ("1", str(v.step), v.quantity, repr(float(answer.value((v.quantity, v.step)) or 0)), v.unit)
         for v in challenge.values
     ]
@@ -598,13 +600,13 @@ def in_one_file(folder: Path) -> None:
         with (folder / table).open() as file:
             parts[part] = list(csv.DictReader(file))
         (folder / table).unlink()
-    for file in sorted((folder / "fields").iterdir()):
-        head = file.read_text().partition("\n")[0].split(",")
-        numbers = np.loadtxt(file, delimiter=",", skiprows=1)
+    for path in sorted((folder / "fields").iterdir()):
+        head = path.read_text().partition("\n")[0].split(",")
+        numbers = np.loadtxt(path, delimiter=",", skiprows=1)
         columns: dict[str, object] = dict(zip(head, numbers.T.tolist(), strict=True))
-        level, step = file.stem.split("_")
+        level, step = path.stem.split("_")
         parts["fields"].append({"level": level, "load_step": step, **columns})
-        file.unlink()
+        path.unlink()
     (folder / "answers.json").write_text(json.dumps(parts))
 
 

@@ -46,6 +46,6 @@ def _covered(field: Field, semi_axes: tuple[float, float]) -> tuple[float, float
     if np.isnan(within):
         within = float(np.sum(area))
     if not np.any(field.y):
-        return within, float(area[max(np.searchsorted(out, 1.0, "right") - 1, 0)]) / 2
+        return within, float(area[max(int(np.searchsorted(out, 1.0, "right")) - 1, 0)]) / 2
     cells = 1 / float(np.median(area))
     return within, SCATTER * cells**-0.75 * pi**-0.25

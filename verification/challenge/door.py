@@ -117,15 +117,18 @@ def _checked(answer: object, challenge: Challenge, level: int) -> Answer:
     if not 0 < answer.h < math.inf:
         raise Refused(f"level {level}: h is {answer.h!r}, expected a positive length [m]")
     steps = max((ramp.step for ramp in challenge.ramps), default=1)
-    for key in (*answer.scalars, *answer.fields, *answer.points):
+    keys: tuple[Any, ...] = (*answer.scalars, *answer.fields, *answer.points)
+    for key in keys:
         if not isinstance(key, tuple) or len(key) != 2:
             raise Refused(f"level {level}: {key!r}, expected a quantity and a loading step")
         if key[0] not in _names() or key[1] not in range(1, steps + 1):
             known = ", ".join(map(repr, _asked(challenge)))
             raise Refused(f"level {level}: {key!r} is not asked; asked: {known}")
     scalars: dict[Key, float | tuple[float, float]] = {}
-    given = {key: value for key, value in answer.scalars.items() if value is not None}
+    given: dict[Key, Any] = {**answer.scalars}
     for key, value in given.items():
+        if value is None:
+            continue
         try:
             numbers = np.ravel(np.asarray(value, dtype=np.float64))
         except (ValueError, TypeError):
