@@ -59,6 +59,21 @@ def test_inputs_that_name_nothing_to_judge_are_refused(
     assert act(tmp_path, **inputs)[0] == 2
 
 
+def test_pip_gets_versions_that_it_takes_with_a_folder(tmp_path: Path) -> None:
+    """With a hash among them it would install no folder."""
+    said = tmp_path / "said"
+    stand_in = tmp_path / "python"
+    stand_in.write_text(f"""#!/bin/sh\necho "$@" >{said}\ncat "$6" >>{said}\n""")
+    stand_in.chmod(0o755)
+    path = f"{tmp_path}{os.pathsep}{os.environ['PATH']}"
+    subprocess.run(["bash", ACTION / "install.sh"], env={**os.environ, "PATH": path}, check=True)
+    asked, *versions = said.read_text().splitlines()
+    assert asked.startswith("-m pip install --quiet -c ")
+    assert asked.endswith(f" {ACTION.parents[2]}")
+    assert any(line.startswith("numpy==") for line in versions)
+    assert not any("hash" in line or line.endswith("\\") for line in versions if line[:1] != "#")
+
+
 def test_no_input_is_pasted_into_the_shell() -> None:
     text = (ACTION / "action.yml").read_text(encoding="utf-8")
     runs = re.findall(r"^ +run: (.+)$", text, re.MULTILINE)

@@ -23,7 +23,7 @@ def row_texts(row: Row) -> tuple[str, ...]:
         row.level,
         f"{SYMBOLS[row.status]} {WORDS[row.status]}",
         WHOLE if row.error is None else f"{row.error:.2e}",
-        WHOLE if row.bound is None else f"{row.bound:g}",
+        WHOLE if row.bound is None else f"{row.bound:.3g}",
         row.grade or WHOLE,
         WHOLE if row.order is None else order_text(row.order),
         row.because,
@@ -66,16 +66,22 @@ def _levels(judgement: Judgement) -> Table:
 
 
 def _charts(judgement: Judgement) -> list[Chart]:
-    """The largest errors by fineness."""
+    """The largest errors by fineness, and by what they cost."""
     fallen = [row for row in judgement.rows if len(row.errors) > 1]
     fallen.sort(key=lambda row: -(row.error or 0.0))
-    lines = [(f"{r.quantity}, step {r.step}", drawable(r.errors)) for r in fallen[:MOST_CURVES]]
-    if not any(points for _, points in lines):
-        return []
-    return [
-        log_chart(
-            "errors", "Errors by fineness", "Of the numbers and fields with the largest errors, "
-            "each over its scale, against the size h of a cell or element.",
-            "h [m]", "error", point_curves(lines),
-        )
-    ]  # fmt: skip
+    seconds = {one.h: one.seconds for one in judgement.answers}
+    of = "Of the numbers and fields with the largest errors, each over its scale, against"
+    charts = []
+    for name, title, against, label, by_h in (
+        ("errors", "Errors by fineness", "the size h of a cell or element.", "h [m]", None),
+        ("cost", "Errors by cost", "the CPU time of the level.", "CPU time [s]", seconds),
+    ):
+        lines = [
+            (f"{r.quantity}, step {r.step}",
+             drawable((h if by_h is None else by_h.get(h), e) for h, e in r.errors))
+            for r in fallen[:MOST_CURVES]
+        ]  # fmt: skip
+        if any(len(points) > 1 for _, points in lines):
+            caption = f"{of} {against}"
+            charts.append(log_chart(name, title, caption, label, "error", point_curves(lines)))
+    return charts
