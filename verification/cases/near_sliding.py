@@ -30,9 +30,9 @@ OF_SLIDING = (
 )  # fmt: skip
 OF_STEP = (
     Within(
-        SHIFT, 1e-3,
+        SHIFT, 4e-4,
         "the stick zone is a few cells wide or less: its force is known to a part of a cell's, the "
-        "shift with it",
+        "shift with it; four times what the narrowest leaves",
     ),
 )  # fmt: skip
 
