@@ -422,6 +422,20 @@ def test_filled_files_pass_and_their_sheet_is_escaped(
     assert (badge["message"], badge["color"]) == ("A · 2/2", "brightgreen")
 
 
+@pytest.mark.parametrize(
+    ("off", "left_out", "message", "colour"),
+    [(5e-5, 0, "A · 3/3", "brightgreen"), (5e-4, 0, "B · 3/3", "green"), (5e-3, 0, "C · 0/3", "red"),
+     (5e-2, 0, "none · 0/3", "red"), (5e-5, 1, "partial · 2/2", "lightgrey")],
+)  # fmt: skip
+def test_a_badge_has_the_colour_of_its_class_and_is_red_where_something_fails(
+    off: float, left_out: int, message: str, colour: str
+) -> None:
+    whole = exact(POINT, off)
+    answer = replace(whole, scalars=dict(list(whole.scalars.items())[left_out:]))
+    badge = json.loads(judged(POINT, Solver("s"), [answer]).badge())
+    assert (badge["message"], badge["color"]) == (message, colour)
+
+
 def test_what_is_required_and_missing_is_no_class(
     filled: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
