@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Callable
 from contextlib import suppress
-from subprocess import CalledProcessError
+from subprocess import CalledProcessError, run
 from typing import Any
 
 import numpy as np
 import pytest
 
+from contact_results.directory.machine import program_version
 from contact_scene import Scene
 from contact_scene.solver_errors import NotConverged
 from verification import Answer, CannotDo, Solver, judge
@@ -20,10 +22,13 @@ from verification.challenge.judgement import Judgement
 from verification.external_codes import under_force
 from verification.external_codes.calculix_deck import Fineness
 from verification.external_codes.coated_scene import CoatedScene
+from verification.judging.case import Level
 from verification.judging.outcome import Status
 from verification.peers.drivers.exchange import approach_of, gap_of
 from verification.peers.environment import PEERS
 from verification.problems.paper_scene import HERTZ
+from verification.running.study import Settings
+from verification.studies import scoreboard
 
 Solve = Callable[[Posed, int], Answer]
 CELLS = (surface.answer, surface.ON_CELLS)
@@ -286,3 +291,31 @@ def test_increments_are_refined_with_the_elements_where_the_way_matters(
     assert all(count and count > 1 for count in coarse)
     assert fine == [4 * count for count in coarse if count]
     assert others == [[1] * 4, [None]]
+
+
+def test_the_scoreboard_names_the_version_and_the_price_of_a_code() -> None:
+    run = scoreboard.ScoredRun(radius.ON_RADII.name, "hertz_point", 2)
+    refused = scoreboard.ScoredRun(radius.ON_RADII.name, "tilted_ball", 2)
+    records = {one.name: one.compute() for one in (run, refused)}
+    found = scoreboard.conclude(Settings(level=Level.QUICK, levels=2), records)
+    (line,) = found.statements
+    assert line.claim == f"slipstick, radial {program_version()} answers"
+    assert line.measured == f"1 of {len(challenges())} challenges"
+    priced = {row[0]: row[1] for row in found.tables[1].rows}
+    assert float(priced["hertz_point"]) == pytest.approx(records[run.name].seconds, rel=0.05)
+    assert priced["tilted_ball"] == scoreboard.NO_ANSWER
+
+
+def test_what_calculix_takes_is_counted_in_its_own_process(monkeypatch: pytest.MonkeyPatch) -> None:
+    busy = "import time\nwhile time.process_time() < 0.2: pass"
+
+    def spent(*_: Any) -> Any:
+        run([sys.executable, "-c", busy], check=True)
+        raise ValueError("no result")
+
+    monkeypatch.setattr(calculix, "under_force", spent)
+    monkeypatch.setattr(calculix.shutil, "which", lambda _: "/usr/bin/ccx")
+    found = calculix.answer(posed("hertz_point"), 0)
+    assert found.gave_up
+    assert found.seconds is not None
+    assert found.seconds > 0.15

@@ -5,7 +5,9 @@ from __future__ import annotations
 
 import shutil
 from collections.abc import Mapping
+from dataclasses import replace
 from math import pi
+from resource import RUSAGE_CHILDREN, getrusage
 from subprocess import SubprocessError
 from typing import Any
 
@@ -32,10 +34,18 @@ def answer(posed: Posed, level: int) -> Answer:
     contrast, thickness, friction, hertz = _dimensionless(posed)
     increments = RUBBED if friction else PRESSED
     scene = CoatedScene(posed.name, contrast, thickness, friction, 1.0, increments)
+    before = _spent()
     try:
-        return _answer(posed, hertz, *under_force(scene, 2**level))
+        found = _answer(posed, hertz, *under_force(scene, 2**level))
     except (SubprocessError, ValueError) as error:
-        return given_up(posed, COARSEST * 2**level, error)
+        found = given_up(posed, COARSEST * 2**level, error)
+    return replace(found, seconds=_spent() - before)
+
+
+def _spent() -> float:
+    """CPU seconds of the processes that this one has waited for."""
+    of = getrusage(RUSAGE_CHILDREN)
+    return of.ru_utime + of.ru_stime
 
 
 def _dimensionless(posed: Posed) -> tuple[float, float, float, PointContact]:

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterator
-from dataclasses import dataclass
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, replace
 from math import inf
 
+from contact_results.directory.machine import program_version
 from verification.adapters import calculix, getfem, radius, section, surface
 from verification.adapters.half_spaces import answering
 from verification.challenge.answer import Solver
@@ -15,6 +16,7 @@ from verification.challenge.door import CannotDo, judge
 from verification.challenge.judgement import Judgement
 from verification.exhibits.numbers import plain
 from verification.exhibits.table import NONE, Table
+from verification.external_codes.run_calculix import calculix_version
 from verification.judging.case import Level
 from verification.judging.outcome import Status
 from verification.peers.environment import PEERS, made_environment, peers_directory
@@ -31,8 +33,12 @@ OURS = {
 SLOW = {getfem.GETFEM.name: (getfem.GETFEM, getfem.answer)}
 SLOWEST = {calculix.CALCULIX.name: (calculix.CALCULIX, calculix.answer)}
 SLOW_LEVELS = 2
+NO_ANSWER = "–"
 LEVELS = {Level.QUICK: 3, Level.STANDARD: 3, Level.FULL: 4}
-CANNOT, LINE, GRADE = "cannot", "line", "grade"
+CANNOT, LINE, GRADE, VERSION = "cannot", "line", "grade", "version"
+VERSIONS: dict[str, Callable[[], str]] = {
+    calculix.CALCULIX.name: calculix_version, getfem.GETFEM.name: getfem.version,
+}  # fmt: skip
 
 
 @dataclass(frozen=True)
@@ -62,6 +68,8 @@ class ScoredRun:
     def _judged(self) -> Judgement:
         if self.code in (known := OURS | SLOW | SLOWEST):
             solver, answer = known[self.code]
+            version = VERSIONS.get(self.code, program_version)()
+            solver = replace(solver, version=version)
             return judge(self.challenge, answer, self.levels, solver=solver)
         (peer,) = (peer for peer in PEERS if peer.module == self.code)
         installed = made_environment(peers_directory())
@@ -90,6 +98,7 @@ def conclude(settings: Settings, records: Records) -> Conclusion:
     done = Counter(run.code for run, record in runs if CANNOT not in record.words)
     codes = list(dict.fromkeys(run.code for run, _ in runs))
     found = {(run.challenge, run.code): record for run, record in runs}
+    versions = {run.code: record.words[VERSION] for run, record in runs if VERSION in record.words}
     board = Table(
         title="Classes by challenge and code",
         columns=("challenge", *codes),
@@ -103,7 +112,7 @@ def conclude(settings: Settings, records: Records) -> Conclusion:
     return Conclusion(
         statements=tuple(
             Statement(
-                claim=f"{code} answers",
+                claim=f"{' '.join(filter(None, (code, versions.get(code))))} answers",
                 outcome=None,
                 measured=f"{done[code]} of {len(challenges())} challenges",
             )
@@ -111,8 +120,9 @@ def conclude(settings: Settings, records: Records) -> Conclusion:
         ),
         answer=f"On {32 * 2 ** ((settings.levels or LEVELS[settings.level]) - 1)} cells a side all "
         "codes with cells of constant traction share one error; who differs is told below.",
-        tables=(board, Table(title="Largest errors", columns=("challenge", "quantity", *codes),
-                             rows=tuple(_errors(found, codes)), units=NONE)),
+        tables=(board, _priced(found, codes),
+                Table(title="Largest errors", columns=("challenge", "quantity", *codes),
+                      rows=tuple(_errors(found, codes)), units=NONE)),
         remarks=tuple(
             f"{run.code} on {run.challenge}: {record.words[CANNOT]}."
             for run, record in runs if CANNOT in record.words
@@ -132,20 +142,41 @@ def _record(judgement: Judgement, asked: dict[str, str | bool | int | float | No
     counters = {status.value: judgement.count(status) for status in Status}
     counters["omitted"] = len(judgement.omitted)
     seconds = sum(answer.seconds or 0.0 for answer in judgement.answers)
+    told = {LINE: judgement.line, GRADE: judgement.grade, VERSION: judgement.solver.version}
     return CaseRecord(
-        parameters=asked, words={LINE: judgement.line, GRADE: judgement.grade},
+        parameters=asked, words=told,
         counters=counters, parts=parts, seconds=seconds,
     )  # fmt: skip
 
 
 def _cell(record: CaseRecord | None) -> str:
     if record is None or CANNOT in record.words:
-        return "–"
+        return NO_ANSWER
     passed, all_verdicts = (
         record.counters[Status.PASS],
         sum(record.counters[status] for status in Status),
     )
     return f"{record.words[GRADE]}, {passed} of {all_verdicts}"
+
+
+def _priced(found: dict[tuple[str, str], CaseRecord], codes: list[str]) -> Table:
+    """Of all levels together; of a code in a program of its own, what it says itself."""
+    return Table(
+        title="CPU seconds of all levels",
+        columns=("challenge", *codes),
+        rows=tuple(
+            (
+                name,
+                *(
+                    plain(record.seconds, 2) if (record := found.get((name, code))) and
+                    CANNOT not in record.words else NO_ANSWER
+                    for code in codes
+                ),
+            )
+            for name in challenges()
+        ),
+        units=NONE,
+    )  # fmt: skip
 
 
 def _errors(
@@ -162,7 +193,7 @@ def _errors(
                     of = worst.setdefault(quantity, {})
                     of[code] = max(of.get(code, 0.0), inf if error is None else error)
         for quantity, of in worst.items():
-            texts = (plain(of[code], 2) if code in of else "–" for code in codes)
+            texts = (plain(of[code], 2) if code in of else NO_ANSWER for code in codes)
             yield name, quantity, *texts
 
 
