@@ -6,7 +6,6 @@ from __future__ import annotations
 from functools import cache
 from math import pi, sqrt, tan
 from pathlib import Path
-from shutil import which
 from subprocess import run
 from types import SimpleNamespace
 
@@ -88,14 +87,6 @@ def _edge(r: Vector, pressure: Vector, force: float) -> float | None:
     near = slice(last - AT_EDGE, last)
     slope, at_axis = np.polyfit(r[near] ** 2, pressure[near] ** 2, 1)
     return sqrt(-at_axis / slope) if slope < 0 < at_axis else None
-
-
-def version() -> str:
-    """That Debian gives it: it does not say any itself."""
-    if which("dpkg-query") is None:
-        return ""
-    asked = ["dpkg-query", "--show", "--showformat", "${Version}", "python3-getfem"]
-    return run(asked, capture_output=True, text=True, check=False).stdout
 
 
 @cache

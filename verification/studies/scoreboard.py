@@ -9,6 +9,7 @@ from math import inf
 
 from contact_results.directory.machine import program_version
 from verification.adapters import calculix, getfem, radius, section, surface
+from verification.adapters.driven import debian_version
 from verification.adapters.half_spaces import answering
 from verification.challenge.answer import Solver
 from verification.challenge.cases import challenges
@@ -37,7 +38,7 @@ NO_ANSWER = "–"
 LEVELS = {Level.QUICK: 3, Level.STANDARD: 3, Level.FULL: 4}
 CANNOT, LINE, GRADE, VERSION = "cannot", "line", "grade", "version"
 VERSIONS: dict[str, Callable[[], str]] = {
-    calculix.CALCULIX.name: calculix_version, getfem.GETFEM.name: getfem.version,
+    calculix.CALCULIX.name: calculix_version, getfem.GETFEM.name: lambda: debian_version("python3-getfem"),
 }  # fmt: skip
 
 
