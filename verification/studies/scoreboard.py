@@ -38,8 +38,9 @@ NO_ANSWER = "–"
 LEVELS = {Level.QUICK: 3, Level.STANDARD: 3, Level.FULL: 4}
 CANNOT, LINE, GRADE, VERSION = "cannot", "line", "grade", "version"
 VERSIONS: dict[str, Callable[[], str]] = {
-    calculix.CALCULIX.name: calculix_version, getfem.GETFEM.name: lambda: debian_version("python3-getfem"),
-}  # fmt: skip
+    calculix.CALCULIX.name: calculix_version,
+    getfem.GETFEM.name: lambda: debian_version("python3-getfem"),
+}
 
 
 @dataclass(frozen=True)
