@@ -424,8 +424,9 @@ def test_filled_files_pass_and_their_sheet_is_escaped(
 
 @pytest.mark.parametrize(
     ("off", "left_out", "message", "colour"),
-    [(5e-5, 0, "A · 3/3", "brightgreen"), (5e-4, 0, "B · 3/3", "green"), (5e-3, 0, "C · 0/3", "red"),
-     (5e-2, 0, "none · 0/3", "red"), (5e-5, 1, "partial · 2/2", "lightgrey")],
+    [(5e-5, 0, "A · 3/3", "brightgreen"), (5e-4, 0, "B · 3/3", "green"),
+     (5e-3, 0, "C · 0/3", "red"), (5e-2, 0, "none · 0/3", "red"),
+     (5e-5, 1, "partial · 2/2", "lightgrey")],
 )  # fmt: skip
 def test_a_badge_has_the_colour_of_its_class_and_is_red_where_something_fails(
     off: float, left_out: int, message: str, colour: str

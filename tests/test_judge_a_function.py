@@ -36,7 +36,7 @@ def no_values(problem, level):
     return Answer(1e-5, {("approach", 1): None})
 
 def typo(problem, level):
-    return Answer(1e-5, {("aproach", 1): HERTZ.approach})
+    return Answer(1e-5, {("approach_z", 1): HERTZ.approach})
 
 def alone(problem, level):
     return Answer(1e-5, {"approach": HERTZ.approach})
@@ -79,7 +79,7 @@ def judge(*arguments: object) -> int:
         ("number", (), 2, "has no function 'number'"),
         ("nothing", (), 2, "NoneType came back, expected an Answer"),
         ("no_values", (), 2, "nothing to judge"),
-        ("typo", (), 2, "('aproach', 1) is not asked; asked: ('approach', 1)"),
+        ("typo", (), 2, "('approach_z', 1) is not asked; asked: ('approach', 1)"),
         ("alone", (), 2, "'approach', expected a quantity and a loading step"),
         ("word", (), 2, "is '8 um', expected a number"),
         ("three", (), 2, "has 3 numbers, expected one"),

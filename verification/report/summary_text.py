@@ -9,6 +9,7 @@ from verification.judging.status_words import SYMBOLS, WORDS
 from verification.judging.verdict_text import clearance_text, failure_line
 from verification.report.changes import change_rows, changes_text, origins
 from verification.report.counts import counts_text
+from verification.report.power import power_text
 from verification.running.report_record import Report
 from verification.running.study_text import measured_text, study_failure_line
 
@@ -30,6 +31,8 @@ def _lines(report: Report) -> Iterator[str]:
     yield f"# {SYMBOLS[report.status]} {WORDS[report.status]}: slipstick verify, {report.level}"
     yield ""
     yield f"{counts_text(report)}, in {len(report.cases)} cases."
+    if power := power_text(report):
+        yield f"{power}."
     if report.status is Status.FAIL:
         yield ""
         lines = failure_lines(report)
