@@ -140,7 +140,7 @@ def test_a_badge_has_the_class_of_its_word() -> None:
 
 
 def test_the_summary_says_what_its_verdicts_would_miss() -> None:
-    """Errors of .002 and 0, of which .01 is allowed: three times pass, ten times only of nothing."""
+    """Errors of .002 and 0, of which .01 is allowed: three times pass, ten times of nothing."""
     said = "100% would pass with an error three times as large and 50% with ten times; 50% and 50%"
     assert f"Of 6 numbers with a reference from outside, {said}" in render_summary(three_cases())
     assert "from outside" not in render_summary(report_of(()))
