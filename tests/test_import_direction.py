@@ -122,7 +122,8 @@ ORDERS = {
         ),
         *("below", "pressing", "rings", "coupling", "stick_slip", "sheared"),
         *("harmonic_kernels", "ring_energies", "ring_compliance"),
-        *("circle", "stick_border", "ring_points", "ring_layout", "ring_state", "ring_laws", "ring_newton"),
+        *("circle", "stick_border", "ring_points", "ring_layout"),
+        *("ring_state", "ring_laws", "ring_newton"),
         *("sliding", "ring_friction"),
         *("friction_limit", "torsion", "twist_path"),
         *(
