@@ -124,7 +124,7 @@ def _solve_on(
     Conjugate gradients until the residual norm has fallen by the factor `depth`.
     """
     projected = problem.load.projection(contact.astype(np.float64))
-    r = projected(-g)
+    p, u, r = p.copy(), u.copy(), projected(-g)
     t = z = projected(problem.precondition(r))
     rz = first = np.vdot(r, z)
     iterations = 0
@@ -132,8 +132,8 @@ def _solve_on(
         iterations += 1
         A_t = problem.displace(t)
         step = rz / np.vdot(t, A_t)
-        p = p + step * t
-        u = u + step * A_t
+        p += step * t
+        u += step * A_t
         r -= step * projected(A_t)
         z = projected(problem.precondition(r))
         rz, last = np.vdot(r, z), rz
