@@ -31,6 +31,7 @@ Value = TypeVar("Value", float, Field)
 F = Kind.FIELD
 
 MOST_AT_ONCE = 1 << 20  # numbers
+NEAR_AT_HAND = 1 << 14  # that stay in the cache of a core
 
 
 @dataclass(frozen=True)
@@ -151,7 +152,11 @@ def _slip_amplitude(slips: Callable[[], Iterable[Field]]) -> Field:
 def _half_diameter(path: NDArray[np.float64]) -> Vector:
     """Of sets of points (points, components, sets), half the largest distance in each set."""
     largest = np.zeros(path.shape[-1])
-    for n in range(1, len(path)):
-        apart = path[n] - path[:n]
-        largest = np.maximum(largest, np.max(np.sum(apart * apart, axis=1), axis=0))
+    width = max(1, NEAR_AT_HAND // max(1, len(path) * path.shape[1]))
+    for begin in range(0, path.shape[-1], width):
+        some, most = path[..., begin : begin + width].copy(), largest[begin : begin + width]
+        for n in range(1, len(path)):
+            apart = some[n] - some[:n]
+            apart *= apart
+            np.maximum(most, np.max(np.sum(apart, axis=1), axis=0), out=most)
     return 0.5 * np.sqrt(largest)

@@ -79,6 +79,8 @@ def stuck_cells(shear: Field, bound: Field, in_stick: Mask) -> float:
     What is missing from full slip is taken along the slip of the nearest slipping cell: after a
     reversal the shear just inside the stick zone still points the old way.
     """
+    inside = _box_with_edge(bound > 0)
+    shear, bound, in_stick = shear[(slice(None), *inside)], bound[inside], in_stick[inside]
     in_slip = (bound > 0) & ~in_stick
     if not np.any(in_slip):
         return covered_cells(bound, in_stick)
@@ -87,6 +89,12 @@ def stuck_cells(shear: Field, bound: Field, in_stick: Mask) -> float:
     direction = q / np.sqrt(q[0] ** 2 + q[1] ** 2)
     missing = bound * direction - shear
     return covered_cells(np.sqrt(missing[0] ** 2 + missing[1] ** 2), in_stick)
+
+
+def _box_with_edge(marked: Mask) -> tuple[slice, ...]:
+    """The rectangle of cells that are marked or touch one that is."""
+    at = (np.flatnonzero(np.any(marked, axis=axis)) for axis in (1, 0))
+    return tuple(slice(max(0, i[0] - 1), i[-1] + 2) if len(i) else slice(0) for i in at)
 
 
 def _framed(field: NDArray[Any], part: Part) -> NDArray[Any]:

@@ -17,7 +17,7 @@ from semi_analytical.kernel_spectrum import even_transform, odd_transform
 from semi_analytical.mirrored_transform import BLOCK, Cosines
 from semi_analytical.operator import inverse_2x2
 from semi_analytical.padded_transform import Convolutions
-from semi_analytical.sines import Sines, at_sines, cosines
+from semi_analytical.sines import MOST_BY_MATRIX, Sines, at_sines, cosines
 
 Field = NDArray[np.float64]
 VectorField = NDArray[np.float64]
@@ -135,9 +135,14 @@ def filtered(
 
     sides  along x and y, of every component
     """
+    result, m = np.empty_like(values), sides[0][0].m
+    if max(values.shape[1:]) <= MOST_BY_MATRIX:  # a product takes the other order as it is
+        block = [x.forward(y.forward(one).T) for one, (x, y) in zip(values, sides, strict=True)]
+        block = list(multiply(block, slice(None)))
+        for into, one, (x, y) in zip(result, block, sides, strict=True):
+            into[...] = y.back(x.back(one).T)
+        return result
     lines = [y.forward(one) for one, (_, y) in zip(values, sides, strict=True)]
-    result = np.empty_like(values)
-    m = sides[0][0].m
     width = max(1, BLOCK // m)
     for first in range(0, sides[0][1].m, width):
         columns = slice(first, min(first + width, sides[0][1].m))

@@ -7,14 +7,17 @@ from typing import Any
 import h5py
 import numpy as np
 import pytest
+from contact_scenes import LOAD, PRESS, grid, push, scene
 
 import slipstick
 from contact_results.directory.file_names import FIELDS
 from contact_results.export.paraview import write_paraview
+from contact_results.files.field_file import write_fields
 from contact_results.result_files import write_result
 from contact_results.stress.loaded_bodies import state_of_result, state_of_run
 from contact_scene.accuracy_reached import AccuracyReached, AccuracySettings
 from contact_scene.increment import SCALARS
+from semi_analytical import solve
 
 STEEL = slipstick.IsotropicMaterial(young_modulus=210e9, poisson_ratio=0.3)
 COUNTS = (1, 12, 12, 12)
@@ -109,3 +112,16 @@ def test_paraview_shows_the_same_steps(directories: tuple[Path, Path], tmp_path:
         written.append({path.name: path.read_bytes() for path in out.iterdir()})
     assert written[0] == written[1]
     assert len(written[0]) == 1 + len(COUNTS)
+
+
+def test_fields_that_stay_are_those_of_every_increment(tmp_path):
+    """Pressures while the load rests are packed once, between others that are not."""
+    lighter = {"normal_force": 0.5 * LOAD, "increments": 2}
+    result = solve(scene(PRESS, push(0.2, increments=3), lighter, push(-0.2)), grid(16), 1e-8)
+    write_fields(result, (), tmp_path)
+    with h5py.File(tmp_path / FIELDS) as file:
+        for name in ("pressure", "in_contact", "gap", "shear", "slip"):
+            for index, increment in enumerate(result.increments):
+                field = getattr(increment, name)
+                if field is not None:
+                    np.testing.assert_array_equal(file["increments"][name][index], field)

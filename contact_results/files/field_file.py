@@ -133,10 +133,13 @@ def _write_field(
 
     counted  what their index counts
     """
-    dataset = None
+    dataset, last, written = None, None, 0
     for index, increment in enumerate(increments):
         field = surface.scalar(increment, name)
         if field is None:
+            continue
+        if dataset is not None and last is not None and np.array_equal(field, last):
+            _repeat(dataset, written, index)
             continue
         if dataset is None:
             dataset = group.create_dataset(
@@ -151,6 +154,15 @@ def _write_field(
             of_vector = COMPONENT * (field.ndim - len(places))
             _describe(dataset, mark, (*counted, *of_vector, *places))
         dataset[index] = field
+        last, written = field, index
+
+
+def _repeat(dataset: h5py.Dataset, written: int, index: int) -> None:
+    """The field that is written at one index again at another, as it is packed: pressures where the
+    normal load rests."""
+    at = (0,) * (dataset.ndim - 1)
+    how, packed = dataset.id.read_direct_chunk((written, *at))
+    dataset.id.write_direct_chunk((index, *at), packed, how)
 
 
 def _write_cycle(group: h5py.Group, cycle: FrettingCycle, places: tuple[str, ...]) -> None:
