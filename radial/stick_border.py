@@ -23,7 +23,7 @@ ON_HARMONICS = (-0.1913, 1.0209, 0.3219, 0.3288)
 # Power 3/2 is told from 1/2 by the two values before: at most .54 of one another against at least
 # .7. The last value has reached this part of the one before when the border reaches the next point.
 GAINING, AT_NEXT = 0.66, 0.3
-TOLD = 3  # points inside of a border that tell it
+DEEP = 3  # see `_borders`: around
 UNTOLD = 0.5  # where it lies between points that do not
 
 
@@ -38,10 +38,11 @@ def stick_area(radii: Array, shear: Array, bound: Array, sticks: Mask) -> float:
     turn = sticks.shape[1]
     angles = 2 * np.pi * np.arange(turn) / turn
     ways, size = np.arctan2(shear[1], shear[0]) + angles, np.hypot(*shear)
-    fields = ways, size, bound, sticks
-    along_rays = _borders(*fields, ON_HATS, radii)
-    whole = (np.concatenate([field.T] * 3) for field in fields)
-    along_rings = _borders(*whole, ON_HARMONICS, np.arange(3.0 * turn))[turn : 2 * turn].T
+    along_rays = _borders(ways, size, bound, sticks, ON_HATS, radii, 0)
+    ways, size, limit = (np.concatenate([field.T] * 3) for field in (ways, size, bound))
+    whole = np.concatenate([sticks.T] * 3)
+    along_rings = _borders(ways, size, limit, whole, ON_HARMONICS, np.arange(3.0 * turn), DEEP)
+    along_rings = along_rings[turn : 2 * turn].T
     inner, outer = radii[:-1, None], radii[1:, None]
     across = along_rays * (outer - inner)
     # In r² areas are those of a plane.
@@ -51,7 +52,13 @@ def stick_area(radii: Array, shear: Array, bound: Array, sticks: Mask) -> float:
 
 
 def _borders(
-    ways: Array, size: Array, bound: Array, sticks: Mask, table: tuple[float, ...], places: Array
+    ways: Array,
+    size: Array,
+    bound: Array,
+    sticks: Mask,
+    table: tuple[float, ...],
+    places: Array,
+    deep: int,
 ) -> Array:
     """Where between a point and the next along the first axis the border lies, from 0 to 1
     (n - 1, …); of no meaning where both stick or neither does.
@@ -59,6 +66,8 @@ def _borders(
     ways    angles of the shear
     size    of the shear
     places  of the points along the axis (n,)
+    deep    so many points before the last have to stick, too, where powers are told: a zone has a
+            mirror image, and in a narrow one what is missing falls again to its other side
     """
     found = np.full((len(bound) - 1, *bound.shape[1:]), UNTOLD)
     slips = (bound > 0) & ~sticks
@@ -67,29 +76,45 @@ def _borders(
         k, j = np.nonzero(inside & ~beyond)
         at = k if step > 0 else k + 1
         way, turn = _way(ways, slips, at, step, j)
-        missing = []
-        for back in range(TOLD):
-            near = at - step * back
-            known = (near >= 0) & (near < len(bound))
-            near = np.clip(near, 0, len(bound) - 1)
-            d = bound[near, j] - size[near, j] * np.cos(ways[near, j] - way - (1 + back) * turn)
-            missing.append(np.where(known & sticks[near, j] & (d > 0), d, np.nan))
-        off = _off(*missing, _evenness(places, at, step), table)
+        last, before, further, fourth = (
+            _missing(ways, size, bound, sticks, at - step * back, j, way + (1 + back) * turn)
+            for back in (0, 1, 2, deep)
+        )
+        even = _evenness(places, at, step)
+        off = _off(last, before, further, ~np.isnan(fourth), even, table)
         found[k, j] = off if step > 0 else 1 - off
     return found
 
 
+def _missing(
+    ways: Array,
+    size: Array,
+    bound: Array,
+    sticks: Mask,
+    near: NDArray[np.intp],
+    j: NDArray[np.intp],
+    way: Array,
+) -> Array:
+    """d of points (near, j) along angles; no number where nothing sticks there."""
+    known = (near >= 0) & (near < len(bound))
+    near = np.clip(near, 0, len(bound) - 1)
+    d = bound[near, j] - size[near, j] * np.cos(ways[near, j] - way)
+    return np.where(known & sticks[near, j] & (d > 0), d, np.nan)
+
+
 def _off(
-    last: Array, before: Array, further: Array, even: Array, table: tuple[float, ...]
+    last: Array, before: Array, further: Array, deep: Mask, even: Array, table: tuple[float, ...]
 ) -> Array:
     """How far beyond the last of three points the border is, over the distance to the next.
 
+    deep  whether powers can be told
     even  that distance over the one to the point before
     """
     # As far from the last as the next one is; roots have squares that are linear.
     before = np.sqrt(last**2 + np.maximum(before**2 - last**2, 0.0) * even)
     with np.errstate(invalid="ignore"):
-        ratio, gains = np.minimum(last / before, 1.0), before < GAINING * further
+        ratio = np.minimum(last / before, 1.0)
+        gains = (before < GAINING * further) & deep
     by_root = np.polynomial.polynomial.polyval(ratio, table)
     off = np.clip(np.where(gains, (ratio / AT_NEXT) ** (2 / 3), by_root), 0.0, 1.0)
     return np.where(np.isnan(off), UNTOLD, off)
