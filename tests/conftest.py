@@ -31,15 +31,16 @@ settings.load_profile(
 
 # Files of more than ten CPU seconds begin first: who came last to one would let the others wait.
 LONGEST = (
-    "test_code_quality", "test_errors_of_elements", "test_seeded_defects",
-    "test_error_coverage_truths", "test_accuracy", "test_gallery", "test_tables",
-    "test_fem_compliance", "test_section_output", "test_work_precision", "test_threads",
-    "test_influence_layered", "test_size_bombs", "test_run_output", "test_cli_run",
-    "test_study_running", "test_energy_balance", "test_promises", "test_memory_estimate",
-    "test_stated_errors", "test_fretting_cycles", "test_stability_sections",
-    "test_verification_can_fail", "test_stress_command", "test_verification_resumed",
-    "test_study_refinement", "test_coupled_histories", "test_requests_met", "test_checkpoint",
-    "test_cli", "test_study_stability", "test_coupled_increment", "test_hostile_outputs",
+    "test_code_quality", "test_seeded_defects", "test_error_coverage_truths",
+    "test_errors_of_elements", "test_accuracy", "test_gallery", "test_tables", "test_size_bombs",
+    "test_influence_layered", "test_fem_compliance", "test_work_precision", "test_study_running",
+    "test_verification_resumed", "test_threads", "test_run_output", "test_promises",
+    "test_stress_command", "test_cli", "test_memory_estimate", "test_stated_errors",
+    "test_fretting_cycles", "test_verification_can_fail", "test_checkpoint",
+    "test_energy_balance", "test_study_refinement", "test_study_stability",
+    "test_stability_sections", "test_section_output", "test_cli_run", "test_coupled_histories",
+    "test_fem_harmonics", "test_examples", "test_coupled_increment", "test_hostile_outputs",
+    "test_requests_met", "test_from_python", "test_one_case", "test_other_plans",
 )  # fmt: skip
 
 
