@@ -75,13 +75,12 @@ def test_radius_and_tractions_of_a_pressing_ball_are_those_of_rings(body, offset
     assert np.max(np.abs(outward - shear)[at_edge]) < 2.5e-3 * MU * P
 
 
-@pytest.mark.parametrize("offset", [(0.0, 0.0), (0.31, -0.17)])
-def test_stick_that_spreads_below_a_pressing_ball_ends_where_rings_say(offset):
+def test_stick_that_spreads_below_a_pressing_ball_ends_where_rings_say():
     """Where new cells stick what is missing from slip falls like s^(3/2); by a root all around the
     radius is 2e-2 to 3e-2 too small."""
     of = pressed("", rigid_ball(), BODIES["soft film"], pressing(16), friction=MU)
     rings = radial.solve(of, RadialDiscretisation()).steps[-1]
-    end = solved(of, "all", offset=offset).steps[-1]
+    end = solved(of, "all", offset=(0.31, -0.17)).steps[-1]  # off the symmetry of the cells
     assert end.stick_radius == pytest.approx(rings.stick_radius, rel=4e-3)
 
 

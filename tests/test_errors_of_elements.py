@@ -79,10 +79,13 @@ def test_errors_of_partial_slip_hold_the_closed_form(method: Method) -> None:
         assert stated.steps[step]["tangential_force"].status is ErrorStatus.EXACT
 
 
-@pytest.mark.parametrize(("edge", "coefficient"), [(8.5, 0.1), (12.0, 0.4)])
 @pytest.mark.parametrize(
-    ("no_root", "method"),
-    [*((None, method) for method in Method), ("the contact ends at a rim", Method.PENALTY)],
+    ("edge", "coefficient", "no_root", "method"),
+    [
+        *((8.5, 0.1, None, method) for method in Method),
+        (12.0, 0.4, None, Method.COMPLEMENTARITY),
+        (8.5, 0.1, "the contact ends at a rim", Method.PENALTY),
+    ],
 )
 def test_the_error_of_stress_covers_the_trailing_edge(
     edge: float, coefficient: float, no_root: str | None, method: Method

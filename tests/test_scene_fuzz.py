@@ -18,8 +18,8 @@ from contact_scene.units import LENGTH
 
 EXAMPLE = (Path(__file__).resolve().parents[1] / "scenes" / "fretting_loop.toml").read_bytes()
 
-# The profile says how much: dev 25 -> 100 and 500, ci 50 -> 200 and 1 000, nightly 2 000 ->
-# 8 000 and 40 000 examples.
+# The profile says how much: dev and ci 25 -> 100 and 500, nightly 2 000 -> 8 000 and 40 000
+# examples.
 STRUCTURED = settings(max_examples=4 * settings().max_examples)
 BYTES = settings(max_examples=20 * settings().max_examples)
 LONGEST = 0.05  # seconds of CPU; of 1 250 examples half took 0.5 ms, the longest 4 ms

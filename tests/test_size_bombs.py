@@ -143,9 +143,7 @@ def test_huge_scene_without_mistakes_is_read_soon(tmp_path: Path, line: bytes) -
     assert ended.seconds < READ
 
 
-@pytest.mark.parametrize(
-    ("dtype", "by_columns"), [(float, False), (float, True), ("i8", True), ("f4", False)]
-)
+@pytest.mark.parametrize(("dtype", "by_columns"), [(float, False), ("i8", True)])
 def test_largest_map_is_checked_with_little_more_than_itself(
     tmp_path: Path, dtype: Any, by_columns: bool
 ) -> None:
