@@ -38,7 +38,13 @@ DEPENDENT = 1e-13
 
 
 def solve_coupled(
-    problem: CoupledProblem, pressure: Field, shear: VectorField, motion: Vector, tolerance: float
+    problem: CoupledProblem,
+    pressure: Field,
+    shear: VectorField,
+    motion: Vector,
+    tolerance: float,
+    *,
+    most_iterations: float = np.inf,
 ) -> CoupledSolution:
     """Alternate from a first pressure, shear and motion until all residuals meet the tolerance.
 
@@ -86,7 +92,7 @@ def solve_coupled(
             return CoupledSolution(
                 p, point.shear, closing, motion, sheared.in_slip, at_limit, iterations, rounds
             )
-        if iterations > MOST_ITERATIONS:
+        if iterations > min(most_iterations, MOST_ITERATIONS):
             break
         if rounds == LATE and residual > HOPELESS:
             p, point, motion = pressure, first, first_motion

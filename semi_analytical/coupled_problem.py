@@ -1,7 +1,8 @@
 """An increment of coupled bodies as its solvers see it, in a box of cells."""
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from typing import Any, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,6 +12,15 @@ from semi_analytical.normal_load import Motion, NormalLoad
 
 # Along the shorter side of a box. With more Newton's method stalls, with fewer it takes more steps.
 PATCHES = 40
+
+
+class Preconditioner(Protocol):
+    """Roughly the tractions that cause displacements; see `periodic_inverse`."""
+
+    def __call__(self, displacements: NDArray[Any], /) -> NDArray[Any]: ...
+
+    def yielding(self, compliance: float) -> "Preconditioner":
+        """The same for cells that yield to their own tractions by as much more."""
 
 
 @dataclass(frozen=True)
@@ -37,7 +47,7 @@ class CoupledProblem:
     normal_by_shear: Callable[[VectorField], Field]
     shear_by_pressure: Callable[[Field], VectorField]
     together: Callable[[Field], Field]
-    precondition_together: Callable[[Field], Field]
+    precondition_together: Preconditioner
     gap: Field
     friction_limit: Callable[[Field], Field]
     target: VectorField
@@ -54,6 +64,19 @@ class CoupledProblem:
         so large that cells which carry pressure would part in masses.
         """
         return 1 / (self.self_compliance * max(1.0, min(self.gap.shape) / PATCHES))
+
+    def yielding(self, compliance: float, tractions: Field) -> "CoupledProblem":
+        """The same where every cell is on springs of a compliance more, which are at rest at
+        tractions (3, nx, ny): for Newton's method, by `together` alone."""
+        q, p = tractions[:2], tractions[2]
+        return replace(
+            self,
+            together=lambda t: self.together(t) + compliance * t,
+            precondition_together=self.precondition_together.yielding(compliance),
+            gap=self.gap - compliance * p,
+            target=self.target + compliance * q,
+            self_compliance=self.self_compliance + compliance,
+        )
 
 
 @dataclass(frozen=True)

@@ -1,6 +1,8 @@
-"""A coupled increment, solved by Newton's method; from nearer by where it stalls."""
+"""A coupled increment by Newton's method, and by ways to it from farther away."""
 
+from collections.abc import Callable
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 
@@ -9,10 +11,14 @@ from semi_analytical.admissible_shear import Field, Vector, VectorField
 from semi_analytical.alternation import solve_coupled
 from semi_analytical.coupled_problem import CoupledProblem, CoupledSolution
 from semi_analytical.newton_increment import solve_by_newton
+from semi_analytical.springs import solve_on_springs
 
-# Residual to which the alternation comes nearer before the second attempt. Where that stalls too,
-# as below films much stiffer than their base, the alternation goes on to the end.
-NEARER = 1e-3
+Way = Callable[[CoupledProblem, Field, VectorField, Vector, float], CoupledSolution]
+
+# Residual to which the alternation comes nearer, and iterations in which it does so, or ends: where
+# it takes more, as under strong friction or below films much stiffer than their base, springs lead
+# there sooner or at all.
+NEARER, FEW = 1e-3, 250
 
 
 def solve_together(
@@ -20,22 +26,50 @@ def solve_together(
 ) -> CoupledSolution:
     """Pressure and shear of an increment from first ones and a first motion.
 
-    Newton's method converges fast once the zones are nearly right, and may stall before; the
-    alternation comes nearer from farther away. It also finds the state in which all slips, at the
-    limit of friction.
+    Newton's method converges fast once the zones are nearly right, and may stall before. The
+    alternation also finds the state in which all slips, at the limit of friction.
     raises  NotConverged
     """
-    p, q, rounds, iterations = pressure, shear, 0, 0
-    for nearer in (NEARER, tolerance):
-        if not problem.tangential_load.exhausts(problem.friction_limit(p)):
-            try:
-                found = solve_by_newton(problem, np.concatenate([q, p[None]]), motion, tolerance)
-                break
-            except NotConverged as stalled:
-                iterations += stalled.iterations
-        found = solve_coupled(problem, p, q, motion, max(nearer, tolerance))
-        p, q, motion = found.pressure, found.shear, found.motion
-        rounds, iterations = rounds + found.rounds, iterations + found.iterations
-    else:
-        return replace(found, rounds=rounds, iterations=iterations)
-    return replace(found, rounds=rounds + found.rounds, iterations=iterations + found.iterations)
+    start, iterations = (pressure, shear, motion), 0
+    ways: tuple[Way, ...] = (_by_newton, _from_nearer, solve_on_springs)
+    for way in ways[1:2] if _all_slips(problem, pressure) else ways:
+        try:
+            found = way(problem, *start, tolerance)
+        except NotConverged as stalled:
+            iterations += stalled.iterations
+        else:
+            return replace(found, iterations=iterations + found.iterations)
+    found = solve_coupled(problem, *start, tolerance)
+    return replace(found, iterations=iterations + found.iterations)
+
+
+def _all_slips(problem: CoupledProblem, pressure: Field) -> bool:
+    """Whether the load exhausts the friction under a pressure: Newton's method has no use then."""
+    return problem.tangential_load.exhausts(problem.friction_limit(pressure))
+
+
+def _by_newton(
+    problem: CoupledProblem, pressure: Field, shear: VectorField, motion: Vector, tolerance: float
+) -> CoupledSolution:
+    """From there at once."""
+    return solve_by_newton(problem, np.concatenate([shear, pressure[None]]), motion, tolerance)
+
+
+def _from_nearer(
+    problem: CoupledProblem, pressure: Field, shear: VectorField, motion: Vector, tolerance: float
+) -> CoupledSolution:
+    """From where a little of the alternation leads, by Newton's method or by a little more of it;
+    by all of it where all slips."""
+    shortly = partial(solve_coupled, most_iterations=FEW)
+    near = shortly(problem, pressure, shear, motion, max(NEARER, tolerance))
+    iterations = near.iterations
+    ways: tuple[Way, ...] = (_by_newton, shortly)
+    for way in (solve_coupled,) if _all_slips(problem, near.pressure) else ways:
+        try:
+            found = way(problem, near.pressure, near.shear, near.motion, tolerance)
+        except NotConverged as stalled:
+            iterations += stalled.iterations
+        else:
+            rounds = near.rounds + found.rounds
+            return replace(found, rounds=rounds, iterations=iterations + found.iterations)
+    raise NotConverged("the coupled increment", iterations, np.inf, tolerance)

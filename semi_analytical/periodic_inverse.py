@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator
 from contextlib import contextmanager
+from copy import copy
 from typing import Any
 
 import numpy as np
@@ -59,6 +60,23 @@ class PeriodicInverse:
             with self._transformed(displacements[one], tractions[one]) as spectrum:
                 spectrum *= self._symbols[number + 1]
         return tractions
+
+    def yielding(self, compliance: float) -> "PeriodicInverse":
+        """The same for cells that yield to their own tractions by as much more, and grades that
+        count by the self-compliance which that makes; it shares the work space."""
+        symbols = self._symbols.astype(np.float64) / self._unit
+        xx, yy, xy = symbols[:3]
+        # (F + ρ)⁻¹ = F⁻¹ (1 + ρ F⁻¹)⁻¹, from F⁻¹ alone.
+        both = compliance * (xx * yy - xy * xy)
+        whole = 1 + compliance * (xx + yy + both)
+        symbols[:3] = (xx + both) / whole, (yy + both) / whole, xy / whole
+        more = np.full(len(symbols) - 3, compliance)
+        more[-len(STIFFNESSES) :] *= 1 + STIFFNESSES
+        symbols[3:] /= 1 + more[:, None, None] * symbols[3:]
+        found = copy(self)
+        found._unit = 1 / np.max(np.abs(symbols))
+        found._symbols = (found._unit * symbols).astype(self._precision)
+        return found
 
     @contextmanager
     def _transformed(self, values: NDArray[Any], into: NDArray[Any]) -> Iterator[NDArray[Any]]:

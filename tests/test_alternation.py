@@ -22,6 +22,23 @@ NO_SHIFT = np.zeros(2)
 ANGLES = st.floats(0, 2 * np.pi)
 
 
+class Held:
+    """Roughly the tractions by the diagonal of a compliance alone."""
+
+    def __init__(self, diagonal, self_compliance):
+        """diagonal  (3, nx, ny), in front of that of the grades"""
+        grades = np.ones((len(STIFFNESSES), *diagonal.shape[1:]))
+        grades *= self_compliance * (1 + STIFFNESSES[:, None, None])
+        self._given = diagonal, self_compliance
+        self._held = np.concatenate([diagonal, grades])
+
+    def __call__(self, displacements):
+        return displacements / self._held
+
+    def yielding(self, compliance):
+        return Held(*(part + compliance for part in self._given))
+
+
 class DenseContact:
     """Bodies of a few cells that answer any traction (q_x, q_y, p) by a symmetric matrix."""
 
@@ -44,11 +61,6 @@ class DenseContact:
         A_tt, A_zz = self.matrix[np.ix_(tangent, tangent)], self.matrix[np.ix_(normal, normal)]
         A_zt = self.matrix[np.ix_(normal, tangent)]
         self_compliance = float(np.mean(np.diag(A_tt)))
-        diagonal = np.diag(self.matrix).reshape(3, *SHAPE)
-        slipping = np.broadcast_to(
-            self_compliance * (1 + STIFFNESSES[:, None, None]), (len(STIFFNESSES), *SHAPE)
-        )
-        held = np.concatenate([diagonal, slipping])
         return CoupledProblem(
             normal=as_map(A_zz),
             precondition_normal=rough_inverse(A_zz),
@@ -57,7 +69,7 @@ class DenseContact:
             normal_by_shear=lambda q: (A_zt @ q.ravel()).reshape(SHAPE),
             shear_by_pressure=lambda p: (A_zt.T @ p.ravel()).reshape(2, *SHAPE),
             together=as_map(self.matrix),
-            precondition_together=lambda v: v / held,
+            precondition_together=Held(np.diag(self.matrix).reshape(3, *SHAPE), self_compliance),
             gap=self.gap,
             friction_limit=lambda p: self.friction * p,
             target=self.target,

@@ -14,6 +14,7 @@ from semi_analytical import (
     history,
     newton_increment,
     solve,
+    springs,
 )
 
 TOLERANCE = 1e-8
@@ -172,6 +173,7 @@ def test_a_hopeless_increment_is_given_up_when_its_budget_is_spent(monkeypatch, 
         reached.append(increment)
         begun.clear()
         monkeypatch.setattr(newton_increment, "MOST_STEPS", 0)
+        monkeypatch.setattr(springs, "MOST_SPRINGS", 0)
         monkeypatch.setattr(alternation, "MOST_ITERATIONS", 0)
 
     monkeypatch.setattr(coupled_increment, "solve_coupled_increment", counted)

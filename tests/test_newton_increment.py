@@ -9,7 +9,8 @@ from coupled_scenes import press, push, scene
 from random_compliance import compliance
 from test_alternation import LOADS, DenseContact, assert_lawful
 
-from semi_analytical import globalisation, newton_increment, solve
+from contact_scene.solver_errors import NotConverged
+from semi_analytical import globalisation, newton_increment, solve, springs
 from semi_analytical.coupled_problem import PATCHES
 from semi_analytical.generalised_derivative import Natural, Point, Zones
 from semi_analytical.globalisation import solve_together
@@ -18,6 +19,7 @@ from semi_analytical.krylov import least_residual
 from semi_analytical.linearised_increment import LinearisedIncrement
 from semi_analytical.model import ContactModel
 from semi_analytical.newton_increment import solve_by_newton
+from semi_analytical.newton_iterate import reached
 from semi_analytical.periodic_inverse import PeriodicInverse
 from semi_analytical.predictor import Lens, predicted
 from semi_analytical.pressing import NormalTarget
@@ -89,7 +91,7 @@ def test_a_step_near_the_solution_squares_the_error(seed, rng):
         at = Point(t, problem.together(t), solution.approach, solution.motion)
         zones = Zones.of(Natural.at(at, problem), problem)
         increment = LinearisedIncrement(problem, zones)
-        base, _ = newton_increment._at(problem, increment.admissible(t), solution.motion)
+        base, _ = reached(problem, increment.admissible(t), solution.motion)
         unsolved = increment.unsolved(base, Natural.at(base, problem))
         step = increment.solved(unsolved, 1e-13)
         return np.max(np.abs(base.tractions + step.tractions - exact)) / np.max(exact)
@@ -110,7 +112,7 @@ def test_a_step_closes_the_gap_of_its_whole_zone(seed):
     zones = Zones.of(Natural.at(at, problem), problem)
     pressed = zones.contact
     t = exact * np.where(np.cumsum(pressed).reshape(pressed.shape) % 2 == 0, 0.2, 1.0)
-    base, _ = newton_increment._at(problem, t, solution.motion)
+    base, _ = reached(problem, t, solution.motion)
     natural = Natural.at(base, problem)
     assert np.any(pressed & ~natural.contact)
     increment = LinearisedIncrement(problem, zones)
@@ -139,26 +141,93 @@ def test_slip_that_has_turned_is_kept_where_its_direction_is_taken_a_little_wron
     np.testing.assert_allclose(kept, exact, atol=angle**2 * np.max(exact))
 
 
-def test_where_newton_stalls_the_alternation_takes_over(monkeypatch):
+def test_where_newton_stalls_far_away_it_ends_on_springs(monkeypatch):
     contact = DenseContact(3, 0.3)
-    monkeypatch.setattr(newton_increment, "MOST_STEPS", 0)
-    solution = contact.solved(*LOADS, solver=solve_together)
-    assert_lawful(contact, solution)
-
-
-def test_where_newton_stalls_far_away_it_ends_from_nearer_by(monkeypatch):
-    contact = DenseContact(3, 0.3)
+    expected = contact.solved(*LOADS, solver=solve_together)
     attempts = []
 
     def at_the_second_attempt(*given):
         attempts.append(given)
-        monkeypatch.setattr(newton_increment, "MOST_STEPS", 0 if len(attempts) == 1 else 40)
+        if len(attempts) == 1:
+            raise NotConverged("the coupled increment", 0, 1.0, TOLERANCE)
         return solve_by_newton(*given)
 
-    monkeypatch.setattr(globalisation, "solve_by_newton", at_the_second_attempt)
+    def too_dear(*given, **most):
+        raise NotConverged("the coupled increment", 0, 1.0, TOLERANCE)
+
+    for module in (globalisation, springs):
+        monkeypatch.setattr(module, "solve_by_newton", at_the_second_attempt)
+    monkeypatch.setattr(globalisation, "solve_coupled", too_dear)
     solution = contact.solved(*LOADS, solver=solve_together)
+    # Only once next to the answer is it asked again.
     assert len(attempts) == 2
+    near = np.concatenate([expected.shear, expected.pressure[None]])
+    assert np.sum(np.abs(attempts[1][1] - near)) < 0.02 * np.sum(np.abs(near))
     assert_lawful(contact, solution)
+
+
+def test_where_newton_stalls_the_alternation_comes_nearer_or_ends(monkeypatch):
+    contact, failed = DenseContact(3, 0.3), []
+
+    def stalling(*given):
+        failed.append(given)
+        if len(failed) < 3:
+            raise NotConverged("the coupled increment", 0, 1.0, TOLERANCE)
+        return solve_by_newton(*given)
+
+    monkeypatch.setattr(globalisation, "solve_by_newton", stalling)
+    monkeypatch.setattr(globalisation, "solve_on_springs", None)
+    solution = contact.solved(*LOADS, solver=solve_together)
+    assert len(failed) == 2
+    assert_lawful(contact, solution)
+    assert_lawful(contact, contact.solved(*LOADS, solver=solve_together))
+    assert len(failed) == 3
+
+
+def test_where_newton_stalls_on_springs_the_alternation_takes_over(monkeypatch):
+    contact = DenseContact(3, 0.3)
+    monkeypatch.setattr(newton_increment, "MOST_STEPS", 0)
+    monkeypatch.setattr(springs, "MOST_STEPS", 0)
+    solution = contact.solved(*LOADS, solver=solve_together)
+    assert_lawful(contact, solution)
+
+
+def test_springs_at_rest_pull_at_nothing_and_others_in_proportion(rng):
+    contact = DenseContact(1, 0.3)
+    problem, rest = contact.problem(*LOADS), rng.random((3, *contact.gap.shape))
+    on_springs, change = problem.yielding(0.7, rest), rng.random(rest.shape)
+    for t in (rest, rest + change):
+        u, plain = on_springs.together(t), problem.together(t)
+        gap, slipped = on_springs.gap + u[2], on_springs.target - u[:2]
+        more = 0.7 * (t - rest)
+        np.testing.assert_allclose(gap, problem.gap + plain[2] + more[2], atol=1e-13)
+        np.testing.assert_allclose(slipped, problem.target - plain[:2] - more[:2], atol=1e-13)
+
+
+@pytest.mark.parametrize("softness", [0.01, 1.0, 100.0])
+def test_the_periodic_inverse_of_cells_on_springs_is_that_of_the_sum_of_compliances(softness, rng):
+    contact, shape = model(), (32, 16)
+    own = contact.self_compliance
+    A, more = contact.coupled_operator(shape), softness * contact.self_compliance
+    found = contact.periodic_inverse(shape).yielding(more)
+    u = 1e-9 * rng.standard_normal((3 + len(STIFFNESSES), *shape))
+    # F + ρ by F of the coefficients, those of a cell on itself raised by the springs.
+    rows, columns = A.tangential.transform.period
+    spectra = np.fft.rfft2(u, (rows, columns))
+    xx, yy, xy = (symbol.unpadded() for symbol in A.tangential.symbols)
+    matrix = np.moveaxis(np.array([[xx + more, xy], [xy, yy + more]]), (0, 1), (-2, -1))
+    sheared = np.linalg.solve(matrix, np.moveaxis(spectra[:2], 0, -1)[..., None])[..., 0]
+    graded = A.tangential.mean() + more + (own + more) * STIFFNESSES[:, None, None]
+    solved = np.concatenate(
+        [
+            np.moveaxis(sheared, -1, 0),
+            spectra[2:3] / (1 / A.normal.inverse + more),
+            spectra[3:] / graded,
+        ]
+    )
+    expected = np.fft.irfft2(solved, (rows, columns))[:, : shape[0], : shape[1]]
+    size = np.max(np.abs(expected), axis=(1, 2), keepdims=True)
+    np.testing.assert_allclose(found(u) / size, expected / size, atol=1e-5)
 
 
 def test_the_lens_dilates_a_pressure_of_hertz_into_that_of_a_larger_contact():

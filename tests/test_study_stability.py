@@ -30,6 +30,8 @@ from verification.studies.stability.views import study_cells, views
 
 ORDINARY = StabilityCell(cells=16)
 HALF_SPACE = replace(ORDINARY, modulus_ratio=1.0)
+SOFT_FILM = replace(ORDINARY, modulus_ratio=1e-3, thickness=0.01, poisson_ratio=0.5)
+STIFF_FILM = replace(ORDINARY, modulus_ratio=1e3, thickness=0.1, poisson_ratio=0.0)
 GOOD = CellRecord(
     verdict=Verdict.CONVERGED, tolerance=1e-8, residual=2e-9, observed=3e-9, increments=4,
     rounds=7, way="alternation", iterations=80, convolutions=400,
@@ -79,8 +81,13 @@ def test_different_cells_have_different_names_and_files(tmp_path: object) -> Non
         replace(ORDINARY, modulus_ratio=1e6, thickness=0.1, path=LoadingPath.PRESS, cells=32),
         # here it lifted them differently whenever the pressure was not solved for thoroughly,
         replace(ORDINARY, modulus_ratio=1e6, thickness=0.03, friction=1.0, push=0.95, cells=24),
-        # and here the shear's preconditioner was not positive.
+        # here the shear's preconditioner was not positive,
         replace(ORDINARY, modulus_ratio=1e3, thickness=0.003, poisson_ratio=0.5, cells=48),
+        # and friction that is strong leaves no way here but on springs: neither parts of Newton's
+        # steps nor turns of pressure and shear come near, of whole increments.
+        replace(SOFT_FILM, friction=5.0, push=0.5, cells=48),
+        replace(STIFF_FILM, friction=5.0, push=0.9, cells=32),
+        replace(STIFF_FILM, friction=5.0, push=0.99, thickness=1.0, cells=24),
     ],
     ids=lambda cell: cell.name,
 )
