@@ -293,6 +293,12 @@ def test_increments_are_refined_with_the_elements_where_the_way_matters(
     assert others == [[1] * 4, [None]]
 
 
+def test_finer_levels_on_rings_take_finer_increments() -> None:
+    """Or they stall at the error of the path."""
+    found = judge("frictional_indentation/nu_zero", radius.answer, 3, solver=radius.ON_RADII)
+    assert failed(found) == set()
+
+
 def test_the_scoreboard_names_the_version_and_the_price_of_a_code() -> None:
     run = scoreboard.ScoredRun(radius.ON_RADII.name, "hertz_point", 2)
     refused = scoreboard.ScoredRun(radius.ON_RADII.name, "tilted_ball", 2)

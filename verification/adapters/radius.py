@@ -5,20 +5,22 @@ from __future__ import annotations
 from contact_scene import RadialDiscretisation
 from contact_scene.solver_errors import NotConverged, UnsupportedScene
 from radial import solve
-from verification.adapters.own_numbers import given_up, scene_of
+from verification.adapters.own_numbers import given_up, in_increments, scene_of
 from verification.adapters.rings import answer_on_rings
 from verification.challenge.answer import Answer, Solver
 from verification.challenge.door import CannotDo, Posed
 
 ON_RADII = Solver("slipstick, radial", meshless=True)
 COARSEST = 32  # rings: the fields are linear between them, the numbers need none
+INCREMENTS = 10  # on the coarsest, of steps that name none
 
 
 def answer(posed: Posed, level: int) -> Answer:
     """On COARSEST rings over the contact, twice as many, …; CannotDo where it refuses."""
     rings = COARSEST * 2**level
     try:
-        steps = solve(scene_of(posed), RadialDiscretisation(rings=rings)).steps
+        scene = in_increments(scene_of(posed), INCREMENTS * 2**level)
+        steps = solve(scene, RadialDiscretisation(rings=rings)).steps
     except UnsupportedScene as error:
         raise CannotDo(str(error)) from error
     except NotConverged as error:

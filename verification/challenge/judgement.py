@@ -36,12 +36,12 @@ class Judgement:
     @property
     def grade(self) -> str:
         """The worst of all errors; "partial" where something required is not answered, "none" where
-        an error meets no class or a verdict fails otherwise."""
+        an error meets no class, or a field does not carry the load or cover the contact."""
         if any(required for *_, required in self.omitted):
             return "partial"
         judged = [row for row in self.rows if row.error is not None and row.bound is not None]
         errors = [row for row in judged if ":" not in row.quantity]
-        unsound = any(":" in r.quantity and r.status is Status.FAIL for r in self.rows)
+        unsound = any(":" in r.quantity and r.status is Status.FAIL for r in judged)
         if unsound or not errors or any(row.grade is None for row in errors):
             return "none"
         return max(row.grade for row in errors if row.grade is not None)
