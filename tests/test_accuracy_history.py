@@ -70,6 +70,10 @@ def test_a_twentieth_more_work_is_dearer(recorded: Recording, times: float, mark
     assert planted == [(1, "convolutions", ChangeKind.DEARER)] * marked
 
 
+def test_work_that_is_counted_for_the_first_time_is_not_dearer(recorded: Recording) -> None:
+    assert kinds(with_work(recorded, 0.0), with_work(recorded, 1.0)) == []
+
+
 def test_the_worst_quantity_is_told_with_its_part(recorded: Recording) -> None:
     found = worst(with_error(recorded, 9.0))
     assert found is not None

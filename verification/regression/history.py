@@ -94,7 +94,7 @@ def _marks(at: int, case: str, was: Recording, now: Recording) -> Iterator[Mark]
             errors = (part_of_allowed(one) or 0.0 for one in (old, quantity))
             yield Mark(at, case, quantity.name, quantity.run, kind, *errors)
     for change in counter_changes(now, was):
-        if change.kind is ChangeKind.DEARER:
+        if change.kind is ChangeKind.DEARER and change.was:  # else counted for the first time
             yield Mark(at, case, change.name, ALL_RUNS, change.kind, change.was, change.now)
 
 
