@@ -115,6 +115,8 @@ def rim(
     before: Rim | None = None,
     exponent: Exponent = 0.5,
     part: Part = WHOLE,
+    *,
+    anew: bool = False,
 ) -> Rim | None:
     """The rim of a region of tractions; None where it is too thin to have one.
 
@@ -123,8 +125,10 @@ def rim(
     before    the rim of about the same region: cells outside it are no data, but what comes of it
     exponent  the traction goes with this power of the distance from the edge
     part      of the window that all are given on
+    anew      whether to find slopes within the cells by fits to the others first, not in the rim
+              before: dearer, and where pressure and shear move the edge together that settles
     """
-    fitted = _fitted(means, loaded, before, exponent, part)
+    fitted = _fitted(means, loaded, before, exponent, part, anew=anew)
     if fitted is None:
         return None
     (i, j), phi, safe = fitted.band.fitted, fitted.about, fitted.safe
@@ -154,7 +158,13 @@ def area_within(means: Field, edge: Rim, exponent: Exponent = 0.5) -> float:
 
 
 def _fitted(
-    means: Field, loaded: Mask, before: Rim | None, exponent: Exponent, part: Part
+    means: Field,
+    loaded: Mask,
+    before: Rim | None,
+    exponent: Exponent,
+    part: Part,
+    *,
+    anew: bool = False,
 ) -> Fitted | None:
     """phi in the cells along the edge; see `rim`."""
     region = loaded if before is None else loaded & ~before.outer
@@ -171,7 +181,7 @@ def _fitted(
         rounds=2,
         depth=band.depth,
         part=part,
-        former=before.fitted.former if before else None,
+        former=before.fitted.former if before and not anew else None,
     )
     i, j = band.fitted
     phi, safe = shape.about_cells(i, j)

@@ -29,16 +29,16 @@ from semi_analytical.box import Box
 from semi_analytical.edge.corrected import Corrected, CorrectedShear
 from semi_analytical.edge.displacement import Within
 from semi_analytical.edge.peak import peak_of
-from semi_analytical.edge.rim import Rim, rim
+from semi_analytical.edge.rim import Rim, area_within, rim
+from semi_analytical.edge_correction.closing import Closed, closed
 from semi_analytical.edge_correction.mixing import Mixing
 from semi_analytical.edge_correction.operators import EdgeOperators
-from semi_analytical.edge_correction.pressure import ENOUGH, MOST_ROUNDS, MOST_UNSAFE, settles
+from semi_analytical.edge_correction.pressure import ENOUGH, MOST_ROUNDS, MOST_UNSAFE, has_settled, settles
 from semi_analytical.edge_correction.shear import BESIDE, direction_of_slip
 from semi_analytical.edge_correction.stick_area import stick_area
 from semi_analytical.increment import State
 from semi_analytical.linearised_shear import Point
 from semi_analytical.model import ContactModel
-from semi_analytical.normal import NormalSolution, solve_normal
 from semi_analytical.sheared import Sheared, rigid
 from semi_analytical.tangential import TangentialSolution, solve_tangential
 
@@ -47,8 +47,6 @@ VectorField = NDArray[np.float64]
 Mask = NDArray[np.bool_]
 WithinVector = tuple[Within, Within]
 
-# Of pressure and shear in a round, Σ|Δp|/Σp and Σ|Δq|/Σµp: what follows is a fifth of it.
-SETTLED = 1e-5
 # Of the largest pressure, below which a cell does not tell the ratio of shear to pressure.
 TOLD = 0.02
 # Of cells outwards from there that have the ratio of those beside: more than a rim has.
@@ -91,8 +89,7 @@ class _Answer(NamedTuple):
     """Of a round: tractions (q_x/µ, q_y/µ, p), and what they follow from."""
 
     tractions: Field
-    pressed: NormalSolution
-    gap: Field
+    pressed: Closed
     sheared: TangentialSolution
     displacement: VectorField
     within: WithinVector
@@ -152,14 +149,15 @@ class _Problem:
             change = answer.tractions - x
             sizes = np.sum(np.abs(change[2])), np.sum(magnitude(change[:2]))
             changes.append(float(max(sizes) / np.sum(x[2])))
-            if changes[-1] < SETTLED or number == MOST_ROUNDS - 1:
+            settled = has_settled(change, x[2], int(np.count_nonzero(x[2])))
+            if (settled and settles(changes)) or number == MOST_ROUNDS - 1:
                 break
             x = _allowed(x + change if number == 0 else mixing.next(x, change))
             edge = self._rim(x[2], edge)
         return self._state(answer, edge, changes[-1]) if settles(changes) else None
 
     def _rim(self, p: Field, before: Rim | None) -> Rim | None:
-        return rim(p, p > 0, before, self.exponent)
+        return rim(p, p > 0, before, self.exponent, anew=True)
 
     def solve(self, x: Field, shift: Vector, edge: Rim) -> _Answer:
         """The tractions with the edge where it is: the pressure below the last shear, then the
@@ -175,18 +173,19 @@ class _Problem:
         by_q = _within(q, p, by_p, edge)
         reached = np.where(edge.outer, edge.means, 0.0)
         *u_t, u_z = self.operators.by_all(cells)(*by_q, by_p)
-        gap = self.state.target.gap(model) + u_z + normal(reached) + coupling.normal_by_shear(q)
+        gap = self.state.target.gap(model) + u_z + coupling.normal_by_shear(q)
         load = self.state.target.on(model, Box.whole(cells))
-        pressed = solve_normal(
+        pressed = closed(
             normal,
             normal.precondition,
-            np.where(edge.outer, np.inf, gap),
+            gap,
             load.less(reached),
-            np.where(edge.outer, 0.0, p),
-            self.tolerance,
+            edge.region,
+            p,
+            reached,
             ENOUGH,
         )
-        p = pressed.pressure + reached
+        p = pressed.pressure
         beside = np.stack(u_t) + coupling.tangential_by_pressure(p)
         sheared = solve_tangential(
             tangential,
@@ -203,7 +202,6 @@ class _Problem:
         return _Answer(
             np.concatenate([sheared.shear / self.mu, p[None]]),
             pressed,
-            gap + pressed.displacement - load.closure(pressed.motion),
             sheared,
             sheared.displacement + beside,
             by_q,
@@ -218,9 +216,9 @@ class _Problem:
         return Corrected(
             pressure=p,
             peak=peak_of(p),
-            gap=np.where(edge.region, 0.0, np.maximum(answer.gap, 0.0)),
+            gap=np.where(edge.region, 0.0, np.maximum(answer.pressed.gap, 0.0)),
             approach=approach,
-            contact_cells=edge.area,
+            contact_cells=area_within(p, edge, self.exponent),
             change=change,
             edge=edge,
             tilt=tilt,

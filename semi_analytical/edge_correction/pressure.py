@@ -59,7 +59,7 @@ def edge_pressure(
         settled = has_settled(change, p, int(part.images * np.count_nonzero(p)))
         # Base solutions are so far off that nothing is to be learnt from the first change.
         p = solved.pressure if number == 0 else problem.load.admissible(mixing.next(p, change))
-        if settled:
+        if settled and settles(changes):
             break
         edge = rim(p, p > 0, edge, part=part)
     if edge is None or not settles(changes):

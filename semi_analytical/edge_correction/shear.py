@@ -228,7 +228,7 @@ def edge_shear(
         edge, stick = missing.edge, (problem.bound > 0) & ~solution.in_slip
         q = answer if number == 0 else mixing.next(q, change)
         settled = has_settled(change, problem.bound, int(np.count_nonzero(problem.bound)))
-        if settled or number == MOST_ROUNDS - 1:
+        if (settled and settles(changes)) or number == MOST_ROUNDS - 1:
             break
         next_missing = problem.missing(
             q, problem.bound, problem.before[0], stick | edge.outer, edge
