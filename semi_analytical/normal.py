@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from contact_scene.solver_errors import NotConverged
-from semi_analytical.normal_load import Map, Motion, NormalLoad
+from semi_analytical.normal_load import Map, Motion, NormalLoad, Projection
 
 Field = NDArray[np.float64]
 Mask = NDArray[np.bool_]
@@ -124,18 +124,31 @@ def _solve_on(
     Conjugate gradients until the residual norm has fallen by the factor `depth`.
     """
     projected = problem.load.projection(contact.astype(np.float64))
+    return close_gap(problem.displace, problem.precondition, projected, p, u, g, depth)
+
+
+def close_gap(
+    displace: Map,
+    precondition: Map,
+    projected: Projection,
+    p: Field,
+    u: Field,
+    g: Field,
+    depth: float,
+) -> tuple[Field, Field, int]:
+    """The same in the cells, and under the load, of a projection."""
     p, u, r = p.copy(), u.copy(), projected(-g)
-    t = z = projected(problem.precondition(r))
+    t = z = projected(precondition(r))
     rz = first = np.vdot(r, z)
     iterations = 0
     while rz > depth**2 * first and iterations < MOST_ITERATIONS_PER_STEP:
         iterations += 1
-        A_t = problem.displace(t)
+        A_t = displace(t)
         step = rz / np.vdot(t, A_t)
         p += step * t
         u += step * A_t
         r -= step * projected(A_t)
-        z = projected(problem.precondition(r))
+        z = projected(precondition(r))
         rz, last = np.vdot(r, z), rz
         t = z + (rz / last) * t
     return p, u, iterations

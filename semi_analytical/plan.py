@@ -17,8 +17,8 @@ MOST_CONTRAST = 1e12
 # Name of the effect that lets a quarter of the window tell tractions.
 MIRROR_PLANES = "mirror planes"
 # What edges inside the cells cost, on 64² to 256².
-CHEAP = "20 to 150 convolutions each time"
-DEAR = "three to five times the convolutions"
+CHEAP = "10 to 100 convolutions each time"
+DEAR = "two to three times the convolutions"
 
 
 class Coupling(StrEnum):

@@ -11,12 +11,11 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from semi_analytical.normal import close_gap
 from semi_analytical.normal_load import Map, Motion, NormalLoad
 
 Field = NDArray[np.float64]
 Mask = NDArray[np.bool_]
-
-MOST_ITERATIONS = 50
 
 
 class Closed(NamedTuple):
@@ -50,19 +49,7 @@ def closed(
     h = np.where(contact, gap, 0.0)  # without what is infinite
     motion = load.motion(p, u + h)
     projected = load.projection(contact.astype(np.float64))
-    r = projected(load.closure(motion) - h - u)
-    t = z = projected(precondition(r))
-    rz = first = np.vdot(r, z)
-    for _ in range(MOST_ITERATIONS):
-        if rz <= enough**2 * first:
-            break
-        A_t = displace(t)
-        step = rz / np.vdot(t, A_t)
-        p += step * t
-        u += step * A_t
-        r -= step * projected(A_t)
-        z = projected(precondition(r))
-        rz, last = np.vdot(r, z), rz
-        t = z + (rz / last) * t
+    g = u + h - load.closure(motion)
+    p, u, _ = close_gap(displace, precondition, projected, p, u, g, enough)
     motion = load.motion(p, u + h)
     return Closed(np.maximum(p, 0.0) + beside, u + gap - load.closure(motion), motion)

@@ -33,7 +33,13 @@ from semi_analytical.edge.rim import Rim, area_within, rim
 from semi_analytical.edge_correction.closing import Closed, closed
 from semi_analytical.edge_correction.mixing import Mixing
 from semi_analytical.edge_correction.operators import EdgeOperators
-from semi_analytical.edge_correction.pressure import ENOUGH, MOST_ROUNDS, MOST_UNSAFE, has_settled, settles
+from semi_analytical.edge_correction.pressure import (
+    ENOUGH,
+    MOST_ROUNDS,
+    MOST_UNSAFE,
+    has_settled,
+    settles,
+)
 from semi_analytical.edge_correction.shear import BESIDE, direction_of_slip
 from semi_analytical.edge_correction.stick_area import stick_area
 from semi_analytical.increment import State
