@@ -177,24 +177,32 @@ class ShearProblem:
     def solve(
         self, q: VectorField, motion: Field, missing: Missing, u: VectorField
     ) -> TangentialSolution:
-        """The shear with the border of stick where it is.
+        """The shear with the border of stick where it is, found on the part that tells shear.
 
         Cells that the stick zone only reaches into are missing from full slip what the fit says.
         """
         model = self.operators.model
-        operator = model.tangential_operator(model.grid.cells)
+        part, cells = model.shear_part, model.shear_cells
+        operator = model.shear_operator(cells)
         reached = magnitude(missing.full - missing.edge.means * missing.slip)
-        return solve_tangential(
+        q, target = (np.stack([part.of(one) for one in v]) for v in (q, self.target - u))
+        solution = solve_tangential(
             operator,
-            model.shear_inverse(model.grid.cells),
-            np.where(missing.edge.outer, np.minimum(reached, self.bound), self.bound),
-            self.target - u,
-            ShearSum(self.force / model.grid.cell_area),
+            model.shear_preconditioner(cells),
+            part.of(np.where(missing.edge.outer, np.minimum(reached, self.bound), self.bound)),
+            target,
+            ShearSum(self.force / model.shear_area, part.even),
             Point(q, operator(q)),
             motion,
             model.self_compliance,
             self.tolerance,
             ENOUGH,
+        )
+        return replace(
+            solution,
+            shear=part.unfolded_vector(solution.shear),
+            displacement=part.unfolded_vector(solution.displacement),
+            in_slip=part.unfolded(solution.in_slip),
         )
 
 
