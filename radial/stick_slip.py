@@ -31,6 +31,7 @@ Signs = NDArray[np.int64]
 
 MOST_STEPS = 200  # a few per ring: what all but sticks changes one ring at a time
 TIE = 1e-9  # of the largest limit
+AT_EDGE = 0.95  # of the radius: where rings are all that slips beyond, there is next to no slip
 ALL_AT_ONCE = 8  # steps of Newton's method; then the node that is most in the wrong changes alone
 
 
@@ -118,7 +119,7 @@ def rubbed(
     smooth = pressure(contact, rings.x)
     found, sliding = _newton(
         answer, rings.count, friction * smooth[1:-1], friction, (before - drawn)[1 : rings.count],
-        guess[1:-1],
+        guess[1:-1], rings.x[1:-1],
     )  # fmt: skip
     n = rings.count
     p, q, deeper = found[:n], found[n:-1], float(found[-1])
@@ -140,8 +141,9 @@ def rubbed(
 
 
 def _newton(
-    answer: Response, n: int, limit: Array, friction: float, stuck: Array, guess: Signs
-) -> tuple[Array, Signs]:
+    answer: Response, n: int, limit: Array, friction: float, stuck: Array, guess: Signs,
+    places: Array,
+) -> tuple[Array, Signs]:  # fmt: skip
     """Δp, q and what the approach changes by, and which nodes slide.
 
     limit  µ times the pressure without friction, at the nodes between axis and edge
@@ -152,7 +154,7 @@ def _newton(
     matrix, right = np.zeros((size, size)), np.zeros(size)
     matrix[: n + 1] = np.column_stack([answer.zz[: n + 1], answer.zr[: n + 1], -np.ones(n + 1)])
     sticking = np.column_stack([answer.rz[1:n], answer.rr[1:n], np.zeros(n - 1)])
-    sliding, contradicting = guess, 1.0
+    sliding, contradicting, first = guess, 1.0, 0.0
     for step in range(MOST_STEPS):
         rows = sticking.copy()
         right[n + 1 :] = stuck
@@ -174,10 +176,16 @@ def _newton(
         contradicting = float(np.mean(wrong != sliding))
         if contradicting == 0:
             return found, sliding
+        first = float(np.min(places[wrong != sliding]))
         if step >= ALL_AT_ONCE:
             by = np.where(wrong != sliding, np.abs(np.abs(tried) - most) / np.abs(most), -1.0)
             one = int(np.argmax(by))
             wrong = np.where(np.arange(n - 1) == one, wrong, sliding)
         sliding = wrong
     problem = "which rings stick (residual: share of them that contradict their tractions)"
+    if first > AT_EDGE:
+        problem += (
+            f", of which a coefficient of friction of {friction:g} lets none slip but in the last "
+            f"{1 - first:.1g} of the radius, narrower than they tell: give a smaller coefficient,"
+        )
     raise NotConverged(problem, step + 1, contradicting, 0.0)

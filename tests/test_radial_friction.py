@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from contact_scenes import RIGID_BALL, YOUNG, A, steel
 from kept_standing import KeptStanding
 from numpy.testing import assert_allclose
 
@@ -26,7 +27,7 @@ from contact_scene import (
     Paraboloid,
     Scene,
 )
-from contact_scene.solver_errors import UnsupportedScene
+from contact_scene.solver_errors import NotConverged, UnsupportedScene
 from contact_scene.summary import ContactStatus
 from radial.rings import OUTSIDE, rings_about
 from radial.sheared import Sheared
@@ -268,3 +269,18 @@ def test_a_map_of_friction_is_refused_by_name() -> None:
     )
     with pytest.raises(UnsupportedScene, match="map"):
         radial.plan(scene().model_copy(update={"friction": friction}))
+
+
+def test_slip_that_is_narrower_than_rings_is_told_by_its_name() -> None:
+    """All but the edge sticks; and the coefficient is named, which is what helps."""
+    base, film = steel(0.0), steel(young_modulus=2 * YOUNG)
+    asked = Scene(
+        indenter=RIGID_BALL,
+        body=Body(material=base, layers=(Layer(thickness=A, material=film),)),
+        friction=CoulombFriction(coefficient=5.0),
+        loading=(LoadStep(normal_force=1e3, increments=4),),
+    )
+    with pytest.raises(NotConverged, match="coefficient of friction of 5 lets none slip but in"):
+        radial.solve(asked)
+    weaker = asked.model_copy(update={"friction": CoulombFriction(coefficient=2.0)})
+    assert radial.solve(weaker).steps[0].stick_radius is not None
