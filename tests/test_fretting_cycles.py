@@ -14,7 +14,7 @@ import numpy as np
 import pytest
 from contact_scenes import APPROACH, LIMIT, LOAD, MU, PRESS, A, grid, paraboloid, push, slide
 
-from contact_results.cycles import _half_diameter, fretting_cycles
+from contact_results.cycles import NEAR_AT_HAND, _half_diameter, fretting_cycles
 from contact_results.result_files import write_result
 from contact_scene import RIGID, Body, LoadStep
 from contact_scene.cycles import load_cycles
@@ -56,10 +56,12 @@ def test_a_cycle_closes_where_all_loads_return(loading, expected):
 
 
 def test_a_range_is_the_largest_distance_of_two_points():
-    paths = np.random.default_rng(1).standard_normal((7, 2, 50))
+    """Of more sets of points than are told at once, too."""
+    sets = NEAR_AT_HAND // 14 + 50
+    paths = np.random.default_rng(1).standard_normal((7, 2, sets))
     expected = [
         max(np.hypot(*(one - other)) for one, other in combinations(paths[..., k], 2))
-        for k in range(50)
+        for k in range(sets)
     ]
     np.testing.assert_allclose(_half_diameter(paths), 0.5 * np.array(expected), rtol=1e-14)
 
