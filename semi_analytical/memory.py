@@ -25,6 +25,8 @@ COUPLING_ARRAYS = {Coupling.NONE: 0, Coupling.ONE_WAY: 33, Coupling.FULL: 42}
 # Spectra of what tractions do within the cells, and that along the edge, in about as many cells as
 # a side has; more of it where loads turn, whose edges stay inside the cells.
 EDGE_ARRAYS = 25
+# Fewer where a quarter of the window tells them, and a quarter of the cells along the edge.
+QUARTER_EDGE_SAVES = 19
 EDGE_SHEAR, EDGE_SHEAR_ARRAYS = 31 << 20, 46
 EDGE_RIM = 41_000  # bytes per cell of the longer side
 EDGE_SHEAR_RIM = 86_000
@@ -56,8 +58,10 @@ def estimated_bytes(grid: SurfaceGrid, plan: Plan) -> int:
     work += COUPLING_ARRAYS[plan.coupling]
     rim = 0
     if plan.edge != "off":
+        pressed_alone = quarter and not plan.shear
         work += EDGE_ARRAYS + (EDGE_SHEAR_ARRAYS if plan.shear else 0)
-        along = EDGE_RIM + (EDGE_SHEAR_RIM if plan.shear else 0)
+        work -= QUARTER_EDGE_SAVES if pressed_alone else 0
+        along = EDGE_RIM // (4 if pressed_alone else 1) + (EDGE_SHEAR_RIM if plan.shear else 0)
         along += EDGE_TURNED_RIM if plan.shear and len(plan.path) > PUSHED_ONCE else 0
         rim = along * max(grid.cells) + (EDGE_SHEAR if plan.shear else 0)
     work += HISTORY_ARRAYS if increments > 1 else 0
