@@ -93,8 +93,9 @@ ORDER = (
 ORDERS = {
     "semi_analytical": ORDER,
     "semi_analytical.edge": (
-        *("means", "quadratic", "fit", "shape"),
-        *("kernels", "displacement", "mirrored_displacement", "rim", "peak", "corrected"),
+        *("means", "quadratic", "fit", "shape", "line"),
+        *("film", "film_response", "kernels", "film_shape"),
+        *("displacement", "mirrored_displacement", "rim", "peak", "corrected"),
     ),
     "semi_analytical.edge_correction": (
         "mixing",

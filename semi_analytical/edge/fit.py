@@ -74,27 +74,65 @@ def _some_fits(
     data: Field, weight: Field, i: Indices, j: Indices, stencil: Stencil, degree: int
 ) -> tuple[Field, Field, Indices]:
     """Coefficients (n, 3 degree), rms and count of fits to padded data."""
+    basis = monomials(stencil)[:, : 3 * degree]
+    given, believed = (taken(field, i, j, stencil) for field in (data, weight))
+    believed *= fading(stencil)
+    normal = normal_matrices(basis, believed)
+    right = basis.T @ (believed * given).T
+    found = solved(normal, right).T
+    left = given - found @ basis.T
+    return found, *what_is_left(left, believed)
+
+
+def taken(padded: Field, i: Indices, j: Indices, stencil: Stencil) -> Field:
+    """What a field, padded by the reach, has in the windows about cells (n, window)."""
+    dx, dy = _offsets(stencil)
+    across = padded.shape[1]
+    at = ((i + stencil.reach) * across + j + stencil.reach)[:, None] + (dx * across + dy)
+    return np.asarray(padded.take(at))
+
+
+def fading(stencil: Stencil) -> Field:
+    """Weights of a window (window,)."""
+    dx, dy = _offsets(stencil)
+    return np.asarray(np.exp(-(dx**2 + dy**2) / (2 * stencil.width**2)))
+
+
+def monomials(stencil: Stencil) -> Field:
+    """Means over the cells of a window of 1, x, y, x²/2, xy, y²/2 (window, 6)."""
+    dx, dy = _offsets(stencil)
+    columns = (np.ones(len(dx)), dx, dy, dx**2 / 2 + 1 / 24, dx * dy, dy**2 / 2 + 1 / 24)
+    return np.stack(columns, axis=-1)
+
+
+def _offsets(stencil: Stencil) -> tuple[Indices, Indices]:
     shift = np.arange(-stencil.reach, stencil.reach + 1)
     dx, dy = (grid.ravel() for grid in np.meshgrid(shift, shift, indexing="ij"))
-    across = data.shape[1]
-    at = ((i + stencil.reach) * across + j + stencil.reach)[:, None] + (dx * across + dy)
-    given, believed = data.take(at), weight.take(at)
-    believed *= np.exp(-(dx**2 + dy**2) / (2 * stencil.width**2))
-    columns = (np.ones(len(dx)), dx, dy, dx**2 / 2 + 1 / 24, dx * dy, dy**2 / 2 + 1 / 24)
-    basis = np.stack(columns[: 3 * degree], axis=-1)
+    return dx, dy
+
+
+def normal_matrices(basis: Field, believed: Field) -> Field:
+    """Of least squares (m, m, n)."""
     count = basis.shape[1]
     row, column = np.triu_indices(count)
-    normal = np.empty((count, count, len(i)))
+    normal = np.empty((count, count, len(believed)))
     normal[row, column] = (basis[:, row] * basis[:, column]).T @ believed.T
     normal[column, row] = normal[row, column]
-    diagonal = np.arange(count)
-    normal[diagonal, diagonal] += RIDGE * (np.trace(normal) + 1e-30)
-    right = basis.T @ (believed * given).T
-    found = _solved(normal, right).T
-    left = given - found @ basis.T
+    return normal
+
+
+def what_is_left(left: Field, believed: Field) -> tuple[Field, Indices]:
+    """Weighted root mean square of what fits leave of their data (n, window), and their count."""
     total = np.maximum(np.sum(believed, axis=1), 1e-30)
     rms = np.sqrt(np.sum(believed * left**2, axis=1) / total)
-    return found, rms, np.count_nonzero(believed, axis=1)
+    return rms, np.count_nonzero(believed, axis=1)
+
+
+def solved(normal: Field, right: Field) -> Field:
+    """The coefficients (m, n) of least squares (m, m, n) and (m, n). Overwrites both."""
+    diagonal = np.arange(len(right))
+    normal[diagonal, diagonal] += RIDGE * (np.trace(normal) + 1e-30)
+    return _solved(normal, right)
 
 
 def _solved(matrices: Field, right: Field) -> Field:

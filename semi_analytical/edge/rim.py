@@ -8,17 +8,21 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from semi_analytical.edge.fit import Indices, Stencil
+from semi_analytical.edge.film import FilmLaw
+from semi_analytical.edge.film_shape import FilmShape, film_shape
+from semi_analytical.edge.fit import WIDER, Indices, Stencil
 from semi_analytical.edge.kernels import PARTS, part_centres
 from semi_analytical.edge.means import Exponent, mean_of_smooth, mean_power
 from semi_analytical.edge.quadratic import Quadratic
-from semi_analytical.edge.shape import Former, Mask, depth_of, edge_shape
+from semi_analytical.edge.shape import EdgeShape, Former, Mask, depth_of, edge_shape
 from semi_analytical.part import WHOLE, Part
 
 Field = NDArray[np.float64]
 
 # Wider than for exact means: what is left of the error of one cell is to leave the others alone.
 STENCIL = Stencil(4, 2.2)
+# On films still wider: next to a plateau of the pressure narrow fits lead edges that waver.
+OF_FILM = WIDER
 # Layers of cells inside and outside the edge. Farther in a traction is a slope within a cell, to
 # 1/500 of it; farther out it is zero.
 INSIDE, OUTSIDE = 5.5, 1.5
@@ -54,12 +58,13 @@ class Band(NamedTuple):
 
 class Fitted(NamedTuple):
     """What was fitted where: phi about the fitted cells of the band, whether to believe it, and
-    what the next fit of about the same region starts from."""
+    what the next fit of about the same region starts from; with the law of a film its shape."""
 
     band: Band
     about: Quadratic
     safe: Mask
     former: Former
+    film: FilmShape | None = None
 
     def area(self, part: Part) -> float:
         """Of the region and its images, in cells."""
@@ -115,6 +120,7 @@ def rim(
     before: Rim | None = None,
     exponent: Exponent = 0.5,
     part: Part = WHOLE,
+    film: FilmLaw | None = None,
     *,
     anew: bool = False,
 ) -> Rim | None:
@@ -125,10 +131,11 @@ def rim(
     before    the rim of about the same region: cells outside it are no data, but what comes of it
     exponent  the traction goes with this power of the distance from the edge
     part      of the window that all are given on
+    film      instead of the power ½: the law of a pressure on layered bodies
     anew      whether to find slopes within the cells by fits to the others first, not in the rim
               before: dearer, and where pressure and shear move the edge together that settles
     """
-    fitted = _fitted(means, loaded, before, exponent, part, anew=anew)
+    fitted = _fitted(means, loaded, before, exponent, part, film, anew=anew)
     if fitted is None:
         return None
     (i, j), phi, safe = fitted.band.fitted, fitted.about, fitted.safe
@@ -136,6 +143,8 @@ def rim(
     unsafe = np.count_nonzero(~safe) / (len(safe) + len(deep))
     i, j, phi = i[safe], j[safe], phi.chosen(safe)
     parts = _in_parts(phi, exponent[i, j] if isinstance(exponent, np.ndarray) else exponent)
+    if fitted.film is not None:
+        parts *= fitted.film.parts_over_root(phi)
     inside = fitted.band.region.copy()
     inside[i, j] = phi.f > 0
     deep_i, deep_j = fitted.band.deep
@@ -153,7 +162,9 @@ def rim(
 def area_within(means: Field, edge: Rim, exponent: Exponent = 0.5) -> float:
     """Area in cells of a region that a rim is about, when its tractions are these means (nx, ny):
     all around it, in the whole window."""
-    fitted = _fitted(means, means > 0, edge, exponent, edge.part)
+    shape = edge.fitted.film
+    law = None if shape is None else shape.law
+    fitted = _fitted(means, means > 0, edge, exponent, edge.part, law)
     return edge.area if fitted is None else fitted.area(edge.part)
 
 
@@ -163,6 +174,7 @@ def _fitted(
     before: Rim | None,
     exponent: Exponent,
     part: Part,
+    film: FilmLaw | None,
     *,
     anew: bool = False,
 ) -> Fitted | None:
@@ -172,24 +184,43 @@ def _fitted(
     band = before.fitted.band if before and same else _band(region, part)
     if np.max(band.depth) <= THICK:
         return None
-    shape = edge_shape(
-        means / np.max(means),
-        region,
-        STENCIL,
-        rings=0,
-        exponent=exponent,
-        rounds=2,
-        depth=band.depth,
-        part=part,
-        former=before.fitted.former if before and not anew else None,
-    )
+    known = None if anew else before
+    shape, on_film = _shape(means / np.max(means), band, known, exponent, part, film)
     i, j = band.fitted
     phi, safe = shape.about_cells(i, j)
     # Told once: cells that are cut and then not would keep the rounds from settling.
     cut = before.fitted.former.cut if before and same else _marked(region.shape, i, j, phi.cut)
     slopes = part.differences(shape.phi)
     slopes[:, i, j] = phi.f_x, phi.f_y
-    return Fitted(band, phi, safe, Former(slopes, cut))
+    return Fitted(band, phi, safe, Former(slopes, cut), on_film)
+
+
+def _shape(
+    means: Field,
+    band: Band,
+    before: Rim | None,
+    exponent: Exponent,
+    part: Part,
+    film: FilmLaw | None,
+) -> tuple[EdgeShape, FilmShape | None]:
+    """Shape of the edge, and again where it is that on a film."""
+    if film is not None:
+        known = before.fitted.film if before else None
+        line = known.line if known else None
+        shape = film_shape(means, band.region, OF_FILM, film, band.depth, part, line)
+        return shape, shape
+    of_power = edge_shape(
+        means,
+        band.region,
+        STENCIL,
+        rings=0,
+        exponent=exponent,
+        rounds=2,
+        depth=band.depth,
+        part=part,
+        former=before.fitted.former if before else None,
+    )
+    return of_power, None
 
 
 def _band(region: Mask, part: Part) -> Band:

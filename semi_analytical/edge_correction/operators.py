@@ -5,6 +5,8 @@ from __future__ import annotations
 from functools import cached_property
 
 from semi_analytical.edge.displacement import EdgeOperator
+from semi_analytical.edge.film import FilmLaw
+from semi_analytical.edge.film_response import film_law
 from semi_analytical.edge.kernels import PARITY, PART_OFFSETS, PARTS, EdgeKernels
 from semi_analytical.edge.mirrored_displacement import MirroredEdgeOperator
 from semi_analytical.influence.bodies import influence_coefficients
@@ -50,6 +52,12 @@ class EdgeOperators:
     def by_all(self, shape: Shape) -> EdgeOperator:
         """(u_x, u_y, u_z) by shear and pressure (x, y, z)."""
         return self._operator(COUPLED, shape)
+
+    @cached_property
+    def film(self) -> FilmLaw | None:
+        """The law of the pressure at its edge where layers change it within a few cells."""
+        scene = self.model.scene
+        return film_law(scene.body, scene.indenter, self.model.grid.spacing)
 
     def _operator(self, rows: tuple[Row, ...], shape: Shape) -> EdgeOperator:
         key = len(rows), shape

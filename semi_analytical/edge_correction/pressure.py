@@ -49,7 +49,8 @@ def edge_pressure(
     contact is too thin, its edge is rough, or the rounds do not settle."""
     problem, part = _Problem(operators, target, tolerance), operators.model.part
     p, mixing, changes = part.of(pressure), Mixing(), list[float]()
-    edge = rim(p, p > 0, part=part)
+    film = operators.film
+    edge = rim(p, p > 0, part=part, film=film)
     for number in range(MOST_ROUNDS):
         if edge is None or edge.unsafe > MOST_UNSAFE:
             return None
@@ -61,7 +62,7 @@ def edge_pressure(
         p = solved.pressure if number == 0 else problem.load.admissible(mixing.next(p, change))
         if settled and settles(changes):
             break
-        edge = rim(p, p > 0, edge, part=part)
+        edge = rim(p, p > 0, edge, part=part, film=film)
     if edge is None or not settles(changes):
         return None
     return problem.corrected(p, solved, edge, changes[-1])

@@ -1,0 +1,137 @@
+"""The pressure towards the edge of a contact of layered bodies, as a function of the distance.
+
+Near its edge a contact is plane. With X(k) = k E* F_zz/2 (F_zz of both bodies, E* of the outermost
+materials: 1 for short waves) pressure p and slope u' of the displacement obey
+
+    i sign(k) X(|k|) p~(k) = u'~(k),    p = 0 for s < 0,    u' smooth for s > 0,
+
+s the distance inwards from the edge. With X = X+ X-, each analytic in half of the plane (Wiener and
+Hopf), pressures that end smoothly are sums of
+
+    Φn(s) = L⁻¹[z^(-n-1/2)/X+(iz)](s), n = 1, 2, …,    ln X+(iz) = (z/π) ∫₀^∞ ln X(k)/(k² + z²) dk
+
+with L Laplace's transform; Φn+1 is the integral of Φn. Without layers Φ1 = 2 √(s/π). With them it
+is that within the thickness of the outermost, and farther in 1/√X(0) of it. Along an edge of
+curvature κ it is (1 - κ s/2) p that they make up, to first order (J₀ for large arguments).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cached_property
+from math import comb, gamma, log, pi
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.interpolate import CubicSpline
+
+Field = NDArray[np.float64]
+# X of wavenumbers times the thickness.
+Response = Callable[[Field], Field]
+
+# Of logarithms of wavenumbers and distances, in units of the thickness.
+STEP = 0.05
+WAVES, DISTANCES = (log(1e-8), log(1e8)), (log(1e-5), log(1e6))
+# Half of the terms of the sum that inverts Laplace's transform (Abate and Whitt 1995): to 1e-7.
+TERMS = 14
+# A square so many times as far inside the edge as it is wide has the mean of two points.
+DEEP = 2.0
+POINTS, WEIGHTS = (half / 2 for half in np.polynomial.legendre.leggauss(4))
+# Of the root of its width, below which the mean of the root tells nothing.
+TOUCHED = 1e-6
+
+
+@dataclass(frozen=True)
+class FilmLaw:
+    """Pressures Φ1 + c (Φ2 - ⅔ s Φ1), to be taken in place of √s: what bends √s alike, a factor
+    1 + ⅔ c s, is left to what is fitted.
+
+    response   X
+    stretched  sides of a cell along x and y over the thickness, in which s is measured
+    """
+
+    response: Response
+    stretched: tuple[float, float]
+
+    @cached_property
+    def _ratios(self) -> CubicSpline:
+        """Φ1, Φ2, Φ3 over what they are without layers, of ln s."""
+        t, u = (np.arange(low, high, STEP) for low, high in (WAVES, DISTANCES))
+        level = log(self.response(np.exp(t[:1]))[0])
+        # Without level/(1 + k²), whose integral is known, both ends vanish.
+        rest = np.log(self.response(np.exp(t))) - level / (1 + np.exp(2 * t))
+        s, z = np.exp(u), TERMS * log(10) / 3 + 1j * pi * np.arange(2 * TERMS + 1)
+        # Everything depends on k s alone: the integral over ln k correlates with it.
+        ks = np.exp(t[0] + u[0] + STEP * np.arange(len(t) + len(u) - 1))
+        kernel = STEP / pi * z[:, None] * ks / (ks**2 + z[:, None] ** 2)
+        size = 2 ** int(np.ceil(np.log2(len(ks) + len(t))))
+        spectrum = np.fft.fft(kernel, size) * np.fft.fft(rest[::-1], size)
+        integral = np.fft.ifft(spectrum)[:, len(t) - 1 : len(t) - 1 + len(u)]
+        factor = np.exp(-integral - level / 2 / (1 + z[:, None] / s))
+        share = (-1.0) ** np.arange(len(z)) * _euler_weights() * 10 ** (TERMS / 3)
+        ratios = [
+            share @ (gamma(n + 0.5) * z[:, None] ** (-n - 0.5) * factor).real for n in (1, 2, 3)
+        ]
+        return CubicSpline(u, np.stack(ratios, axis=-1))
+
+    def over_root(self, s: Field, c: Field) -> Field:
+        """The law over √s at distances s > 0, any shape."""
+        first, second, _ = self._at(s)
+        return np.asarray(first + c * s / 1.5 * (second - first))
+
+    def means_over_root(
+        self, s: Field, along: Field, across: Field, c: Field
+    ) -> tuple[Field, Field]:
+        """The mean of the law over squares over that of √s, and the derivative of its logarithm
+        over that of the logarithm of the mean of √s, shape (n,); 1 and 0 outside.
+
+        s              distance of the middle of each; negative outside
+        along, across  change of the distance along its sides
+        """
+        b, a = np.maximum(np.abs(along), np.abs(across)), np.minimum(np.abs(along), np.abs(across))
+        means = np.zeros((4, len(s)))
+        deep = s > DEEP * (a + b)
+        off = np.sqrt((a**2 + b**2) / 12)
+        for sign in (1, -1):
+            means[:, deep] += self._values(s[deep] + sign * off[deep], c[deep]) / 2
+        cut = (s > -(a + b) / 2) & ~deep
+        for y, weight in zip(POINTS, WEIGHTS, strict=True):
+            for sign in (1, -1):
+                end = np.maximum(s[cut] + sign * b[cut] / 2 + y * a[cut], 0.0)
+                means[:, cut] += sign * weight / b[cut] * self._integrals(end, c[cut])
+        law, law_rate, root, root_rate = np.where(means[2] > TOUCHED * np.sqrt(b), means, 1.0)
+        return law / root, law_rate * root / (law * root_rate) - 1
+
+    def _at(self, s: Field) -> Field:
+        """(3, …)"""
+        u = np.log(np.maximum(s, 1e-300))
+        found = self._ratios(np.clip(u, self._ratios.x[0], self._ratios.x[-1]))
+        return np.asarray(np.moveaxis(found, -1, 0))
+
+    def _values(self, s: Field, c: Field) -> Field:
+        """The law and its derivative, √s and its derivative (4, n), at s > 0."""
+        root, step = np.sqrt(s), 0.02
+        here, after, before = (self.over_root(s * f, c) for f in (1.0, 1 + step, 1 - step))
+        return np.stack([
+            root * here, (here / 2 + (after - before) / (2 * step)) / root, root, 0.5 / root
+        ])  # fmt: skip
+
+    def _integrals(self, s: Field, c: Field) -> Field:
+        """Integrals from 0 to s of the same (4, n)."""
+        root = np.sqrt(s)
+        first, second, third = self._at(s)
+        bent = c * s / 1.5
+        of_root = s * root / 1.5
+        return np.stack([
+            of_root * (second + bent * (third - second)),
+            root * (first + bent * (second - first)),
+            of_root,
+            root,
+        ])  # fmt: skip
+
+
+def _euler_weights() -> Field:
+    """Of the alternating sum, whose later terms are averaged (Euler)."""
+    tail = np.cumsum([comb(TERMS, k) for k in range(TERMS)]) / 2**TERMS
+    return np.concatenate([[0.5], np.ones(TERMS), tail[::-1]])

@@ -1,0 +1,203 @@
+"""Shape of the edge of a contact of layered bodies: `shape` with the law of `film`.
+
+Over what the law has over the root cell means are those of a root, and fitted like those. But that
+ratio is told by the distance from the edge: as the edge moves, so does what is fitted. Fits at the
+edge know that (Newton's method), and a few of them after one another find both.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from semi_analytical.edge.film import FilmLaw
+from semi_analytical.edge.fit import (
+    CHUNK,
+    Fits,
+    Indices,
+    Stencil,
+    fading,
+    fit_about,
+    monomials,
+    normal_matrices,
+    solved,
+    taken,
+    what_is_left,
+)
+from semi_analytical.edge.kernels import PARTS, part_centres
+from semi_analytical.edge.line import EdgeLine, Seen
+from semi_analytical.edge.means import centre_value
+from semi_analytical.edge.quadratic import Quadratic
+from semi_analytical.edge.shape import ASKED, CUT_WEIGHT, EdgeShape
+from semi_analytical.part import WHOLE, Part
+
+Field = NDArray[np.float64]
+Mask = NDArray[np.bool_]
+
+# Layers of cells along the edge.
+ALONG = 1.5
+TURNS, TURNS_AGAIN = 5, 2
+# Of how far data lean on the edge: where the pressure has its first plateau they would hardly tell
+# where that is, and Newton's method overshoots.
+MOST_LEANING = -0.7
+# Of the curvature c of the law, over that of the largest circle inside: what no smooth edge has.
+MOST_BENT = 4.0
+# A part of a cell so many times its width inside the edge sees the law change but little.
+FAR = 5.0
+
+
+@dataclass(frozen=True, kw_only=True)
+class FilmShape(EdgeShape):
+    """Of a layered contact.
+
+    leaning  (nx, ny) derivative of `phi` with respect to that at the edge
+    line     the edge that `phi` was made with
+    law      of the pressure
+    """
+
+    leaning: Field
+    line: EdgeLine
+    law: FilmLaw
+
+    def fits(self, i: Indices, j: Indices) -> Fits:
+        """Fits about cells of the region, shape (n,), to phi(x) + leaning phi(edge)."""
+        reach = self.stencil.reach
+        phi, weight, leaning = (
+            self.part.framed(f, reach) for f in (self.phi, self.weight, self.leaning)
+        )
+        to_x, to_y = self.line.seen_from(i, j).foot / np.array(self.line.stretched)[:, None]
+        foot = np.stack([to_x**0, to_x, to_y, to_x**2 / 2, to_x * to_y, to_y**2 / 2])
+        basis, fade = monomials(self.stencil), fading(self.stencil)
+        found, rms, count = np.empty((6, len(i))), np.empty(len(i)), np.empty(len(i), dtype=int)
+        for first in range(0, len(i), CHUNK):
+            some = slice(first, first + CHUNK)
+            window = i[some], j[some], self.stencil
+            given, believed, leans = (taken(f, *window) for f in (phi, weight, leaning))
+            believed *= fade
+            at = foot[:, some]
+            normal = normal_matrices(basis, believed)
+            mixed = basis.T @ (believed * leans).T
+            normal += mixed[:, None] * at + at[:, None] * mixed
+            normal += np.sum(believed * leans**2, axis=1) * at[:, None] * at
+            right = basis.T @ (believed * given).T + at * np.sum(believed * leans * given, axis=1)
+            found[:, some] = solved(normal, right)
+            at_edge = np.sum(found[:, some] * at, axis=0)
+            left = given - found[:, some].T @ basis.T - leans * at_edge[:, None]
+            rms[some], count[some] = what_is_left(left, believed)
+        return Fits(Quadratic(i.astype(float), j.astype(float), *found), rms, count)
+
+    def parts_over_root(self, phi: Quadratic) -> Field:
+        """The means of the law over those of the root in the parts of cells (n, PARTS, PARTS).
+
+        phi  about the cells
+        """
+        x, law = part_centres(), self.law
+        at_x = phi.x[:, None] + np.repeat(x, PARTS)
+        at_y = phi.y[:, None] + np.tile(x, PARTS)
+        own = EdgeLine.of(phi, law.stretched)
+        seen = own.seen_by(np.arange(len(phi.f))[:, None], at_x, at_y)
+        of_cells = self.line.seen_from(np.rint(phi.x).astype(int), np.rint(phi.y).astype(int))
+        c = np.broadcast_to(bent(of_cells, self.depth, law)[:, None], at_x.shape)
+        sides = np.array(law.stretched)[:, None, None] / PARTS * seen.normal
+        s, width = seen.distance, np.sum(np.abs(sides), axis=0)
+        ratio = np.ones(s.shape)
+        near, far = np.abs(s) <= FAR * width, s > FAR * width
+        ratio[far] = law.over_root(s[far], c[far])
+        ratio[near] = law.means_over_root(s[near], sides[0][near], sides[1][near], c[near])[0]
+        return ratio.reshape(-1, PARTS, PARTS)
+
+
+def film_shape(
+    means: Field,
+    region: Mask,
+    stencil: Stencil,
+    law: FilmLaw,
+    depth: Field,
+    part: Part = WHOLE,
+    before: EdgeLine | None = None,
+) -> FilmShape:
+    """Shape of the edge of a region.
+
+    means   (nx, ny) cell means of p, positive in the region
+    depth   of the region, see `shape.depth_of`
+    part    of the window that all are given on
+    before  the edge of about the same region
+    """
+    problem = _Problem(np.where(region, means, 0.0), region, stencil, law, depth, part)
+    along = np.nonzero(region & (depth < ALONG))
+    line = problem.first(*along) if before is None else before
+    for _ in range(TURNS if before is None else TURNS_AGAIN):
+        shape = problem.about(line)
+        line = EdgeLine.of(shape.fits(*along).quadratic, law.stretched)
+        if before is None:
+            line = line.evened()
+        line = line.with_images(part)
+    return problem.about(line)
+
+
+@dataclass(frozen=True)
+class _Problem:
+    means: Field
+    region: Mask
+    stencil: Stencil
+    law: FilmLaw
+    depth: Field
+    part: Part
+
+    @property
+    def band(self) -> tuple[Indices, Indices]:
+        """Cells whose distance from the edge is told by it."""
+        i, j = np.nonzero(self.region & (self.depth < ASKED + 1.5 * self.stencil.reach))
+        return i, j
+
+    @property
+    def by_depth(self) -> Field:
+        """phi of all cells, the distance told by their layer."""
+        size = np.sqrt(np.prod(self.law.stretched))
+        s = np.maximum(self.depth - 0.5, 0.5) * size
+        curved = np.full(s.shape, -9 / 8 / (np.max(self.depth) * size))  # Hertz's
+        return np.asarray((self.means / self.law.over_root(s, curved)) ** 2)
+
+    def first(self, i: Indices, j: Indices) -> EdgeLine:
+        """A guess, from cells that are not cut."""
+        inner = (self.region & (self.depth >= ALONG)).astype(float)
+        fits = fit_about(self.by_depth, inner, i, j, self.stencil, part=self.part)
+        return EdgeLine.of(fits.quadratic, self.law.stretched).evened().with_images(self.part)
+
+    def about(self, line: EdgeLine) -> FilmShape:
+        """With distances from a line."""
+        phi, weight = self.by_depth, self.region.astype(float)
+        leaning = np.zeros_like(phi)
+        i, j = self.band
+        seen = line.seen_from(i, j)
+        along_x, along_y = np.array(self.law.stretched)[:, None] * seen.normal
+        c = bent(seen, self.depth, self.law)
+        ratio, leans = self.law.means_over_root(seen.distance, along_x, along_y, c)
+        slope = seen.slope_here
+        phi[i, j] = centre_value(self.means[i, j] / ratio, slope * along_x, slope * along_y, 0.5)
+        leaning[i, j] = np.maximum(leans, MOST_LEANING) * slope / seen.slope
+        cut = np.abs(seen.distance) < (np.abs(along_x) + np.abs(along_y)) / 2
+        weight[i, j] = np.where(cut, CUT_WEIGHT, 1.0)
+        return FilmShape(
+            means=self.means,
+            phi=phi,
+            weight=weight,
+            exponent=0.5,
+            stencil=self.stencil,
+            depth=self.depth,
+            part=self.part,
+            leaning=leaning,
+            line=line,
+            law=self.law,
+        )
+
+
+def bent(seen: Seen, depth: Field, law: FilmLaw) -> Field:
+    """c of the law: of φ = g s (1 + b s) along an edge of curvature κ it is ¾ (b - κ).
+
+    depth  layers of the region (nx, ny)
+    """
+    limit = MOST_BENT / (np.max(depth) * min(law.stretched))
+    return np.clip(0.75 * (seen.bend / (2 * seen.slope) - seen.curvature), -limit, limit)

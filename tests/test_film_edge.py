@@ -1,0 +1,200 @@
+"""The pressure at the edge of a contact of layered bodies, against the radial solver."""
+
+from functools import cache
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from contact_scene import (
+    RIGID,
+    Body,
+    Ellipsoid,
+    IsotropicMaterial,
+    Layer,
+    LoadStep,
+    Paraboloid,
+    Scene,
+)
+from radial.bodies import Bodies
+from radial.disc import Disc, disc
+from radial.surface import pressure
+from semi_analytical import SurfaceGrid, plan, solve
+from semi_analytical.edge.film import FilmLaw
+from semi_analytical.edge.film_response import film_law
+from semi_analytical.edge.rim import rim
+from verification.cell_means import round_means
+from verification.problems.shifted_grid import ShiftedGrid
+
+Field = NDArray[np.float64]
+A, RADIUS, YOUNG, NU = 1e-3, 0.018, 210e9, 0.3
+NO_BODY = Body(material=RIGID)
+
+
+def coated(ratio: float, thickness: float, base: float = YOUNG) -> Body:
+    """Film of so many times the modulus of its base, its thickness over A."""
+    film = IsotropicMaterial(young_modulus=ratio * base, poisson_ratio=NU)
+    return Body(
+        material=IsotropicMaterial(young_modulus=base, poisson_ratio=NU),
+        layers=[Layer(thickness=thickness * A, material=film)],
+    )
+
+
+def law_of(ratio: float, thickness: float, spacing: float = A) -> FilmLaw:
+    """Lengths over A where the spacing is A."""
+    law = film_law(coated(ratio, thickness), NO_BODY, (spacing, spacing))
+    assert law is not None
+    return law
+
+
+@cache
+def ball_on(ratio: float, thickness: float) -> tuple[Scene, Disc]:
+    """A ball whose contact has the radius A, and the exact contact."""
+    body, ball = coated(ratio, thickness), Paraboloid(radius=RADIUS, material=RIGID)
+
+    def under(load: float) -> Scene:
+        steps = [LoadStep(normal_force=load)]
+        return Scene(indenter=ball, body=body, friction=None, loading=steps)
+
+    exact = disc(Bodies.of(under(1.0)), ball, A)
+    return under(exact.load), exact
+
+
+def exact_means(exact: Disc, grid: SurfaceGrid) -> Field:
+    """Of the pressure over cells, from a table of p/√s (the solver's own is slow)."""
+    s = np.geomspace(1e-7, 1.0, 4000)
+    table = pressure(exact, 1 - s) / np.sqrt(s)
+
+    def at(r: Field) -> Field:
+        inside = np.maximum(1 - r / A, 0.0)
+        known = np.interp(np.log(np.maximum(inside, s[0])), np.log(s), table)
+        return np.asarray(np.sqrt(inside) * known)
+
+    x, y = grid.coordinates()
+    return round_means(at, x, y, grid.spacing)
+
+
+@pytest.mark.parametrize("ratio", [0.25, 4.0, 100.0])
+def test_the_law_goes_from_the_root_of_the_film_to_that_of_its_base(ratio: float) -> None:
+    """Which is the root of the ratio of their moduli smaller."""
+    law = law_of(ratio, 1.0)
+    near, far = law.over_root(np.array([1e-5, 1e5]), np.zeros(2))
+    assert near == pytest.approx(1.0, abs=1e-4)
+    assert far == pytest.approx(ratio**-0.5, rel=1e-3)
+
+
+@pytest.mark.parametrize("ratio", [0.25, 2.0, 10.0])
+def test_it_is_the_pressure_at_the_edge_of_a_ball_on_a_film(ratio: float) -> None:
+    """With the curvatures of Hertz: c = ¾ (b - κ) = -9/8a."""
+    thickness = 0.01
+    _, exact = ball_on(ratio, thickness)
+    s = np.geomspace(1e-3, 8.0, 25) * thickness
+    law = law_of(ratio, thickness, spacing=A)
+    root = law.over_root(s / thickness, np.full(s.shape, -9 / 8 * thickness))
+    p = pressure(exact, 1 - s)
+    left = p / (np.sqrt(s * (1 - s / 2)) * root)
+    np.testing.assert_allclose(left / left[0], 1.0, atol=1e-3)
+    assert np.ptp(p / np.sqrt(s)) > 0.25 * np.max(p / np.sqrt(s))
+
+
+@pytest.mark.parametrize("place", [(-0.3, 0.8, 0.4), (0.1, 0.7, 0.0), (1.2, 0.5, -0.5), (9, 1, 0)])
+def test_means_of_the_law_are_its_integrals(place: tuple[float, float, float]) -> None:
+    """Over a square in which the distance is linear; the derivative by differences."""
+    law, c = law_of(4.0, 1.0), np.array([-0.02])
+    s, along, across = place
+    x = (np.arange(400) + 0.5) / 400 - 0.5
+
+    def means(at: float) -> Field:
+        """Of the law and of the root."""
+        inside = np.maximum(at + x * along + x[:, None] * across, 0.0)
+        root = np.sqrt(inside)
+        return np.array([np.mean(root * law.over_root(np.maximum(inside, 1e-12), c)), root.mean()])
+
+    ratio, leaning = law.means_over_root(np.array([s]), np.array([along]), np.array([across]), c)
+    of_law, of_root = means(s)
+    assert ratio[0] == pytest.approx(of_law / of_root, rel=1e-3)
+    rates = np.log(means(s + 0.05) / means(s - 0.05))
+    assert leaning[0] == pytest.approx(rates[0] / rates[1] - 1, abs=0.02)
+
+
+@pytest.mark.parametrize("case", [(4.0, 0.02), (4.0, 0.1), (0.25, 0.02), (10.0, 0.05)])
+def test_the_edge_is_found_from_exact_means(case: tuple[float, float]) -> None:
+    """A root fitted to them is off by several thousandths."""
+    grid = ShiftedGrid((96, 96), (3 * A, 3 * A), (0.3, -0.1))
+    means = exact_means(ball_on(*case)[1], grid)
+    film = film_law(coated(*case), NO_BODY, grid.spacing)
+    error = {}
+    for law in (None, film):
+        edge = rim(means, means > 0.0, film=law)
+        for _ in range(4):
+            edge = rim(means, means > 0.0, edge, film=law)
+        assert edge is not None
+        error[law is film] = abs(np.sqrt(edge.area / np.pi) * grid.spacing[0] / A - 1)
+        if law is film:
+            near = edge.means > 0
+            off = (edge.means - means)[near]
+            assert np.sqrt(np.mean(off**2)) < 3e-3 * np.max(means)
+    assert error[True] < 1e-4
+    assert error[False] > 10 * error[True]
+
+
+@pytest.mark.parametrize("case", [(4.0, 0.1), (4.0, 0.05), (10.0, 0.05), (2.0, 0.02), (0.25, 0.02)])
+def test_a_ball_on_a_film_has_its_radius_to_a_ten_thousandth(case: tuple[float, float]) -> None:
+    """On 42 cells per radius, film of less than one to four of them; with roots it is off by half a
+    hundredth or more, or not to be had."""
+    of, exact = ball_on(*case)
+    grid = ShiftedGrid((128, 128), (3 * A, 3 * A), (0.2, 0.4))
+    end = solve(of, grid, 1e-8, plan=plan(of, edge="last")).steps[-1]
+    assert end.edge_change is not None
+    assert end.contact_radius == pytest.approx(A, rel=1e-4)
+    assert end.approach == pytest.approx(exact.approach, rel=5e-6)
+    known = exact_means(exact, grid)
+    assert np.linalg.norm(end.pressure - known) < 2e-4 * np.linalg.norm(known)
+
+
+def test_below_an_ellipsoid_half_the_cells_find_the_same_edge() -> None:
+    """Curvatures of edge and pressure change along it."""
+    indenter = Ellipsoid(radii=(RADIUS, 3 * RADIUS), material=RIGID)
+    ball, exact = ball_on(4.0, 0.05)
+    steps = [LoadStep(normal_force=1.7 * exact.load)]
+    of = Scene(indenter=indenter, body=ball.body, friction=None, loading=steps)
+    radii = [
+        solve(of, SurfaceGrid((n, n), (2.8 * A, 5 * A)), 1e-8, plan=plan(of, edge="last"))
+        .steps[-1]
+        .contact_radius
+        for n in (72, 144)
+    ]
+    assert radii[0] == pytest.approx(radii[1], rel=5e-4)
+
+
+def test_a_mirrored_grid_has_the_mirrored_pressure() -> None:
+    of, _ = ball_on(4.0, 0.1)
+    one, other = (
+        solve(
+            of,
+            ShiftedGrid((48, 48), (3 * A, 3 * A), (sign * 0.3, 0.1)),
+            1e-10,
+            plan=plan(of, edge="last"),
+        ).steps[-1]
+        for sign in (1, -1)
+    )
+    assert one.edge_change is not None
+    scale = np.max(one.pressure)
+    np.testing.assert_allclose(one.pressure, other.pressure[::-1], rtol=0, atol=1e-9 * scale)
+
+
+def test_no_film_calls_for_a_law_where_an_edge_sees_none() -> None:
+    """None at all, one like its base, one as thick as the edge is far, one on a rigid base."""
+    spacing = A / 40, A / 40
+    bare = Body(material=IsotropicMaterial(young_modulus=YOUNG, poisson_ratio=NU))
+    on_rigid = Body(material=RIGID, layers=coated(2.0, 0.1).layers)
+    for body in (bare, coated(1.0, 0.1), coated(4.0, 1.0), on_rigid):
+        assert film_law(body, NO_BODY, spacing) is None
+    one, other = (
+        film_law(coated(4.0, 0.1), bare, spacing),
+        film_law(bare, coated(4.0, 0.1), spacing),
+    )
+    assert one is not None
+    assert other is not None
+    s, c = np.array([0.3, 3.0]), np.zeros(2)
+    np.testing.assert_allclose(one.over_root(s, c), other.over_root(s, c), rtol=1e-12)
