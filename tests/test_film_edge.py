@@ -138,10 +138,21 @@ def test_the_edge_is_found_from_exact_means(case: tuple[float, float]) -> None:
     assert error[False] > 10 * error[True]
 
 
-@pytest.mark.parametrize("case", [(4.0, 0.1), (4.0, 0.05), (10.0, 0.05), (2.0, 0.02), (0.25, 0.02)])
-def test_a_ball_on_a_film_has_its_radius_to_a_ten_thousandth(case: tuple[float, float]) -> None:
+@pytest.mark.parametrize(
+    ("case", "pressure_error"),
+    [
+        ((4.0, 0.1), 2e-4),
+        ((4.0, 0.02), 6e-4),
+        ((10.0, 0.05), 2e-4),
+        ((2.0, 0.02), 2e-4),
+        ((0.25, 0.02), 2e-4),
+    ],
+)
+def test_a_ball_on_a_film_has_its_radius_to_a_ten_thousandth(
+    case: tuple[float, float], pressure_error: float
+) -> None:
     """On 42 cells per radius, film of less than one to four of them; with roots it is off by half a
-    hundredth or more, or not to be had."""
+    hundredth or more, or not to be had. Worst is a stiff film that is just a cell thick."""
     of, exact = ball_on(*case)
     grid = ShiftedGrid((128, 128), (3 * A, 3 * A), (0.2, 0.4))
     end = solve(of, grid, 1e-8, plan=plan(of, edge="last")).steps[-1]
@@ -149,7 +160,7 @@ def test_a_ball_on_a_film_has_its_radius_to_a_ten_thousandth(case: tuple[float, 
     assert end.contact_radius == pytest.approx(A, rel=1e-4)
     assert end.approach == pytest.approx(exact.approach, rel=5e-6)
     known = exact_means(exact, grid)
-    assert np.linalg.norm(end.pressure - known) < 2e-4 * np.linalg.norm(known)
+    assert np.linalg.norm(end.pressure - known) < pressure_error * np.linalg.norm(known)
 
 
 def test_below_an_ellipsoid_half_the_cells_find_the_same_edge() -> None:
