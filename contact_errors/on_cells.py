@@ -26,6 +26,7 @@ from contact_scene.geometry import SmoothTip
 from contact_scene.stated_error import Part, StatedErrors
 from contact_scene.summary import ContactStatus
 from semi_analytical import Increment, Result
+from semi_analytical.edge.film_response import film_law
 from semi_analytical.plan import Coupling
 from semi_analytical.resolution import Resolution, resolution
 
@@ -119,12 +120,14 @@ def rules_at(
     states  where they shall hold
     beside  those of its companion there
     """
+    scene, coupled = result.scene, result.plan.coupling is not Coupling.NONE
     return rules_for(
-        result.scene.indenter,
-        cusp=result.plan.coupling is not Coupling.NONE,
+        scene.indenter,
+        cusp=coupled,
         edges=all(state.edge_change is not None for state in states),
         alone=any(state.edge_change is None for state in beside),
-        layers=bool(result.scene.body.layers or result.scene.indenter.layers),
+        layers=bool(scene.body.layers or scene.indenter.layers),
+        film=not coupled and film_law(scene.body, scene.indenter, result.grid.spacing) is not None,
     )
 
 

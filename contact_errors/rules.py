@@ -150,6 +150,9 @@ EDGES = with_their_likes(
         "tilt": Rule(3, 0.03, 0.25, 1.8, path_factor=1.5, lengthscale=Lengthscale.TURN_WITHIN),
     }
 )
+# With the law of a film, whose fits are wider (balls on films of 1/4 to 10 times their base's
+# modulus, on 0.2 to 13 cells).
+ON_FILM = with_their_likes({"contact_radius": replace(EDGES["contact_radius"], envelope=0.01)})
 # On these alone: what such a companion tells is its own error, and of few cells across a film.
 UNTOLD = 1e6
 ALONE = EDGES | with_their_likes(
@@ -199,6 +202,7 @@ def rules_for(
     edges: bool = False,
     alone: bool = False,
     layers: bool = True,
+    film: bool = False,
 ) -> Mapping[str, Rule]:
     """The rule of every quantity below an indenter; none of what is infinite in the exact answer.
 
@@ -206,8 +210,9 @@ def rules_for(
     edges   whether they are inside the cells
     alone   whether they are not inside those of a companion
     layers  whether a body has any
+    film    whether edges are fitted with the law of one
     """
-    with_edges = ALONE if alone else EDGES
+    with_edges = ALONE if alone else EDGES | ON_FILM if film else EDGES
     if cusp:
         with_edges = CUSP | ({name: ALONE[name] for name in COUPLED} if alone else COUPLED)
     without = CAP if isinstance(indenter, SmoothTip) and not layers else {}
