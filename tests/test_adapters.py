@@ -66,6 +66,7 @@ def test_each_solver_reaches_its_class(
     ("answer", "name", "said"),
     [
         (radius.answer, "hertz_elliptical", "not the same all around"),
+        (radius.answer, "sliding_stress", "stress below the surface"),
         (section.answer, "hertz_elliptical", "not the same all around"),
         (section.answer, "layered_patch/G1_over_G2=2", "contacts only"),
     ],

@@ -9,7 +9,7 @@ import numpy as np
 
 from verification.adapters.own_numbers import number
 from verification.challenge.answer import Answer, Field, Key, Vector
-from verification.challenge.door import Posed
+from verification.challenge.door import CannotDo, Posed
 from verification.observed.ring_errors import at_radii
 
 PER_INTERVAL = 4  # points of Gauss between two rings
@@ -39,6 +39,8 @@ def answer_on_rings(posed: Posed, steps: Any, h: float) -> Answer:
             points[key] = at_radii(
                 steps[key[1] - 1], traction, np.hypot(places[:, 0], places[:, 1])
             )
+    if not scalars and not fields and not points:
+        raise CannotDo("stress below the surface, of which rings have none here")
     return Answer(h, scalars, fields, points=points)
 
 
