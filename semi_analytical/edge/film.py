@@ -38,6 +38,9 @@ TERMS = 14
 # A square so many times as far inside the edge as it is wide has the mean of two points.
 DEEP = 2.0
 POINTS, WEIGHTS = (half / 2 for half in np.polynomial.legendre.leggauss(4))
+# Radius of a contact over the thickness: the edge of a narrower one is not plane over that, and a
+# root, which the film alone calls for, is nearer (films of .3 to 20 times their base's modulus).
+NARROW = 2.0
 # Of the root of its width, below which the mean of the root tells nothing.
 TOUCHED = 1e-6
 
@@ -74,6 +77,13 @@ class FilmLaw:
             share @ (gamma(n + 0.5) * z[:, None] ** (-n - 0.5) * factor).real for n in (1, 2, 3)
         ]
         return CubicSpline(u, np.stack(ratios, axis=-1))
+
+    def holds_within(self, radius: float) -> bool:
+        """Whether contacts are wide enough for it.
+
+        radius  of the largest circle inside, in cells
+        """
+        return radius * min(self.stretched) >= NARROW
 
     def over_root(self, s: Field, c: Field) -> Field:
         """The law over √s at distances s > 0, any shape."""
