@@ -31,6 +31,7 @@ from contact_scene import (
     SurfaceDiscretisation,
     march,
 )
+from contact_scene.discretisation import EdgeCorrection
 from contact_scene.solver_errors import GrossSliding
 from contact_scene.standing import Keeper, Standing
 from semi_analytical.discretise import GROWTH
@@ -58,9 +59,9 @@ SECTION = FiniteElementDiscretisation(elements_per_radius=4, contact_radius=2e-4
 Solve = Callable[[Keeper | None], Any]
 
 
-def scene(body: Body, loading: tuple[LoadStep, ...]) -> Scene:
+def scene(body: Body, loading: tuple[LoadStep, ...], ball: Sphere = BALL) -> Scene:
     friction = CoulombFriction(coefficient=0.3)
-    return Scene(title="killed", indenter=BALL, body=body, friction=friction, loading=loading)
+    return Scene(title="killed", indenter=ball, body=body, friction=friction, loading=loading)
 
 
 def on_surface(
@@ -71,6 +72,19 @@ def on_surface(
     )
 
 
+def with_edges(body: Body, edge: EdgeCorrection) -> Solve:
+    """Of bodies that are alike, on enough cells to have edges."""
+    alike = BALL.model_copy(update={"layers": body.layers})
+    surface = SurfaceDiscretisation(cells=(32, 32), edge=edge)
+
+    def solve(keeper: Keeper | None) -> Any:
+        result = semi_analytical.solve_discretised(scene(body, LED, alike), surface, keeper=keeper)
+        assert result.steps[0].edge_change is not None
+        return result
+
+    return solve
+
+
 def on_section(body: Body, loading: tuple[LoadStep, ...], method: fem_reference.Method) -> Solve:
     return lambda keeper: fem_reference.solve(scene(body, loading), SECTION, method, keeper=keeper)
 
@@ -78,10 +92,12 @@ def on_section(body: Body, loading: tuple[LoadStep, ...], method: fem_reference.
 SOLVES = {
     "similar": on_surface(PLAIN, LED),
     **{
-        f"edges inside the cells, {edge}": on_surface(
-            PLAIN, LED, SURFACE.model_copy(update={"edge": edge})
+        f"edges inside the cells, {name}": with_edges(body, edge)
+        for name, body, edge in (
+            ("last", PLAIN, "last"),
+            ("all", PLAIN, "all"),
+            ("of a film", COATED, "last"),
         )
-        for edge in ("last", "all")
     },
     "coupled": on_surface(COATED, LOOP),
     "torsion": on_surface(PLAIN, TURNED),

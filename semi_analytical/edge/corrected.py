@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from semi_analytical.edge.displacement import Within
-from semi_analytical.edge.rim import Rim
+from semi_analytical.edge.rim import AlongEdge
 
 Field = NDArray[np.float64]
 
@@ -48,7 +48,7 @@ class Corrected:
     approach       of the bodies [length]
     contact_cells  area of the contact in cells
     change         of the pressure in the last round, Σ|Δp|/Σp
-    edge           of the contact, and what the pressure is in the cells along it
+    edge           what the pressure is in the cells along that of the contact
     tilt           of the indenter (x, y); None where nothing tilts
     sheared        the tangential part; None where no shear arises
     """
@@ -59,6 +59,6 @@ class Corrected:
     approach: float
     contact_cells: float
     change: float
-    edge: Rim
+    edge: AlongEdge
     tilt: tuple[float, float] | None = None
     sheared: CorrectedShear | None = None

@@ -75,6 +75,20 @@ class Fitted(NamedTuple):
 
 
 @dataclass(frozen=True)
+class AlongEdge:
+    """What is kept of a rim.
+
+    i, j, parts, part, area  see `Rim`
+    """
+
+    i: Indices
+    j: Indices
+    parts: Field
+    part: Part
+    area: float
+
+
+@dataclass(frozen=True)
 class Rim:
     """Cells along the edge of a region that are fitted well.
 
@@ -112,6 +126,11 @@ class Rim:
     def area(self) -> float:
         """Of the region and its images, in cells."""
         return self.fitted.area(self.part)
+
+    @property
+    def kept(self) -> AlongEdge:
+        """Without what only the next fit needs."""
+        return AlongEdge(self.i, self.j, self.parts, self.part, self.area)
 
 
 def rim(

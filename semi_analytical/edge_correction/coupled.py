@@ -226,7 +226,7 @@ class _Problem:
             approach=approach,
             contact_cells=area_within(p, edge, self.exponent),
             change=change,
-            edge=edge,
+            edge=edge.kept,
             tilt=tilt,
             sheared=CorrectedShear(
                 shear=sheared.shear,

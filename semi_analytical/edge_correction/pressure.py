@@ -131,4 +131,4 @@ class _Problem:
         area = area_within(p, edge)
         unfolded = self.model.part.unfolded
         p, gap = unfolded(p), unfolded(gap)
-        return Corrected(p, peak_of(p), gap, approach, area, change, edge, tilt)
+        return Corrected(p, peak_of(p), gap, approach, area, change, edge.kept, tilt)
