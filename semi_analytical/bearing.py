@@ -20,9 +20,10 @@ Field = NDArray[np.float64]
 
 def bearing_pressure(gap: Field, load: NormalLoad, modulus: float, area: float) -> Field:
     """Pressure (nx, ny) below an undeformed gap (nx, ny); the same everywhere where the cells that
-    bear by Hertz cannot carry the load.
+    bear by Hertz cannot carry the load, or no half-space yields like the bodies.
 
-    modulus  E* [force/length^2]
+    modulus  E* [force/length^2]; not positive where the middle of an even pressure rises, as an
+             incompressible film on a rigid base does
     area     of a cell, with its images beyond mirror planes [length^2]
     """
     touchable = np.isfinite(gap)
@@ -30,7 +31,7 @@ def bearing_pressure(gap: Field, load: NormalLoad, modulus: float, area: float) 
     radii = np.sqrt(area / pi * np.arange(1, gaps.size + 1))
     depth = load.bearing_depth(gaps, 8 / 3 * modulus / area * radii)
     bears = gap < depth
-    if not load.touches(np.where(bears, gap, np.inf)):
+    if modulus <= 0 or not load.touches(np.where(bears, gap, np.inf)):
         return np.where(touchable, 1.0, 0.0)
     factor = 4 * modulus / (pi * radii[np.count_nonzero(bears) - 1])
     return np.asarray(factor * np.sqrt(depth * np.maximum(depth - gap, 0.0)))

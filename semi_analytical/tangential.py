@@ -169,7 +169,8 @@ def _toward(
     level = change <= LEVEL * np.sum(np.abs(q * u))
     if change <= 0.1 * slope or (level and natural.error < 0.5 * error):
         return newton, natural
-    step = min(1.0, -slope / curvature)
+    # Without curvature the two differ by round-off.
+    step = min(1.0, -slope / curvature) if curvature > 0 else 0.0
     if step < 1e-3:
         d = problem.natural(Point(q, u), natural.motion).projected - q
         d_u = problem.displace(d)
