@@ -7,8 +7,6 @@ same holds at the edge of the stick zone for the shear that is missing from full
 pressure of a smaller contact (Cattaneo 1938; Mindlin and Deresiewicz 1953 after a reversal).
 """
 
-from typing import Any
-
 import numpy as np
 from numpy.typing import NDArray
 from scipy.ndimage import distance_transform_edt
@@ -49,7 +47,7 @@ def covered_cells(values: Field, inside: Mask, part: Part = WHOLE) -> float:
     Edge cells are counted whole or not at all where the region is too thin for a fit and where
     the values do not fall towards the edge (below a flat punch they rise).
     """
-    framed = _framed(inside, part)
+    framed = part.framed(inside, FRAME)
     trusted = np.zeros_like(framed)
     trusted[1:-1, 1:-1] = ~_near(~framed)
     core = slice(FRAME, -FRAME)
@@ -57,7 +55,7 @@ def covered_cells(values: Field, inside: Mask, part: Part = WHOLE) -> float:
     i, j = np.nonzero(near & ~trusted[core, core])
     if len(i) == 0:
         return float(part.images * np.count_nonzero(inside))
-    phi = _framed(np.square(values / np.max(values)), part)
+    phi = part.framed(np.square(values / np.max(values)), FRAME)
     pieces = range(0, len(i), AT_ONCE)
     fits = [_fit(phi, trusted, i[k : k + AT_ONCE], j[k : k + AT_ONCE]) for k in pieces]
     *fit, mean, count = np.concatenate(fits, axis=1)
@@ -95,18 +93,6 @@ def _box_with_edge(marked: Mask) -> tuple[slice, ...]:
     """The rectangle of cells that are marked or touch one that is."""
     at = (np.flatnonzero(np.any(marked, axis=axis)) for axis in (1, 0))
     return tuple(slice(max(0, i[0] - 1), i[-1] + 2) if len(i) else slice(0) for i in at)
-
-
-def _framed(field: NDArray[Any], part: Part) -> NDArray[Any]:
-    """A field (nx, ny) with a frame: its images beyond mirror planes, else nothing."""
-    nx, ny = field.shape
-    framed = np.zeros((nx + 2 * FRAME, ny + 2 * FRAME), dtype=field.dtype)
-    framed[FRAME:-FRAME, FRAME:-FRAME] = field
-    if part.quarter:
-        images = slice(2 * FRAME - 1, FRAME - 1, -1)
-        framed[:FRAME] = framed[images]
-        framed[:, :FRAME] = framed[:, images]
-    return framed
 
 
 def _near(marked: Mask) -> Mask:

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy.ndimage import binary_erosion
 
-from semi_analytical.contact_area import _coverage, _fit, _framed, covered_cells, stuck_cells
+from semi_analytical.contact_area import FRAME, _coverage, _fit, covered_cells, stuck_cells
 from semi_analytical.part import WHOLE, Part
 
 # Semi-axes in cells, and how well the area is found: a small contact has few cells for the fits.
@@ -153,7 +153,7 @@ def test_a_fit_has_value_and_slope_of_a_quadratic_where_it_is_asked_for():
     x, y = np.indices((24, 24)) - 11.5
     phi = 9 + 0.3 * x - 0.2 * y - 0.01 * x**2 + 0.02 * x * y - 0.03 * y**2
     i, j = np.array([8, 12, 15]), np.array([11, 7, 14])
-    framed, everywhere = (_framed(field, WHOLE) for field in (phi, phi > -np.inf))
+    framed, everywhere = (WHOLE.framed(field, FRAME) for field in (phi, phi > -np.inf))
     f, f_x, f_y, *_ = _fit(framed, everywhere, i, j)
     at_x, at_y = i - 11.5, j - 11.5
     np.testing.assert_allclose(f, phi[i, j], rtol=1e-6)
