@@ -6,7 +6,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
-from itertools import accumulate
+from itertools import accumulate, pairwise
 from operator import or_
 
 import numpy as np
@@ -45,6 +45,11 @@ LEAST_OVER_LAYER = 6.0
 # the edge: there the largest mean of a cell exceeds the peak by this part of it times t^-5/2 at
 # most, t in cells (films 8 to 80 times as stiff, of 1 to 13 cells).
 RIM_OF_FILM, ORDER_OF_RIM = 0.45, 2.5
+# One of a quarter to seven tenths of the contact radius bends over all of the contact: a fitted
+# edge is off by this part of the radius times m^-3/2 at most, m cells per radius, and on half the
+# cells alike (films 5 to 100 times as stiff as their base).
+BENDS, OVER_CONTACT = 5.0, (0.25, 0.7)
+EDGE_OF_FILM, ORDER_OF_EDGE = 0.2, 1.5
 # What a turn scatters with its load on a middle or an edge of cells, over the most.
 BESIDE_MIRRORS = 0.3
 # What stands out of a random surface, in root mean squares: one place in a thousand.
@@ -159,10 +164,12 @@ class _Cells:
         rounds: Mapping[Part, Numbers] = {}
         if change is not None and name in EDGES:
             rounds = {"tolerance": change * largest}
-        if name != "peak_pressure":
-            return rounds
-        left_out = HIGHEST * self._left_out + self._rim_of_film(step)
-        return {**rounds, "cells": left_out * largest}
+        left_out = 0.0
+        if name == "peak_pressure":
+            left_out = HIGHEST * self._left_out + self._rim_of_film(step)
+        elif change is not None and name in ("contact_radius", "contact_area"):
+            left_out = (1 if name == "contact_radius" else 2) * self._edge_of_film(step)
+        return {**rounds, "cells": left_out * largest} if left_out else rounds
 
     def _at_rim(self, step: int, largest: Numbers) -> Mapping[Part, Numbers] | None:
         """Slip goes with the motions, as these with the radius that cells make of a rim. Where no
@@ -171,6 +178,20 @@ class _Cells:
         if cells.annulus is None and self.result.plan.coupling is not Coupling.NONE:
             return None
         return {"cells": RIM.factor * RIM.scatter(cells.contact) * largest}
+
+    def _edge_of_film(self, step: int) -> float:
+        """What a fitted edge leaves wrong of the radius, over itself, below a film that bends over
+        all of the contact; 0 elsewhere."""
+        cells, (least, most) = self._at[step], OVER_CONTACT
+        if cells.layer is None or not least < cells.layer / cells.contact < most:
+            return 0.0
+        scene = self.result.scene
+        bends = any(
+            upper.young_modulus >= BENDS * lower.young_modulus
+            for body in (scene.body, scene.indenter)
+            for upper, lower in pairwise(body.elastic_materials)
+        )
+        return float(EDGE_OF_FILM * cells.contact**-ORDER_OF_EDGE) if bends else 0.0
 
     def _rim_of_film(self, step: int) -> float:
         """What cells leave wrong of a peak at the edge of the contact, over itself; 0 elsewhere."""

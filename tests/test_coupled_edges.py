@@ -18,7 +18,11 @@ from verification.problems.shifted_grid import ShiftedGrid
 
 A, MU, P = HERTZ.contact_radius, 0.1, HERTZ.peak_pressure
 CELLS, INCREMENTS, SIDE = 48, 6, 2.8 * A
-BODIES = {"bare": half_space(0.2), "soft film": coated(film(0.5, 1.0))}
+BODIES = {
+    "bare": half_space(0.2),
+    "soft film": coated(film(0.5, 1.0)),
+    "thin film": coated(film(2.0, 0.1)),
+}
 POINTS = 12
 EFFECT = "edge correction"
 
@@ -140,8 +144,10 @@ def test_pushed_no_later_state_knows_of_the_correction():
         np.testing.assert_array_equal(one.slip, other.slip)
 
 
-def test_a_contact_of_two_cells_keeps_its_tractions_and_the_remarks_say_so():
-    plain, asked = (solved(ball("bare"), edge, 6) for edge in ("off", "all"))
+@pytest.mark.parametrize(("body", "cells"), [("bare", 6), ("thin film", 32)])
+def test_where_no_edge_is_known_tractions_are_kept_and_the_remarks_say_so(body, cells):
+    """Of a contact of two cells, and of a film within whose thickness no root holds."""
+    plain, asked = (solved(ball(body), edge, cells) for edge in ("off", "all"))
     np.testing.assert_array_equal(plain.steps[-1].pressure, asked.steps[-1].pressure)
     assert any("could not be put" in remark for remark in remarks(asked))
 

@@ -567,16 +567,35 @@ def test_five_cells_over_a_layer_do_not_tell_where_the_edge_within_them_is(
             assert (errors[name].status is ErrorStatus.ESTIMATED) is (converged or edge == "off")
 
 
+def on_a_stiff_film(stiffer: float, thickness: float) -> tuple[Scene, LayeredIndentation]:
+    """A ball whose contact has the radius A, and what is known of it; thickness over A."""
+    base = steel()
+    matter = steel(young_modulus=stiffer * base.young_modulus)
+    body = Body(material=base, layers=(Layer(thickness=thickness * A, material=matter),))
+    contact = pressed_coating(surface_of(body), RADIUS, A)
+    loading = ({"normal_force": contact.load},)
+    return Scene(indenter=paraboloid(RIGID), body=body, loading=loading), contact
+
+
 def below_a_stiff_film(cells: int, stiffer: float) -> tuple[Result, LayeredIndentation]:
     """A contact twelve times as wide as the film is thick, and what is known of it."""
-    base, thickness = steel(), 0.083 * A
-    matter = steel(young_modulus=stiffer * base.young_modulus)
-    body = Body(material=base, layers=(Layer(thickness=thickness, material=matter),))
-    contact = pressed_coating(surface_of(body), RADIUS, A)
-    pressed = Scene(
-        indenter=paraboloid(RIGID), body=body, loading=({"normal_force": contact.load},)
-    )
+    pressed, contact = on_a_stiff_film(stiffer, 0.083)
     return solve(pressed, grid(cells, contacts=1.2), 1e-8), contact
+
+
+@pytest.mark.parametrize(("cells", "stiffer"), [(48, 20.0), (58, 42.6)])
+def test_a_film_that_bends_over_all_of_the_contact_is_told_by_the_error_of_its_edge(
+    cells: int, stiffer: float
+) -> None:
+    """Edges that are fitted on all the cells and on half of them are wrong alike."""
+    pressed, _ = on_a_stiff_film(stiffer, 0.5)
+    asked = SurfaceDiscretisation(cells=(cells, cells), window=(3 * A, 3 * A), edge="last")
+    result = solve_discretised(pressed, asked)
+    (errors,), (end,) = stated_errors(result).steps, result.steps
+    assert end.edge_change is not None
+    wrong = abs(end.contact_radius - A)
+    assert 1e-3 * A < wrong <= size(errors["contact_radius"]) < 5 * wrong
+    assert 2e-3 * end.contact_area < size(errors["contact_area"])
 
 
 @pytest.mark.parametrize(("cells", "stiffer"), [(37, 40.0), (56, 30.0)])

@@ -45,6 +45,7 @@ from semi_analytical.edge_correction.stick_area import stick_area
 from semi_analytical.increment import State
 from semi_analytical.linearised_shear import Point
 from semi_analytical.model import ContactModel
+from semi_analytical.part import WHOLE
 from semi_analytical.sheared import Sheared, rigid
 from semi_analytical.tangential import TangentialSolution, solve_tangential
 
@@ -71,7 +72,8 @@ class CoupledEdgeCorrection:
         self, last: State | None, state: State, *, way_known: bool, tolerance: float
     ) -> Corrected | None:
         """The state with its edges inside the cells; None where that is not safe: the contact is
-        too thin, its edge is rough, all slides, or the rounds do not settle.
+        too thin, its edge is rough, all slides, the rounds do not settle, or the edge is that of a
+        thin film, whose law with friction is not known.
 
         last       the state before, the corrected one where there is one; None before first touch
         way_known  whether it is that of the increment before: friction remembers the way
@@ -79,6 +81,8 @@ class CoupledEdgeCorrection:
         solved = state.sheared
         assert solved is not None
         if not way_known or solved.shift is None or not np.any(solved.in_stick):
+            return None
+        if self._operators.film(state.pressing.pressure > 0, WHOLE) is not None:
             return None
         model = self._operators.model
         target = np.zeros_like(solved.shear)

@@ -4,14 +4,20 @@ from __future__ import annotations
 
 from functools import cached_property
 
+import numpy as np
+from numpy.typing import NDArray
+
 from semi_analytical.edge.displacement import EdgeOperator
 from semi_analytical.edge.film import FilmLaw
 from semi_analytical.edge.film_response import film_law
 from semi_analytical.edge.kernels import PARITY, PART_OFFSETS, PARTS, EdgeKernels
 from semi_analytical.edge.mirrored_displacement import MirroredEdgeOperator
+from semi_analytical.edge.shape import depth_of
 from semi_analytical.influence.bodies import influence_coefficients
 from semi_analytical.model import ContactModel
+from semi_analytical.part import Part
 
+Mask = NDArray[np.bool_]
 Shape = tuple[int, int]
 Row = tuple[tuple[int, str], ...]
 
@@ -53,9 +59,14 @@ class EdgeOperators:
         """(u_x, u_y, u_z) by shear and pressure (x, y, z)."""
         return self._operator(COUPLED, shape)
 
+    def film(self, contact: Mask, part: Part) -> FilmLaw | None:
+        """The law of the pressure at the edge of a contact (nx, ny) where layers change it within a
+        few cells, and the contact is wide against them."""
+        law = self._film
+        return law if law and law.holds_within(np.max(depth_of(contact, part))) else None
+
     @cached_property
-    def film(self) -> FilmLaw | None:
-        """The law of the pressure at its edge where layers change it within a few cells."""
+    def _film(self) -> FilmLaw | None:
         scene = self.model.scene
         return film_law(scene.body, scene.indenter, self.model.grid.spacing)
 

@@ -19,7 +19,6 @@ from semi_analytical.edge.corrected import Corrected
 from semi_analytical.edge.displacement import Within
 from semi_analytical.edge.peak import peak_of
 from semi_analytical.edge.rim import Rim, area_within, rim
-from semi_analytical.edge.shape import depth_of
 from semi_analytical.edge_correction.closing import Closed, closed
 from semi_analytical.edge_correction.mixing import Mixing
 from semi_analytical.edge_correction.operators import EdgeOperators
@@ -50,9 +49,7 @@ def edge_pressure(
     contact is too thin, its edge is rough, or the rounds do not settle."""
     problem, part = _Problem(operators, target, tolerance), operators.model.part
     p, mixing, changes = part.of(pressure), Mixing(), list[float]()
-    film = operators.film
-    if film is not None and not film.holds_within(np.max(depth_of(p > 0, part))):
-        film = None
+    film = operators.film(p > 0, part)
     edge = rim(p, p > 0, part=part, film=film)
     for number in range(MOST_ROUNDS):
         if edge is None or edge.unsafe > MOST_UNSAFE:
