@@ -190,11 +190,14 @@ class _Trial:
         if solution.at_limit:
             return self._slid(p, bound, u_t)
         # Where all sticks and none is pushed, pressure and shear move the surface in opposite ways
-        # to nothing, and only one of them tells what little slip is.
-        slips = np.any(solution.in_slip)
+        # to nothing, and only one of them tells what little slip is; where one cell touches, what
+        # its pressure does around it.
+        moved = u_t
+        if not np.any(solution.in_slip):
+            moved = np.maximum(np.abs(model.tangential_operator(cells)(q)), np.max(np.abs(u_t)))
         shearing = Shearing(
             shear=q,
-            displacement=u_t if slips else model.tangential_operator(cells)(q),
+            displacement=moved,
             motion=solution.motion,
             in_slip=self.box.embed(solution.in_slip.astype(np.float64), cells) > 0,
             iterations=0,

@@ -372,3 +372,13 @@ def test_a_contact_has_room_in_its_box_in_proportion_to_its_width(monkeypatch):
         wide = np.count_nonzero(np.any(end.pressure > 0, axis=1))
         assert margins[-1] >= max(MARGIN, 0.03 * wide)
     assert margins[0] == MARGIN
+
+
+def test_one_cell_that_touches_sticks_and_its_slip_of_round_off_is_none():
+    """Its own displacement vanishes by symmetry: what its pressure does around it tells a scale."""
+    odd = SurfaceGrid((45, 45), (9 * GRID.window[0], 9 * GRID.window[1]))
+    end = last(scene(press(1e-6, increments=2)), odd)
+    assert np.count_nonzero(end.in_contact) == 1
+    assert end.status is ContactStatus.FULL_STICK
+    assert end.halvings == 0
+    assert end.residuals.slip_direction < 1e-10
