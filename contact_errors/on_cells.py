@@ -161,15 +161,15 @@ class _Cells:
         if rule.lengthscale is Lengthscale.LOST and self.result.scene.indenter.rim is not None:
             return self._at_rim(step, largest)
         change = self.result.steps[step].edge_change
-        rounds: Mapping[Part, Numbers] = {}
-        if change is not None and name in EDGES:
-            rounds = {"tolerance": change * largest}
         left_out = 0.0
+        if change is not None and name in EDGES:
+            # Rounds stop at what cells leave anyway, whatever the tolerance.
+            left_out = change
         if name == "peak_pressure":
-            left_out = HIGHEST * self._left_out + self._rim_of_film(step)
+            left_out += HIGHEST * self._left_out + self._rim_of_film(step)
         elif change is not None and name in ("contact_radius", "contact_area"):
-            left_out = (1 if name == "contact_radius" else 2) * self._edge_of_film(step)
-        return {**rounds, "cells": left_out * largest} if left_out else rounds
+            left_out += (1 if name == "contact_radius" else 2) * self._edge_of_film(step)
+        return {"cells": left_out * largest} if left_out else {}
 
     def _at_rim(self, step: int, largest: Numbers) -> Mapping[Part, Numbers] | None:
         """Slip goes with the motions, as these with the radius that cells make of a rim. Where no
