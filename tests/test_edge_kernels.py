@@ -15,7 +15,8 @@ from semi_analytical.edge.kernels import (
     part_centres,
 )
 from semi_analytical.influence.bodies import influence_coefficients
-from semi_analytical.padded_transform import Convolutions
+from semi_analytical.kernel_spectrum import even_transform
+from semi_analytical.padded_transform import Convolutions, offsets_for
 
 Field = NDArray[np.float64]
 
@@ -93,6 +94,20 @@ def test_a_traction_within_its_cells_moves_what_its_parts_do(coefficients, compo
             expected[place] += np.sum(parts[k] * seen)
     scale = np.max(np.abs(expected))
     np.testing.assert_allclose(found, expected, rtol=0, atol=0.02 * scale)
+
+
+def test_moments_are_told_by_the_spectrum_of_the_coefficients(coefficients):
+    """Where they are differences; but those from end to end of the window, where no slopes are."""
+    kernels = EdgeKernels("zz", *coefficients)
+    plain = EdgeOperator([[(1, kernels)]], CELLS, Convolutions())
+    nx, ny = offsets_for(CELLS)
+    known = {"zz": even_transform(coefficients[0].zz[:nx, :ny])}
+    by_spectrum = EdgeOperator([[(1, kernels)]], CELLS, Convolutions(), known)
+    slopes, nothing = np.zeros((2, *CELLS)), Within.nothing(CELLS)
+    slopes[:, 1:-1, 1:-1] = np.random.default_rng(6).normal(size=(2, CELLS[0] - 2, CELLS[1] - 2))
+    within = Within(slopes, nothing.i, nothing.j, nothing.rest)
+    expected, found = plain(within), by_spectrum(within)
+    np.testing.assert_allclose(found, expected, rtol=0, atol=1e-13 * np.max(np.abs(expected)))
 
 
 def test_rests_of_the_same_cell_become_one():

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from itertools import chain
 
@@ -10,12 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from semi_analytical.edge.kernels import PARTS, REACH, EdgeKernels, part_centres
-from semi_analytical.kernel_spectrum import (
-    KernelSpectrum,
-    even_transform,
-    mixed_transform,
-    odd_transform,
-)
+from semi_analytical.edge.moment_spectra import spectra_of
+from semi_analytical.kernel_spectrum import KernelSpectrum
 from semi_analytical.padded_transform import Convolutions, PaddedTransform, Spectrum
 from semi_analytical.part import WHOLE, Part
 
@@ -102,14 +98,23 @@ class EdgeOperator:
     A call is half a convolution for every displacement and one for every traction.
     """
 
-    def __init__(self, kernels: Matrix, shape: tuple[int, int], counter: Convolutions) -> None:
-        """kernels  rows are displacements, columns tractions: sign and kernels of a component"""
+    def __init__(
+        self,
+        kernels: Matrix,
+        shape: tuple[int, int],
+        counter: Convolutions,
+        known: Mapping[str, KernelSpectrum] | None = None,
+    ) -> None:
+        """kernels  rows are displacements, columns tractions: sign and kernels of a component
+        known    spectra of components of the coefficients that are even along both sides
+        """
         self._transform = PaddedTransform(shape, counter)
-        known: dict[str, tuple[KernelSpectrum, KernelSpectrum]] = {}
+        self._components: dict[str, tuple[KernelSpectrum, KernelSpectrum]] = {}
         for _, of in chain.from_iterable(kernels):
-            if of.component not in known:
-                known[of.component] = spectra_of(of, self._transform.reach)
-        self._components = known
+            if of.component not in self._components:
+                spectrum = known.get(of.component) if known else None
+                moments = spectra_of(of, self._transform.reach, spectrum)
+                self._components[of.component] = moments
         self._matrix = [
             [(sign * (-1j if of.even else 1), of.component) for sign, of in row] for row in kernels
         ]
@@ -157,22 +162,3 @@ def around(within: Within, near: Field, count: int) -> Field:
     for total, one in zip(u, seen.reshape(count, -1), strict=True):
         total.flat = np.bincount(at.ravel(), weights=one, minlength=total.size)
     return u
-
-
-def spectra_of(
-    of: EdgeKernels, reach: tuple[slice, slice]
-) -> tuple[KernelSpectrum, KernelSpectrum]:
-    """Those of the moments along x and y; times -i where the component is even (odd) along both
-    sides."""
-    x, y = of.parity
-    along_x, along_y = (moment[reach] for moment in of.moments)
-    return _spectrum(along_x, (-x, y)), _spectrum(along_y, (x, -y))
-
-
-def _spectrum(moment: Field, parity: tuple[int, int]) -> KernelSpectrum:
-    """That of a moment; times -i where it is odd along one side only."""
-    if parity == (1, 1):
-        return even_transform(moment)
-    if parity == (-1, -1):
-        return odd_transform(moment)
-    return mixed_transform(moment, odd_axis=parity.index(-1))

@@ -68,35 +68,36 @@ class EdgeKernels:
         """Displacement at cell offsets i, j >= 0 by tractions x and y on the cell at the origin,
         lengths in cells, shape (2, nx, ny) [length^3/force]."""
         A = getattr(self.cells, self.component)
-        count = tuple(min(n, NEAR + 1) for n in A.shape)
-        far = [-_slope(A, axis, self.parity[axis]) / 12 for axis in (0, 1)]
-        near = self._seen_from(count[0], count[1])
-        x = part_centres()
-        # The moment of the parts is a little less than that of the slope.
-        by_x = np.einsum("ijab,a->ij", near, x) / (1 - 1 / PARTS**2)
-        by_y = np.einsum("ijab,b->ij", near, x) / (1 - 1 / PARTS**2)
-        for whole, inner in zip(far, (by_x, by_y), strict=True):
-            whole[: count[0], : count[1]] = inner
-        return np.stack(far)
+        moments = np.stack([-_slope(A, axis, self.parity[axis]) / 12 for axis in (0, 1)])
+        nx, ny = (min(n, NEAR + 1) for n in A.shape)
+        moments[:, :nx, :ny] = self.near_moments[:, :nx, :ny]
+        return moments
 
     @cached_property
+    def near_moments(self) -> Field:
+        """The same at NEAR + 1 offsets along each side."""
+        x = part_centres()
+        # The moment of the parts is a little less than that of the slope.
+        by_x = np.sum(self._seen * x[:, None], axis=(2, 3)) / (1 - 1 / PARTS**2)
+        by_y = np.sum(self._seen * x, axis=(2, 3)) / (1 - 1 / PARTS**2)
+        return np.stack([by_x, by_y])
+
+    @property
     def near(self) -> Field:
         """Displacement at cell offsets -REACH … REACH by unit traction on a part of the cell at the
         origin, shape (2 REACH + 1, 2 REACH + 1, PARTS, PARTS) [length^3/force]."""
-        quadrant = self._seen_from(REACH + 1, REACH + 1)
-        along_x = _mirrored(quadrant, 0, 2, self.parity[0])
+        along_x = _mirrored(self._seen[: REACH + 1, : REACH + 1], 0, 2, self.parity[0])
         return _mirrored(along_x, 1, 3, self.parity[1])
 
-    def _seen_from(self, nx: int, ny: int) -> Field:
-        """Displacement at cell offsets i < nx, j < ny by unit traction on the part (a, b)."""
+    @cached_property
+    def _seen(self) -> Field:
+        """Displacement at NEAR + 1 cell offsets i, j by unit traction on the part (a, b)."""
         K = getattr(self.parts, self.component)
         a = np.arange(PARTS) - PARTS // 2
-        i, j = (PARTS * np.arange(n)[:, None] - a for n in (nx, ny))
-        sign_x = np.where(i < 0, self.parity[0], 1)[:, None, :, None]
-        sign_y = np.where(j < 0, self.parity[1], 1)[None, :, None, :]
-        return np.asarray(
-            sign_x * sign_y * K[np.abs(i)[:, None, :, None], np.abs(j)[None, :, None, :]]
-        )
+        i = PARTS * np.arange(NEAR + 1)[:, None] - a
+        seen = K[np.abs(i)[:, None, :, None], np.abs(i)[:, None]]
+        sign_x, sign_y = (np.where(i < 0, parity, 1) for parity in self.parity)
+        return np.asarray(sign_x[:, None, :, None] * sign_y[:, None] * seen)
 
 
 def _mirrored(quadrant: Field, axis: int, parts: int, parity: int) -> Field:

@@ -6,8 +6,10 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from semi_analytical.edge.displacement import Within, around, spectra_of
+from semi_analytical.edge.displacement import Within, around
 from semi_analytical.edge.kernels import PARTS, REACH, EdgeKernels
+from semi_analytical.edge.moment_spectra import spectra_of
+from semi_analytical.kernel_spectrum import KernelSpectrum
 from semi_analytical.mirrored_transform import BLOCK, Cosines, mirrored_offsets
 from semi_analytical.padded_transform import Convolutions
 from semi_analytical.sines import Sines
@@ -23,12 +25,20 @@ class MirroredEdgeOperator:
     is even again: a sum of cosines, -1 times the product.
     """
 
-    def __init__(self, kernels: EdgeKernels, shape: tuple[int, int], counter: Convolutions) -> None:
-        """kernels  of the zz component"""
+    def __init__(
+        self,
+        kernels: EdgeKernels,
+        shape: tuple[int, int],
+        counter: Convolutions,
+        known: KernelSpectrum | None = None,
+    ) -> None:
+        """kernels  of the zz component
+        known    spectrum of the coefficients, if it is
+        """
         self._counter = counter
         nx, ny = mirrored_offsets(shape)
         reach = slice(nx), slice(ny)
-        self._symbols = [spectrum.quarter for spectrum in spectra_of(kernels, reach)]
+        self._symbols = [spectrum.quarter for spectrum in spectra_of(kernels, reach, known)]
         self._cosines = [Cosines(n, m - 1) for n, m in zip(shape, (nx, ny), strict=True)]
         self._sines = [Sines(n, m - 1) for n, m in zip(shape, (nx, ny), strict=True)]
         self._near = kernels.near.reshape(-1, PARTS**2)

@@ -49,7 +49,9 @@ class EdgeOperators:
     def _mirrored(self) -> MirroredEdgeOperator:
         nx, ny = self.model.grid.cells
         kernels, counter = self._kernels["zz"], self.model.convolutions
-        return MirroredEdgeOperator(kernels, (nx // 2, ny // 2), counter)
+        cells = nx // 2, ny // 2
+        known = self.model.pressure_operator(cells).symbols[0]
+        return MirroredEdgeOperator(kernels, cells, counter, known)
 
     def by_shear(self, shape: Shape) -> EdgeOperator:
         """(u_x, u_y) by the shear."""
@@ -78,7 +80,10 @@ class EdgeOperators:
                 for other in [k for k in self._known if k[0] == key[0] and k[1] != whole]:
                     del self._known[other]
             kernels = [[(sign, self._kernels[name]) for sign, name in row] for row in rows]
-            self._known[key] = EdgeOperator(kernels, shape, self.model.convolutions)
+            known = {}
+            if rows is not SHEAR:
+                known["zz"] = self.model.normal_operator(shape).symbols[0]
+            self._known[key] = EdgeOperator(kernels, shape, self.model.convolutions, known)
         return self._known[key]
 
     @cached_property
