@@ -87,10 +87,13 @@ class Part:
     def differences(self, field: Field) -> Field:
         """Slopes per cell of a field of the part along both axes (2, nx, ny): central differences,
         but at the ends of the window."""
-        slopes = np.stack([np.gradient(field, axis=axis) for axis in (0, 1)])
-        if self.quarter:
-            slopes[0, 0] = (field[1] - field[0]) / 2
-            slopes[1, :, 0] = (field[:, 1] - field[:, 0]) / 2
+        framed, slopes = self.framed(field, 1), np.empty((2, *field.shape))
+        np.subtract(framed[2:, 1:-1], framed[:-2, 1:-1], out=slopes[0])
+        np.subtract(framed[1:-1, 2:], framed[1:-1, :-2], out=slopes[1])
+        slopes /= 2
+        slopes[0, -1], slopes[1, :, -1] = field[-1] - field[-2], field[:, -1] - field[:, -2]
+        if not self.quarter:
+            slopes[0, 0], slopes[1, :, 0] = field[1] - field[0], field[:, 1] - field[:, 0]
         return slopes
 
 

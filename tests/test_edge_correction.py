@@ -132,18 +132,20 @@ def test_beside_a_patch_that_is_too_thin_the_pressure_stays():
     np.testing.assert_array_equal(plain.pressure, asked.pressure)
 
 
-def test_below_a_cone_the_edge_is_found_although_the_apex_is_not_smooth():
+@pytest.mark.parametrize(("cells", "left"), [(48, 0.3), (96, 0.2)])
+def test_below_a_cone_the_edge_is_found_although_the_apex_is_not_smooth(cells, left):
+    """Also on few cells, where fits from farther inside would lead far outside."""
     slope = np.radians(1.0)
     modulus = contact_modulus((420e9, 0.3), (420e9, 0.3))
     exact = ConeContact.under_load(LOAD, slope, modulus)
     side = 2.6 * exact.contact_radius
-    grid = SurfaceGrid((96, 96), (side, side))
+    grid = SurfaceGrid((cells, cells), (side, side))
     cone = frictionless(PRESS, indenter=Cone(slope_angle=slope, material=steel()))
     error = {
         edge: abs(solved(cone, edge, grid).steps[-1].contact_radius / exact.contact_radius - 1)
         for edge in ("off", "last")
     }
-    assert error["last"] < 0.2 * error["off"]
+    assert error["last"] < left * error["off"]
 
 
 STEPS = (PRESS, {"normal_force": 0.5 * LOAD}, {"normal_force": 0.8 * LOAD})
@@ -345,7 +347,7 @@ def test_a_pressure_that_is_not_smooth_at_its_edge_is_left_as_it_is():
 
     target = NormalTarget(force=LOAD)
     base = press(model, target, 1e-8)
-    assert edge_pressure(EdgeOperators(model), target, base.pressure, 1e-8) is None
+    assert edge_pressure(EdgeOperators(model), target, base.pressure) is None
 
 
 @pytest.mark.parametrize(

@@ -93,9 +93,9 @@ ORDER = (
 ORDERS = {
     "semi_analytical": ORDER,
     "semi_analytical.edge": (
-        *("means", "quadratic", "fit", "shape", "line"),
-        *("film", "film_response", "kernels", "film_shape"),
-        *("displacement", "mirrored_displacement", "rim", "peak", "corrected"),
+        *("means", "quadratic", "fit", "touching", "shape", "line"),
+        *("film", "film_response", "kernels", "film_shape", "band", "parts", "fitted", "rim"),
+        *("moment_spectra", "displacement", "mirrored_displacement", "peak", "corrected"),
     ),
     "semi_analytical.edge_correction": (
         "mixing",

@@ -15,16 +15,17 @@ from numpy.typing import NDArray
 from semi_analytical.edge.film import FilmLaw
 from semi_analytical.edge.fit import (
     CHUNK,
+    LEAST_TOTAL,
     Fits,
     Indices,
     Stencil,
+    factored,
     fading,
     fit_about,
     monomials,
     normal_matrices,
-    solved,
+    solve,
     taken,
-    what_is_left,
 )
 from semi_analytical.edge.kernels import PARTS, part_centres
 from semi_analytical.edge.line import EdgeLine, Seen
@@ -77,15 +78,17 @@ class FilmShape(EdgeShape):
             given, believed, leans = (taken(f, *window) for f in (phi, weight, leaning))
             believed *= fade
             at = foot[:, some]
-            normal = normal_matrices(basis, believed)
-            mixed = basis.T @ (believed * leans).T
+            normal = normal_matrices(self.stencil, believed)
+            mixed = basis @ (believed * leans).T
             normal += mixed[:, None] * at + at[:, None] * mixed
             normal += np.sum(believed * leans**2, axis=1) * at[:, None] * at
-            right = basis.T @ (believed * given).T + at * np.sum(believed * leans * given, axis=1)
-            found[:, some] = solved(normal, right)
-            at_edge = np.sum(found[:, some] * at, axis=0)
-            left = given - found[:, some].T @ basis.T - leans * at_edge[:, None]
-            rms[some], count[some] = what_is_left(left, believed)
+            fit = basis @ (believed * given).T + at * np.sum(believed * leans * given, axis=1)
+            solve(factored(normal), fit)
+            found[:, some] = fit
+            left = given - fit.T @ basis - leans * np.sum(fit * at, axis=0)[:, None]
+            total = np.maximum(np.sum(believed, axis=1), LEAST_TOTAL)
+            rms[some] = np.sqrt(np.sum(believed * left**2, axis=1) / total)
+            count[some] = np.count_nonzero(believed, axis=1)
         return Fits(Quadratic(i.astype(float), j.astype(float), *found), rms, count)
 
     def parts_over_root(self, phi: Quadratic) -> Field:

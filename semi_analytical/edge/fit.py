@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cache
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,6 +18,8 @@ Indices = NDArray[np.intp]
 RIDGE = 1e-13
 # Fits made at a time: as many as stay in the cache.
 CHUNK = 256
+# Of weights, where there are none.
+LEAST_TOTAL = 1e-30
 
 
 @dataclass(frozen=True)
@@ -44,6 +47,63 @@ class Fits:
     count: Indices
 
 
+@dataclass(frozen=True)
+class Windows:
+    """Windows about cells (i, j), shape (n,), with the weights of what is in them: they fit any
+    data that have these.
+
+    believed  (n, window) weights
+    total     (n,) of a window, and how many are not zero
+    factors   (m, m, n) of the normal matrices of m = 3 degree coefficients, see `factored`
+    """
+
+    i: Indices
+    j: Indices
+    stencil: Stencil
+    part: Part
+    believed: Field
+    total: Field
+    count: Indices
+    factors: Field
+
+    @classmethod
+    def about(
+        cls,
+        weight: Field,
+        i: Indices,
+        j: Indices,
+        stencil: Stencil,
+        degree: int = 2,
+        part: Part = WHOLE,
+    ) -> Windows:
+        """See `fit_about`."""
+        weight, fade = part.framed(weight, stencil.reach), fading(stencil)
+        believed = np.empty((len(i), len(fade)))
+        factors = np.empty((3 * degree, 3 * degree, len(i)))
+        for some in _chunks(len(i)):
+            np.multiply(taken(weight, i[some], j[some], stencil), fade, out=believed[some])
+            factors[..., some] = factored(normal_matrices(stencil, believed[some], degree))
+        count = np.sum(believed > 0, axis=1)
+        return cls(i, j, stencil, part, believed, np.sum(believed, axis=1), count, factors)
+
+    def fits(self, data: Field) -> Fits:
+        """To cell means (nx, ny)."""
+        data = self.part.framed(data, self.stencil.reach)
+        basis = monomials(self.stencil)[: len(self.factors)]
+        found, squares = np.zeros((6, len(self.i))), np.empty(len(self.i))
+        for some in _chunks(len(self.i)):
+            given = taken(data, self.i[some], self.j[some], self.stencil)
+            believed = self.believed[some]
+            fit = found[: len(basis), some]
+            fit[:] = basis @ (believed * given).T
+            solve(self.factors[..., some], fit)
+            given -= fit.T @ basis
+            squares[some] = np.einsum("nk,nk,nk->n", believed, given, given)
+        rms = np.sqrt(squares / np.maximum(self.total, LEAST_TOTAL))
+        quadratic = Quadratic(self.i.astype(float), self.j.astype(float), *found)
+        return Fits(quadratic, rms, self.count)
+
+
 def fit_about(
     data: Field,
     weight: Field,
@@ -60,28 +120,11 @@ def fit_about(
     degree  1 or 2; of 1 nothing bends
     part    of the window that they are given on
     """
-    data, weight = (part.framed(field, stencil.reach) for field in (data, weight))
-    found, rms = np.zeros((6, len(i))), np.empty(len(i))
-    number = np.empty(len(i), dtype=int)
-    for first in range(0, len(i), CHUNK):
-        some = slice(first, first + CHUNK)
-        fit, rms[some], number[some] = _some_fits(data, weight, i[some], j[some], stencil, degree)
-        found[: fit.shape[1], some] = fit.T
-    return Fits(Quadratic(i.astype(float), j.astype(float), *found), rms, number)
+    return Windows.about(weight, i, j, stencil, degree, part).fits(data)
 
 
-def _some_fits(
-    data: Field, weight: Field, i: Indices, j: Indices, stencil: Stencil, degree: int
-) -> tuple[Field, Field, Indices]:
-    """Coefficients (n, 3 degree), rms and count of fits to padded data."""
-    basis = monomials(stencil)[:, : 3 * degree]
-    given, believed = (taken(field, i, j, stencil) for field in (data, weight))
-    believed *= fading(stencil)
-    normal = normal_matrices(basis, believed)
-    right = basis.T @ (believed * given).T
-    found = solved(normal, right).T
-    left = given - found @ basis.T
-    return found, *what_is_left(left, believed)
+def _chunks(count: int) -> list[slice]:
+    return [slice(first, first + CHUNK) for first in range(0, count, CHUNK)]
 
 
 def taken(padded: Field, i: Indices, j: Indices, stencil: Stencil) -> Field:
@@ -92,60 +135,67 @@ def taken(padded: Field, i: Indices, j: Indices, stencil: Stencil) -> Field:
     return np.asarray(padded.take(at))
 
 
+@cache
 def fading(stencil: Stencil) -> Field:
     """Weights of a window (window,)."""
     dx, dy = _offsets(stencil)
-    return np.asarray(np.exp(-(dx**2 + dy**2) / (2 * stencil.width**2)))
+    return _kept(np.exp(-(dx**2 + dy**2) / (2 * stencil.width**2)))
 
 
+@cache
 def monomials(stencil: Stencil) -> Field:
-    """Means over the cells of a window of 1, x, y, x²/2, xy, y²/2 (window, 6)."""
+    """Means over the cells of a window of 1, x, y, x²/2, xy, y²/2 (6, window)."""
     dx, dy = _offsets(stencil)
-    columns = (np.ones(len(dx)), dx, dy, dx**2 / 2 + 1 / 24, dx * dy, dy**2 / 2 + 1 / 24)
-    return np.stack(columns, axis=-1)
+    rows = (np.ones(len(dx)), dx, dy, dx**2 / 2 + 1 / 24, dx * dy, dy**2 / 2 + 1 / 24)
+    return _kept(np.stack(rows))
 
 
+@cache
+def _products(stencil: Stencil, degree: int) -> tuple[Indices, Indices, Field]:
+    """Of two monomials each: which two, and over the window (products, window)."""
+    row, column = np.triu_indices(3 * degree)
+    basis = monomials(stencil)
+    return row, column, _kept(basis[row] * basis[column])
+
+
+@cache
 def _offsets(stencil: Stencil) -> tuple[Indices, Indices]:
     shift = np.arange(-stencil.reach, stencil.reach + 1)
-    dx, dy = (grid.ravel() for grid in np.meshgrid(shift, shift, indexing="ij"))
-    return dx, dy
+    dx, dy = np.meshgrid(shift, shift, indexing="ij")
+    return dx.ravel(), dy.ravel()
 
 
-def normal_matrices(basis: Field, believed: Field) -> Field:
-    """Of least squares (m, m, n)."""
-    count = basis.shape[1]
-    row, column = np.triu_indices(count)
-    normal = np.empty((count, count, len(believed)))
-    normal[row, column] = (basis[:, row] * basis[:, column]).T @ believed.T
-    normal[column, row] = normal[row, column]
+def _kept(values: Field) -> Field:
+    values.flags.writeable = False
+    return values
+
+
+def normal_matrices(stencil: Stencil, believed: Field, degree: int = 2) -> Field:
+    """Of least squares with these weights (m, m, n)."""
+    row, column, products = _products(stencil, degree)
+    normal = np.empty((3 * degree, 3 * degree, len(believed)))
+    normal[row, column] = normal[column, row] = products @ believed.T
     return normal
 
 
-def what_is_left(left: Field, believed: Field) -> tuple[Field, Indices]:
-    """Weighted root mean square of what fits leave of their data (n, window), and their count."""
-    total = np.maximum(np.sum(believed, axis=1), 1e-30)
-    rms = np.sqrt(np.sum(believed * left**2, axis=1) / total)
-    return rms, np.count_nonzero(believed, axis=1)
-
-
-def solved(normal: Field, right: Field) -> Field:
-    """The coefficients (m, n) of least squares (m, m, n) and (m, n). Overwrites both."""
-    diagonal = np.arange(len(right))
-    normal[diagonal, diagonal] += RIDGE * (np.trace(normal) + 1e-30)
-    return _solved(normal, right)
-
-
-def _solved(matrices: Field, right: Field) -> Field:
-    """The x (m, n) of positive definite systems (m, m, n) and (m, n), by Cholesky's method on all
-    of them together: one by one they are too small. Overwrites both."""
-    a, x = matrices, right
-    for k in range(len(x)):
-        a[k, k] = np.sqrt(a[k, k])
-        a[k, k + 1 :] /= a[k, k]
-        x[k] /= a[k, k]
-        for i in range(k + 1, len(x)):
+def factored(normal: Field) -> Field:
+    """Cholesky's factors (m, m, n) of normal matrices, in the upper triangles: of all of them
+    together, as one by one they are too small. Overwrites them."""
+    a, diagonal = normal, np.arange(len(normal))
+    a[diagonal, diagonal] += RIDGE * (np.trace(a) + LEAST_TOTAL)
+    for k in range(len(a)):
+        a[k, k:] /= np.sqrt(a[k, k])
+        for i in range(k + 1, len(a)):
             a[i, i:] -= a[k, i] * a[k, i:]
-            x[i] -= a[k, i] * x[k]
+    return a
+
+
+def solve(factors: Field, right: Field) -> None:
+    """Right sides (m, n) to the coefficients of least squares, in their place."""
+    a, x = factors, right
+    for k in range(len(x)):
+        x[k] /= a[k, k]
+        x[k + 1 :] -= a[k, k + 1 :] * x[k]
     for k in reversed(range(len(x))):
-        x[k] = (x[k] - np.sum(a[k, k + 1 :] * x[k + 1 :], axis=0)) / a[k, k]
-    return x
+        x[k] /= a[k, k]
+        x[:k] -= a[:k, k] * x[k]

@@ -76,34 +76,33 @@ class EdgeKernels:
     @cached_property
     def near_moments(self) -> Field:
         """The same at NEAR + 1 offsets along each side."""
-        x = part_centres()
+        K = getattr(self.parts, self.component)[:PART_OFFSETS, :PART_OFFSETS]
+        x, one = part_centres(), np.ones(PARTS)
+        along_x, along_y = (_added_up(x, parity) for parity in self.parity)
+        across_x, across_y = (_added_up(one, parity) for parity in self.parity)
+        by_both = along_x @ K @ across_y.T, across_x @ K @ along_y.T
         # The moment of the parts is a little less than that of the slope.
-        by_x = np.sum(self._seen * x[:, None], axis=(2, 3)) / (1 - 1 / PARTS**2)
-        by_y = np.sum(self._seen * x, axis=(2, 3)) / (1 - 1 / PARTS**2)
-        return np.stack([by_x, by_y])
+        return np.stack(by_both) / (1 - 1 / PARTS**2)
 
-    @property
+    @cached_property
     def near(self) -> Field:
         """Displacement at cell offsets -REACH … REACH by unit traction on a part of the cell at the
         origin, shape (2 REACH + 1, 2 REACH + 1, PARTS, PARTS) [length^3/force]."""
-        along_x = _mirrored(self._seen[: REACH + 1, : REACH + 1], 0, 2, self.parity[0])
-        return _mirrored(along_x, 1, 3, self.parity[1])
-
-    @cached_property
-    def _seen(self) -> Field:
-        """Displacement at NEAR + 1 cell offsets i, j by unit traction on the part (a, b)."""
         K = getattr(self.parts, self.component)
-        a = np.arange(PARTS) - PARTS // 2
-        i = PARTS * np.arange(NEAR + 1)[:, None] - a
-        seen = K[np.abs(i)[:, None, :, None], np.abs(i)[:, None]]
+        i = PARTS * np.arange(-REACH, REACH + 1)[:, None] - np.arange(PARTS) + PARTS // 2
         sign_x, sign_y = (np.where(i < 0, parity, 1) for parity in self.parity)
+        seen = K[np.abs(i)[:, None, :, None], np.abs(i)[:, None]]
         return np.asarray(sign_x[:, None, :, None] * sign_y[:, None] * seen)
 
 
-def _mirrored(quadrant: Field, axis: int, parts: int, parity: int) -> Field:
-    """Offsets of both signs from those >= 0: seen from the other side, parts change places too."""
-    other = np.flip(np.flip(np.take(quadrant, range(1, quadrant.shape[axis]), axis), axis), parts)
-    return np.concatenate([parity * other, quadrant], axis)
+def _added_up(weights: Field, parity: int) -> Field:
+    """Of values at offsets of parts, even or odd, to what they are at offsets of cells, the parts
+    having these weights (NEAR + 1, PART_OFFSETS)."""
+    offsets = PARTS * np.arange(NEAR + 1)[:, None] - np.arange(PARTS) + PARTS // 2
+    added = np.zeros((NEAR + 1, PART_OFFSETS))
+    rows = np.broadcast_to(np.arange(NEAR + 1)[:, None], offsets.shape)
+    np.add.at(added, (rows, np.abs(offsets)), weights * np.where(offsets < 0, parity, 1))
+    return added
 
 
 def _slope(values: Field, axis: int, parity: int) -> Field:

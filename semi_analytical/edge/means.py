@@ -21,9 +21,9 @@ STRAIGHT = 1e-4
 DEEP = 3.0
 POINTS, WEIGHTS = (half / 2 for half in np.polynomial.legendre.leggauss(4))
 MOST_TURNS = 80
-SMOOTH_TURNS = 6
+SMOOTH_TURNS = 5
 # The next turn would leave its square.
-SETTLED = 1e-8
+SETTLED = 1e-5
 
 
 def mean_power(f: Field, f_x: Field, f_y: Field, exponent: Exponent) -> Field:
@@ -64,7 +64,15 @@ def _among(exponent: Exponent, shape: tuple[int, ...], where: NDArray[Any]) -> E
 
 def mean_of_smooth(f: Field, f_x: Field, f_y: Field, a: Exponent) -> Field:
     """`mean_power` where f is at least 1.5 times the sum of the slopes, to 3e-7."""
-    return np.asarray(power(f, a) * _series(1 / f**2, *_bends(f_x, f_y, a)))
+    mean = _series(1 / f**2, *_bends(f_x, f_y, a))
+    mean *= power(f, a)
+    return mean
+
+
+def mean_of_cut(f: Field, f_x: Field, f_y: Field, a: Exponent) -> Field:
+    """`mean_power` where f is above minus half of the sum of the slopes and less than a few of
+    them, all of shape (n,); the slopes are not negative."""
+    return _cut(f, np.maximum(f_x, f_y), np.minimum(f_x, f_y), a)
 
 
 def _bends(b: Field, c: Field, a: Exponent) -> tuple[Field, Field, Field]:
@@ -83,7 +91,12 @@ def _bends(b: Field, c: Field, a: Exponent) -> tuple[Field, Field, Field]:
 
 def _series(inverse: Field, second: Field, fourth: Field, sixth: Field) -> Field:
     """inverse  1/f²"""
-    return np.asarray(1 + inverse * (second + inverse * (fourth + inverse * sixth)))
+    total = inverse * sixth
+    for term in (fourth, second):
+        total += term
+        total *= inverse
+    total += 1
+    return np.asarray(total)
 
 
 def _cut(f: Field, b: Field, c: Field, a: Exponent) -> Field:
@@ -93,11 +106,11 @@ def _cut(f: Field, b: Field, c: Field, a: Exponent) -> Field:
 def _cut_with_slope(f: Field, b: Field, c: Field, a: Exponent) -> tuple[Field, Field]:
     """The mean and its derivative with respect to f, where the cell may be cut, shape (n,)."""
     straight = c < STRAIGHT * b
+    if not np.any(straight):
+        return _oblique(f, b, c, a)
     found = np.empty((2, len(f)))
     for where, means in ((straight, _straight), (~straight, _oblique)):
-        if np.any(where):
-            of = _among(a, f.shape, where)
-            found[:, where] = means(f[where], b[where], c[where], of)
+        found[:, where] = means(f[where], b[where], c[where], _among(a, f.shape, where))
     return found[0], found[1]
 
 
@@ -114,40 +127,43 @@ def _straight(f: Field, b: Field, c: Field, a: Exponent) -> tuple[Field, Field]:
 
 
 def _oblique(f: Field, b: Field, c: Field, a: Exponent) -> tuple[Field, Field]:
-    half, other = b / 2, c / 2
-    sides = np.stack([f + half, f - half])
-    # Those of which one is added, and those of which one is taken away.
-    corners = np.maximum(np.stack([sides + other, sides - other]), 0.0)
+    outer, inner = (b + c) / 2, (b - c) / 2
+    # Those of which two are added, and those of which two are taken away.
+    corners = np.maximum(np.stack([f + outer, f - outer, f + inner, f - inner]), 0.0)
     of_corners = power(corners, a + 1)
-    of_corners[(0, 1), (1, 0)] *= -1
-    slope = np.sum(of_corners, axis=(0, 1)) / ((a + 1) * b * c)
-    mean = np.sum(corners * of_corners, axis=(0, 1)) / ((a + 1) * (a + 2) * b * c)
-    return mean, slope
+    slope = _differences(of_corners) / ((a + 1) * b * c)
+    of_corners *= corners
+    return _differences(of_corners) / ((a + 1) * (a + 2) * b * c), slope
 
 
-def centre_value(mean: Field, f_x: Field, f_y: Field, exponent: Exponent) -> Field:
-    """The f for which `mean_power` gives a mean, shape of mean.
+def _differences(corners: Field) -> Field:
+    return np.asarray(corners[0] + corners[1] - (corners[2] + corners[3]))
+
+
+def centre_value(
+    mean: Field, f_x: Field, f_y: Field, exponent: Exponent, near: Field | None = None
+) -> Field:
+    """The f for which `mean_power` gives a mean, all of one shape (n,).
 
     mean  of the power over the cell, positive
+    near  values about which to look where the cell may be cut; None where nothing is known
     Between mean^(1/exponent) ± half the sum of the slopes.
     """
-    shape = np.broadcast_shapes(mean.shape, f_x.shape, f_y.shape)
-    mean, f_x, f_y = (np.broadcast_to(field, shape).ravel() for field in (mean, f_x, f_y))
-    a = np.broadcast_to(exponent, shape).ravel() if np.ndim(exponent) else exponent
-    b, c = np.maximum(np.abs(f_x), np.abs(f_y)), np.minimum(np.abs(f_x), np.abs(f_y))
-    target = power(mean, np.divide(1, a))
-    f = np.empty(target.shape)
-    deep = target > DEEP * (b + c)
+    f_x, f_y = np.abs(f_x), np.abs(f_y)
+    b, c = np.maximum(f_x, f_y), np.minimum(f_x, f_y)
+    f = power(mean, np.divide(1, exponent))
+    deep = f > DEEP * (b + c)
     for where, inverse in ((deep, _smooth_centre), (~deep, _cut_centre)):
-        f[where] = inverse(target[where], b[where], c[where], _among(a, f.shape, where))
-    return f.reshape(shape)
+        about = None if near is None else near[where]
+        f[where] = inverse(f[where], b[where], c[where], _among(exponent, f.shape, where), about)
+    return f
 
 
-def _smooth_centre(target: Field, b: Field, c: Field, a: Exponent) -> Field:
-    """By turns, each of which leaves a hundredth of the error."""
+def _smooth_centre(target: Field, b: Field, c: Field, a: Exponent, near: Field | None) -> Field:
+    """By turns, each of which leaves a two-hundredth of the error: nothing need be known."""
     f, terms = target, _bends(b, c, a)
     for _ in range(SMOOTH_TURNS):
-        f = target * power(_series(1 / f**2, *terms), -np.divide(1, a))
+        f = target / power(_series(1 / f**2, *terms), np.divide(1, a))
     return f
 
 
@@ -160,27 +176,22 @@ def _first_centre(target: Field, b: Field, c: Field, a: Exponent) -> Field:
     return np.asarray(np.where(corner < c, corner - (b + c) / 2, f))
 
 
-def _cut_centre(target: Field, b: Field, c: Field, a: Exponent) -> Field:
+def _cut_centre(target: Field, b: Field, c: Field, a: Exponent, near: Field | None) -> Field:
     """By Newton's method on mean^(1/a), which is almost linear in f.
 
     target  mean^(1/a)
     """
     half = (b + c) / 2
-    low, high, f = -half, target + half, _first_centre(target, b, c, a)
-    k = np.arange(f.size)
+    low, high = -half, target + half
+    f = _first_centre(target, b, c, a) if near is None else np.clip(near, low, high)
     for _ in range(MOST_TURNS):
-        a_k = _among(a, f.shape, k)
-        found, slope = _cut_with_slope(f[k], b[k], c[k], a_k)
-        value = power(found, np.divide(1, a_k))
-        below = value < target[k]
-        low[k] = np.where(below, f[k], low[k])
-        high[k] = np.where(below, high[k], f[k])
+        found, slope = _cut_with_slope(f, b, c, a)
+        value = power(found, np.divide(1, a))
+        missing = target - value
+        low, high = np.where(missing > 0, f, low), np.where(missing > 0, high, f)
         with np.errstate(divide="ignore", invalid="ignore"):
-            newton = f[k] + (target[k] - value) / (value * slope / (a_k * found))
-        safe = (newton >= low[k]) & (newton <= high[k])
-        step = np.where(safe, newton, (low[k] + high[k]) / 2) - f[k]
-        f[k] += step
-        k = k[np.abs(step) > SETTLED * (target[k] + b[k] + c[k])]
-        if not len(k):
+            newton = f + missing * a * found / (value * slope)
+        last, f = f, np.where((newton >= low) & (newton <= high), newton, (low + high) / 2)
+        if np.all(np.abs(f - last) <= SETTLED * (target + half)):
             break
     return f

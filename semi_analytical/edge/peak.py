@@ -5,11 +5,15 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from semi_analytical.edge.fit import Stencil, fit_about
+from semi_analytical.edge.fit import Stencil, fading, monomials
 
 Field = NDArray[np.float64]
 
+# The cell and those about it, and further those that tell the slopes of the last.
 NEXT = Stencil(1, 1.0)
+ACROSS = 2
+# Means over them to the coefficients of a quadratic, by least squares (6, 9).
+FIT = np.linalg.pinv(monomials(NEXT).T * np.sqrt(fading(NEXT))[:, None]) * np.sqrt(fading(NEXT))
 
 
 def peak_of(means: Field) -> float:
@@ -21,17 +25,18 @@ def peak_of(means: Field) -> float:
     between them.
     """
     i, j = (int(at) for at in np.unravel_index(np.argmax(means), means.shape))
-    # Beyond the neighbours those that tell their slopes.
-    across = NEXT.reach + 1
-    about = np.pad(means, across)[i : i + 2 * across + 1, j : j + 2 * across + 1]
-    squares = about**2 + sum(np.gradient(about, axis=axis) ** 2 for axis in (0, 1)) / 12
-    middle = np.array([across])
-    fit = fit_about(squares, (about > 0).astype(float), middle, middle, NEXT)
-    q = fit.quadratic
-    determinant = q.f_xx * q.f_yy - q.f_xy**2
-    if fit.count[0] < (2 * NEXT.reach + 1) ** 2 or q.f_xx[0] >= 0 or determinant[0] <= 0:
-        return float(means[i, j])
-    dx = (q.f_xy * q.f_y - q.f_yy * q.f_x) / determinant
-    dy = (q.f_xy * q.f_x - q.f_xx * q.f_y) / determinant
-    beyond = max(abs(dx[0]), abs(dy[0])) > NEXT.reach
-    return float(means[i, j] if beyond else np.sqrt(q.at(dx, dy)[0]))
+    largest = float(means[i, j])
+    about = means[max(i - ACROSS, 0) : i + ACROSS + 1, max(j - ACROSS, 0) : j + ACROSS + 1]
+    if about.shape != (2 * ACROSS + 1, 2 * ACROSS + 1) or np.any(about[1:-1, 1:-1] <= 0):
+        return largest
+    along_x, along_y = about[2:, 1:-1] - about[:-2, 1:-1], about[1:-1, 2:] - about[1:-1, :-2]
+    squares = about[1:-1, 1:-1] ** 2 + (along_x**2 + along_y**2) / 48
+    f, f_x, f_y, f_xx, f_xy, f_yy = (float(value) for value in FIT @ squares.ravel())
+    determinant = f_xx * f_yy - f_xy**2
+    if f_xx >= 0 or determinant <= 0:
+        return largest
+    dx = (f_xy * f_y - f_yy * f_x) / determinant
+    dy = (f_xy * f_x - f_xx * f_y) / determinant
+    if max(abs(dx), abs(dy)) > NEXT.reach:
+        return largest
+    return float(np.sqrt(f + (f_x * dx + f_y * dy) / 2))

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,6 +12,7 @@ from scipy.ndimage import distance_transform_edt
 from semi_analytical.edge.fit import Fits, Indices, Stencil, fit_about
 from semi_analytical.edge.means import Exponent, centre_value, power
 from semi_analytical.edge.quadratic import Quadratic
+from semi_analytical.edge.touching import Touching
 from semi_analytical.part import WHOLE, Part
 
 Field = NDArray[np.float64]
@@ -27,15 +27,6 @@ ASKED = 3.5
 # Of a step to the edge, and of all of them, in cells.
 LONGEST_STEP, FARTHEST = 1.0, 2.0
 REFITS = 3
-# Steps to the cells that touch one at a side, then at a corner.
-TOUCHING = np.array([[1, -1, 0, 0, 1, 1, -1, -1], [0, 0, 1, -1, 1, -1, 1, -1]])
-
-
-class Former(NamedTuple):
-    """Slopes of phi per cell (2, nx, ny), and the cells that its edge cuts."""
-
-    slopes: Field
-    cut: Mask
 
 
 @dataclass(frozen=True)
@@ -88,44 +79,12 @@ class EdgeShape:
         """phi about cells of the region and all that touch them, shape (n,), and whether to believe
         it: outside of it the mean of what the nearest say, as a mirror image would have it."""
         inside = self.depth[i, j] > 0
-        fits = self.fits(i[inside], j[inside])
-        phi, safe = fits.quadratic, believed(fits)
-        row = np.full(np.add(self.means.shape, 2), -1)
-        row[i[inside] + 1, j[inside] + 1] = np.arange(len(safe))
-        near, near_safe = self._with_images(phi, safe, row)
-        beside = row[i[~inside, None] + 1 + TOUCHING[0], j[~inside, None] + 1 + TOUCHING[1]]
-        share = (beside >= 0).astype(float)
-        share[np.any(share[:, :4] > 0, axis=1), 4:] = 0.0
-        share /= np.sum(share, axis=1, keepdims=True)
-        x, y = i.astype(float), j.astype(float)
-        at = near.chosen(beside).about(x[~inside, None], y[~inside, None])
-        parts = np.empty((8, len(i)))
-        parts[:, inside] = list(vars(phi).values())
-        parts[:, ~inside] = [np.sum(share * part, axis=1) for part in vars(at).values()]
-        trusted = np.empty(len(i), dtype=bool)
-        trusted[inside] = safe
-        trusted[~inside] = np.all(near_safe[beside] | (share == 0), axis=1)
-        return Quadratic(*parts), trusted
-
-    def _with_images(self, phi: Quadratic, safe: Mask, row: Indices) -> tuple[Quadratic, Mask]:
-        """Fits about cells, and behind them those of their images next to mirror planes.
-
-        row  (nx + 2, ny + 2) which fit is that of a cell, -1 for none: filled in for images
-        """
-        if not self.part.quarter:
-            return phi, safe
-        number = np.arange(len(safe))
-        images = [number]
-        fits = [phi]
-        for axis, place in enumerate((phi.x, phi.y)):
-            of = np.flatnonzero(place == 0)
-            first = sum(len(some) for some in images)
-            along = (phi.y if axis == 0 else phi.x)[of].astype(int) + 1
-            row[(0, along) if axis == 0 else (along, 0)] = first + np.arange(len(of))
-            images.append(of)
-            fits.append(phi.chosen(of).mirrored(axis))
-        parts = zip(*(vars(fit).values() for fit in fits), strict=True)
-        return Quadratic(*map(np.concatenate, parts)), safe[np.concatenate(images)]
+        of_fits = i[inside], j[inside]
+        fits = self.fits(*of_fits)
+        touching = Touching.of(i[~inside], j[~inside], of_fits, self.depth.shape, self.part)
+        phi, safe = touching.joined(fits, believed(fits))
+        place = np.argsort(inside, kind="stable").argsort()
+        return phi.chosen(place), safe[place]
 
     def edge_points(self, i: Indices, j: Indices) -> tuple[Quadratic, Mask]:
         """phi about the points of the edge nearest to cells (n,), and whether to believe it.
@@ -154,10 +113,10 @@ def _downhill(here: Quadratic) -> tuple[Field, Field]:
     return here.x - step * here.f_x, here.y - step * here.f_y
 
 
-def believed(fits: Fits) -> Mask:
+def believed(fits: Fits, largest_rms: float = LARGEST_RMS) -> Mask:
     """Whether there is enough data, and it is near the fit."""
     few = fits.count < LEAST_DATA
-    return np.asarray(~few & (fits.rms < LARGEST_RMS * fits.quadratic.slope))
+    return np.asarray(~few & (fits.rms < largest_rms * fits.quadratic.slope))
 
 
 def edge_shape(
@@ -171,7 +130,6 @@ def edge_shape(
     rounds: int = 3,
     depth: Field | None = None,
     part: Part = WHOLE,
-    former: Former | None = None,
 ) -> EdgeShape:
     """Shape of the edge of a region.
 
@@ -187,7 +145,6 @@ def edge_shape(
               `centre_value` with the slope of the last
     depth     of the region, where it is known: see `depth_of`
     part      of the window that all are given on
-    former    phi of nearly the same means: its slopes are those of the only round
     Raises ValueError where no cell is left to be data.
     """
     means = np.where(region, means, 0.0)
@@ -200,14 +157,9 @@ def edge_shape(
             f"the region is {np.max(depth):.3g} cells deep, {rings} rings are dropped: no cell is "
             "left to fit its edge to; take smaller cells"
         )
-    band = usable & (depth < ASKED + 1.5 * stencil.reach)
+    band = data & (depth < ASKED + 1.5 * stencil.reach)
     of_band = exponent[band] if isinstance(exponent, np.ndarray) else exponent
     phi, weight = power(means, np.divide(1, exponent)), inner.astype(float)
-    if former is not None:
-        x, y = (slope[band] for slope in former.slopes)
-        phi[band] = centre_value(means[band], x, y, of_band)
-        weight = np.where(former.cut, CUT_WEIGHT, 1.0) * data
-        return EdgeShape(means, phi, weight, exponent, stencil, depth, part)
     # Farther in the differences of data tell the slope, which hardly matters there.
     i, j = np.nonzero(band & (depth < max(rings, 1) + 2))
     for _ in range(rounds - 1):
@@ -216,7 +168,7 @@ def edge_shape(
         slopes[:, i, j] = quadratic.f_x, quadratic.f_y
         phi[band] = centre_value(means[band], slopes[0][band], slopes[1][band], of_band)
         weight = data.astype(float)
-        weight[i, j] *= np.where(quadratic.cut, CUT_WEIGHT, 1.0)
+        weight[i, j] = np.where(quadratic.cut, CUT_WEIGHT, 1.0)
     return EdgeShape(means, phi, weight, exponent, stencil, depth, part)
 
 

@@ -49,7 +49,7 @@ class EdgeCorrection:
         known = last.corrected if last and last.target == target else None
         if known and last and np.array_equal(last.pressing.pressure, p):
             return known
-        return edge_pressure(self._operators, target, p, tolerance)
+        return edge_pressure(self._operators, target, p)
 
     def _sheared(
         self,
@@ -72,7 +72,7 @@ class EdgeCorrection:
                 displacement=nothing,
                 shift=solved.shift,
                 stick=pressed.pressure > 0,
-                stick_cells=edge.area,
+                stick_cells=pressed.contact_cells,
                 change=0.0,
             )
         mu = model.friction.uniform
