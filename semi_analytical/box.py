@@ -5,6 +5,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from semi_analytical.part import WHOLE, Part
+
 Field = NDArray[np.float64]
 Mask = NDArray[np.bool_]
 
@@ -43,14 +45,16 @@ class Box:
         return inside
 
 
-def box_around(cells: Mask, margin: int, *, quarter: bool = False) -> Box:
+def box_around(cells: Mask, margin: int, part: Part = WHOLE) -> Box:
     """The smallest box with sides of whole quanta around marked cells and a margin.
 
-    A side that does not fit becomes the side of the window. Of a quarter of the window, the same
-    quarter of the box around the cells and their images.
+    A side that does not fit becomes the side of the window. Of a part of the window, the same part
+    of the box around the cells and their images.
     """
-    side = _half_side if quarter else _side
-    sides = [side(np.any(cells, axis=1 - axis), margin) for axis in (0, 1)]
+    sides = [
+        (_half_side if mirrored else _side)(np.any(cells, axis=1 - axis), margin)
+        for axis, mirrored in enumerate(part.mirrored)
+    ]
     return Box((sides[0][0], sides[1][0]), (sides[0][1], sides[1][1]))
 
 

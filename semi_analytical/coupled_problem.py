@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from semi_analytical.admissible_shear import Field, TangentialLoad, Vector, VectorField
 from semi_analytical.normal_load import Motion, NormalLoad
+from semi_analytical.part import WHOLE, Part
 
 # Along the shorter side of a box. With more Newton's method stalls, with fewer it takes more steps.
 PATCHES = 40
@@ -38,6 +39,7 @@ class CoupledProblem:
     friction_limit           pressure (nx, ny) -> largest shear (nx, ny), in proportion
     target                   u_t - motion of the state before (2, nx, ny)
     self_compliance          tangential displacement of a cell by its own unit shear
+    part                     of the window that all fields are on
     """
 
     normal: Callable[[Field], Field]
@@ -54,6 +56,7 @@ class CoupledProblem:
     normal_load: NormalLoad
     tangential_load: TangentialLoad
     self_compliance: float
+    part: Part = WHOLE
 
     @property
     def gamma(self) -> float:
@@ -63,7 +66,8 @@ class CoupledProblem:
         smooth and as wide as the contact; against the compliance of one cell of very many it looks
         so large that cells which carry pressure would part in masses.
         """
-        return 1 / (self.self_compliance * max(1.0, min(self.gap.shape) / PATCHES))
+        shortest = min(self.part.window(self.gap.shape))
+        return 1 / (self.self_compliance * max(1.0, shortest / PATCHES))
 
     def yielding(self, compliance: float, tractions: Field) -> "CoupledProblem":
         """The same where every cell is on springs of a compliance more, which are at rest at

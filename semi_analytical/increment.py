@@ -11,7 +11,7 @@ from semi_analytical.behind import Behind, further_shear
 from semi_analytical.edge.corrected import Corrected
 from semi_analytical.energy import NOTHING_YET, Energy
 from semi_analytical.model import ContactModel
-from semi_analytical.part import Part
+from semi_analytical.part import WHOLE, Part
 from semi_analytical.pressing import NormalTarget, Pair, Pressing, press
 from semi_analytical.sheared import Sheared, untouched
 from semi_analytical.shearing import TangentialTarget
@@ -71,7 +71,7 @@ class State:
 
 def unfolded(state: State, part: Part) -> State:
     """A state whose tangential fields are on a part of the window, with these on all of it."""
-    if state.sheared is None or not part.quarter:
+    if state.sheared is None or part == WHOLE:
         return state
     return replace(state, sheared=state.sheared.unfolded(part))
 

@@ -52,7 +52,7 @@ def estimated_bytes(grid: SurfaceGrid, plan: Plan) -> int:
     quarter = plan.quarter and not (grid.cells[0] % 2 or grid.cells[1] % 2)
     work = PRESSURE_ARRAYS + (SHEAR_ARRAYS if plan.shear else 0)
     work -= QUARTER_SAVES if quarter and not plan.shear else 0
-    told = quarter and plan.along is not None
+    told = quarter and plan.told.quarter
     work -= QUARTER_SHEAR_SAVES if told and plan.edge == "off" else 0
     work += (TILT_ARRAYS if plan.tilt else 0) + (TORSION_ARRAYS if plan.torsion else 0)
     work += COUPLING_ARRAYS[plan.coupling]

@@ -7,8 +7,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from semi_analytical.influence.coefficients import InfluenceCoefficients
-from semi_analytical.kernel_spectrum import even_transform
 from semi_analytical.mirrored_transform import MirroredTransform
+from semi_analytical.operator import normal_spectra, positive_inverse
 from semi_analytical.padded_transform import Convolutions
 
 Field = NDArray[np.float64]
@@ -29,14 +29,13 @@ class MirroredNormalOperator:
         counter: Convolutions,
     ) -> None:
         self._transform = MirroredTransform(shape, counter)
-        self.symbols = (even_transform(coefficients.zz[self._transform.reach]),)
+        self.symbols = normal_spectra(coefficients, self._transform.reach)
 
     @cached_property
     def inverse(self) -> Field:
         """Roughly the spectrum of the inverse, with the unpadded period; columns are wavenumbers
         along x."""
-        size = np.abs(self.symbols[0].quarter[:-1:2, :-1:2])
-        return np.asarray(1 / np.maximum(size, np.finfo(float).eps * np.max(size)))
+        return positive_inverse(self.symbols[0].quarter[:-1:2, :-1:2])
 
     def __call__(self, pressure: Field) -> Field:
         """Normal displacement caused by a pressure."""

@@ -45,6 +45,11 @@ class Cosines:
             self._back = self._forward.T / (2 * m)
             self._back[0] /= 2
 
+    @property
+    def count(self) -> int:
+        """Of the amplitudes."""
+        return self.m
+
     def unpadded(self) -> "Cosines":
         """Those of half the length m: every second one."""
         every = None if self._forward is None else np.ascontiguousarray(self._forward[:, ::2])

@@ -1,6 +1,6 @@
 """The discrete contact model: gap, friction limit and operators on one grid, and a coarser one."""
 
-from dataclasses import replace
+from collections.abc import Callable
 from functools import cached_property
 from typing import TypeVar
 
@@ -15,24 +15,19 @@ from semi_analytical.coupled_operator import CoupledOperator
 from semi_analytical.grid import SurfaceGrid
 from semi_analytical.influence.bodies import influence_coefficients
 from semi_analytical.influence.coefficients import InfluenceCoefficients
+from semi_analytical.mirrored_coupling import MirroredCoupledOperator
+from semi_analytical.mirrored_inverse import MirroredPeriodicInverse
 from semi_analytical.mirrored_operator import MirroredNormalOperator
-from semi_analytical.mirrored_shear import MirroredPeriodicInverse, MirroredTangentialOperator
+from semi_analytical.mirrored_shear import MirroredTangentialOperator
 from semi_analytical.mirrored_transform import mirrored_offsets
+from semi_analytical.on_boxes import OnBoxes, Shape
 from semi_analytical.operator import CouplingOperator, NormalOperator, TangentialOperator
 from semi_analytical.padded_transform import Convolutions, offsets_for
-from semi_analytical.part import WHOLE, Part, part_of
+from semi_analytical.part import WHOLE, Pair, Part, part_of
 from semi_analytical.periodic_inverse import PeriodicInverse
 
 Field = NDArray[np.float64]
-Operator = TypeVar(
-    "Operator",
-    NormalOperator,
-    MirroredNormalOperator,
-    TangentialOperator,
-    MirroredTangentialOperator,
-    CouplingOperator,
-    CoupledOperator,
-)
+Operator = TypeVar("Operator")
 
 # A grid of no more cells along a side is not halved: from a pressure by Hertz's law it is solved in
 # less than its coarser grids would take.
@@ -45,8 +40,8 @@ class ContactModel:
     gap           undeformed gap (nx, ny) [length]
     convolutions  counter shared by all operators of this model and its coarser ones
     even          whether pressures without shear are even about x = 0 and y = 0
-    along         component of shear that is even about both as well, the other being odd about
-                  both; None where a quarter does not tell shear
+    told          part of the window that tells shear, and pressure below it, where pressures
+                  without shear are even
     """
 
     def __init__(
@@ -57,35 +52,26 @@ class ContactModel:
         convolutions: Convolutions,
         *,
         even: bool = False,
-        along: int | None = None,
+        told: Part = WHOLE,
     ) -> None:
         self.scene = scene
         self.grid = grid
         self.gap = gap
         self.convolutions = convolutions
         self.even = even
-        self._along = along
-        self._normal: dict[tuple[int, int], NormalOperator] = {}
-        self._mirrored: dict[tuple[int, int], MirroredNormalOperator] = {}
-        self._tangential: dict[tuple[int, int], TangentialOperator] = {}
-        self._mirrored_shear: dict[tuple[int, int], MirroredTangentialOperator] = {}
-        self._coupling: dict[tuple[int, int], CouplingOperator] = {}
-        self._coupled: dict[tuple[int, int], CoupledOperator] = {}
-        self._inverse: dict[tuple[int, int], PeriodicInverse] = {}
-        self._shear_inverse: dict[tuple[int, int], PeriodicInverse] = {}
-        self._mirrored_inverse: dict[tuple[int, int], MirroredPeriodicInverse] = {}
+        self._told = told
 
     @classmethod
     def of(
-        cls, scene: Scene, grid: SurfaceGrid, *, even: bool = False, along: int | None = None
+        cls, scene: Scene, grid: SurfaceGrid, *, even: bool = False, told: Part = WHOLE
     ) -> "ContactModel":
         """The model of a scene, its gap taken at the cell centres.
 
-        even, along  see the class
+        even, told  see the class
         """
         x, y = grid.coordinates()
         gap = scene.indenter.initial_gap(x, y)
-        return cls(scene, grid, gap, Convolutions(), even=even and grid.even, along=along)
+        return cls(scene, grid, gap, Convolutions(), even=even and grid.even, told=told)
 
     @cached_property
     def part(self) -> Part:
@@ -95,8 +81,7 @@ class ContactModel:
     @cached_property
     def shear_part(self) -> Part:
         """The part of the window that tells shear."""
-        told = self._along is not None and self.part.quarter
-        return replace(self.part, along=self._along) if told else WHOLE
+        return self._told if self.part.quarter else WHOLE
 
     @property
     def shear_cells(self) -> tuple[int, int]:
@@ -113,9 +98,13 @@ class ContactModel:
         """The undeformed gap there [length]."""
         return self.shear_part.of(self.gap)
 
-    def friction_limit(self, pressure: Field) -> Field:
-        """µp under a pressure there [force/length^2]."""
-        return self.friction.limit(pressure, self.shear_part.slices(self.grid.cells))
+    def friction_limit(self, pressure: Field, first: Pair = (0, 0)) -> Field:
+        """µp under a pressure there, or on a box of cells that begins with this one
+        [force/length^2]."""
+        part = self.shear_part.slices(self.grid.cells)
+        begins = (some.start + i for some, i in zip(part, first, strict=True))
+        x, y = (slice(i, i + count) for i, count in zip(begins, pressure.shape, strict=True))
+        return self.friction.limit(pressure, (x, y))
 
     @cached_property
     def friction(self) -> CoulombFriction:
@@ -159,108 +148,121 @@ class ContactModel:
         nx, ny = self.grid.cells
         return modulus_of(self.coefficients.zz[: nx // 4 + 1, : ny // 4 + 1], self.grid.spacing)
 
-    def normal_operator(self, shape: tuple[int, int]) -> NormalOperator:
+    def normal_operator(self, shape: Shape) -> NormalOperator:
         """Pressure to normal displacement on a box of cells."""
-        if shape not in self._normal:
-            self._forget_other_boxes(self._normal, shape)
-            self._normal[shape] = NormalOperator(self.coefficients, shape, self.convolutions)
-        return self._normal[shape]
+        return self._normal(shape)
 
-    def pressure_operator(self, shape: tuple[int, int]) -> NormalOperator | MirroredNormalOperator:
+    def pressure_operator(self, shape: Shape) -> NormalOperator | MirroredNormalOperator:
         """The same on a box of cells of the part that tells pressures without shear."""
-        if not self.part.quarter:
-            return self.normal_operator(shape)
-        if shape not in self._mirrored:
-            self._forget_other_boxes(self._mirrored, shape, self.part.cells(self.grid.cells))
-            self._mirrored[shape] = MirroredNormalOperator(
-                self.coefficients, shape, self.convolutions
-            )
-        return self._mirrored[shape]
+        return self._mirrored(shape) if self.part.quarter else self._normal(shape)
 
-    def tangential_operator(self, shape: tuple[int, int]) -> TangentialOperator:
+    def tangential_operator(self, shape: Shape) -> TangentialOperator:
         """Shear to tangential displacement on a box of cells."""
-        if shape not in self._tangential:
-            self._forget_other_boxes(self._tangential, shape)
-            self._tangential[shape] = TangentialOperator(
-                self.coefficients, shape, self.convolutions
-            )
-        return self._tangential[shape]
+        return self._tangential(shape)
 
-    def shear_operator(
-        self, shape: tuple[int, int]
-    ) -> TangentialOperator | MirroredTangentialOperator:
+    def shear_operator(self, shape: Shape) -> TangentialOperator | MirroredTangentialOperator:
         """The same on a box of cells of the part that tells shear."""
-        along = self.shear_part.along
-        if along is None:
-            return self.tangential_operator(shape)
-        if shape not in self._mirrored_shear:
-            self._forget_other_boxes(self._mirrored_shear, shape, self.shear_cells)
-            self._mirrored_shear[shape] = MirroredTangentialOperator(
-                self.coefficients, shape, along, self.convolutions
-            )
-        return self._mirrored_shear[shape]
+        return self._tangential(shape) if self.shear_part == WHOLE else self._mirrored_shear(shape)
 
-    def _forget_other_boxes(
-        self,
-        operators: dict[tuple[int, int], Operator],
-        shape: tuple[int, int],
-        whole: tuple[int, int] | None = None,
-    ) -> None:
-        """Keep the operator on the whole window, or its part, and one more: a contact that grows
-        passes through many boxes and hardly ever returns to one."""
-        whole = whole or self.grid.cells
-        if shape != whole:
-            for other in operators.keys() - {whole}:
-                del operators[other]
-
-    def coupling_operator(self, shape: tuple[int, int]) -> CouplingOperator:
+    def coupling_operator(self, shape: Shape) -> CouplingOperator:
         """Shear to normal and pressure to tangential displacement on a box of cells."""
-        if shape not in self._coupling:
-            self._forget_other_boxes(self._coupling, shape)
-            self._coupling[shape] = CouplingOperator(self.coefficients, shape, self.convolutions)
-        return self._coupling[shape]
+        return self._coupling(shape)
 
-    def coupled_operator(self, shape: tuple[int, int]) -> CoupledOperator:
-        """All tractions to all displacements on a box of cells."""
-        if shape not in self._coupled:
-            self._forget_other_boxes(self._coupled, shape)
-            self._coupled[shape] = CoupledOperator(
-                self.normal_operator(shape),
-                self.tangential_operator(shape),
-                self.coupling_operator(shape),
-            )
-        return self._coupled[shape]
+    def coupled_operator(self, shape: Shape) -> CoupledOperator | MirroredCoupledOperator:
+        """All tractions to all displacements on a box of cells of the part that tells shear."""
+        return self._coupled(shape) if self.shear_part == WHOLE else self._mirrored_coupled(shape)
 
-    def periodic_inverse(self, shape: tuple[int, int]) -> PeriodicInverse:
-        """Roughly all displacements to all tractions on a box of cells, slip graded."""
-        if shape not in self._inverse:
-            self._inverse.clear()
-            together = self.coupled_operator(shape)
-            self._inverse[shape] = PeriodicInverse(
-                together.tangential, self.self_compliance, together.normal, np.float32
-            )
-        return self._inverse[shape]
+    def periodic_inverse(self, shape: Shape) -> PeriodicInverse | MirroredPeriodicInverse:
+        """Roughly all displacements to all tractions on such a box, slip graded."""
+        return self._inverse(shape)
 
-    def shear_inverse(self, shape: tuple[int, int]) -> PeriodicInverse:
+    def shear_inverse(self, shape: Shape) -> PeriodicInverse:
         """Roughly tangential displacements to shear on a box of cells, slip graded."""
-        if shape not in self._shear_inverse:
-            self._shear_inverse.clear()
-            self._shear_inverse[shape] = PeriodicInverse(
-                self.tangential_operator(shape), self.self_compliance
-            )
-        return self._shear_inverse[shape]
+        return self._shear_inverse(shape)
 
-    def shear_preconditioner(
-        self, shape: tuple[int, int]
-    ) -> PeriodicInverse | MirroredPeriodicInverse:
+    def shear_preconditioner(self, shape: Shape) -> PeriodicInverse | MirroredPeriodicInverse:
         """The same on a box of cells of the part that tells shear."""
-        operator = self.shear_operator(shape)
-        if isinstance(operator, TangentialOperator):
-            return self.shear_inverse(shape)
-        if shape not in self._mirrored_inverse:
-            self._mirrored_inverse.clear()
-            self._mirrored_inverse[shape] = MirroredPeriodicInverse(operator, self.self_compliance)
-        return self._mirrored_inverse[shape]
+        if self.shear_part == WHOLE:
+            return self._shear_inverse(shape)
+        return self._mirrored_inverse(shape)
+
+    @cached_property
+    def _normal(self) -> OnBoxes[NormalOperator]:
+        return self._on_window(NormalOperator)
+
+    @cached_property
+    def _mirrored(self) -> OnBoxes[MirroredNormalOperator]:
+        return OnBoxes(
+            lambda shape: MirroredNormalOperator(self.coefficients, shape, self.convolutions),
+            self.part.cells(self.grid.cells),
+        )
+
+    @cached_property
+    def _tangential(self) -> OnBoxes[TangentialOperator]:
+        return self._on_window(TangentialOperator)
+
+    @cached_property
+    def _mirrored_shear(self) -> OnBoxes[MirroredTangentialOperator]:
+        return OnBoxes(
+            lambda shape: MirroredTangentialOperator(
+                self.coefficients, shape, self.shear_part, self.convolutions
+            ),
+            self.shear_cells,
+        )
+
+    @cached_property
+    def _coupling(self) -> OnBoxes[CouplingOperator]:
+        return self._on_window(CouplingOperator)
+
+    @cached_property
+    def _coupled(self) -> OnBoxes[CoupledOperator]:
+        return OnBoxes(
+            lambda shape: CoupledOperator(
+                self._normal(shape), self._tangential(shape), self._coupling(shape)
+            ),
+            self.grid.cells,
+        )
+
+    @cached_property
+    def _mirrored_coupled(self) -> OnBoxes[MirroredCoupledOperator]:
+        return OnBoxes(
+            lambda shape: MirroredCoupledOperator(self._mirrored_shear(shape)), self.shear_cells
+        )
+
+    @cached_property
+    def _inverse(self) -> OnBoxes[PeriodicInverse] | OnBoxes[MirroredPeriodicInverse]:
+        if self.shear_part == WHOLE:
+            return OnBoxes(
+                lambda shape: PeriodicInverse(
+                    self._tangential(shape), self.self_compliance, self._normal(shape), np.float32
+                )
+            )
+        return OnBoxes(
+            lambda shape: MirroredPeriodicInverse(
+                self._mirrored_shear(shape),
+                self.self_compliance,
+                self._mirrored_coupled(shape).normal,
+                np.dtype(np.float32),
+            )
+        )
+
+    @cached_property
+    def _shear_inverse(self) -> OnBoxes[PeriodicInverse]:
+        return OnBoxes(lambda shape: PeriodicInverse(self._tangential(shape), self.self_compliance))
+
+    @cached_property
+    def _mirrored_inverse(self) -> OnBoxes[MirroredPeriodicInverse]:
+        return OnBoxes(
+            lambda shape: MirroredPeriodicInverse(self._mirrored_shear(shape), self.self_compliance)
+        )
+
+    def _on_window(
+        self, kind: Callable[[InfluenceCoefficients, Shape, Convolutions], Operator]
+    ) -> OnBoxes[Operator]:
+        """Those of a kind on boxes of cells of the window."""
+        return OnBoxes(
+            lambda shape: kind(self.coefficients, shape, self.convolutions), self.grid.cells
+        )
 
     @cached_property
     def coarse(self) -> "ContactModel | None":

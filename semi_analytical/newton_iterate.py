@@ -50,7 +50,9 @@ class NewtonIterate:
         """In the zones of the point; and go to tractions nearby that friction allows there."""
         problem, motion = self._problem, self.natural.motion
         zones = Zones.of(self.natural, problem)
-        self.settled = zones.changes(self._zones) <= SETTLED * np.sqrt(np.sum(zones.contact))
+        images = problem.part.images
+        contact, changed = np.sum(zones.contact), zones.changes(self._zones)
+        self.settled = bool(images * changed <= SETTLED * np.sqrt(images * contact))
         increment = self._increment
         carriers = increment.carriers_in(zones) if increment and self.settled else None
         self._zones, self._increment = zones, None

@@ -30,15 +30,12 @@ class NormalOperator:
         counter: Convolutions,
     ) -> None:
         self._transform = PaddedTransform(shape, counter)
-        self.symbols = (even_transform(coefficients.zz[self._transform.reach]),)
+        self.symbols = normal_spectra(coefficients, self._transform.reach)
 
     @cached_property
     def inverse(self) -> Field:
         """Roughly the spectrum of the inverse, with the unpadded period."""
-        # A film much stiffer than its base waves beyond the period, which turns some entries
-        # negative; conjugate gradients need a positive preconditioner.
-        size = np.abs(self.symbols[0].unpadded())
-        return np.asarray(1 / np.maximum(size, np.finfo(float).eps * np.max(size)))
+        return positive_inverse(self.symbols[0].unpadded())
 
     def __call__(self, pressure: Field) -> Field:
         """Normal displacement caused by a pressure."""
@@ -74,12 +71,7 @@ class TangentialOperator:
         counter: Convolutions,
     ) -> None:
         self.transform = PaddedTransform(shape, counter)
-        reach = self.transform.reach
-        self.symbols = (
-            even_transform(coefficients.xx[reach]),
-            even_transform(coefficients.yy[reach]),
-            odd_transform(coefficients.xy[reach]),
-        )
+        self.symbols = tangential_spectra(coefficients, self.transform.reach)
 
     @property
     def inverse(self) -> tuple[Field, Field, Field]:
@@ -122,11 +114,7 @@ class CouplingOperator:
         counter: Convolutions,
     ) -> None:
         self._transform = PaddedTransform(shape, counter)
-        reach = self._transform.reach
-        self.symbols: tuple[KernelSpectrum, ...] = (
-            mixed_transform(coefficients.zx[reach], odd_axis=0),
-            mixed_transform(coefficients.zy[reach], odd_axis=1),
-        )
+        self.symbols = coupling_spectra(coefficients, self._transform.reach)
 
     def normal_by_shear(self, shear: Field) -> Field:
         """u_z (nx, ny) caused by a shear (2, nx, ny)."""
@@ -147,6 +135,41 @@ class CouplingOperator:
     def _by_pressure(self, spectra: Spectrum, columns: slice) -> Spectrum:
         p = 1j * spectra[0]
         return np.stack([p * symbol[columns] for symbol in self.symbols])
+
+
+def normal_spectra(
+    coefficients: InfluenceCoefficients, reach: tuple[slice, slice]
+) -> tuple[KernelSpectrum, ...]:
+    """Of the zz coefficients, at so many offsets."""
+    return (even_transform(coefficients.zz[reach]),)
+
+
+def tangential_spectra(
+    coefficients: InfluenceCoefficients, reach: tuple[slice, slice]
+) -> tuple[KernelSpectrum, ...]:
+    """Of the xx, yy and xy coefficients."""
+    return (
+        even_transform(coefficients.xx[reach]),
+        even_transform(coefficients.yy[reach]),
+        odd_transform(coefficients.xy[reach]),
+    )
+
+
+def coupling_spectra(
+    coefficients: InfluenceCoefficients, reach: tuple[slice, slice]
+) -> tuple[KernelSpectrum, ...]:
+    """S of those of the zx and zy coefficients, -i S."""
+    return (
+        mixed_transform(coefficients.zx[reach], odd_axis=0),
+        mixed_transform(coefficients.zy[reach], odd_axis=1),
+    )
+
+
+def positive_inverse(spectrum: Field) -> Field:
+    """Roughly the inverse of a spectrum. A film much stiffer than its base waves beyond the period,
+    which turns some entries negative; conjugate gradients need a positive preconditioner."""
+    size = np.abs(spectrum)
+    return np.asarray(1 / np.maximum(size, np.finfo(float).eps * np.max(size)))
 
 
 def inverse_2x2(xx: Field, yy: Field, xy: Field) -> tuple[Field, Field, Field]:

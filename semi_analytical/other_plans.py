@@ -3,6 +3,7 @@
 from dataclasses import replace
 
 from contact_scene.effect import COUPLING, Effect
+from semi_analytical.part import WHOLE
 from semi_analytical.plan import MIRROR_PLANES, Coupling, Plan
 
 # Names of the effects that can be computed where they vanish.
@@ -18,7 +19,7 @@ def all_effects(plan: Plan) -> Plan:
         torsion=True,
         coupling=Coupling.FULL,
         quarter=False,
-        along=None,
+        told=WHOLE,
         effects=tuple(_forced(effect) for effect in plan.effects),
     )
 
@@ -30,7 +31,8 @@ def one_way(plan: Plan) -> Plan:
     """
     why = "asked for: pressure acts on the shear problem, shear not on the pressure problem"
     effects = (replace(e, on=True, why=why) if e.name == COUPLING else e for e in plan.effects)
-    return replace(plan, shear=True, coupling=Coupling.ONE_WAY, along=None, effects=tuple(effects))
+    told = plan.told if plan.coupling is Coupling.FULL else WHOLE
+    return replace(plan, shear=True, coupling=Coupling.ONE_WAY, told=told, effects=tuple(effects))
 
 
 def _forced(effect: Effect) -> Effect:

@@ -9,12 +9,13 @@ from contact_scene.discretisation import PATH_ACCURACY, EdgeCorrection
 from contact_scene.effect import Effect
 from contact_scene.friction import FRICTIONLESS
 from contact_scene.pair import coupling, dundurs_beta, refuse_contrast
+from semi_analytical.part import QUARTER, WHOLE, Part
 from semi_analytical.path_increments import Bodies, StepIncrements, path_increments, refined
 
 # Of the shear moduli within a body: beyond, its influence coefficients lose the softest part.
 MOST_CONTRAST = 1e12
 
-# Name of the effect that lets a quarter of the window tell tractions.
+# Name of the effect that lets a part of the window tell tractions.
 MIRROR_PLANES = "mirror planes"
 # What edges inside the cells cost, on 64² to 256².
 CHEAP = "10 to 100 convolutions each time"
@@ -42,8 +43,8 @@ class Plan:
     edge        at the end of which increments edges are put inside the cells
     quarter     whether pressures without shear are even about x = 0 and y = 0: a quarter of the
                 window tells them
-    along       which component of shear is then even about both as well, the other being odd about
-                both: a quarter tells shear, too; None where it does not
+    told        the part of the window that then tells shear, too, and the pressure of bodies that
+                couple
     effects     every effect with its reason, as shown to people
     """
 
@@ -55,7 +56,7 @@ class Plan:
     effects: tuple[Effect, ...]
     edge: EdgeCorrection = "off"
     quarter: bool = False
-    along: int | None = None
+    told: Part = WHOLE
 
     @property
     def increments(self) -> tuple[int, ...]:
@@ -96,7 +97,7 @@ def plan(scene: Scene, path_accuracy: float = PATH_ACCURACY, edge: EdgeCorrectio
     tilt = any(step.moment is not None or any(step.tilt or (0, 0)) for step in scene.loading)
     even = scene.indenter.is_even and not tilt
     torsion = shear and any(step.torque is not None or step.twist for step in scene.loading)
-    along, told = _told(scene, shear, coupled, torsion)
+    told, what = _told(scene, shear, coupled, torsion)
     effects = (
         effect.PRESSURE,
         effect.second_body(scene),
@@ -107,7 +108,7 @@ def plan(scene: Scene, path_accuracy: float = PATH_ACCURACY, edge: EdgeCorrectio
         Effect("torsion", torsion, _why_torsion(friction, torsion)),
         effect.coupled(scene, coupled, why),
         effect.load_history(len(scene.loading) > 1 and shear),
-        Effect(MIRROR_PLANES, even, _why_even(even, tilt, told)),
+        Effect(MIRROR_PLANES, even, _why_even(even, tilt, what)),
         Effect("edge correction", *_edges(scene, edge, torsion, coupled)),
     )
     acting = Coupling.FULL if coupled else Coupling.NONE
@@ -115,7 +116,7 @@ def plan(scene: Scene, path_accuracy: float = PATH_ACCURACY, edge: EdgeCorrectio
     path = path_increments(scene, shear, bodies, path_accuracy)
     corrected = edge if effects[-1].on else "off"
     return Plan(
-        shear, tilt, torsion, acting, path, effects, corrected, even, along if even else None
+        shear, tilt, torsion, acting, path, effects, corrected, even, told if even else WHOLE
     )
 
 
@@ -142,25 +143,37 @@ def _why_tilt(tilt: bool) -> str:
     return "no step names a moment or a tilt: the indenter is held upright"
 
 
-def _told(scene: Scene, shear: bool, coupled: bool, torsion: bool) -> tuple[int | None, str]:
-    """Along which axis all loads push where a quarter of the window tells the shear below an even
-    indenter, too, and in words what it tells."""
-    if coupled:
-        return None, "first pressures"
+def _told(scene: Scene, shear: bool, coupled: bool, torsion: bool) -> tuple[Part, str]:
+    """The part of the window that tells the shear below an even indenter, too, and in words what
+    parts of it tell."""
+    alone = "first pressures" if coupled else "pressures"
     if not shear:
-        return None, "pressures"
+        return WHOLE, f"a quarter of the window tells {alone}"
+    but = f"a quarter of the window tells {alone}, but not shear, for"
     if torsion:
-        return None, "pressures, but not shear, for the indenter twists"
+        return WHOLE, f"{but} the indenter twists"
     if scene.friction is not None and not scene.friction.is_even:
-        return None, "pressures, but not shear, for friction is not even"
+        return WHOLE, f"{but} friction is not even"
     axes = {axis for ramp in scene.load_path() for axis in (0, 1) if ramp.tangential.end[axis]}
-    if len(axes) != 1:
-        return None, "pressures, but not shear, for not all loads push along the same axis"
-    return axes.pop(), "pressures and shear, at a third of the price"
+    if len(axes) > 1:
+        return WHOLE, f"{but} not all loads push along the same axis"
+    if not coupled:
+        return (
+            replace(QUARTER, along=axes.pop()),
+            "a quarter of the window tells pressures and shear, at a third of the price",
+        )
+    if not axes:
+        return QUARTER, "a quarter of the window tells pressures and shear, at a third of the price"
+    pushed = axes.pop()
+    return (
+        Part((pushed == 1, pushed == 0)),
+        f"a quarter of the window tells first pressures, and half of it, {'yx'[pushed]} > 0, "
+        f"pressures and shear, at half the price",
+    )
 
 
 def _why_even(even: bool, tilt: bool, told: str) -> str:
-    """Why a quarter of the window tells tractions, or not.
+    """Why parts of the window tell tractions, or not.
 
     told  which, below an even indenter
     """
@@ -168,10 +181,7 @@ def _why_even(even: bool, tilt: bool, told: str) -> str:
         return "the indenter tilts"
     if not even:
         return "the indenter does not say that it is even about x = 0 and y = 0"
-    return (
-        f"even about x = 0 and y = 0: a quarter of the window tells {told}, where its cell counts "
-        f"are even"
-    )
+    return f"even about x = 0 and y = 0: {told}, where its cell counts are even"
 
 
 def _why_torsion(friction: bool, torsion: bool) -> str:

@@ -122,7 +122,7 @@ def press(model: ContactModel, target: NormalTarget, tolerance: float) -> Pressi
     start, iterations = _nested_start(model, target)
     part = model.part
     gap = part.of(target.gap(model))
-    box = box_around(start > 0, MARGIN, quarter=part.quarter)
+    box = box_around(start > 0, MARGIN, part)
     whole = Box.whole(gap.shape)
     allowed = np.isfinite(gap)
     load = target.on(model, whole, part)

@@ -9,7 +9,7 @@ from contact_scene.residuals import ShearResiduals
 from contact_scene.summary import ContactStatus
 from semi_analytical.admissible_shear import everywhere
 from semi_analytical.model import ContactModel
-from semi_analytical.part import Part
+from semi_analytical.part import WHOLE, Part
 from semi_analytical.shearing import TangentialTarget
 
 Field = NDArray[np.float64]
@@ -59,7 +59,7 @@ class Sheared:
 
     def unfolded(self, part: Part) -> "Sheared":
         """The same on the whole window."""
-        if not part.quarter:
+        if part == WHOLE:
             return self
         return replace(
             self,

@@ -87,7 +87,7 @@ def shear(
     raises         NotConverged
     """
     part, cells = model.shear_part, bound.shape
-    box = box_around(bound > 0, margin=0, quarter=part.quarter)
+    box = box_around(bound > 0, 0, part)
     inside = (..., *box.slices)
     rotation = None if load.torsion is None else model.rotation[inside]
     solution = solve_tangential(

@@ -6,6 +6,7 @@ be multiplied alike, that of m is kept in the place of 0, where no odd field has
 """
 
 from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,19 +19,25 @@ Field = NDArray[np.float64]
 # Cells along a side up to which products with the matrices of sines and cosines are cheaper than
 # FFTs and their rearrangement, of vectors and what turns them.
 MOST_BY_MATRIX = 96
+DOUBLE = np.dtype(np.float64)
 
 
 class Sines:
     """Values at `cells` places (i + ½) h along the last axis, to the amplitudes of sin(π k x/m h),
     k = m, 1 … m - 1, and back; zero from the last cell to m h."""
 
-    def __init__(self, cells: int, m: int) -> None:
+    def __init__(self, cells: int, m: int, precision: np.dtype[Any] = DOUBLE) -> None:
         self.cells, self.m = cells, m
         self._forward: Field | None = None
         if cells <= MOST_BY_MATRIX:
-            self._forward = _waves(np.sin, cells, m, [m, *range(1, m)])
+            self._forward = _waves(np.sin, cells, m, [m, *range(1, m)]).astype(precision)
             self._back = self._forward.T / (2 * m)
             self._back[0] /= 2
+
+    @property
+    def count(self) -> int:
+        """Of the amplitudes."""
+        return self.m
 
     def forward(self, values: Field) -> Field:
         """(…, cells) to (…, m)."""
@@ -47,21 +54,14 @@ class Sines:
         return np.asarray(found[..., : self.cells])
 
 
-def cosines(cells: int, m: int) -> Cosines:
+def cosines(cells: int, m: int, precision: np.dtype[Any] = DOUBLE) -> Cosines:
     """Those beside the sines, by a matrix where these are."""
-    matrix = _waves(np.cos, cells, m, range(m)) if cells <= MOST_BY_MATRIX else None
-    return Cosines(cells, m, matrix)
+    if cells > MOST_BY_MATRIX:
+        return Cosines(cells, m)
+    return Cosines(cells, m, _waves(np.cos, cells, m, range(m)).astype(precision))
 
 
 def _waves(wave: np.ufunc, cells: int, m: int, wavenumbers: Sequence[int]) -> Field:
     """Twice the waves at the places of the cells (cells, wavenumbers)."""
     turn = 2 * wave(np.pi / (2 * m) * np.arange(4 * m))
     return np.asarray(turn[np.outer(2 * np.arange(cells) + 1, wavenumbers) % (4 * m)])
-
-
-def at_sines(spectrum: Field) -> Field:
-    """A spectrum at the wavenumbers 0 … m along both axes, in the order of the sines (m, m)."""
-    some = spectrum[:-1, :-1].copy()
-    some[0], some[:, 0] = spectrum[-1, :-1], spectrum[:-1, -1]
-    some[0, 0] = spectrum[-1, -1]
-    return some

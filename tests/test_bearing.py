@@ -10,7 +10,7 @@ from semi_analytical.bearing import bearing_pressure, modulus_of
 from semi_analytical.influence.bodies import influence_coefficients
 from semi_analytical.model import ContactModel
 from semi_analytical.normal_load import FixedApproach, PressureSum
-from semi_analytical.part import Part
+from semi_analytical.part import QUARTER
 from verification.closed_forms.hertz import PointContact
 
 CELLS = grid(96)
@@ -39,7 +39,7 @@ def test_below_a_paraboloid_it_is_the_pressure_of_hertz(load):
 
 
 def test_a_quarter_has_the_same():
-    quarter = Part(quarter=True)
+    quarter = QUARTER
     whole = bearing_pressure(GAP, FixedApproach(HERTZ.approach), MODULUS, CELLS.cell_area)
     part = bearing_pressure(
         quarter.of(GAP), FixedApproach(HERTZ.approach), MODULUS, 4 * CELLS.cell_area

@@ -5,7 +5,7 @@ import pytest
 from scipy.ndimage import binary_erosion
 
 from semi_analytical.contact_area import FRAME, _coverage, _fit, covered_cells, stuck_cells
-from semi_analytical.part import WHOLE, Part
+from semi_analytical.part import QUARTER, WHOLE
 
 # Semi-axes in cells, and how well the area is found: a small contact has few cells for the fits.
 ELLIPSES = {
@@ -42,7 +42,7 @@ def test_two_contacts_count_both():
 @pytest.mark.parametrize("cells", [2, 6, 40, 72])
 def test_a_quarter_tells_the_area(cells):
     values = dome((17.0, 11.0), cells=cells)
-    quarter = Part(quarter=True)
+    quarter = QUARTER
     told = covered_cells(quarter.of(values), quarter.of(values > 0), quarter)
     assert told == pytest.approx(covered_cells(values, values > 0), rel=1e-12)
 

@@ -25,6 +25,7 @@ from contact_scene.summary import ContactStatus
 from semi_analytical import GrossSliding, SurfaceGrid, coupled_increment, solve
 from semi_analytical.box import Box, box_around
 from semi_analytical.model import ContactModel
+from semi_analytical.part import QUARTER
 from semi_analytical.pressing import MARGIN
 
 TOLERANCE = 1e-8
@@ -314,6 +315,7 @@ sys.path.insert(0, {tests!r})
 from contact_scenes import PRESS, grid, push, scene
 import semi_analytical
 from semi_analytical.model import ContactModel
+from semi_analytical.part import QUARTER
 def forbidden(*args):
     raise AssertionError("a coupling operator was built")
 ContactModel.coupling_operator = forbidden
@@ -340,18 +342,19 @@ def test_a_box_that_proves_too_small_grows_to_where_bodies_overlap_and_no_farthe
     expected = solve(described, of, TOLERANCE).increments[-1]
     boxes = []
 
-    def at_first_too_small(cells, margin):
-        box = box_around(cells, margin)
+    def at_first_too_small(cells, margin, part):
+        box = box_around(cells, margin, part)
         if not boxes:
-            (i, j), (nx, ny) = box.first, box.shape
-            box = Box((i + 10, j + 10), (nx - 20, ny - 20))
+            nx, ny = box.shape
+            box = Box(box.first, (nx - 10, ny - 10))
         boxes.append(box)
         return box
 
     monkeypatch.setattr(coupled_increment, "box_around", at_first_too_small)
     found = solve(described, of, TOLERANCE).increments[-1]
     assert len(boxes) == 2
-    assert boxes[1].shape == box_around(expected.pressure > 0, MARGIN).shape < of.cells
+    assert QUARTER.window(boxes[1].shape) == box_around(expected.pressure > 0, MARGIN).shape
+    assert boxes[1].shape < QUARTER.cells(of.cells)
     np.testing.assert_allclose(
         found.pressure, expected.pressure, atol=1e-6 * expected.peak_pressure
     )
@@ -362,9 +365,9 @@ def test_a_contact_has_room_in_its_box_in_proportion_to_its_width(monkeypatch):
     """On 2048 cells the push of one step moves an edge by more cells than the least margin has."""
     margins = []
 
-    def noted(cells, margin):
+    def noted(cells, margin, part):
         margins.append(margin)
-        return box_around(cells, margin)
+        return box_around(cells, margin, part)
 
     monkeypatch.setattr(coupled_increment, "box_around", noted)
     for cells in (64, 512):

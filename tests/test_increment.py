@@ -12,6 +12,7 @@ from semi_analytical.mirrored_shear import MirroredTangentialOperator
 from semi_analytical.model import ContactModel
 from semi_analytical.normal import solve_normal
 from semi_analytical.operator import NormalOperator, TangentialOperator
+from semi_analytical.part import Part
 
 TOLERANCE = 1e-8
 
@@ -108,7 +109,7 @@ def test_convolutions_count_what_was_convolved(calls):
 
 def test_a_growing_contact_does_not_gather_operators():
     problem = scene({**PRESS, **push(0.5), "increments": 8})
-    model = ContactModel.of(problem, grid(128), even=True, along=0)
+    model = ContactModel.of(problem, grid(128), even=True, told=Part((True, True), along=0))
     boxes = set()
     for increment in march(model, plan(problem), TOLERANCE):
         boxes.add(box_around(increment.in_contact, 4).shape)

@@ -16,9 +16,8 @@ from semi_analytical.edge.rim import rim
 from semi_analytical.influence.bodies import influence_coefficients
 from semi_analytical.mirrored_transform import mirrored_offsets
 from semi_analytical.padded_transform import Convolutions
-from semi_analytical.part import WHOLE, Part
+from semi_analytical.part import QUARTER, WHOLE, Part
 
-QUARTER = Part(quarter=True)
 CELLS, RADII = 48, (20.3, 16.2)
 
 

@@ -7,7 +7,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from semi_analytical.influence.bodies import influence_coefficients
-from semi_analytical.mirrored_shear import MirroredPeriodicInverse, MirroredTangentialOperator
+from semi_analytical.mirrored_inverse import MirroredPeriodicInverse
+from semi_analytical.mirrored_shear import MirroredTangentialOperator
 from semi_analytical.mirrored_transform import mirrored_offsets
 from semi_analytical.operator import TangentialOperator
 from semi_analytical.padded_transform import Convolutions
@@ -22,7 +23,7 @@ SHAPES = [(1, 1), (3, 5), (8, 13), (17, 1), (LONG, 6), (5, LONG), (LONG, LONG), 
 
 
 def told(along):
-    return Part(quarter=True, along=along)
+    return Part((True, True), along=along)
 
 
 def operators(shape, along, counter=None):
@@ -31,7 +32,7 @@ def operators(shape, along, counter=None):
     counter = counter or Convolutions()
     whole = 2 * shape[0], 2 * shape[1]
     return (
-        MirroredTangentialOperator(K, shape, along, counter),
+        MirroredTangentialOperator(K, shape, told(along), counter),
         TangentialOperator(K, whole, counter),
     )
 
@@ -55,10 +56,10 @@ def test_the_preconditioner_on_a_quarter_is_that_on_the_window(shape, along, rng
     """Where both have the same period; what turns the shear is odd about both planes."""
     (of_quarter, of_window), part = operators(shape, along), told(along)
     u = rng.standard_normal((4, *shape))
-    odd = [part.unfolded(one, -1) for one in u[2:]]
+    odd = [part.unfolded(one, part.turning) for one in u[2:]]
     expected = PeriodicInverse(of_window, 0.3)(np.stack([*part.unfolded_vector(u[:2]), *odd]))
     found = MirroredPeriodicInverse(of_quarter, 0.3)(u)
-    odd = [part.unfolded(one, -1) for one in found[2:]]
+    odd = [part.unfolded(one, part.turning) for one in found[2:]]
     found = np.stack([*part.unfolded_vector(found[:2]), *odd])
     # Long waves across the longer cells are divided by little.
     assert off(found, expected) < 10 * ROUND_OFF

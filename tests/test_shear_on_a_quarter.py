@@ -36,6 +36,7 @@ from semi_analytical.mirrored_shear import MirroredTangentialOperator
 from semi_analytical.model import ContactModel
 from semi_analytical.operator import TangentialOperator
 from semi_analytical.padded_transform import PaddedTransform
+from semi_analytical.part import WHOLE, Part
 from semi_analytical.periodic_inverse import PeriodicInverse
 from semi_analytical.plan import MIRROR_PLANES
 
@@ -100,9 +101,9 @@ SCENES = {
 
 def assert_told(described, on, tolerance=TOLERANCE, same=SAME):
     decided = plan(described)
-    assert decided.along is not None
+    assert decided.told.quarter
     of_quarter = solve(described, on, tolerance, plan=decided)
-    of_window = solve(described, on, tolerance, plan=replace(decided, along=None))
+    of_window = solve(described, on, tolerance, plan=replace(decided, told=WHOLE))
     for a, b in zip(of_quarter.increments, of_window.increments, strict=True):
         assert a.status == b.status
         if b.shear is None:
@@ -166,7 +167,7 @@ def test_a_quarter_tells_what_is_drawn(seed):
     """As far as the window goes: what it cannot solve the quarter cannot, either."""
     described, on = drawn(seed)
     try:
-        solve(described, on, TOLERANCE, plan=replace(plan(described), along=None))
+        solve(described, on, TOLERANCE, plan=replace(plan(described), told=WHOLE))
     except SolverError as error:
         with pytest.raises(type(error), match=re.escape(str(error)[:40])):
             solve(described, on, TOLERANCE)
@@ -190,7 +191,6 @@ NOT_TOLD = {
         _uneven(map=even_map().map.values, spacing=0.1 * A, origin=(0.05 * A, 0.0)),
         "friction is not even",
     ),
-    "coupled": (scene(PRESS, push(0.3), indenter=RIGID_BALL), "first pressures"),
 }
 
 
@@ -198,22 +198,22 @@ NOT_TOLD = {
 def test_the_plan_says_why_a_quarter_does_not_tell_shear(described, why):
     decided = plan(described)
     assert decided.quarter
-    assert decided.along is None
+    assert decided.told == WHOLE
     assert why in next(e.why for e in decided.effects if e.name == MIRROR_PLANES)
 
 
 def test_the_plan_says_that_a_quarter_tells_shear():
     for axis in (0, 1):
         decided = plan(scene(PRESS, push(*0.9 * np.eye(2)[axis]), push(*-0.5 * np.eye(2)[axis])))
-        assert decided.along == axis
+        assert decided.told == Part((True, True), along=axis)
         assert "tells pressures and shear" in next(
             e.why for e in decided.effects if e.name == MIRROR_PLANES
         )
-    assert all_effects(decided).along is None
-    assert one_way(decided).along is None
-    assert plan(scene(PRESS, friction=None)).along is None
+    assert all_effects(decided).told == WHOLE
+    assert one_way(decided).told == WHOLE
+    assert plan(scene(PRESS, friction=None)).told == WHOLE
     uneven = scene(PRESS, push(0.5), indenter=Leaf(radii=(RADIUS, RADIUS), material=steel()))
-    assert plan(uneven).along is None
+    assert plan(uneven).told == WHOLE
 
 
 class Leaf(Ellipsoid):
@@ -254,17 +254,17 @@ def test_nothing_is_convolved_on_the_window_where_a_quarter_is_enough(cells, mon
     solve(scene(PRESS, *LOOP), SurfaceGrid(cells, (3 * A, 3 * A)), 1e-8)
 
 
-@pytest.mark.parametrize("along", [0, None], ids=["quarter", "window"])
-def test_what_friction_does_not_carry_is_refused_alike(along):
+@pytest.mark.parametrize("told", [Part((True, True), along=0), WHOLE], ids=["quarter", "window"])
+def test_what_friction_does_not_carry_is_refused_alike(told):
     described = scene(PRESS, push(1.3), friction=even_map())
     with pytest.raises(GrossSliding, match="force 130 N exceeds the friction limit"):
-        solve(described, grid(), 1e-8, plan=replace(plan(described), along=along))
+        solve(described, grid(), 1e-8, plan=replace(plan(described), told=told))
 
 
 def test_a_history_told_by_a_quarter_goes_on_as_it_was():
     described, on = scene(PRESS, *LOOP), grid(32)
     decided = plan(described)
-    model = partial(ContactModel.of, described, on, even=decided.quarter, along=decided.along)
+    model = partial(ContactModel.of, described, on, even=decided.quarter, told=decided.told)
     told_ = list(marked(model(), decided, TOLERANCE))
     _, mark = told_[3]
     since = Standing(tuple(increment for increment, _ in told_[:4]), pickled(mark), on)

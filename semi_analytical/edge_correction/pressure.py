@@ -52,7 +52,7 @@ def edge_pressure(
     contact is too thin, its edge is rough, or the rounds do not settle."""
     part = operators.model.part
     p, mixing, changes = part.of(pressure), Mixing(), list[float]()
-    problem = _Problem(operators, target, box_around(p > 0, MARGIN, quarter=part.quarter))
+    problem = _Problem(operators, target, box_around(p > 0, MARGIN, part))
     film = operators.film(p > 0, part)
     edge = rim(p, p > 0, part=part, film=film, on_cells=True)
     for number in range(MOST_ROUNDS):

@@ -13,6 +13,7 @@ from semi_analytical.influence import layered_response
 from semi_analytical.influence.closed_form import HalfSpaceCoefficients
 from semi_analytical.influence.coefficients import Composite
 from semi_analytical.influence.layered_response import Components
+from semi_analytical.mirrored_coupling import MirroredCouplingOperator, MirroredPressureOperator
 from semi_analytical.mirrored_operator import MirroredNormalOperator
 from semi_analytical.mirrored_shear import MirroredTangentialOperator
 from semi_analytical.operator import CouplingOperator, NormalOperator, TangentialOperator
@@ -23,10 +24,17 @@ Operator = type[
     | MirroredNormalOperator
     | TangentialOperator
     | MirroredTangentialOperator
+    | MirroredPressureOperator
     | CouplingOperator
+    | MirroredCouplingOperator
 ]
-NORMAL: tuple[Operator, ...] = (NormalOperator, MirroredNormalOperator)
+NORMAL: tuple[Operator, ...] = (
+    NormalOperator,
+    MirroredNormalOperator,
+    MirroredPressureOperator,
+)
 TANGENTIAL: tuple[Operator, ...] = (TangentialOperator, MirroredTangentialOperator)
+COUPLING: tuple[Operator, ...] = (CouplingOperator, MirroredCouplingOperator)
 
 
 def scaled(patches: Patches, owners: tuple[Operator, ...], factor: float) -> None:
@@ -177,17 +185,15 @@ def _minus_ratio(patches: Patches) -> None:
     )
 
 
-COUPLED = ("frictional_indentation",)
-
 SURFACE_RESPONSE = (
     Defect(
         "coupling-sign", "Pressure draws the surface away from the load instead of towards it.",
-        COUPLED, lambda patches: scaled(patches, (CouplingOperator,), -1.0),
+        ("frictional_indentation",), lambda patches: scaled(patches, COUPLING, -1.0),
     ),
     Defect(
         "coupling-0p99", "The coupling of pressure and shear is too weak by 1 %.",
         ("no_slip_indentation", "frictional_indentation"),
-        lambda patches: scaled(patches, (CouplingOperator,), 0.99),
+        lambda patches: scaled(patches, COUPLING, 0.99),
     ),
     Defect(
         "coupling-of-bodies-added", "The coupling of the upper body is added, not subtracted.",
@@ -195,7 +201,7 @@ SURFACE_RESPONSE = (
     ),
     Defect(
         "nyquist-row-kept", "Odd kernels keep a Nyquist row, where they have no partner.",
-        COUPLED, _with_nyquist_row,
+        ("coupled_history",), _with_nyquist_row,
     ),
     Defect(
         "zero-wavenumber", "The kernel vanishes at wavenumber zero: mean displacements are lost.",

@@ -21,6 +21,7 @@ from semi_analytical import Plan, SurfaceGrid, plan, solve
 from semi_analytical.mirrored_shear import MirroredTangentialOperator
 from semi_analytical.mirrored_transform import MirroredTransform
 from semi_analytical.padded_transform import PaddedTransform
+from semi_analytical.part import WHOLE
 from verification.running.cold_cache import cold_cache
 from verification.studies.promises.promise import Attempt
 from verification.studies.promises.scenes import CONTACT, fretting, read
@@ -46,7 +47,7 @@ def planted(count: int) -> Iterator[Attempt]:
         return solve_on_rings(described, coarse, method)
 
     told = plan(described)
-    on_quarter, on_window = partial(on_cells, told), partial(on_cells, replace(told, along=None))
+    on_quarter, on_window = partial(on_cells, told), partial(on_cells, replace(told, told=WHOLE))
     ways: tuple[tuple[type, str, int, Computed], ...] = (
         (PaddedTransform, "convolved", 60, on_window),
         (MirroredTransform, "convolved", 33, on_quarter),
