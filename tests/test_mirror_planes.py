@@ -20,8 +20,9 @@ from contact_scenes import (
 )
 from hypothesis import given
 from hypothesis import strategies as st
+from mirrored_runs import Leaf, assert_same_pressures, refuse, why
 
-from contact_scene import Ellipsoid, HeightMap, Layer, Paraboloid
+from contact_scene import HeightMap, Layer, Paraboloid
 from contact_scene.geometry import Gap
 from contact_scene.solver_errors import ContactAtWindowEdge, ContactNotResolved
 from semi_analytical import SurfaceGrid, plan, solve
@@ -138,14 +139,8 @@ def test_a_quarter_tells_the_answer_of_the_window(described, sides, cells):
     assert decided.quarter
     told = solve(described, on, TOLERANCE, plan=decided)
     full = solve(described, on, TOLERANCE, plan=replace(decided, quarter=False))
+    assert_same_pressures(told, full, SAME)
     for a, b in zip(told.increments, full.increments, strict=True):
-        largest = np.max(b.pressure)
-        assert np.max(np.abs(a.pressure - b.pressure)) < SAME * largest
-        open_ = np.isfinite(b.gap)
-        assert np.max(np.abs(a.gap[open_] - b.gap[open_])) < SAME * b.approach
-        assert a.approach == pytest.approx(b.approach, rel=SAME)
-        assert a.contact_area == pytest.approx(b.contact_area, rel=SAME)
-        assert a.normal_force == pytest.approx(b.normal_force, rel=SAME)
         assert (a.iterations, a.convolutions) == pytest.approx(
             (b.iterations, b.convolutions), abs=3
         )
@@ -171,19 +166,13 @@ def test_a_quarter_tells_the_answer_of_the_window(described, sides, cells):
     ids=["cells on a plane", "tilt", "moment", "uneven map"],
 )
 def test_what_is_not_even_is_solved_on_the_window(described, cells, monkeypatch):
-    def refuse(*_):
-        raise AssertionError("an operator on a quarter is built")
-
-    monkeypatch.setattr(MirroredNormalOperator, "__init__", refuse)
+    refuse(monkeypatch, MirroredNormalOperator)
     solve(described, SurfaceGrid(cells, (3.5 * A, 3.5 * A)), 1e-8)
 
 
 @pytest.mark.parametrize("cells", [(32, 32), (64, 40)], ids=str)
 def test_nothing_is_convolved_on_the_window_where_a_quarter_is_enough(cells, monkeypatch):
-    def refuse(*_):
-        raise AssertionError("an operator on the window is built")
-
-    monkeypatch.setattr(NormalOperator, "__init__", refuse)
+    refuse(monkeypatch, NormalOperator)
     solve(scene(PRESS, push(0.5)), SurfaceGrid(cells, (3 * A, 3 * A)), 1e-8)
 
 
@@ -229,14 +218,6 @@ def test_round_off_is_told_from_a_lie_by_the_size_of_the_gap_whatever_its_sign()
         part_of(gap, even=True)
 
 
-class Leaf(Ellipsoid):
-    """Derived from a shape that is even, which it is not."""
-
-    def initial_gap(self, x, y) -> Gap:
-        """Along a diagonal."""
-        return super().initial_gap(np.add(x, y), np.subtract(x, y))
-
-
 def test_a_gap_of_its_own_is_not_taken_for_even():
     described = scene(PRESS, friction=None).model_copy(
         update={"indenter": Leaf(radii=(RADIUS, 3 * RADIUS), material=steel())}
@@ -264,10 +245,8 @@ def test_a_first_pressure_covers_the_window_for_whoever_asks():
 
 
 def test_the_plan_says_what_mirror_planes_save_or_why_not():
-    def told(*loading, **more):
-        return next(e for e in plan(scene(*loading, **more)).effects if e.name == "mirror planes")
-
-    assert told(PRESS).on
-    assert "a quarter of the window tells pressures" in told(PRESS).why
-    assert not told({**PRESS, "tilt": (1e-4, 0.0)}).on
-    assert "tilts" in told({**PRESS, "tilt": (1e-4, 0.0)}).why
+    level, tilted = plan(scene(PRESS)), plan(scene({**PRESS, "tilt": (1e-4, 0.0)}))
+    assert level.quarter
+    assert "a quarter of the window tells pressures" in why(level)
+    assert not tilted.quarter
+    assert "tilts" in why(tilted)

@@ -1,7 +1,6 @@
 """A quarter of the window tells the shear of loads along one axis."""
 
 import itertools
-import pickle
 import re
 from dataclasses import replace
 from functools import partial
@@ -11,7 +10,6 @@ import pytest
 from contact_scenes import (
     APPROACH,
     INDENTERS,
-    LIMIT,
     LOAD,
     MU,
     PRESS,
@@ -25,9 +23,17 @@ from contact_scenes import (
     slide,
     steel,
 )
+from mirrored_runs import (
+    Leaf,
+    assert_same_shear,
+    even_map,
+    on_part_and_window,
+    pickled,
+    refuse,
+    why,
+)
 
-from contact_scene import Ellipsoid, FrictionMap, HeightMap, Layer
-from contact_scene.geometry import Gap
+from contact_scene import FrictionMap, HeightMap, Layer
 from contact_scene.solver_errors import GrossSliding, SolverError
 from contact_scene.standing import Standing
 from semi_analytical import SurfaceGrid, all_effects, one_way, plan, solve
@@ -38,17 +44,9 @@ from semi_analytical.operator import TangentialOperator
 from semi_analytical.padded_transform import PaddedTransform
 from semi_analytical.part import WHOLE, Part
 from semi_analytical.periodic_inverse import PeriodicInverse
-from semi_analytical.plan import MIRROR_PLANES
 
 # Both go the same way to it, by the same steps.
 TOLERANCE, SAME = 1e-10, 1e-10
-
-
-def even_map(cells=40, spacing=4 * A / 40, order=1.0):
-    """A coefficient of friction that waves along x and along y."""
-    x = (np.arange(cells) - 0.5 * (cells - 1)) * spacing / A
-    waves = np.cos(2 * x)[:, None] + order * np.cos(3 * x)
-    return FrictionMap(map=MU * (1 + 0.2 * waves), spacing=spacing)
 
 
 COATED = Layer(thickness=0.5 * A, material=steel(young_modulus=840e9))
@@ -99,37 +97,9 @@ SCENES = {
 }
 
 
-def assert_told(described, on, tolerance=TOLERANCE, same=SAME):
-    decided = plan(described)
-    assert decided.told.quarter
-    of_quarter = solve(described, on, tolerance, plan=decided)
-    of_window = solve(described, on, tolerance, plan=replace(decided, told=WHOLE))
-    for a, b in zip(of_quarter.increments, of_window.increments, strict=True):
-        assert a.status == b.status
-        if b.shear is None:
-            continue
-        limit = np.max(described.friction.largest * b.pressure)
-        assert np.max(np.abs(a.shear - b.shear)) <= same * limit
-        # The least that any motion in these scenes comes to.
-        size = max(np.max(np.abs(b.slip)), 1e-3 * APPROACH)
-        assert np.max(np.abs(a.slip - b.slip)) <= same * size
-        assert np.count_nonzero(a.in_stick != b.in_stick) <= 4
-        assert a.tangential_force == pytest.approx(b.tangential_force, abs=same * LIMIT)
-        if b.tangential_shift is None:
-            assert a.tangential_shift is None
-            continue
-        assert a.tangential_shift == pytest.approx(b.tangential_shift, abs=same * size)
-        work = max(b.input_work, b.elastic_energy)
-        for name in ("dissipated_energy", "input_work", "elastic_energy", "unresolved_work"):
-            assert getattr(a, name) == pytest.approx(getattr(b, name), abs=same * work)
-        for name in ("slip_distance", "dissipation", "slip_before", "dissipation_before"):
-            told_, whole = getattr(a, name), getattr(b, name)
-            assert np.max(np.abs(told_ - whole)) <= same * max(np.max(np.abs(whole)), 1e-300)
-        assert a.stick_area == pytest.approx(b.stick_area, rel=1e-6)
-        assert (a.iterations, a.convolutions) == pytest.approx(
-            (b.iterations, b.convolutions), abs=4
-        )
-    return of_quarter, of_window
+def assert_told(described, on):
+    runs = on_part_and_window(described, on, TOLERANCE)
+    assert_same_shear(*runs, SAME, steps=4)
 
 
 @pytest.mark.parametrize("cells", [(32, 32), (26, 40)], ids=str)
@@ -194,34 +164,24 @@ NOT_TOLD = {
 }
 
 
-@pytest.mark.parametrize(("described", "why"), NOT_TOLD.values(), ids=NOT_TOLD)
-def test_the_plan_says_why_a_quarter_does_not_tell_shear(described, why):
+@pytest.mark.parametrize(("described", "because"), NOT_TOLD.values(), ids=NOT_TOLD)
+def test_the_plan_says_why_a_quarter_does_not_tell_shear(described, because):
     decided = plan(described)
     assert decided.quarter
     assert decided.told == WHOLE
-    assert why in next(e.why for e in decided.effects if e.name == MIRROR_PLANES)
+    assert because in why(decided)
 
 
 def test_the_plan_says_that_a_quarter_tells_shear():
     for axis in (0, 1):
         decided = plan(scene(PRESS, push(*0.9 * np.eye(2)[axis]), push(*-0.5 * np.eye(2)[axis])))
         assert decided.told == Part((True, True), along=axis)
-        assert "tells pressures and shear" in next(
-            e.why for e in decided.effects if e.name == MIRROR_PLANES
-        )
+        assert "tells pressures and shear" in why(decided)
     assert all_effects(decided).told == WHOLE
     assert one_way(decided).told == WHOLE
     assert plan(scene(PRESS, friction=None)).told == WHOLE
     uneven = scene(PRESS, push(0.5), indenter=Leaf(radii=(RADIUS, RADIUS), material=steel()))
     assert plan(uneven).told == WHOLE
-
-
-class Leaf(Ellipsoid):
-    """Derived from a shape that is even, which it is not."""
-
-    def initial_gap(self, x, y) -> Gap:
-        """Along a diagonal."""
-        return super().initial_gap(np.add(x, y), np.subtract(x, y))
 
 
 @pytest.mark.parametrize(
@@ -234,23 +194,14 @@ class Leaf(Ellipsoid):
     ids=["cells on a plane", "oblique", "tilt"],
 )
 def test_what_is_not_even_is_sheared_on_the_window(described, cells, monkeypatch):
-    def refuse(*_):
-        raise AssertionError("an operator on a quarter is built")
-
-    monkeypatch.setattr(MirroredTangentialOperator, "__init__", refuse)
+    refuse(monkeypatch, MirroredTangentialOperator)
     solve(described, SurfaceGrid(cells, (3.5 * A, 3.5 * A)), 1e-8)
 
 
 @pytest.mark.parametrize("cells", [(32, 32), (64, 40)], ids=str)
 def test_nothing_is_convolved_on_the_window_where_a_quarter_is_enough(cells, monkeypatch):
     """Neither by the operators on the window nor by their transform."""
-
-    def refuse(*_):
-        raise AssertionError("a transform of the window is made")
-
-    monkeypatch.setattr(TangentialOperator, "__init__", refuse)
-    monkeypatch.setattr(PaddedTransform, "__init__", refuse)
-    monkeypatch.setattr(PeriodicInverse, "__init__", refuse)
+    refuse(monkeypatch, TangentialOperator, PaddedTransform, PeriodicInverse)
     solve(scene(PRESS, *LOOP), SurfaceGrid(cells, (3 * A, 3 * A)), 1e-8)
 
 
@@ -282,7 +233,3 @@ def test_what_was_slipped_before_an_increment_is_kept_once():
     for before, after in itertools.pairwise(increments[1:]):
         assert after.slip_before is before.slip
         assert after.dissipation_before is before.dissipation
-
-
-def pickled(value):
-    return pickle.loads(pickle.dumps(value))
