@@ -4,6 +4,7 @@ from contact_scene.free_memory import available_bytes
 from contact_scene.solver_errors import ResourceRefused
 from contact_scene.stored_fields import MOST_HELD
 from semi_analytical.grid import SurfaceGrid
+from semi_analytical.part import WHOLE
 from semi_analytical.plan import Coupling, Plan
 
 DOUBLE = 8
@@ -21,7 +22,9 @@ QUARTER_SHEAR_SAVES = 22
 TILT_ARRAYS = 10
 TORSION_ARRAYS = 6
 # Spectra of the coupling, and the Krylov vectors of a Newton step with their displacements.
-COUPLING_ARRAYS = {Coupling.NONE: 0, Coupling.ONE_WAY: 33, Coupling.FULL: 42}
+COUPLING_ARRAYS = {Coupling.NONE: 0, Coupling.ONE_WAY: 33, Coupling.FULL: 69}
+# Fewer by its images where a part of the window tells them; edges ask for the window here, too.
+PART_COUPLING_SAVES = {1: 0, 2: 31, 4: 60}
 # Spectra of what tractions do within the cells, and that along the edge, in about as many cells as
 # a side has; more of it where loads turn, whose edges stay inside the cells.
 EDGE_ARRAYS = 25
@@ -40,9 +43,9 @@ LIGHT = 4500  # bytes of an increment without its fields
 LIBRARIES = 73 << 20  # of the process that solves
 # Libraries that write and draw, arrays, and what the solver leaves that has not gone back to the
 # system; the stress that is drawn takes no more. Shear has more maps, and bodies that couple leave
-# more.
+# more, while they are solved, too.
 DRAWING, DRAWING_ARRAYS = 77 << 20, 20
-DRAWING_SHEAR, DRAWING_COUPLED = 11 << 20, 23 << 20
+DRAWING_SHEAR, COUPLED = 11 << 20, 30 << 20
 
 
 def estimated_bytes(grid: SurfaceGrid, plan: Plan) -> int:
@@ -52,8 +55,12 @@ def estimated_bytes(grid: SurfaceGrid, plan: Plan) -> int:
     quarter = plan.quarter and not (grid.cells[0] % 2 or grid.cells[1] % 2)
     work = PRESSURE_ARRAYS + (SHEAR_ARRAYS if plan.shear else 0)
     work -= QUARTER_SAVES if quarter and not plan.shear else 0
-    told = quarter and plan.told.quarter
-    work -= QUARTER_SHEAR_SAVES if told and plan.edge == "off" else 0
+    told = plan.told if quarter and plan.edge == "off" else WHOLE
+    coupled = plan.coupling is not Coupling.NONE
+    if coupled:
+        work -= PART_COUPLING_SAVES[told.images]
+    elif told.quarter:
+        work -= QUARTER_SHEAR_SAVES
     work += (TILT_ARRAYS if plan.tilt else 0) + (TORSION_ARRAYS if plan.torsion else 0)
     work += COUPLING_ARRAYS[plan.coupling]
     rim = 0
@@ -68,8 +75,8 @@ def estimated_bytes(grid: SurfaceGrid, plan: Plan) -> int:
     kept = PRESSURE_RESULT + (SHEAR_RESULT if plan.shear else 0)
     held = min(cells * DOUBLE * kept * increments, MOST_HELD) + LIGHT * increments
     drawing = DRAWING + cells * DOUBLE * DRAWING_ARRAYS + (DRAWING_SHEAR if plan.shear else 0)
-    drawing += DRAWING_COUPLED if plan.coupling is not Coupling.NONE else 0
-    return LIBRARIES + held + max(cells * DOUBLE * work + rim, drawing)
+    libraries = LIBRARIES + (COUPLED if coupled else 0)
+    return libraries + held + max(cells * DOUBLE * work + rim, drawing)
 
 
 def refuse_if_too_large(grid: SurfaceGrid, plan: Plan) -> None:

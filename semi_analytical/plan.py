@@ -168,7 +168,7 @@ def _told(scene: Scene, shear: bool, coupled: bool, torsion: bool) -> tuple[Part
     return (
         Part((pushed == 1, pushed == 0)),
         f"a quarter of the window tells first pressures, and half of it, {'yx'[pushed]} > 0, "
-        f"pressures and shear, at half the price",
+        f"pressures and shear, at three fifths of the price",
     )
 
 

@@ -183,7 +183,7 @@ def test_cells_on_a_plane_are_solved_on_the_window(monkeypatch):
 def test_the_plan_says_which_part_tells_what():
     pressed, pushed = plan(scene(press())), plan(scene(press(), push(0, 0.5), push(0, -0.5)))
     assert "a quarter of the window tells pressures and shear" in why(pressed)
-    assert "half of it, x > 0, pressures and shear, at half the price" in why(pushed)
+    assert "half of it, x > 0, pressures and shear, at three fifths" in why(pushed)
     assert "half of it, y > 0" in why(plan(scene(press(), slid(0.5))))
     assert all_effects(pushed).told == WHOLE
     assert one_way(pushed).told == Y

@@ -33,6 +33,7 @@ material = { young_modulus = "210 GPa", poisson_ratio = 0.3 }
 """
 FRICTION = "[friction]\ncoefficient = 0.1"
 PUSHED = "[[loading]]\ntangential_force = [60, 0]\nincrements = 2"
+OBLIQUE = "[[loading]]\ntangential_force = [50, 30]\nincrements = 2"
 TURNED = "[[loading]]\ntorque = 0.01\nincrements = 1"
 TURNED_ROUND = "".join(
     f"[[loading]]\ntangential_force = [{force}, 0]\nincrements = 2\n"
@@ -63,7 +64,9 @@ SCENES = {
     "sheared, turned round": pytest.param(scene(256, then=TURNED_ROUND), marks=slow),
     "turned": pytest.param(scene(256, then=TURNED), marks=slow),
     "coated and sheared": pytest.param(scene(512, layer=LAYER, then=PUSHED), marks=slow),
-    "coupled": pytest.param(scene(256, nu=0.0), marks=slow),
+    "coupled": pytest.param(scene(512, nu=0.0), marks=slow),
+    "coupled and pushed": pytest.param(scene(512, nu=0.0, then=PUSHED), marks=slow),
+    "coupled and pushed obliquely": pytest.param(scene(512, nu=0.0, then=OBLIQUE), marks=slow),
 }
 
 

@@ -55,8 +55,8 @@ def forced_effects_on(cells: int) -> Case:
         title="Only the effects that a scene calls for",
         problem=(
             "Scenes whose plan leaves effects out, because they vanish: shear without friction, "
-            "tilt and torsion where nothing turns the indenter, and the coupling of pressure and "
-            "shear where the bodies are alike. Each is solved again with every effect forced on. "
+            "tilt and torsion where nothing turns the indenter, the coupling of pressure and shear "
+            "where the bodies are alike, and the images of tractions beyond mirror planes. Each is solved again with every effect forced on. "
             "The answer must be the same; what the plan saves is the ratio of the convolutions."
         ),
         runs=tuple(run for pair in pairs.values() for run in pair),
@@ -115,5 +115,9 @@ _PAIRS = (
     _Pair(
         "alike coated bodies sheared",
         _pushed("Two alike coated bodies", _COATED_BALL, coated(_FILM)),
+    ),
+    _Pair(
+        "rigid ball on coating sheared",
+        _pushed("The paper's ball on a coating", rigid_ball(), coated(_FILM)),
     ),
 )
