@@ -168,38 +168,46 @@ class Zones:
 
     def free(self, v: NDArray[Any]) -> Vector:
         """The free part of a field (3, nx, ny)."""
-        v = v.reshape(3, -1)
-        x, y = self.tangent * v[:2, self.slip]
-        return np.concatenate([*v[:2, self._stuck], x + y, v[2, self._pressed]])
+        # Component by component: indices behind a slice are many times slower.
+        x, y, z = v.reshape(3, -1)
+        free = np.empty(self.size)
+        (stuck_x, stuck_y), along, pressed = self.parts(free)
+        stuck_x[:], stuck_y[:], pressed[:] = x[self._stuck], y[self._stuck], z[self._pressed]
+        along[:] = self.tangent[0] * x[self.slip] + self.tangent[1] * y[self.slip]
+        return free
 
     def field(self, vector: Vector) -> Field:
         """The field (3, nx, ny) that has this free part, and nothing else."""
         v = np.zeros((3, self.contact.size))
-        v[:2, self._stuck], along, v[2, self._pressed] = self.parts(vector)
-        v[:2, self.slip] = self.tangent * along
+        stuck, along, pressed = self.parts(vector)
+        for one, sticks, tangent in zip(v[:2], stuck, self.tangent, strict=True):
+            one[self._stuck], one[self.slip] = sticks, tangent * along
+        v[2][self._pressed] = pressed
         return v.reshape(3, *self.contact.shape)
 
     def rest(self, v: Field) -> Vector:
         """What is not free of a field (3, nx, ny): where it slips along n, and all without
         contact."""
         v = v.reshape(3, -1)
-        x, y = v[:2, self.slip]
-        across = self.tangent[1] * x - self.tangent[0] * y
-        return np.concatenate([across, v[:, self._apart].ravel()])
+        across = self.tangent[1] * v[0][self.slip] - self.tangent[0] * v[1][self.slip]
+        return np.concatenate([across, *(one[self._apart] for one in v)])
 
     def whole(self, free: Vector, rest: Vector) -> Field:
         """The field (3, nx, ny) of these two parts."""
         v = self.field(free).reshape(3, -1)
         across, apart = rest[: len(self.slip)], rest[len(self.slip) :]
-        v[0, self.slip] += self.tangent[1] * across
-        v[1, self.slip] -= self.tangent[0] * across
-        v[:, self._apart] = apart.reshape(3, -1)
+        v[0][self.slip] += self.tangent[1] * across
+        v[1][self.slip] -= self.tangent[0] * across
+        for one, left in zip(v, apart.reshape(3, -1), strict=True):
+            one[self._apart] = left
         return v.reshape(3, *self.contact.shape)
 
     def tractions(self, free: Vector) -> Tractions:
         """The tractions of free unknowns: where it slips, friction follows the pressure."""
         t = self.field(free).reshape(3, -1)
-        t[:2, self.slip] += self.pulled * t[2, self.slip]
+        pressure = t[2][self.slip]
+        for one, pulled in zip(t[:2], self.pulled, strict=True):
+            one[self.slip] += pulled * pressure
         return t.reshape(3, *self.contact.shape)
 
     def held(self, free: Vector) -> Vector:

@@ -33,10 +33,16 @@ class GradedPreconditioner:
         shape = zones.contact.shape
         v: NDArray[Any] = np.zeros((2 + len(shares), zones.contact.size), dtype=np.float32)
         v[:3] = zones.field(rows).reshape(3, -1)
-        v[:2, slip] *= shares[0]
-        v[3:, slip] = shares[1:] * zones.parts(rows)[1]
+        along = zones.parts(rows)[1]
+        for one in v[:2]:
+            one[slip] *= shares[0]
+        for one, share in zip(v[3:], shares[1:], strict=True):
+            one[slip] = share * along
         u = self._inverse(v.reshape(-1, *shape)).reshape(v.shape)
-        u[:2, slip] *= shares[0]
+        for one in u[:2]:
+            one[slip] *= shares[0]
         free = zones.free(u[:3])
-        zones.parts(free)[1][:] += np.sum(shares[1:] * u[3:, slip], axis=0)
+        turned = zones.parts(free)[1]
+        for one, share in zip(u[3:], shares[1:], strict=True):
+            turned += share * one[slip]
         return free

@@ -24,7 +24,7 @@ TORSION_ARRAYS = 6
 # Spectra of the coupling, and the Krylov vectors of a Newton step with their displacements.
 COUPLING_ARRAYS = {Coupling.NONE: 0, Coupling.ONE_WAY: 33, Coupling.FULL: 69}
 # Fewer by its images where a part of the window tells them; edges ask for the window here, too.
-PART_COUPLING_SAVES = {1: 0, 2: 31, 4: 60}
+PART_COUPLING_SAVES = {1: 0, 2: 31, 4: 82}
 # Spectra of what tractions do within the cells, and that along the edge, in about as many cells as
 # a side has; more of it where loads turn, whose edges stay inside the cells.
 EDGE_ARRAYS = 25
