@@ -268,3 +268,13 @@ def test_friction_varies_on_a_box_as_on_the_window(mirrored):
     np.testing.assert_array_equal(model.friction_limit(np.ones(part.cells((32, 32)))), expected)
     found = model.friction_limit(np.ones((5, 7)), first=(3, 2))
     np.testing.assert_array_equal(found, expected[3:8, 2:9])
+
+
+@pytest.mark.parametrize("loading", [(press(),), (press(), push(0.8))], ids=["pressed", "pushed"])
+def test_a_part_goes_the_steps_of_the_window_where_patches_are_wider_than_cells(loading):
+    """What decides on a step is counted with the images."""
+    of_part, of_window = on_part_and_window(scene(*loading), grid(128, 1.2), 1e-8)
+    steps = [[i.rounds for i in run.increments] for run in (of_part, of_window)]
+    spent = [[i.iterations for i in run.increments] for run in (of_part, of_window)]
+    assert steps[0] == steps[1]
+    assert spent[0] == pytest.approx(spent[1], abs=1)
