@@ -21,10 +21,13 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
 from math import comb, gamma, log, pi
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.interpolate import CubicSpline
+
+if TYPE_CHECKING:
+    from scipy.interpolate import CubicSpline
 
 Field = NDArray[np.float64]
 # X of wavenumbers times the thickness.
@@ -60,6 +63,8 @@ class FilmLaw:
     @cached_property
     def _ratios(self) -> CubicSpline:
         """Φ1, Φ2, Φ3 over what they are without layers, of ln s."""
+        from scipy.interpolate import CubicSpline  # as long to import as a small contact takes
+
         t, u = (np.arange(low, high, STEP) for low, high in (WAVES, DISTANCES))
         level = log(self.response(np.exp(t[:1]))[0])
         # Without level/(1 + k²), whose integral is known, both ends vanish.

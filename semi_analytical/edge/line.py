@@ -6,7 +6,6 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.spatial import KDTree
 
 from semi_analytical.edge.quadratic import Quadratic
 from semi_analytical.part import Part
@@ -132,6 +131,8 @@ class EdgeLine:
 
     def seen_from(self, i: Indices, j: Indices) -> Seen:
         """From cells (n,), each by the points that are nearest."""
+        from scipy.spatial import KDTree  # as long to import as a small contact takes
+
         count = min(SEEN, len(self.x))
         far, which = KDTree(self.at.T).query(np.stack([i, j], axis=-1), k=count)
         weight = far[:, -1:] ** 2 - far**2 + 1e-9
