@@ -21,6 +21,7 @@ from semi_analytical.influence.layered import LayeredCoefficients
 from verification.cell_means import round_means
 from verification.judging.case import Level
 from verification.judging.outcome import Status
+from verification.peers import profile
 from verification.peers.asked import ASKED, CATTANEO, HERTZ, UNIT, AskedContact
 from verification.peers.costs import cost_table, exponents
 from verification.peers.environment import (
@@ -32,6 +33,7 @@ from verification.peers.environment import (
     made_environment,
 )
 from verification.peers.measure import errors_of, one_run
+from verification.peers.profile import EDGES, ITERATION, PART_OF, SOLVER, part_of, profile_of
 from verification.problems.layered_scene import coated, film
 from verification.report.prices import price_table
 from verification.running.cold_cache import CACHE, cold_cache
@@ -518,3 +520,34 @@ def test_the_cheapest_other_code_is_the_one_that_ours_is_beside() -> None:
     runs = [run("slipstick", 0.5), run("a", 0.25), run("b", 0.2), run("c", 0.1, converged=False)]
     (row,) = cost_table({"runs": runs}).rows
     assert row[-3:] == ("b", "0.2", "2.5")
+
+
+@pytest.mark.parametrize(
+    ("modules", "part"),
+    [
+        ([], None),
+        (["solve"], ITERATION),
+        (["sines", "mirrored_operator", "solve"], "transforms"),
+        (["operator", "padded_transform", "tangential", "solve"], "products"),
+        (["padded_transform", "operator", "edge_correction", "history", "solve"], EDGES),
+    ],
+)
+def test_seconds_are_of_the_innermost_part_or_of_the_edges_that_called_it(
+    modules: list[str], part: str | None
+) -> None:
+    assert part_of(modules) == part
+
+
+def test_parts_of_the_profile_are_parts_of_the_solver() -> None:
+    assert set(PART_OF) <= {path.stem for path in SOLVER.iterdir()}
+
+
+def test_a_profile_sees_edges_where_there_are_some(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(profile, "ENOUGH_SECONDS", 0.2)
+    pressed, *_ = profile.profiled_scenes()
+    with_edges, without = (
+        profile_of(profile.ProfiledScene("", pressed.scene, edge), 32)["parts"][EDGES]
+        for edge in ("last", "off")
+    )
+    assert with_edges > 0
+    assert without == 0

@@ -11,7 +11,7 @@ from collections.abc import Callable, Iterator
 
 import numpy as np
 
-from contact_scene import Body, Layer, LoadStep, Scene
+from contact_scene import Layer
 from semi_analytical import Increment, solve
 from semi_analytical.frf.stack import Stack, stack_of
 from semi_analytical.influence.layered import LayeredCoefficients
@@ -20,8 +20,13 @@ from semi_analytical.normal import solve_normal
 from semi_analytical.normal_load import PressureSum
 from semi_analytical.padded_transform import offsets_for
 from verification.problems import paper_scene as paper
-from verification.problems.layered_scene import coated, film, pressed, rigid_ball
-from verification.problems.paper_scene import pressing
+from verification.problems.layered_scene import (
+    coated,
+    film,
+    pressed,
+    pressed_and_pushed,
+    rigid_ball,
+)
 from verification.running.report_record import Benchmark
 
 COMPONENTS = ("zz", "xx", "yy", "xy", "zx", "zy")
@@ -60,7 +65,7 @@ def coupled_benchmarks() -> Iterator[Benchmark]:
         def stamp(_: Increment, stamps: list[float] = stamps) -> None:
             stamps.append(time.process_time())
 
-        scene = _pushed(coated(film(ratio, 1.0)))
+        scene = pressed_and_pushed("benchmark", coated(film(ratio, 1.0)))
         result = solve(scene, paper.hertz_grid(128), TOLERANCE, stamp)
         convolutions.append(float(np.median([i.convolutions for i in result.increments])))
         seconds.append(float(np.median(np.diff(stamps))))
@@ -87,11 +92,6 @@ def coupled_benchmarks() -> Iterator[Benchmark]:
         value=max(histories),
         target=15.0,
     )
-
-
-def _pushed(body: Body) -> Scene:
-    push = LoadStep(tangential_force=(0.95 * paper.FRICTION_LIMIT, 0.0), increments=20)
-    return pressed("benchmark", rigid_ball(), body, pressing(15), push, friction=paper.FRICTION)
 
 
 def _coefficients(cells: int) -> float:

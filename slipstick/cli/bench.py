@@ -29,8 +29,9 @@ def bench(
     """Solve the same contacts on finer and finer grids, ours and other codes in turn.
 
     One thread, each run in a process of its own: CPU seconds, convolutions, memory, the ratio to
-    the cheapest other code, and how the cost grows with the grid. About two minutes of CPU to 256
-    cells a side, ten to 1024. The first time other codes are installed, each within three minutes.
+    the cheapest other code, and how the cost grows with the grid; then where ours spends its time
+    on three scenes, on at most 256 cells a side. About two minutes of CPU to 256 cells a side, ten
+    to 1024. The first time other codes are installed, each within three minutes.
     """  # fmt: skip
     import json
 
@@ -40,6 +41,7 @@ def bench(
     from verification.peers.costs import cost_table, growth
     from verification.peers.environment import FAILED, made_environment, peers_directory
     from verification.peers.measure import all_runs, record_of
+    from verification.peers.profile import MOST_CELLS, profile_of, profile_table, profiled_scenes
 
     if output is not None and not output.parent.is_dir():
         raise typer.BadParameter(f"there is no directory {output.parent} to write {output.name} to")
@@ -56,9 +58,10 @@ def bench(
         runs.append(run)
         took = run.get("lost") or f"{run['seconds']:.3g} s"
         typer.echo(f"{run['code']}, {run['contact']}, {run['cells']} cells: {took}", err=True)
-    record = record_of(runs, installed)
-    table = cost_table(record)
-    print_table(table.columns, table.rows)
+    profiles = [profile_of(asked, min(cells, MOST_CELLS)) for asked in profiled_scenes()]
+    record = record_of(runs, installed, profiles)
+    for table in (cost_table(record), profile_table(record)):
+        print_table(table.columns, table.rows)
     typer.echo(growth(record))
     if output is not None:
         text = json.dumps(record, indent=1, ensure_ascii=False) + "\n"

@@ -12,6 +12,7 @@ TOLERANCE = 1e-8
 FORCE = 4 / 3
 UNIT = PointContact.under_load(FORCE, 1.0, 1.0)
 WINDOW = 3.0
+CELLS = (32, 64, 128, 256, 512, 1024)
 
 
 @dataclass(frozen=True)
@@ -57,17 +58,16 @@ class AskedContact:
         }
 
 
-HERTZ = AskedContact("hertz", "Hertz", (32, 64, 128, 256, 512, 1024), others=True)
+HERTZ = AskedContact("hertz", "Hertz", CELLS, others=True)
 CATTANEO = AskedContact(
-    "cattaneo", "Cattaneo-Mindlin, ν = 0, T = 0.9 µW", (32, 64, 128, 256, 512), 0.1, 0.9,
-    others=True,
+    "cattaneo", "Cattaneo-Mindlin, ν = 0, T = 0.9 µW", CELLS, 0.1, 0.9, others=True,
 )  # fmt: skip
 COATED = AskedContact(
     "coated", "coated, E1/E2 = 2, pressed and pushed with friction in 5 + 5 increments",
-    (32, 64, 128, 256), 0.1, 0.6, poisson_ratio=0.3, coating=(2.0, 1.0), increments=(5, 5),
+    CELLS, 0.1, 0.6, poisson_ratio=0.3, coating=(2.0, 1.0), increments=(5, 5),
 )  # fmt: skip
 STRESS = AskedContact(
     "stress", "the stress below Hertz's contact at eight depths",
-    (32, 64, 128, 256, 512), poisson_ratio=0.3, depths=(0.1, 0.2, 0.3, 0.5, 0.7, 1.0, 1.5, 2.0),
+    CELLS, poisson_ratio=0.3, depths=(0.1, 0.2, 0.3, 0.5, 0.7, 1.0, 1.5, 2.0),
 )  # fmt: skip
 ASKED = {contact.name: contact for contact in (HERTZ, CATTANEO, COATED, STRESS)}

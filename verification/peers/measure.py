@@ -105,8 +105,12 @@ def all_runs(
                     yield one_run(installed.python, peer, contact, cells)
 
 
-def record_of(runs: Sequence[dict[str, Any]], installed: Installed | None) -> dict[str, Any]:
-    """What is kept of all runs."""
+def record_of(
+    runs: Sequence[dict[str, Any]],
+    installed: Installed | None,
+    profiles: Sequence[dict[str, Any]],
+) -> dict[str, Any]:
+    """What is kept of all runs and profiles."""
     return {
         "problem": "paraboloid on a half-space on a window of three contact radii; every code in a "
         "process of its own, CPU seconds of one thread, set-up included, imports not",
@@ -117,4 +121,5 @@ def record_of(runs: Sequence[dict[str, Any]], installed: Installed | None) -> di
         "asked": [peer.distribution for peer in PEERS] if installed else [],
         "missing": installed.missing if installed else {},
         "runs": list(runs),
+        "profiles": list(profiles),
     }

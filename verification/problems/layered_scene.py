@@ -75,6 +75,13 @@ def pressed(
     )
 
 
+def pressed_and_pushed(title: str, body: Body) -> Scene:
+    """The rigid ball with the paper's friction in 15 increments, then pushed by 0.95 µW in 20: the
+    paper's figures 3 and 4."""
+    push = LoadStep(tangential_force=(0.95 * paper.FRICTION_LIMIT, 0.0), increments=20)
+    return pressed(title, rigid_ball(), body, pressing(15), push, friction=paper.FRICTION)
+
+
 @cache
 def surface_of(*bodies: Body) -> LayeredSurface:
     """The answer of two bodies, or of one under a rigid one, to pressure."""

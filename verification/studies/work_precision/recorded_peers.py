@@ -12,6 +12,7 @@ from verification.exhibits.numbers import plain
 from verification.exhibits.table import Table
 from verification.peers.costs import cost_table, growth
 from verification.peers.environment import OURS
+from verification.peers.profile import profile_table
 from verification.references import load_reference
 from verification.studies.work_precision.contacts import CATTANEO, HERTZIAN
 from verification.studies.work_precision.point import Point, cheapest, dependable, seconds
@@ -30,7 +31,7 @@ Points = Mapping[tuple[str, str], tuple[Point, ...]]
 
 
 def recorded_peers() -> Record:
-    """The record that `measure` wrote."""
+    """The record that `slipstick bench` wrote."""
     return load_reference(NAME)
 
 
@@ -97,8 +98,8 @@ def _ranked(points: Sequence[Point], target: float) -> list[Point]:
 
 
 def peer_tables(record: Record) -> tuple[Table, ...]:
-    """Every run of all codes, and what ours costs beside the cheapest."""
-    return _runs(record), cost_table(record)
+    """Every run of all codes, what ours costs beside the cheapest, and where its time goes."""
+    return _runs(record), cost_table(record), profile_table(record)
 
 
 def _runs(record: Record) -> Table:
