@@ -4,35 +4,27 @@ from contact_scene.free_memory import available_bytes
 from contact_scene.solver_errors import ResourceRefused
 from contact_scene.stored_fields import MOST_HELD
 from semi_analytical.grid import SurfaceGrid
-from semi_analytical.part import WHOLE
 from semi_analytical.plan import Coupling, Plan
 
 DOUBLE = 8
 # Arrays of the size of the window held at once: coefficients, spectra, work space, solver vectors,
-# results of an increment. Measured of whole runs on fitted windows, of which the contact takes nine
-# tenths along each side.
-PRESSURE_ARRAYS = 32
-# Fewer where a quarter of the window tells the pressure and no shear comes after it.
-QUARTER_SAVES = 8
+# results of an increment. Of a problem that a part of the window tells the first number is of the
+# window, the second of that part. Measured of whole runs on fitted windows, of which the contact
+# takes nine tenths along each side.
+PRESSURE_ARRAYS = 12, 20
 HISTORY_ARRAYS = 4
-SHEAR_ARRAYS = 57
-# Fewer where a quarter tells the shear, too; edges inside the cells ask for the window.
-QUARTER_SHEAR_SAVES = 22
+SHEAR_ARRAYS = 28, 54
 # Arms and unit motions, and what they are multiplied with.
 TILT_ARRAYS = 10
 TORSION_ARRAYS = 6
 # Spectra of the coupling, and the Krylov vectors of a Newton step with their displacements.
-COUPLING_ARRAYS = {Coupling.NONE: 0, Coupling.ONE_WAY: 33, Coupling.FULL: 69}
-# Fewer by its images where a part of the window tells them; edges ask for the window here, too.
-PART_COUPLING_SAVES = {1: 0, 2: 31, 4: 82}
+COUPLING_ARRAYS = {Coupling.NONE: 0, Coupling.ONE_WAY: 8, Coupling.FULL: 17}
 # Spectra of what tractions do within the cells, and that along the edge, in about as many cells as
 # a side has; more of it where loads turn, whose edges stay inside the cells.
 EDGE_ARRAYS = 25
-# Fewer where a quarter of the window tells them, and a quarter of the cells along the edge.
-QUARTER_EDGE_SAVES = 19
-EDGE_SHEAR, EDGE_SHEAR_ARRAYS = 31 << 20, 46
-EDGE_RIM = 41_000  # bytes per cell of the longer side
-EDGE_SHEAR_RIM = 86_000
+EDGE_RIM = 74_000  # bytes per cell of a side, in the mean
+EDGE_SHEAR, EDGE_SHEAR_ARRAYS = 23 << 20, 87
+EDGE_SHEAR_RIM = 49_000
 EDGE_TURNED_RIM = 150_000
 PUSHED_ONCE = 2  # steps: pressed, then pushed
 # Arrays that every increment leaves behind: pressure and gap; shear, slip, its distance and
@@ -40,43 +32,59 @@ PUSHED_ONCE = 2  # steps: pressed, then pushed
 PRESSURE_RESULT = 2
 SHEAR_RESULT = 7
 LIGHT = 4500  # bytes of an increment without its fields
-LIBRARIES = 73 << 20  # of the process that solves
+LIBRARIES = 75 << 20  # of the process that solves
 # Libraries that write and draw, arrays, and what the solver leaves that has not gone back to the
-# system; the stress that is drawn takes no more. Shear has more maps, and bodies that couple leave
-# more, while they are solved, too.
+# system; the stress that is drawn takes no more. Shear has more maps, bodies that couple leave
+# more, and of every loading step there is a panel, up to so many.
 DRAWING, DRAWING_ARRAYS = 77 << 20, 20
-DRAWING_SHEAR, COUPLED = 11 << 20, 30 << 20
+DRAWING_SHEAR, DRAWING_COUPLED = 11 << 20, 23 << 20
+DRAWING_STEP, MOST_DRAWN = 9 << 20, 6
 
 
 def estimated_bytes(grid: SurfaceGrid, plan: Plan) -> int:
     """Largest memory of a process that runs, libraries and figures included [byte]."""
-    cells = grid.cells[0] * grid.cells[1]
+    array = grid.cells[0] * grid.cells[1] * DOUBLE
     increments = sum(plan.increments)
-    quarter = plan.quarter and not (grid.cells[0] % 2 or grid.cells[1] % 2)
-    work = PRESSURE_ARRAYS + (SHEAR_ARRAYS if plan.shear else 0)
-    work -= QUARTER_SAVES if quarter and not plan.shear else 0
-    told = plan.told if quarter and plan.edge == "off" else WHOLE
-    coupled = plan.coupling is not Coupling.NONE
-    if coupled:
-        work -= PART_COUPLING_SAVES[told.images]
-    elif told.quarter:
-        work -= QUARTER_SHEAR_SAVES
-    work += (TILT_ARRAYS if plan.tilt else 0) + (TORSION_ARRAYS if plan.torsion else 0)
-    work += COUPLING_ARRAYS[plan.coupling]
-    rim = 0
-    if plan.edge != "off":
-        pressed_alone = quarter and not plan.shear
-        work += EDGE_ARRAYS + (EDGE_SHEAR_ARRAYS if plan.shear else 0)
-        work -= QUARTER_EDGE_SAVES if pressed_alone else 0
-        along = EDGE_RIM // (4 if pressed_alone else 1) + (EDGE_SHEAR_RIM if plan.shear else 0)
-        along += EDGE_TURNED_RIM if plan.shear and len(plan.path) > PUSHED_ONCE else 0
-        rim = along * max(grid.cells) + (EDGE_SHEAR if plan.shear else 0)
-    work += HISTORY_ARRAYS if increments > 1 else 0
     kept = PRESSURE_RESULT + (SHEAR_RESULT if plan.shear else 0)
-    held = min(cells * DOUBLE * kept * increments, MOST_HELD) + LIGHT * increments
-    drawing = DRAWING + cells * DOUBLE * DRAWING_ARRAYS + (DRAWING_SHEAR if plan.shear else 0)
-    libraries = LIBRARIES + (COUPLED if coupled else 0)
-    return libraries + held + max(cells * DOUBLE * work + rim, drawing)
+    held = min(array * kept * increments, MOST_HELD) + LIGHT * increments
+    solving = array * _arrays(grid, plan) + _edges(grid, plan)
+    return int(LIBRARIES + held + max(solving, _drawing(array, plan)))
+
+
+def _told(grid: SurfaceGrid, plan: Plan) -> tuple[float, float]:
+    """The parts of the window that tell pressures without shear, and shear."""
+    pressed = 1 / 4 if plan.quarter and grid.even else 1.0
+    return pressed, pressed if plan.along is not None else 1.0
+
+
+def _arrays(grid: SurfaceGrid, plan: Plan) -> float:
+    """Of the size of the window while it is solved on cells."""
+    pressed, sheared = _told(grid, plan)
+    arrays = PRESSURE_ARRAYS[0] + PRESSURE_ARRAYS[1] * pressed
+    if plan.shear:
+        arrays += SHEAR_ARRAYS[0] + SHEAR_ARRAYS[1] * sheared + COUPLING_ARRAYS[plan.coupling]
+    arrays += TILT_ARRAYS * plan.tilt + TORSION_ARRAYS * plan.torsion
+    return arrays + HISTORY_ARRAYS * (sum(plan.increments) > 1)
+
+
+def _edges(grid: SurfaceGrid, plan: Plan) -> float:
+    """Bytes that edges take inside the cells."""
+    if plan.edge == "off":
+        return 0
+    array, side = grid.cells[0] * grid.cells[1] * DOUBLE, sum(grid.cells) / 2
+    alone = EDGE_ARRAYS * array + EDGE_RIM * side
+    if not plan.shear:
+        return alone * _told(grid, plan)[0]
+    rim = EDGE_SHEAR_RIM + (EDGE_TURNED_RIM if len(plan.path) > PUSHED_ONCE else 0)
+    return alone + EDGE_SHEAR + EDGE_SHEAR_ARRAYS * array + rim * side
+
+
+def _drawing(array: int, plan: Plan) -> int:
+    """Bytes that files and figures take."""
+    beyond = min(len(plan.path), MOST_DRAWN) - PUSHED_ONCE
+    drawing = DRAWING + DRAWING_ARRAYS * array + DRAWING_STEP * max(beyond, 0)
+    drawing += DRAWING_SHEAR if plan.shear else 0
+    return drawing + (DRAWING_COUPLED if plan.coupling is not Coupling.NONE else 0)
 
 
 def refuse_if_too_large(grid: SurfaceGrid, plan: Plan) -> None:

@@ -26,6 +26,7 @@ increments = 1
 {then}
 [semi_analytical]
 cells = {cells}
+edge = "{edge}"
 """
 LAYER = """[[body.layers]]
 thickness = "100 um"
@@ -40,37 +41,55 @@ TURNED_ROUND = "".join(
     for force in (60, -60, 60, -60)
 )
 UNLOADED = "[[loading]]\nnormal_force = 500\nincrements = 20"
+TILTED = "[[loading]]\nmoment = [0.02, 0]\nincrements = 2"
 
 pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="the peak is read from /proc")
 
 
-def scene(cells: int | tuple[int, int], *, nu: float = 0.3, layer: str = "", then: str = "") -> str:
+def scene(
+    cells: int | tuple[int, int],
+    *,
+    nu: float = 0.3,
+    layer: str = "",
+    then: str = "",
+    edge: str = "last",
+) -> str:
     nx, ny = (cells, cells) if isinstance(cells, int) else cells
-    friction = FRICTION if then in (PUSHED, TURNED, TURNED_ROUND) or nu == 0 else ""
-    return SCENE.format(cells=[nx, ny], nu=nu, layer=layer, friction=friction, then=then)
+    friction = "" if then in ("", UNLOADED, TILTED) and nu > 0 else FRICTION
+    return SCENE.format(cells=[nx, ny], nu=nu, layer=layer, friction=friction, then=then, edge=edge)
 
 
-slow = pytest.mark.slow
 SCENES = {
-    "libraries": scene(32),
+    "libraries, figures of five steps": scene(32, then=TURNED_ROUND),
     "pressed": scene(512),
     "edge not seen in the stress": scene(94, layer=LAYER),
-    "pressed, large": pytest.param(scene(1024), marks=slow),
-    "long": pytest.param(scene((16, 16384)), marks=slow),
-    "many increments": pytest.param(scene(256, then=UNLOADED), marks=slow),
-    "coated": pytest.param(scene(1024, layer=LAYER), marks=slow),
-    "sheared": pytest.param(scene(256, then=PUSHED), marks=slow),
-    "sheared, large": pytest.param(scene(512, then=PUSHED), marks=slow),
-    "sheared, turned round": pytest.param(scene(256, then=TURNED_ROUND), marks=slow),
-    "turned": pytest.param(scene(256, then=TURNED), marks=slow),
-    "coated and sheared": pytest.param(scene(512, layer=LAYER, then=PUSHED), marks=slow),
-    "coupled": pytest.param(scene(512, nu=0.0), marks=slow),
-    "coupled and pushed": pytest.param(scene(512, nu=0.0, then=PUSHED), marks=slow),
-    "coupled and pushed obliquely": pytest.param(scene(512, nu=0.0, then=OBLIQUE), marks=slow),
+}
+LARGE = {
+    "pressed": scene(1024),
+    "long": scene((16, 16384)),
+    "long, sheared": scene((16, 16384), then=PUSHED),
+    "many increments": scene(256, then=UNLOADED),
+    "coated": scene(1024, layer=LAYER),
+    "tilted": scene(512, then=TILTED),
+    "sheared": scene(512, then=PUSHED),
+    "sheared, cells alone": scene(512, then=PUSHED, edge="off"),
+    "sheared, the whole window": scene(512, then=OBLIQUE, edge="off"),
+    "sheared, turned round": scene(512, then=TURNED_ROUND),
+    "sheared, turned round, cells alone": scene(256, then=TURNED_ROUND, edge="off"),
+    "turned": scene(512, then=TURNED),
+    "coated and sheared": scene(512, layer=LAYER, then=PUSHED),
+    "coupled": scene(512, nu=0.0),
+    "coupled, edges": scene(256, nu=0.0, edge="all"),
 }
 
 
-@pytest.mark.parametrize("text", SCENES.values(), ids=SCENES)
+@pytest.mark.parametrize(
+    "text",
+    [
+        *(pytest.param(text, id=name) for name, text in SCENES.items()),
+        *(pytest.param(text, id=name, marks=pytest.mark.slow) for name, text in LARGE.items()),
+    ],
+)
 def test_estimated_memory_is_the_peak_of_the_run(text: str, tmp_path: Path) -> None:
     """Solving, companions, files and figures, in a process of its own."""
     path = tmp_path / "scene.toml"
