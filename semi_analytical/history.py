@@ -35,8 +35,9 @@ class Correct(Protocol):
     ) -> Corrected | None: ...
 
 
-# An increment that has taken more without converging is not cut any further. The last attempt that
-# fails before the halves converge is over after at most 17 200 in the stability map.
+# An increment that has taken more without converging is not cut any further. In one go converge
+# those of the stability map with µ = 5 below films a thousand times as stiff or as soft as their
+# base: the dearest takes 5 700.
 MOST_CONVOLUTIONS = 30_000
 
 
