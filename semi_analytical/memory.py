@@ -20,10 +20,12 @@ TORSION_ARRAYS = 6
 # Spectra of the coupling, and the Krylov vectors of a Newton step with their displacements.
 COUPLING_ARRAYS = {Coupling.NONE: 0, Coupling.ONE_WAY: 8, Coupling.FULL: 17}
 # Spectra of what tractions do within the cells, and that along the edge, in about as many cells as
-# a side has; more of it where loads turn, whose edges stay inside the cells.
+# a side has; more of it where loads turn, whose edges stay inside the cells. Bodies that couple
+# leave all of it beside what draws.
 EDGE_ARRAYS = 25
 EDGE_RIM = 74_000  # bytes per cell of a side, in the mean
 EDGE_SHEAR, EDGE_SHEAR_ARRAYS = 23 << 20, 87
+EDGE_COUPLED, EDGE_COUPLED_ARRAYS = 40 << 20, 45
 EDGE_SHEAR_RIM = 49_000
 EDGE_TURNED_RIM = 150_000
 PUSHED_ONCE = 2  # steps: pressed, then pushed
@@ -75,6 +77,8 @@ def _edges(grid: SurfaceGrid, plan: Plan) -> float:
     alone = EDGE_ARRAYS * array + EDGE_RIM * side
     if not plan.shear:
         return alone * _told(grid, plan)[0]
+    if plan.coupling is Coupling.FULL:
+        return alone + EDGE_COUPLED + EDGE_COUPLED_ARRAYS * array + EDGE_SHEAR_RIM * side
     rim = EDGE_SHEAR_RIM + (EDGE_TURNED_RIM if len(plan.path) > PUSHED_ONCE else 0)
     return alone + EDGE_SHEAR + EDGE_SHEAR_ARRAYS * array + rim * side
 
