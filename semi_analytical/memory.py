@@ -77,6 +77,8 @@ def _edges(grid: SurfaceGrid, plan: Plan) -> float:
     alone = EDGE_ARRAYS * array + EDGE_RIM * side
     if not plan.shear:
         return alone * _told(grid, plan)[0]
+    if plan.edge == "last" and all(step.path_matters and step.count > 1 for step in plan.path[1:]):
+        return alone  # what ends of steps do not tell has no edge of stick
     if plan.coupling is Coupling.FULL:
         return alone + EDGE_COUPLED + EDGE_COUPLED_ARRAYS * array + EDGE_SHEAR_RIM * side
     rim = EDGE_SHEAR_RIM + (EDGE_TURNED_RIM if len(plan.path) > PUSHED_ONCE else 0)

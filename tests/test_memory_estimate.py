@@ -78,6 +78,7 @@ LARGE = {
     "sheared, turned round, cells alone": scene(256, then=TURNED_ROUND, edge="off"),
     "turned": scene(512, then=TURNED),
     "coated and sheared": scene(512, layer=LAYER, then=PUSHED),
+    "tilted and sheared": scene(256, then=f"{PUSHED}\nmoment = [0.02, 0]"),
     "coupled": scene(512, nu=0.0),
     "coupled, edges": scene(256, nu=0.0, edge="all"),
 }
