@@ -20,15 +20,14 @@ TORSION_ARRAYS = 6
 # Spectra of the coupling, and the Krylov vectors of a Newton step with their displacements.
 COUPLING_ARRAYS = {Coupling.NONE: 0, Coupling.ONE_WAY: 8, Coupling.FULL: 17}
 # Spectra of what tractions do within the cells, and that along the edge, in about as many cells as
-# a side has; more of it where loads turn, whose edges stay inside the cells. Bodies that couple
-# leave all of it beside what draws.
+# a side has; more of it where loads turn, whose edges stay inside the cells. Those of shear are of
+# the window, in work space that shear has, too; those of bodies that couple stay beside what draws.
 EDGE_ARRAYS = 25
 EDGE_RIM = 74_000  # bytes per cell of a side, in the mean
-EDGE_SHEAR, EDGE_SHEAR_ARRAYS = 23 << 20, 87
+EDGE_SHEAR, EDGE_SHEAR_ARRAYS = 23 << 20, 100
 EDGE_COUPLED, EDGE_COUPLED_ARRAYS = 40 << 20, 45
 EDGE_SHEAR_RIM = 49_000
 EDGE_TURNED_RIM = 150_000
-PUSHED_ONCE = 2  # steps: pressed, then pushed
 # Arrays that every increment leaves behind: pressure and gap; shear, slip, its distance and
 # dissipation, and masks.
 PRESSURE_RESULT = 2
@@ -37,7 +36,7 @@ LIGHT = 4500  # bytes of an increment without its fields
 LIBRARIES = 75 << 20  # of the process that solves
 # Libraries that write and draw, arrays, and what the solver leaves that has not gone back to the
 # system; the stress that is drawn takes no more. Shear has more maps, bodies that couple leave
-# more, and of every loading step there is a panel, up to so many.
+# more, and of every loading step beyond two there is a panel more, up to so many.
 DRAWING, DRAWING_ARRAYS = 77 << 20, 20
 DRAWING_SHEAR, DRAWING_COUPLED = 11 << 20, 23 << 20
 DRAWING_STEP, MOST_DRAWN = 9 << 20, 6
@@ -74,21 +73,25 @@ def _edges(grid: SurfaceGrid, plan: Plan) -> float:
     if plan.edge == "off":
         return 0
     array, side = grid.cells[0] * grid.cells[1] * DOUBLE, sum(grid.cells) / 2
+    pressed, sheared = _told(grid, plan)
     alone = EDGE_ARRAYS * array + EDGE_RIM * side
     if not plan.shear:
-        return alone * _told(grid, plan)[0]
-    if plan.edge == "last" and all(step.path_matters and step.count > 1 for step in plan.path[1:]):
-        return alone  # what ends of steps do not tell has no edge of stick
+        return alone * pressed
     if plan.coupling is Coupling.FULL:
         return alone + EDGE_COUPLED + EDGE_COUPLED_ARRAYS * array + EDGE_SHEAR_RIM * side
-    rim = EDGE_SHEAR_RIM + (EDGE_TURNED_RIM if len(plan.path) > PUSHED_ONCE else 0)
-    return alone + EDGE_SHEAR + EDGE_SHEAR_ARRAYS * array + rim * side
+    # Where the way to the end of a step matters, that end alone does not tell the edge of stick.
+    steps = sum(plan.edge == "all" or not s.path_matters or s.count == 1 for s in plan.path[1:])
+    if not steps:
+        return alone
+    arrays = EDGE_SHEAR_ARRAYS - SHEAR_ARRAYS[1] * sheared
+    rim = EDGE_SHEAR_RIM + (EDGE_TURNED_RIM if steps > 1 else 0)
+    return alone + EDGE_SHEAR + arrays * array + rim * side
 
 
 def _drawing(array: int, plan: Plan) -> int:
     """Bytes that files and figures take."""
-    beyond = min(len(plan.path), MOST_DRAWN) - PUSHED_ONCE
-    drawing = DRAWING + DRAWING_ARRAYS * array + DRAWING_STEP * max(beyond, 0)
+    steps = max(min(len(plan.path), MOST_DRAWN) - 2, 0)
+    drawing = DRAWING + DRAWING_ARRAYS * array + DRAWING_STEP * steps
     drawing += DRAWING_SHEAR if plan.shear else 0
     return drawing + (DRAWING_COUPLED if plan.coupling is not Coupling.NONE else 0)
 
