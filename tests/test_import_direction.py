@@ -367,6 +367,16 @@ def test_imports_go_one_way() -> None:
     assert violations(ROOT) == []
 
 
+def test_what_takes_as_long_as_a_contact_is_imported_where_it_is_called() -> None:
+    """Of scipy, a tenth of a second each: films and fitted edges alone need them."""
+    slow = {f"scipy.{part}" for part in ("interpolate", "optimize", "sparse", "spatial")}
+    for path in (ROOT / "semi_analytical").rglob("*.py"):
+        top = ast.parse(path.read_text(encoding="utf-8")).body
+        found = {node.module for node in top if isinstance(node, ast.ImportFrom)}
+        found |= {name.name for node in top if isinstance(node, ast.Import) for name in node.names}
+        assert not found & slow, path
+
+
 def test_results_bring_in_no_solver_by_themselves() -> None:
     """Whoever has the results of one solver need not import the other."""
     ours = sorted(name for name in modules(ROOT) if within(name, "contact_results"))
