@@ -39,7 +39,7 @@ LIBRARIES = 75 << 20  # of the process that solves
 # more, and of every loading step beyond two there is a panel more, up to so many.
 DRAWING, DRAWING_ARRAYS = 77 << 20, 20
 DRAWING_SHEAR, DRAWING_COUPLED = 11 << 20, 23 << 20
-DRAWING_STEP, MOST_DRAWN = 9 << 20, 6
+DRAWING_STEP, DRAWING_SHEAR_STEP, MOST_DRAWN = 5 << 20, 4 << 20, 6
 
 
 def estimated_bytes(grid: SurfaceGrid, plan: Plan) -> int:
@@ -92,7 +92,7 @@ def _drawing(array: int, plan: Plan) -> int:
     """Bytes that files and figures take."""
     steps = max(min(len(plan.path), MOST_DRAWN) - 2, 0)
     drawing = DRAWING + DRAWING_ARRAYS * array + DRAWING_STEP * steps
-    drawing += DRAWING_SHEAR if plan.shear else 0
+    drawing += DRAWING_SHEAR + DRAWING_SHEAR_STEP * steps if plan.shear else 0
     return drawing + (DRAWING_COUPLED if plan.coupling is not Coupling.NONE else 0)
 
 
