@@ -12,7 +12,7 @@ DOUBLE = 8
 # window, the second of that part. Measured of whole runs on fitted windows, of which the contact
 # takes nine tenths along each side.
 PRESSURE_ARRAYS = 12, 20
-HISTORY_ARRAYS = 4
+HISTORY_ARRAYS, COUPLED_HISTORY_ARRAYS = 4, 12
 SHEAR_ARRAYS = 28, 54
 # Arms and unit motions, and what they are multiplied with.
 TILT_ARRAYS = 10
@@ -65,7 +65,10 @@ def _arrays(grid: SurfaceGrid, plan: Plan) -> float:
     if plan.shear:
         arrays += SHEAR_ARRAYS[0] + SHEAR_ARRAYS[1] * sheared + COUPLING_ARRAYS[plan.coupling]
     arrays += TILT_ARRAYS * plan.tilt + TORSION_ARRAYS * plan.torsion
-    return arrays + HISTORY_ARRAYS * (sum(plan.increments) > 1)
+    if sum(plan.increments) > 1:
+        arrays += HISTORY_ARRAYS
+        arrays += COUPLED_HISTORY_ARRAYS if plan.coupling is Coupling.FULL else 0
+    return arrays
 
 
 def _edges(grid: SurfaceGrid, plan: Plan) -> float:
