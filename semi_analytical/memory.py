@@ -55,7 +55,7 @@ def estimated_bytes(grid: SurfaceGrid, plan: Plan) -> int:
 def _told(grid: SurfaceGrid, plan: Plan) -> tuple[float, float]:
     """The parts of the window that tell pressures without shear, and shear."""
     pressed = 1 / 4 if plan.quarter and grid.even else 1.0
-    return pressed, pressed if plan.along is not None else 1.0
+    return pressed, 1 / plan.told.images if grid.even else 1.0
 
 
 def _arrays(grid: SurfaceGrid, plan: Plan) -> float:
@@ -63,11 +63,11 @@ def _arrays(grid: SurfaceGrid, plan: Plan) -> float:
     pressed, sheared = _told(grid, plan)
     arrays = PRESSURE_ARRAYS[0] + PRESSURE_ARRAYS[1] * pressed
     if plan.shear:
-        arrays += SHEAR_ARRAYS[0] + SHEAR_ARRAYS[1] * sheared + COUPLING_ARRAYS[plan.coupling]
+        arrays += SHEAR_ARRAYS[0] + (SHEAR_ARRAYS[1] + COUPLING_ARRAYS[plan.coupling]) * sheared
     arrays += TILT_ARRAYS * plan.tilt + TORSION_ARRAYS * plan.torsion
     if sum(plan.increments) > 1:
         arrays += HISTORY_ARRAYS
-        arrays += COUPLED_HISTORY_ARRAYS if plan.coupling is Coupling.FULL else 0
+        arrays += COUPLED_HISTORY_ARRAYS * sheared if plan.coupling is Coupling.FULL else 0
     return arrays
 
 
