@@ -5,6 +5,7 @@ from dataclasses import dataclass, replace
 from typing import Protocol
 
 import numpy as np
+from numpy.typing import NDArray
 
 from contact_scene import LoadRamp
 from contact_scene.march import Reached, marked_increments
@@ -22,9 +23,13 @@ from semi_analytical.pressing import NormalTarget
 from semi_analytical.sheared import Sheared, untouched
 from semi_analytical.shearing import TangentialTarget
 
+Field = NDArray[np.float64]
+Mask = NDArray[np.bool_]
 Advance = Callable[
     [ContactModel, State | None, NormalTarget, TangentialTarget | None, float], State
 ]
+# Shear, friction limit and cells that stick: the area of these in cells.
+Sticking = Callable[[Field, Field, Mask], float]
 
 
 class Correct(Protocol):
@@ -54,7 +59,9 @@ def marked(
     since   where the same march stood before, to go on from there
     raises  NotConverged and GrossSliding, with the last converged increment as `last_state`
     """
-    solver = _Solver(model, plan, _advance(plan), _correction(model, plan), tolerance)
+    solver = _Solver(
+        model, plan, _advance(plan), _correction(model, plan), _sticking(plan), tolerance
+    )
     return marked_increments(model.scene, plan.increments, solver, since)
 
 
@@ -75,13 +82,22 @@ def _correction(model: ContactModel, plan: Plan) -> Correct | None:
     """How edges are put inside the cells, where they are."""
     if plan.edge == "off":
         return None
-    if plan.coupling is Coupling.FULL and plan.edge == "all":
+    if plan.coupling is Coupling.FULL:
         from semi_analytical.edge_correction.coupled import CoupledEdgeCorrection
 
         return CoupledEdgeCorrection(model)
     from semi_analytical.edge_correction.state import EdgeCorrection
 
     return EdgeCorrection(model)
+
+
+def _sticking(plan: Plan) -> Sticking:
+    """How the area of the stick zone is found where its border is not inside the cells."""
+    if plan.coupling is Coupling.FULL:
+        from semi_analytical.edge_correction.stick_area import stick_area
+
+        return stick_area
+    return stuck_cells
 
 
 @dataclass(frozen=True)
@@ -92,6 +108,7 @@ class _Solver:
     plan: Plan
     increment: Advance
     correct: Correct | None
+    sticking: Sticking
     tolerance: float
 
     @property
@@ -117,7 +134,8 @@ class _Solver:
         after = balanced(self.model, before, after, path_matters=matters)
         if self.correct is None or (self.plan.edge == "last" and fraction < 1):
             return after
-        last = before if self.plan.edge == "all" else start
+        stepwise = self.plan.edge == "last" and self.plan.coupling is not Coupling.FULL
+        last = start if stepwise else before
         edges = self.correct(
             None if last is None else unfolded(last, self.model.shear_part),
             unfolded(after, self.model.shear_part),
@@ -128,10 +146,12 @@ class _Solver:
 
     def report(self, reached: Reached[State], last: Increment | None) -> Increment:
         """The state, with what the increment has changed and cost."""
-        return _increment(self.model, last, reached)
+        return _increment(self.model, self.sticking, last, reached)
 
 
-def _increment(model: ContactModel, last: Increment | None, reached: Reached[State]) -> Increment:
+def _increment(
+    model: ContactModel, sticking: Sticking, last: Increment | None, reached: Reached[State]
+) -> Increment:
     """The state on the whole window as it is reported, with what the increment after the last one
     has changed and cost."""
     state = unfolded(reached.state, model.shear_part)
@@ -163,9 +183,10 @@ def _increment(model: ContactModel, last: Increment | None, reached: Reached[Sta
         pressed = _with_edges(pressed, state.corrected, model, state.target)
     if sheared is None:
         return pressed
-    stuck = stuck_cells(sheared.shear, model.friction.limit(p), sheared.in_stick)
-    if state.corrected is not None and state.corrected.sheared is not None:
-        edges = state.corrected.sheared
+    edges = state.corrected.sheared if state.corrected else None
+    if state.corrected is None or edges is None:
+        stuck = sticking(sheared.shear, model.friction.limit(p), sheared.in_stick)
+    else:
         stuck = edges.stick_cells
         # Force and shift stay those of cells, as does the work that they do along the history.
         sheared = replace(sheared, shear=edges.shear, in_stick=edges.stick)

@@ -19,7 +19,7 @@ MOST_CONTRAST = 1e12
 MIRROR_PLANES = "mirror planes"
 # What edges inside the cells cost, on 64² to 256².
 CHEAP = "10 to 100 convolutions each time"
-DEAR = "two to three times the convolutions"
+DEAR = "60 to 180 convolutions each time"
 
 
 class Coupling(StrEnum):
@@ -198,11 +198,6 @@ def _edges(scene: Scene, asked: EdgeCorrection, torsion: bool, coupled: bool) ->
         return False, "not asked for: tractions are constant on cells up to their edges"
     if scene.indenter.rim is not None:
         return False, "below the rim of a flat punch the pressure rises to its edge"
-    if coupled and asked == "last":
-        return (
-            False,
-            f'of bodies that couple at the end of every increment ("all", {DEAR}) or never',
-        )
     if torsion:
         return False, "not known of contacts that twist"
     if scene.friction is not None and scene.friction.uniform is None:

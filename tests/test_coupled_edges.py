@@ -88,6 +88,16 @@ def test_stick_that_spreads_below_a_pressing_ball_ends_where_rings_say():
     assert end.stick_radius == pytest.approx(rings.stick_radius, rel=4e-3)
 
 
+@pytest.mark.parametrize("edge", ["off", "last"])
+def test_stick_radius_of_a_pushed_ball_is_its_limit(edge):
+    """.5436 of the Hertz radius on 128² and 256² cells with edges in every increment. By a root of
+    what is missing from slip in length, as where bodies do not couple, it is 1.5e-2 too large."""
+    push = LoadStep(tangential_force=(0.6 * FRICTION_LIMIT, 0.0), increments=14)
+    of = pressed("", rigid_ball(), BODIES["soft film"], pressing(15), push, friction=MU)
+    end = solved(of, edge, 64).steps[-1]
+    assert end.stick_radius == pytest.approx(0.5436 * A, rel=6e-3)
+
+
 def test_bodies_exchanged_have_the_same_edges_and_opposite_shear():
     """What decides is which way the shear points and which body is the more compliant."""
     stiff, soft = (
@@ -118,6 +128,28 @@ def pushed(edge: str):
     return solved(ball("soft film", push), edge)
 
 
+def test_edges_of_the_last_state_alone_are_nearly_those_of_every_increment():
+    """Cells alone miss 1e-2 of the pressure, 6e-3 of the shear and 8e-3 µp_H of it at the edge of
+    the contact. What edges move of the surface, taken for slip of the last increment, leaves 2e-3
+    of the shear, and 1.6e-3 µp_H at the edge."""
+    every, last = (pushed(edge).steps[-1] for edge in ("all", "last"))
+    assert last.edge_change is not None
+    p = every.pressure
+    assert np.linalg.norm(last.pressure - p) < 1.5e-4 * np.linalg.norm(p)
+    off = np.hypot(*(last.shear - every.shear))
+    assert np.sum(off) < 1.6e-3 * MU * np.sum(p)
+    x, y = pushed("all").grid.coordinates()
+    at_edge = np.hypot(x, y) > every.contact_radius - 3 * SIDE / CELLS
+    assert np.sqrt(np.mean(off[at_edge & (p > 0)] ** 2)) < 1.3e-3 * MU * P
+    assert last.stick_radius == pytest.approx(every.stick_radius, rel=2e-3)
+
+
+def test_the_last_state_of_a_step_alone_has_its_edges_inside_the_cells():
+    result = pushed("last")
+    ends = [end is result.steps[end.step - 1] for end in result.increments]
+    assert [end.edge_change is not None for end in result.increments] == ends
+
+
 def test_pushed_the_shear_carries_the_force_and_is_its_mirror_image():
     end, grid = pushed("all").steps[-1], pushed("all").grid
     assert end.edge_change is not None
@@ -137,8 +169,9 @@ def test_pushed_the_stick_area_is_that_of_the_shear():
         assert end.stick_area == cells * result.grid.cell_area
 
 
-def test_pushed_no_later_state_knows_of_the_correction():
-    for one, other in zip(pushed("off").increments, pushed("all").increments, strict=True):
+@pytest.mark.parametrize("edge", ["last", "all"])
+def test_pushed_no_later_state_knows_of_the_correction(edge):
+    for one, other in zip(pushed("off").increments, pushed(edge).increments, strict=True):
         assert one.dissipated_energy == other.dissipated_energy
         assert one.tangential_shift[0] == other.tangential_shift[0]
         np.testing.assert_array_equal(one.slip, other.slip)
@@ -147,13 +180,6 @@ def test_pushed_no_later_state_knows_of_the_correction():
 @pytest.mark.parametrize(("body", "cells"), [("bare", 6), ("thin film", 32)])
 def test_where_no_edge_is_known_tractions_are_kept_and_the_remarks_say_so(body, cells):
     """Of a contact of two cells, and of a film within whose thickness no root holds."""
-    plain, asked = (solved(ball(body), edge, cells) for edge in ("off", "all"))
+    plain, asked = (solved(ball(body), edge, cells) for edge in ("off", "last"))
     np.testing.assert_array_equal(plain.steps[-1].pressure, asked.steps[-1].pressure)
     assert any("could not be put" in remark for remark in remarks(asked))
-
-
-def test_the_plan_puts_edges_of_bodies_that_couple_inside_the_cells_in_every_increment_alone():
-    for edge, on in (("last", False), ("all", True)):
-        effect = next(e for e in plan(ball("bare"), edge=edge).effects if e.name == EFFECT)
-        assert effect.on == on
-        assert "every increment" in effect.why or on

@@ -108,6 +108,7 @@ ORDERS = {
         "pressure",
         "shear",
         "stick_area",
+        "coupled_shear",
         "coupled",
         "state",
     ),

@@ -20,7 +20,7 @@ from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.ndimage import correlate1d, distance_transform_edt, gaussian_filter
+from scipy.ndimage import distance_transform_edt, gaussian_filter
 
 from contact_scene.pair import outermost_beta
 from contact_scene.solver_errors import NotConverged
@@ -31,6 +31,7 @@ from semi_analytical.edge.displacement import Within
 from semi_analytical.edge.peak import peak_of
 from semi_analytical.edge.rim import Rim, area_within, rim
 from semi_analytical.edge_correction.closing import Closed, closed
+from semi_analytical.edge_correction.coupled_shear import shear_over_pressure, shear_within
 from semi_analytical.edge_correction.mixing import Mixing
 from semi_analytical.edge_correction.operators import EdgeOperators
 from semi_analytical.edge_correction.pressure import (
@@ -40,7 +41,7 @@ from semi_analytical.edge_correction.pressure import (
     has_settled,
     settles,
 )
-from semi_analytical.edge_correction.shear import BESIDE, direction_of_slip
+from semi_analytical.edge_correction.shear import direction_of_slip
 from semi_analytical.edge_correction.stick_area import stick_area
 from semi_analytical.increment import State
 from semi_analytical.linearised_shear import Point
@@ -54,10 +55,6 @@ VectorField = NDArray[np.float64]
 Mask = NDArray[np.bool_]
 WithinVector = tuple[Within, Within]
 
-# Of the largest pressure, below which a cell does not tell the ratio of shear to pressure.
-TOLD = 0.02
-# Of cells outwards from there that have the ratio of those beside: more than a rim has.
-LAYERS = 4
 # Cells over which the distance from the edge is smoothed to have its normal.
 SMOOTHED = 2.0
 
@@ -75,7 +72,8 @@ class CoupledEdgeCorrection:
         too thin, its edge is rough, all slides, the rounds do not settle, or the edge is that of a
         thin film, whose law with friction is not known.
 
-        last       the state before, the corrected one where there is one; None before first touch
+        last       the state before, whose surfaces are those of cells where it has not been
+                   corrected itself; None before first touch
         way_known  whether it is that of the increment before: friction remembers the way
         """
         solved = state.sheared
@@ -85,14 +83,17 @@ class CoupledEdgeCorrection:
         if self._operators.film(state.pressing.pressure > 0, WHOLE) is not None:
             return None
         model = self._operators.model
-        target = np.zeros_like(solved.shear)
+        target, sliding = np.zeros_like(solved.shear), np.zeros(solved.in_stick.shape)
         if last is not None:
             assert last.sheared is not None
             edged = last.corrected.sheared if last.corrected else None
             before = edged or last.sheared
             assert before.shift is not None
             target = before.displacement - rigid(model, before.shift)
-        return _Problem(self._operators, state, solved, solved.shift, target, tolerance).corrected()
+            if edged is None and last.target == state.target:
+                sliding = _beyond(solved.in_stick)
+        problem = _Problem(self._operators, state, solved, solved.shift, target, sliding, tolerance)
+        return problem.corrected()
 
 
 class _Answer(NamedTuple):
@@ -111,6 +112,8 @@ class _Problem:
 
     solved, shift  its shear on cells, and the shift that goes with it
     target         u_t - shift of the state before (2, nx, ny) [length]
+    sliding        how much cells slip as those without edges do (nx, ny), from 0 to 1: where the
+                   state before has no edges inside the cells and the contact has rested since
     """
 
     operators: EdgeOperators
@@ -118,6 +121,7 @@ class _Problem:
     solved: Sheared
     shift: Vector
     target: VectorField
+    sliding: Field
     tolerance: float
 
     @property
@@ -139,23 +143,22 @@ class _Problem:
         outward = -np.stack(np.gradient(gaussian_filter(depth, SMOOTHED)))
         size = magnitude(outward)
         outward /= np.where(size > 0, size, 1.0)
-        ratio = _ratio(p, self.solved.shear)
+        ratio = shear_over_pressure(p, self.solved.shear)
         beta = outermost_beta(self.model.scene)
         return np.asarray(0.5 + np.arctan(beta * np.sum(ratio * outward, axis=0)) / np.pi)
 
     def corrected(self) -> Corrected | None:
         """The state of the last round; None where it is not safe."""
-        p, shift, mixing = self.state.pressing.pressure, self.shift, Mixing()
+        p, mixing = self.state.pressing.pressure, Mixing()
         x = np.concatenate([self.solved.shear / self.mu, p[None]])
-        edge, changes = self._rim(p, None), []
+        edge, changes, answer = self._rim(p, None), list[float](), None
         for number in range(MOST_ROUNDS):
             if edge is None or edge.unsafe > MOST_UNSAFE:
                 return None
             try:
-                answer = self.solve(x, shift, edge)
+                answer = self.solve(x, answer, edge)
             except NotConverged:
                 return None
-            shift = answer.sheared.motion
             change = answer.tractions - x
             sizes = np.sum(np.abs(change[2])), np.sum(magnitude(change[:2]))
             changes.append(float(max(sizes) / np.sum(x[2])))
@@ -164,15 +167,18 @@ class _Problem:
                 break
             x = _allowed(x + change if number == 0 else mixing.next(x, change))
             edge = self._rim(x[2], edge)
-        return self._state(answer, edge, changes[-1]) if settles(changes) else None
+        if answer is None or not settles(changes):
+            return None
+        return self._state(answer, edge, changes[-1])
 
     def _rim(self, p: Field, before: Rim | None) -> Rim | None:
         return rim(p, p > 0, before, self.exponent, anew=True)
 
-    def solve(self, x: Field, shift: Vector, edge: Rim) -> _Answer:
+    def solve(self, x: Field, known: _Answer | None, edge: Rim) -> _Answer:
         """The tractions with the edge where it is: the pressure below the last shear, then the
         shear at that pressure.
 
+        known  answer of the round before
         Cells that the contact only reaches into carry what the fit says of them.
         """
         model, cells = self.model, self.model.grid.cells
@@ -180,7 +186,7 @@ class _Problem:
         tangential = model.tangential_operator(cells)
         q, p = self.mu * x[:2], x[2]
         by_p = Within.of(p, edge.i, edge.j, edge.parts)
-        by_q = _within(q, p, by_p, edge)
+        by_q = shear_within(q, p, by_p, edge)
         reached = np.where(edge.outer, edge.means, 0.0)
         *u_t, u_z = self.operators.by_all(cells)(*by_q, by_p)
         gap = self.state.target.gap(model) + u_z + coupling.normal_by_shear(q)
@@ -201,10 +207,10 @@ class _Problem:
             tangential,
             model.shear_inverse(cells),
             model.friction.limit(p),
-            self.target - beside,
+            self._remembered(known) - beside,
             ShearSum(self.solved.force / model.grid.cell_area),
             Point(q, tangential(q)),
-            shift,
+            known.sheared.motion if known else self.shift,
             model.self_compliance,
             self.tolerance,
             ENOUGH,
@@ -216,6 +222,15 @@ class _Problem:
             sheared.displacement + beside,
             by_q,
         )
+
+    def _remembered(self, known: _Answer | None) -> VectorField:
+        """By what the surfaces have to be moved to stick (2, nx, ny). What edges within the cells
+        move them by is no slip of this increment: of a contact that rests they did so before."""
+        if known is None:
+            return self.target
+        moved = known.displacement - self.solved.displacement
+        moved -= rigid(self.model, known.sheared.motion - self.shift)
+        return np.asarray(self.target + self.sliding * moved)
 
     def _state(self, answer: _Answer, edge: Rim | None, change: float) -> Corrected:
         assert edge is not None
@@ -245,35 +260,9 @@ class _Problem:
         )
 
 
-def _ratio(p: Field, q: VectorField) -> VectorField:
-    """q/p (2, nx, ny), where there is little pressure that of the cells beside, layer by layer."""
-    told = p > TOLD * np.max(p)
-    ratio = np.where(told, q / np.where(told, p, 1.0), 0.0)
-    for _ in range(LAYERS):
-        count, *about = (_sum_about(field) for field in (told.astype(float), *ratio))
-        new = ~told & (count > 0.5)
-        ratio = np.where(new, about / np.where(new, count, 1.0), ratio)
-        told |= new
-    return ratio
-
-
-def _sum_about(field: Field) -> Field:
-    beside = correlate1d(field, BESIDE, 0, mode="constant")
-    return np.asarray(correlate1d(beside, BESIDE, 1, mode="constant"))
-
-
-def _within(q: VectorField, p: Field, by_p: Within, edge: Rim) -> WithinVector:
-    """What a shear is within the cells: along the edge the pressure times the ratio of the two,
-    elsewhere central differences."""
-    x, y = (_times(r, q_k, p, by_p, edge) for r, q_k in zip(_ratio(p, q), q, strict=True))
-    return x, y
-
-
-def _times(ratio: Field, q: Field, p: Field, by_p: Within, edge: Rim) -> Within:
-    slopes = np.stack(list(np.gradient(q))) * (p > 0)
-    along_edge = ratio * by_p.slopes + p * np.stack(list(np.gradient(ratio)))
-    slopes[:, edge.i, edge.j] = along_edge[:, edge.i, edge.j]
-    return Within.summed(slopes, [(ratio, by_p)])
+def _beyond(stick: Mask) -> Field:
+    """One in cells beyond a zone, and zero within it and next to it: its border may move there."""
+    return np.clip(distance_transform_edt(~stick) - 1, 0.0, 1.0)
 
 
 def _allowed(x: Field) -> Field:

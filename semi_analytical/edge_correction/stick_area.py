@@ -3,8 +3,8 @@
 What is missing from full slip along n, the direction of slip, d = µp - q·n, vanishes at the border.
 Where slip spreads it goes with the root of the distance, like the pressure of a smaller contact
 (Cattaneo 1938); where stick spreads, as in pressing, it is of a higher order, s^(3/2): what has
-just stuck is still at the limit. Of both laws each place has the one that fits. Shear across n
-passes the border smoothly, and would hide it in the length of what is missing.
+just stuck is still at the limit. Of both laws each place has the one that fits, the root if both
+do. Shear across n passes the border smoothly, and would hide it in the length of what is missing.
 """
 
 from __future__ import annotations
@@ -15,20 +15,25 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.ndimage import distance_transform_edt
 
+from semi_analytical.box import box_around
 from semi_analytical.contact_area import stuck_cells
 from semi_analytical.edge.fit import NARROW, WIDE, Stencil
 from semi_analytical.edge.shape import Mask, depth_of, edge_shape
-from semi_analytical.edge_correction.shear import direction_of_slip
+from semi_analytical.edge_correction.shear import LAYERS, direction_of_slip
 
 Field = NDArray[np.float64]
 VectorField = NDArray[np.float64]
 
 # Exponent of the distance, and of what it is fitted in: a smoother fall needs more cells.
 LAWS = ((0.5, NARROW), (1.5, WIDE))
+# So many times as near its data the smoother one has to be: on more cells it bends to what a border
+# that turns sharply has beside a root.
+TWICE = 2.0
 # Radius of a zone in cells that is thick enough to be fitted.
 THICK = 3.0
 # Layers inside and outside the border of cells that it may cut.
 CUT = 1.5
+TINY = np.finfo(float).tiny
 
 
 @dataclass(frozen=True)
@@ -48,6 +53,10 @@ def stick_area(shear: VectorField, bound: Field, stick: Mask) -> float:
     stick  cells that stick (nx, ny)
     Cells count whole where neither law fits; of a zone too thin for fits see `stuck_cells`.
     """
+    if not np.any(stick):
+        return 0.0
+    near = box_around(stick, LAYERS + 1).slices  # all that tells the way of slip there
+    shear, bound, stick = shear[:, *near], bound[near], stick[near]
     slips = (bound > 0) & ~stick
     depth = depth_of(stick)
     if not np.any(slips) or np.max(depth) < THICK:
@@ -57,7 +66,7 @@ def stick_area(shear: VectorField, bound: Field, stick: Mask) -> float:
     outside = distance_transform_edt(~stick)
     i, j = np.nonzero((depth <= CUT) & (outside <= CUT))
     by = [_parts(missing / np.max(missing), stick, depth, i, j, *law) for law in LAWS]
-    missed = np.stack([parts.missed for parts in by])
+    missed = np.stack([by[0].missed, TWICE * by[1].missed])
     best = np.argmin(missed, axis=0)
     stuck = np.stack([parts.stuck for parts in by])[best, np.arange(len(i))]
     covered = stick.astype(float)
@@ -78,6 +87,9 @@ def _parts(
     """Of cells (i, j) along the border."""
     shape = edge_shape(missing, stick, stencil, rings=0, exponent=exponent, rounds=2, depth=depth)
     phi, safe = shape.about_cells(i, j)
-    fits = shape.fits(*shape.nearest[:, i, j])
-    missed = fits.rms / np.maximum(fits.quadratic.slope, np.finfo(float).tiny)
-    return _Parts(phi.cell_mean(0.0), np.where(safe, missed, np.inf))
+    inside = stick[i, j]
+    fits = shape.fits(i[inside], j[inside])
+    missed = np.full(stick.shape, np.inf)
+    missed[i[inside], j[inside]] = fits.rms / np.maximum(fits.quadratic.slope, TINY)
+    of_nearest = missed[tuple(shape.nearest[:, i, j])]
+    return _Parts(phi.cell_mean(0.0), np.where(safe, of_nearest, np.inf))
