@@ -82,7 +82,7 @@ def _correction(model: ContactModel, plan: Plan) -> Correct | None:
     """How edges are put inside the cells, where they are."""
     if plan.edge == "off":
         return None
-    if plan.coupling is Coupling.FULL:
+    if plan.couples:
         from semi_analytical.edge_correction.coupled import CoupledEdgeCorrection
 
         return CoupledEdgeCorrection(model)
@@ -93,7 +93,7 @@ def _correction(model: ContactModel, plan: Plan) -> Correct | None:
 
 def _sticking(plan: Plan) -> Sticking:
     """How the area of the stick zone is found where its border is not inside the cells."""
-    if plan.coupling is Coupling.FULL:
+    if plan.couples:
         from semi_analytical.edge_correction.stick_area import stick_area
 
         return stick_area
@@ -134,7 +134,7 @@ class _Solver:
         after = balanced(self.model, before, after, path_matters=matters)
         if self.correct is None or (self.plan.edge == "last" and fraction < 1):
             return after
-        stepwise = self.plan.edge == "last" and self.plan.coupling is not Coupling.FULL
+        stepwise = self.plan.edge == "last" and not self.plan.couples
         last = start if stepwise else before
         edges = self.correct(
             None if last is None else unfolded(last, self.model.shear_part),

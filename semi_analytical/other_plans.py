@@ -4,7 +4,7 @@ from dataclasses import replace
 
 from contact_scene.effect import COUPLING, Effect
 from semi_analytical.part import WHOLE
-from semi_analytical.plan import MIRROR_PLANES, Coupling, Plan
+from semi_analytical.plan import EDGES, MIRROR_PLANES, Coupling, Plan
 
 # Names of the effects that can be computed where they vanish.
 COMPUTED = ("tangential load", "tilt", "torsion", COUPLING)
@@ -30,9 +30,21 @@ def one_way(plan: Plan) -> Plan:
     An approximation of bodies that couple; others it leaves as they are, at a higher cost.
     """
     why = "asked for: pressure acts on the shear problem, shear not on the pressure problem"
-    effects = (replace(e, on=True, why=why) if e.name == COUPLING else e for e in plan.effects)
-    told = plan.told if plan.coupling is Coupling.FULL else WHOLE
-    return replace(plan, shear=True, coupling=Coupling.ONE_WAY, told=told, effects=tuple(effects))
+    effects = [replace(e, on=True, why=why) if e.name == COUPLING else e for e in plan.effects]
+    edge = plan.edge
+    if plan.couples:
+        unknown = "not known of bodies of which one way of coupling is left out"
+        effects = [replace(e, on=False, why=unknown) if e.name == EDGES else e for e in effects]
+        edge = "off"
+    return replace(
+        plan,
+        shear=True,
+        coupling=Coupling.ONE_WAY,
+        edge=edge,
+        told=plan.told if plan.coupling is Coupling.FULL else WHOLE,
+        couples=False,
+        effects=tuple(effects),
+    )
 
 
 def _forced(effect: Effect) -> Effect:

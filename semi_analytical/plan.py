@@ -15,8 +15,9 @@ from semi_analytical.path_increments import Bodies, StepIncrements, path_increme
 # Of the shear moduli within a body: beyond, its influence coefficients lose the softest part.
 MOST_CONTRAST = 1e12
 
-# Name of the effect that lets a part of the window tell tractions.
+# Names of the effects that let a part of the window tell tractions, and that put edges inside.
 MIRROR_PLANES = "mirror planes"
+EDGES = "edge correction"
 # What edges inside the cells cost, on 64² to 256².
 CHEAP = "10 to 100 convolutions each time"
 DEAR = "60 to 180 convolutions each time"
@@ -41,6 +42,8 @@ class Plan:
     coupling    whether and how pressure and shear act on each other's problem
     path        how many increments each loading step takes, and why
     edge        at the end of which increments edges are put inside the cells
+    couples     whether edges of contact and stick are those of bodies that couple, not only
+                computed as if they did
     quarter     whether pressures without shear are even about x = 0 and y = 0: a quarter of the
                 window tells them
     told        the part of the window that then tells shear, too, and the pressure of bodies that
@@ -57,6 +60,7 @@ class Plan:
     edge: EdgeCorrection = "off"
     quarter: bool = False
     told: Part = WHOLE
+    couples: bool = False
 
     @property
     def increments(self) -> tuple[int, ...]:
@@ -109,14 +113,15 @@ def plan(scene: Scene, path_accuracy: float = PATH_ACCURACY, edge: EdgeCorrectio
         effect.coupled(scene, coupled, why),
         effect.load_history(len(scene.loading) > 1 and shear),
         Effect(MIRROR_PLANES, even, _why_even(even, tilt, what)),
-        Effect("edge correction", *_edges(scene, edge, torsion, coupled)),
+        Effect(EDGES, *_edges(scene, edge, torsion, coupled)),
     )
     acting = Coupling.FULL if coupled else Coupling.NONE
     bodies = Bodies(coupled, dundurs_beta(scene), scene.friction or FRICTIONLESS)
     path = path_increments(scene, shear, bodies, path_accuracy)
     corrected = edge if effects[-1].on else "off"
+    told = told if even else WHOLE
     return Plan(
-        shear, tilt, torsion, acting, path, effects, corrected, even, told if even else WHOLE
+        shear, tilt, torsion, acting, path, effects, corrected, even, told, couples=coupled
     )
 
 

@@ -17,7 +17,7 @@ from semi_analytical import Coupling, all_effects, one_way, plan, solve
 from semi_analytical.mirrored_coupling import MirroredCouplingOperator
 from semi_analytical.mirrored_transform import Cosines
 from semi_analytical.other_plans import COMPUTED
-from semi_analytical.plan import MIRROR_PLANES
+from semi_analytical.plan import EDGES, MIRROR_PLANES
 from semi_analytical.sines import Sines
 from slipstick.cli.run import _print_saving
 from verification.cases.goodman_indentation import goodman_indentation_on
@@ -104,6 +104,14 @@ def test_forcing_says_what_it_forces():
     assert {e.name for e in changed} == {*COMPUTED, MIRROR_PLANES}
     assert all(e.on and "forced on" in e.why for e in changed if e.name in COMPUTED)
     assert not forced.quarter
+
+
+def test_edges_are_not_known_of_bodies_of_which_one_way_of_coupling_is_left_out():
+    decided = plan(scene(press(), coupled_push(0.5)), edge="last")
+    assert decided.edge == "last"
+    one = one_way(decided)
+    assert one.edge == "off"
+    assert not any(e.on for e in one.effects if e.name == EDGES)
 
 
 def test_forcing_twice_changes_nothing():
