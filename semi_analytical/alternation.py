@@ -14,7 +14,7 @@ from contact_scene.solver_errors import NotConverged
 from semi_analytical.admissible_shear import Field, Vector, VectorField
 from semi_analytical.coupled_problem import CoupledProblem, CoupledSolution
 from semi_analytical.linearised_shear import Point
-from semi_analytical.normal import solve_normal
+from semi_analytical.normal import NormalSolution, solve_normal
 from semi_analytical.normal_load import NormalLoad
 from semi_analytical.tangential import TangentialSolution, solve_tangential
 
@@ -63,28 +63,9 @@ def solve_coupled(
         if at_limit:
             sheared = _full_slip(problem, bound, motion)
         else:
-            sheared = solve_tangential(
-                problem.shear,
-                problem.invert_shear,
-                bound,
-                problem.target - problem.shear_by_pressure(p),
-                problem.tangential_load,
-                point,
-                motion,
-                problem.self_compliance,
-                tolerance,
-                enough,
-            )
+            sheared = _sheared(problem, p, point, motion, tolerance, enough)
         point, motion = sheared.point, sheared.motion
-        pressed = solve_normal(
-            problem.normal,
-            problem.precondition_normal,
-            problem.gap + problem.normal_by_shear(point.shear),
-            problem.normal_load,
-            p,
-            tolerance,
-            enough,
-        )
+        pressed = _pressed(problem, p, point.shear, tolerance, enough)
         iterations += sheared.iterations + pressed.iterations
         residual = worst(sheared.residual, pressed.first_residual)
         if residual <= tolerance:
@@ -105,6 +86,60 @@ def solve_coupled(
             p, enough = pressed.pressure, THOROUGH
             history = _Anderson(problem.normal_load, history.part)
     raise NotConverged("the coupled increment", iterations, residual, tolerance)
+
+
+def one_round(
+    problem: CoupledProblem, pressure: Field, motion: Vector, tolerance: float
+) -> tuple[Field, VectorField, Vector, int]:
+    """Pressure, shear and motion after the first round from a pressure without shear, and its
+    iterations.
+
+    raises  NotConverged
+    """
+    nothing = np.zeros_like(problem.target)
+    start = Point(nothing, nothing)
+    sheared = _sheared(problem, pressure, start, motion, tolerance, ENOUGH)
+    pressed = _pressed(problem, pressure, sheared.shear, tolerance, ENOUGH)
+    iterations = sheared.iterations + pressed.iterations
+    return pressed.pressure, sheared.shear, sheared.motion, iterations
+
+
+def _sheared(
+    problem: CoupledProblem,
+    p: Field,
+    start: Point,
+    motion: Vector,
+    tolerance: float,
+    enough: float,
+) -> TangentialSolution:
+    """The shear at a pressure."""
+    return solve_tangential(
+        problem.shear,
+        problem.invert_shear,
+        problem.friction_limit(p),
+        problem.target - problem.shear_by_pressure(p),
+        problem.tangential_load,
+        start,
+        motion,
+        problem.self_compliance,
+        tolerance,
+        enough,
+    )
+
+
+def _pressed(
+    problem: CoupledProblem, p: Field, q: VectorField, tolerance: float, enough: float
+) -> NormalSolution:
+    """The pressure at a shear, from one near it."""
+    return solve_normal(
+        problem.normal,
+        problem.precondition_normal,
+        problem.gap + problem.normal_by_shear(q),
+        problem.normal_load,
+        p,
+        tolerance,
+        enough,
+    )
 
 
 def _full_slip(problem: CoupledProblem, bound: Field, motion: Vector) -> TangentialSolution:

@@ -8,7 +8,7 @@ import numpy as np
 
 from contact_scene.solver_errors import NotConverged
 from semi_analytical.admissible_shear import Field, Vector, VectorField
-from semi_analytical.alternation import solve_coupled
+from semi_analytical.alternation import one_round, solve_coupled
 from semi_analytical.coupled_problem import CoupledProblem, CoupledSolution
 from semi_analytical.newton_increment import solve_by_newton
 from semi_analytical.springs import solve_on_springs
@@ -19,6 +19,10 @@ Way = Callable[[CoupledProblem, Field, VectorField, Vector, float], CoupledSolut
 # it takes more, as under strong friction or below films much stiffer than their base, springs lead
 # there sooner or at all.
 NEARER, FEW = 1e-3, 250
+# Without shear first tractions that miss by more than all of them are nothing for Newton's method
+# to start from: strong friction holds what pressure would drag along. From nearer ones a round of
+# the alternation saves it less than the round takes.
+FAR = 1.0
 
 
 def solve_together(
@@ -32,7 +36,11 @@ def solve_together(
     """
     start, iterations = (pressure, shear, motion), 0
     ways: tuple[Way, ...] = (_by_newton, _from_nearer, solve_on_springs)
-    for way in ways[1:2] if _all_slips(problem, pressure) else ways:
+    if _all_slips(problem, pressure):
+        ways = (_from_nearer,)
+    elif not np.any(shear):
+        ways = (_unless_far, _after_a_round, *ways[1:])
+    for way in ways:
         try:
             found = way(problem, *start, tolerance)
         except NotConverged as stalled:
@@ -46,6 +54,28 @@ def solve_together(
 def _all_slips(problem: CoupledProblem, pressure: Field) -> bool:
     """Whether the load exhausts the friction under a pressure: Newton's method has no use then."""
     return problem.tangential_load.exhausts(problem.friction_limit(pressure))
+
+
+def _after_a_round(
+    problem: CoupledProblem, pressure: Field, shear: VectorField, motion: Vector, tolerance: float
+) -> CoupledSolution:
+    """By Newton's method from the first shear that comes with a pressure."""
+    pressure, shear, motion, iterations = one_round(problem, pressure, motion, tolerance)
+    try:
+        found = _by_newton(problem, pressure, shear, motion, tolerance)
+    except NotConverged as stalled:
+        raise NotConverged(
+            "the coupled increment", iterations + stalled.iterations, np.inf, tolerance
+        ) from stalled
+    return replace(found, rounds=found.rounds + 1, iterations=iterations + found.iterations)
+
+
+def _unless_far(
+    problem: CoupledProblem, pressure: Field, shear: VectorField, motion: Vector, tolerance: float
+) -> CoupledSolution:
+    """From there at once, if that is near enough."""
+    tractions = np.concatenate([shear, pressure[None]])
+    return solve_by_newton(problem, tractions, motion, tolerance, FAR)
 
 
 def _by_newton(

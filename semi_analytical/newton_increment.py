@@ -20,11 +20,17 @@ FINE = 0.1
 
 
 def solve_by_newton(
-    problem: CoupledProblem, start: Tractions, motion: Vector, tolerance: float
+    problem: CoupledProblem,
+    start: Tractions,
+    motion: Vector,
+    tolerance: float,
+    furthest: float = np.inf,
 ) -> CoupledSolution:
     """From first tractions (3, nx, ny) and a first motion until all residuals meet the tolerance.
 
-    raises  NotConverged where it stalls, or where the load exhausts the friction on the way
+    furthest  part of all tractions by which the first may miss the natural map
+    raises    NotConverged where it stalls, where the load exhausts the friction on the way, or
+              where the first tractions miss by more
     """
     at = NewtonIterate(problem, start, motion)
     best, idle = np.inf, 0
@@ -37,6 +43,8 @@ def solve_by_newton(
             return CoupledSolution(
                 p, q, at.closing, at.natural.motion, in_slip, False, at.iterations, number
             )
+        if number == 1 and at.natural.merit > furthest:
+            break
         idle = 0 if residual < 0.9 * best else idle + 1
         best = min(best, residual)
         if idle >= MOST_IDLE:
