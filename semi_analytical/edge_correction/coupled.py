@@ -55,6 +55,9 @@ VectorField = NDArray[np.float64]
 Mask = NDArray[np.bool_]
 WithinVector = tuple[Within, Within]
 
+# Least cells between the edge and the stick zone, between which the law of the edge holds, unless
+# its power is within WEAK of a root's: then the pressure beyond is hardly another one.
+BESIDE_STICK, WEAK = 5.0, 0.0125
 # Cells over which the distance from the edge is smoothed to have its normal.
 SMOOTHED = 2.0
 
@@ -69,8 +72,9 @@ class CoupledEdgeCorrection:
         self, last: State | None, state: State, *, way_known: bool, tolerance: float
     ) -> Corrected | None:
         """The state with its edges inside the cells; None where that is not safe: the contact is
-        too thin, its edge is rough, all slides, the rounds do not settle, or the edge is that of a
-        thin film, whose law with friction is not known.
+        too thin, its edge is rough, all slides, strong friction slips on a few cells only, the
+        rounds do not settle, or the edge is that of a thin film, whose law with friction is not
+        known.
 
         last       the state before, whose surfaces are those of cells where it has not been
                    corrected itself; None before first touch
@@ -147,8 +151,18 @@ class _Problem:
         beta = outermost_beta(self.model.scene)
         return np.asarray(0.5 + np.arctan(beta * np.sum(ratio * outward, axis=0)) / np.pi)
 
+    @property
+    def _slips_narrowly(self) -> bool:
+        """Whether next to the edge the pressure of strong friction feels the stick zone, too."""
+        depth = distance_transform_edt(self.state.pressing.pressure > 0)
+        strong = (depth == 1) & (np.abs(self.exponent - 0.5) > WEAK)
+        to_stick = distance_transform_edt(~self.solved.in_stick)
+        return bool(np.any(strong & (to_stick < BESIDE_STICK)))
+
     def corrected(self) -> Corrected | None:
         """The state of the last round; None where it is not safe."""
+        if self._slips_narrowly:
+            return None
         p, mixing = self.state.pressing.pressure, Mixing()
         x = np.concatenate([self.solved.shear / self.mu, p[None]])
         edge, changes, answer = self._rim(p, None), list[float](), None
