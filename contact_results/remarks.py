@@ -66,10 +66,7 @@ def _why_left(result: semi_analytical.Result, end: semi_analytical.Increment) ->
         return f"fewer than {LEAST_ACROSS} of them lie across the contact"
     if end.shear is None or not np.any(end.shear):
         return "the edge of the contact is rough, or a part of it is too thin"
-    return (
-        "they are rough or too thin, slip is too narrow, or the film or the history is more than is "
-        "known of"
-    )
+    return "they are rough, too thin or slip narrowly, or the film or history is not known enough"
 
 
 def left_out(result: semi_analytical.Result) -> float:

@@ -7,13 +7,11 @@ from enum import StrEnum
 
 import radial
 from contact_scene import FiniteElementDiscretisation, RadialDiscretisation
-from contact_scene.discretisation import EdgeCorrection
 from fem_reference import Method as Enforcement
 from fem_reference import Result as Section
 from fem_reference import solve as solve_section
 from semi_analytical import Result as Surface
 from semi_analytical import SurfaceGrid, plan, solve
-from semi_analytical.plan import Coupling
 from verification.judging.run import SOLVER_TOLERANCE
 from verification.running.cold_cache import timed
 from verification.running.row import CaseRecord, parameters_of
@@ -183,9 +181,7 @@ class PrecisionCase:
             return solve_sampled(scene, self._grid, self.tolerance, self._sampling)[1]
         if self.method is not Method.EDGES:
             return solve(scene, self._grid, self.tolerance)
-        # Where bodies couple, edges are inside the cells in every increment or not at all.
-        asked: EdgeCorrection = "all" if plan(scene).coupling is Coupling.FULL else "last"
-        return solve(scene, self._grid, self.tolerance, plan=plan(scene, edge=asked))
+        return solve(scene, self._grid, self.tolerance, plan=plan(scene, edge="last"))
 
     @property
     def _finer(self) -> float:
