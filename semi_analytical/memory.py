@@ -80,7 +80,7 @@ def _edges(grid: SurfaceGrid, plan: Plan) -> float:
     alone = EDGE_ARRAYS * array + EDGE_RIM * side
     if not plan.shear:
         return alone * pressed
-    if plan.coupling is Coupling.FULL:
+    if plan.couples:
         return alone + EDGE_COUPLED + EDGE_COUPLED_ARRAYS * array + EDGE_SHEAR_RIM * side
     # Where the way to the end of a step matters, that end alone does not tell the edge of stick.
     steps = sum(plan.edge == "all" or not s.path_matters or s.count == 1 for s in plan.path[1:])
