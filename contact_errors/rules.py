@@ -144,15 +144,22 @@ RULES = with_their_likes(
 EDGES = with_their_likes(
     {
         "stick_radius": Rule(1.5, 0.0045, 9, 1.0, 2.0, 1.0, Lengthscale.STICK),
-        "approach": Rule(2, 0.0025, 1, 1.5, path_factor=1.5),
-        "contact_radius": Rule(1.5, 0.0035, 2, 1.4, path_factor=1.5),
-        "peak_pressure": Rule(2.5, 0.022, 2, 1.2, path_factor=2.0),
-        "tilt": Rule(3, 0.03, 0.25, 1.8, path_factor=1.5, lengthscale=Lengthscale.TURN_WITHIN),
+        "approach": Rule(2, 0.0018, 9, 0.45, path_factor=1.5),
+        "contact_radius": Rule(2.5, 0.0125, 2, 1.95, path_factor=1.5),
+        "peak_pressure": Rule(3, 0.0535, 9, 0.5, path_factor=2.0),
+        "tilt": Rule(3, 0.0145, 2, 1.4, path_factor=1.5, lengthscale=Lengthscale.TURN_WITHIN),
     }
 )
 # With the law of a film, whose fits are wider (balls on films of 1/4 to 10 times their base's
 # modulus, on 0.2 to 13 cells).
-ON_FILM = with_their_likes({"contact_radius": replace(EDGES["contact_radius"], envelope=0.01)})
+ON_FILM = with_their_likes(
+    {
+        "approach": Rule(2.5, 0.0085, 1, 1.05, path_factor=1.5),
+        "contact_radius": Rule(2, 0.0065, 1, 2.05, path_factor=1.5),
+        "peak_pressure": Rule(2.5, 0.005, 0.5, 1.25, path_factor=2.0),
+        "tilt": Rule(3, 0.0165, 9, 1.8, path_factor=1.5, lengthscale=Lengthscale.TURN_WITHIN),
+    }
+)
 # On these alone: what such a companion tells is its own error, and of few cells across a film.
 UNTOLD = 1e6
 ALONE = EDGES | with_their_likes(
@@ -173,8 +180,8 @@ CUSP = {"peak_pressure": replace(PEAK, order=1, factor=1.65, lengthscale=Lengths
 # stick zone that grows remain those of cells, and slip reaches less far in than a contact does.
 COUPLED = with_their_likes(
     {
-        "approach": replace(EDGES["approach"], envelope=0.005),
-        "contact_radius": replace(EDGES["contact_radius"], envelope=0.012),
+        "approach": Rule(2, 0.005, 1, 1.5, path_factor=1.5),
+        "contact_radius": Rule(1.5, 0.012, 2, 1.4, path_factor=1.5),
     }
 )
 # A rim lies within cells: whatever holds the indenter is off as the radius a that the cells make of
