@@ -154,9 +154,9 @@ EDGES = with_their_likes(
 # modulus, on 0.2 to 13 cells).
 ON_FILM = with_their_likes(
     {
-        "approach": Rule(2.5, 0.0085, 1, 1.05, path_factor=1.5),
-        "contact_radius": Rule(2, 0.0065, 1, 2.05, path_factor=1.5),
-        "peak_pressure": Rule(2.5, 0.005, 0.5, 1.25, path_factor=2.0),
+        "approach": Rule(2.5, 0.006, 1, 1.45, path_factor=1.5),
+        "contact_radius": Rule(2.5, 0.026, 1, 3.0, path_factor=1.5),
+        "peak_pressure": Rule(2.5, 0.009, 1, 1.1, path_factor=2.0),
         "tilt": Rule(3, 0.0165, 9, 1.8, path_factor=1.5, lengthscale=Lengthscale.TURN_WITHIN),
     }
 )
@@ -165,7 +165,7 @@ UNTOLD = 1e6
 ALONE = EDGES | with_their_likes(
     {
         "approach": Rule(2.5, 0.007, UNTOLD, 1.2, 1.5, lengthscale=Lengthscale.FILM),
-        "contact_radius": Rule(2.5, 0.09, UNTOLD, 1.2, 1.5, lengthscale=Lengthscale.FILM),
+        "contact_radius": Rule(2.5, 0.3, UNTOLD, 1.2, 1.5, lengthscale=Lengthscale.FILM),
         "peak_pressure": Rule(2.5, 0.02, UNTOLD, 1.2, 2.0, lengthscale=Lengthscale.FILM),
         "tilt": Rule(2.5, 0.1, UNTOLD, 1.2, 1.5, lengthscale=Lengthscale.FILM),
         "stick_radius": replace(EDGES["stick_radius"], weight=UNTOLD),
