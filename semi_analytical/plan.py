@@ -120,9 +120,7 @@ def plan(scene: Scene, path_accuracy: float = PATH_ACCURACY, edge: EdgeCorrectio
     path = path_increments(scene, shear, bodies, path_accuracy)
     corrected = edge if effects[-1].on else "off"
     told = told if even else WHOLE
-    return Plan(
-        shear, tilt, torsion, acting, path, effects, corrected, even, told, couples=coupled
-    )
+    return Plan(shear, tilt, torsion, acting, path, effects, corrected, even, told, couples=coupled)
 
 
 def _tangentially_loaded(scene: Scene) -> bool:
