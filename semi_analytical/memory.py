@@ -10,22 +10,23 @@ DOUBLE = 8
 # Arrays of the size of the window held at once: coefficients, spectra, work space, solver vectors,
 # results of an increment. Of a problem that a part of the window tells the first number is of the
 # window, the second of that part. Measured of whole runs on fitted windows, of which the contact
-# takes nine tenths along each side.
+# takes nine tenths along each side. A history of bodies that couple takes as much on any part.
 PRESSURE_ARRAYS = 12, 20
-HISTORY_ARRAYS, COUPLED_HISTORY_ARRAYS = 4, 12
+HISTORY_ARRAYS, COUPLED_HISTORY_ARRAYS = 4, 60
 SHEAR_ARRAYS = 28, 54
 # Arms and unit motions, and what they are multiplied with.
 TILT_ARRAYS = 10
 TORSION_ARRAYS = 6
 # Spectra of the coupling, and the Krylov vectors of a Newton step with their displacements.
-COUPLING_ARRAYS = {Coupling.NONE: 0, Coupling.ONE_WAY: 8, Coupling.FULL: 17}
+COUPLING_ARRAYS = {Coupling.NONE: 0, Coupling.ONE_WAY: 8, Coupling.FULL: 8}
 # Spectra of what tractions do within the cells, and that along the edge, in about as many cells as
 # a side has; more of it where loads turn, whose edges stay inside the cells. Those of shear are of
-# the window, in work space that shear has, too; those of bodies that couple stay beside what draws.
+# the window, in work space that shear has, too. So are all of bodies that couple, beside what is
+# kept of a part of it, if that tells their tractions.
 EDGE_ARRAYS = 25
 EDGE_RIM = 74_000  # bytes per cell of a side, in the mean
 EDGE_SHEAR, EDGE_SHEAR_ARRAYS = 23 << 20, 100
-EDGE_COUPLED, EDGE_COUPLED_ARRAYS = 40 << 20, 45
+EDGE_COUPLED, EDGE_COUPLED_ARRAYS, EDGE_BESIDE_PART = 60 << 20, 55, 70
 EDGE_SHEAR_RIM = 49_000
 EDGE_TURNED_RIM = 150_000
 # Arrays that every increment leaves behind: pressure and gap; shear, slip, its distance and
@@ -67,7 +68,7 @@ def _arrays(grid: SurfaceGrid, plan: Plan) -> float:
     arrays += TILT_ARRAYS * plan.tilt + TORSION_ARRAYS * plan.torsion
     if sum(plan.increments) > 1:
         arrays += HISTORY_ARRAYS
-        arrays += COUPLED_HISTORY_ARRAYS * sheared if plan.coupling is Coupling.FULL else 0
+        arrays += COUPLED_HISTORY_ARRAYS if plan.coupling is Coupling.FULL else 0
     return arrays
 
 
@@ -81,7 +82,8 @@ def _edges(grid: SurfaceGrid, plan: Plan) -> float:
     if not plan.shear:
         return alone * pressed
     if plan.couples:
-        return alone + EDGE_COUPLED + EDGE_COUPLED_ARRAYS * array + EDGE_SHEAR_RIM * side
+        coupled = EDGE_COUPLED_ARRAYS + EDGE_BESIDE_PART * (sheared < 1)
+        return alone + EDGE_COUPLED + coupled * array + EDGE_SHEAR_RIM * side
     # Where the way to the end of a step matters, that end alone does not tell the edge of stick.
     steps = sum(plan.edge == "all" or not s.path_matters or s.count == 1 for s in plan.path[1:])
     if not steps:
