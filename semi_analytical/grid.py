@@ -46,7 +46,9 @@ class SurfaceGrid:
 
     @property
     def even(self) -> bool:
-        """Whether cells lie alike on both sides of x = 0 and of y = 0."""
+        """Whether x = 0 and y = 0 lie between cells, alike on both sides."""
+        if any(count % 2 for count in self.cells):
+            return False
         return all(bool((at == -at[::-1]).all()) for at in (self.x, self.y))
 
     def coordinates(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:

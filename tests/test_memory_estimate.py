@@ -81,6 +81,7 @@ DEAR = {
     "coated and sheared": scene(512, layer=LAYER, then=PUSHED),
     "tilted and sheared": scene(256, then=f"{PUSHED}\nmoment = [0.02, 0]"),
     "coupled": scene(512, nu=0.0),
+    "coupled, cells on the mirror planes": scene(511, nu=0.0, edge="off"),
     "coupled and pushed": scene(512, nu=0.0, then=PUSHED),
     "coupled and pushed, cells alone": scene(512, nu=0.0, then=PUSHED, edge="off"),
     "coupled and pushed obliquely": scene(512, nu=0.0, then=OBLIQUE),
