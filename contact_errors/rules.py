@@ -145,8 +145,8 @@ EDGES = with_their_likes(
     {
         "stick_radius": Rule(1.5, 0.0045, 9, 1.0, 2.0, 1.0, Lengthscale.STICK),
         "approach": Rule(2, 0.0018, 9, 0.45, path_factor=1.5),
-        "contact_radius": Rule(2.5, 0.016, 4, 1.4, path_factor=1.5),
-        "peak_pressure": Rule(3, 0.0535, 9, 0.5, path_factor=2.0),
+        "contact_radius": Rule(2.5, 0.0125, 2, 1.95, path_factor=1.5),
+        "peak_pressure": Rule(3, 0.0535, 9, 0.6, path_factor=2.0),
         "tilt": Rule(3, 0.0145, 2, 1.4, path_factor=1.5, lengthscale=Lengthscale.TURN_WITHIN),
     }
 )
