@@ -172,7 +172,18 @@ class _Cells:
             left_out += HIGHEST * self._left_out + self._rim_of_film(step)
         elif change is not None and name in ("contact_radius", "contact_area"):
             left_out += (1 if name == "contact_radius" else 2) * self._edge_of_film(step)
+        if rule.lengthscale is Lengthscale.STICK and self._hides_stick(step):
+            return {"cells": left_out * largest + self._cell(name)}
         return {"cells": left_out * largest} if left_out else {}
+
+    def _hides_stick(self, step: int) -> bool:
+        """Whether no cell sticks, though not all slides: what does is narrower than a cell."""
+        return self._at[step].stick == 0.0 and not self._slides(step)
+
+    def _cell(self, name: str) -> float:
+        """Radius or area of as much stick as cells may hide."""
+        widest = max(self.result.grid.spacing)
+        return widest if name == "stick_radius" else float(np.pi * widest**2)
 
     def _at_rim(self, step: int, largest: Numbers) -> Mapping[Part, Numbers] | None:
         """Slip goes with the motions, as these with the radius that cells make of a rim. Where no

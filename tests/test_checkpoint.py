@@ -49,6 +49,8 @@ LOOP = (
     LoadStep(tangential_force=(-15.0, 0.0), increments=2),
 )
 LED = (*LOOP, LoadStep(tangential_shift=(1e-8, 0.0), increments=3))
+SOFTER = Body(material=SOFT)
+EDGES_INSIDE: tuple[EdgeCorrection, ...] = ("last", "all")
 TURNED = (PRESSED, LoadStep(torque=1e-4, increments=2), LoadStep(torque=-1e-4, increments=2))
 TILTED = (
     LoadStep(normal_force=100.0, moment=(0.0, 1e-3), increments=2),
@@ -72,14 +74,14 @@ def on_surface(
     )
 
 
-def with_edges(body: Body, edge: EdgeCorrection) -> Solve:
-    """Of bodies that are alike, on enough cells to have edges."""
-    alike = BALL.model_copy(update={"layers": body.layers})
+def with_edges(body: Body, edge: EdgeCorrection, ball: Sphere | None = None) -> Solve:
+    """On enough cells to have edges; below a ball that is the body's like, unless it is another."""
+    ball = ball or BALL.model_copy(update={"layers": body.layers})
     surface = SurfaceDiscretisation(cells=(32, 32), edge=edge)
 
     def solve(keeper: Keeper | None) -> Any:
-        result = semi_analytical.solve_discretised(scene(body, LED, alike), surface, keeper=keeper)
-        assert result.steps[0].edge_change is not None
+        result = semi_analytical.solve_discretised(scene(body, LED, ball), surface, keeper=keeper)
+        assert any(step.edge_change is not None for step in result.steps)
         return result
 
     return solve
@@ -100,6 +102,10 @@ SOLVES = {
         )
     },
     "coupled": on_surface(COATED, LOOP),
+    **{
+        f"coupled, edges inside the cells, {edge}": with_edges(SOFTER, edge, BALL)
+        for edge in EDGES_INSIDE
+    },
     "torsion": on_surface(PLAIN, TURNED),
     "tilt": on_surface(PLAIN, TILTED),
     **{

@@ -26,6 +26,8 @@ from contact_scenes import (
     scene,
     steel,
 )
+from coupled_scenes import bulk, press
+from coupled_scenes import scene as coupled
 from matplotlib.figure import Figure
 from scene_texts import COARSE, STEEL_BALL_PRESSED
 
@@ -366,6 +368,19 @@ def test_stick_of_less_than_a_cell_has_not_converged_and_the_shift_is_known_stil
     assert errors["stick_radius"].status is ErrorStatus.NOT_CONVERGED
     assert end.tangential_shift is not None
     assert abs(end.tangential_shift[0] - exact.shift) <= size(errors["tangential_shift"])
+
+
+def test_stick_that_no_cell_shows_may_be_a_cell_wide() -> None:
+    """Below a ball that is only pressed, on a body that it drags far: so little sticks."""
+    pressed = coupled(press(), body=bulk(0.1))
+    result, fine = (solve(pressed, grid(cells, 1.2), 1e-8) for cells in (32, 128))
+    errors, (end,), (truth,) = stated_errors(result).steps[0], result.steps, fine.steps
+    assert end.stick_radius == 0.0
+    assert truth.stick_radius is not None
+    assert truth.stick_area is not None
+    assert truth.stick_radius > 0.0
+    assert truth.stick_radius <= size(errors["stick_radius"])
+    assert truth.stick_area <= size(errors["stick_area"])
 
 
 @pytest.mark.parametrize("cells", [22, 24, 48])
