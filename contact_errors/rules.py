@@ -184,6 +184,16 @@ COUPLED = with_their_likes(
         "contact_radius": Rule(1.5, 0.012, 2, 1.4, path_factor=1.5),
     }
 )
+# On these alone, no less.
+COUPLED_ALONE = ALONE | with_their_likes(
+    {"approach": Rule(2, 0.006, UNTOLD, 1.2, 1.5, lengthscale=Lengthscale.FILM)}
+)
+# Pushed, they have stick near the edge on one side, farther in on the other (rigid balls and
+# ellipsoids on bare and coated bodies, 11 to 29 cells per radius: at most 0.07 m^-3/2).
+PUSHED = COUPLED | with_their_likes({"contact_radius": Rule(1.5, 0.06, 2, 1.4, path_factor=1.5)})
+PUSHED_ALONE = COUPLED_ALONE | with_their_likes(
+    {"contact_radius": Rule(1.5, 0.06, UNTOLD, 1.2, 1.5, lengthscale=Lengthscale.FILM)}
+)
 # A rim lies within cells: whatever holds the indenter is off as the radius a that the cells make of
 # it is, motions and energies with 1/a, rotations with 1/a³.
 RIM = Rule(1, 0.2, 8, 1.45, path_factor=1.5)
@@ -210,6 +220,7 @@ def rules_for(
     alone: bool = False,
     layers: bool = True,
     film: bool = False,
+    pushed: bool = False,
 ) -> Mapping[str, Rule]:
     """The rule of every quantity below an indenter; none of what is infinite in the exact answer.
 
@@ -218,10 +229,12 @@ def rules_for(
     alone   whether they are not inside those of a companion
     layers  whether a body has any
     film    whether edges are fitted with the law of one
+    pushed  whether a load pushes sideways, or has done so
     """
     with_edges = ALONE if alone else EDGES | ON_FILM if film else EDGES
     if cusp:
-        with_edges = CUSP | ({name: ALONE[name] for name in COUPLED} if alone else COUPLED)
+        both, one = (PUSHED, PUSHED_ALONE) if pushed else (COUPLED, COUPLED_ALONE)
+        with_edges = CUSP | {name: (one if alone else both)[name] for name in COUPLED}
     without = CAP if isinstance(indenter, SmoothTip) and not layers else {}
     rules = RULES | (with_edges if edges else CUSP if cusp else without)
     if indenter.rim is not None:

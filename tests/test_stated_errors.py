@@ -27,6 +27,7 @@ from contact_scenes import (
     steel,
 )
 from coupled_scenes import bulk, press
+from coupled_scenes import push as pushed_by
 from coupled_scenes import scene as coupled
 from matplotlib.figure import Figure
 from scene_texts import COARSE, STEEL_BALL_PRESSED
@@ -381,6 +382,21 @@ def test_stick_that_no_cell_shows_may_be_a_cell_wide() -> None:
     assert truth.stick_radius > 0.0
     assert truth.stick_radius <= size(errors["stick_radius"])
     assert truth.stick_area <= size(errors["stick_area"])
+
+
+def test_the_error_of_a_pushed_radius_where_bodies_couple_covers_what_is_wrong() -> None:
+    """Beside stick near the edge, with a companion that has its edges inside the cells or not."""
+    loading = press(), pushed_by(0.24, friction=0.05, increments=3)
+    pushed = coupled(*loading, body=bulk(0.26), friction=0.05)
+    coarse, middle, fine = (
+        solve_discretised(pushed, SurfaceDiscretisation(cells=(cells, cells)))
+        for cells in (32, 48, 112)
+    )
+    for result in (coarse, middle):
+        errors, end = stated_errors(result).steps[1], result.steps[1]
+        assert end.edge_change is not None
+        for name in ("contact_radius", "approach"):
+            assert abs(getattr(end, name) - getattr(fine.steps[1], name)) <= size(errors[name])
 
 
 @pytest.mark.parametrize("cells", [22, 24, 48])
