@@ -66,6 +66,8 @@ def _why_left(result: semi_analytical.Result, end: semi_analytical.Increment) ->
         return f"fewer than {LEAST_ACROSS} of them lie across the contact"
     if end.shear is None or not np.any(end.shear):
         return "the edge of the contact is rough, or a part of it is too thin"
+    if result.plan.couples and not np.any(end.in_stick):
+        return "none of them sticks"
     return "they are rough, too thin or slip narrowly, or the film or history is not known enough"
 
 
