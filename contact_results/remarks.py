@@ -14,6 +14,7 @@ from contact_scene.height_map import interpolate
 from contact_scene.linear_theory import beyond_linear_theory
 from contact_scene.pair import contact_modulus
 from contact_scene.plausibility import unlikely
+from contact_scene.summary import ContactStatus
 
 if TYPE_CHECKING:
     import semi_analytical
@@ -66,8 +67,8 @@ def _why_left(result: semi_analytical.Result, end: semi_analytical.Increment) ->
         return f"fewer than {LEAST_ACROSS} of them lie across the contact"
     if end.shear is None or not np.any(end.shear):
         return "the edge of the contact is rough, or a part of it is too thin"
-    if result.plan.couples and not np.any(end.in_stick):
-        return "none of them sticks"
+    if result.plan.couples and end.status is ContactStatus.GROSS_SLIDING:
+        return "all of them slip"
     return "they are rough, too thin or slip narrowly, or the film or history is not known enough"
 
 

@@ -4,8 +4,8 @@ import re
 
 import numpy as np
 import pytest
-from contact_scenes import APPROACH, PRESS, RADIUS, A, bump, grid, scene, steel
-from coupled_scenes import bulk, press
+from contact_scenes import APPROACH, PRESS, RADIUS, A, bump, grid, scene, slide, steel
+from coupled_scenes import press
 from coupled_scenes import scene as coupled
 
 from contact_errors.on_cells import stated_errors
@@ -81,9 +81,9 @@ def test_the_stated_error_of_the_peak_covers_what_the_cells_leave_out(seed, cell
     assert 0.005 * exact < abs(found - exact) < stated.error < 10 * abs(found - exact)
 
 
-def test_it_is_said_that_edges_are_left_where_no_cell_sticks():
-    """Of bodies that couple, whether all slides or the stick zone is narrower than a cell."""
-    described = coupled(press(), body=bulk(0.0))
-    result = solve(described, grid(48, 1.1), 1e-8, plan=plan(described, edge="last"))
-    assert not np.any(result.steps[0].in_stick)
-    assert any("cells: none of them sticks" in remark for remark in remarks(result))
+def test_it_is_said_that_edges_are_left_where_bodies_couple_and_all_slides():
+    described = coupled(press(), slide(2000, increments=1))
+    result = solve(described, grid(32, 1.1), 1e-8, plan=plan(described, edge="last"))
+    assert any(
+        "step 2" in remark and "cells: all of them slip" in remark for remark in remarks(result)
+    )

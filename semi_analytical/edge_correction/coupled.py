@@ -24,6 +24,7 @@ from scipy.ndimage import distance_transform_edt, gaussian_filter
 
 from contact_scene.pair import outermost_beta
 from contact_scene.solver_errors import NotConverged
+from contact_scene.summary import ContactStatus
 from semi_analytical.admissible_shear import ShearSum, Vector, magnitude
 from semi_analytical.box import Box
 from semi_analytical.edge.corrected import Corrected, CorrectedShear
@@ -82,7 +83,7 @@ class CoupledEdgeCorrection:
         """
         solved = state.sheared
         assert solved is not None
-        if not way_known or solved.shift is None or not np.any(solved.in_stick):
+        if not way_known or solved.shift is None or solved.status is ContactStatus.GROSS_SLIDING:
             return None
         if self._operators.film(state.pressing.pressure > 0, WHOLE) is not None:
             return None
@@ -154,6 +155,8 @@ class _Problem:
     @property
     def _slips_narrowly(self) -> bool:
         """Whether next to the edge the pressure of strong friction feels the stick zone, too."""
+        if not np.any(self.solved.in_stick):
+            return False
         depth = distance_transform_edt(self.state.pressing.pressure > 0)
         strong = (depth == 1) & (np.abs(self.exponent - 0.5) > WEAK)
         to_stick = distance_transform_edt(~self.solved.in_stick)
@@ -276,6 +279,8 @@ class _Problem:
 
 def _beyond(stick: Mask) -> Field:
     """One in cells beyond a zone, and zero within it and next to it: its border may move there."""
+    if not np.any(stick):
+        return np.ones(stick.shape)
     return np.clip(distance_transform_edt(~stick) - 1, 0.0, 1.0)
 
 
