@@ -155,7 +155,7 @@ EDGES = with_their_likes(
 ON_FILM = with_their_likes(
     {
         "approach": Rule(2.5, 0.006, 1, 1.45, path_factor=1.5),
-        "contact_radius": Rule(2, 0.0183, 0.1, 1.55, path_factor=1.5),
+        "contact_radius": Rule(2, 0.0183, 0.1, 1.7, path_factor=1.5),
         "peak_pressure": Rule(2.5, 0.009, 1, 1.1, path_factor=2.0),
         "tilt": Rule(3, 0.0165, 9, 1.8, path_factor=1.5, lengthscale=Lengthscale.TURN_WITHIN),
     }
