@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING
 
 from contact_results.quantities import shear_of
 from contact_scene import Body, IsotropicMaterial
-from verification.cases.frictional_indentation import stick_error
 from verification.convergence.stored_field import at_centres
 from verification.exhibits.chart import Chart
 from verification.exhibits.convergence_chart import convergence_chart
@@ -16,7 +15,7 @@ from verification.judging.case import Case, Comparison, Level
 from verification.judging.order_of_convergence import Followed, OrderOfChange, Refinement
 from verification.judging.run import Run
 from verification.observed.changes import approach_change, increment_size
-from verification.observed.end_state import approach
+from verification.observed.end_state import approach, stick_radius
 from verification.problems import paper_scene as paper
 from verification.problems.indentation import Indentation
 from verification.problems.reference import ReferenceKind
@@ -205,3 +204,9 @@ def _charts(
 
 def _changes(levels: list[Result], change: Callable[[Result, Result], float]) -> list[float]:
     return [change(one, other) for one, other in zip(levels, levels[APART:], strict=False)]
+
+
+def stick_error(one: Indentation, few: Result, many: Result) -> float:
+    """Relative error of the stick radius, extrapolated in the increments."""
+    radius = 2 * stick_radius(many) - stick_radius(few)
+    return abs(radius / (one.stick_part * one.contact_radius) - 1)
