@@ -1,6 +1,7 @@
 """What runs on a part of the window and on the whole are compared by."""
 
 import pickle
+import re
 from dataclasses import replace
 
 import numpy as np
@@ -9,6 +10,7 @@ from contact_scenes import APPROACH, LIMIT, MU, A
 
 from contact_scene import Ellipsoid, FrictionMap
 from contact_scene.geometry import Gap
+from contact_scene.solver_errors import SolverError
 from semi_analytical import plan, solve
 from semi_analytical.part import WHOLE
 from semi_analytical.plan import MIRROR_PLANES
@@ -56,6 +58,17 @@ def on_part_and_window(described, on, tolerance):
         solve(described, on, tolerance, plan=decided),
         solve(described, on, tolerance, plan=replace(decided, told=WHOLE)),
     )
+
+
+def window_solves(described, on, tolerance):
+    """Whether the whole window does; what it cannot solve the part has to refuse alike."""
+    try:
+        solve(described, on, tolerance, plan=replace(plan(described), told=WHOLE))
+    except SolverError as error:
+        with pytest.raises(type(error), match=re.escape(str(error)[:40])):
+            solve(described, on, tolerance)
+        return False
+    return True
 
 
 def assert_same_pressures(of_part, of_window, same):

@@ -150,6 +150,16 @@ def test_the_last_state_of_a_step_alone_has_its_edges_inside_the_cells():
     assert [end.edge_change is not None for end in result.increments] == ends
 
 
+def test_strong_friction_that_slips_on_a_few_cells_only_keeps_its_cells():
+    """Its pressure next to the edge feels the stick zone, which the law of the edge leaves out."""
+    strong = pressed("strong", rigid_ball(), half_space(0.2), pressing(3), friction=0.5)
+    result = solved(strong, "last", 32)
+    end = result.steps[-1]
+    assert 0 < end.stick_radius < end.contact_radius
+    assert end.edge_change is None
+    assert any("edge" in said for said in remarks(result))
+
+
 def test_pushed_the_shear_carries_the_force_and_is_its_mirror_image():
     end, grid = pushed("all").steps[-1], pushed("all").grid
     assert end.edge_change is not None
