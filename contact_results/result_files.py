@@ -33,13 +33,14 @@ def write_result(
     path_errors: tuple[PathError, ...] | None = None,
     errors: StatedErrors | None = None,
     accuracy: AccuracyReached | None = None,
+    every_increment: bool = False,
 ) -> None:
     """Write summary, fields, tables, figures and their page into a directory that has none of them.
 
     normalised      figures on axes over the natural sizes of the contact, tables still in SI
     surface_stress  also compute the stress at the surface that Ruiz's second parameter takes
-    accuracy        that the result was refined to: its increments, often thousands, are then those
-                    that numbers need, and fields are kept at the ends of the loading steps
+    accuracy        that the result was refined to
+    every_increment store the fields of all increments, not of the last one of each load step
     """
     cycles = fretting_cycles(result, surface_stress=surface_stress)
     write_summary(result, cycles, directory, path_errors, errors, accuracy)
@@ -48,7 +49,7 @@ def write_result(
     write_cycles(cycles, surface_of(result), directory)
     tables = {PROFILES: profile_table.COLUMNS, INCREMENTS: increment_table.COLUMNS}
     write_meanings(directory / COLUMNS, tables | ({CYCLES: cycle_table.COLUMNS} if cycles else {}))
-    write_fields(result, cycles, directory, ends_only=accuracy is not None)
+    write_fields(result, cycles, directory, every_increment=every_increment)
     if with_figures:
         from contact_results.figures.figure_files import write_figures
         from contact_results.figures.run_page import write_page

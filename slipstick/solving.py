@@ -153,6 +153,7 @@ def save(
     figures: bool = True,
     normalised: bool = False,
     errors: StatedErrors | None = None,
+    every_increment: bool = False,
 ) -> None:
     """Write the files that `slipstick run` writes: summary, tables, fields and figures.
 
@@ -161,12 +162,21 @@ def save(
 
     normalised  figures on axes x/a, p/p0, q/µp0, as `slipstick run --normalised` draws them
     errors      of the result, from `stated_errors`; they are left out if absent
+    every_increment
+                store the fields of all increments, not of the last one of each load step
     """
     from contact_results.directory.run_directory import run_directory
     from contact_results.result_files import write_result
 
     with run_directory(Path(directory)) as staging:
-        write_result(result, staging, with_figures=figures, normalised=normalised, errors=errors)
+        write_result(
+            result,
+            staging,
+            with_figures=figures,
+            normalised=normalised,
+            errors=errors,
+            every_increment=every_increment,
+        )
 
 
 def _solved_to(

@@ -79,6 +79,7 @@ def test_every_index_is_that_of_a_coordinate_an_increment_or_a_component(
 ) -> None:
     run = slipstick.load(place / name)
     sizes = {"increment": len(run.increments["step"].array), "component": 2}
+    sizes["step"] = len(run.summary.steps)
     sizes |= {axis: len(values.array) for axis, values in run.coordinates.items()}
     for group in (run.coordinates, run.increments, run.last_cycle):
         for values in group.values():

@@ -1,5 +1,5 @@
-"""A run with an accuracy takes thousands of increments for its numbers: fields are kept at the ends
-of the loading steps, and every reader finds them there or says that there are none."""
+"""Fields are stored at the ends of load steps, or at every increment on request: every reader finds
+them, or names the option that stores them."""
 
 from pathlib import Path
 from typing import Any
@@ -15,7 +15,6 @@ from contact_results.export.paraview import write_paraview
 from contact_results.files.field_file import write_fields
 from contact_results.result_files import write_result
 from contact_results.stress.loaded_bodies import state_of_result, state_of_run
-from contact_scene.accuracy_reached import AccuracyReached, AccuracySettings
 from contact_scene.increment import SCALARS
 from semi_analytical import solve
 
@@ -33,10 +32,6 @@ SCENE = slipstick.Scene(
         ),
     ),
 )
-REACHED = AccuracyReached(
-    asked={"approach": 0.1}, reached={"approach": 0.01}, met=True, rounds=1, left_out={},
-    stopped=None, settings=AccuracySettings(cells=(16, 16), increments=COUNTS, tolerance=1e-6),
-)  # fmt: skip
 ENDS = np.cumsum(COUNTS) - 1
 
 
@@ -47,26 +42,26 @@ def result() -> Any:
 
 @pytest.fixture(scope="module")
 def directories(result: Any, tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, Path]:
-    """The same result as of a plain run, and as of one with an accuracy."""
-    plain, asked = (tmp_path_factory.mktemp(name) for name in ("plain", "asked"))
-    write_result(result, plain, with_figures=False)
-    write_result(result, asked, with_figures=False, accuracy=REACHED)
-    return plain, asked
+    """The same result with the fields of every increment, and by default."""
+    every, ends = (tmp_path_factory.mktemp(name) for name in ("every", "ends"))
+    write_result(result, every, with_figures=False, every_increment=True)
+    write_result(result, ends, with_figures=False)
+    return every, ends
 
 
 def test_fields_are_those_at_the_ends_and_scalars_all(directories: tuple[Path, Path]) -> None:
-    plain, asked = map(slipstick.load, directories)
-    assert set(asked.increments) == set(plain.increments)
-    for name in plain.increments:
-        whole, kept = plain.increments[name], asked.increments[name]
+    every, ends = map(slipstick.load, directories)
+    assert set(ends.increments) == set(every.increments)
+    for name in every.increments:
+        whole, kept = every.increments[name], ends.increments[name]
         if name in SCALARS or name in ("step", "increment"):
             assert np.array_equal(kept.array, whole.array, equal_nan=True)
             continue
         assert whole.indices[0] == "increment"
         assert kept.indices == ("step", *whole.indices[1:])
         assert np.array_equal(kept.array, whole.array[ENDS])
-    for name in plain.last_cycle:
-        assert np.array_equal(asked.last_cycle[name].array, plain.last_cycle[name].array)
+    for name in every.last_cycle:
+        assert np.array_equal(ends.last_cycle[name].array, every.last_cycle[name].array)
 
 
 def test_the_file_grows_with_the_steps(directories: tuple[Path, Path]) -> None:
@@ -79,17 +74,17 @@ def test_the_file_grows_with_the_steps(directories: tuple[Path, Path]) -> None:
                 if n not in SCALARS and group[n].chunks
             )
 
-    plain, asked = map(stored, directories)
-    assert asked < 2 * len(COUNTS) / sum(COUNTS) * plain
+    every, ends = map(stored, directories)
+    assert ends < 2 * len(COUNTS) / sum(COUNTS) * every
 
 
 def test_one_increment_is_found_or_refused(directories: tuple[Path, Path]) -> None:
-    plain, asked = map(slipstick.load, directories)
+    every, ends = map(slipstick.load, directories)
     for row in ENDS.tolist():
-        assert np.array_equal(asked.increments.at("shear", row), plain.increments.at("shear", row))
-        assert asked.increments.at("approach", row) == plain.increments.at("approach", row)
-    with pytest.raises(KeyError, match="at the ends of loading steps alone"):
-        asked.increments.at("shear", int(ENDS[1]) - 1)
+        assert np.array_equal(ends.increments.at("shear", row), every.increments.at("shear", row))
+        assert ends.increments.at("approach", row) == every.increments.at("approach", row)
+    with pytest.raises(KeyError, match=r"increment 12 is not one of them.*--every-increment"):
+        ends.increments.at("shear", int(ENDS[1]) - 1)
 
 
 @pytest.mark.parametrize("step", [1, 2, 4, None])
@@ -118,7 +113,7 @@ def test_fields_that_stay_are_those_of_every_increment(tmp_path):
     """Pressures while the load rests are packed once, between others that are not."""
     lighter = {"normal_force": 0.5 * LOAD, "increments": 2}
     result = solve(scene(PRESS, push(0.2, increments=3), lighter, push(-0.2)), grid(16), 1e-8)
-    write_fields(result, (), tmp_path)
+    write_fields(result, (), tmp_path, every_increment=True)
     with h5py.File(tmp_path / FIELDS) as file:
         for name in ("pressure", "in_contact", "gap", "shear", "slip"):
             for index, increment in enumerate(result.increments):

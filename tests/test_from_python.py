@@ -102,7 +102,7 @@ def test_a_result_comes_back_as_it_was_saved(solver: SolverName, tmp_path: Path)
     for name, places in axes.items():
         assert np.array_equal(run.coordinates[name].array, places)
         assert run.coordinates[name].unit == ("rad" if name == "angles" else "m")
-    pressures = np.array([increment.pressure for increment in result.increments])
+    pressures = np.array([end.pressure for end in result.steps])
     assert np.array_equal(run.increments["pressure"].array, pressures)
     for name in run.increments:
         mark = (SCALARS | reported(type(result.steps[0]))).get(name)

@@ -138,7 +138,7 @@ def test_increment_table_has_one_row_per_increment(written: tuple[Result, Path])
     assert {float(row["worst_residual [1]"]) for row in table} == {WORST_RESIDUAL}
 
 
-def test_field_file_holds_every_increment_bit_for_bit(
+def test_field_file_holds_the_ends_of_steps_bit_for_bit(
     written: tuple[Result, Path],
 ) -> None:
     result, directory = written
@@ -150,7 +150,7 @@ def test_field_file_holds_every_increment_bit_for_bit(
         ):
             stored = group[name]
             assert stored.chunks == (1, *stored.shape[1:])
-            expected = np.stack([getattr(i, name) for i in result.increments])
+            expected = np.stack([getattr(end, name) for end in result.steps])
             assert stored.dtype == expected.dtype
             assert np.array_equal(stored[:], expected)
         assert group["pressure"].attrs["unit"] == "Pa"

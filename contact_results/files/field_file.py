@@ -1,4 +1,4 @@
-"""`result.h5`: fields and scalars at every increment, with units and meaning next to them."""
+"""`result.h5`: scalars of all increments, fields at the ends of load steps, with their units."""
 
 from __future__ import annotations
 
@@ -37,17 +37,21 @@ PLACES = {"step": "loading step, from 1", "increment": "increment within the ste
 
 
 def write_fields(
-    result: Result, cycles: Sequence[FrettingCycle], directory: Path, *, ends_only: bool = False
+    result: Result,
+    cycles: Sequence[FrettingCycle],
+    directory: Path,
+    *,
+    every_increment: bool = False,
 ) -> None:
     """Write scene, axes, fields and scalars, and of the last cycle the fields; equal results give
     equal bytes.
 
-    ends_only  fields at the ends of the loading steps alone
+    every_increment  store the fields of all increments, not of the last one of each load step
 
-    Every dataset of `increments` has the increment as its first index, or the step where fields are
-    those at the ends of steps; and a field one chunk per increment, so that one of them can be read
-    without the others. Effects that are off have no dataset. Where some increments have angles, all
-    have: a field of the radius alone is the same at every angle.
+    The first index of a scalar is the increment, that of a field the load step or the increment. A
+    field has one chunk per value of this index, so that one can be read without the others. An
+    effect that is off has no dataset. Where some increments have angles, all have: a field of the
+    radius alone is the same at every angle.
     """
     surface = surface_of(result)
     increments: Sequence[Increment] = result.increments
@@ -68,7 +72,8 @@ def write_fields(
         for name, values in surface.axes.items():
             _write(file, name, values, Reported(*AXES[name]), (name,))
         group = file.create_group("increments", track_order=False)
-        shown, counted = (result.steps, PER_STEP) if ends_only else (increments, PER_INCREMENT)
+        shown = increments if every_increment else result.steps
+        counted = PER_INCREMENT if every_increment else PER_STEP
         for name, mark in reported(type(increments[0])).items():
             if mark.kind is Kind.FIELD:
                 _write_field(group, name, mark, surface, shown, counted)

@@ -35,17 +35,17 @@ def ends_of_steps(steps: NDArray[Any]) -> NDArray[np.intp]:
 
 
 def row_of(dataset: h5py.Dataset, increment: int) -> int:
-    """Where a dataset beside `step` has the values at an increment, counted from 0.
+    """Return the first index of a dataset for an increment, counted from 0.
 
-    Raises KeyError for fields at the ends of steps and an increment within one.
+    Raises KeyError for an increment within a load step whose fields were not stored.
     """
     if dataset.dims[0].label != STEP:
         return increment
     found = np.flatnonzero(ends_of_steps(values(dataset.parent["step"])) == increment)
     if not len(found):
         raise KeyError(
-            f"{dataset.file.filename} has {dataset.name} at the ends of loading steps alone, as "
-            "of every run with an accuracy; name its increments instead for all of them"
+            f"{dataset.file.filename} has {dataset.name} at the ends of load steps only, and "
+            f"increment {increment + 1} is not one of them; run again with --every-increment"
         )
     return int(found[0])
 

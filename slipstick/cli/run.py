@@ -68,6 +68,14 @@ def run(
             "them out.",
         ),
     ] = True,
+    every_increment: Annotated[
+        bool,
+        typer.Option(
+            "--every-increment",
+            help="Store the fields of every increment in result.h5, not only those at the ends of "
+            "load steps.",
+        ),
+    ] = False,
     accuracy: AccuracyOption = None,
     most_seconds: MostSecondsOption = None,
     path_error: Annotated[
@@ -86,8 +94,7 @@ def run(
 
     With --accuracy, or a table [accuracy] in the scene, the scene is solved on ever finer cells and
     increments until the errors are as small as asked; cells and increments of the scene are where
-    that begins, not where it ends. Fields are then kept at the ends of the loading steps, scalars
-    at every increment.
+    that begins, not where it ends.
     """
     from contact_results.directory.checkpoint import checkpointed
     from contact_results.directory.code_digest import solve_identity
@@ -166,6 +173,7 @@ def run(
                 path_errors=by_doubling,
                 errors=stated,
                 accuracy=reached,
+                every_increment=every_increment,
             )
         write_timing(stopwatch, staging)
     from contact_results.remarks import remarks
