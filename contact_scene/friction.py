@@ -19,6 +19,8 @@ Where = tuple[slice, slice] | EllipsisType
 
 # What rounding leaves between coefficients that are meant to be the same, relative to the largest.
 ROUND_OFF = 1e-14
+# Above any pressure of a contact: where a limit still has its first slope, it is in proportion.
+HIGHEST_PRESSURE = 1e30  # [force/length^2]
 
 
 class FrictionMap(Description):
@@ -93,15 +95,22 @@ Coefficient = Annotated[
 
 
 class CoulombFriction(Description):
-    """Coulomb's law: the shear never exceeds coefficient times pressure; slip opposes it."""
+    """Coulomb's law: the shear never exceeds coefficient times pressure; slip opposes it.
+
+    `limit` and `slope` define the law: the limit, which vanishes without pressure and never falls
+    with the pressure, and its derivative. Everything else follows from these two.
+    """
 
     coefficient: Coefficient
     """Coefficient of friction mu >= 0, or a map of it."""
 
     @property
     def uniform(self) -> float | None:
-        """The coefficient where it is the same everywhere; None where it varies."""
-        return None if isinstance(self.coefficient, FrictionMap) else self.coefficient
+        """The coefficient µ if the limit is µp with the same µ everywhere; None otherwise."""
+        lowest, highest = self.slope(0.0), self.slope(HIGHEST_PRESSURE)
+        if self.varying is not None or not np.array_equal(lowest, highest):
+            return None
+        return float(lowest)
 
     @property
     def varying(self) -> FrictionMap | None:
@@ -124,29 +133,35 @@ class CoulombFriction(Description):
 
     @property
     def largest(self) -> float:
-        """The largest ratio of shear to pressure anywhere."""
-        return float(np.max(self.slope()))
+        """The largest ratio of shear to pressure anywhere, which is that of low pressures."""
+        return float(np.max(self.slope(0.0)))
 
-    def slope(self, where: Where = ...) -> float | Field:
-        """How fast the limit grows with the pressure [1].
+    def slope(self, pressure: Field | float = 0.0, where: Where = ...) -> Field:
+        """Derivative of the limit with respect to the pressure, at a pressure [1].
 
-        where  the cells that are asked for; all of them if absent
+        where  the cells that the pressure is of; all of them if absent
         """
-        if isinstance(self.coefficient, FrictionMap):
-            return self.coefficient.map.values[where]
-        return self.coefficient
+        mu = self._at(where)
+        return np.broadcast_to(mu, np.broadcast_shapes(np.shape(mu), np.shape(pressure)))
 
     def limit(self, pressure: Field, where: Where = ...) -> Field:
         """The largest shear under a pressure, of the same shape [force/length^2].
 
         where  the cells that the pressure is of; all of them if absent
         """
-        return np.asarray(self.slope(where) * pressure)
+        return np.asarray(self._at(where) * pressure)
+
+    def _at(self, where: Where) -> float | Field:
+        """The coefficient in cells."""
+        if isinstance(self.coefficient, FrictionMap):
+            return self.coefficient.map.values[where]
+        return self.coefficient
 
     def carried(self, normal_force: float) -> float | None:
-        """The largest tangential force under a normal force [force]; None where it depends on how
-        the pressure is spread."""
-        return None if self.uniform is None else self.uniform * normal_force
+        """The largest tangential force under a normal force [force]; None where it depends on the
+        distribution of the pressure."""
+        mu = self.uniform
+        return None if mu is None else mu * normal_force
 
 
 FRICTIONLESS = CoulombFriction(coefficient=0.0)

@@ -81,11 +81,11 @@ def plan(scene: Scene) -> Plan:
     couples, why = coupling(scene)
     _refuse_loads(scene)
     friction, ramps = scene.friction is not None, scene.load_path()
-    rubs = couples and scene.friction is not None and scene.friction.uniform != 0
+    rubs = couples and scene.friction is not None and scene.friction.largest > 0
     pushed = friction and any(any(ramp.tangential.end) for ramp in ramps)
     turns = pushed and not along_one_line(ramps)
     twists = friction and any(_twists(ramp, turns) for ramp in ramps)
-    circle = _circle(ramps, rubs, twists, pushed, turns)
+    circle = _circle(scene, rubs, twists, pushed, turns)
     if rubs or circle:
         _refuse_rubbing(scene, circle)
     elif twists:
@@ -113,12 +113,15 @@ def _twists(ramp: LoadRamp, turns: bool) -> bool:
     return bool(ramp.twisting.end) or (turns and ramp.twisting.kind is ControlKind.FORCE)
 
 
-def _circle(
-    ramps: tuple[LoadRamp, ...], rubs: bool, twists: bool, pushed: bool, turns: bool
-) -> Circle | None:
+def _circle(scene: Scene, rubs: bool, twists: bool, pushed: bool, turns: bool) -> Circle | None:
     if pushed:
         return Circle.WHOLE if twists or turns else Circle.HALF
-    return Circle.ONE if twists and (rubs or _presses_while_twisted(ramps)) else None
+    if not twists:
+        return None
+    # In closed form the shear of torsion is known where the limit is µp and the pressure stays.
+    proportional = scene.friction is not None and scene.friction.uniform is not None
+    closed = proportional and not rubs and not _presses_while_twisted(scene.load_path())
+    return None if closed else Circle.ONE
 
 
 def _presses_while_twisted(ramps: tuple[LoadRamp, ...]) -> bool:
@@ -199,7 +202,7 @@ def _refuse_rubbing(scene: Scene, circle: Circle | None) -> None:
             "there is friction below an indenter with a rim, where tractions are infinite, and "
             f"this solver takes smooth edges; leave [friction] out, or {ELSEWHERE}"
         )
-    if circle and scene.friction.uniform == 0:
+    if circle and scene.friction.largest == 0:
         raise UnsupportedScene(
             "a step names a tangential load or a torsion and the coefficient of friction is zero, "
             "so that nothing carries it; give a coefficient, or leave the load out"

@@ -8,6 +8,7 @@ from math import pi, sqrt
 import numpy as np
 from numpy.typing import NDArray
 
+from contact_scene import CoulombFriction
 from contact_scene.friction import sliding_friction
 from contact_scene.residuals import Residuals
 from contact_scene.summary import ContactStatus
@@ -82,8 +83,8 @@ def _either(asked: tuple[float | None, ...], found: Array) -> tuple[float, ...]:
 
 
 def pushed(
-    points: Points, friction: float, end: Held, last: Held | None, slip: Array, asked: Loads,
-    before: Pushed | None, smooth: float | None,
+    points: Points, friction: CoulombFriction, end: Held, last: Held | None, slip: Array,
+    asked: Loads, before: Pushed | None, smooth: float | None,
 ) -> Pushed:  # fmt: skip
     """What an increment leaves.
 
@@ -96,13 +97,13 @@ def pushed(
     begun = before.radius if before else 0.0
     passed = -end.slipped.reshape(2, -1) / areas * _touched(points, end, begun, radius)
     start = last.shear if last else np.zeros((2, len(nothing)))
-    limits = friction * (last.pressure if last else nothing), friction * end.pressure
+    limits = (friction.limit(last.pressure) if last else nothing), friction.limit(end.pressure)
     rubbing = sliding_friction(start, end.shear, passed, *limits)
     carried, motion = end.forces(points), last.motion if last else np.zeros(4)
     both = carried + (before.carried if before else 0.0)
     through = None
     if smooth is None:
-        stuck = points.stick_area(end.share, end.shear, friction * end.pressure)
+        stuck = points.stick_area(end.share, end.shear, limits[1])
         through = sqrt(min(stuck / pi, radius**2))
     turned = points.circle is not Circle.ONE or end.motion[ABOUT] != motion[ABOUT]
     open_ = np.hypot(*(end.shear - start)) * np.hypot(*passed)
@@ -139,11 +140,11 @@ def _front(radius: float, begun: float, through: float, before: Pushed | None) -
     return min(max(through + (through - before.through) * half / (half + last), 0.0), radius)
 
 
-def residuals_of(points: Points, friction: float, state: Pushed) -> Residuals:
+def residuals_of(points: Points, friction: CoulombFriction, state: Pushed) -> Residuals:
     """What a contact misses."""
     end, asked = state.held, state.asked.forces
     W, force = float(state.carried[DOWN]), asked[DOWN]
-    limit = friction * end.pressure
+    limit = friction.limit(end.pressure)
     slipped = np.hypot(*end.slipped.reshape(2, -1))
     slips = (slipped > REST * end.approach * points.areas) & (end.pressure > 0)
     most = float(np.sum(limit * slipped, where=slips))
@@ -158,7 +159,9 @@ def residuals_of(points: Points, friction: float, state: Pushed) -> Residuals:
         normal_equilibrium=None if force is None else abs(W / force - 1),
         friction_cone=max(0.0, float(np.max(np.hypot(*end.shear) - limit)) / np.max(limit)),
         slip_direction=(most + against) / most if most > 0 else 0.0,
-        tangential_equilibrium=float(np.linalg.norm(drag)) / (friction * W) if drag else None,
+        tangential_equilibrium=float(np.linalg.norm(drag) / (points.areas @ limit))
+        if drag
+        else None,
         torque_equilibrium=None
         if torque is None
         else abs(float(state.carried[ABOUT]) - torque) / float(points.levers @ limit),

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
-from contact_scene import LoadRamp, RadialDiscretisation, Scene
+from contact_scene import CoulombFriction, LoadRamp, RadialDiscretisation, Scene
 from contact_scene.march import Reached
 from contact_scene.pair import coupling
 from contact_scene.solver_errors import NotConverged, UnsupportedScene
@@ -46,7 +46,7 @@ class Pushing:
     """
 
     scene: Scene
-    friction: float
+    friction: CoulombFriction
     direction: Pair
     twists: bool
     tolerance: float
@@ -69,9 +69,8 @@ class Pushing:
         around    how many times as many angles besides
         """
         assert scene.friction is not None
-        assert scene.friction.uniform is not None
         assert plan.circle is not None
-        friction, circle = scene.friction.uniform, plan.circle
+        friction, circle = scene.friction, plan.circle
         count, highest = round(plan.rings * fineness), round(ANGLES * fineness * around)
         both = Coupling.of(scene)
 
@@ -86,7 +85,7 @@ class Pushing:
 
         def at(circle: Circle) -> Pushing:
             harmonics = 0 if circle is Circle.ONE else highest
-            points = laid(both, scene.indenter, edges, count, harmonics, circle, friction)
+            points = laid(both, scene.indenter, edges, count, harmonics, circle, friction.largest)
             return cls(scene, friction, plan.direction, plan.twists, asked.tolerance, points)
 
         for _ in range(SETTLED):
@@ -256,9 +255,9 @@ class Pushing:
         sticks = state.status is ContactStatus.FULL_STICK
         if sticks and step == 1 and state.circle is Circle.ONE and coupling(self.scene)[0]:
             raise UnsupportedScene(
-                f"with a coefficient of friction of {self.friction:g} the annulus that slips at "
-                "the edge is narrower than a ring, and this solver does not tell the edge beside "
-                f"it; give a smaller coefficient, or {ELSEWHERE}"
+                f"with a coefficient of friction of {self.friction.largest:g} the annulus that "
+                "slips at the edge is narrower than a ring, and this solver does not tell the "
+                f"edge beside it; give a smaller coefficient, or {ELSEWHERE}"
             )
 
     @staticmethod

@@ -18,6 +18,7 @@ from contextlib import suppress
 import numpy as np
 from numpy.typing import NDArray
 
+from contact_scene import CoulombFriction
 from contact_scene.solver_errors import ContactAtZoneEdge, GrossSliding, NotConverged
 from radial.ring_laws import At, Laws
 from radial.ring_newton import aimed
@@ -35,7 +36,7 @@ AT_ONCE = 12  # steps that are taken whole: what slips is found sooner than by s
 
 def held(
     points: Points,
-    friction: float,
+    friction: CoulombFriction,
     loads: Loads,
     before: Held | None,
     tolerance: float,
@@ -45,12 +46,13 @@ def held(
 
     before  the state from which surfaces slip; None: they have not touched
     smooth  tractions and motion without friction, where they are known, to begin from then
-    raises  NotConverged; GrossSliding from T = µW on, and where T and M are more than friction
+    raises  NotConverged; GrossSliding where friction carries no more than T, or than T and M as it
             carries of the pressure without them; ContactAtZoneEdge at the last ring
     """
     drag, W = float(np.hypot(*_given(loads)[:2])), loads.forces[DOWN]
-    if drag and W is not None and drag >= friction * W:
-        raise _slides(drag, friction * W)
+    most = None if W is None else friction.carried(W)
+    if drag and most is not None and drag >= most:
+        raise _slides(drag, most)
     laws = Laws.of(points, friction, loads, before)
     for x in _starts(laws, before, tolerance, smooth):
         at = laws.at(x, points.compliance @ x[:-4])
@@ -93,12 +95,12 @@ def _given(loads: Loads) -> Array:
 
 
 def _refuse_sliding(
-    points: Points, friction: float, loads: Loads, before: Held | None, tolerance: float
+    points: Points, friction: CoulombFriction, loads: Loads, before: Held | None, tolerance: float
 ) -> None:
     """Raises GrossSliding where the pressure without T and M carries no such ones."""
     pressed = held(points, friction, loads.without_shear, before, tolerance)
     given = _given(loads)
-    limit = friction * np.maximum(pressed.pressure, 0.0)
+    limit = friction.limit(np.maximum(pressed.pressure, 0.0))
     free = np.array([force is not None for force in loads.forces[:DOWN]])
     times = carried_times(points, limit, given, free)
     if times > 1:
@@ -128,7 +130,7 @@ def _within_reach(laws: Laws, at: At, aim: Array) -> Array:
     edge = points.radii[int(np.max(np.flatnonzero(inside))) // points.count]
     distance = np.hypot(*further[:ABOUT]) + edge * abs(further[ABOUT])
     slip = np.max(np.hypot(*laws.slipped(at.u, at.x[-4:]).reshape(2, -1)) / points.areas * inside)
-    reach = FURTHEST * (slip + laws.friction * abs(at.x[-1]))
+    reach = FURTHEST * (slip + laws.friction.largest * abs(at.x[-1]))
     return aim if distance <= reach else at.x + reach / distance * (aim - at.x)
 
 
@@ -144,7 +146,9 @@ def _nearer(laws: Laws, at: At, aim: Array, shortest: float) -> At:
 
 
 def _slides(drag: float, carried: float) -> GrossSliding:
-    return GrossSliding(f"T = {drag:g} N is not below µW = {carried:g} N: the indenter slides")
+    return GrossSliding(
+        f"T = {drag:g} N is not below the friction limit {carried:g} N: the indenter slides"
+    )
 
 
 def _ended(laws: Laws, at: At, before: Held | None, steps: int) -> Held:
@@ -153,9 +157,8 @@ def _ended(laws: Laws, at: At, before: Held | None, steps: int) -> Held:
         raise ContactAtZoneEdge("the contact reaches the last ring; lay rings further out")
     inside = at.z > 0
     length = np.hypot(*at.y)
-    share = np.where(inside, length / np.where(inside, at.limit, 1.0), np.inf)
-    if laws.friction == 0:
-        share = np.where(inside, 1.0, np.inf)
+    bears = at.limit > 0
+    share = np.where(bears, length / np.where(bears, at.limit, 1.0), np.where(inside, 1.0, np.inf))
     t, motion = at.x[:-4], at.x[-4:]
     changed = at.x - np.append(before.tractions, before.motion) if before else at.x
     return Held(

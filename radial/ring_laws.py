@@ -8,6 +8,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from contact_scene import CoulombFriction
 from radial.ring_points import Points
 from radial.ring_state import ABOUT, ALONG, DOWN, Held, Loads, carried
 
@@ -40,13 +41,15 @@ class Laws:
     """
 
     points: Points
-    friction: float
+    friction: CoulombFriction
     loads: Loads
     moved: Array
     motion: Array
 
     @classmethod
-    def of(cls, points: Points, friction: float, loads: Loads, before: Held | None) -> Laws:
+    def of(
+        cls, points: Points, friction: CoulombFriction, loads: Loads, before: Held | None
+    ) -> Laws:
         if before is None:
             return cls(points, friction, loads, np.zeros(2 * len(points.areas)), np.zeros(4))
         return cls(points, friction, loads, before.moved, before.motion)
@@ -100,10 +103,10 @@ class Laws:
         slipped = self.slipped(u, motion)
         z = p - gap / points.softness[2 * size :]
         y = (q - slipped / points.softness[: 2 * size]).reshape(2, -1)
-        limit = self.friction * np.maximum(z, 0.0)
+        limit = self.friction.limit(np.maximum(z, 0.0))
         missed = np.concatenate([q - (_shortened(y, limit) * y).ravel(), p - np.maximum(z, 0.0)])
         # Shear is to be as near to its limit as pressure to itself.
-        beyond = np.max(np.abs(missed[: 2 * size])) / max(self.friction, LEAST_FRICTION)
+        beyond = np.max(np.abs(missed[: 2 * size])) / max(self.friction.largest, LEAST_FRICTION)
         peak = np.max(np.abs(p))
         worst = max(beyond, np.max(np.abs(missed[2 * size :]))) / peak if peak > 0 else np.inf
         if not np.isfinite(worst):

@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.linalg import lapack
 
+from contact_scene import CoulombFriction
 from radial.ring_laws import At, Laws
 from radial.ring_state import DOWN
 
@@ -28,7 +29,10 @@ class _Free(NamedTuple):
     slips   which of them slip, others are open (n,)
     c, s    cosine and sine of the way w of the shear, from outward (n, 1)
     share   of its limit over what would be without one (n, 1)
-    limits  µ, in units of the tractions (n, 1); it and the share are zero of open ones
+    slopes  of the limit, in units of the tractions (n, 1)
+    rests   limit less slope times pressure, likewise (n, 1)
+
+    Share, slopes and rests are zero of open points.
     """
 
     points: Numbers
@@ -36,7 +40,8 @@ class _Free(NamedTuple):
     c: Array
     s: Array
     share: Array
-    limits: Array
+    slopes: Array
+    rests: Array
 
     def displacements(self, m: int) -> Numbers:
         """Numbers of those that nothing holds, of m points: outward and around the axis of all,
@@ -45,7 +50,7 @@ class _Free(NamedTuple):
         return np.concatenate([self.points, m + self.points, 2 * m + apart])
 
 
-def _free(at: At, m: int, friction: float, units: Array) -> _Free:
+def _free(at: At, m: int, friction: CoulombFriction, units: Array) -> _Free:
     y, limit = at.y[:, :m], at.limit[:m]
     length = np.hypot(*y)
     points = np.flatnonzero((at.z[:m] <= 0) | (length > limit))
@@ -53,8 +58,12 @@ def _free(at: At, m: int, friction: float, units: Array) -> _Free:
     safe = np.where(slips, length[points], 1.0)
     c, s = np.where(slips, y[:, points] / safe, [[1.0], [0.0]])
     across, down = units[points], units[2 * m + points]
-    share, limits = np.where(slips, [limit[points] / safe, friction * across / down], 0.0)
-    return _Free(points, slips, *(of[:, None] for of in (c, s, share, limits)))
+    pressure, most = np.maximum(at.z[points], 0.0), limit[points]
+    slope = friction.slope(pressure)
+    share, slopes, rests = np.where(
+        slips, [most / safe, slope * across / down, (most - slope * pressure) * across], 0.0
+    )
+    return _Free(points, slips, *(of[:, None] for of in (c, s, share, slopes, rests)))
 
 
 def aimed(laws: Laws, at: At) -> Array | None:
@@ -111,8 +120,8 @@ def _led(laws: Laws, at: At, rings: int, t: Array) -> Array:
 def _whole(
     laws: Laws, at: At, free: _Free, K: Array, carried: Array, missed: Array
 ) -> tuple[Array, Array]:
-    """Laws of what is free, as rows of the unknowns and what is left of them: µp along w, across it
-    what the law leaves, nothing of what is open.
+    """Laws of what is free, as rows of the unknowns and what is left of them: the limit along w,
+    across it what the law leaves, nothing of what is open.
 
     carried  by motions, and here
     missed   by the displacements that are free
@@ -127,11 +136,12 @@ def _whole(
     for by in (K.take(every, axis=0).take(own, axis=1), carried[every]):
         outward, around, down = by[:n], by[n : 2 * n], by[2 * n :]
         found.append(np.concatenate([
-            c * outward + s * around - free.limits * down,
+            c * outward + s * around - free.slopes * down,
             (1 - share) * (c * around - s * outward),
             down[~free.slips],
         ]))  # fmt: skip
     rows, left = found
+    left[:n, 4] -= free.rests[:, 0]
     rows[across, across] += (share * c)[:, 0]
     rows[across, across - n] -= (share * s)[:, 0]
     left[across, 4] -= (share * (c * missed[n : 2 * n, None] - s * missed[:n, None]))[:, 0]

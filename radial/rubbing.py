@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.interpolate import CubicSpline
 
-from contact_scene import LoadRamp, RadialDiscretisation, Scene
+from contact_scene import CoulombFriction, LoadRamp, RadialDiscretisation, Scene
 from contact_scene.march import Reached
 from contact_scene.residuals import Residuals
 from contact_scene.solver_errors import NotConverged
@@ -45,7 +45,7 @@ class Rubbing:
 
     scene: Scene
     coupling: Coupling
-    friction: float
+    friction: CoulombFriction
     tolerance: float
     fineness: float
     radii: Array
@@ -64,10 +64,7 @@ class Rubbing:
         )
         radii = shown_radii(asked.rings, largest, scene.indenter.rim)
         assert scene.friction is not None
-        assert scene.friction.uniform is not None
-        return cls(
-            scene, coupling, scene.friction.uniform, asked.tolerance, fineness, radii, largest
-        )
+        return cls(scene, coupling, scene.friction, asked.tolerance, fineness, radii, largest)
 
     def spent(self) -> float:
         """Nothing that halves would save."""
@@ -173,7 +170,7 @@ class Rubbing:
         refuse_no_disc(places[1 : n + 1], end.pressure[1:], np.zeros(n))
         refuse_no_disc(places[n + 1 :], np.ones_like(clear), clear / end.approach)
         force = state.target.force
-        limit, q = self.friction * end.pressure[1:], np.abs(end.shear[1:])
+        limit, q = self.friction.limit(end.pressure[1:]), np.abs(end.shear[1:])
         residuals = Residuals(
             complementarity=max(end.contact.missed, end.missed),
             penetration=max(end.contact.missed, end.missed),
@@ -218,11 +215,11 @@ class Rubbing:
         )
 
     def _shear(self, state: Sheared, p: Array, r: Array) -> Array:
-        """At the rings: where it is µp, of the pressure there, which hats would cut short."""
+        """At the rings: where it is the limit, that of the pressure there, which hats cut short."""
         end = state.end
-        share = end.shear[1:-1] / (self.friction * end.pressure[1:-1])
+        share = end.shear[1:-1] / self.friction.limit(end.pressure[1:-1])
         share = np.concatenate([[0.0], share, share[-1:]])
-        return np.asarray(self.friction * p * state.at(share, r))
+        return np.asarray(self.friction.limit(p) * state.at(share, r))
 
 
 def _moved(before: Sheared | None) -> Callable[[Array], Array]:
@@ -261,10 +258,10 @@ def _sliding(was: Rubbed | None, rings: Rings) -> Signs:
     return np.rint(np.interp(rings.x, was.rings.x, was.sliding)).astype(np.int64)
 
 
-def _against(end: Rubbed, friction: float) -> float:
-    """∫(µp|Δs| + q Δs) dA / ∫µp|Δs| dA over what slides by more than round-off."""
+def _against(end: Rubbed, friction: CoulombFriction) -> float:
+    """∫(b|Δs| + q Δs) dA / ∫b|Δs| dA with the limit b, over what slides by more than round-off."""
     slipped = end.slipped * (end.sliding != 0) * (np.abs(end.slipped) > REST * end.approach)
-    most = end.over(friction * finite_pressure(end) * np.abs(slipped))
+    most = end.over(friction.limit(finite_pressure(end)) * np.abs(slipped))
     return abs(most + end.over(end.shear * slipped)) / most if most > 0 else 0.0
 
 

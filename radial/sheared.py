@@ -8,6 +8,7 @@ from math import sqrt
 import numpy as np
 from numpy.typing import NDArray
 
+from contact_scene import CoulombFriction
 from radial.pressing import Target
 from radial.stick_slip import Rubbed
 
@@ -64,7 +65,12 @@ class Sheared:
 
 
 def sheared(
-    friction: float, end: Rubbed, target: Target, before: Sheared | None, power: float, tried: int
+    friction: CoulombFriction,
+    end: Rubbed,
+    target: Target,
+    before: Sheared | None,
+    power: float,
+    tried: int,
 ) -> Sheared:
     """Slip, front and energies after an increment."""
     x, a = end.rings.x, end.radius
@@ -75,12 +81,12 @@ def sheared(
     slip, shear, limit = nothing, nothing, nothing
     if before is not None:
         slip, shear = before.at(before.slip, r), before.at(before.end.shear, r)
-        limit = before.at(finite_pressure(before.end), r)
+        limit = friction.limit(before.at(finite_pressure(before.end), r))
     # What the contact has grown over has rubbed since the edge went by.
     touching = np.clip((a - r) / (a - begun), 0.0, 1.0) if a > begun else np.ones_like(r)
     touching[r <= begun] = 1.0
     slipped = touching * end.slipped * (end.sliding != 0)
-    rubbing = 0.5 * friction * (limit + finite_pressure(end)) * np.abs(slipped)
+    rubbing = 0.5 * (limit + friction.limit(finite_pressure(end))) * np.abs(slipped)
     open_ = np.abs(end.shear - shear) * np.abs(slipped)
     middling = stick_share(end) * a
     return Sheared(

@@ -2,8 +2,8 @@
 
 To the pressure of the contact without friction, which is exact, comes what shear changes: Δp on
 rings, with the gap closed at every node and the pressure zero at the edge. A node sticks, u_r as
-it was, or slips, q = ∓µp; which of them is found by Newton's method for
-|q - γ Δu_r| < µp (Alart and Curnier 1991).
+it was, or slips, q = ∓b(p) with the friction limit b; which of them is found by Newton's method for
+|q - γ Δu_r| < b (Alart and Curnier 1991).
 """
 
 from __future__ import annotations
@@ -17,6 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.linalg import lapack
 
+from contact_scene import CoulombFriction
 from contact_scene.solver_errors import NotConverged
 from radial.coupling import Coupling, Response
 from radial.disc import Disc, disc
@@ -31,6 +32,7 @@ Signs = NDArray[np.int64]
 
 MOST_STEPS = 200  # a few per ring: what all but sticks changes one ring at a time
 TIE = 1e-9  # of the largest limit
+EXACT = 1e-12  # of the largest limit: by so much a limit linear in Δp may miss that of the law
 AT_EDGE = 0.95  # of the radius: where rings are all that slips beyond, there is next to no slip
 ALL_AT_ONCE = 8  # steps of Newton's method; then the node that is most in the wrong changes alone
 
@@ -101,14 +103,13 @@ def rubbed(
     indenter: ShapedBody,
     radius: float,
     rings: Rings,
-    friction: float,
+    friction: CoulombFriction,
     before: Array,
     guess: Signs,
     fineness: int = 1,
 ) -> Rubbed:
     """The contact of this radius [length].
 
-    friction  µ
     before    u_r of the state before, at the rows [length]
     guess     of `sliding`
     raises    NotConverged where no set of sticking nodes is found, and what `disc` raises
@@ -118,7 +119,7 @@ def rubbed(
     drawn = coupling.drawn(contact, rings, fineness)
     smooth = pressure(contact, rings.x)
     found, sliding = _newton(
-        answer, rings.count, friction * smooth[1:-1], friction, (before - drawn)[1 : rings.count],
+        answer, rings.count, friction, smooth[1:-1], (before - drawn)[1 : rings.count],
         guess[1:-1], rings.x[1:-1],
     )  # fmt: skip
     n = rings.count
@@ -141,33 +142,36 @@ def rubbed(
 
 
 def _newton(
-    answer: Response, n: int, limit: Array, friction: float, stuck: Array, guess: Signs,
+    answer: Response, n: int, friction: CoulombFriction, smooth: Array, stuck: Array, guess: Signs,
     places: Array,
 ) -> tuple[Array, Signs]:  # fmt: skip
     """Δp, q and what the approach changes by, and which nodes slide.
 
-    limit  µ times the pressure without friction, at the nodes between axis and edge
-    stuck  u_r by Δp and q of what sticks, there
+    smooth  the pressure without friction, at the nodes between axis and edge
+    stuck   u_r by Δp and q of what sticks, there
     """
     own = np.abs(np.diag(answer.rr[1:n]))
     size = 2 * n
     matrix, right = np.zeros((size, size)), np.zeros(size)
     matrix[: n + 1] = np.column_stack([answer.zz[: n + 1], answer.zr[: n + 1], -np.ones(n + 1)])
     sticking = np.column_stack([answer.rz[1:n], answer.rr[1:n], np.zeros(n - 1)])
-    sliding, contradicting, first = guess, 1.0, 0.0
+    sliding, contradicting, first, pressure = guess, 1.0, 0.0, smooth
     for step in range(MOST_STEPS):
+        slope = friction.slope(pressure)
+        limit = friction.limit(pressure) - slope * pressure + slope * smooth
         rows = sticking.copy()
         right[n + 1 :] = stuck
         at = np.flatnonzero(sliding)
         rows[at] = 0.0
         rows[at, n + at] = own[at]
-        rows[at, at + 1] = -own[at] * sliding[at] * friction
+        rows[at, at + 1] = -own[at] * sliding[at] * slope[at]
         right[n + 1 + at] = own[at] * sliding[at] * limit[at]
         matrix[n + 1 :] = rows
         *_, found, failed = lapack.dgesv(matrix, right)
         if failed:
             break
-        most = limit + friction * found[1:n]
+        most = limit + slope * found[1:n]
+        pressure = np.maximum(smooth + found[1:n], 0.0)
         slip = sticking @ found - stuck
         tried = found[n:-1] - slip / own
         # Who rests at the limit, as under a held load, stays what it is.
@@ -175,7 +179,11 @@ def _newton(
         wrong = np.where(np.abs(tried) < least, 0, np.where(tried > 0, 1, -1)).astype(np.int64)
         contradicting = float(np.mean(wrong != sliding))
         if contradicting == 0:
-            return found, sliding
+            bent = np.abs(friction.limit(pressure) - np.maximum(most, 0.0))
+            contradicting = float(np.max(bent) / np.max(most))
+            if contradicting <= EXACT:
+                return found, sliding
+            continue
         first = float(np.min(places[wrong != sliding]))
         if step >= ALL_AT_ONCE:
             by = np.where(wrong != sliding, np.abs(np.abs(tried) - most) / np.abs(most), -1.0)
@@ -185,7 +193,8 @@ def _newton(
     problem = "which rings stick (residual: share of them that contradict their tractions)"
     if first > AT_EDGE:
         problem += (
-            f", of which a coefficient of friction of {friction:g} lets none slip but in the last "
-            f"{1 - first:.1g} of the radius, narrower than they tell: give a smaller coefficient,"
+            f", of which a coefficient of friction of {friction.largest:g} lets none slip but in "
+            f"the last {1 - first:.1g} of the radius, narrower than they tell: give a smaller "
+            "coefficient,"
         )
     raise NotConverged(problem, step + 1, contradicting, 0.0)

@@ -142,6 +142,7 @@ def _problem(
         precondition_together=model.periodic_inverse(box.shape),
         gap=part.of(normal.gap(model))[box.slices],
         friction_limit=partial(model.friction_limit, first=box.first),
+        friction_slope=partial(model.friction_slope, first=box.first),
         target=target[(..., *box.slices)],
         normal_load=normal.on(model, box, part),
         tangential_load=tangential.on(model.grid.cell_area, rotation, part),

@@ -36,7 +36,8 @@ class CoupledProblem:
     precondition_together    roughly the inverse without the coupling, and behind that the shears of
                              one component that are held back (see `periodic_inverse`)
     gap                      undeformed gap (nx, ny), infinite where the bodies can never touch
-    friction_limit           pressure (nx, ny) -> largest shear (nx, ny), in proportion
+    friction_limit           pressure (nx, ny) -> largest shear (nx, ny)
+    friction_slope           pressure (nx, ny) -> derivative of the largest shear (nx, ny)
     target                   u_t - motion of the state before (2, nx, ny)
     self_compliance          tangential displacement of a cell by its own unit shear
     part                     of the window that all fields are on
@@ -52,6 +53,7 @@ class CoupledProblem:
     precondition_together: Preconditioner
     gap: Field
     friction_limit: Callable[[Field], Field]
+    friction_slope: Callable[[Field], Field]
     target: VectorField
     normal_load: NormalLoad
     tangential_load: TangentialLoad

@@ -2,19 +2,20 @@
 
 With γ the inverse compliance of a patch of cells, the increment is solved where
 
-    p = max(0, p - γ g)        q = P_b(z),  z = q + γ (ω + c - u_t),  b = µp
+    p = max(0, p - γ g)        q = P_b(z),  z = q + γ (ω + c - u_t),  b = b(p)
 
 with P_b the projection on the disc of radius b (Alart and Curnier 1991). Both maps have kinks; at a
 point beside them they have a derivative, that of the zones of contact, stick and slip in which the
 point lies (semismooth Newton: Christensen, Klarbring, Pang and Strömberg 1998). It leaves free
 
-    p where there is contact, q where it sticks, s where it slips: q = µp n + s t
+    p where there is contact, q where it sticks, s where it slips: q = b n + s t
 
 n along z and t across it, and asks for as many displacements:
 
     u_z - δ = -h        u_t - ω = c        t·(u_t - ω - c) + d s = 0,  d = (|z| - b) / (γ b)
 
-µp n is what makes the derivative unsymmetric, by about µ|β|.
+b n, which changes with the pressure by µ n with µ = db/dp, is what makes the derivative
+unsymmetric, by about µ|β|.
 """
 
 from dataclasses import dataclass
@@ -51,6 +52,7 @@ class Point:
 class Natural:
     """The natural map at a point.
 
+    pressure p (nx, ny)
     gap      g (nx, ny)
     bound    friction limit (nx, ny) of the pressure, cut off at zero
     z        q + γ (ω + c - u_t), shape (2, nx, ny), and its length (nx, ny)
@@ -61,6 +63,7 @@ class Natural:
     pressed, sheared  how far p and q are from what the map makes of them, in parts of Σp and Σb
     """
 
+    pressure: Field
     gap: Field
     bound: Field
     z: VectorField
@@ -89,6 +92,7 @@ class Natural:
         length = magnitude(z)
         missing = np.sum(np.abs(p - np.where(contact, pushed, 0.0)))
         return cls(
+            pressure=p,
             gap=gap,
             bound=bound,
             z=z,
@@ -133,14 +137,14 @@ class Zones:
         length, bound = natural.length.ravel()[slip], natural.bound.ravel()[slip]
         normal = natural.z.reshape(2, -1)[:, slip] / length
         excess = length - bound
-        friction = problem.friction_limit(natural.contact.astype(np.float64))
+        slope = problem.friction_slope(np.maximum(natural.pressure, 0.0))
         stiffest = STIFFEST * problem.self_compliance
         return cls(
             contact=natural.contact,
             stick=natural.contact & ~natural.slip,
             slip=slip,
             tangent=np.stack([-normal[1], normal[0]]),
-            pulled=friction.ravel()[slip] * normal,
+            pulled=slope.ravel()[slip] * normal,
             turning=excess / np.maximum(problem.gamma * bound, excess / stiffest),
         )
 
@@ -203,11 +207,21 @@ class Zones:
         return v.reshape(3, *self.contact.shape)
 
     def tractions(self, free: Vector) -> Tractions:
-        """The tractions of free unknowns: where it slips, friction follows the pressure."""
+        """The tractions of changes of free unknowns: where it slips, friction follows the
+        pressure."""
         t = self.field(free).reshape(3, -1)
         pressure = t[2][self.slip]
         for one, pulled in zip(t[:2], self.pulled, strict=True):
             one[self.slip] += pulled * pressure
+        return t.reshape(3, *self.contact.shape)
+
+    def nearest(self, tractions: Tractions, bound: Field) -> Tractions:
+        """The tractions of these zones near given ones: where it slips, the shear along n is the
+        friction limit."""
+        t = self.field(self.free(tractions)).reshape(3, -1)
+        most = bound.ravel()[self.slip]
+        t[0][self.slip] += self.tangent[1] * most
+        t[1][self.slip] -= self.tangent[0] * most
         return t.reshape(3, *self.contact.shape)
 
     def held(self, free: Vector) -> Vector:

@@ -76,7 +76,7 @@ class LinearisedIncrement:
         bound = problem.friction_limit(p)
         if load.exhausts(bound):
             raise NotConverged("the coupled increment", 0, np.inf, 0.0)
-        t = zones.tractions(zones.free(np.concatenate([tractions[:2], p[None]])))
+        t = zones.nearest(np.concatenate([tractions[:2], p[None]]), bound)
         carriers = self._carriers[: len(self._shifts)]
         forces = np.array([load.forces(zones.field(carrier)[:2]) for carrier in carriers])
         forces = forces.reshape(len(carriers), len(carriers))

@@ -99,12 +99,20 @@ class ContactModel:
         return self.shear_part.of(self.gap)
 
     def friction_limit(self, pressure: Field, first: Pair = (0, 0)) -> Field:
-        """µp under a pressure there, or on a box of cells that begins with this one
+        """Friction limit under a pressure there, or on a box of cells that begins with this one
         [force/length^2]."""
+        return self.friction.limit(pressure, self._cells_from(first, pressure.shape))
+
+    def friction_slope(self, pressure: Field, first: Pair = (0, 0)) -> Field:
+        """Derivative of the friction limit with respect to the pressure, there [1]."""
+        return self.friction.slope(pressure, self._cells_from(first, pressure.shape))
+
+    def _cells_from(self, first: Pair, shape: tuple[int, ...]) -> tuple[slice, slice]:
+        """The cells of the window that a box of cells of the part that tells shear is on."""
         part = self.shear_part.slices(self.grid.cells)
         begins = (some.start + i for some, i in zip(part, first, strict=True))
-        x, y = (slice(i, i + count) for i, count in zip(begins, pressure.shape, strict=True))
-        return self.friction.limit(pressure, (x, y))
+        x, y = (slice(i, i + count) for i, count in zip(begins, shape, strict=True))
+        return x, y
 
     @cached_property
     def friction(self) -> CoulombFriction:

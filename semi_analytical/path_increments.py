@@ -243,7 +243,7 @@ def _pressed_first(bodies: Bodies, accuracy: float, shape: ShapedBody) -> tuple[
     most = (FULL_STICK_LAYERS if layered else FULL_STICK) / accuracy
     mu = bodies.friction.uniform
     if mu is None:
-        return _rounded(most), "pressing bodies that couple, with friction that varies"
+        return _rounded(most), "pressing bodies that couple, with friction that is not µp"
     if layered:
         m_squared = LAYERS * mu
         why = f"pressing coated bodies, µ = {mu:.2g}"

@@ -204,7 +204,7 @@ def _edges(scene: Scene, asked: EdgeCorrection, torsion: bool, coupled: bool) ->
     if torsion:
         return False, "not known of contacts that twist"
     if scene.friction is not None and scene.friction.uniform is None:
-        return False, "not known of friction that varies from place to place"
+        return False, "the friction limit is not the same multiple of the pressure everywhere"
     when = "increment" if asked == "all" else "step"
     price = DEAR if coupled else CHEAP
     return True, f"at the end of each {when} tractions fall to zero inside the cells: {price}"

@@ -72,6 +72,7 @@ class DenseContact:
             precondition_together=Held(np.diag(self.matrix).reshape(3, *SHAPE), self_compliance),
             gap=self.gap,
             friction_limit=lambda p: self.friction * p,
+            friction_slope=lambda p: np.full_like(p, self.friction),
             target=self.target,
             normal_load=normal_load,
             tangential_load=tangential_load,

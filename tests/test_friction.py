@@ -38,7 +38,7 @@ def test_the_limit_is_between_none_and_the_largest_ratio_of_the_pressure(frictio
 def test_the_slope_is_how_fast_the_limit_grows(friction, p) -> None:
     step = np.full(CELLS, 2.0**20)
     grown = friction.limit(p + step) - friction.limit(p)
-    np.testing.assert_allclose(grown, friction.slope() * step, atol=1e-6)
+    np.testing.assert_allclose(grown, friction.slope(p) * step, atol=1e-6)
 
 
 @given(UNIFORM | MAPPED, PRESSURES)

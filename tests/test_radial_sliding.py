@@ -45,7 +45,7 @@ def test_friction_carries_less_of_a_push_beside_torsion() -> None:
         ((twist(0.8), push(0.8, 0.0)), "slides and turns"),
         (
             (push(0.6, 0.0), push(0.6, 0.6), LoadStep(approach=0.5 * RADIUS**2, increments=1)),
-            "not below µW",
+            "not below the friction limit",
         ),
     ],
 )

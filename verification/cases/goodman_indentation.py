@@ -99,7 +99,7 @@ def _quantities(run: str) -> tuple[Quantity, ...]:
 def _excess(result: Result) -> float:
     end, friction = result.steps[-1], result.scene.friction
     assert friction is not None
-    bound = friction.largest * end.pressure
+    bound = friction.limit(end.pressure)
     return float(np.max(np.hypot(*shear_of(end)) - bound) / np.max(bound))
 
 

@@ -121,7 +121,7 @@ class _Surface:
         """What the first law is about."""
         return EnergeticState(
             self.told, self.rings.weights, self.stored, self.rings.undeformed, self.pressure,
-            self.gap, self.shear, self.rings.model.friction.largest * self.pressure, self.passed,
+            self.gap, self.shear, self.rings.model.friction.limit(self.pressure), self.passed,
             self.slip,
         )  # fmt: skip
 
@@ -138,8 +138,8 @@ def _of_pressure(now: _Surface) -> Iterator[float]:
 
 
 def _of_shear(before: _Surface | None, now: _Surface) -> Iterator[float]:
-    friction = now.rings.model.friction.largest
-    limit = friction * now.pressure
+    friction = now.rings.model.friction
+    limit = friction.limit(now.pressure)
     if not np.any(limit):
         yield float(np.max(np.hypot(*now.shear)) / np.max(now.pressure))
         return
@@ -159,7 +159,7 @@ def _of_shear(before: _Surface | None, now: _Surface) -> Iterator[float]:
     other = np.where(weights * limit > 0, other_than_motion(slip, passed, touched), 0.0)
     yield float(np.max(other) / abs(now.told.approach))
     work = weights * limit * np.hypot(*passed)
-    least = least_slip(friction, now.told.approach) * float(np.sum(weights * limit))
+    least = least_slip(friction.largest, now.told.approach) * float(np.sum(weights * limit))
     against = weights * np.sum(now.shear * passed, axis=0)
     scale = max(float(np.sum(work)), least)
     if scale > 0:  # not so where the axis alone touches

@@ -1,0 +1,141 @@
+"""Laws of friction other than Coulomb's, substituted in `contact_scene.friction` alone."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pytest
+from contact_scenes import LIMIT, LOAD, RADIUS, grid, hertz, steel
+
+import radial
+import semi_analytical
+from contact_scene import (
+    RIGID,
+    Body,
+    CoulombFriction,
+    LoadStep,
+    Paraboloid,
+    RadialDiscretisation,
+    Scene,
+)
+from contact_scene.solver_errors import GrossSliding
+from verification.observed.surfaces import surface_violation
+
+TOLERANCE = 1e-6
+# Of 40 cells and 24 rings; energy of thin annuli is known no better.
+AGREE = {"approach": 2e-4, "tangential_shift": 1e-2, "twist": 1e-2, "dissipated_energy": 0.2}
+PEAK = hertz().peak_pressure
+PRESS = LoadStep(normal_force=LOAD, increments=6)
+PUSH = LoadStep(tangential_force=(0.4 * LIMIT, 0.0), increments=2)
+TWIST = LoadStep(torque=0.1 * LIMIT * hertz().contact_radius, increments=2)
+
+
+def capped(mu: Any, p: Any) -> tuple[Any, Any]:
+    """Limit and slope of min(µp, half of that below the peak)."""
+    most = 0.5 * mu * PEAK
+    return np.minimum(mu * p, most), np.where(mu * p < most, mu, 0.0)
+
+
+def saturating(mu: Any, p: Any) -> tuple[Any, Any]:
+    """Limit and slope of µp/(1 + p/p0)."""
+    share = 1 / (1 + p / PEAK)
+    return mu * p * share, mu * share**2
+
+
+@pytest.fixture(params=[capped, saturating])
+def law(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -> Any:
+    """A law in which the coefficient is that of low pressures."""
+
+    def limit(self: Any, pressure: Any, where: Any = ...) -> Any:
+        return request.param(self._at(where), np.asarray(pressure))[0]
+
+    def slope(self: Any, pressure: Any, where: Any = ...) -> Any:
+        return request.param(self._at(where), np.asarray(pressure))[1]
+
+    monkeypatch.setattr(CoulombFriction, "limit", limit)
+    monkeypatch.setattr(CoulombFriction, "slope", slope)
+    return request.param
+
+
+def on_cells(scene: Scene) -> semi_analytical.Result:
+    """A window a little wider than the contact."""
+    return semi_analytical.solve(scene, grid(40, 1.3), tolerance=1e-8)
+
+
+def on_rings(scene: Scene) -> radial.Result:
+    """The default rings."""
+    return radial.solve(scene, RadialDiscretisation())
+
+
+def scene(*loading: LoadStep, coupled: bool, mu: float = 0.1) -> Scene:
+    """A ball on a half-space of the same contact modulus: coupled if the ball is rigid."""
+    return Scene(
+        indenter=Paraboloid(radius=RADIUS, material=RIGID if coupled else steel()),
+        body=Body(material=steel(young_modulus=210e9) if coupled else steel()),
+        friction=CoulombFriction(coefficient=mu),
+        loading=loading,
+    )
+
+
+def ring_violation(result: radial.Result) -> float:
+    """Excess of the shear over the limit, and what slip misses of opposing the shear at its limit
+    [1]."""
+    friction, worst, last = result.scene.friction, 0.0, np.zeros((2, 1))
+    assert friction is not None
+    for now in result.increments:
+        limit, shape = friction.limit(now.pressure), now.pressure.shape
+        radial_and_around = (
+            (now.shear_radial, now.shear_circumferential),
+            (now.slip_radial, now.slip_circumferential),
+        )
+        q, s = (
+            np.array([np.zeros(shape) if v is None else v for v in pair])
+            for pair in radial_and_around
+        )
+        moved, last = s - (last if last.ndim == s.ndim else last[..., None]), s
+        length = np.hypot(*moved)
+        missing = np.sum(limit * length + np.sum(q * moved, axis=0))
+        worst = max(
+            worst,
+            float(np.max(np.hypot(*q) - limit) / np.max(limit)),
+            float(missing / np.sum(limit * length)) if np.any(length) else 0.0,
+        )
+    return worst
+
+
+# Loading, whether bodies couple, and bound of `ring_violation`: between the angles of its points
+# the solver interpolates the shear, whose direction turns where coupled bodies are pushed.
+HISTORIES = {
+    "pushed": ((PRESS, PUSH), False, 2e-3),
+    "pressed, coupled": ((PRESS,), True, 1e-2),
+    "pushed, coupled": ((PRESS, PUSH), True, 0.1),
+    "twisted": ((PRESS, TWIST), False, 1e-9),
+}
+
+
+@pytest.mark.parametrize("history", HISTORIES)
+def test_any_law_of_friction_holds_in_every_solver_which_agree(law, history) -> None:
+    loading, coupled, bound = HISTORIES[history]
+    asked = scene(*loading, coupled=coupled)
+    assert asked.friction is not None
+    assert asked.friction.uniform is None
+    assert asked.friction.carried(LOAD) is None
+    cells, rings = on_cells(asked), on_rings(asked)
+    assert surface_violation(cells) < TOLERANCE
+    assert ring_violation(rings) < bound
+    for name, most in AGREE.items():
+        found, expected = (number(getattr(r.steps[-1], name)) for r in (cells, rings))
+        assert found == pytest.approx(expected, rel=most, abs=1e-12), name
+
+
+def number(value: Any) -> float:
+    """A number, or the first component of a vector; zero if it is absent."""
+    return 0.0 if value is None else float(np.ravel(value)[0])
+
+
+@pytest.mark.parametrize("solve", [on_cells, on_rings])
+def test_a_force_between_the_limit_of_the_law_and_that_of_its_coefficient_slides(law, solve):
+    push = LoadStep(tangential_force=(0.9 * LIMIT, 0.0))
+    with pytest.raises(GrossSliding):
+        solve(scene(LoadStep(normal_force=LOAD), push, coupled=False))
