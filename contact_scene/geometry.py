@@ -2,15 +2,16 @@
 
 import math
 from abc import abstractmethod
+from functools import lru_cache
 from typing import Annotated, Any, Literal
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from pydantic import Discriminator, Tag
 
-from contact_scene.array_file import FileKey
+from contact_scene.array_file import ArrayFile, FileKey
 from contact_scene.body import Body
-from contact_scene.height_map import PairOfSpacings, interpolate
+from contact_scene.height_map import PairOfSpacings, interpolate, lowest_point
 from contact_scene.quantity import PositiveLength, SlopeAngle
 
 Gap = NDArray[np.float64]
@@ -250,7 +251,8 @@ class HeightMap(ShapedBody):
 
     shape: Literal["height_map"] = "height_map"
     file: FileKey
-    """A `.npy` file with heights [length], index [i, j] = (x_i, y_j); the lowest touches first."""
+    """A `.npy` file with heights [length], index [i, j] = (x_i, y_j); the lowest
+    point of the interpolated surface touches first."""
 
     spacing: PairOfSpacings
     """Distance of neighbouring heights along x and y [length]; one number for both."""
@@ -273,13 +275,21 @@ class HeightMap(ShapedBody):
         return nx * dx, ny * dy
 
     def initial_gap(self, x: ArrayLike, y: ArrayLike) -> Gap:
-        """Heights above the lowest: bit for bit at the map's own points, smooth between them.
+        """Heights above the minimum of the surface between the outermost points.
 
-        Between points the cubic may dip below the lowest height, by no more than its own error.
         ValueError if a point lies outside the map.
         """
         heights = self.file.values
-        return interpolate(heights - heights.min(), self.spacing, x, y)
+        lowest, dip, _ = _first_contact(self.file)
+        return np.asarray(interpolate(heights - lowest, self.spacing, x, y) - dip)
+
+
+@lru_cache(maxsize=8)
+def _first_contact(file: ArrayFile) -> tuple[float, float, Pair]:
+    """Lowest height of a map, minimum of the interpolated surface above it (not positive), and the
+    position of this minimum in indices of points."""
+    lowest = float(np.min(file.values))
+    return lowest, *lowest_point(file.values - lowest)
 
 
 SHAPES: dict[str, type[ShapedBody]] = {

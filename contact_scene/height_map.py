@@ -1,5 +1,6 @@
 """Interpolation of maps: smoothly of heights, within their bounds of other values."""
 
+from functools import reduce
 from typing import Annotated, Any
 
 import numpy as np
@@ -11,6 +12,13 @@ from contact_scene.quantity import PositiveLength
 # A coordinate this close to a map point (in spacings) is that point: grids that coincide but were
 # computed by another formula differ by a few units of round-off.
 _COINCIDES = 1e-9
+
+# Sum of the magnitudes of the negative weights of cubic convolution in two dimensions, at most: at
+# the centre of four points it is 2 (9/8) (1/8).
+_NEGATIVE_WEIGHTS = 9 / 32
+# Rows whose bounds are computed at once; patches that are searched, and of them those with the lowest
+# samples, whose minimum is refined; refinements, each to a quarter of the width.
+_ROWS, _MOST_PATCHES, _PATCHES, _REFINEMENTS = 256, 65536, 64, 14
 
 
 def _one_for_both(value: Any) -> Any:
@@ -41,9 +49,73 @@ def interpolate(
     x, y = np.broadcast_arrays(np.asarray(x, dtype=float), np.asarray(y, dtype=float))
     i, s = _locate(x, heights.shape[0], spacing[0], "x")
     j, t = _locate(y, heights.shape[1], spacing[1], "y")
+    return _convolved(_continued(_continued(heights).T).T, i, s, j, t)
+
+
+def lowest_point(heights: NDArray[np.float64]) -> tuple[float, tuple[float, float]]:
+    """Minimum of the surface that `interpolate` defines between the outermost points of a map.
+
+    heights  values at the points, (nx, ny) [length]
+    returns  the minimum [length]; its position, in indices of points
+
+    Values beyond the outermost points are extrapolated and do not decide on first contact. Cubic convolution undershoots its 16 values by their range times `_NEGATIVE_WEIGHTS` at most.
+    This bound selects the patches that can lie below the lowest value; their minimum is found on
+    grids that shrink around it.
+    """
+    last = np.array(heights.shape) - 1.0
+    place = np.array(np.unravel_index(np.argmin(heights), heights.shape), dtype=float)
     padded = _continued(_continued(heights).T).T
+    lowest, half = float(np.min(heights)), 0.5
+    centres = _patches_below(padded[1:-1, 1:-1], lowest)
+    for _ in range(_REFINEMENTS if len(centres) else 0):
+        around = half * np.linspace(-1.0, 1.0, 9)
+        x, y = (
+            np.clip(centres[:, axis, None] + around, 0.0, last[axis]) for axis in (0, 1)
+        )
+        x, y = np.broadcast_arrays(x[:, :, None], y[:, None, :])
+        i, j = np.floor(x).astype(np.intp), np.floor(y).astype(np.intp)
+        values = _convolved(padded, i + 1, x - i, j + 1, y - j).reshape(len(x), -1)
+        at = np.argmin(values, axis=1)
+        best = np.argsort(values[np.arange(len(at)), at])[:_PATCHES]
+        centres = np.stack([c.reshape(len(x), -1)[best, at[best]] for c in (x, y)], axis=1)
+        if (found := float(values[best[0], at[best[0]]])) < lowest:
+            lowest, place = found, centres[0]
+        half /= 4
+    return lowest, (float(place[0]), float(place[1]))
+
+
+def _patches_below(padded: NDArray[np.float64], limit: float) -> NDArray[np.float64]:
+    """Centres of the patches between points whose bound lies below a limit, (count, 2), in indices
+    of points; of more than `_MOST_PATCHES` those with the lowest bounds.
+
+    padded  with one value beyond the outermost points
+    """
+
+    def of_four(extreme: np.ufunc, rows: NDArray[np.float64]) -> NDArray[np.float64]:
+        along = reduce(extreme, (rows[k : len(rows) - 3 + k] for k in range(4))).T
+        return np.asarray(reduce(extreme, (along[k : len(along) - 3 + k] for k in range(4))).T)
+
+    found, bounds = [], []
+    for begin in range(0, len(padded) - 3, _ROWS):
+        rows = padded[begin : begin + _ROWS + 3]
+        least, most = of_four(np.minimum, rows), of_four(np.maximum, rows)
+        bound = least - _NEGATIVE_WEIGHTS * (most - least)
+        found.append(np.argwhere(bound < limit) + (begin + 0.5, 0.5))
+        bounds.append(bound[bound < limit])
+    return np.asarray(np.concatenate(found)[np.argsort(np.concatenate(bounds))[:_MOST_PATCHES]])
+
+
+def _convolved(
+    padded: NDArray[np.float64],
+    i: NDArray[np.intp],
+    s: NDArray[np.float64],
+    j: NDArray[np.intp],
+    t: NDArray[np.float64],
+) -> NDArray[np.float64]:
+    """Cubic convolution at the distances s and t behind the second of four padded values, the first
+    of which has the indices i and j."""
     across, along = _weights(s), _weights(t)
-    result = np.zeros(x.shape)
+    result = np.zeros(np.broadcast_shapes(s.shape, t.shape))
     for k in range(4):
         for m in range(4):
             result += across[k] * along[m] * padded[i + k, j + m]

@@ -91,18 +91,20 @@ def centres(count: int, spacing: float) -> NDArray[np.float64]:
 
 
 @given(st.floats(1e-9, 1e3), st.integers(4, 33), st.integers(4, 33))
-def test_a_height_map_gives_its_own_values_bit_for_bit(spacing: float, nx: int, ny: int) -> None:
+def test_a_height_map_gives_its_own_values_to_round_off(spacing: float, nx: int, ny: int) -> None:
     values = heights(nx, ny)
     shape = HeightMap(material=RIGID, file=values, spacing=(spacing, 2 * spacing))
     # Another formula for the same centres, as a solver's grid may have.
     x = (np.arange(nx) + 0.5) * spacing - 0.5 * nx * spacing
     gap = shape.initial_gap(x[:, None], centres(ny, 2 * spacing)[None, :])
-    np.testing.assert_array_equal(gap, values - values.min())
+    np.testing.assert_allclose(gap - gap.min(), values - values.min(), rtol=0, atol=4e-15)
 
 
-def test_first_touch_of_a_height_map_is_its_lowest_value() -> None:
-    shape = HeightMap(material=RIGID, file=heights(), spacing=1.0)
-    assert shape.initial_gap(centres(12, 1.0)[:, None], centres(9, 1.0)).min() == 0.0
+def test_first_touch_of_a_height_map_is_the_minimum_between_its_points() -> None:
+    for seed in range(5):
+        shape = HeightMap(material=RIGID, file=heights(seed=seed), spacing=1.0)
+        x, y = np.linspace(-5.5, 5.5, 441), np.linspace(-4.0, 4.0, 321)  # 40 per spacing
+        assert 0.0 <= shape.initial_gap(x[:, None], y).min() < 4e-3
 
 
 def test_interpolation_reproduces_parabolas_up_to_the_rim_of_the_map() -> None:
@@ -111,8 +113,8 @@ def test_interpolation_reproduces_parabolas_up_to_the_rim_of_the_map() -> None:
     values = parabola(x, y)
     shape = HeightMap(material=RIGID, file=values, spacing=(0.5, 0.25))
     fine_x, fine_y = np.linspace(-2, 2, 57)[:, None], np.linspace(-1.25, 1.25, 61)[None, :]
-    expected = parabola(fine_x, fine_y) - values.min()
-    np.testing.assert_allclose(shape.initial_gap(fine_x, fine_y), expected, atol=2e-14)
+    gap, expected = shape.initial_gap(fine_x, fine_y), parabola(fine_x, fine_y)
+    np.testing.assert_allclose(gap - gap[0, 0], expected - expected[0, 0], atol=2e-14)
 
 
 def test_interpolation_is_third_order_accurate() -> None:
@@ -122,7 +124,7 @@ def test_interpolation_is_third_order_accurate() -> None:
         c = centres(count, 2.0 / count)
         values = np.cos(2 * c[:, None]) * np.sin(3 * c[None, :] + 1)
         shape = HeightMap(material=RIGID, file=values, spacing=2.0 / count)
-        exact = np.cos(2 * fine[:, None]) * np.sin(3 * fine[None, :] + 1) - values.min()
+        exact = np.cos(2 * fine[:, None]) * np.sin(3 * fine[None, :] + 1) + 1  # lowest: -1
         errors.append(np.abs(shape.initial_gap(fine[:, None], fine) - exact).max())
     orders = np.log2(np.divide(errors[:-1], errors[1:]))
     assert np.all(orders > 2.8)
