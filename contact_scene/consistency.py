@@ -74,7 +74,7 @@ def _shear_without_friction(parts: Parts) -> Iterator[Problem]:
         return
     for index, step in enumerate(parts.get("loading", ())):
         for key, load in _SHEARING.items():
-            if getattr(step, key) is not None:
+            if getattr(step, key) not in (None, 0.0, (0.0, 0.0)):
                 yield Problem(
                     ("loading", index, key),
                     f"{load} on a frictionless contact",
@@ -162,7 +162,7 @@ def _window_beyond_a_map(parts: Parts) -> Iterator[Problem]:
     indenter, friction = parts.get("indenter"), parts.get("friction")
     extents = {
         "the height map": indenter and indenter.extent,
-        "the friction map": friction and friction.varying and friction.varying.extent,
+        "the friction map": friction and friction.extent,
     }
     for name, extent in extents.items():
         for index, known in enumerate(extent or ()):

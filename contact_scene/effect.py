@@ -45,7 +45,7 @@ def layers(scene: Scene, one: str) -> Effect:
 def friction(scene: Scene) -> Effect:
     """Whether there is any."""
     on = scene.friction is not None
-    return Effect("friction", on, "[friction] is given" if on else "the scene has no [friction]")
+    return Effect("friction", on, "[friction] is given" if on else "the scene has no friction")
 
 
 def coupled(scene: Scene, on: bool, why: str) -> Effect:

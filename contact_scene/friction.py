@@ -1,5 +1,6 @@
 """Friction between the two bodies."""
 
+from functools import cached_property
 from types import EllipsisType
 from typing import Annotated, Any
 
@@ -60,6 +61,12 @@ class FrictionMap(Description):
         )
         return L_x, L_y
 
+    @cached_property
+    def constant(self) -> float | None:
+        """The coefficient where it is the same everywhere; None where it varies."""
+        values = self.map.values
+        return float(values[0, 0]) if np.all(values == values[0, 0]) else None
+
     @property
     def is_even(self) -> bool:
         """Whether the coefficient is the same at (±x, ±y), to rounding."""
@@ -115,7 +122,14 @@ class CoulombFriction(Description):
     @property
     def varying(self) -> FrictionMap | None:
         """The map of the coefficient; None where it is the same everywhere."""
-        return self.coefficient if isinstance(self.coefficient, FrictionMap) else None
+        mu = self.coefficient
+        return mu if isinstance(mu, FrictionMap) and mu.constant is None else None
+
+    @property
+    def extent(self) -> Pair | None:
+        """Lengths along x and y about the origin within which the coefficient is known [length];
+        None without a map."""
+        return self.coefficient.extent if isinstance(self.coefficient, FrictionMap) else None
 
     def on(self, cells: tuple[int, int], spacing: Pair) -> "CoulombFriction":
         """The same law with one coefficient for every cell of a grid, where it varies.
@@ -153,9 +167,10 @@ class CoulombFriction(Description):
 
     def _at(self, where: Where) -> float | Field:
         """The coefficient in cells."""
-        if isinstance(self.coefficient, FrictionMap):
-            return self.coefficient.map.values[where]
-        return self.coefficient
+        mu = self.coefficient
+        if not isinstance(mu, FrictionMap):
+            return mu
+        return mu.map.values[where] if mu.constant is None else mu.constant
 
     def carried(self, normal_force: float) -> float | None:
         """The largest tangential force under a normal force [force]; None where it depends on the

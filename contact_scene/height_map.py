@@ -16,7 +16,7 @@ _COINCIDES = 1e-9
 # Sum of the magnitudes of the negative weights of cubic convolution in two dimensions, at most: at
 # the centre of four points it is 2 (9/8) (1/8).
 _NEGATIVE_WEIGHTS = 9 / 32
-# Rows whose bounds are computed at once; patches that are searched, and of them those with the lowest
+# Rows whose bounds are computed at once; patches that are searched; those of them with the lowest
 # samples, whose minimum is refined; refinements, each to a quarter of the width.
 _ROWS, _MOST_PATCHES, _PATCHES, _REFINEMENTS = 256, 65536, 64, 14
 
@@ -58,9 +58,10 @@ def lowest_point(heights: NDArray[np.float64]) -> tuple[float, tuple[float, floa
     heights  values at the points, (nx, ny) [length]
     returns  the minimum [length]; its position, in indices of points
 
-    Values beyond the outermost points are extrapolated and do not decide on first contact. Cubic convolution undershoots its 16 values by their range times `_NEGATIVE_WEIGHTS` at most.
-    This bound selects the patches that can lie below the lowest value; their minimum is found on
-    grids that shrink around it.
+    Values beyond the outermost points are extrapolated and do not decide on first contact. Cubic
+    convolution undershoots its 16 values by their range times `_NEGATIVE_WEIGHTS` at most. This
+    bound selects the patches that can lie below the lowest value; their minimum is found on grids
+    that shrink around it.
     """
     last = np.array(heights.shape) - 1.0
     place = np.array(np.unravel_index(np.argmin(heights), heights.shape), dtype=float)
@@ -69,9 +70,7 @@ def lowest_point(heights: NDArray[np.float64]) -> tuple[float, tuple[float, floa
     centres = _patches_below(padded[1:-1, 1:-1], lowest)
     for _ in range(_REFINEMENTS if len(centres) else 0):
         around = half * np.linspace(-1.0, 1.0, 9)
-        x, y = (
-            np.clip(centres[:, axis, None] + around, 0.0, last[axis]) for axis in (0, 1)
-        )
+        x, y = (np.clip(centres[:, axis, None] + around, 0.0, last[axis]) for axis in (0, 1))
         x, y = np.broadcast_arrays(x[:, :, None], y[:, None, :])
         i, j = np.floor(x).astype(np.intp), np.floor(y).astype(np.intp)
         values = _convolved(padded, i + 1, x - i, j + 1, y - j).reshape(len(x), -1)
@@ -100,7 +99,7 @@ def _patches_below(padded: NDArray[np.float64], limit: float) -> NDArray[np.floa
         rows = padded[begin : begin + _ROWS + 3]
         least, most = of_four(np.minimum, rows), of_four(np.maximum, rows)
         bound = least - _NEGATIVE_WEIGHTS * (most - least)
-        found.append(np.argwhere(bound < limit) + (begin + 0.5, 0.5))
+        found.append(np.argwhere(bound < limit) + np.array((begin + 0.5, 0.5)))
         bounds.append(bound[bound < limit])
     return np.asarray(np.concatenate(found)[np.argsort(np.concatenate(bounds))[:_MOST_PATCHES]])
 

@@ -6,6 +6,7 @@ from math import ceil, hypot
 from contact_scene import ControlKind, LoadRamp, Scene
 from contact_scene.cycles import loop_increments
 from contact_scene.effect import Effect
+from contact_scene.normal_form import normal_form
 from contact_scene.pair import coupling, refuse_contrast
 from fem_reference.effects import effects
 from fem_reference.path import Path as Path
@@ -39,6 +40,7 @@ class Plan:
 
 def plan(scene: Scene) -> Plan:
     """Decide the path of a scene; raises UnsupportedScene for what is not axisymmetric enough."""
+    scene = normal_form(scene)
     refuse_shapes(scene)
     refuse_contrast(
         scene, MOST_CONTRAST, f", and finite elements carry a ratio up to {MOST_CONTRAST:.0e}"
@@ -48,7 +50,8 @@ def plan(scene: Scene) -> Plan:
     loaded = any(any(ramp.tangential.end) for ramp in ramps)
     twisted = any(ramp.twisting.end != 0 for ramp in ramps)
     couples, why = coupling(scene)
-    refuse_loads(scene, loaded, twisted, friction and couples)
+    couples = couples and scene.friction is not None and scene.friction.largest > 0
+    refuse_loads(scene, loaded, twisted, couples)
     path = _path(friction, loaded, twisted, couples)
     matters = _path_matters(ramps, path)
     return Plan(

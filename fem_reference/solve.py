@@ -5,6 +5,7 @@ from dataclasses import replace
 from typing import Any
 
 from contact_scene import FiniteElementDiscretisation, Scene
+from contact_scene.normal_form import normal_form
 from contact_scene.one_thread import one_thread
 from contact_scene.solver_errors import ContactAtZoneEdge
 from contact_scene.standing import Keeper, Mark, Standing
@@ -61,6 +62,7 @@ def solve(
     NotConverged
         An increment stopped above the tolerance; `last_state` holds the last good one.
     """
+    scene = normal_form(scene)
     decided = plan(scene)
     last = keeper.last() if keeper else None
     asked = discretisation.contact_radius

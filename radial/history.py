@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from contact_scene import LoadRamp, RadialDiscretisation, Scene
 from contact_scene.march import Reached, marked_increments
+from contact_scene.normal_form import normal_form
 from contact_scene.one_thread import one_thread
 from contact_scene.residuals import Residuals
 from contact_scene.standing import Keeper, Standing
@@ -63,6 +64,7 @@ def solve(
         An increment stopped above the tolerance; `last_state` holds the last good one.
     """
     asked = discretisation or RadialDiscretisation()
+    scene = normal_form(scene)
     decided = plan_of(scene) if plan is None else plan
     refuse_if_too_large(scene, decided)
     solver = _solver(scene, asked, decided, fineness)

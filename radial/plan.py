@@ -9,6 +9,7 @@ from contact_scene import ControlKind, LoadRamp, Scene, effect
 from contact_scene.cycles import loop_increments
 from contact_scene.effect import Effect
 from contact_scene.load_path import along_one_line
+from contact_scene.normal_form import normal_form
 from contact_scene.pair import coupling, refuse_contrast
 from contact_scene.scene_text import shape_text
 from contact_scene.solver_errors import UnsupportedScene
@@ -74,6 +75,7 @@ class Plan:
 
 def plan(scene: Scene) -> Plan:
     """Whether a scene is one of pressure on a disc; raises UnsupportedScene where it is not."""
+    scene = normal_form(scene)
     _refuse_shape(scene)
     refuse_contrast(
         scene, MOST_CONTRAST, f", and this solver carries a ratio up to {MOST_CONTRAST:.0e}"

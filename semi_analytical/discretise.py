@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from contact_scene import FrictionMap, HeightMap, Scene, SurfaceDiscretisation
+from contact_scene.normal_form import normal_form
 from contact_scene.pair import contact_modulus
 from contact_scene.scene_text import shape_text
 from contact_scene.solver_errors import (
@@ -25,6 +26,8 @@ Pair = tuple[float, float]
 
 # Peak pressure to about 1e-4 and fields to a few 1e-3 for a smooth contact.
 DEFAULT_CELLS = (128, 128)
+# In all, of maps with few points along one side.
+MOST_DEFAULT_CELLS = 512**2
 # Window in contact diameters; ten per cent let the bodies part within it.
 MARGIN = 1.1
 ROUND_OFF = 1e-9  # of the number of values of a map in a window
@@ -39,8 +42,10 @@ def discretise(scene: Scene, asked: SurfaceDiscretisation) -> SurfaceGrid:
 
     A window that is not given is fitted to the largest contact of the history, scouted on a
     coarse grid under the largest normal load, as far as maps of heights and friction reach. Cells
-    that are not given are no wider than the spacing of the maps.
+    that are not given divide the spacing of a map (of heights, if there are two) by the same whole
+    number along x and y, and are no wider than the spacing of the other.
     """
+    scene = normal_form(scene)
     return _grid(scene, asked, asked.window or _within_maps(scene, fitted_window(scene)))
 
 
@@ -54,9 +59,15 @@ def _grid(scene: Scene, asked: SurfaceDiscretisation, window: Pair) -> SurfaceGr
     if asked.cells is not None:
         return SurfaceGrid(asked.cells, window)
     cells = np.array(DEFAULT_CELLS)
-    for map_ in _maps(scene):
-        points = np.divide(window, map_.spacing)
-        cells = np.maximum(cells, np.ceil(points * (1 - ROUND_OFF)).astype(int))
+    if points := [
+        np.ceil(np.divide(window, map_.spacing) * (1 - ROUND_OFF)).astype(int)
+        for map_ in _maps(scene)
+    ]:
+        most = sqrt(MOST_DEFAULT_CELLS / np.prod(points[0], dtype=float))
+        usual = min(-(-cells[0] // int(np.min(points[0]))), int(most))
+        cells = points[0] * max(
+            1, usual, *(int(np.max(-(-other // points[0]))) for other in points)
+        )
     return SurfaceGrid((int(cells[0]), int(cells[1])), window)
 
 
@@ -67,7 +78,8 @@ def _maps(scene: Scene) -> list[HeightMap | FrictionMap]:
 
 
 def _within_maps(scene: Scene, window: Pair) -> Pair:
-    L_x, L_y = np.min([window, *(map_.extent for map_ in _maps(scene))], axis=0)
+    known = (scene.indenter.extent, scene.friction.extent if scene.friction else None)
+    L_x, L_y = np.min([window, *filter(None, known)], axis=0)
     return float(L_x), float(L_y)
 
 

@@ -8,6 +8,7 @@ from contact_scene import Scene, effect
 from contact_scene.discretisation import PATH_ACCURACY, EdgeCorrection
 from contact_scene.effect import Effect
 from contact_scene.friction import FRICTIONLESS
+from contact_scene.normal_form import normal_form
 from contact_scene.pair import coupling, dundurs_beta, refuse_contrast
 from semi_analytical.part import QUARTER, WHOLE, Part
 from semi_analytical.path_increments import Bodies, StepIncrements, path_increments, refined
@@ -87,6 +88,7 @@ def plan(scene: Scene, path_accuracy: float = PATH_ACCURACY, edge: EdgeCorrectio
     path_accuracy  error of the shear that finite increments may leave, relative to Σµp
     edge           at the end of which increments edges shall be put inside the cells
     """
+    scene = normal_form(scene)
     refuse_contrast(
         scene,
         MOST_CONTRAST,
@@ -96,7 +98,7 @@ def plan(scene: Scene, path_accuracy: float = PATH_ACCURACY, edge: EdgeCorrectio
     friction = scene.friction is not None
     loaded = _tangentially_loaded(scene)
     couples, why = coupling(scene)
-    coupled = friction and couples
+    coupled = scene.friction is not None and scene.friction.largest > 0 and couples
     shear = friction and (loaded or coupled)
     tilt = any(step.moment is not None or any(step.tilt or (0, 0)) for step in scene.loading)
     even = scene.indenter.is_even and not tilt

@@ -253,7 +253,7 @@ def _wider(model: ContactModel) -> str:
     """What helps where the window is too small."""
     if model.scene.indenter.extent is not None:
         return "the height map and the window must reach beyond the contact"
-    if model.scene.friction is not None and model.scene.friction.varying is not None:
+    if model.scene.friction is not None and model.scene.friction.extent is not None:
         return "the friction map and the window must reach beyond the contact"
     return "give a larger window, or leave it out to have it chosen"
 

@@ -3,6 +3,7 @@
 from collections.abc import Callable
 
 from contact_scene import Scene, SurfaceDiscretisation
+from contact_scene.normal_form import normal_form
 from contact_scene.one_thread import one_thread
 from contact_scene.solver_errors import ContactAtWindowEdge
 from contact_scene.standing import Keeper, Standing
@@ -63,6 +64,7 @@ def solve(
     ResourceRefused
         The grid needs more memory than there is.
     """
+    scene = normal_form(scene)
     decided = plan_of(scene) if plan is None else plan
     refuse_if_too_large(grid, decided)
     model = ContactModel.of(scene, grid, even=decided.quarter, told=decided.told)
@@ -94,7 +96,7 @@ def solve_discretised(
     increment reaches its edge after all; the window of a height map is all of it. Raises what
     `solve` raises, and ContactNotResolved where only a few cells carry the load.
     """
-    decided = plan
+    scene, decided = normal_form(scene), plan
     if decided is None:
         decided = plan_of(scene, discretisation.path_accuracy, discretisation.edge)
     first = discretise(scene, discretisation)

@@ -116,7 +116,7 @@ class PressureMoments:
         if self.total is not None:
             angles = np.sort(np.arctan2(y - M_x / self.total, x - M_y / self.total))
             gaps = np.diff(angles, append=angles[:1] + 2 * np.pi)
-            return bool(np.max(gaps, initial=0.0) < np.pi)
+            return bool(gaps.size and np.max(gaps) < np.pi)
         if M_x == 0 and M_y == 0:
             return True
         aside = np.angle(np.exp(1j * (np.arctan2(y, x) - np.arctan2(M_x, M_y))))

@@ -107,19 +107,19 @@ def map_of(shape, length, values=MU):
 
 @pytest.mark.parametrize("shape", [(40, 24), (300, 24), (512, 300)])
 @pytest.mark.parametrize("window", [2.2 * A, 3 * A])
-def test_chosen_cells_are_as_many_as_usual_and_no_wider_than_the_spacing_of_a_map(shape, window):
-    rough = HeightMap(
-        file=np.zeros(shape), spacing=tuple(4 * A / np.array(shape)), material=steel()
-    )
+def test_chosen_cells_divide_the_spacing_of_a_map_by_the_same_number(shape, window):
+    values = np.add.outer(np.arange(shape[0]), np.arange(shape[1])) * 1e-9
+    rough = HeightMap(file=values, spacing=tuple(4 * A / np.array(shape)), material=steel())
     asked = SurfaceDiscretisation(window=(window, window))
     for described in (
-        scene(PRESS, push(0.2), friction=map_of(shape, 4 * A)),
+        scene(PRESS, push(0.2), friction=map_of(shape, 4 * A, values)),
         scene(PRESS, friction=None, indenter=rough),
     ):
         cells = np.array(discretise(described, asked).cells)
-        needed = window / (4 * A / np.array(shape))
-        assert np.all(cells >= np.maximum(128, needed * (1 - 1e-9)))
-        assert np.all(cells < np.maximum(129, needed + 1))
+        points = np.ceil(window / (4 * A / np.array(shape)) - 1e-9)
+        factor = cells[0] // points[0]
+        assert list(cells) == list(factor * points)
+        assert min(cells) >= 128 > min((factor - 1) * points)
 
 
 @pytest.mark.parametrize("shape", [(128, 128), (129, 200), (301, 512)])
@@ -163,3 +163,15 @@ def test_window_is_fitted_to_forces_and_approaches_alike():
     )
     assert result.grid.window[0] > 2 * A
     assert np.isclose(result.steps[1].contact_radius, A, rtol=0.02)
+
+
+def test_few_points_along_one_side_do_not_multiply_those_along_the_other():
+    grid = discretise(
+        scene(
+            PRESS,
+            friction=None,
+            indenter=HeightMap(file=np.eye(4, 4000) * 1e-9, spacing=1e-6, material=steel()),
+        ),
+        SurfaceDiscretisation(),
+    )
+    assert grid.cells == (16, 16000)

@@ -125,7 +125,7 @@ def test_what_is_not_axisymmetric_is_refused_by_name(asked: Scene, named: str) -
 
 
 def test_maps_are_refused_by_name(tmp_path: FilePath) -> None:
-    np.save(tmp_path / "map.npy", np.zeros((16, 16)))
+    np.save(tmp_path / "map.npy", np.eye(16))
     rough = {"shape": "height_map", "file": str(tmp_path / "map.npy"), "spacing": 1e-4,
              "material": "rigid"}  # fmt: skip
     document = scene(PRESS).model_dump()

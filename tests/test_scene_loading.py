@@ -142,8 +142,9 @@ def test_without_friction_coefficient_zero_nothing_can_be_sheared() -> None:
 def test_a_frictionless_contact_takes_no_tangential_load() -> None:
     found = problems(
         {"normal_force": 1.0},
-        {"tangential_force": (0.0, 0.0)},
+        {"tangential_force": (1.0, 0.0)},
         {"tangential_shift": (1e-6, 0.0)},
+        {"tangential_force": (0.0, 0.0), "torque": 0.0},
         mu=None,
     )
     assert [p.key for p in found] == ["loading[2].tangential_force", "loading[3].tangential_shift"]

@@ -1,0 +1,92 @@
+"""Normal form of a scene: a degenerate value is replaced by the absence of its effect.
+
+All solvers plan and solve the normal form. A scene and its degenerate variants therefore have the
+same plan and the same numbers.
+"""
+
+from typing import TypeVar
+
+from contact_scene.body import Body, Layer
+from contact_scene.geometry import Ellipsoid, Indenter, Paraboloid
+from contact_scene.load_path import LoadRamp, along_one_line
+from contact_scene.loading import LoadStep
+from contact_scene.pair import coupling
+from contact_scene.scene import Scene
+
+B = TypeVar("B", bound=Body)
+# Controls that do nothing, with the control and the value that an unnamed coordinate has.
+Unnamed = dict[str, tuple[str, object]]
+
+
+def normal_form(scene: Scene) -> Scene:
+    """Return the scene without its degenerate values; the same object if there is none.
+
+    - Layers of the material below them become part of it.
+    - An ellipsoid with equal radii becomes a paraboloid.
+    - A zero force, moment or motion that symmetry makes equal to the free or fixed coordinate
+      becomes the control that an unnamed coordinate has.
+    - Friction that is zero everywhere is left out if no load shears the contact.
+    """
+    indenter, ramps = _round(scene.indenter), scene.load_path()
+    merged = {"indenter": _merged(indenter), "body": _merged(scene.body)}
+    shears = any(any(ramp.tangential.end) or ramp.twisting.end for ramp in ramps)
+    friction = scene.friction
+    if friction is not None and friction.largest == 0.0 and not shears:
+        friction = None
+    found = scene.model_copy(update={**merged, "friction": friction})
+    unnamed = _unnamed(found, ramps)
+    steps = tuple(_without(step, unnamed) for step in scene.loading)
+    found = found.model_copy(update={"loading": steps})
+    return scene if found == scene else found
+
+
+def _round(indenter: Indenter) -> Indenter:
+    if not isinstance(indenter, Ellipsoid) or not indenter.is_of_revolution:
+        return indenter
+    radius = indenter.radii[0]
+    return Paraboloid(material=indenter.material, layers=indenter.layers, radius=radius)
+
+
+def _merged(body: B) -> B:
+    """A body without layers of the material below them."""
+    layers: list[Layer] = []
+    below = body.material
+    for layer in reversed(body.layers):
+        if layer.material != below:
+            layers.insert(0, layer)
+        elif layers:
+            thickness = layer.thickness + layers[0].thickness
+            layers[0] = Layer(thickness=thickness, material=layer.material)
+        below = layer.material
+    if len(layers) == len(body.layers):
+        return body
+    return body.model_copy(update={"layers": tuple(layers)})
+
+
+def _unnamed(scene: Scene, ramps: tuple[LoadRamp, ...]) -> Unnamed:
+    """Controls that are zero in the whole history and do nothing."""
+    tilts = any(any(ramp.tilting.end) for ramp in ramps)
+    twists = any(ramp.twisting.end for ramp in ramps)
+    pushed = any(any(ramp.tangential.end) for ramp in ramps)
+    indenter, friction = scene.indenter, scene.friction
+    found: Unnamed = {}
+    if friction is None:
+        found = {"tangential_shift": ("tangential_force", (0.0, 0.0)), "torque": ("twist", 0.0)}
+    if not indenter.is_even or tilts or not (friction is None or friction.is_even):
+        return found
+    if not pushed:
+        found["tangential_shift"] = ("tangential_force", (0.0, 0.0))
+    along_axis = any(all(ramp.tangential.end[i] == 0 for ramp in ramps) for i in (0, 1))
+    round_ = indenter.is_of_revolution and (friction is None or friction.uniform is not None)
+    if not twists and (along_axis or (round_ and along_one_line(ramps))):
+        found["torque"] = ("twist", 0.0)
+    if not pushed or friction is None or not coupling(scene)[0]:
+        found["moment"] = ("tilt", (0.0, 0.0))
+    return found
+
+
+def _without(step: LoadStep, unnamed: Unnamed) -> LoadStep:
+    named = {k: v for k, v in unnamed.items() if getattr(step, k) is not None}
+    if not named:
+        return step
+    return step.model_copy(update={**dict.fromkeys(named), **dict(named.values())})

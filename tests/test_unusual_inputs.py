@@ -1,0 +1,155 @@
+"""Unusual but valid inputs give the numbers of the theory, or of the scene without their effect."""
+
+from typing import Any
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+import slipstick
+from contact_scene import (
+    RIGID,
+    Body,
+    CoulombFriction,
+    Ellipsoid,
+    FiniteElementDiscretisation,
+    HeightMap,
+    IsotropicMaterial,
+    Layer,
+    LoadStep,
+    Paraboloid,
+    Scene,
+    SurfaceDiscretisation,
+)
+from contact_scene.solver_errors import ContactAtWindowEdge
+from contact_scene.stated_error import StatedErrors
+
+R, E, NU = 10e-3, 70e9, 0.3
+E_STAR = E / (1 - NU**2)
+ALUMINIUM = IsotropicMaterial(young_modulus=E, poisson_ratio=NU)
+STEEL = IsotropicMaterial(young_modulus=210e9, poisson_ratio=0.25)
+APPROACH = 4.5e-6
+FORCE = 4 / 3 * E_STAR * np.sqrt(R * APPROACH**3)  # Hertz: 97.907 N
+COARSE: dict[str, Any] = {
+    "semi-analytical": SurfaceDiscretisation(cells=(32, 32)),
+    "radial": None,
+    "fem": FiniteElementDiscretisation(elements_per_radius=8),
+    "fem-complementarity": FiniteElementDiscretisation(elements_per_radius=8),
+}
+
+
+def scene(*loading: dict[str, Any], **parts: Any) -> Scene:
+    ball = Paraboloid(material=RIGID, radius=R)
+    usual = {"indenter": ball, "body": Body(material=ALUMINIUM)}
+    return Scene(**(usual | parts), loading=tuple(LoadStep(**step) for step in loading))
+
+
+def ball_map(count: int, tilt: tuple[float, float] = (0.0, 0.0)) -> HeightMap:
+    """A paraboloid in heights on 0.8 mm, moved by a tilt from its centre, 3.7 mm above zero."""
+    spacing = 0.8e-3 / count
+    x = (np.arange(count) - (count - 1) / 2) * spacing
+    heights = (x[:, None] ** 2 + x**2) / (2 * R) + tilt[0] * x[:, None] + tilt[1] * x + 3.7e-3
+    return HeightMap(material=RIGID, file=heights, spacing=spacing)  # type: ignore[arg-type]
+
+
+# First contact: the minimum of the interpolated surface, wherever points and cells lie.
+
+
+@pytest.mark.parametrize("tilt", [(0.0, 0.0), (1.7e-3, -0.6e-3)])
+@pytest.mark.parametrize("load", [{"approach": APPROACH}, {"normal_force": FORCE}])
+@pytest.mark.parametrize("count", [16, 45, 128])
+def test_a_sampled_ball_touches_where_the_ball_does(
+    count: int, load: dict[str, float], tilt: tuple[float, float]
+) -> None:
+    result = slipstick.solve(scene(load, indenter=ball_map(count, tilt)))
+    end = result.steps[-1]
+    assert end.normal_force == pytest.approx(FORCE, rel=2e-5)
+    assert end.approach == pytest.approx(APPROACH, rel=1e-5)
+
+
+def test_error_bars_of_a_sampled_ball_hold_its_approach() -> None:
+    result = slipstick.solve(scene({"normal_force": FORCE}, indenter=ball_map(16)))
+    stated: StatedErrors = slipstick.stated_errors(result)
+    error = stated.steps[0]["approach"].error
+    assert isinstance(error, float)
+    assert abs(result.steps[0].approach - APPROACH) <= error <= 1e-4 * APPROACH
+
+
+# Default cells divide the spacing of a map.
+
+
+@pytest.mark.parametrize("shape", [(75, 305), (305, 75), (31, 40), (129, 200)])
+def test_default_cells_divide_the_spacing_of_a_map_alike_along_both_sides(
+    shape: tuple[int, int],
+) -> None:
+    from semi_analytical import discretise
+
+    x, y = ((np.arange(count) - (count - 1) / 2) * 4e-6 for count in shape)
+    heights = np.square(x)[:, None] + np.square(y)
+    rough = HeightMap(material=RIGID, file=heights, spacing=(4e-6, 4e-6))
+    grid = discretise(scene({"normal_force": 1.0}, indenter=rough), SurfaceDiscretisation())
+    factors = np.divide(grid.cells, shape)
+    assert factors[0] == factors[1] == int(factors[0])
+    assert min(grid.cells) >= 128
+
+
+# A degenerate value is the absence of its effect: the same plan, the same bits.
+
+
+def uniform(value: float) -> CoulombFriction:
+    values: NDArray[np.float64] = np.full((20, 20), value)
+    return CoulombFriction.model_validate({"coefficient": {"map": values, "spacing": 1e-4}})
+
+
+def coated(*layers: tuple[float, IsotropicMaterial]) -> Body:
+    return Body(material=ALUMINIUM, layers=tuple(Layer(thickness=t, material=m) for t, m in layers))
+
+
+PRESS, MU = {"normal_force": 100.0}, CoulombFriction(coefficient=0.3)
+PUSH = {"normal_force": 100.0, "tangential_force": (10.0, 0.0)}
+NOTHING = {"tangential_shift": (0.0, 0.0), "torque": 0.0, "moment": (0.0, 0.0)}
+BARE = scene(PRESS)
+DEGENERATE = {
+    "coefficient zero": (scene(PRESS, friction=CoulombFriction(coefficient=0.0)), BARE),
+    "map of zeros": (scene(PRESS, friction=uniform(0.0)), BARE),
+    "constant map, coupled": (scene(PRESS, friction=uniform(0.3)), scene(PRESS, friction=MU)),
+    "constant map, pushed": (
+        scene(PUSH, friction=uniform(0.3), indenter=Paraboloid(material=ALUMINIUM, radius=R)),
+        scene(PUSH, friction=MU, indenter=Paraboloid(material=ALUMINIUM, radius=R)),
+    ),
+    "layer of the base": (scene(PRESS, body=coated((1e-5, ALUMINIUM))), BARE),
+    "layers alike": (
+        scene(PRESS, body=coated((5e-6, STEEL), (5e-6, STEEL), (1e-5, ALUMINIUM))),
+        scene(PRESS, body=coated((1e-5, STEEL))),
+    ),
+    "round ellipsoid": (scene(PRESS, indenter=Ellipsoid(material=RIGID, radii=(R, R))), BARE),
+    "loads of zero": (scene(PRESS | {"tangential_force": (0.0, 0.0), "twist": 0.0}), BARE),
+    "free motions": (scene(PRESS | NOTHING, friction=MU), scene(PRESS, friction=MU)),
+    "fixed motions": (
+        scene(PUSH | {"twist": 0.0, "tilt": (0.0, 0.0)}, friction=MU),
+        scene(PUSH, friction=MU),
+    ),
+}
+
+
+@pytest.mark.parametrize("solver", COARSE)
+@pytest.mark.parametrize("name", DEGENERATE)
+def test_a_degenerate_value_plans_as_the_absence_of_its_effect(name: str, solver: Any) -> None:
+    degenerate, absent = DEGENERATE[name]
+    assert slipstick.plan(degenerate, solver) == slipstick.plan(absent, solver)
+
+
+@pytest.mark.parametrize("solver", ["semi-analytical", "radial", "fem-complementarity"])
+@pytest.mark.parametrize("name", ["coefficient zero", "layers alike", "round ellipsoid"])
+def test_a_degenerate_value_gives_the_bits_of_its_absence(name: str, solver: Any) -> None:
+    ends = [slipstick.solve(asked, solver, COARSE[solver]).steps[-1] for asked in DEGENERATE[name]]
+    for quantity in ("approach", "contact_radius", "peak_pressure", "pressure"):
+        np.testing.assert_array_equal(*(getattr(end, quantity) for end in ends))
+
+
+def test_a_constant_map_is_known_within_its_extent_only() -> None:
+    small = CoulombFriction.model_validate(
+        {"coefficient": {"map": np.full((10, 10), 0.3), "spacing": 5e-6}}
+    )
+    with pytest.raises(ContactAtWindowEdge, match="friction map"):
+        slipstick.solve(scene(PRESS, friction=small), discretisation=COARSE["semi-analytical"])
