@@ -9,11 +9,9 @@ import numpy as np
 
 from contact_errors import estimate
 from contact_errors.on_radii import ROUND_OFF, TIMES, TWICE
-from contact_results.stress.circle_body import CircleBody
-from contact_results.stress.disc_body import DiscBody
 from contact_results.stress.extremes import Extreme
 from contact_results.stress.loaded_bodies import LoadedBodies
-from contact_results.stress.on_disc import is_sheared
+from contact_results.stress.radial_body import RadialBody, is_sheared
 from contact_scene.stated_error import Part, StatedError
 
 
@@ -21,9 +19,8 @@ def disc_stress_errors(
     state: LoadedBodies, found: Sequence[Extreme], *, indenter: bool = False
 ) -> tuple[StatedError, ...]:
     """Errors of the extremes that were found in a field: looked for anew about their places."""
-    sheared = is_sheared(state)
-    body = (CircleBody if sheared else DiscBody).of(state, indenter, TWICE)
-    by_increments = (state.by_increments or 0.0) if sheared else 0.0
+    body = RadialBody.of(state, indenter, TWICE)
+    by_increments = (state.by_increments or 0.0) if is_sheared(state) else 0.0
     errors: dict[tuple[str, float, float, float, float], StatedError] = {}
     for e in reversed(found):  # what is largest in the body is so in a layer, too
         if e.region in body.parts.named:

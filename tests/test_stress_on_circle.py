@@ -12,12 +12,12 @@ import radial
 import semi_analytical
 import slipstick
 from contact_errors.of_stress import stress_errors
-from contact_results.stress.circle_body import CircleBody
 from contact_results.stress.extremes import extremes
 from contact_results.stress.loaded_bodies import state_of_result, state_of_run
 from contact_results.stress.on_cells import stress_on_cells
 from contact_results.stress.on_disc import stress_on_disc
 from contact_results.stress.points import StressField
+from contact_results.stress.radial_body import RadialBody
 from contact_scene import (
     RIGID,
     Body,
@@ -178,7 +178,7 @@ def pushed(direction: tuple[float, float] = (1.0, 0.0)) -> Scene:
 
 def test_a_plane_below_carries_the_loads() -> None:
     result = radial.solve(pushed())
-    body = CircleBody.of(state_of_result(result, None), indenter=False)
+    body = RadialBody.of(state_of_result(result, None), indenter=False)
     nodes, weights = np.polynomial.legendre.leggauss(60)
     t = (1 + nodes) / 2
     scale = body.parts.radius
@@ -206,7 +206,7 @@ def test_the_scene_may_be_turned() -> None:
         assert_allclose(other.value, one.value, rtol=1e-9)
         assert_allclose((other.y, -other.x, other.depth), (one.x, one.y, one.depth), atol=1e-6)
     tension = next(e for e in extremes(of(along_y), along_y.body) if e.measure == "max_principal")
-    body = CircleBody.of(state_of_result(radial.solve(along_y), None), indenter=False)
+    body = RadialBody.of(state_of_result(radial.solve(along_y), None), indenter=False)
     assert np.max(body.largest(tension).measures["max_principal"]) >= tension.value * (1 - 1e-9)
 
 
@@ -230,14 +230,14 @@ def test_a_run_that_was_written_has_the_same_stress(tmp_path: Path) -> None:
 
 def test_the_indenter_of_one_material_has_the_stress_of_the_reversed_load() -> None:
     state = state_of_result(radial.solve(pushed()), None)
-    body, indenter = (CircleBody.of(state, indenter=which) for which in (False, True))
+    body, indenter = (RadialBody.of(state, indenter=which) for which in (False, True))
     x, y = np.random.default_rng(4).uniform(-1.5, 1.5, (2, 20))
-    c = body.below.circle.centre
+    c, below = body.centre, body.fields.__self__  # type: ignore[attr-defined]
     level = (Level(0.3, 0),)
     ours, theirs = body.points(level, x, y).stress, indenter.points(level, x, y).stress
     assert_allclose(ours[2] + theirs[2], 2 * BelowCircle(
-        LoadedCircle(body.parts.radius, c, body.below.circle.smooth * np.array([0, 0, 1.0])[
-            :, None, None]), body.below.stack, 5, 1,
+        LoadedCircle(body.parts.radius, c, below.circle.smooth * np.array([0, 0, 1.0])[
+            :, None, None]), below.stack, 5, 1,
     ).at(level, x, y)[0, 5][None], atol=1e-12)  # fmt: skip
     assert np.max(np.abs(ours[2] - theirs[2])) > 1e-3
 

@@ -20,7 +20,6 @@ if TYPE_CHECKING:
     from semi_analytical.stress import NearEdge, SubsurfaceField
 
 Field = NDArray[np.float64]
-Indices = NDArray[np.int64]
 
 # Half a window in half extents of the contact: past the contact's rim, where tension is largest,
 # and past what bends a coating down there.
@@ -61,13 +60,13 @@ def stress_on_cells(
     if see_edge:
         field, edge, why = _with_edge(state, body, grid, field, pressure, shear)
     plane = field.along_x()
-    points, section = _points(field, grid), _points(plane, grid)
+    points = _points(field, grid)
     return StressField(
         points,
         None if edge is None else FittedEdge(_on_edge(edge), edge.apart),
-        replace(section, cells=_quadrilaterals(plane)),
+        _points(plane, grid).with_cells(),
         _axis(plane),
-        replace(points, cells=_hexahedra(field)) if volume else None,
+        points.with_cells() if volume else None,
         "x at y = 0",
         (float(field.x[-1]), float(field.depths[-1])),
         {
@@ -222,27 +221,3 @@ def _axis(section: SubsurfaceField) -> StressPoints:
         stress.T,
         at_edge=np.zeros(len(nothing), dtype=bool),
     )
-
-
-def _quadrilaterals(section: SubsurfaceField) -> tuple[str, Indices]:
-    """Cells between the levels of one material."""
-    top, bottom = (plane[..., 0] for plane in _between(section))
-    corners = [top[:, :-1], top[:, 1:], bottom[:, 1:], bottom[:, :-1]]
-    return "quad", np.stack(corners, axis=-1).reshape(-1, 4)
-
-
-def _hexahedra(field: SubsurfaceField) -> tuple[str, Indices]:
-    """The same of a volume."""
-    less, more = slice(None, -1), slice(1, None)
-    around = ((less, less), (more, less), (more, more), (less, more))
-    corners = [plane[:, i, j] for plane in _between(field) for i, j in around]
-    return "hexahedron", np.stack(corners, axis=-1).reshape(-1, 8)
-
-
-def _between(field: SubsurfaceField) -> tuple[Indices, Indices]:
-    """Numbers of the points above and below everything that lies in one material."""
-    layers = [level.layer for level in field.levels]
-    shape = (len(layers), len(field.x), len(field.y))
-    index = np.arange(np.prod(shape)).reshape(shape)
-    above = np.flatnonzero(np.equal(layers[:-1], layers[1:]))
-    return index[above], index[above + 1]

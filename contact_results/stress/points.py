@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,6 +15,7 @@ from contact_results.stress.invariants import principal_stresses, von_mises
 Field = NDArray[np.float64]
 Indices = NDArray[np.int64]
 
+FIELDS = ("x", "y", "depth", "material", "displacement", "stress", "at_edge")
 COMPONENTS = ("xx", "yy", "zz", "yz", "xz", "xy")
 # Names and meanings.
 MEASURES = {
@@ -84,6 +86,36 @@ class StressPoints:
             stress=np.stack(stress),
         )
 
+    @staticmethod
+    def joined(parts: Sequence[StressPoints]) -> StressPoints:
+        """Join points along their last index, without cells."""
+
+        def together(name: str) -> Any:
+            return np.concatenate([getattr(part, name) for part in parts], axis=-1)
+
+        return StressPoints(**{name: together(name) for name in FIELDS})
+
+    def columns(self, which: slice) -> StressPoints:
+        """Select along the last index, without cells."""
+        return StressPoints(**{name: getattr(self, name)[..., which] for name in FIELDS})
+
+    def with_cells(self) -> StressPoints:
+        """Add the cells between adjacent levels of one material: quadrilaterals of a section
+        (levels, n), hexahedra of a volume (levels, nx, ny)."""
+        index: Any = np.arange(self.x.size).reshape(self.x.shape)
+        index = index[..., 0] if index.shape[2:] == (1,) else index
+        layer = self.material.reshape(len(index), -1)[:, 0]
+        above = np.flatnonzero(layer[:-1] == layer[1:])
+        less, more = slice(None, -1), slice(1, None)
+        around: list[tuple[slice, ...]]
+        kind, around = "quad", [(less,), (more,)]
+        if index.ndim == 3:
+            kind, around = "hexahedron", [(less, less), (more, less), (more, more), (less, more)]
+        below = around if index.ndim == 3 else around[::-1]
+        corners = [index[above][:, *at] for at in around]
+        corners += [index[above + 1][:, *at] for at in below]
+        return replace(self, cells=(kind, np.stack(corners, axis=-1).reshape(-1, len(corners))))
+
     def near(self, reach: float) -> StressPoints:
         """The cells that have a corner within a distance to the sides and in depth."""
         assert self.cells is not None
@@ -104,6 +136,11 @@ class StressPoints:
             self.stress.reshape(6, -1)[:, which],
             self.at_edge.ravel()[which],
         )
+
+    @property
+    def in_a_row(self) -> StressPoints:
+        """All points (n,), without cells."""
+        return self.chosen(np.arange(self.x.size))
 
     def on_side(self, depth: float, material: int) -> NDArray[np.bool_]:
         """Which points lie on one side of an interface (…)."""

@@ -147,7 +147,7 @@ def stress(
             errors=errors,
             accuracy=reached,
         )
-    from contact_results.stress.on_disc import is_sheared
+    from contact_results.stress.radial_body import is_sheared
 
     # Pressure alone, on a disc, has no path.
     on_disc = state.pressed is not None and not is_sheared(state)

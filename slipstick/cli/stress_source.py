@@ -76,7 +76,7 @@ def _solved(
     fineness = chosen.fineness(contents)
     decided: Any = chosen.plan(contents.scene, fineness)
     if name is SolverName.RADIAL:
-        from contact_results.stress.on_disc import refuse_infinite, refuse_turned
+        from contact_results.stress.radial_body import refuse_infinite, refuse_turned
         from radial.circle import Circle
         from radial.largest_contact import expected_radius
 

@@ -10,10 +10,10 @@ from numpy.typing import NDArray
 
 import radial
 from contact_results.stress.body_regions import REACH
-from contact_results.stress.circle_body import CircleBody
 from contact_results.stress.invariants import principal_stresses
 from contact_results.stress.loaded_bodies import state_of_result
 from contact_results.stress.points import StressPoints
+from contact_results.stress.radial_body import RadialBody
 from radial.below_circle import BelowCircle
 from radial.circle_fit import round_circle
 from radial.loaded_circle import LoadedCircle
@@ -104,13 +104,13 @@ def _check(
 
 
 @cache
-def _pushed() -> CircleBody:
+def _pushed() -> RadialBody:
     step = paper.tangential_step(PART, INCREMENTS)
     scene = paper.frictional("Ball pushed", paper.paraboloid(STEEL), STEEL, step)
-    return CircleBody.of(state_of_result(radial.solve(scene), None), indenter=False)
+    return RadialBody.of(state_of_result(radial.solve(scene), None), indenter=False)
 
 
-def _points(body: CircleBody, depth: float, x: Field, y: Field) -> StressPoints:
+def _points(body: RadialBody, depth: float, x: Field, y: Field) -> StressPoints:
     """At a depth and places in contact radii."""
     return body.points((Depth(depth * A, 0),), A * x, A * y)
 
@@ -131,7 +131,7 @@ def _error_of_tension() -> float:
     exact = stress_by_hertz_pressure(edge, 1.0, P0, NU) + stress_by_hertz_shear(edge, 1.0, most, NU)
     exact -= stress_by_hertz_shear(edge, stuck, stuck * most, NU)
     body = _pushed()
-    place = np.array([body.below.circle.centre - body.parts.radius]) / A
+    place = np.array([body.centre - body.parts.radius]) / A
     found = _points(body, 0.0, place, 0 * place).principal[0]
     return abs(float(found[0, 0] / exact[0]) - 1)
 
@@ -140,7 +140,7 @@ def _error_of_torque() -> float:
     """∫ σ_θz 2πr² dr over the plane, r/(1 + r) from 0 to 1."""
     result = radial.solve(TWISTED.scene)
     end = result.steps[-1]
-    body = CircleBody.of(state_of_result(result, None), indenter=False)
+    body = RadialBody.of(state_of_result(result, None), indenter=False)
     nodes, weights = np.polynomial.legendre.leggauss(120)
     t = (1 + nodes) / 2
     r, area = t / (1 - t), weights / 2 / (1 - t) ** 2

@@ -1,0 +1,238 @@
+"""A body below the tractions of the radial solver: its regions, points and largest stresses."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from contact_results.stress.body_regions import IN_LAYER, REACH, BodyRegions, spacing
+from contact_results.stress.extremes import Extreme
+from contact_results.stress.loaded_bodies import LoadedBodies
+from contact_results.stress.points import StressPoints
+from contact_results.surface import Rings
+from contact_scene.geometry import ShapedBody
+from contact_scene.solver_errors import UnsupportedScene
+
+if TYPE_CHECKING:
+    from contact_scene import Body
+    from semi_analytical.frf.depth import Level
+    from semi_analytical.frf.stack import Stack
+
+Field = NDArray[np.float64]
+Fields = Callable[[Sequence["Level"], Field, Field], Field]
+
+
+class Sampling(NamedTuple):
+    """Numbers of points.
+
+    inside, beside, down  of a section: over the radius, outside it and in depth
+    about, rounds         of the search for a maximum: points to either side, by which their spacing
+                          is divided in every round
+    """
+
+    inside: int
+    beside: int
+    down: int
+    about: int
+    rounds: int
+
+
+PRESSED, SHEARED = Sampling(32, 32, 48, 3, 6), Sampling(20, 16, 28, 2, 5)
+# Points outside the plane of the section, where the tensile stress at the base of a layer is
+# largest: radii of the contact, angles, and every n-th level.
+RADII, ANGLES, EVERY = np.array([0.3, 0.6, 0.8, 0.95, 1.0, 1.15, 1.5]), 7, 2
+
+
+@dataclass(frozen=True)
+class RadialBody:
+    """One body below a circular contact, in axes in which x points along the load.
+
+    fields     displacement and stress (levels, 9, n) on levels at x and y (n,)
+    parts      regions of the body, and the depths
+    direction  unit vector of the load in the scene
+    centre     of the contact, along x [length]
+    is_round   whether all fields are functions of the radius, known at x >= 0 and y = 0
+    """
+
+    fields: Fields
+    parts: BodyRegions
+    sampling: Sampling
+    direction: tuple[float, float]
+    centre: float = 0.0
+    is_round: bool = True
+
+    @classmethod
+    def of(cls, state: LoadedBodies, indenter: bool, fineness: int = 1) -> RadialBody:
+        """Return the body or the indenter of a state.
+
+        fineness  multiplies the number of orders and points; above 1 the edge has another fit
+
+        Raises UnsupportedScene for too few rings, and for shear below infinite pressure or of a
+        load that turns.
+        """
+        from semi_analytical.frf.stack import stack_of
+
+        body = state.indenter if indenter else state.body
+        make = cls._below_shear if is_sheared(state) else cls._below_pressure
+        return make(state, indenter, fineness, body, stack_of(body))
+
+    @classmethod
+    def _below_pressure(
+        cls, state: LoadedBodies, indenter: bool, fineness: int, body: Body, stack: Stack
+    ) -> RadialBody:
+        from contact_scene import Scene
+        from radial.below import Below
+        from radial.bodies import Bodies
+        from radial.disc import disc
+
+        assert state.pressed is not None
+        shape, a, approach = state.pressed
+        step = {"approach": approach}
+        scene = Scene.model_validate({"indenter": shape, "body": state.body, "loading": [step]})
+        asked = None if shape.rim is None else approach
+        contact = disc(Bodies.of(scene), shape, a, asked, fineness)
+        infinite = contact.profile.apex or contact.edge != 0
+        parts = BodyRegions.of(body, a, PRESSED.down, infinite=infinite)
+        below = Below(contact, stack, REACH, fineness)
+
+        def fields(levels: Sequence[Level], x: Field, y: Field) -> Field:
+            u_r, u_z, rr, tt, zz, rz = np.moveaxis(below.at(levels, x), 1, 0)
+            none = np.zeros_like(rr)
+            return np.stack([u_r, none, u_z, rr, tt, zz, none, rz, none], axis=1)
+
+        return cls(fields, parts, PRESSED, state.direction)
+
+    @classmethod
+    def _below_shear(
+        cls, state: LoadedBodies, indenter: bool, fineness: int, body: Body, stack: Stack
+    ) -> RadialBody:
+        from radial.below_circle import BelowCircle
+        from radial.circle_fit import ANOTHER, USUAL, pushed_circle, round_circle
+
+        assert state.pressed is not None
+        refuse_infinite(*state.pressed[:2])
+        surface, p = state.surface, state.tractions["pressure"]
+        assert isinstance(surface, Rings)
+        if surface.whole:
+            refuse_turned()
+        names = ("shear_radial", "shear_circumferential")
+        outward, around = (state.tractions.get(name, np.zeros_like(p)) for name in names)
+        if surface.angles is None:
+            circle, highest = round_circle(surface.radii, state.pressed[1], outward, around, p), 1
+        else:
+            fit = USUAL if fineness == 1 else ANOTHER
+            circle = pushed_circle(surface.radii, surface.angles, outward, around, p, fit)
+            highest = len(surface.angles)
+        if indenter:
+            circle = circle.reversed()
+        parts = BodyRegions.of(body, circle.radius, SHEARED.down)
+        below = BelowCircle(circle, stack, REACH, highest, fineness)
+        return cls(below.at, parts, SHEARED, state.direction, circle.centre, circle.is_round)
+
+    @property
+    def radii(self) -> Field:
+        """Distances of the section's points from the centre, denser towards the edge [length]."""
+        inside = np.sin(0.5 * np.pi * np.arange(self.sampling.inside) / self.sampling.inside)
+        beside = np.arange(self.sampling.beside + 1) / self.sampling.beside
+        return self.parts.radius * np.concatenate([inside, 1 + (REACH - 1) * beside**2])
+
+    @property
+    def section(self) -> Field:
+        """Points of the section along x (n,); of a round contact from the axis on [length]."""
+        if self.is_round:
+            return self.radii
+        return np.unique(np.concatenate([self.centre - self.radii, [0], self.centre + self.radii]))
+
+    def points(self, levels: Sequence[Level], x: Field, y: Field) -> StressPoints:
+        """Compute displacement and stress at places (n,) of every level (levels, n)."""
+        found = np.moveaxis(self.fields(levels, x, y), 1, 0)
+        depth = np.array([[level.depth] for level in levels])
+        layer = np.array([[level.layer] for level in levels])
+        none, parts = np.zeros_like(found[0]), self.parts
+        away = np.hypot(x - self.centre, y) >= (1 - 1e-9) * REACH * parts.radius
+        infinite = (depth == parts.first) & (parts.first > 0)
+        return StressPoints(
+            none + x,
+            none + y,
+            none + depth,
+            np.broadcast_to(layer, none.shape),
+            found[:3],
+            found[3:],
+            at_edge=away | (depth == parts.deepest) | infinite,
+        )
+
+    def beside(self, levels: Sequence[Level]) -> StressPoints:
+        """Compute the points outside the plane of the section."""
+        angles = np.pi * np.arange(1, ANGLES + 1) / (ANGLES + 1)
+        r = self.parts.radius * RADII[:, None]
+        x, y = self.centre + r * np.cos(angles), r * np.sin(angles)
+        last = len(levels) - 1
+        sides = [
+            n for n, level in enumerate(levels)
+            if n % EVERY == 0 or n in (0, last)
+            or level.depth in (levels[n - 1].depth, levels[min(n + 1, last)].depth)
+        ]  # fmt: skip
+        return self.points([levels[n] for n in sides], x.ravel(), y.ravel())
+
+    def largest(self, extreme: Extreme) -> StressPoints:
+        """Find the point of a region where a measure is largest, from the largest of the points
+        that were computed; returns it with its neighbours (n,)."""
+        from semi_analytical.frf.depth import Level
+
+        material, top, bottom = self.parts.named[extreme.region]
+        c, s = self.direction
+        x, y, z = c * extreme.x + s * extreme.y, c * extreme.y - s * extreme.x, extreme.depth
+        radius, about = self.parts.radius, self.sampling.about
+        r, theta = np.hypot(x - self.centre, y), np.arctan2(y, x - self.centre)
+        across, down = spacing(self.radii, r), spacing(self.parts.depths, z)
+        down = min(down, (bottom - top) / IN_LAYER)
+        # In the plane it stays there, by symmetry.
+        around = np.pi / (ANGLES + 1) if abs(y) > 1e-9 * radius else 0.0
+        steps = np.arange(-about, about + 1) / about
+        for _ in range(self.sampling.rounds + 1):
+            radii = np.clip(r + across * steps, 0, REACH * radius)
+            if radii[0] < radius < radii[-1]:  # where there may be a peak
+                radii = np.append(radii, radius)
+            depths = np.unique(np.clip(z + down * steps, top, bottom))
+            angles = np.unique(np.clip(theta + around * steps, -np.pi, np.pi))
+            at, to = (part.ravel() for part in np.meshgrid(np.unique(radii), angles))
+            levels = [Level(float(depth), material) for depth in depths]
+            found = self.points(levels, self.centre + at * np.cos(to), at * np.sin(to))
+            k = int(np.argmax(found.measures[extreme.measure]))
+            r, theta = float(at[k % len(at)]), float(to[k % len(at)])
+            z = float(found.depth.flat[k])
+            across, down, around = across / about, down / about, around / about
+        return found.in_a_row
+
+
+def is_sheared(state: LoadedBodies) -> bool:
+    """Return whether the surface carries shear."""
+    return any(np.any(t) for name, t in state.tractions.items() if name != "pressure")
+
+
+def refuse_infinite(indenter: ShapedBody, radius: float) -> None:
+    """Raise UnsupportedScene for shear where the pressure is infinite.
+
+    radius  about that of the contact [length]: a ball has no gap of its own beyond its equator
+    """
+    from radial.profile import profile
+
+    if indenter.rim is not None or profile(indenter, radius).apex:
+        where = "a tip" if indenter.rim is None else "a rim"
+        raise UnsupportedScene(
+            f"there is shear, and the pressure is infinite at {where}: this solver has the stress "
+            "below shear where tractions are finite; solve the scene with another solver"
+        )
+
+
+def refuse_turned() -> None:
+    """Raise UnsupportedScene for shear that is not its own mirror image."""
+    raise UnsupportedScene(
+        "the tangential load turns, or there is torsion beside it: this solver has the stress "
+        "below loads along one line, or torsion alone; solve the scene with the semi-analytical "
+        "solver"
+    )
