@@ -13,6 +13,7 @@ from contact_scene.material import IsotropicMaterial
 
 if TYPE_CHECKING:
     from contact_results.surface import Result
+    from contact_scene import Scene
     from contact_scene.body import Body
     from contact_scene.geometry import ShapedBody
 
@@ -69,15 +70,10 @@ SI = Units()
 
 def natural_units(result: Result) -> Units:
     """Those of a result; see `natural_units_of`."""
-    scene = result.scene
-    coated = any(body.layers for body in (scene.body, scene.indenter))
-    mu = scene.friction.uniform if scene.friction is not None else None
-    return natural_units_of(scene.indenter, scene.body, mu, result.steps, coated=coated)
+    return natural_units_of(result.scene, result.steps)
 
 
-def natural_units_of(
-    tip: ShapedBody | None, body: Body, mu: float | None, ends: Sequence[Peaked], *, coated: bool
-) -> Units:
+def natural_units_of(scene: Scene, ends: Sequence[Peaked]) -> Units:
     """The radius a, peak pressure p0 and approach δ of Hertz' contact under the last load, of the
     bodies without their coatings; of the run itself where there is no such contact. Shear is over
     µp0, slip and shift over µδ, forces over the last load W and µW, where µ is one number.
@@ -85,17 +81,16 @@ def natural_units_of(
     For a body of revolution a^3 = 3 W R / 4 E*, p0 = 3 W / 2πa^2, δ = a^2/R (Johnson 1985, eqs.
     4.22-4.24).
 
-    tip     None for a map of heights
-    mu      None without friction and for a map of it
-    ends    of the loading steps
-    coated  whether a body is
+    ends  of the loading steps
     """
+    tip, body = scene.indenter, scene.body
+    mu = scene.friction.uniform if scene.friction is not None else None
     load = next((end.normal_force for end in reversed(ends) if end.normal_force > 0), 0.0)
     found = _hertz(tip, body, load)
     if found is not None:
         a, p0, approach = found
         whose = "Hertz' contact under the last load"
-        whose += ", uncoated" if coated else ""
+        whose += ", uncoated" if body.layers or tip.layers else ""
     else:
         a = max(end.contact_radius for end in ends)
         p0 = max(end.peak_pressure for end in ends)
@@ -123,9 +118,9 @@ def natural_units_of(
     return Units({kind: unit for kind, unit in sizes.items() if unit.size > 0}, note)
 
 
-def _hertz(tip: ShapedBody | None, body: Body, load: float) -> tuple[float, float, float] | None:
+def _hertz(tip: ShapedBody, body: Body, load: float) -> tuple[float, float, float] | None:
     """Radius, peak pressure and approach; None where bodies are not of Hertz' kind."""
-    if tip is None or not (tip.is_of_revolution and tip.gap_exponent == 2 and load > 0):
+    if not (tip.is_of_revolution and tip.gap_exponent == 2 and load > 0):
         return None
     materials = (body.material, tip.material)
     elastic = [m for m in materials if isinstance(m, IsotropicMaterial)]

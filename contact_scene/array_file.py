@@ -41,18 +41,22 @@ class ArrayFile:
 
 
 def array_file(value: Any, info: ValidationInfo) -> ArrayFile:
-    """The array behind a file key.
+    """Return the array that a file key names.
 
-    Scene files name a `.npy` file in or below their own folder, which comes as
-    `info.context["folder"]`. Python code may as well hand over any path or the array itself.
+    A scene file names a `.npy` file in or below its own folder, `info.context["folder"]`. A stored
+    run has the array by the name of its key, in `info.context["arrays"]`. Python code may pass any
+    path or the array itself.
     """
     if isinstance(value, ArrayFile):
         return value
+    context, name = info.context or {}, ""
+    if isinstance(value, str) and info.field_name in context.get("arrays", ()):
+        value, name = context["arrays"][info.field_name], value
     if isinstance(value, np.ndarray):
         _check_plain(value)
-        _check_shape(value.shape, "")
-        return _checked(np.array(value, dtype=np.float64, order="C"), "")
-    folder = (info.context or {}).get("folder")
+        _check_shape(value.shape, name)
+        return _checked(np.array(value, dtype=np.float64, order="C"), name)
+    folder = context.get("folder")
     if isinstance(value, Path) and folder is None:
         value = str(value)
     if not isinstance(value, str) or not value:

@@ -2,6 +2,7 @@
 
 from pydantic import Field, model_validator
 
+from contact_scene.array_file import ArrayFile
 from contact_scene.body import Body
 from contact_scene.consistency import Parts, inconsistencies
 from contact_scene.description import Description
@@ -47,6 +48,14 @@ class Scene(Description):
             "friction": self.friction,
             "loading": self.loading,
         }
+
+    @property
+    def array_files(self) -> dict[str, ArrayFile]:
+        """Arrays of the scene, by the keys that name their files."""
+        found = {"file": getattr(self.indenter, "file", None)}
+        if self.friction is not None:
+            found["map"] = getattr(self.friction.coefficient, "map", None)
+        return {key: array for key, array in found.items() if array is not None}
 
     def load_path(self) -> tuple[LoadRamp, ...]:
         """The loading with nothing left implicit, one ramp for every step."""

@@ -14,8 +14,9 @@ import fem_reference
 import semi_analytical
 import slipstick
 from contact_results.result_files import write_result
+from contact_results.stress.loaded_bodies import state_of_result, state_of_run
 from contact_results.surface import surface_of
-from contact_scene import read_scene_file
+from contact_scene import HeightMap, read_scene_file
 from contact_scene.increment import SCALARS
 from contact_scene.reported import reported
 from contact_scene.stated_error import Part
@@ -144,6 +145,33 @@ def test_a_wrong_name_or_discretisation_is_told_with_what_was_expected() -> None
     for ask in (slipstick.solve, slipstick.plan):
         with pytest.raises(TypeError, match="got a str, expected a Scene; load_scene reads one"):
             ask("scenes/hertz.toml")  # type: ignore[call-overload]
+
+
+def test_a_stored_run_needs_none_of_the_files_of_its_scene(tmp_path: Path) -> None:
+    """Heights and coefficients of friction are read from the result."""
+    x = np.linspace(-1e-4, 1e-4, 32)
+    np.save(tmp_path / "ball.npy", (x[:, None] ** 2 + x**2) / 2 / 18e-3)
+    mu = np.broadcast_to(0.1 + x, (32, 32))
+    scene = slipstick.Scene(
+        indenter=HeightMap(
+            file=str(tmp_path / "ball.npy"), spacing=x[1] - x[0], material=STEEL
+        ),
+        body=slipstick.Body(material=STEEL),
+        friction=slipstick.CoulombFriction(coefficient={"map": mu, "spacing": x[1] - x[0]}),
+        loading=(
+            slipstick.LoadStep(normal_force=5.0), slipstick.LoadStep(tangential_force=(0.2, 0.0))
+        ),
+    )  # fmt: skip
+    result = slipstick.solve(scene, discretisation=COARSE["semi-analytical"])
+    slipstick.save(result, tmp_path / "out", figures=False)
+    (tmp_path / "ball.npy").unlink()
+    run = slipstick.load(tmp_path / "out")
+    assert run.scene == scene
+    assert run.scene.indenter.initial_gap(0.0, 0.0) == scene.indenter.initial_gap(0.0, 0.0)
+    expected, found = state_of_result(result, None), state_of_run(tmp_path / "out", None)
+    assert np.array_equal(found.tractions["shear"], expected.tractions["shear"])
+    assert found.no_root == expected.no_root
+    assert found.no_root
 
 
 def test_what_is_no_run_is_refused_by_name(tmp_path: Path) -> None:

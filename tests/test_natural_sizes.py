@@ -105,11 +105,10 @@ def test_tables_and_summary_stay_in_si(tmp_path: Path) -> None:
     "changes",
     [
         {},
-        {"friction": None},
         {"indenter": Cone(slope_angle=0.1, material=STEEL)},
         {"body": Body(material=STEEL, layers=(Layer(thickness=1e-4, material=STEEL),))},
     ],
-    ids=["as it is", "frictionless", "cone", "coated"],
+    ids=["as it is", "cone", "coated"],
 )
 def test_a_stored_run_has_the_sizes_of_its_result(tmp_path: Path, changes: dict[str, Any]) -> None:
     result = of_scene(**changes)

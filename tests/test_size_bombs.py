@@ -8,19 +8,23 @@ import tracemalloc
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
+from functools import cache
 from pathlib import Path
 from typing import Any
 
 import h5py
 import numpy as np
 import pytest
-from report_examples import COATED
 from study_cases import Number, Square
+from synthetic_result import synthetic_result
 
+import radial
 from contact_results.directory.checkpoint_file import FORMAT, Unusable, unpacked
 from contact_results.directory.file_names import FIELDS
 from contact_results.files import stored_values
+from contact_results.result_files import write_result
 from contact_results.stress.loaded_bodies import NoSuchState, state_of_run
+from contact_scene import RIGID, Body, IsotropicMaterial, LoadStep, Paraboloid, Scene
 from contact_scene.solver_errors import ResourceRefused
 from verification.running.case_store import CaseStore, DamagedRecord
 
@@ -178,7 +182,7 @@ def test_height_map_of_zeros_that_are_not_there_is_refused_at_once(
 def test_result_of_zeros_that_are_not_there_is_refused_at_once(
     tmp_path: Path, refusal_of_nothing: Ended
 ) -> None:
-    surface_result(tmp_path / FIELDS, cells=HUGE)
+    surface_result(tmp_path / FIELDS, increments_of_pressure=(6, HUGE, HUGE))
     ended = slipstick("stress", tmp_path, "-o", tmp_path / "stress")
     assert ended.code == 2
     assert f"is not the {FIELDS} of a run" in ended.said
@@ -202,54 +206,54 @@ def frugal() -> Iterator[None]:
         tracemalloc.stop()
 
 
-def surface_result(path: Path, cells: int = 8, **changed: tuple[int, ...]) -> None:
-    """A result of a surface grid; but for cell centres, its numbers were never written.
-
-    changed  shapes of datasets that are not as the others say
-    """
-    shapes = {
-        "increments/step": (1,),
-        "increments/pressure": (1, cells, cells), "increments/shear": (1, 2, cells, cells),
-    } | {name.replace("_of_", "/"): shape for name, shape in changed.items()}  # fmt: skip
-    with h5py.File(path, "w") as file:
-        file["scene"] = COATED.model_dump_json()
-        if "x" not in shapes:
-            file["x"] = np.linspace(-1, 1, cells)
-        file["y"] = np.linspace(-1, 1, cells)
-        for name, shape in shapes.items():
-            file.create_dataset(name, shape, float)
+def claiming(result: Any, path: Path, **changed: tuple[int, ...]) -> None:
+    """A stored run in which datasets claim other shapes, and were never written."""
+    write_result(result, path.parent, with_figures=False)
+    with h5py.File(path, "a") as file:
+        for name, shape in changed.items():
+            place = name.replace("_of_", "/")
+            if place in file:
+                del file[place]
+            claimed(file.create_dataset(place, shape, float))
 
 
-def section_result(path: Path, rings: int = 8, **changed: tuple[int, ...]) -> None:
-    """The same of a section."""
-    shapes = {"radii": (rings,), "increments/step": (1,), "increments/pressure": (1, rings)}
-    shapes |= {name.replace("_of_", "/"): shape for name, shape in changed.items()}
-    with h5py.File(path, "w") as file:
-        file["scene"] = file["discretisation"] = "{}"
-        for name, shape in shapes.items():
-            file.create_dataset(name, shape, float)
+def claimed(dataset: h5py.Dataset) -> None:
+    dataset.attrs.update({"unit": "m", "description": "claimed"})
+
+
+def surface_result(path: Path, **changed: tuple[int, ...]) -> None:
+    """A result of 8 x 8 cells and 6 increments."""
+    claiming(synthetic_result((8, 8)), path, **changed)
+
+
+@cache
+def on_rings() -> Any:
+    ball = Paraboloid(radius=1.0, material=RIGID)
+    soft = IsotropicMaterial(young_modulus=1.0, poisson_ratio=0.3)
+    step = LoadStep(normal_force=1e-3)
+    return radial.solve(Scene(indenter=ball, body=Body(material=soft), loading=(step,)))
 
 
 RESULT_BOMBS: dict[str, tuple[Callable[[Path], object], str]] = {
-    "grid": (lambda path: surface_result(path, cells=HUGE), CLAIM),
-    "steps": (
-        lambda path: surface_result(
-            path,
-            increments_of_step=(1 << 40,),
-            increments_of_pressure=(1 << 40, 8, 8),
-            increments_of_shear=(1 << 40, 2, 8, 8),
-        ),
-        CLAIM,
+    "grid": (
+        lambda path: surface_result(path, increments_of_pressure=(6, HUGE, HUGE)), CLAIM
     ),
-    "pressure": (lambda path: surface_result(path, increments_of_pressure=(1, 9, HUGE)), "shape"),
-    "shear": (lambda path: surface_result(path, increments_of_shear=(1, 2, 9, HUGE)), "shape"),
-    "dimensions": (lambda path: surface_result(path, x=(HUGE, HUGE)), "shape"),
+    "steps": (lambda path: surface_result(path, increments_of_step=(1 << 40,)), CLAIM),
+    "pressure": (lambda path: surface_result(path, increments_of_pressure=(6, 9, HUGE)), "shape"),
+    "shear": (lambda path: surface_result(path, increments_of_shear=(6, 2, 9, HUGE)), "shape"),
+    "dimensions": (lambda path: surface_result(path, x=(HUGE, HUGE)), CLAIM),
+    "map": (lambda path: surface_result(path, maps_of_file=(HUGE, HUGE)), CLAIM),
     "chunks": (lambda path: many_chunks(path), "chunks, at most"),
     "text": (lambda path: claimed_text(path), CLAIM),
     "chunk": (lambda path: one_chunk(path), CLAIM),
-    "zeros": (lambda path: sparse(path, b""), "signature not found"),
-    "zeros after a signature": (lambda path: sparse(path, b"\x89HDF\r\n\x1a\n"), "nable to"),
-}
+    "zeros": (lambda path: damaged(path, b""), "signature not found"),
+    "zeros after a signature": (lambda path: damaged(path, b"\x89HDF\r\n\x1a\n"), "nable to"),
+}  # fmt: skip
+
+
+def damaged(path: Path, head: bytes) -> None:
+    surface_result(path)
+    sparse(path, head)
 
 
 def claimed_text(path: Path) -> None:
@@ -261,11 +265,10 @@ def claimed_text(path: Path) -> None:
 
 def many_chunks(path: Path) -> None:
     """Numbers one by one: what takes the library long to find, and much memory to remember."""
-    surface_result(path, x=(MEGABYTE,), increments_of_pressure=(1, MEGABYTE, 8),
-                   increments_of_shear=(1, 2, MEGABYTE, 8))  # fmt: skip
+    surface_result(path)
     with h5py.File(path, "a") as file:
         del file["x"]
-        file.create_dataset("x", (MEGABYTE,), float, chunks=(1,))
+        claimed(file.create_dataset("x", (MEGABYTE,), float, chunks=(1,)))
 
 
 def one_chunk(path: Path) -> None:
@@ -298,7 +301,7 @@ def test_claims_of_a_surface_result_are_refused_unread(
 @pytest.mark.parametrize(
     "changed",
     [
-        {"rings": 1 << 40},
+        {"radii": (1 << 40,)},
         {"increments_of_pressure": (1, 1 << 40)},
         {"increments_of_shear_radial": (1, 1 << 40)},
         {"angles": (1 << 40,), "increments_of_pressure": (1, 8, 1 << 40)},
@@ -306,7 +309,7 @@ def test_claims_of_a_surface_result_are_refused_unread(
     ],
 )
 def test_claims_of_a_section_are_refused_unread(tmp_path: Path, changed: dict[str, Any]) -> None:
-    section_result(tmp_path / FIELDS, **changed)
+    claiming(on_rings(), tmp_path / FIELDS, **changed)
     with frugal(), pytest.raises(NoSuchState, match=f"is not the {FIELDS} of a run"):
         state_of_run(tmp_path, None)
 

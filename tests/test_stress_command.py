@@ -223,7 +223,7 @@ finally:
     ("arguments", "complaint"),
     [
         (["{}/run", "--step", "3"], "no step 3"),
-        (["{}/out"], "has no result.h5"),
+        (["{}/out"], "is no run: it has no"),
         (["{}/run", "--depths", "-1"], "expected a finite length"),
         (["{}/run", "--depths", "1 kN"], "expected a length"),
         (["{}/run", "--set", "title=a"], "--set says what to solve"),

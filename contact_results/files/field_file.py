@@ -12,7 +12,7 @@ import h5py
 import numpy as np
 
 from contact_results.directory.file_names import FIELDS
-from contact_results.files.stored_values import STEP
+from contact_results.files.stored_values import MAPS, STEP
 from contact_results.surface import Rings, surface_of
 from contact_scene.convention import CONVENTION
 from contact_scene.increment import SCALARS
@@ -64,6 +64,9 @@ def write_fields(
         _write(
             file, "scene", result.scene.model_dump_json(), Reported("", "what was solved (JSON)")
         )
+        for key, array in result.scene.array_files.items():
+            mark = Reported("", f"values of the file that the key {key} of the scene names")
+            _write(file.require_group(MAPS), key, array.values, mark, **COMPRESSION)
         if isinstance(surface, Rings):
             file.attrs["direction"] = surface.direction
         if hasattr(result, "discretisation"):

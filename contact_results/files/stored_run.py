@@ -22,9 +22,17 @@ from contact_results.directory.file_names import (
     SUMMARY,
 )
 from contact_results.files.stored_table import StoredTable, StoredTables, StoredValues
-from contact_results.files.stored_values import MISREAD, ends_of_steps, row_of, text, values
-from contact_scene import Scene
+from contact_results.files.stored_values import (
+    MAPS,
+    MISREAD,
+    ends_of_steps,
+    row_of,
+    text,
+    values,
+)
+from contact_scene import FiniteElementDiscretisation, Scene
 from contact_scene.increment import SCALARS, components
+from contact_scene.problem import SceneError
 from contact_scene.reported import Kind
 from contact_scene.summary import RunSummary, load_summary
 
@@ -98,6 +106,8 @@ class StoredRun:
     last_cycle   fields of the last closed load cycle; empty if there is none
     tables       profiles, increments and, where load cycles close, cycles
     direction    unit vector from which angles count, that of the tangential load
+    discretisation
+                 of finite elements; None of others
     """
 
     summary: RunSummary
@@ -107,6 +117,7 @@ class StoredRun:
     last_cycle: StoredGroup
     tables: StoredTables
     direction: tuple[float, float]
+    discretisation: FiniteElementDiscretisation | None
 
     @property
     def convention(self) -> str:
@@ -132,19 +143,25 @@ def load(directory: str | PathLike[str]) -> StoredRun:
         raise ValueError(f"{summary} is not the {SUMMARY} of a run: {error}") from None
     try:
         with h5py.File(fields) as file:
-            scene = Scene.model_validate_json(text(file["scene"]))
+            arrays = {key: values(array) for key, array in file.get(MAPS, {}).items()}
+            scene = Scene.model_validate_json(text(file["scene"]), context={"arrays": arrays})
+            fineness = None
+            if "discretisation" in file:
+                asked = text(file["discretisation"])
+                fineness = FiniteElementDiscretisation.model_validate_json(asked)
             if "increments" not in file:
                 raise ValueError("it has no increments")
             strange = next(_strange(record, scene, file), None)
             x, y = file.attrs.get("direction", (1.0, 0.0))
         groups = [StoredGroup(fields, group) for group in ("/", "increments", "last_cycle")]
-    except MISREAD as error:
+    except (*MISREAD, SceneError) as error:
         raise ValueError(f"{fields} is not the {FIELDS} of a run: {error}") from None
     if strange:
         raise ValueError(f"{summary} and {fields} are of different runs: {strange}; run again")
     places, increments, cycle = groups
     tables = TablesOfRun(Path(directory), increments)
-    return StoredRun(record, scene, places, increments, cycle, tables, (float(x), float(y)))
+    direction = float(x), float(y)
+    return StoredRun(record, scene, places, increments, cycle, tables, direction, fineness)
 
 
 def _strange(summary: RunSummary, scene: Scene, file: h5py.File) -> Iterator[str]:

@@ -25,6 +25,7 @@ MOST_CHUNKS = 10_000  # in one reading; our fields have one per increment
 # What h5py raises where something else stands in the place of a value, or what follows from it.
 MISREAD = (OSError, KeyError, ValueError, TypeError, AttributeError, IndexError, RecursionError)
 
+MAPS = "maps"  # group of the arrays that the scene reads from files
 # Name of the first index of fields at the ends of loading steps.
 STEP = "step"
 
@@ -48,12 +49,6 @@ def row_of(dataset: h5py.Dataset, increment: int) -> int:
             f"increment {increment + 1} is not one of them; run again with --every-increment"
         )
     return int(found[0])
-
-
-def refuse_other_shape(dataset: h5py.Dataset, expected: tuple[int, ...]) -> None:
-    """Raise ValueError unless the dataset has this shape."""
-    if dataset.shape != expected:
-        raise ValueError(f"{dataset.name} has shape {dataset.shape}, expected {expected}")
 
 
 def values(dataset: h5py.Dataset, row: int | None = None) -> NDArray[Any]:
