@@ -11,10 +11,10 @@ from math import ceil
 import numpy as np
 
 import semi_analytical
+from contact_errors.cost_estimate import Work, estimated_seconds, work_on_cells
 from contact_errors.half_the_cells import Progress
 from contact_errors.ladder import Growth, Rung, unkept
 from contact_errors.on_cells import judged, rules_at
-from contact_errors.solve_cost import Solved, machine_speed, seconds_like
 from contact_errors.tension import largest_tension
 from contact_errors.values import values_of
 from contact_results.cycles import fretting_cycles
@@ -104,18 +104,12 @@ class CellLadder:
         return CellFineness(grid, increments, tolerance)
 
     def seconds(self, fineness: CellFineness, like: Rung[CellFineness]) -> float:
-        finer = fineness.grid.cells[0] / like.fineness.grid.cells[0]
-        counts = [0] * len(fineness.increments)  # of convolutions in every step
-        for increment in like.result.increments:
-            counts[increment.step - 1] += increment.convolutions
-        finer_steps = np.divide(fineness.increments, like.fineness.increments)
-        more = float(np.average(finer_steps, weights=counts))
-        solved = [Solved(like.result.grid.cells, sum(counts))]
-        for companion in like.stated.companions:
-            if companion.convolutions and companion.cells:
-                solved.append(Solved(companion.cells, companion.convolutions))
-        edges = like.result.plan.edge != "off"
-        return seconds_like(solved, like.processor_seconds, finer, more, machine_speed(), edges)
+        return estimated_seconds(
+            like.processor_seconds, self._work(like.fineness), self._work(fineness)
+        )
+
+    def _work(self, fineness: CellFineness) -> Work:
+        return work_on_cells(fineness.grid.cells, fineness.increments, self._plan().shear)
 
     def too_large(self, fineness: CellFineness) -> str | None:
         grid, available = fineness.grid, available_bytes()

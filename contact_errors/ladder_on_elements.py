@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from math import ceil, sqrt
 
 import fem_reference
+from contact_errors.cost_estimate import Work, estimated_seconds, work_on_elements
 from contact_errors.ladder import Growth, Rung, unkept
 from contact_errors.on_elements import Progress, cut, judged, rules_of
 from contact_errors.values import values_of
@@ -31,9 +32,6 @@ MOST_HARMONICS = 64
 LEAST_MORE_HARMONICS = 1.5
 LEAST_TOLERANCE, LEAST_OVERLAP, LARGEST_BOX = 1e-12, 1e-8, 1e6
 NODES_PER_ELEMENT = 4  # biquadratic: about one corner, two midsides and a middle each
-# Of the time: what does not grow with the square of the elements over a radius takes as long as so
-# many of them, and what comes before the first increment as long as so many; each harmonic as much.
-ELEMENTS_OF_REST, INCREMENTS_OF_REST = 32, 50
 
 
 @dataclass(frozen=True)
@@ -109,14 +107,14 @@ class ElementLadder:
         return ElementFineness(finer, by.increments_of(fineness.increments, matters))
 
     def seconds(self, fineness: ElementFineness, like: Rung[ElementFineness]) -> float:
-        return like.processor_seconds * self._work(fineness) / self._work(like.fineness)
+        return estimated_seconds(
+            like.processor_seconds, self._work(like.fineness), self._work(fineness)
+        )
 
-    def _work(self, fineness: ElementFineness) -> float:
-        mesh = fineness.mesh
-        of_sections = ELEMENTS_OF_REST**2 + mesh.elements_per_radius**2
-        work = of_sections * (INCREMENTS_OF_REST + sum(fineness.increments))
+    def _work(self, fineness: ElementFineness) -> Work:
         coupled = fem_reference.plan(self.scene).path is Path.HARMONICS
-        return float(work * (mesh.harmonics if coupled else 1))
+        harmonics = fineness.mesh.harmonics if coupled else 1
+        return work_on_elements(fineness.mesh.elements_per_radius, fineness.increments, harmonics)
 
     def memory(self, fineness: ElementFineness) -> int:
         path = fem_reference.plan(self.scene).path

@@ -12,7 +12,8 @@ import contextlib
 import logging
 import os
 import tempfile
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextvars import ContextVar
 from hashlib import sha256
 from pathlib import Path
 
@@ -27,6 +28,7 @@ SUFFIX = ".array"
 LARGEST_CACHE = 1 << 30
 OF_CLOCKS_APART = 3600.0  # seconds by which machines that share a cache may differ
 
+_ignored = ContextVar("_ignored", default=False)
 # Without a handler of the caller's, a warning is one line on stderr.
 log = logging.getLogger(__name__)
 
@@ -40,7 +42,7 @@ def remembered(
     """
     key = sha256(identity.encode()).hexdigest()
     directory = cache_directory()
-    if directory is None:
+    if directory is None or _ignored.get():
         return compute()
     path = directory / (key + SUFFIX)
     values = _read(path, key, shape)
@@ -49,6 +51,16 @@ def remembered(
         with contextlib.suppress(OSError):
             _write(path, key, values)
     return values
+
+
+@contextlib.contextmanager
+def without_cache() -> Iterator[None]:
+    """Neither read nor write the cache in the block, for a measurement of what a solve costs."""
+    before = _ignored.set(True)
+    try:
+        yield
+    finally:
+        _ignored.reset(before)
 
 
 def cache_directory() -> Path | None:

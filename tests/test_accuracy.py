@@ -36,11 +36,10 @@ from contact_errors.climb import Climb, Way, climb
 from contact_errors.growth import AIM, growth
 from contact_errors.ladder import Growth, Rung, unkept
 from contact_errors.ladder_on_cells import CellFineness, CellLadder, even_smooth
-from contact_errors.ladder_on_elements import ElementFineness, ElementLadder
-from contact_errors.price import Prices
+from contact_errors.ladder_on_elements import ElementLadder
+from contact_errors.price import price
 from contact_errors.rules import APPROACH as APPROACH_RULE
 from contact_errors.rules import SHIFT, Rule
-from contact_errors.solve_cost import Solved, Speed, seconds_like
 from contact_results import result_files
 from contact_results.directory import checkpoint
 from contact_results.directory.checkpoint_file import Unusable, pack, unpacked
@@ -597,50 +596,27 @@ def test_paraboloids_of_all_sizes_take_the_same_cells() -> None:
 
 
 def test_the_price_of_less_error_is_more_of_everything() -> None:
-    prices = Prices.of(CellLadder(scene(PRESS, push(0.6)), SurfaceDiscretisation()))
-    found = [prices.of_request(request(share)) for share in ("0.2%", "0.03%", FINER)]
+    ladder = CellLadder(scene(PRESS, push(0.6)), SurfaceDiscretisation())
+    first = ladder.climbed(ladder.first())
+    found = [price(ladder, first, request(share)) for share in ("0.2%", "0.03%", FINER)]
     for low, high in pairwise(found):
         assert low.settings.cells < high.settings.cells
         assert low.seconds < high.seconds
         assert low.memory < high.memory
         assert low.rounds <= high.rounds
-    assert all(price.fits for price in found)
+    assert all(cost.fits for cost in found)
     with pytest.raises(AccuracyOutOfReach, match="no grid can meet"):
-        prices.of_request(request("1e-12"))
+        price(ladder, first, request("1e-12"))
 
 
 def test_a_price_is_near_what_it_takes() -> None:
     of = scene(PRESS, push(0.6))
-    price = Prices.of(CellLadder(of, SurfaceDiscretisation())).of_request(request("0.2%"))
+    ladder = CellLadder(of, SurfaceDiscretisation())
+    cost = price(ladder, ladder.climbed(ladder.first()), request("0.2%"))
     made = climbed(of, "0.2%")
-    assert price.rounds == pytest.approx(made.accuracy.rounds, abs=1)
-    ratio = np.divide(price.settings.cells, made.accuracy.settings.cells)
+    assert cost.rounds == pytest.approx(made.accuracy.rounds, abs=1)
+    ratio = np.divide(cost.settings.cells, made.accuracy.settings.cells)
     assert np.all((ratio > 0.6) & (ratio < 1.6))
-
-
-def test_a_worked_example_of_seconds() -> None:
-    # 100 convolutions on 16² cells at 1 ms + 256·4 points of 1 µs: 0.2024 s of 0.5 s; 0.2976 s are
-    # fixed. Four times the cells, half as many increments again: 100·1.5·2 = 300 convolutions at
-    # 1 ms + 4096·6 µs = 7.6728 s.
-    speed = Speed(per_convolution=1e-3, per_point=1e-6)
-    coarse = [Solved((16, 16), 100)]
-    assert speed.seconds((16, 16), 100) == pytest.approx(0.2024)
-    assert seconds_like(coarse, 0.5, 4.0, 1.5, speed) == pytest.approx(0.2976 + 7.6728)
-    # Along edges there are four times as many cells.
-    along = seconds_like(coarse, 0.5, 4.0, 1.5, speed, edges=True)
-    assert along == pytest.approx(4 * 0.2976 + 7.6728)
-
-
-def test_a_worked_example_of_seconds_by_elements() -> None:
-    # 12 for 24 elements and 30 increments: (32² + 24²)(50 + 30) = 128 000. 32 and 150:
-    # 2·32²·200 = 409 600, 3.2 times as much.
-    ladder = ElementLadder(scene(PRESS), FiniteElementDiscretisation(), Method.COMPLEMENTARITY)
-    by = [
-        ElementFineness(FiniteElementDiscretisation(elements_per_radius=n), (increments,))
-        for n, increments in ((24, 30), (32, 150))
-    ]
-    like = replace(rung_of({}, SHIFT), fineness=by[0], processor_seconds=12.0)
-    assert ladder.seconds(by[1], like) == pytest.approx(38.4)
 
 
 @pytest.mark.parametrize(

@@ -32,9 +32,7 @@ COMMANDS = {
     "challenge": ("challenge", "export", "hertz_point", "-o"),
     "history": ("history", "baselines", "baselines", "-o"),
     "judge": ("judge", "answered", "--page"),
-    "export, matlab": ("export", "run", "--to", "matlab", "-o"),
-    "export, excel": ("export", "run", "--to", "excel", "-o"),
-    "export, vtu": ("export", "run", "--to", "vtu", "-o"),
+    "export": ("export", "run", "-o"),
 }
 # These look where they write before they compute, and keep what is done where they are cut off.
 LONG = {

@@ -208,7 +208,7 @@ ORDERS = {
             "stress_on_rings",
         ),
         *("of_stress", "tension"),
-        *("solve_cost", "ladder", "growth", "asked", "climb", "price", "ladder_on_cells"),
+        *("cost_estimate", "ladder", "growth", "asked", "climb", "price", "ladder_on_cells"),
         "ladder_on_elements",
     ),
     "verification.challenge": (

@@ -34,7 +34,7 @@ COMMANDS: dict[str, LazyCommand] = {
         "frf": "Tabulate and plot the surface FRF of the lower body of a scene.",
         "stress": "Compute displacement and stress below the surface.",
         "table": "Print a table of reference numbers with their uncertainty.",
-        "export": "Write a run or a stress for MATLAB, Excel or ParaView.",
+        "export": "Write the surface of a run for ParaView.",
         "verify": "Measure the accuracy against closed forms and write the report.",
         "compare": "Say what changed since the numbers that were accepted, or since a report.",
         "history": "Draw accuracy and cost over commits, and say what became worse.",

@@ -26,11 +26,12 @@ def plan(
         ),
     ] = None,
 ) -> None:
-    """Say which effects a scene needs and why, on which grid or mesh, and in how many increments.
+    """Say which effects a scene needs and why, on which grid or mesh, and what a run would take.
 
-    Nothing is solved, except on a coarse grid or mesh where the size of the contact is left open; a
-    scene that the solver does not support is refused here as by 'run'. With --accuracy, cells,
-    increments, time and memory of 'run --accuracy' follow from one on a coarse grid.
+    The time is within a factor of two. It follows from a coarse solve, on at most 32 cells along a
+    side or 8 elements over the contact radius and in at most 48 increments, which this command
+    makes. A scene that the solver does not support is refused as by 'run'. With --accuracy, cells,
+    increments, time and memory of 'run --accuracy' follow from a coarse solve, too.
     """
     from contact_scene import read_scene_file
     from slipstick.cli.terminal import print_pairs, print_table

@@ -1,9 +1,9 @@
 """What accuracies cost, as a table."""
 
 import re
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
-from slipstick.solvers.solver import increments_text
+from slipstick.solvers.solver import increments_text, time_text
 
 if TYPE_CHECKING:
     from contact_errors.price import Price
@@ -17,7 +17,7 @@ NAMED = re.compile(r"\s*([A-Za-z]\w*)")
 def print_prices(option: str, solver: "Solver", contents: "SceneFile") -> None:
     """Print cells, increments, time and memory of every accuracy that an option names, and of those
     that no grid can meet why not."""
-    from contact_errors.price import Prices
+    from contact_errors.price import price
     from contact_scene.scene_file import read_accuracy
     from contact_scene.solver_errors import AccuracyOutOfReach
     from slipstick.cli.terminal import print_pairs, print_table
@@ -27,11 +27,11 @@ def print_prices(option: str, solver: "Solver", contents: "SceneFile") -> None:
     last = len(contents.scene.loading)
     wanted = last if any(request.binds_stress for request in requests) else None
     ladder = solver.ladder(contents.scene, solver.fineness(contents), stress_at=wanted)
-    prices = Prices.of(ladder)
+    first = ladder.climbed(ladder.first())
     rows, refused = [], []
     for item, request in zip(items, requests, strict=True):
         try:
-            rows.append((item, *_texts(prices.of_request(request))))
+            rows.append((item, *_texts(price(ladder, first, request))))
         except AccuracyOutOfReach as error:
             refused.append((item, str(error)))
     if rows:
@@ -57,18 +57,12 @@ def requests_of(option: str) -> list[str]:
     return [", ".join(items) for items in requests]
 
 
-def _texts(found: "Price[Any]") -> tuple[str, ...]:
+def _texts(found: "Price") -> tuple[str, ...]:
     cells = found.settings.cells
     return (
         f"{cells[0]} x {cells[1]}" if cells else f"{found.settings.elements_per_radius} per radius",
         increments_text(found.settings.increments),
         str(found.rounds),
-        f"about {_time_text(found.seconds)}",
+        time_text(found.seconds),
         f"about {found.memory / 2**20:.0f} MiB" + ("" if found.fits else ", more than there is"),
     )
-
-
-def _time_text(seconds: float) -> str:
-    if seconds < 120:
-        return f"{seconds:.2g} s"
-    return f"{seconds / 60:.2g} min" if seconds < 7200 else f"{seconds / 3600:.2g} h"

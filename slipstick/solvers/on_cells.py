@@ -3,19 +3,35 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import semi_analytical
+from contact_errors.cost_estimate import (
+    MAX_CELLS,
+    MAX_INCREMENTS,
+    coarse_increments,
+    work_on_cells,
+)
 from contact_scene import Scene, SceneFile, SurfaceDiscretisation
 from contact_scene.engineering_units import engineering_unit
+from contact_scene.solver_errors import ContactNotResolved
 from contact_scene.standing import Keeper
 from contact_scene.stated_error import StatedErrors
 from semi_analytical import Plan, Result, SurfaceGrid
 from semi_analytical.memory import estimated_bytes
-from slipstick.solvers.solver import MOST_STEPS_SHOWN, Pairs, Progress, increments_text
+from slipstick.solvers.solver import (
+    MOST_STEPS_SHOWN,
+    Pairs,
+    Progress,
+    increments_text,
+    time_of_run,
+)
 
 if TYPE_CHECKING:
     from contact_errors.ladder_on_cells import CellLadder, Keeping, Watching
+
+FEWEST = 8  # cells along a side of the coarse solve behind the time of a run
 
 
 class OnCells:
@@ -74,7 +90,33 @@ class OnCells:
         if any(step.path_matters for step in plan.path):
             accuracy = f"{fineness.path_accuracy:.3g}, where the scene names no increments"
             yield "path accuracy", accuracy
+        yield self._time(scene, fineness, grid, plan)
         yield "memory", f"about {estimated_bytes(grid, plan) / 2**20:.0f} MiB"
+
+    def _time(
+        self,
+        scene: Scene,
+        fineness: SurfaceDiscretisation,
+        grid: SurfaceGrid,
+        plan: Plan,
+        most: int = MAX_CELLS,
+    ) -> tuple[str, str]:
+        from contact_errors.on_cells import stated_errors
+
+        path = plan.path[:MAX_INCREMENTS]
+        cut = replace(plan, path=path).cut_into(coarse_increments([s.count for s in path]))
+        begin = scene.model_copy(update={"loading": scene.loading[:MAX_INCREMENTS]})
+        share = min(1.0, most / max(grid.cells))
+        nx, ny = (n if share == 1 else max(FEWEST, 2 * round(share * n / 2)) for n in grid.cells)
+        coarse = fineness.model_copy(update={"cells": (nx, ny)})
+        try:
+            return time_of_run(
+                lambda: stated_errors(semi_analytical.solve_discretised(begin, coarse, plan=cut)),
+                work_on_cells((nx, ny), cut.increments, plan.shear),
+                work_on_cells(grid.cells, plan.increments, plan.shear),
+            )
+        except ContactNotResolved:
+            return self._time(scene, fineness, grid, plan, 2 * most)
 
     def reasons(self, plan: Plan) -> Sequence[tuple[str, str, str]]:
         """The beginning of a long history; nothing where no path matters."""

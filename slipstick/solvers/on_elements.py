@@ -7,6 +7,12 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import fem_reference
+from contact_errors.cost_estimate import (
+    MAX_ELEMENTS,
+    MAX_INCREMENTS,
+    coarse_increments,
+    work_on_elements,
+)
 from contact_scene import FiniteElementDiscretisation, Scene, SceneFile
 from contact_scene.engineering_units import quantity
 from contact_scene.standing import Keeper
@@ -16,14 +22,11 @@ from fem_reference.expected_radius import meshed_radius
 from fem_reference.memory import run_bytes
 from fem_reference.mesh.section_mesh import SectionMesh
 from fem_reference.model import ContactModel
-from slipstick.solvers.solver import Pairs, Progress, increments_text
+from slipstick.solvers.solver import Pairs, Progress, increments_text, time_of_run
 
 if TYPE_CHECKING:
     from contact_errors.ladder_on_elements import ElementLadder, Keeping, Watching
 
-# Seconds of one core for a thousand elements, and how they grow (3400 to 24 000 elements).
-FACTORING, GROWTH_OF_FACTORING = 0.17, 1.3
-WORTH_SAYING = 2.0  # seconds
 Meshes = tuple[SectionMesh | None, SectionMesh | None]
 
 
@@ -92,14 +95,25 @@ class OnElements:
         motions, distinct = _motions(plan, fineness), _distinct(sections)
         text = "one per body and angular harmonic" if motions > 1 else "one per body"
         yield "factorisations", f"{motions * len(distinct)}, {text}"
-        if (seconds := motions * sum(map(_factoring_seconds, distinct))) > WORTH_SAYING:
-            yield (
-                "time",
-                f"about {seconds:.0f} s for them, none where the cache has them; as much "
-                "again for the errors",
-            )
+        yield self._time(scene, fineness, plan)
         needed = run_bytes(largest_bytes(distinct, motions > 1))
         yield "memory", f"about {needed / 2**20:.0f} MiB"
+
+    def _time(
+        self, scene: Scene, fineness: FiniteElementDiscretisation, plan: Plan
+    ) -> tuple[str, str]:
+        from contact_errors.on_elements import cut, stated_errors
+
+        increments = coarse_increments(plan.increments[:MAX_INCREMENTS])
+        begin = scene.model_copy(update={"loading": scene.loading[:MAX_INCREMENTS]})
+        elements = min(MAX_ELEMENTS, fineness.elements_per_radius)
+        coarse = fineness.model_copy(update={"elements_per_radius": elements})
+        harmonics = fineness.harmonics if plan.path is Path.HARMONICS else 1
+        return time_of_run(
+            lambda: stated_errors(fem_reference.solve(cut(begin, increments), coarse, self.method)),
+            work_on_elements(elements, increments, harmonics),
+            work_on_elements(fineness.elements_per_radius, plan.increments, harmonics),
+        )
 
     def reasons(self, plan: Plan) -> Sequence[tuple[str, str, str]]:
         return ()
@@ -129,11 +143,6 @@ def _mesh_text(sections: Meshes, asked: FiniteElementDiscretisation) -> str:
 def _distinct(sections: Meshes) -> list[SectionMesh]:
     """Each mesh once: bodies alike share theirs."""
     return list({id(section): section for section in sections if section is not None}.values())
-
-
-def _factoring_seconds(section: SectionMesh) -> float:
-    """Of one angular harmonic."""
-    return FACTORING * (section.quads.shape[1] / 1000) ** GROWTH_OF_FACTORING
 
 
 def _motions(plan: Plan, asked: FiniteElementDiscretisation) -> int:

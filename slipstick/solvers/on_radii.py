@@ -3,22 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import Any
 
 import radial
+from contact_errors.cost_estimate import MAX_INCREMENTS, coarse_increments, work_on_rings
 from contact_scene import RadialDiscretisation, Scene, SceneFile
 from contact_scene.solver_errors import UnsupportedScene
 from contact_scene.standing import Keeper
 from contact_scene.stated_error import StatedErrors
 from radial import Plan, Result
 from radial.circle import Circle
-from slipstick.solvers.solver import Pairs, Progress, increments_text
-
-# Seconds of one core for an increment of a contact at points, matrices with it: 64 rings; 24 rings
-# times 9 angles on a half circle; times 18 on the whole one. And how many increments there are
-# where their limit is taken.
-SECONDS = {Circle.ONE: 0.009, Circle.HALF: 0.06, Circle.WHOLE: 0.17}
-WITH_TWICE = 3
+from slipstick.solvers.solver import Pairs, Progress, increments_text, time_of_run
 
 
 class OnRadii:
@@ -65,11 +61,20 @@ class OnRadii:
         yield "rings", _rings_text(fineness, plan)
         yield "tolerance", f"{fineness.tolerance:.3g}"
         yield "increments", increments_text(plan.increments)
-        if plan.circle:
-            count = sum(plan.increments) if plan.circle is Circle.ONE else plan.turned
-            seconds = SECONDS[plan.circle] * count * (WITH_TWICE if fineness.extrapolated else 1)
-            yield "time", f"about {seconds:.2g} s of one core, a third more for the errors"
+        yield self._time(scene, fineness, plan)
         yield "memory", f"about {estimated_bytes(scene, plan) / 2**20:.0f} MiB"
+
+    def _time(self, scene: Scene, fineness: RadialDiscretisation, plan: Plan) -> tuple[str, str]:
+        from contact_errors.on_radii import stated_errors
+
+        solve = radial.solve
+        begin = scene.model_copy(update={"loading": scene.loading[:MAX_INCREMENTS]})
+        cut = replace(plan, increments=coarse_increments(plan.increments[:MAX_INCREMENTS]))
+        return time_of_run(
+            lambda: stated_errors(solve(begin, fineness, plan=cut)),
+            work_on_rings(cut.increments),
+            work_on_rings(plan.increments),
+        )
 
     def reasons(self, plan: Plan) -> Sequence[tuple[str, str, str]]:
         return ()

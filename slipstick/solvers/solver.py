@@ -5,6 +5,9 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Sequence
 from typing import TYPE_CHECKING, Any, Protocol, TypeAlias
 
+from contact_errors.cost_estimate import Work, cpu_seconds, estimated_seconds
+from contact_scene.solver_errors import ContactNotResolved, SolverError
+
 if TYPE_CHECKING:
     from contact_errors.ladder import Ladder
     from contact_results.surface import Result
@@ -94,3 +97,28 @@ def increments_text(counts: tuple[int, ...]) -> str:
     shown = " + ".join(map(str, counts[:MOST_STEPS_SHOWN]))
     more = " + …" if len(counts) > MOST_STEPS_SHOWN else ""
     return f"{sum(counts)} = {shown}{more} in {len(counts)} steps"
+
+
+def time_of_run(coarse_run: Callable[[], object], coarse: Work, run: Work) -> tuple[str, str]:
+    """State the CPU time of a run from that of a coarse one, both with their error estimates.
+
+    Raises ContactNotResolved where the coarse run has too few cells.
+    """
+    try:
+        seconds = estimated_seconds(cpu_seconds(coarse_run), coarse, run)
+    except ContactNotResolved:
+        raise
+    except SolverError as error:
+        return "time", f"not estimated, since a coarse solve failed: {error}"
+    return "time", f"{time_text(seconds)} of one core, error estimates included"
+
+
+def time_text(seconds: float) -> str:
+    """Write seconds, minutes or hours."""
+    if seconds < 1:
+        return "less than 1 s"
+    if seconds < 120:
+        return f"about {seconds:.2g} s"
+    if seconds < 7200:
+        return f"about {seconds / 60:.2g} min"
+    return f"about {seconds / 3600:.2g} h"

@@ -16,7 +16,6 @@ TITLES = {
     "gross-sliding": "Gross sliding of a coated contact",
     "work-precision": "What accuracy costs",
     "error-coverage": "Whether stated errors hold",
-    "predicted-costs": "Whether requests take as long as predicted",
     "error-budget": "Where the error of the headline cases comes from",
     "penalty": "What a penalty costs",
     "stability": "The stability map",

@@ -11,7 +11,6 @@ from verification.studies.error_budget.study import STUDY as ERROR_BUDGET
 from verification.studies.error_coverage.study import STUDY as ERROR_COVERAGE
 from verification.studies.mutants.study import STUDY as MUTANTS
 from verification.studies.penalty.study import STUDY as PENALTY
-from verification.studies.predicted_costs import STUDY as PREDICTED_COSTS
 from verification.studies.promises.study import STUDY as PROMISES
 from verification.studies.refinement.domain import domain_study
 from verification.studies.refinement.increments import increments_study
@@ -58,7 +57,6 @@ STUDIES: dict[str, Study] = {
         WORK_PRECISION,
         ERROR_BUDGET,
         ERROR_COVERAGE,
-        PREDICTED_COSTS,
         SCOREBOARD,
         PROMISES,
     )

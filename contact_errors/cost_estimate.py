@@ -1,0 +1,81 @@
+"""CPU time of a solve, from a power law through one coarse solve of the same scene.
+
+    t = t₀ w/w₀ ((u + o)/(u₀ + o))^1.1
+
+u unknowns and w repetitions of a solve take t; u₀ and w₀ take t₀, which is measured then and there.
+The exponent is 1 for the transforms of the fields, and 0.1 because iterations double with 1000
+times the cells. Of few unknowns a solve takes as long as of o, the overhead of each operation.
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from math import ceil
+
+from contact_scene.kept_arrays import without_cache
+
+EXPONENT = 1.1
+# Unknowns whose work equals the overhead of an operation. The scenes of `tests/cost_record.json`
+# fit 9000 to 27 000 on cells, and 600 to 2900 by elements.
+CELL_OVERHEAD, ELEMENT_OVERHEAD = 128.0**2, 32.0**2
+# Factorisations take as long as so many increments of a history by elements.
+SET_UP_INCREMENTS = 50
+# Limits of the coarse solve: cells along the longer side, elements over the contact radius, and
+# increments of all load steps together.
+MAX_CELLS, MAX_ELEMENTS, MAX_INCREMENTS = 32, 8, 48
+
+
+@dataclass(frozen=True)
+class Work:
+    """Size of a solve.
+
+    unknowns     components of traction in all cells, or the squared elements over the radius
+    repetitions  increments, or what is proportional to them
+    overhead     unknowns whose work equals the overhead of an operation
+    """
+
+    unknowns: float
+    repetitions: float
+    overhead: float
+
+
+def work_on_cells(cells: tuple[int, int], increments: Sequence[int], shear: bool) -> Work:
+    """Determine the size of a solve on cells; `shear`: tractions have three components, not one."""
+    return Work(cells[0] * cells[1] * (3 if shear else 1), sum(increments), CELL_OVERHEAD)
+
+
+def work_on_elements(per_radius: int, increments: Sequence[int], harmonics: int) -> Work:
+    """Determine the size of a solve by elements with so many angular harmonics."""
+    repetitions = harmonics * (SET_UP_INCREMENTS + sum(increments))
+    return Work(per_radius**2, repetitions, ELEMENT_OVERHEAD)
+
+
+def work_on_rings(increments: Sequence[int]) -> Work:
+    """Determine the size of a radial solve: all have the same rings and angles."""
+    return Work(1.0, sum(increments), 0.0)
+
+
+def estimated_seconds(measured: float, coarse: Work, solve: Work) -> float:
+    """Estimate the CPU seconds of a solve, within a factor of two.
+
+    measured  CPU seconds of the coarse solve; with its error estimate, if that of the other is to
+              be included
+    """
+    unknowns = (solve.unknowns + solve.overhead) / (coarse.unknowns + coarse.overhead)
+    return measured * solve.repetitions / coarse.repetitions * unknowns**EXPONENT
+
+
+def coarse_increments(increments: Sequence[int]) -> tuple[int, ...]:
+    """Reduce the increments of all load steps alike to the limit of the coarse solve."""
+    share = min(1.0, MAX_INCREMENTS / sum(increments))
+    return tuple(ceil(share * count) for count in increments)
+
+
+def cpu_seconds(solve: Callable[[], object]) -> float:
+    """Measure the CPU time of a call that finds no array in the cache."""
+    with without_cache():
+        began = time.process_time()
+        solve()
+        return time.process_time() - began

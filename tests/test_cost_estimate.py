@@ -1,0 +1,72 @@
+"""CPU seconds that `slipstick plan` states, against those that runs take."""
+
+from __future__ import annotations
+
+import json
+import re
+import time
+from pathlib import Path
+
+import pytest
+from contact_scenes import PRESS, push, scene
+
+from contact_errors.cost_estimate import (
+    MAX_INCREMENTS,
+    Work,
+    coarse_increments,
+    estimated_seconds,
+    work_on_cells,
+    work_on_elements,
+)
+from contact_scene import Scene, SurfaceDiscretisation
+from contact_scene.kept_arrays import without_cache
+from slipstick.solvers.names import SolverName
+
+RECORD = json.loads(Path(__file__).with_name("cost_record.json").read_text(encoding="utf-8"))
+FACTOR, LEAST_SECONDS = 2.0, 1.0  # less is stated as less than that
+
+
+@pytest.mark.parametrize("run", RECORD["runs"], ids=lambda run: run["scene"])
+def test_recorded_runs_take_half_to_twice_the_estimate(run: dict) -> None:
+    coarse, fine = (Work(*run[name]) for name in ("coarse", "run"))
+    estimate = estimated_seconds(run["coarse_seconds"], coarse, fine)
+    stated, taken = (max(LEAST_SECONDS, each) for each in (estimate, run["run_seconds"]))
+    assert 1 / FACTOR <= stated / taken <= FACTOR
+
+
+def test_a_worked_example() -> None:
+    # (65536 + 16384)/(1024 + 16384) = 4.705882, to the power 1.1: 5.4942; times 10/4 increments.
+    coarse, fine = work_on_cells((32, 32), (4,), False), work_on_cells((256, 256), (10,), False)
+    assert estimated_seconds(2.0, coarse, fine) == pytest.approx(2 * 2.5 * 5.4942, rel=1e-4)
+    # (576 + 1024)/(64 + 1024) = 1.470588, to the power 1.1: 1.52840; times 70/60 and 3 harmonics.
+    coarse, fine = work_on_elements(8, (10,), 1), work_on_elements(24, (20,), 3)
+    assert estimated_seconds(1.0, coarse, fine) == pytest.approx(3.5 * 1.5284, rel=1e-4)
+
+
+def test_a_coarse_solve_has_few_increments_in_the_same_proportion() -> None:
+    assert coarse_increments((1, 18, 36, 36)) == (1, 10, 19, 19)
+    assert coarse_increments((3, 4)) == (3, 4)
+    assert sum(coarse_increments((100000,))) == MAX_INCREMENTS
+
+
+@pytest.mark.parametrize(
+    ("solver", "described"),
+    [
+        ("semi-analytical", scene(PRESS, push(0.6, increments=20), push(-0.6, increments=60))),
+        ("radial", scene(PRESS, push(0.6, increments=30), push(0.6, 0.4, increments=60))),
+    ],
+)
+def test_a_run_takes_half_to_twice_the_time_that_is_stated(solver: str, described: Scene) -> None:
+    chosen = SolverName(solver).solver
+    fineness = chosen.default()
+    if isinstance(fineness, SurfaceDiscretisation):
+        fineness = fineness.model_copy(update={"cells": (160, 160)})
+    plan = chosen.plan(described, fineness)
+    text = dict(chosen.work(described, fineness, plan))["time"]
+    stated = re.match(r"about ([\d.]+) s of one core", text)
+    assert stated
+    began = time.process_time()
+    with without_cache():
+        chosen.errors(chosen.solve(described, fineness, plan))
+    taken = time.process_time() - began
+    assert 1 / FACTOR <= float(stated[1]) / taken <= FACTOR
