@@ -1,5 +1,6 @@
 """What was written comes back as arrays with units and places, here and in other programs."""
 
+import re
 import shutil
 import xml.etree.ElementTree as ET
 from pathlib import Path
@@ -137,6 +138,16 @@ def test_profiles_are_those_of_the_table(place: Path) -> None:
 
 
 def test_what_cannot_be_exported_is_refused_with_what_to_do(place: Path) -> None:
+    for source, complaint in (
+        ("nowhere", "nowhere is no run: it has no summary.json"),
+        ("stress", "open its stress_section.vtu"),
+    ):
+        ended = exported(place, source)
+        assert ended.returncode == 2, ended.stdout
+        assert complaint in " ".join(ended.stderr.replace("│", " ").split())
+
+
+def test_tables_that_cannot_be_read_are_refused(place: Path) -> None:
     old = place / "old"
     shutil.copytree(place / "cells", old)
     (old / "columns.csv").unlink()
@@ -145,14 +156,11 @@ def test_what_cannot_be_exported_is_refused_with_what_to_do(place: Path) -> None
     with open(short / "profiles.csv", "a", encoding="utf-8") as file:
         file.write("1,2\n")
     for source, complaint in (
-        ("nowhere", "nowhere is no run: it has no summary.json"),
-        ("stress", "open its stress_section.vtu"),
-        ("old", "the files are of an earlier version; write them again"),
-        ("short", "profiles.csv:74: 2 values, expected 11"),
+        (old, "the files are of an earlier version; write them again"),
+        (short, "profiles.csv:74: 2 values, expected 11"),
     ):
-        ended = exported(place, source)
-        assert ended.returncode == 2, ended.stdout
-        assert complaint in " ".join(ended.stderr.replace("│", " ").split())
+        with pytest.raises(ValueError, match=re.escape(complaint)):
+            slipstick.load(source).tables["profiles"]
 
 
 def test_a_run_and_a_stress_are_told_apart(place: Path) -> None:
