@@ -9,7 +9,7 @@ import pytest
 from command import outcome
 from synthetic_result import MU, RADIUS, STEEL, synthetic_result
 
-from contact_results.figures.hysteresis_plot import hysteresis_plot
+from contact_results.figures.load_plot import hysteresis_plot
 from contact_results.figures.map_panels import MapFrame
 from contact_results.figures.profile_plot import profile_plot
 from contact_results.figures.style import figure_style

@@ -1,7 +1,6 @@
 """The line through the axis shows what acts on it, whichever solver found it."""
 
 from dataclasses import replace
-from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -92,32 +91,3 @@ def test_line_is_cut_to_the_contact_with_its_edge_in_view() -> None:
     beyond = np.abs(x[pressure > 0]).max() + x[1] - x[0]
     assert -left == right
     assert 1.1 * beyond < right < 1.2 * beyond
-
-
-def test_tractions_on_rings_are_drawn_to_the_edge_as_they_fall() -> None:
-    """Hertz's pressure, whose edge is between two rings: a line to the next ring is off by 0.2."""
-    radii, a = np.linspace(0.0, 1.2, 13), 0.96
-    step: Any = SimpleNamespace(
-        step=1, peak_pressure=1e9, shear_radial=None, shear_circumferential=None,
-        shear_along_load=None, pressure=1e9 * np.sqrt(np.maximum(1 - (radii / a) ** 2, 0.0)),
-    )  # fmt: skip
-    result: Any = SimpleNamespace(steps=(step,))
-    for angles in (None, np.array([0.0, np.pi])):
-        with figure_style():
-            ax = profile_plot(result, Rings(radii, angles, (1.0, 0.0), polar=True)).axes[0]
-        x, p = map(np.asarray, ax.lines[0].get_data())
-        np.testing.assert_allclose(p, np.sqrt(np.maximum(1 - (x / a) ** 2, 0.0)), atol=0.01)
-        assert (np.abs(x[p > 0]) > 0.95).sum() >= (3 if angles is None else 6)
-        assert ax.get_xlabel().startswith("radius r" if angles is None else "x at y = 0")
-
-
-def test_pressure_that_rises_to_a_rim_is_left_as_it_is() -> None:
-    radii = np.linspace(0.0, 1.2, 13)
-    pressure = np.where(radii < 1.05, 1e9 * (1 + radii), 0.0)
-    step: Any = SimpleNamespace(step=1, peak_pressure=2e9, pressure=pressure)
-    result: Any = SimpleNamespace(steps=(step,))
-    for name in ("radial", "circumferential", "along_load"):
-        setattr(step, f"shear_{name}", None)
-    with figure_style():
-        line = profile_plot(result, Rings(radii, None, (1.0, 0.0), polar=True)).axes[0].lines[0]
-    np.testing.assert_allclose(line.get_ydata(), pressure / 1e9)

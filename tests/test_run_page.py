@@ -11,7 +11,7 @@ from matplotlib.text import Text
 from synthetic_result import synthetic_result
 
 from contact_results.figures.figure_files import _figures_called_for, seen_from_above
-from contact_results.figures.hysteresis_plot import hysteresis_plot, moved
+from contact_results.figures.load_plot import hysteresis_plot, moved
 from contact_results.figures.overview import DOTS_PER_INCH, coarser, overview, section_stress
 from contact_results.figures.run_page import decision_numbers, write_page
 from contact_results.figures.style import figure_style, save

@@ -13,9 +13,7 @@ from matplotlib.collections import Collection
 from matplotlib.figure import Figure
 
 from contact_results.figures import style
-from contact_results.figures.pressure_map import pressure_map
-from contact_results.figures.shear_map import shear_map
-from contact_results.figures.stick_slip_map import stick_slip_map
+from contact_results.figures.maps import pressure_map, shear_map, stick_slip_map
 from contact_results.figures.stress_plot import section_plot
 from contact_results.stress.loaded_bodies import state_of_result
 from contact_results.stress.on_cells import stress_on_cells

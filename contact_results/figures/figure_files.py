@@ -11,20 +11,22 @@ from matplotlib.figure import Figure
 from contact_results.cycles import FrettingCycle
 from contact_results.directory import file_names
 from contact_results.figures.caption import add_caption
-from contact_results.figures.dissipation_map import dissipating, dissipation_map
-from contact_results.figures.fretting_map import fretting_map
-from contact_results.figures.hysteresis_plot import hysteresis_plot, moved
-from contact_results.figures.loading_plot import loading_plot
+from contact_results.figures.load_plot import hysteresis_plot, loading_plot, moved
 from contact_results.figures.map_panels import Above
+from contact_results.figures.maps import (
+    dissipating,
+    dissipation_map,
+    fretting_map,
+    pressure_map,
+    shear_map,
+    slip_map,
+    stick_slip_map,
+)
 from contact_results.figures.overview import DOTS_PER_INCH as OF_OVERVIEW
 from contact_results.figures.overview import overview
-from contact_results.figures.pressure_map import pressure_map
 from contact_results.figures.profile_plot import profile_plot, slip_plot
 from contact_results.figures.rings_above import RingsAbove
-from contact_results.figures.shear_map import shear_map
 from contact_results.figures.shown_steps import vectors
-from contact_results.figures.slip_map import slip_map
-from contact_results.figures.stick_slip_map import stick_slip_map
 from contact_results.figures.style import DOTS_PER_INCH, figure_style, save
 from contact_results.natural_sizes import SI, Units
 from contact_results.surface import Cells, Rings, surface_of

@@ -11,13 +11,12 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from contact_results.figures import style
-from contact_results.figures.hysteresis_plot import draw_loop, moved
-from contact_results.figures.loading_plot import draw_loading
-from contact_results.figures.map_panels import Above, MapFrame, draw_cells, map_axes
+from contact_results.figures.load_plot import draw_loading, draw_loop, moved
+from contact_results.figures.map_panels import Above, MapFrame, map_axes
+from contact_results.figures.maps import Panel, add_zone_legend, draw_panel, draw_zones
 from contact_results.figures.profile_plot import draw_end
 from contact_results.figures.run_page import decision_numbers
 from contact_results.figures.section_panel import draw_section
-from contact_results.figures.stick_slip_map import add_zone_legend, draw_zones
 from contact_results.figures.stress_plot import draw_depth, draw_surface
 from contact_results.natural_sizes import SI, Units
 from contact_results.stress.loaded_bodies import LoadedBodies, state_of_result
@@ -131,8 +130,7 @@ def _draw_seen(figure: Any, result: Result, above: Above, units: Units) -> None:
     assert pressure is not None
     unit = units.of("pressure", float(np.max(pressure)), "Pa")
     seen = np.where(pressure > 0, pressure / unit.size, np.nan)
-    image = draw_cells(ax, frame, seen, cmap=style.MAGNITUDE_MAP, vmin=0.0)
-    ax.set_facecolor(style.OUTSIDE_COLOUR)
+    image = draw_panel(ax, frame, Panel("", seen), float(np.nanmax(seen)))
     figure.colorbar(image, ax=ax, label=unit.labelled("pressure p"), shrink=0.8)
 
 

@@ -1,4 +1,4 @@
-"""Tangential force against shift, or torque against twist: the fretting loop."""
+"""Loads against motions: the fretting loop, and normal force against approach."""
 
 from __future__ import annotations
 
@@ -125,3 +125,25 @@ def _along(direction: Values) -> str:
     degrees = np.degrees(np.arctan2(direction[1], direction[0]))
     names = {0: "along x", 90: "along y"}
     return names.get(round(degrees, 3), f"at {degrees:.1f}° to x")
+
+
+def loading_plot(result: Result, units: Units = SI) -> Figure:
+    """The curve by itself."""
+    figure = style.new_figure(5.0, 3.6)
+    draw_loading(figure.subplots(), result, units)
+    return figure
+
+
+def draw_loading(ax: Any, result: Result, units: Units = SI) -> None:
+    """Force and approach of every increment, from first touch."""
+    path = [(0.0, 0.0), *((i.approach, i.normal_force) for i in result.increments)]
+    approach, force = np.array(path).T
+    x, along = on_axis("approach", approach, units=units)
+    y, upward = on_axis("normal_force", force, "W", units)
+    # A line between touch and one end would be no path that the contact took.
+    line = "-" if len(path) > 3 else ""
+    ax.plot(x, y, color=style.LINE_COLOURS[0], linestyle=line, marker="o", markersize=3.5)
+    ax.set_xlim(left=0.0)
+    ax.set_ylim(bottom=0.0)
+    ax.set_xlabel(along)
+    ax.set_ylabel(upward)
