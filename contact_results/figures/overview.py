@@ -98,7 +98,7 @@ def section_stress(result: Result) -> StressField | None:
 
     radius = result.steps[-1].contact_radius
     depths = [level.depth for level in default_depths(state.body, radius)]
-    return stress_on_cells(state, depths=sorted(set(depths))[::EVERY])
+    return stress_on_cells(state, depths=sorted(set(depths))[::EVERY], section_only=True)
 
 
 def coarser(state: LoadedBodies, most: int) -> LoadedBodies:

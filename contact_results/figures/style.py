@@ -80,4 +80,4 @@ def save(figure: Figure, path: Path, dots_per_inch: int = DOTS_PER_INCH) -> None
         "RGBA", canvas.get_width_height(), canvas.buffer_rgba(), "raw", "RGBA", 0, 1
     ).convert("RGB")
     few = drawn.quantize(COLOURS, method=Image.Quantize.MEDIANCUT, dither=Image.Dither.NONE)
-    few.save(path, "png", optimize=True, dpi=(dots_per_inch, dots_per_inch))
+    few.save(path, "png", compress_level=6, dpi=(dots_per_inch, dots_per_inch))

@@ -34,6 +34,7 @@ def stress_on_cells(
     depths: Sequence[float] | None = None,
     volume: bool = False,
     see_edge: bool = True,
+    section_only: bool = False,
 ) -> StressField:
     """Stress on levels, under the whole window, which reaches well beyond the contact.
 
@@ -44,6 +45,7 @@ def stress_on_cells(
             layers
     volume    whether the field has the cells of the volume
     see_edge  whether to look for the edge
+    section_only  whether the stress near the edge is needed in the section alone
     Raises ValueError for a depth that is not in the body, ResourceRefused.
     """
     from semi_analytical.stress import subsurface
@@ -58,7 +60,8 @@ def stress_on_cells(
     field = subsurface(body, grid, *_as_seen_from_afar(state, pressure, shear), levels)
     edge, why = None, "not looked for"
     if see_edge:
-        field, edge, why = _with_edge(state, body, grid, field, pressure, shear)
+        at = 0.0 if section_only else None
+        field, edge, why = _with_edge(state, body, grid, field, pressure, shear, at)
     plane = field.along_x()
     points = _points(field, grid)
     return StressField(
@@ -86,6 +89,7 @@ def _with_edge(
     field: SubsurfaceField,
     pressure: Field,
     shear: Field | None,
+    y: float | None,
 ) -> tuple[SubsurfaceField, NearEdge | None, str]:
     """The field with the edge, and the edge; or the field as it is, and why."""
     from semi_analytical.frf.stack import stack_of
@@ -102,11 +106,11 @@ def _with_edge(
     except EdgeNotSeen as reason:
         return field, None, str(reason)
     if not state.edges:
-        return edge.corrected(field), edge, ""
+        return edge.corrected(field, y), edge, ""
     # Beside the edge the tractions are what the field is of, and not what acts alike far away.
     near = [n for n, level in enumerate(field.levels) if edge.reaches(level)]
     levels = [field.levels[n] for n in near]
-    there = edge.corrected(subsurface(body, grid, pressure, shear, levels))
+    there = edge.corrected(subsurface(body, grid, pressure, shear, levels), y)
     stress = field.stress.copy()
     stress[near] = np.where(edge.beside, there.stress, stress[near])
     return replace(field, stress=stress), edge, ""

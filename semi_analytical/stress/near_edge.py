@@ -21,6 +21,7 @@ from semi_analytical.grid import SurfaceGrid
 from semi_analytical.stress.at_edge import change_at_depth, stress_at_surface
 from semi_analytical.stress.edge_tractions import EdgedTractions, edged_tractions
 from semi_analytical.stress.field import SubsurfaceField, subsurface
+from semi_analytical.stress.interpolation import line_weights
 from semi_analytical.stress.patch import NODES
 
 Field = NDArray[np.float64]
@@ -89,9 +90,13 @@ class NearEdge:
         """Cells (nx, ny) below which stress is evaluated anew."""
         return _beside(self.tractions)
 
-    def corrected(self, field: SubsurfaceField) -> SubsurfaceField:
-        """The same field with the stress near the edge by the tractions with their edge."""
-        i, j = np.nonzero(self.beside)
+    def corrected(self, field: SubsurfaceField, y: float | None = None) -> SubsurfaceField:
+        """The same field with the stress near the edge by the tractions with their edge.
+
+        y  the one section of the field that is needed [length]; None for all of it
+        """
+        rows = np.ones_like(self.grid.y) if y is None else line_weights(self.grid.y, y)
+        i, j = np.nonzero(self.beside & (rows != 0))
         stress = field.stress.copy()
         for index, level in enumerate(field.levels):
             if level.depth == 0:
