@@ -103,7 +103,10 @@ def solve_discretised(
     grids = [first]
     if discretisation.window is None and scene.indenter.extent is None:
         for _ in range(MOST_ENLARGEMENTS):
-            grids.append(enlarged(scene, discretisation, grids[-1]))
+            larger = enlarged(scene, discretisation, grids[-1])
+            if larger == grids[-1]:  # all that a map of friction covers
+                break
+            grids.append(larger)
     last = keeper.last() if keeper else None
     if last and last.extent in grids:  # the smaller ones have been outgrown
         grids = grids[grids.index(last.extent) :]

@@ -1,5 +1,6 @@
 """Unusual but valid inputs give the numbers of the theory, or of the scene without their effect."""
 
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -7,6 +8,7 @@ import pytest
 from numpy.typing import NDArray
 
 import slipstick
+from contact_results.directory.checkpoint import Checkpoint
 from contact_scene import (
     RIGID,
     Body,
@@ -22,7 +24,9 @@ from contact_scene import (
     SurfaceDiscretisation,
 )
 from contact_scene.solver_errors import ContactAtWindowEdge
+from contact_scene.standing import Mark, Standing
 from contact_scene.stated_error import StatedErrors
+from semi_analytical import solve_discretised
 
 R, E, NU = 10e-3, 70e9, 0.3
 E_STAR = E / (1 - NU**2)
@@ -153,3 +157,32 @@ def test_a_constant_map_is_known_within_its_extent_only() -> None:
     )
     with pytest.raises(ContactAtWindowEdge, match="friction map"):
         slipstick.solve(scene(PRESS, friction=small), discretisation=COARSE["semi-analytical"])
+
+
+@pytest.mark.parametrize("value", [0.3, None])
+def test_a_window_that_cannot_grow_is_solved_once_however_slow_the_machine(
+    value: float | None, tmp_path: Path
+) -> None:
+    values = np.random.default_rng(1).uniform(0.2, 0.4, (10, 10)) if value is None else value
+    small = CoulombFriction.model_validate(
+        {"coefficient": {"map": np.broadcast_to(values, (10, 10)).copy(), "spacing": 5e-6}}
+    )
+    starts = []
+    keeper = Checkpoint(tmp_path / "kept", "of this scene", print, seconds_between=0.0)
+    with pytest.raises(ContactAtWindowEdge, match="friction map"):
+        solve_discretised(
+            scene({"normal_force": 1e-3, "increments": 1}, PRESS, friction=small),
+            SurfaceDiscretisation(cells=(32, 32)),
+            progress=lambda i: starts.append(i) if (i.step, i.index) == (1, 1) else None,
+            keeper=keeper,
+        )
+    assert len(starts) == 1
+    # A solve that begins again on the same grid replaces the parts of the first.
+    mark, (first,) = Mark(1, None, None), starts
+    for _ in range(2):
+        keeper.keep(Standing((first,), mark, "grid"))
+    keeper.close()
+    other = Checkpoint(tmp_path / "kept", "of this scene", print, seconds_between=0.0)
+    kept = other.last()
+    assert kept is not None
+    assert len(kept.increments) == 1

@@ -91,7 +91,8 @@ class Checkpoint:
             self._directory.mkdir(mode=0o700, exist_ok=True)
             if not self._locked():
                 return
-            if standing.extent != self._extent:  # the grid or mesh was outgrown: all over again
+            again = len(standing.increments) <= self._kept
+            if again or standing.extent != self._extent:  # a grid or mesh was outgrown
                 self._drop_from(0)
                 self._kept = 0
             self._write(standing)
