@@ -23,7 +23,7 @@ Value = TypeVar("Value", bound="WithFields")
 
 
 @dataclass(frozen=True, slots=True)
-class _Stored:
+class StoredArray:
     """An array in a file."""
 
     file: IO[bytes]
@@ -53,7 +53,7 @@ class WithFields:
 
     def __getattribute__(self, name: str) -> Any:
         value = object.__getattribute__(self, name)
-        return value.read() if type(value) is _Stored else value
+        return value.read() if type(value) is StoredArray else value
 
 
 def stored_bytes(value: WithFields) -> int:
@@ -69,12 +69,12 @@ class FieldStore:
     def __init__(self) -> None:
         self._held = 0
         self._file: IO[bytes] | None = None
-        self._known: dict[int, tuple[NDArray[Any], NDArray[Any] | _Stored]] = {}
+        self._known: dict[int, tuple[NDArray[Any], NDArray[Any] | StoredArray]] = {}
 
     def kept(self, value: Value) -> Value:
         """The same value, to be held; raises OSError where the file cannot grow."""
         kept = copy.copy(value)
-        known: dict[int, tuple[NDArray[Any], NDArray[Any] | _Stored]] = {}
+        known: dict[int, tuple[NDArray[Any], NDArray[Any] | StoredArray]] = {}
         for name, array in vars(value).items():
             if isinstance(array, np.ndarray) and array.nbytes >= LEAST_STORED:
                 place = id(array)  # nobody else's while `_known` holds the array
@@ -84,7 +84,7 @@ class FieldStore:
         self._known = known
         return kept
 
-    def _put(self, array: NDArray[Any]) -> NDArray[Any] | _Stored:
+    def _put(self, array: NDArray[Any]) -> NDArray[Any] | StoredArray:
         if self._held + array.nbytes <= MOST_HELD:
             self._held += array.nbytes
             return array
@@ -99,4 +99,4 @@ class FieldStore:
             folder = tempfile.tempdir or "temporary files"  # where there is none, asking raises
             error.filename = f"{folder} (TMPDIR), for the fields of increments"
             raise
-        return _Stored(self._file, offset, array.dtype, array.shape)
+        return StoredArray(self._file, offset, array.dtype, array.shape)

@@ -34,6 +34,7 @@ from contact_scene import (
 from contact_scene.discretisation import EdgeCorrection
 from contact_scene.solver_errors import GrossSliding
 from contact_scene.standing import Keeper, Standing
+from contact_scene.stored_fields import StoredArray
 from semi_analytical.discretise import GROWTH
 from semi_analytical.grid import SurfaceGrid
 
@@ -311,6 +312,13 @@ def test_checkpoint_of_another_solve_is_named_and_replaced(tmp_path: Path) -> No
     assert checkpoint(tmp_path, said, "an earlier scene").last() is None
 
 
+def forged(content: bytes, tmp_path: Path) -> Path:
+    """A checkpoint of this solve with this pickle."""
+    own = hashlib.sha256(content).hexdigest().encode()
+    (tmp_path / "part").write_bytes(b"\n".join([FORMAT, b"this solve", own, content]))
+    return tmp_path / "part"
+
+
 @dataclass
 class Trap:
     """What runs a command when a pickle is read without care."""
@@ -324,10 +332,8 @@ class Trap:
 @pytest.mark.parametrize("protocol", [0, 2, 5])
 def test_file_of_a_stranger_runs_nothing(protocol: int, tmp_path: Path) -> None:
     content = pickle.dumps(Trap(str(tmp_path / "made")), protocol)
-    own = hashlib.sha256(content).hexdigest().encode()
-    (tmp_path / "part").write_bytes(b"\n".join([FORMAT, b"this solve", own, content]))
     with pytest.raises(Unusable, match="does not belong into a checkpoint"):
-        unpacked(tmp_path / "part", "this solve")
+        unpacked(forged(content, tmp_path), "this solve")
     assert not (tmp_path / "made").exists()
 
 
@@ -339,10 +345,47 @@ def test_file_of_a_stranger_runs_nothing(protocol: int, tmp_path: Path) -> None:
 )  # fmt: skip
 def test_functions_are_not_looked_up(name: str, tmp_path: Path) -> None:
     content = f"c{name}\n.".encode()
-    own = hashlib.sha256(content).hexdigest().encode()
-    (tmp_path / "part").write_bytes(b"\n".join([FORMAT, b"this solve", own, content]))
     with pytest.raises(Unusable, match="does not belong into a checkpoint"):
-        unpacked(tmp_path / "part", "this solve")
+        unpacked(forged(content, tmp_path), "this solve")
+
+
+def test_arrays_of_other_types_and_fields_of_other_files_are_not_read(tmp_path: Path) -> None:
+    (tmp_path / "secret").write_bytes(bytes(range(64)))
+    array = b"ccontact_results.directory.checkpoint_file\narray\n"
+
+    class Field:
+        def __reduce__(self) -> Any:
+            return StoredArray, (str(tmp_path / "secret"), 0, "u1", (64,))
+
+    structured = np.zeros(3, [("a", "O"), ("b", "V8")])
+    for content in (
+        pickle.dumps(structured, 5),
+        pickle.dumps(np.arange(3.0), 5),
+        pickle.dumps(np.dtype([("a", "f8")]), 2),
+        pickle.dumps(Field(), 2),
+        array + b"(V|O\nB\x08\x00\x00\x00abcdefgh(I1\ntI00\ntR.",
+        array + b"(V<f8\nB\x08\x00\x00\x00abcdefgh(I2\ntI00\ntR.",
+    ):
+        with pytest.raises(Unusable, match=r"does not belong into a checkpoint|is damaged"):
+            unpacked(forged(content, tmp_path), "this solve")
+
+
+@pytest.mark.parametrize("kind", ["?", "i1", "u4", "i8", "f4", "f8", "c16"])
+def test_arrays_come_back_with_type_shape_and_order(kind: str, tmp_path: Path) -> None:
+    values = np.arange(24).reshape(2, 3, 4).astype(kind)
+    kept = (
+        values,
+        values.T,
+        values[:, ::2],
+        values[:0],
+        values.sum(),
+        values[1, 2, 3:4].reshape(()),
+    )
+    pack(kept, "this solve", tmp_path / "part")
+    for one, other in zip(kept, unpacked(tmp_path / "part", "this solve"), strict=True):
+        assert (type(one), one.dtype, one.shape) == (type(other), other.dtype, other.shape)
+        np.testing.assert_array_equal(one, other)
+    assert unpacked(tmp_path / "part", "this solve")[1].flags.f_contiguous
 
 
 def test_second_run_into_the_same_directory_leaves_the_first_alone(tmp_path: Path) -> None:

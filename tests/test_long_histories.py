@@ -33,7 +33,7 @@ def stored(monkeypatch: pytest.MonkeyPatch) -> None:
 
 def in_file(value: WithFields) -> list[str]:
     kept = vars(value).items()
-    return [name for name, array in kept if isinstance(array, stored_fields._Stored)]
+    return [name for name, array in kept if isinstance(array, stored_fields.StoredArray)]
 
 
 def long_result(count: int, cells: int = 64) -> Result:

@@ -1,8 +1,8 @@
 """A file that holds values of the solvers, and says whose and whether they are whole.
 
 A line that names the format, a line with the identity of the solve, a line with the SHA-256 of what
-follows: a pickle. Only classes of the solvers, and what numpy makes arrays of, are looked up in it,
-so that a file that somebody else has put there can run nothing.
+follows: a pickle. Arrays are plain bytes with a data type from a list. Only frozen values of the
+solvers are looked up, so that a file from another source runs nothing and opens nothing.
 """
 
 from __future__ import annotations
@@ -10,15 +10,20 @@ from __future__ import annotations
 import hashlib
 import importlib
 import pickle
+from collections.abc import Callable
 from enum import Enum
 from pathlib import Path
 from typing import Any, BinaryIO
 
+import numpy as np
+from numpy.typing import NDArray
+
 from contact_scene import FiniteElementDiscretisation
 from contact_scene.free_memory import available_bytes
 from contact_scene.own_file import open_own
+from contact_scene.stored_fields import StoredArray
 
-FORMAT = b"slipstick checkpoint 1"
+FORMAT = b"slipstick checkpoint 2"
 PROTOCOL = 5
 LONGEST_LINE = 1000
 
@@ -26,13 +31,7 @@ PACKAGES = (
     *("contact_scene", "semi_analytical", "fem_reference", "radial", "contact_results"),
     "contact_errors",
 )
-NUMPY = {
-    ("numpy", "dtype"),
-    ("numpy", "ndarray"),
-    ("numpy._core.multiarray", "_reconstruct"),
-    ("numpy._core.multiarray", "scalar"),
-    ("numpy._core.numeric", "_frombuffer"),
-}
+DTYPES = frozenset(np.dtype(kind).str for kind in "?bBhHiIqQfdFD")
 FAR_FIELDS = (
     "fem_reference.elasticity.far_field"  # its functions are values: pure, and part of a motion
 )
@@ -48,7 +47,7 @@ def pack(value: Any, identity: str, path: Path) -> None:
         file.write(FORMAT + b"\n" + identity.encode() + b"\n")
         before, content = file.tell(), _Digested(file)
         file.write(bytes(2 * content.digest.digest_size) + b"\n")
-        pickle.Pickler(content, PROTOCOL).dump(value)
+        _Writer(content, PROTOCOL).dump(value)
         file.seek(before)
         file.write(content.digest.hexdigest().encode())
 
@@ -89,12 +88,40 @@ def unpacked(path: Path, identity: str) -> Any:
         raise Unusable(f"{path} is damaged: {error}") from error
 
 
+class _Writer(pickle.Pickler):
+    """Writes arrays as plain bytes."""
+
+    def reducer_override(self, value: Any) -> tuple[Callable[..., Any], tuple[Any, ...]]:
+        if isinstance(value, StoredArray):
+            value = value.read()
+        if isinstance(value, np.generic):
+            return scalar, (value.dtype.str, value.tobytes())
+        if not isinstance(value, np.ndarray):
+            return NotImplemented
+        by_columns = value.flags.f_contiguous and not value.flags.c_contiguous
+        lines = value.T if by_columns else value
+        return array, (value.dtype.str, lines.tobytes(), lines.shape, by_columns)
+
+
+def array(dtype: str, content: bytes, shape: tuple[int, ...], by_columns: bool) -> NDArray[Any]:
+    """Return an array from its bytes; raises ValueError for another data type or size."""
+    if dtype not in DTYPES:
+        raise ValueError(f"an array of {dtype!r} does not belong into a checkpoint")
+    lines = np.frombuffer(content, dtype).reshape(shape).copy()
+    return lines.T if by_columns else lines
+
+
+def scalar(dtype: str, content: bytes) -> Any:
+    """Return a number of numpy from its bytes; raises ValueError as `array` does."""
+    return array(dtype, content, (), by_columns=False)[()]
+
+
 class _Reader(pickle.Unpickler):
     """Looks up nothing but values of the solvers."""
 
     def find_class(self, module: str, name: str) -> Any:
-        if (module, name) in NUMPY:
-            return getattr(importlib.import_module(module), name)
+        if module == __name__ and name in ("array", "scalar"):
+            return globals()[name]
         if any(module == package or module.startswith(f"{package}.") for package in PACKAGES):
             found = getattr(importlib.import_module(module), name, None)
             if getattr(found, "__module__", None) == module and _is_value(found):
@@ -104,6 +131,7 @@ class _Reader(pickle.Unpickler):
 
 def _is_value(found: Any) -> bool:
     if isinstance(found, type):
-        fields = hasattr(found, "__dataclass_fields__")
-        return fields or issubclass(found, Enum | FiniteElementDiscretisation)
+        frozen = getattr(getattr(found, "__dataclass_params__", None), "frozen", False)
+        plain = frozen and not issubclass(found, StoredArray)
+        return plain or issubclass(found, Enum | FiniteElementDiscretisation)
     return bool(found.__module__ == FAR_FIELDS)
