@@ -1,8 +1,10 @@
-"""Changing keys of a scene document from the command line: `--set key=value`."""
+"""Changing keys of a scene document by their dotted names, as `--set key=value` does."""
 
 import re
 import tomllib
 from typing import Any
+
+from pydantic import BaseModel
 
 from contact_scene.locator import locate
 from contact_scene.problem import Path, Problem, SceneError
@@ -25,17 +27,54 @@ def override(document: dict[str, Any], assignment: str) -> Path:
     key, equals, text = assignment.partition("=")
     path = _path(key.strip())
     if not equals or not path or not text.isprintable():
-        raise _refused(assignment, f"got {shown(assignment)}", _EXPECTED)
-    _check_steps(document, path, assignment)
+        raise _refused(origin(assignment), f"got {shown(assignment)}", _EXPECTED)
+    _set(document, path, _value(text.strip()), origin(assignment))
+    return path
+
+
+def assign(document: dict[str, Any], key: str, value: Any) -> None:
+    """Set one key of the document, in place, to a value in Python; see `override`.
+
+    Parts of a scene that hold the key become tables. Raises `SceneError`.
+    """
+    path = _path(key)
+    if not path:
+        raise _refused("", f"got the key {shown(key)}", "a key such as loading[2].increments")
+    _set(document, path, value, "")
+
+
+def _set(document: dict[str, Any], path: Path, value: Any, source: str) -> None:
+    """Set the value at a path.
+
+    source  of the value, for messages
+    """
+    _open(document, path[:-1])
     holder: Any = document
+    for part in path:
+        _check_step(holder, part, path, source)
+        holder = holder.get(part, {}) if isinstance(holder, dict) else holder[part]
+    holder = document
     for part, following in zip(path, (*path[1:], None), strict=True):
         if following is None:
-            holder[part] = _value(text.strip())
+            holder[part] = value
         elif isinstance(holder, dict):
             holder = holder.setdefault(part, {})
         else:
             holder = holder[part]
-    return path
+
+
+def _open(holder: Any, path: Path) -> None:
+    """Replace the parts of a scene along a path by tables, and tuples by arrays."""
+    for part in path:
+        try:
+            inner = holder[part]
+        except (LookupError, TypeError):  # reported with the key
+            return
+        if isinstance(inner, BaseModel):
+            inner = holder[part] = dict(inner)
+        elif isinstance(inner, tuple):
+            inner = holder[part] = list(inner)
+        holder = inner
 
 
 def _path(key: str) -> Path:
@@ -49,23 +88,16 @@ def _path(key: str) -> Path:
     return tuple(path) if len(path) <= _MOST_PARTS else ()
 
 
-def _check_steps(document: dict[str, Any], path: Path, assignment: str) -> None:
-    holder: Any = document
-    for part in path:
-        _check_step(holder, part, path, assignment)
-        holder = holder.get(part, {}) if isinstance(holder, dict) else holder[part]
-
-
-def _check_step(holder: Any, part: str | int, path: Path, assignment: str) -> None:
+def _check_step(holder: Any, part: str | int, path: Path, source: str) -> None:
     if isinstance(part, str) and not isinstance(holder, dict):
         hint = "entries count from 1: loading[1].normal_force" if isinstance(holder, list) else ""
-        raise _refused(assignment, f"{part} is not a key of a table", "", hint, path)
+        raise _refused(source, f"{part} is not a key of a table", "", hint, path)
     if isinstance(part, int):
         if not isinstance(holder, list):
-            raise _refused(assignment, f"there is no array for entry {part + 1}", "", "", path)
+            raise _refused(source, f"there is no array for entry {part + 1}", "", "", path)
         if not 0 <= part < len(holder):
             there = f"1 to {len(holder)}" if holder else "none: the array is empty"
-            raise _refused(assignment, f"there is no entry {part + 1}", there, "", path)
+            raise _refused(source, f"there is no entry {part + 1}", there, "", path)
 
 
 def _value(text: str) -> Any:
@@ -77,9 +109,9 @@ def _value(text: str) -> Any:
 
 
 def _refused(
-    assignment: str, message: str, expected: str = "", hint: str = "", path: Path = ()
+    source: str, message: str, expected: str = "", hint: str = "", path: Path = ()
 ) -> SceneError:
-    return SceneError([Problem(path, message, expected, hint, file=origin(assignment))])
+    return SceneError([Problem(path, message, expected, hint, file=source)])
 
 
 def origin(assignment: str) -> str:

@@ -1,5 +1,8 @@
 """The scene: two bodies, friction between them, and how they are loaded."""
 
+from collections.abc import Mapping
+from typing import Any
+
 from pydantic import Field, model_validator
 
 from contact_scene.array_file import ArrayFile
@@ -56,6 +59,20 @@ class Scene(Description):
         if self.friction is not None:
             found["map"] = getattr(self.friction.coefficient, "map", None)
         return {key: array for key, array in found.items() if array is not None}
+
+    def replace(self, *changes: str | Mapping[str, Any], **keys: Any) -> "Scene":
+        """Return the scene with other values of some keys, checked like a scene file.
+
+        changes  keys and values: `{"indenter.radius": "12 mm", "loading[2].increments": 5}`, or a
+                 text as for `--set`: `"indenter.radius=12 mm"`
+        keys     the same of keys without dots: `friction=None`
+
+        Keys have dots; entries of arrays count from 1. None leaves an optional key out. Raises
+        `SceneError` with every mistake.
+        """
+        from contact_scene.scene_file import changed_scene
+
+        return changed_scene(self, changes, keys)
 
     def load_path(self) -> tuple[LoadRamp, ...]:
         """The loading with nothing left implicit, one ramp for every step."""

@@ -3,7 +3,7 @@
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from os import PathLike
-from typing import Any, cast
+from typing import Any, TypeVar, cast
 
 from pydantic import TypeAdapter, ValidationError
 
@@ -17,7 +17,8 @@ from contact_scene.discretisation import (
 )
 from contact_scene.document import SceneDocument
 from contact_scene.mistakes import mistakes
-from contact_scene.problem import SceneError
+from contact_scene.override import assign, override
+from contact_scene.problem import Problem, SceneError
 from contact_scene.scene import Scene
 from contact_scene.source import read_source
 
@@ -72,13 +73,43 @@ class _Asked(Description):
     accuracy: AccuracyRequest
 
 
-def _checked(document: dict[str, Any], context: dict[str, Any]) -> SceneFile:
+def changed_scene(
+    scene: Scene, changes: Iterable[str | Mapping[str, Any]], keys: Mapping[str, Any]
+) -> Scene:
+    """See `Scene.replace`."""
+    document = dict(scene)
+    for change in (*changes, keys):
+        if isinstance(change, str):
+            override(document, change)
+        elif isinstance(change, Mapping):
+            for key, value in change.items():
+                assign(document, str(key), value)
+        else:
+            raise TypeError(
+                f"got a {type(change).__name__}, expected key=value as a text, or a mapping of "
+                'keys to values such as {"indenter.radius": "12 mm"}'
+            )
+    if beside := (document.keys() & SceneDocument.model_fields.keys()) - Scene.model_fields.keys():
+        hint = "pass a discretisation to plan and solve"
+        raise SceneError(Problem((key,), "the key is not of the scene", "", hint) for key in beside)
+    return _valid(Scene, document, {})
+
+
+D = TypeVar("D", bound=Scene)
+
+
+def _valid(kind: type[D], document: dict[str, Any], context: dict[str, Any]) -> D:
+    """The document as a scene; raises `SceneError` with every mistake in it."""
     try:
-        valid = SceneDocument.model_validate(document, context=context)
+        return kind.model_validate(document, context=context)
     except ValidationError as error:
         found = mistakes(document, error, context)
         found += inconsistencies(_valid_parts(document, error, context))
         raise SceneError(found) from None
+
+
+def _checked(document: dict[str, Any], context: dict[str, Any]) -> SceneFile:
+    valid = _valid(SceneDocument, document, context)
     scene = Scene.model_construct(**{name: getattr(valid, name) for name in Scene.model_fields})
     return SceneFile(
         scene, valid.semi_analytical, valid.fem_reference, valid.radial, valid.accuracy

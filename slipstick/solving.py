@@ -123,7 +123,7 @@ def solve(
     Raises
     ------
     TypeError
-        It is no scene.
+        It is no scene, or progress cannot be called.
     ValueError
         There is no such solver, or the discretisation is of another.
     SolverError
@@ -131,6 +131,9 @@ def solve(
         in `contact_scene.solver_errors`; AccuracyOutOfReach where less was reached than asked.
     """
     chosen, solved, fineness = _asked(scene, solver, discretisation)
+    if not (progress is None or callable(progress)):
+        kind = type(progress).__name__
+        raise TypeError(f"progress is a {kind}, expected a function of an increment, or None")
     if isinstance(scene, SceneFile) and scene.accuracy is not None:
         return _solved_to(scene.accuracy, chosen, solved, fineness, progress)
     return chosen.solve(solved, fineness, chosen.plan(solved, fineness), progress)
@@ -167,7 +170,14 @@ def save(
     """
     from contact_results.directory.run_directory import run_directory
     from contact_results.result_files import write_result
+    from contact_scene.stated_error import StatedErrors
 
+    solver_of(result)
+    if not isinstance(errors, StatedErrors | None):
+        kind = type(errors).__name__
+        raise TypeError(
+            f"errors is a {kind}, expected what slipstick.stated_errors returns, or None"
+        )
     with run_directory(Path(directory)) as staging:
         write_result(
             result,

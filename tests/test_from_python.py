@@ -16,7 +16,7 @@ import slipstick
 from contact_results.result_files import write_result
 from contact_results.stress.loaded_bodies import state_of_result, state_of_run
 from contact_results.surface import surface_of
-from contact_scene import HeightMap, read_scene_file
+from contact_scene import HeightMap, SceneError, read_scene_file
 from contact_scene.increment import SCALARS
 from contact_scene.reported import reported
 from contact_scene.stated_error import Part
@@ -261,3 +261,65 @@ def test_errors_are_stated_by_the_solver_of_the_result_and_saved(
     assert end.errors == errors.steps[0]
     assert end.errors["normal_force"].status == "exact"
     assert end.errors["approach"].parts.keys() <= {*get_args(Part)}
+
+
+@pytest.mark.parametrize(
+    ("change", "key"),
+    [
+        ({"indenter.raduis": 1.0}, "indenter.raduis"),
+        ({"friction": None}, "loading[2].tangential_force"),
+        ({"body.layers": [{"thickness": 0, "material": STEEL}]}, "body.layers[1].thickness"),
+        ({"indenter.radius": "12 GPa"}, "indenter.radius"),
+        ({"loading[7].increments": 2}, "loading[7].increments"),
+        ({"loading[2].increments": 0}, "loading[2].increments"),
+        ({"friction.coefficient": -0.1}, "friction.coefficient"),
+        ({"semi_analytical.cells": [64, 64]}, "semi_analytical"),
+        ("loading[2].tangential_force=[200, 0]", "loading[2].tangential_force"),
+        ("indenter.shape=sphare", "indenter.shape"),
+        ({"": 1}, ""),
+    ],
+)
+def test_a_change_of_a_scene_is_checked(change: Any, key: str) -> None:
+    with pytest.raises(SceneError) as caught:
+        SCENE.replace(change)
+    assert key in {problem.key for problem in caught.value.problems}
+
+
+def test_a_changed_scene_is_the_one_with_these_values_and_the_first_stays() -> None:
+    film = slipstick.Layer(thickness=2e-5, material=STEEL)
+    changed = SCENE.replace(
+        {"indenter.radius": "12 mm", "body.layers": (film,)},
+        "loading[2].increments=5",
+        {"body.layers[1].thickness": "10 um", "indenter.material.poisson_ratio": 0.2},
+        title="other",
+    )
+    assert (changed.indenter.radius, changed.title) == (12e-3, "other")  # type: ignore[union-attr]
+    assert changed.body.layers[0].thickness == 1e-5
+    assert film.thickness == 2e-5
+    assert changed.indenter.material.poisson_ratio == 0.2  # type: ignore[union-attr]
+    assert changed.loading[1].increments == 5
+    assert SCENE.indenter.material == STEEL
+    assert SCENE.replace() == SCENE
+    rough = slipstick.HeightMap(file=np.eye(9), spacing=1e-6, material=STEEL)  # type: ignore[arg-type]
+    mapped = SCENE.replace(indenter=rough).replace({"indenter.spacing": "2 um"})
+    assert mapped.indenter == slipstick.HeightMap(file=np.eye(9), spacing=2e-6, material=STEEL)  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize("wrong", [None, 3, "out", SCENE, {}, slipstick.RIGID], ids=str)
+def test_wrong_arguments_are_named_with_what_is_expected(wrong: Any, tmp_path: Path) -> None:
+    expected = r"expected (the result that|what slipstick|a function|str)|should be a str"
+    for call in (
+        lambda: slipstick.stated_errors(wrong),
+        lambda: slipstick.save(wrong, tmp_path / "out"),
+        lambda: slipstick.save(solved(SCENE), tmp_path / "out", errors=wrong or 3),
+        lambda: slipstick.solve(SCENE, progress=wrong or 3),
+    ):
+        with pytest.raises(TypeError, match=expected):
+            call()
+    if not isinstance(wrong, str):
+        for read in (slipstick.load, slipstick.load_stress, slipstick.load_scene):
+            with pytest.raises(TypeError, match=expected):
+                read(wrong)
+        with pytest.raises(TypeError):
+            slipstick.save(solved(SCENE), wrong)
+    assert not (tmp_path / "out").exists()

@@ -50,7 +50,10 @@ class SolverName(StrEnum):
 
 
 def solver_of(result: Result) -> Solver:
-    """The solver that a result is of."""
+    """The solver that a result is of; raises TypeError for what is no result."""
+    if not all(hasattr(result, name) for name in ("solver", "plan", "increments")):
+        kind = type(result).__name__
+        raise TypeError(f"got a {kind}, expected the result that slipstick.solve returns")
     if result.solver == "radial":
         return SolverName.RADIAL.solver
     method = getattr(result, "method", None)
