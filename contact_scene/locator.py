@@ -1,28 +1,28 @@
-"""On which line of a TOML document a key is: `tomllib` does not tell.
+"""Lines of the keys of a TOML document, which `tomllib` does not report.
 
-The scanner reads documents that are valid TOML exactly. On others it does not fail: what it finds
-up to the mistake is right, and `tomllib` will report the mistake itself.
+The scanner reads valid documents exactly. In others it is right up to the mistake, which `tomllib`
+reports.
 """
 
 import re
+import tomllib
+from collections.abc import Iterator
 
 from contact_scene.problem import Path
 
 DEEPEST = 100
 
-_BLANK = re.compile(r"[ \t\r]*")
 # Repeats that never give back (`*+`): others remember every place that they might go back to.
-_BLANK_LINES = re.compile(r"(?:[ \t\r\n]+|#[^\n]*)*+")
-_TO_END_OF_LINE = re.compile(r"[^\n]*")
-_KEY = re.compile(r"[A-Za-z0-9_-]+|'([^'\n]*)'|\"((?:[^\"\\\n]+|\\.)*+)\"")
-_STRING = re.compile(
-    r"\"\"\"(?:[^\"\\]+|\\.|\"(?!\"\"))*+\"\"\"\"{0,2}|'''.*?''''{0,2}"
-    r"|\"(?:[^\"\\\n]+|\\.)*+\"|'[^'\n]*'",
-    re.DOTALL,
+_TOKEN = re.compile(
+    r"""(?P<blank>[ \t\r]+|\#[^\n]*)
+    |(?P<key>[^\s\[\]{}=,.\#"']+
+        |\"\"\"(?:[^"\\]+|\\.|"(?!""))*+\"\"\""{0,2}|'''.*?''''{0,2}
+        |"(?:[^"\\\n]+|\\.)*+"|'[^'\n]*')
+    |(?P<lines>\n(?:[ \t\r\n]+|\#[^\n]*)*+)
+    |(?P<mark>.)""",
+    re.DOTALL | re.VERBOSE,
 )
-_SCALAR = re.compile(r"[^,\]}#\n]*")
-_ESCAPE = re.compile(r"\\(?:u([0-9a-fA-F]{4})|U([0-9a-fA-F]{8})|(.))", re.DOTALL)
-_ESCAPES = {"b": "\b", "t": "\t", "n": "\n", "f": "\f", "r": "\r"}
+_END = ("\n", "")
 
 
 class NestedTooDeep(ValueError):
@@ -34,7 +34,7 @@ class NestedTooDeep(ValueError):
 
 
 def locate(document: str) -> dict[Path, int]:
-    """Lines, counted from 1, of every key and array entry; list indices count from 0.
+    """Return the lines, counted from 1, of every key and array entry, counted from 0.
 
     A table counts from its header, or else from the first key within it. Takes time linear in the
     length of the document; raises `NestedTooDeep`.
@@ -45,137 +45,119 @@ def locate(document: str) -> dict[Path, int]:
 
 
 class _Scanner:
-    """A cursor over the document and what has been found so far."""
+    """The token at the cursor, empty at the end, and the lines of the keys before it."""
 
-    def __init__(self, text: str) -> None:
-        self.text = text
-        self.at = 0
+    def __init__(self, document: str) -> None:
         self.lines: dict[Path, int] = {}
-        self.entries: dict[Path, int] = {}  # number of [[tables]] so far
-        self.line, self.counted = 1, 0  # the line of a place that is not ahead of the cursor
+        self._entries: dict[Path, int] = {}  # number of [[tables]] so far
+        self._tokens = self._read(document)
+        self._next()
+
+    def _read(self, document: str) -> Iterator[tuple[str, bool, int]]:
+        """Tokens, whether they may be a key, and their lines."""
+        line = 1
+        for match in _TOKEN.finditer(document):
+            if match.lastgroup != "blank":
+                text = "\n" if match.lastgroup == "lines" else match[0]
+                yield text, match.lastgroup == "key", line
+            line += match[0].count("\n")
+        while True:
+            yield "", False, line
+
+    def _next(self) -> None:
+        self._text, self._is_key, self._line = next(self._tokens)
 
     def scan(self) -> None:
+        """Read the whole document."""
         table: Path = ()
-        while self._skip(_BLANK_LINES) < len(self.text):
-            if self.text[self.at] == "[":
+        while self._text:
+            if self._text == "[":
                 table = self._header()
             elif not self._pair(table):
-                self._skip(_TO_END_OF_LINE)
+                self._skip_to(*_END)
+            if self._text == "\n":
+                self._next()
+
+    def _skip_to(self, *ends: str) -> None:
+        while self._text not in ends:
+            self._next()
 
     def _header(self) -> Path:
-        """`[a.b]` or `[[a.b]]`; returns the path of the table it opens."""
-        is_array = self.text.startswith("[[", self.at)
-        self.at += 2 if is_array else 1
-        line, keys = self._line(), self._keys()
-        self._skip(_TO_END_OF_LINE)
+        """Read `[a.b]` or `[[a.b]]`; returns the path of the table that it opens."""
+        line = self._line
+        self._next()
+        is_array = self._text == "["
+        if is_array:
+            self._next()
+        keys = self._keys()
+        self._skip_to(*_END)
         table: Path = ()
         for depth, key in enumerate(keys, start=1):
             table = (*table, key)
             self.lines.setdefault(table, line)
             if is_array and depth == len(keys):
-                self.entries[table] = self.entries.get(table, 0) + 1
-            if table in self.entries:
-                table = (*table, self.entries[table] - 1)
+                self._entries[table] = self._entries.get(table, 0) + 1
+            if table in self._entries:
+                table = (*table, self._entries[table] - 1)
                 self.lines.setdefault(table, line)
         # Its own header settles the line of a table known so far from a header further in.
         self.lines[table] = line
         return table
 
+    def _keys(self) -> list[str]:
+        """Read the parts of a dotted key; empty where there is none."""
+        keys: list[str] = []
+        while self._is_key:
+            keys.append(_unquoted(self._text))
+            self._check_depth(len(keys))
+            self._next()
+            if self._text != ".":
+                return keys
+            self._next()
+        return []
+
     def _pair(self, table: Path, depth: int = 0) -> bool:
-        """`a.b = value`; whether there was one."""
-        line, keys = self._line(), self._keys()
+        """Read `a.b = value`; returns whether there was one."""
+        line, keys = self._line, self._keys()
         self._check_depth(depth + len(keys))
-        self._skip(_BLANK)
-        if not keys or not self.text.startswith("=", self.at):
+        if not keys or self._text != "=":
             return False
-        self.at += 1
+        self._next()
         for key in keys:
             table = (*table, key)
             self.lines.setdefault(table, line)
-        self._skip(_BLANK)
         self._value(table, depth + len(keys))
         return True
 
-    def _keys(self) -> list[str]:
-        """Parts of a dotted key; empty where there is none."""
-        keys: list[str] = []
-        while True:
-            self._skip(_BLANK)
-            match = _KEY.match(self.text, self.at)
-            if match is None:
-                return []
-            self.at = match.end()
-            literal, basic = match.groups()
-            keys.append(match[0] if literal is basic else literal or _unescaped(basic or ""))
-            self._check_depth(len(keys))
-            self._skip(_BLANK)
-            if not self.text.startswith(".", self.at):
-                return keys
-            self.at += 1
-
     def _value(self, path: Path, depth: int) -> None:
         self._check_depth(depth)
-        opening = self.text[self.at : self.at + 1]
-        if opening == "[":
-            self._array(path, depth + 1)
-        elif opening == "{":
-            self._inline_table(path, depth + 1)
-        elif opening in ("'", '"'):
-            if self._skip_if(_STRING) is False:
-                self.at = len(self.text)  # never closed: nothing after it can be told apart
-        else:
-            self._skip(_SCALAR)
-
-    def _array(self, path: Path, depth: int) -> None:
-        self.at += 1
+        opening = self._text
+        if opening not in ("[", "{"):
+            self._skip_to(",", "]", "}", *_END)
+            return
+        self._next()
         index = 0
-        while self._skip(_BLANK_LINES) < len(self.text):
-            if self.text[self.at] == "]":
-                self.at += 1
-                return
-            if self.text[self.at] in ",}=":
-                self.at += 1
-                continue
-            self.lines.setdefault((*path, index), self._line())
-            self._value((*path, index), depth)
-            index += 1
-
-    def _inline_table(self, path: Path, depth: int) -> None:
-        self.at += 1
-        while self._skip(_BLANK_LINES) < len(self.text):
-            if self.text[self.at] == "}":
-                self.at += 1
-                return
-            if self.text[self.at] == "," or not self._pair(path, depth):
-                self.at += 1
-
-    def _skip(self, pattern: re.Pattern[str]) -> int:
-        match = pattern.match(self.text, self.at)
-        self.at = match.end() if match else self.at
-        return self.at
-
-    def _skip_if(self, pattern: re.Pattern[str]) -> bool:
-        start = self.at
-        return self._skip(pattern) > start
-
-    def _line(self) -> int:
-        self.line += self.text.count("\n", self.counted, self.at)
-        self.counted = self.at
-        return self.line
+        while self._text not in ("]", "}", ""):
+            if self._text in (",", "\n"):
+                self._next()
+            elif opening == "{":
+                if not self._pair(path, depth + 1):
+                    self._next()
+            else:
+                self.lines.setdefault((*path, index), self._line)
+                self._value((*path, index), depth + 1)
+                index += 1
+        self._next()
 
     def _check_depth(self, depth: int) -> None:
         if depth > DEEPEST:
-            raise NestedTooDeep(self._line())
+            raise NestedTooDeep(self._line)
 
 
-def _unescaped(text: str) -> str:
-    """A basic string with its escapes resolved."""
-
-    def character(match: re.Match[str]) -> str:
-        short, long, plain = match.groups()
-        if plain is not None:
-            return _ESCAPES.get(plain, plain)
-        code = int(short or long, 16)
-        return chr(code) if code <= 0x10FFFF else ""
-
-    return _ESCAPE.sub(character, text)
+def _unquoted(key: str) -> str:
+    if key[0] not in "\"'":
+        return key
+    try:
+        return next(iter(tomllib.loads(f"{key} = 0")))
+    except ValueError:
+        return key
