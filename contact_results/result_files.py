@@ -6,15 +6,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from contact_results.cycles import fretting_cycles
-from contact_results.directory.file_names import COLUMNS, CYCLES, INCREMENTS, PROFILES
-from contact_results.files import cycle_table, increment_table, profile_table
-from contact_results.files.csv_file import write_meanings
-from contact_results.files.cycle_table import write_cycles
 from contact_results.files.field_file import write_fields
-from contact_results.files.increment_table import write_increments
-from contact_results.files.profile_table import write_profiles
 from contact_results.files.summary_file import write_summary
-from contact_results.surface import surface_of
+from contact_results.files.tables import write_tables
 from contact_scene.accuracy_reached import AccuracyReached
 from contact_scene.path_error import PathError
 from contact_scene.stated_error import StatedErrors
@@ -44,11 +38,7 @@ def write_result(
     """
     cycles = fretting_cycles(result, surface_stress=surface_stress)
     write_summary(result, cycles, directory, path_errors, errors, accuracy)
-    write_profiles(result, directory)
-    write_increments(result, directory)
-    write_cycles(cycles, surface_of(result), directory)
-    tables = {PROFILES: profile_table.COLUMNS, INCREMENTS: increment_table.COLUMNS}
-    write_meanings(directory / COLUMNS, tables | ({CYCLES: cycle_table.COLUMNS} if cycles else {}))
+    write_tables(result, cycles, directory)
     write_fields(result, cycles, directory, every_increment=every_increment)
     if with_figures:
         from contact_results.figures.figure_files import write_figures

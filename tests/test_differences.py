@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from contact_scenes import PRESS, grid, push, scene
 
-from contact_results.difference import largest_difference
+from contact_results.quantities import largest_difference
 from contact_scene.increment import SCALARS
 from contact_scene.linear_theory import beyond_linear_theory
 from semi_analytical import Result, solve

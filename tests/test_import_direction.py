@@ -177,10 +177,9 @@ ORDERS = {
         *(
             "one_thread",
             "number_text",
-            "difference",
             "directory",
-            "quantities",
             "surface",
+            "quantities",
             "natural_sizes",
             "remarks",
             "cycles",

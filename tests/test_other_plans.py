@@ -11,7 +11,7 @@ from contact_scenes import scene as alike_scene
 from coupled_scenes import BALL, bulk, coated, press, scene
 from coupled_scenes import push as coupled_push
 
-from contact_results.difference import largest_difference
+from contact_results.quantities import largest_difference
 from contact_scene import LoadStep
 from semi_analytical import Coupling, all_effects, one_way, plan, solve
 from semi_analytical.mirrored_coupling import MirroredCouplingOperator

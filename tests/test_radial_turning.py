@@ -30,7 +30,7 @@ from turning_contacts import (
 
 import radial
 import slipstick
-from contact_results.figures.rings_above import RingsAbove
+from contact_results.figures.map_panels import RingsAbove
 from contact_results.files.surface_file import write_surface
 from contact_results.stress.loaded_bodies import state_of_result, state_of_run
 from contact_results.stress.on_disc import stress_on_disc

@@ -9,10 +9,9 @@ from matplotlib.quiver import Quiver
 from synthetic_result import synthetic_result
 
 from contact_results.figures.figure_files import seen_from_above
-from contact_results.figures.map_panels import MapFrame, draw_arrows
+from contact_results.figures.map_panels import MapFrame, RingsAbove, draw_arrows
 from contact_results.figures.maps import latest_slip, slip_map, stick_slip_map
 from contact_results.figures.profile_plot import slip_plot
-from contact_results.figures.rings_above import RingsAbove
 from contact_results.figures.style import figure_style
 from contact_results.surface import Cells, Rings, surface_of
 from contact_scene.engineering_units import EngineeringUnit

@@ -42,7 +42,7 @@ from contact_errors.rules import RULES, Rule
 from contact_errors.values import OF_CYCLES, PHYSICAL, lost_by_steps
 from contact_results.cycles import fretting_cycles
 from contact_results.directory import file_names
-from contact_results.figures.caption import SHOWN, add_caption
+from contact_results.figures.figure_files import SHOWN, add_caption
 from contact_results.stress.extremes import extremes
 from contact_results.stress.loaded_bodies import LoadedBodies, state_of_result
 from contact_results.stress.on_cells import stress_on_cells

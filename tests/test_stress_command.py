@@ -12,8 +12,8 @@ import numpy as np
 import pytest
 from command import outcome, rows
 
-from contact_results import stress_files
 from contact_results.files.mesh_file import read_mesh
+from contact_results.stress import files as stress_files
 
 ROOT = Path(__file__).resolve().parents[1]
 

@@ -1,12 +1,11 @@
-"""A file that appears whole or not at all."""
+"""A file that appears whole or not at all, and the directories above it."""
 
 import os
 import secrets
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 
-from contact_results.directory.parents import create_parents, remove_empty
 from contact_results.directory.refusal import OutputRefused
 
 
@@ -47,3 +46,25 @@ def refuse_what_is_in_the_way(path: Path) -> None:
         raise OutputRefused(f"{path} is a directory where a file should go; move it")
     if not path.is_file():
         raise OutputRefused(f"{path} is not a regular file, and one would take its place")
+
+
+def create_parents(target: Path) -> list[Path]:
+    """Create the directories missing above `target`; return them, innermost first.
+
+    Raises OutputRefused where they cannot be created.
+    """
+    missing = [parent for parent in target.parents if not parent.exists()]
+    try:
+        target.parent.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise OutputRefused(f"cannot create {target.parent}: {error.strerror}") from error
+    return missing
+
+
+def remove_empty(directories: Sequence[Path]) -> None:
+    """Remove these directories, innermost first, as long as they are empty."""
+    for directory in directories:
+        try:
+            directory.rmdir()
+        except OSError:
+            return

@@ -14,8 +14,8 @@ from contact_results.directory.atomic_file import atomic_file
 from contact_results.figures import style
 from contact_results.figures.section_panel import draw_interfaces, draw_section
 from contact_results.natural_sizes import SI, Units
+from contact_results.stress.files import sides
 from contact_results.stress.points import StressField, StressPoints
-from contact_results.stress.tables import sides
 from contact_scene import Body
 from contact_scene.engineering_units import EngineeringUnit
 

@@ -13,8 +13,15 @@ from contact_results.directory.file_names import STRESS, SUMMARY
 from contact_results.files.csv_file import WITH_UNIT
 from contact_results.files.mesh_file import read_mesh
 from contact_results.files.stored_table import StoredTables, StoredValues, read_meanings
-from contact_results.stress.section_file import SECTION, SURFACE, VOLUME
-from contact_results.stress.tables import AXIS, INTERFACES, MAXIMA, MEANINGS
+from contact_results.stress.files import (
+    AXIS,
+    INTERFACES,
+    MAXIMA,
+    MEANINGS,
+    SECTION,
+    SURFACE,
+    VOLUME,
+)
 
 
 @dataclass(frozen=True, eq=False)

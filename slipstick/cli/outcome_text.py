@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING, NamedTuple, TypeVar
 
 import numpy as np
 
-from contact_results.difference import largest_difference
 from contact_results.natural_sizes import ROUND_OFF, natural_size
 from contact_results.number_text import Uncertainty, measured_like, number_text, uncertainty
+from contact_results.quantities import largest_difference
 from contact_scene.engineering_units import engineering_unit
 from contact_scene.increment import SCALARS, State, components, numbers
 from contact_scene.path_error import DoubledQuantity, PathError

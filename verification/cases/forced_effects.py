@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from contact_results.difference import largest_difference
+from contact_results.quantities import largest_difference
 from contact_scene import Body, Paraboloid, Scene
 from semi_analytical import SurfaceGrid, all_effects
 from verification.exhibits.table import NONE, Table

@@ -7,8 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from contact_results.difference import largest_difference
-from contact_results.quantities import shear_of
+from contact_results.quantities import largest_difference, shear_of
 from contact_scene import RIGID, Body, CoulombFriction, FrictionMap, HeightMap, LoadStep, Scene
 from contact_scene.residuals import worst
 from semi_analytical import SurfaceGrid

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import Any
 
-from contact_results.files import cycle_table, increment_table
+from contact_results.files import tables
 from contact_results.stress import extremes
 from contact_scene.increment import numbers
 from verification.convergence import observed_order
@@ -67,7 +67,7 @@ def _torque_for_twist(patches: Patches) -> None:
         told = dict(numbers(increment))
         return told | {"torque": told["twist"], "twist": told["torque"]}
 
-    patches.attribute(increment_table, "numbers", exchanged)
+    patches.attribute(tables, "numbers", exchanged)
 
 
 def _place_turned(patches: Patches) -> None:
@@ -78,7 +78,7 @@ def _place_turned(patches: Patches) -> None:
 
         return turned
 
-    patches.function(cycle_table, "_largest", wrap)
+    patches.function(tables, "_largest", wrap)
 
 
 def _sides_exchanged(patches: Patches) -> None:

@@ -1,4 +1,4 @@
-"""`stress_maxima.csv`, `stress_axis.csv`, `stress_interfaces.csv` and `stress.json`."""
+"""The files of the stress below a contact: `stress.json`, tables, and meshes for ParaView."""
 
 from __future__ import annotations
 
@@ -10,14 +10,34 @@ import numpy as np
 
 from contact_results.directory.atomic_file import atomic_file
 from contact_results.directory.file_names import STRESS
-from contact_results.files.csv_file import Column, write_table
+from contact_results.files import surface_file
+from contact_results.files.csv_file import Column, write_meanings, write_table
+from contact_results.files.mesh_file import Mesh, tensor, write_mesh
+from contact_results.files.surface_file import write_surface
 from contact_results.stress.extremes import Extreme, interface_sides, layer_name
 from contact_results.stress.loaded_bodies import LoadedBodies
 from contact_results.stress.points import COMPONENTS, MEASURES, StressField, StressPoints
 from contact_scene import Body
 from contact_scene.accuracy_reached import AccuracyReached
+from contact_scene.convention import CONVENTION, OF_THE_INDENTER
 from contact_scene.stated_error import StatedError
 
+SECTION, VOLUME = "stress_section.vtu", "stress_volume.vtu"
+SURFACE = "stress_surface.vtu"  # the tractions
+
+INVARIANTS = (
+    Column("von_mises", "Pa", "Equivalent stress of von Mises."),
+    *(
+        Column(f"principal_{k}", "Pa", f"Principal stress, number {k} from the most tensile.")
+        for k in (1, 2, 3)
+    ),
+)
+POINT_ARRAYS = (
+    Column("displacement", "m", "Vector (x, y, z)."),
+    Column("stress", "Pa", "Tensor by rows xx, xy, xz, yx, yy, yz, zx, zy, zz; tension positive."),
+    *INVARIANTS,
+    Column("material", None, "0 is the outermost layer, the highest number the base."),
+)
 MAXIMA, AXIS, INTERFACES = "stress_maxima.csv", "stress_axis.csv", "stress_interfaces.csv"
 MEANINGS = "stress_columns.csv"
 
@@ -38,17 +58,64 @@ POINT_COLUMNS = (
     Column("material", None, "layer 1 is the outermost; base is below all layers."),
     *(Column(f"u_{axis}", "m", f"Displacement along {axis}.") for axis in "xyz"),
     *(Column(f"sigma_{k}", "Pa", "Component of stress, tension positive.") for k in COMPONENTS),
-    Column("von_mises", "Pa", "Equivalent stress of von Mises."),
-    *(
-        Column(f"principal_{k}", "Pa", f"Principal stress, number {k} from the most tensile.")
-        for k in (1, 2, 3)
-    ),
+    *INVARIANTS,
 )
 SIDE_COLUMNS = (
     Column("interface", None, "Number of the interface, from 1 for the outermost."),
     Column("side", None, "Of the interface: above is nearer to the surface of contact."),
     *POINT_COLUMNS,
 )
+
+
+def write_files(
+    state: LoadedBodies,
+    which: str,
+    field: StressField,
+    found: Sequence[Extreme],
+    directory: Path,
+    errors: Sequence[StatedError] | None,
+    accuracy: AccuracyReached | None,
+) -> None:
+    """Write tables, their meanings, meshes and summary of the `body` or the `indenter`."""
+    of_indenter = which == "indenter"
+    body = state.indenter if of_indenter else state.body
+    convention = OF_THE_INDENTER if of_indenter else CONVENTION
+    write_maxima(found, errors, directory)
+    write_axis(field, body, directory)
+    write_interfaces(field, body, directory)
+    write_points(field.section.turned(field.direction), directory / SECTION, convention)
+    files = {
+        MAXIMA: LARGEST_COLUMNS,
+        AXIS: POINT_COLUMNS,
+        INTERFACES: SIDE_COLUMNS,
+        SECTION: POINT_ARRAYS,
+        SURFACE: surface_file.columns(state.tractions),
+    }
+    if field.volume is not None:
+        write_points(field.volume.turned(field.direction), directory / VOLUME, convention)
+        files[VOLUME] = POINT_ARRAYS
+    sense = -1.0 if of_indenter else 1.0
+    write_surface(state.surface, state.tractions, directory / SURFACE, convention, sense)
+    write_meanings(directory / MEANINGS, files, convention)
+    write_stress_summary(state, which, field, found, errors, accuracy, convention, directory)
+
+
+def write_points(points: StressPoints, path: Path, convention: str) -> None:
+    """Write points, their cells, and every field at the points.
+
+    At an interface there are two points at one place, so that the jump is not smeared.
+    """
+    assert points.cells is not None
+    places = np.stack([points.x, points.y, points.depth], axis=-1).reshape(-1, 3)
+    values = (
+        points.displacement.reshape(3, -1).T,
+        tensor(points.stress.reshape(6, -1)),
+        points.von_mises.ravel(),
+        *points.principal.reshape(3, -1),
+        points.material.ravel(),
+    )
+    arrays = {column.header: array for column, array in zip(POINT_ARRAYS, values, strict=True)}
+    write_mesh(Mesh(places, points.cells, arrays), path, convention)
 
 
 def write_maxima(

@@ -1,0 +1,161 @@
+"""The tables of a run: `profiles.csv`, `increments.csv` and `cycles.csv`, and their columns."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from contact_results.cycles import FrettingCycle
+from contact_results.directory.file_names import COLUMNS, CYCLES, INCREMENTS, PROFILES
+from contact_results.files.csv_file import STEP, Column, marked, write_meanings, write_table
+from contact_results.surface import Rings, surface_of
+from contact_scene.increment import SCALARS, components, numbers
+from contact_scene.reported import reported
+
+if TYPE_CHECKING:
+    from contact_results.surface import Increment, Result, Surface
+
+Field = NDArray[np.float64]
+
+LINE = "on the line y = 0 of cells; of rings on the line through the axis along the tangential load"
+PROFILE_VECTORS = {
+    "shear": ("Pa", "tangential traction on the lower body"),
+    "slip": ("m", "slip of the lower body against the indenter since the start"),
+}
+PROFILE_SCALARS = {
+    "pressure": ("Pa", "Normal traction, positive in compression."),
+    "gap": ("m", "Distance of the deformed surfaces; empty where they never touch."),
+    "in_stick": (
+        "",
+        "1 in contact and sticking, 0 slipping or out of contact; 0.5 if so on one side only of a "
+        "line that runs between two rows of cells.",
+    ),
+    "dissipation": ("J/m^2", "Energy per area lost to friction since the start."),
+}
+PROFILE_COLUMNS = (
+    STEP,
+    Column("x", "m", f"Place {LINE}."),
+    Column("y", "m", f"Place {LINE}."),
+    *(
+        Column(f"{name}_{axis}", unit, f"Component along {axis} of the {meaning}.")
+        for name, (unit, meaning) in PROFILE_VECTORS.items()
+        for axis in ("x", "y")
+    ),
+    *(Column(name, unit, meaning) for name, (unit, meaning) in PROFILE_SCALARS.items()),
+)
+
+
+def write_profiles(result: Result, directory: Path) -> None:
+    """Write one row per place, the same columns for every solver; what an increment does not have
+    is empty, and so is what is infinite."""
+    surface = surface_of(result)
+    if isinstance(surface, Rings):
+        surface = surface.on_both_sides()
+    rows = (row for step in result.steps for row in _profile_rows(surface, step))
+    write_table(directory / PROFILES, PROFILE_COLUMNS, rows)
+
+
+def _profile_rows(surface: Surface, step: Increment) -> Iterator[tuple[object, ...]]:
+    places = surface.line.places
+    parts: list[Any] = [places * along for along in surface.direction]
+    for name in PROFILE_VECTORS:
+        vector = surface.vector(step, name)
+        parts.extend((None, None) if vector is None else surface.along(vector))
+    for name in PROFILE_SCALARS:
+        field = surface.scalar(step, name) if hasattr(step, name) else None
+        parts.append(None if field is None else surface.along(field.astype(np.float64)))
+    columns = [_shown(part, len(places)) for part in parts]
+    # Both sides of rings have the axis.
+    twice = places.size // 2 - 1 if np.count_nonzero(places == 0) == 2 else None
+    for number, row in enumerate(zip(*columns, strict=True)):
+        if number != twice:
+            yield (step.step, *row)
+
+
+def _shown(values: Any, size: int) -> list[float | None]:
+    """Python's numbers, zeros without a sign; nothing for what is not there or not finite."""
+    if values is None:
+        return [None] * size
+    return [v + 0.0 if np.isfinite(v) else None for v in values.tolist()]
+
+
+INCREMENT_COLUMNS = (
+    STEP,
+    Column("increment", None, "Increment within the step, from 1."),
+    *(marked(part, mark) for name, mark in SCALARS.items() for part in components(name)),
+)
+
+
+def write_increments(result: Result, directory: Path) -> None:
+    """Write one row per increment; what an increment does not have is empty."""
+    rows = ((i.step, i.index, *numbers(i).values()) for i in result.increments)
+    write_table(directory / INCREMENTS, INCREMENT_COLUMNS, rows)
+
+
+LARGEST = "Of the surface, where it is largest: "
+
+
+def _cycle_columns() -> tuple[Column, ...]:
+    marks = reported(FrettingCycle)
+    columns = [
+        Column("start_step", None, "Step at whose end the cycle begins."),
+        Column("end_step", None, "Step at whose end the cycle closes."),
+        marked("input_work", marks["input_work"]),
+        marked("dissipated_energy", marks["dissipated_energy"]),
+        marked("largest_dissipation", marks["dissipation"], LARGEST),
+        marked("slip_amplitude", marks["slip_amplitude"], LARGEST),
+    ]
+    for name, before in (("ruiz_f1", ()), ("ruiz_f2", ("surface_tension",))):
+        columns += (marked(field, marks[field], LARGEST) for field in (*before, name))
+        columns += (Column(f"{name}_{axis}", "m", f"Where {name} is largest.") for axis in "xy")
+    return tuple(columns)
+
+
+CYCLE_COLUMNS = _cycle_columns()
+
+
+def write_cycles(cycles: Sequence[FrettingCycle], surface: Surface, directory: Path) -> None:
+    """Write one row per cycle, fields by their largest value and Ruiz's parameters with its place;
+    no file if there is no cycle."""
+    if not cycles:
+        return
+    write_table(directory / CYCLES, CYCLE_COLUMNS, (_cycle_row(cycle, surface) for cycle in cycles))
+
+
+def _cycle_row(cycle: FrettingCycle, surface: Surface) -> list[int | float | None]:
+    tension = cycle.surface_tension
+    return [
+        cycle.cycle.start,
+        cycle.cycle.end,
+        cycle.input_work,
+        cycle.dissipated_energy,
+        None if cycle.dissipation is None else float(np.max(cycle.dissipation)),
+        float(np.max(cycle.slip_amplitude)),
+        *_largest(cycle.ruiz_f1, surface),
+        None if tension is None else float(np.max(tension)),
+        *_largest(cycle.ruiz_f2, surface),
+    ]
+
+
+def _largest(field: Field | None, surface: Surface) -> tuple[float | None, ...]:
+    """The largest value and its place; no place where the field is zero."""
+    if field is None:
+        return None, None, None
+    largest = np.unravel_index(int(np.argmax(field)), field.shape)
+    if field[largest] == 0:
+        return 0.0, None, None
+    x, y = surface.positions
+    return float(field[largest]), float(x[largest]), float(y[largest])
+
+
+def write_tables(result: Result, cycles: Sequence[FrettingCycle], directory: Path) -> None:
+    """Write the tables, and the meanings of their columns."""
+    write_profiles(result, directory)
+    write_increments(result, directory)
+    write_cycles(cycles, surface_of(result), directory)
+    tables = {PROFILES: PROFILE_COLUMNS, INCREMENTS: INCREMENT_COLUMNS}
+    write_meanings(directory / COLUMNS, tables | ({CYCLES: CYCLE_COLUMNS} if cycles else {}))
