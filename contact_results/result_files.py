@@ -37,9 +37,9 @@ def write_result(
     every_increment store the fields of all increments, not of the last one of each load step
     """
     cycles = fretting_cycles(result, surface_stress=surface_stress)
-    write_summary(result, cycles, directory, path_errors, errors, accuracy)
     write_tables(result, cycles, directory)
     write_fields(result, cycles, directory, every_increment=every_increment)
+    write_summary(result, cycles, directory, path_errors, errors, accuracy)
     if with_figures:
         from contact_results.figures.figure_files import write_figures
         from contact_results.figures.run_page import write_page

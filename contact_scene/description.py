@@ -6,6 +6,8 @@ from pydantic import BaseModel, ConfigDict, model_validator
 
 from contact_scene.refusal import refusal
 
+MAX_TITLE = 500  # characters
+
 
 class Description(BaseModel):
     """A frozen, hashable value; unknown keys and non-finite numbers are refused."""

@@ -20,6 +20,7 @@ from contact_scene.linear_theory import SMALL_STRAIN
 from contact_scene.load_path import ControlKind
 from contact_scene.material import IsotropicMaterial
 from contact_scene.problem import Path, dotted
+from contact_scene.quantity import WithUnit
 from contact_scene.scene import Scene
 
 
@@ -29,7 +30,8 @@ class Usual:
 
     least, most  magnitude [SI unit]
     unit         in SI
-    meant        units in which a number alone was perhaps meant, with their sizes, likeliest first
+    meant        units in which a number without one was perhaps meant, with their sizes, the
+                 likeliest first
     signed       whether a negative number is smaller than any of its magnitude
     """
 
@@ -117,7 +119,7 @@ def _odd(value: float, usual: Usual) -> str:
     meant = (
         f'; was "{value:g} {unit}" meant?'
         for unit, size in usual.meant.items()
-        if usual.least <= abs(value * size) <= usual.most
+        if usual.least <= abs(value * size) <= usual.most and not isinstance(value, WithUnit)
     )
     return f"{_text(value, usual)} is {side} the usual {_text(limit, usual)}{next(meant, '')}"
 

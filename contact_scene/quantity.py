@@ -43,6 +43,13 @@ ANY_MAGNITUDE = "any magnitude"
 _COMPUTABLE = 1e-300, 1e300
 
 
+class WithUnit(float):
+    """A number in SI that was written with its unit."""
+
+    def __reduce__(self) -> tuple[type[float], tuple[float]]:
+        return float, (float(self),)
+
+
 @dataclass(frozen=True)
 class Quantity:
     """Validator of one kind of quantity within bounds, for use in `Annotated[float, ...]`.
@@ -76,7 +83,8 @@ class Quantity:
         if number != 0.0 and not smallest <= abs(number) <= largest:
             bounds = f"a magnitude between {smallest} and {largest} {self.kind.si}"
             raise refusal(f"got {shown(value)}", bounds.rstrip())
-        return number + 0.0  # -0.0 and 0.0 are the same quantity and shall give the same bits
+        # -0.0 and 0.0 are the same quantity and shall give the same bits
+        return type(number)(number + 0.0)
 
     def _magnitudes(self, info: ValidationInfo | None) -> tuple[float, float]:
         """Least and largest magnitude of a number that is not zero."""
@@ -112,7 +120,7 @@ class Quantity:
             raise refusal(f"got {shown(text)}", self.expected, hint)
         number, unit = match.groups()
         try:
-            return self.kind.to_si(Decimal(number), unit, _EXACT)
+            return WithUnit(self.kind.to_si(Decimal(number), unit, _EXACT))
         except UnknownUnit:
             near = get_close_matches(unit, self.kind.units, n=1, cutoff=0.5)
             folded = [known for known in self.kind.units if known.lower() == unit.lower()]

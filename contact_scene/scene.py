@@ -8,7 +8,7 @@ from pydantic import Field, model_validator
 from contact_scene.array_file import ArrayFile
 from contact_scene.body import Body
 from contact_scene.consistency import Parts, inconsistencies
-from contact_scene.description import Description
+from contact_scene.description import MAX_TITLE, Description
 from contact_scene.friction import CoulombFriction
 from contact_scene.geometry import Indenter
 from contact_scene.load_path import LoadRamp, load_path
@@ -22,7 +22,7 @@ class Scene(Description):
     Raises `SceneError` if its parts, each valid alone, do not make a problem that can be solved.
     """
 
-    title: str = Field(default="", max_length=500)
+    title: str = Field(default="", max_length=MAX_TITLE)
     """A name for people."""
 
     indenter: Indenter

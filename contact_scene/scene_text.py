@@ -55,10 +55,13 @@ def shape_text(indenter: Body) -> str:
     fields = type(indenter).model_fields.items()
     own = {name: field for name, field in fields if name not in ("material", "layers")}
     texts = {name: _value(getattr(indenter, name), _unit(own[name])) for name in own}
-    parts = [text if name == "shape" else f"{name} {text}" for name, text in texts.items()]
+    parts = [
+        text.replace("_", " ") if name == "shape" else f"{name.replace('_', ' ')} {text}"
+        for name, text in texts.items()
+    ]
     if isinstance(indenter, HeightMap):
         parts.append("heights " + _map(indenter.file, indenter.spacing, "m"))
-    return ", ".join(parts).replace("_", " ")
+    return ", ".join(parts)
 
 
 def _unit(field: FieldInfo) -> str:

@@ -11,13 +11,13 @@ from pydantic.dataclasses import dataclass as pydantic_dataclass
 from contact_scene import residuals
 from contact_scene.accuracy_reached import AccuracyReached
 from contact_scene.convention import CONVENTION
-from contact_scene.description import Description
+from contact_scene.description import MAX_TITLE, Description
 from contact_scene.increment import Cost, State
 from contact_scene.path_error import PathError
 from contact_scene.reported import Reported
 from contact_scene.stated_error import Companion, StatedError
 
-SUMMARY_VERSION = 2  # 1 had no convention
+SUMMARY_VERSION = 3  # 1 had no convention, 2 no digest
 
 Ratio: TypeAlias = Annotated[float, Field(json_schema_extra={"unit": "1"})]
 Metre: TypeAlias = Annotated[float, Field(json_schema_extra={"unit": "m"})]
@@ -123,7 +123,7 @@ class RunSummary(Description):
     convention: str = CONVENTION
     """Units, axes and signs."""
 
-    title: str
+    title: str = Field(max_length=MAX_TITLE)
     """Title of the scene."""
 
     solver: str
@@ -155,6 +155,9 @@ class RunSummary(Description):
 
     path_errors: tuple[PathError, ...] | None = None
     """What finite increments cost, one entry for every step; null where it was not asked for."""
+
+    fields_digest: str | None = None
+    """SHA-256 of the file of fields, `result.h5`."""
 
     @field_validator("schema_version")
     @classmethod

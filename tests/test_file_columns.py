@@ -83,6 +83,6 @@ def test_a_summary_of_the_version_before_reads_and_one_of_a_newer_is_refused(
     record["schema_version"] = 1
     assert load_summary(json.dumps(record)).steps == now.steps
     record["schema_version"] = SUMMARY_VERSION + 1
-    told = "^schema_version: version 3 is of a newer slipstick; this one reads up to 2$"
+    told = "^schema_version: version 4 is of a newer slipstick; this one reads up to 3$"
     with pytest.raises(ValueError, match=told):
         load_summary(json.dumps(record))

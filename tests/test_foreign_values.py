@@ -14,6 +14,7 @@ from pydantic import BaseModel, ValidationError
 
 from contact_scene import FiniteElementDiscretisation, SurfaceDiscretisation
 from contact_scene.geometry import HeightMap
+from contact_scene.quantity import WithUnit
 from slipstick import Body, Cone, IsotropicMaterial, Layer, LoadStep, Paraboloid
 
 HEIGHTS = 1e-6 * np.arange(16.0).reshape(4, 4)
@@ -102,7 +103,7 @@ def radius(value: Any) -> Any:
 @pytest.mark.parametrize("value", SAME, ids=repr)
 def test_a_number_of_any_library_is_its_own_bits(value: Any) -> None:
     found = radius(value)
-    assert type(found) is float
+    assert type(found) is (WithUnit if isinstance(value, str) else float)
     assert found == (0.018 if isinstance(value, str) else float(value))
 
 

@@ -197,7 +197,7 @@ def test_what_is_no_run_is_refused_by_name(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("changed", "complaint"),
     [
-        ({"title": "another"}, "title is another and ball"),
+        ({"title": "another"}, 'title is "another" and "ball"'),
         ({"loading": SCENE.loading[:2]}, "there are 2 and 4 loading steps"),
         ({"friction": slipstick.CoulombFriction(coefficient=0.2)}, "tangential_shift differs"),
     ],

@@ -1,5 +1,7 @@
 """What claims to be huge is refused at once, and without the memory that it claims."""
 
+import hashlib
+import json
 import os
 import subprocess
 import sys
@@ -15,13 +17,15 @@ from typing import Any
 import h5py
 import numpy as np
 import pytest
+from command import outcome
 from study_cases import Number, Square
 from synthetic_result import synthetic_result
 
 import radial
 from contact_results.directory.checkpoint_file import FORMAT, Unusable, unpacked
-from contact_results.directory.file_names import FIELDS
+from contact_results.directory.file_names import FIELDS, SUMMARY
 from contact_results.files import stored_values
+from contact_results.files.stored_run import load
 from contact_results.result_files import write_result
 from contact_results.stress.loaded_bodies import NoSuchState, state_of_run
 from contact_scene import RIGID, Body, IsotropicMaterial, LoadStep, Paraboloid, Scene
@@ -215,6 +219,15 @@ def claiming(result: Any, path: Path, **changed: tuple[int, ...]) -> None:
             if place in file:
                 del file[place]
             claimed(file.create_dataset(place, shape, float))
+    signed(path)
+
+
+def signed(path: Path) -> None:
+    """Put the digest of changed fields into the summary beside them."""
+    summary = path.parent / SUMMARY
+    record = json.loads(summary.read_text(encoding="utf-8"))
+    record["fields_digest"] = hashlib.sha256(path.read_bytes()).hexdigest()
+    summary.write_text(json.dumps(record), encoding="utf-8")
 
 
 def claimed(dataset: h5py.Dataset) -> None:
@@ -261,6 +274,7 @@ def claimed_text(path: Path) -> None:
     with h5py.File(path, "a") as file:
         del file["scene"]
         file.create_dataset("scene", (), "S2000000000")
+    signed(path)
 
 
 def many_chunks(path: Path) -> None:
@@ -269,6 +283,7 @@ def many_chunks(path: Path) -> None:
     with h5py.File(path, "a") as file:
         del file["x"]
         claimed(file.create_dataset("x", (MEGABYTE,), float, chunks=(1,)))
+    signed(path)
 
 
 def one_chunk(path: Path) -> None:
@@ -312,6 +327,93 @@ def test_claims_of_a_section_are_refused_unread(tmp_path: Path, changed: dict[st
     claiming(on_rings(), tmp_path / FIELDS, **changed)
     with frugal(), pytest.raises(NoSuchState, match=f"is not the {FIELDS} of a run"):
         state_of_run(tmp_path, None)
+
+
+def replaced(file: h5py.File, name: str) -> np.ndarray:
+    """The values of a dataset that is taken out of a file."""
+    values: np.ndarray = file[name][()]
+    del file[name]
+    return values
+
+
+def not_a_number(file: h5py.File, folder: Path) -> None:
+    file["increments/pressure"][0, 4, 4] = np.nan
+
+
+def other_number(file: h5py.File, folder: Path) -> None:
+    file["increments/pressure"][0, 4, 4] *= 2
+
+
+def soft_link(file: h5py.File, folder: Path) -> None:
+    replaced(file, "increments/pressure")
+    file["increments/pressure"] = h5py.SoftLink("/increments/gap")
+
+
+def external_link(file: h5py.File, folder: Path) -> None:
+    with h5py.File(folder / "other.h5", "w") as other:
+        other["pressure"] = replaced(file, "increments/pressure")
+    file["increments/pressure"] = h5py.ExternalLink(folder / "other.h5", "/pressure")
+
+
+def external_storage(file: h5py.File, folder: Path) -> None:
+    values = replaced(file, "increments/pressure")
+    (folder / "secret").write_bytes(values.tobytes())
+    storage = [(str(folder / "secret"), 0, values.nbytes)]
+    file.create_dataset("increments/pressure", values.shape, float, external=storage)
+
+
+def virtual_data(file: h5py.File, folder: Path) -> None:
+    values = replaced(file, "increments/pressure")
+    with h5py.File(folder / "other.h5", "w") as other:
+        other["pressure"] = values
+    layout = h5py.VirtualLayout(values.shape, float)
+    layout[:] = h5py.VirtualSource(folder / "other.h5", "pressure", values.shape)
+    file.create_virtual_dataset("increments/pressure", layout)
+
+
+def groups_in_circles(file: h5py.File, folder: Path) -> None:
+    file["increments/again"] = file["/"]
+
+
+@pytest.mark.parametrize(
+    ("change", "own_digest", "words"),
+    [
+        (not_a_number, False, "was changed or damaged"),
+        (other_number, False, "was changed or damaged"),
+        (soft_link, True, "links to another place"),
+        (external_link, True, "links to another place"),
+        (external_storage, True, "values in another file"),
+        (virtual_data, True, "values in another file"),
+        (groups_in_circles, True, "groups deep"),
+    ],
+)
+def test_fields_that_were_changed_or_lie_elsewhere_are_refused(
+    change: Callable[[h5py.File, Path], None], own_digest: bool, words: str, tmp_path: Path
+) -> None:
+    surface_result(tmp_path / FIELDS)
+    with h5py.File(tmp_path / FIELDS, "a") as file:
+        change(file, tmp_path)
+    if own_digest:
+        signed(tmp_path / FIELDS)
+    with pytest.raises(ValueError, match=words):
+        load(tmp_path)
+    done = outcome("export", ".", "-o", "out", cwd=tmp_path)
+    assert (done.returncode, words in done.stderr) == (2, True)
+
+
+def test_fields_in_use_and_long_titles_are_refused_in_short_words(tmp_path: Path) -> None:
+    surface_result(tmp_path / FIELDS)
+    fcntl = pytest.importorskip("fcntl")
+    with (tmp_path / FIELDS).open("rb") as held:
+        fcntl.flock(held, fcntl.LOCK_EX)
+        with pytest.raises(ValueError, match="is in use by another process"):
+            load(tmp_path)
+    record = json.loads((tmp_path / SUMMARY).read_text(encoding="utf-8"))
+    for title in ("other", "a" * MEGABYTE):
+        (tmp_path / SUMMARY).write_text(json.dumps(record | {"title": title}), encoding="utf-8")
+        with pytest.raises(ValueError, match="title") as caught:
+            load(tmp_path)
+        assert len(str(caught.value)) < 1000
 
 
 def test_values_beyond_the_memory_are_refused_unread(

@@ -122,6 +122,8 @@ class _Reader(pickle.Unpickler):
     def find_class(self, module: str, name: str) -> Any:
         if module == __name__ and name in ("array", "scalar"):
             return globals()[name]
+        if (module, name) == ("builtins", "float"):
+            return float
         if any(module == package or module.startswith(f"{package}.") for package in PACKAGES):
             found = getattr(importlib.import_module(module), name, None)
             if getattr(found, "__module__", None) == module and _is_value(found):

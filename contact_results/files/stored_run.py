@@ -26,6 +26,8 @@ from contact_results.files.stored_values import (
     MAPS,
     MISREAD,
     ends_of_steps,
+    fields_digest,
+    opened,
     row_of,
     text,
     values,
@@ -33,6 +35,7 @@ from contact_results.files.stored_values import (
 from contact_scene import FiniteElementDiscretisation, Scene
 from contact_scene.increment import SCALARS, components
 from contact_scene.problem import SceneError
+from contact_scene.refusal import shown
 from contact_scene.reported import Kind
 from contact_scene.summary import RunSummary, load_summary
 
@@ -42,7 +45,7 @@ class StoredGroup(Mapping[str, StoredValues]):
 
     def __init__(self, path: Path, group: str) -> None:
         self._path, self._group = path, group
-        with h5py.File(path) as file:
+        with opened(path) as file:
             found = file.get(group, {}).items()
             self._names = tuple(
                 name for name, item in found if isinstance(item, h5py.Dataset) and item.shape
@@ -51,7 +54,7 @@ class StoredGroup(Mapping[str, StoredValues]):
     def __getitem__(self, name: str) -> StoredValues:
         if name not in self._names:
             raise KeyError(f"{self._path} has no {name!r} in {self._group}: {self._names}")
-        with h5py.File(self._path) as file:
+        with opened(self._path) as file:
             dataset = file[self._group][name]
             unit, meaning = (dataset.attrs.get(mark) for mark in ("unit", "description"))
             if not (isinstance(unit, str) and isinstance(meaning, str)):
@@ -64,7 +67,7 @@ class StoredGroup(Mapping[str, StoredValues]):
 
     def at(self, name: str, increment: int) -> NDArray[Any]:
         """The array at one increment, counted from 0, alone; KeyError where it is not kept."""
-        with h5py.File(self._path) as file:
+        with opened(self._path) as file:
             dataset = file[self._group][name]
             return values(dataset, row_of(dataset, increment))
 
@@ -142,7 +145,7 @@ def load(directory: str | PathLike[str]) -> StoredRun:
     except ValueError as error:
         raise ValueError(f"{summary} is not the {SUMMARY} of a run: {error}") from None
     try:
-        with h5py.File(fields) as file:
+        with opened(fields) as file:
             arrays = {key: values(array) for key, array in file.get(MAPS, {}).items()}
             scene = Scene.model_validate_json(text(file["scene"]), context={"arrays": arrays})
             fineness = None
@@ -158,6 +161,8 @@ def load(directory: str | PathLike[str]) -> StoredRun:
         raise ValueError(f"{fields} is not the {FIELDS} of a run: {error}") from None
     if strange:
         raise ValueError(f"{summary} and {fields} are of different runs: {strange}; run again")
+    if record.schema_version > 2 and record.fields_digest != fields_digest(fields):
+        raise ValueError(f"{fields} was changed or damaged: its digest is not that in {summary}")
     places, increments, cycle = groups
     tables = TablesOfRun(Path(directory), increments)
     direction = float(x), float(y)
@@ -171,7 +176,7 @@ def _strange(summary: RunSummary, scene: Scene, file: h5py.File) -> Iterator[str
     marks = dict(file.attrs) | {"title": scene.title}
     for name in ("title", "solver", "tolerance"):
         if (one := getattr(summary, name)) != (other := marks[name]):
-            yield f"{name} is {one} and {other}"
+            yield f"{name} is {shown(one)} and {shown(other)}"
     steps = values(group["step"])
     ends = ends_of_steps(steps)
     if len(summary.steps) != len(ends):

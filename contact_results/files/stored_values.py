@@ -1,13 +1,17 @@
 """Values in an HDF5 file, read only if the file can really hold what it claims.
 
 A dataset of any size can be claimed in a few bytes: what was never written, or zeros that are
-packed, cost nothing on the disk and everything in memory. Files of ours are refused here as soon as
-their claims are known.
+packed, cost nothing on the disk and everything in memory. A file is refused as soon as its claims
+are known, or if it refers to another file: all values of a run are in its own.
 """
 
 from __future__ import annotations
 
+import hashlib
 import math
+from collections.abc import Iterator
+from contextlib import contextmanager
+from errno import EACCES, EAGAIN
 from pathlib import Path
 from typing import Any
 
@@ -23,11 +27,49 @@ from contact_scene.solver_errors import ResourceRefused
 LARGEST_RATIO = 4096
 MOST_CHUNKS = 10_000  # in one reading; our fields have one per increment
 # What h5py raises where something else stands in the place of a value, or what follows from it.
-MISREAD = (OSError, KeyError, ValueError, TypeError, AttributeError, IndexError, RecursionError)
+MISREAD = (OSError, KeyError, ValueError, TypeError, AttributeError, IndexError, RuntimeError)
+MAX_DEPTH = 4  # of groups within groups; a run has one
 
 MAPS = "maps"  # group of the arrays that the scene reads from files
 # Name of the first index of fields at the ends of loading steps.
 STEP = "step"
+
+
+@contextmanager
+def opened(path: Path) -> Iterator[h5py.File]:
+    """Open an HDF5 file for reading; raises ValueError where h5py cannot read it, for links and for
+    values in other files."""
+    try:
+        with h5py.File(path) as file:
+            _refuse_foreign(file, MAX_DEPTH)
+            yield file
+    except (OSError, RuntimeError) as error:
+        if getattr(error, "errno", None) in (EACCES, EAGAIN) and "lock" in str(error):
+            raise ValueError(
+                f"{path} is in use by another process; wait until it is closed there"
+            ) from None
+        raise ValueError(f"{path} cannot be read as HDF5: {error}") from None
+
+
+def _refuse_foreign(group: h5py.Group, depth: int) -> None:
+    """Raise ValueError for a link, or for values in another file, within a group."""
+    for name in group:
+        place = f"{group.file.filename} has {name!r} in {group.name}, which"
+        if not isinstance(group.get(name, getlink=True), h5py.HardLink):
+            raise ValueError(f"{place} links to another place; expected the values themselves")
+        item = group[name]
+        if isinstance(item, h5py.Dataset) and (item.external or item.is_virtual):
+            raise ValueError(f"{place} refers to values in another file; expected them in this one")
+        if isinstance(item, h5py.Group):
+            if not depth:
+                raise ValueError(f"{place} is nested more than {MAX_DEPTH} groups deep")
+            _refuse_foreign(item, depth - 1)
+
+
+def fields_digest(path: Path) -> str:
+    """Return the SHA-256 of a file."""
+    with path.open("rb") as file:
+        return hashlib.file_digest(file, "sha256").hexdigest()
 
 
 def ends_of_steps(steps: NDArray[Any]) -> NDArray[np.intp]:

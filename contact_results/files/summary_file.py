@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from contact_results.directory.file_names import SUMMARY
+from contact_results.directory.file_names import FIELDS, SUMMARY
+from contact_results.files.stored_values import fields_digest
 from contact_results.remarks import remarks
 from contact_scene.accuracy_reached import AccuracyReached
 from contact_scene.increment import SCALARS
@@ -37,8 +38,10 @@ def write_summary(
     errors: StatedErrors | None = None,
     accuracy: AccuracyReached | None = None,
 ) -> None:
-    """Write the summary; equal results give equal bytes."""
-    text = dump_summary(summary_of(result, cycles, path_errors, errors, accuracy))
+    """Write the summary, with the digest of the fields; equal results give equal bytes."""
+    summary = summary_of(result, cycles, path_errors, errors, accuracy)
+    digest = fields_digest(directory / FIELDS)
+    text = dump_summary(summary.model_copy(update={"fields_digest": digest}))
     (directory / SUMMARY).write_text(text, encoding="utf-8")
 
 
