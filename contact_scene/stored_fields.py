@@ -1,4 +1,4 @@
-"""Fields of a long history lie in a file, and are read whenever somebody asks for them.
+"""Storage of a long history in a file, from which values are read when they are used.
 
 The file has no name: it is gone with the last value that has a field in it, and with the process.
 """
@@ -7,16 +7,18 @@ from __future__ import annotations
 
 import copy
 import math
+import pickle
 import tempfile
+import weakref
 from dataclasses import dataclass
-from typing import IO, Any, TypeVar
+from typing import IO, Any, NamedTuple, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
-# What a history holds in memory; only longer ones have a file, in the system's folder for
-# temporary files (TMPDIR).
-MOST_HELD = 32 << 20
+# Bytes of arrays that a history holds in memory. A longer one has a file, in the system's folder
+# for temporary files (TMPDIR).
+MOST_HELD = 4 << 20
 LEAST_STORED = 512  # bytes; the place of an array in a file takes as much
 
 Value = TypeVar("Value", bound="WithFields")
@@ -48,12 +50,60 @@ class StoredArray:
         return self.read().__reduce_ex__(protocol)
 
 
+class _StoredState(NamedTuple):
+    """The attributes of a value in a file, arrays by their places. No dataclass, so that no
+    checkpoint can hold one."""
+
+    file: IO[bytes]
+    offset: int
+    size: int
+
+    def read(self) -> dict[str, Any]:
+        """Read the attributes."""
+        content = np.memmap(self.file, np.uint8, "r", self.offset, (self.size,)).tobytes()
+        state, arrays = pickle.loads(content)
+        return state | {
+            name: StoredArray(self.file, offset, np.dtype(dtype), shape)
+            for name, (offset, dtype, shape) in arrays.items()
+        }
+
+
 class WithFields:
-    """A value whose arrays may lie in a file; each is then read, anew, when it is asked for."""
+    """A value whose arrays, or all of whose attributes, may lie in a file. An array is read at
+    every access; the attributes of one value at a time stay in memory."""
 
     def __getattribute__(self, name: str) -> Any:
-        value = object.__getattribute__(self, name)
+        own = object.__getattribute__(self, "__dict__")
+        if _STATE in own and name not in own:
+            state = _state(self, own)
+            if name == "__dict__":
+                return state
+            value = state[name] if name in state else object.__getattribute__(self, name)
+        else:
+            value = object.__getattribute__(self, name)
         return value.read() if type(value) is StoredArray else value
+
+    def __getstate__(self) -> dict[str, Any]:
+        return dict(vars(self))
+
+
+# Attributes of a value that lies in a file: its place, and its state while it is the last one read.
+_STATE, _OPENED = "_stored_state", "_opened_state"
+# Attributes that stay in memory, by which the increments of a history are told apart.
+_AT_HAND = ("step", "index", "increments_in_step")
+_last_read: weakref.ref[WithFields] | None = None
+
+
+def _state(value: WithFields, own: dict[str, Any]) -> dict[str, Any]:
+    global _last_read
+    if _OPENED not in own:
+        last = None if _last_read is None else _last_read()
+        if last is not None:
+            object.__getattribute__(last, "__dict__").pop(_OPENED, None)
+        own[_OPENED] = own[_STATE].read()
+        _last_read = weakref.ref(value)
+    state: dict[str, Any] = own[_OPENED]
+    return state
 
 
 def stored_bytes(value: WithFields) -> int:
@@ -62,9 +112,9 @@ def stored_bytes(value: WithFields) -> int:
 
 
 class FieldStore:
-    """Takes the values of one history in their order: the arrays of the first ones stay in memory,
-    those beyond `MOST_HELD` bytes go into a file. What a value shares with the one before, or what
-    is twice in it, is kept once."""
+    """Takes the values of one history in their order: the first ones stay in memory, those whose
+    arrays are beyond `MOST_HELD` bytes go into a file. An array that a value shares with the one
+    before, or has twice, is stored once."""
 
     def __init__(self) -> None:
         self._held = 0
@@ -82,21 +132,43 @@ class FieldStore:
                 known[place] = found
                 vars(kept)[name] = found[1]
         self._known = known
+        return kept if self._file is None else self._stored(kept, self._file)
+
+    def _stored(self, value: Value, file: IO[bytes]) -> Value:
+        """Write the attributes of a value whose arrays are in the file or in memory."""
+        state = dict(vars(value))
+        arrays = {
+            name: (array.offset, array.dtype.str, array.shape)
+            for name, array in state.items()
+            if isinstance(array, StoredArray)
+        }
+        light = {name: held for name, held in state.items() if name not in arrays}
+        content = pickle.dumps((light, arrays))
+        place = self._write(content)
+        kept = object.__new__(type(value))
+        vars(kept).update({name: light[name] for name in _AT_HAND if name in light})
+        vars(kept)[_STATE] = _StoredState(file, place, len(content))
         return kept
 
     def _put(self, array: NDArray[Any]) -> NDArray[Any] | StoredArray:
         if self._held + array.nbytes <= MOST_HELD:
             self._held += array.nbytes
             return array
+        place = self._write(np.ascontiguousarray(array).data)
+        assert self._file is not None
+        return StoredArray(self._file, place, array.dtype, array.shape)
+
+    def _write(self, content: bytes | memoryview) -> int:
+        """Append to the file; returns the place."""
         try:
             if self._file is None:
                 # Open as long as a value has a field in it.
                 self._file = tempfile.TemporaryFile(prefix="slipstick-")  # noqa: SIM115
             offset = self._file.seek(0, 2)
-            self._file.write(np.ascontiguousarray(array).data)
+            self._file.write(content)
             self._file.flush()
         except OSError as error:
             folder = tempfile.tempdir or "temporary files"  # where there is none, asking raises
             error.filename = f"{folder} (TMPDIR), for the fields of increments"
             raise
-        return StoredArray(self._file, offset, array.dtype, array.shape)
+        return offset

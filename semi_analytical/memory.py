@@ -33,7 +33,7 @@ EDGE_TURNED_RIM = 150_000
 # dissipation, and masks.
 PRESSURE_RESULT = 2
 SHEAR_RESULT = 7
-LIGHT = 4500  # bytes of an increment without its fields
+LIGHT = 500  # bytes of an increment whose attributes are in a file
 LIBRARIES = 75 << 20  # of the process that solves
 # Libraries that write and draw, arrays, and what the solver leaves that has not gone back to the
 # system; the stress that is drawn takes no more. Shear has more maps, bodies that couple leave

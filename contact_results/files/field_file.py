@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+from array import array
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
@@ -15,7 +16,7 @@ from contact_results.directory.file_names import FIELDS
 from contact_results.files.stored_values import MAPS, STEP
 from contact_results.surface import Rings, surface_of
 from contact_scene.convention import CONVENTION
-from contact_scene.increment import SCALARS
+from contact_scene.increment import SCALARS, components
 from contact_scene.reported import Kind, Reported, reported
 
 if TYPE_CHECKING:
@@ -64,9 +65,9 @@ def write_fields(
         _write(
             file, "scene", result.scene.model_dump_json(), Reported("", "what was solved (JSON)")
         )
-        for key, array in result.scene.array_files.items():
+        for key, stored in result.scene.array_files.items():
             mark = Reported("", f"values of the file that the key {key} of the scene names")
-            _write(file.require_group(MAPS), key, array.values, mark, **COMPRESSION)
+            _write(file.require_group(MAPS), key, stored.values, mark, **COMPRESSION)
         if isinstance(surface, Rings):
             file.attrs["direction"] = surface.direction
         if hasattr(result, "discretisation"):
@@ -120,13 +121,20 @@ def _write_scalars(group: h5py.Group, increments: Sequence[Increment]) -> None:
         attribute = "index" if name == "increment" else name
         values = [getattr(i, attribute) for i in increments]
         _write(group, name, values, Reported("", meaning), PER_INCREMENT)
+    rows: dict[str, array[float]] = {name: array("d") for name in SCALARS}
+    for increment in increments:
+        for name, row in rows.items():
+            value = getattr(increment, name)
+            row.extend(np.full(len(components(name)), np.nan) if value is None else np.ravel(value))
     for name, mark in SCALARS.items():
-        values = [getattr(increment, name) for increment in increments]
-        known = next((value for value in values if value is not None), None)
-        if known is not None:
-            nothing = np.full(np.shape(known), np.nan)
-            found = np.array([nothing if v is None else v for v in values])
-            _write(group, name, found, mark, (*PER_INCREMENT, *COMPONENT)[: found.ndim])
+        found = np.array(rows[name])
+        if np.all(np.isnan(found)):
+            continue
+        if mark.kind is Kind.COUNTER and not np.any(np.isnan(found)):
+            found = found.astype(int)
+        if mark.kind is Kind.VECTOR:
+            found = found.reshape(len(increments), -1)
+        _write(group, name, found, mark, (*PER_INCREMENT, *COMPONENT)[: found.ndim])
 
 
 def _write_field(
