@@ -11,10 +11,10 @@ report=$1
 cd -- "$(dirname -- "${BASH_SOURCE[0]}")/.."
 if [ -s "$report/summary.md" ]; then cat "$report/summary.md" >>"${GITHUB_STEP_SUMMARY:-/dev/stderr}"; fi
 status=0
-.venv/bin/slipstick compare "$report" || status=$?
+.venv/bin/slipstick maintain compare "$report" || status=$?
 if [ "$status" = 5 ]; then
     echo "::warning title=Baseline drift::Numbers differ from the accepted ones, within their tolerances, or none" \
-        "are accepted yet; if they are right: slipstick baseline --accept --because '...' --from REPORT"
+        "are accepted yet; if they are right: slipstick maintain baseline --accept --because '...' --from REPORT"
     status=0
 fi
 exit "$status"

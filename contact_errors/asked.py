@@ -20,7 +20,7 @@ ROUND_OFF = 1e-7
 DOUBT = 4.0
 
 NONE_STATED = {
-    "ruiz_f2": "the scene has none without --surface-stress",
+    "ruiz_f2": "only the semi-analytical solver computes the stress at the surface",
     LARGEST_TENSION: "the body is rigid, or the solver states no errors of stress",
 }
 NO_CYCLE = "no load cycle closes in the scene"

@@ -59,13 +59,11 @@ class CellLadder:
     """See `ladder.Ladder`.
 
     asked           window if it is given, ratio of the cells along the sides, largest tolerance
-    surface_stress  whether numbers that take the stress at the surface are wanted
     stress_at       loading step at whose end the largest tension is wanted; None where it is not
     """
 
     scene: Scene
     asked: SurfaceDiscretisation
-    surface_stress: bool = False
     stress_at: int | None = None
     keeping: Keeping = unkept
     watching: Watching = unkept
@@ -79,7 +77,7 @@ class CellLadder:
     def climbed(self, fineness: CellFineness) -> Rung[CellFineness]:
         began, began_processor = time.perf_counter(), time.process_time()
         result = self._solved(fineness)
-        stated, by_step = judged(result, surface_stress=self.surface_stress)
+        stated, by_step = judged(result)
         below = None
         if self.stress_at is not None:
             below = largest_tension(result, stated, self.stress_at)
@@ -88,7 +86,7 @@ class CellLadder:
             fineness=replace(fineness, grid=result.grid),
             result=result,
             stated=stated,
-            values=values_of(result, fretting_cycles(result, surface_stress=self.surface_stress)),
+            values=values_of(result, fretting_cycles(result)),
             rules={**rules, **({LARGEST_TENSION: below.rule} if below else {})},
             by_step=by_step,
             seconds=time.perf_counter() - began,

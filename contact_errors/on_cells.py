@@ -61,25 +61,18 @@ HIGHEST = 3.0
 NARROWEST = 0.5
 
 
-def stated_errors(
-    result: Result, *, surface_stress: bool = False, progress: Progress | None = None
-) -> StatedErrors:
-    """Errors of all numbers at the ends of all steps; solves the companions.
-
-    surface_stress  also of what takes the stress at the surface
-    """
-    return judged(result, surface_stress=surface_stress, progress=progress)[0]
+def stated_errors(result: Result, *, progress: Progress | None = None) -> StatedErrors:
+    """Errors of all numbers at the ends of all steps; solves the companions."""
+    return judged(result, progress=progress)[0]
 
 
-def judged(
-    result: Result, *, surface_stress: bool = False, progress: Progress | None = None
-) -> tuple[StatedErrors, ByStep]:
+def judged(result: Result, *, progress: Progress | None = None) -> tuple[StatedErrors, ByStep]:
     """The same, and the step whose increments leave them; further companions if that is asked."""
 
     def values(of: Result) -> tuple[Values, ...]:
-        return values_of(of, fretting_cycles(of, surface_stress=surface_stress))
+        return values_of(of, fretting_cycles(of))
 
-    plan, cycles = result.plan, fretting_cycles(result, surface_stress=surface_stress)
+    plan, cycles = result.plan, fretting_cycles(result)
     matters = tuple(step.path_matters for step in plan.path)
     by_step = ByStep(plan.increments, matters)
     fine = values_of(result, cycles)

@@ -30,7 +30,7 @@ TIMES = 2.0
 ROUND_OFF = 1e-13
 TWICE, HALF = 2, 0.5
 # Of a contact at points: by half the increments, where what is left falls with an order above .74
-# (`contact_results.path_error`); by half the rings and angles, where it does with 1.
+# (Roache 1998); by half the rings and angles, where it does with 1.
 BY_PATH = 1.5
 BY_RINGS = 1.0
 # Of what increments say themselves that they leave open of an energy: .002 to .3 of it is true, and

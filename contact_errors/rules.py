@@ -17,7 +17,7 @@ increments with a g (`semi_analytical.energy`), whose true error is .01 to .3 of
     error by increments = min(g, sqrt((P Δ)² + (c g)²))
 
 Orders, envelopes and factors are those with which at least 95 of 100 drawn scenes are covered;
-`slipstick study error-coverage` judges them by scenes that they were not drawn from.
+`slipstick maintain study error-coverage` judges them by scenes that they were not drawn from.
 """
 
 from __future__ import annotations

@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, Annotated, Any, TypeVar, cast
 import numpy as np
 from numpy.typing import NDArray
 
-from contact_results.surface import Surface, surface_of
+from contact_results.surface import Cells, Surface, surface_of
 from contact_scene.cycles import LoadCycle, load_cycles
 from contact_scene.reported import Kind, Reported
 from contact_scene.stored_fields import FieldStore, WithFields
@@ -41,8 +41,8 @@ class FrettingCycle(WithFields):
     cycle            steps between which it lies
     input_work       None where a motion is undefined
     dissipation      None for a solver that does not keep it
-    surface_tension  σ_T, at the ends of the steps in the cycle, tension positive. None if not asked
-                     for, or if the tangential force is constant
+    surface_tension  σ_T, at the ends of the steps in the cycle, tension positive. None on rings,
+                     or if the tangential force is constant
     """
 
     cycle: LoadCycle
@@ -79,26 +79,26 @@ class FrettingCycle(WithFields):
         return np.maximum(self.surface_tension, 0.0) * self.ruiz_f1
 
 
-def fretting_cycles(result: Result, *, surface_stress: bool = False) -> tuple[FrettingCycle, ...]:
+def fretting_cycles(result: Result) -> tuple[FrettingCycle, ...]:
     """All cycles that the loading steps close, in the order in which they end.
 
     A cycle in which the friction limit is reached under force control has no defined slip and is
     left out; so are all where nothing is sheared.
 
-    surface_stress  also compute the stress at the surface, which σ_T and F2 need: of the lower
-                    body, or of the indenter where that one is rigid (semi-analytical results)
+    On cells the stress at the surface is computed, too, which σ_T and F2 need: of the lower body,
+    or of the indenter where that one is rigid. It adds 2 to 5 % to the time of the solve.
     """
     surface = surface_of(result)
+    closed = load_cycles(result.scene.load_path())
     tension: Any = None
-    if surface_stress:
-        # Not even imported unless asked for.
+    if closed and isinstance(surface, Cells):
         from semi_analytical.surface_tension import SurfaceTension
 
         tension = SurfaceTension(cast(Any, result))
     cycles, fields = [], FieldStore()
     increments: Sequence[Increment] = result.increments
     steps = [list(within) for _, within in groupby(increments, lambda i: i.step)]
-    for cycle in load_cycles(result.scene.load_path()):
+    for cycle in closed:
         # From the increment at whose end the cycle begins.
         path = [steps[cycle.start - 1][-1], *chain(*steps[cycle.start : cycle.end])]
         if all(increment.dissipated_energy is not None for increment in path):

@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Literal
 
 from contact_results.cycles import fretting_cycles
 from contact_results.files.field_file import write_fields
 from contact_results.files.summary_file import write_summary
 from contact_results.files.tables import write_tables
 from contact_scene.accuracy_reached import AccuracyReached
-from contact_scene.path_error import PathError
 from contact_scene.stated_error import StatedErrors
 
 if TYPE_CHECKING:
@@ -21,31 +20,25 @@ def write_result(
     result: Result,
     directory: Path,
     *,
-    with_figures: bool = True,
-    normalised: bool = False,
-    surface_stress: bool = False,
-    path_errors: tuple[PathError, ...] | None = None,
+    figures: Literal["none", "overview", "all"] = "overview",
     errors: StatedErrors | None = None,
     accuracy: AccuracyReached | None = None,
     every_increment: bool = False,
 ) -> None:
     """Write summary, fields, tables, figures and their page into a directory that has none of them.
 
-    normalised      figures on axes over the natural sizes of the contact, tables still in SI
-    surface_stress  also compute the stress at the surface that Ruiz's second parameter takes
+    figures         one picture and the page, all pictures and the page, or neither
     accuracy        that the result was refined to
     every_increment store the fields of all increments, not of the last one of each load step
     """
-    cycles = fretting_cycles(result, surface_stress=surface_stress)
+    cycles = fretting_cycles(result)
     write_tables(result, cycles, directory)
     write_fields(result, cycles, directory, every_increment=every_increment)
-    write_summary(result, cycles, directory, path_errors, errors, accuracy)
-    if with_figures:
+    write_summary(result, cycles, directory, errors, accuracy)
+    if figures != "none":
         from contact_results.figures.figure_files import write_figures
         from contact_results.figures.run_page import write_page
-        from contact_results.natural_sizes import SI, natural_units
 
         of_last = errors.steps[-1] if errors else None
-        units = natural_units(result) if normalised else SI
-        write_figures(result, cycles, directory, of_last, units)
+        write_figures(result, cycles, directory, of_last, everything=figures == "all")
         write_page(result, directory, of_last)

@@ -7,7 +7,6 @@ from pathlib import Path
 
 from contact_results.directory.file_names import STRESS
 from contact_results.directory.run_directory import files_at_once
-from contact_results.natural_sizes import SI
 from contact_results.stress.extremes import Extreme
 from contact_results.stress.files import VOLUME, write_files
 from contact_results.stress.loaded_bodies import LoadedBodies
@@ -24,14 +23,12 @@ def write_stress(
     directory: Path,
     *,
     with_figures: bool,
-    normalised: bool = False,
     errors: Sequence[StatedError] | None = None,
     accuracy: AccuracyReached | None = None,
 ) -> None:
     """Write tables, their meanings, meshes, figures and summary of the `body` or the `indenter`,
     all or none.
 
-    normalised  figures over the sizes of the contact; tables stay in SI
     errors      of what was found; None where they were left out
     accuracy    that was asked for and reached; None where none was asked for
     """
@@ -42,5 +39,4 @@ def write_stress(
 
             title = f"{state.title or 'Stress'}: {which}, step {state.step}"
             body = state.indenter if which == "indenter" else state.body
-            units = state.units if normalised else SI
-            write_stress_figures(field, body, staging, title, units)
+            write_stress_figures(field, body, staging, title)

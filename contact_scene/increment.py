@@ -179,8 +179,27 @@ class State:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Cost:
-    """What an increment has taken, and how well it was solved."""
+class Quality:
+    """Residual and edge correction of an increment."""
+
+    edge_change: Annotated[
+        float | None,
+        Reported(
+            "",
+            "Change of pressure or shear in the last round of the edge correction, relative to all "
+            "of it; null where tractions are constant on cells up to their edges.",
+            physical=False,
+        ),
+    ] = None
+    worst_residual: Annotated[
+        float | None,
+        Reported("", "Largest residual of any kind at the end of any increment.", Kind.LARGEST),
+    ] = None
+
+
+@dataclass(frozen=True, kw_only=True)
+class Counters:
+    """Work of the solver for an increment; `timing.json` has their sums over each load step."""
 
     iterations: Annotated[Count, Reported("", "Iterations of the solver.", Kind.COUNTER)]
     convolutions: Annotated[
@@ -217,23 +236,10 @@ class Cost:
     halvings: Annotated[
         Count, Reported("", "How often an increment was cut in two to converge.", Kind.COUNTER)
     ] = 0
-    edge_change: Annotated[
-        float | None,
-        Reported(
-            "",
-            "Change of pressure or shear in the last round of the edge correction, relative to all "
-            "of it; null where tractions are constant on cells up to their edges.",
-            physical=False,
-        ),
-    ] = None
-    worst_residual: Annotated[
-        float | None,
-        Reported("", "Largest residual of any kind at the end of any increment.", Kind.LARGEST),
-    ] = None
 
 
 @dataclass(frozen=True, kw_only=True)
-class ReportedIncrement(Cost, State, WithFields):
+class ReportedIncrement(Counters, Quality, State, WithFields):
     """The scalars of one increment, and its place in the history.
 
     step, index         loading step and increment within it, both counted from 1
@@ -254,7 +260,8 @@ class ReportedIncrement(Cost, State, WithFields):
             values[name] = _unsigned_zero(values[name])
 
 
-SCALARS: Mapping[str, Reported] = {**reported(State), **reported(Cost)}
+SCALARS: Mapping[str, Reported] = {**reported(State), **reported(Quality)}
+COUNTERS: Mapping[str, Reported] = reported(Counters)
 
 
 def _unsigned_zero(value: Any) -> Any:
@@ -271,7 +278,7 @@ def components(name: str) -> tuple[str, ...]:
     return (name,)
 
 
-def numbers(increment: State | Cost) -> dict[str, float | int | None]:
+def numbers(increment: State | Quality) -> dict[str, float | int | None]:
     """All scalars of a record, vectors by component; None where it has none."""
     found: dict[str, float | int | None] = {}
     for name in SCALARS:

@@ -12,12 +12,11 @@ from contact_scene import residuals
 from contact_scene.accuracy_reached import AccuracyReached
 from contact_scene.convention import CONVENTION
 from contact_scene.description import MAX_TITLE, Description
-from contact_scene.increment import Cost, State
-from contact_scene.path_error import PathError
+from contact_scene.increment import Quality, State
 from contact_scene.reported import Reported
 from contact_scene.stated_error import Companion, StatedError
 
-SUMMARY_VERSION = 3  # 1 had no convention, 2 no digest
+SUMMARY_VERSION = 3  # 2 had counters of the solver and no digest, 1 no convention
 
 Ratio: TypeAlias = Annotated[float, Field(json_schema_extra={"unit": "1"})]
 Metre: TypeAlias = Annotated[float, Field(json_schema_extra={"unit": "m"})]
@@ -81,24 +80,25 @@ class Closed:
             "Pa^2 m",
             "Ruiz's second parameter: largest shear times slip amplitude times the largest tension "
             "along the surface in the direction of the tangential force, at the place where that "
-            "product is largest; null unless the stress at the surface was asked for.",
+            "product is largest; null for solvers that do not compute the stress at the surface.",
         ),
     ] = None
     residuals: Residuals
 
 
 @pydantic_dataclass(frozen=True, kw_only=True, config=STRICT)
-class StepSummary(Cost, Closed, State):
-    """State at the end of one `[[loading]]` table, and what all its increments have taken.
-    Vectors are (x, y), of the indenter relative to the body: positive force gives positive
-    shift."""
+class StepSummary(Quality, Closed, State):
+    """State at the end of one `[[loading]]` table.
+
+    Vectors are (x, y), of the indenter relative to the body: positive force gives positive shift.
+    """
 
     status: ContactStatus
     """How the contact carries its tangential load."""
 
     errors: dict[str, StatedError] | None = None
     """How far each scalar may be from the exact answer, by its name; null where errors were left
-    out. Counts and what the numerics did have none."""
+    out. Numbers that describe the numerics have none."""
 
 
 class EffectSummary(Description):
@@ -153,18 +153,20 @@ class RunSummary(Description):
     accuracy: AccuracyReached | None = None
     """What accuracy was asked for and reached; null where none was asked for."""
 
-    path_errors: tuple[PathError, ...] | None = None
-    """What finite increments cost, one entry for every step; null where it was not asked for."""
-
     fields_digest: str | None = None
     """SHA-256 of the file of fields, `result.h5`."""
 
     @field_validator("schema_version")
     @classmethod
-    def _refuse_what_is_newer(cls, version: int) -> int:
+    def _refuse_other_versions(cls, version: int) -> int:
         if version > SUMMARY_VERSION:
             raise ValueError(
                 f"version {version} is of a newer slipstick; this one reads up to {SUMMARY_VERSION}"
+            )
+        if version < SUMMARY_VERSION:
+            raise ValueError(
+                f"version {version} is of an earlier slipstick, this one reads {SUMMARY_VERSION}; "
+                "run the scene again"
             )
         return version
 

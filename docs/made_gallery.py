@@ -106,7 +106,7 @@ def _draw(entry: Entry, folder: Path) -> None:
     solved = entry.of(entry.shown)
     with tempfile.TemporaryDirectory() as directory:
         run = Path(directory) / "run"
-        save(solved.result, run, errors=solved.errors)
+        save(solved.result, run, figures="all", errors=solved.errors)
         for names, path in ((FIGURES, f"{entry.scene}.png"), (SMALL, f"{entry.scene}_small.png")):
             drawn = next(run / name for name in names if (run / name).is_file())
             shutil.copy(drawn, folder / path)

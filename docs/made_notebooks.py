@@ -25,7 +25,7 @@ for end, error in zip(result.steps, errors.steps, strict=True):
 DRAWN = """\
 from IPython.display import Image, display
 
-save(result, Path("out") / "{scene}", errors=errors)
+save(result, Path("out") / "{scene}", figures="all", errors=errors)
 for figure in sorted((Path("out") / "{scene}").glob("*.png")):
     display(Image(figure))
 """

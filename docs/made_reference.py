@@ -16,14 +16,14 @@ from contact_scene.discretisation import (
 )
 from contact_scene.friction import CoulombFriction, FrictionMap
 from contact_scene.geometry import SHAPES
-from contact_scene.increment import Cost, State
+from contact_scene.increment import Counters, Quality, State
 from contact_scene.quantity import Quantity
 from contact_scene.reported import reported
 from contact_scene.ring_increment import RingIncrement
 from contact_scene.summary import Closed
 from semi_analytical.fields import Increment
 from slipstick.cli.application import application
-from slipstick.cli.lazy_commands import COMMANDS
+from slipstick.cli.lazy_commands import ALL_COMMANDS
 
 TABLES: dict[str, type[BaseModel]] = {
     "the file itself": Scene,
@@ -44,7 +44,8 @@ COLUMNS = {
     "Closed load cycles": Closed,
     "Fields on cells": Increment,
     "Fields on rings": RingIncrement,
-    "What an increment took": Cost,
+    "Residual and edge correction": Quality,
+    "Counters of the solver, in timing.json": Counters,
 }
 
 
@@ -72,8 +73,8 @@ def columns() -> str:
 def commands() -> str:
     """What `--help` says of every command, and the exit codes."""
     parts = []
-    for name, lazy in COMMANDS.items():
-        command = lazy.load(name)
+    for name, lazy in ALL_COMMANDS.items():
+        command = lazy.load(name.split()[-1])
         context = typer.Context(command, info_name=f"slipstick {name}")
         usage = " ".join(command.collect_usage_pieces(context))
         rows = [_option(parameter) for parameter in command.params if parameter.name != "help"]

@@ -21,7 +21,7 @@ uniform in contact radius). Measured on 64 x 64 and 128 x 128 cells against 64 t
     changing the normal load by ΔW later                 0.15 ΔW/W/n, and as above for T;
         0.6 ΔW/W/n for unlike bodies. W down to 1/5 or up to fivefold, with and without T
 
-Beyond what is named here the laws are guesses; `slipstick run --path-error` measures.
+Beyond what is named here the laws are guesses; `slipstick maintain study increments` measures.
 """
 
 from __future__ import annotations

@@ -72,10 +72,6 @@ class Plan:
         """`factor` times as many increments in every step whose path matters."""
         return replace(self, path=refined(self.path, factor))
 
-    def doubled(self) -> "Plan":
-        """Twice as many increments in every step, whether its path is known to matter or not."""
-        return self.cut_into([2 * count for count in self.increments])
-
     def cut_into(self, increments: Sequence[int]) -> "Plan":
         """The same effects with these many increments in each step."""
         path = zip(self.path, increments, strict=True)

@@ -153,8 +153,7 @@ def save(
     result: Result,
     directory: str | PathLike[str],
     *,
-    figures: bool = True,
-    normalised: bool = False,
+    figures: Literal["none", "overview", "all"] = "overview",
     errors: StatedErrors | None = None,
     every_increment: bool = False,
 ) -> None:
@@ -163,8 +162,7 @@ def save(
     The directory appears whole or not at all; an earlier run in it is replaced. Raises
     OutputRefused where other files are in the way.
 
-    normalised  figures on axes x/a, p/p0, q/µp0, as `slipstick run --normalised` draws them
-    errors      of the result, from `stated_errors`; they are left out if absent
+    errors  of the result, from `stated_errors`; they are left out if absent
     every_increment
                 store the fields of all increments, not of the last one of each load step
     """
@@ -182,8 +180,7 @@ def save(
         write_result(
             result,
             staging,
-            with_figures=figures,
-            normalised=normalised,
+            figures=figures,
             errors=errors,
             every_increment=every_increment,
         )
@@ -201,7 +198,6 @@ def _solved_to(
     ladder = chosen.ladder(
         scene,
         fineness,
-        surface_stress="ruiz_f2" in request.named,
         stress_at=len(scene.loading) if request.binds_stress else None,
         watching=lambda _: nullcontext(progress),
     )

@@ -242,15 +242,10 @@ def test_what_a_scene_cannot_have_is_refused_before_it_is_solved(
         climbed(of, asked)
 
 
-def test_what_a_result_has_not_is_refused_by_name() -> None:
-    with pytest.raises(AccuracyOutOfReach, match=r"ruiz_f2.*--surface-stress"):
-        climbed(scene(PRESS, push(0.6), push(-0.6), push(0.6)), "ruiz_f2 1%")
-
-
 def test_what_no_grid_can_meet_is_refused_after_the_first_round() -> None:
     rounds: list[int] = []
     looped = scene(PRESS, push(0.6), push(-0.6), push(0.6))
-    ladder = CellLadder(looped, SurfaceDiscretisation(), surface_stress=True)
+    ladder = CellLadder(looped, SurfaceDiscretisation())
     with pytest.raises(AccuracyOutOfReach, match=r"ruiz_f2.* 1, and about \d.* % is all"):
         climb(ladder, request("ruiz_f2 1e-6"), None, lambda k, *_: rounds.append(k))
     assert rounds == []
@@ -393,7 +388,7 @@ def test_a_run_meets_the_table_of_its_scene_and_says_so(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     path, out = written(tmp_path, "[accuracy]\noverall = '2 %'\n"), tmp_path / "out"
-    assert slipstick("run", path, "-o", out, "--no-figures") == 0
+    assert slipstick("run", path, "-o", out, "--figures", "none") == 0
     accuracy = summary(out).accuracy
     assert accuracy.met
     assert accuracy.settings.cells == summary(out).cells
@@ -402,14 +397,14 @@ def test_a_run_meets_the_table_of_its_scene_and_says_so(
     assert "round 1: contact_radius asked 2 %, reached" in shown.err
     by_option = tmp_path / "by option"
     plain = written(tmp_path)
-    assert slipstick("run", plain, "-o", by_option, "--no-figures", "--accuracy", "2%") == 0
+    assert slipstick("run", plain, "-o", by_option, "--figures", "none", "--accuracy", "2%") == 0
     assert summary(by_option) == summary(out)
 
 
 def test_a_run_by_elements_meets_what_was_asked(tmp_path: Path) -> None:
     out = tmp_path / "out"
     asked = ("--accuracy", "1%", "--solver", "fem-complementarity")
-    assert slipstick("run", written(tmp_path), "-o", out, "--no-figures", *asked) == 0
+    assert slipstick("run", written(tmp_path), "-o", out, "--figures", "none", *asked) == 0
     assert summary(out).accuracy.met
     assert summary(out).accuracy.settings.cells is None
 
@@ -417,7 +412,7 @@ def test_a_run_by_elements_meets_what_was_asked(tmp_path: Path) -> None:
 def test_a_run_that_reaches_less_leaves_with_4_and_its_best_result(tmp_path: Path) -> None:
     out = tmp_path / "out"
     asked = ("--accuracy", FINER, "--most-seconds", "0")
-    assert slipstick("run", written(tmp_path), "-o", out, "--no-figures", *asked) == 4
+    assert slipstick("run", written(tmp_path), "-o", out, "--figures", "none", *asked) == 4
     assert not summary(out).accuracy.met
     assert json.loads((out / "summary.json").read_text())["accuracy"]["stopped"]
 
@@ -426,8 +421,6 @@ def test_a_run_that_reaches_less_leaves_with_4_and_its_best_result(tmp_path: Pat
     "more",
     [
         ("--accuracy", "1%", "--no-error"),
-        ("--accuracy", "1%", "--all-effects"),
-        ("--accuracy", "1%", "--solver", "fem", "--surface-stress"),
         ("--accuracy", "contact_radius 1e-12"),
         ("--accuracy", "nonsense"),
         ("--most-seconds", "3"),
@@ -495,7 +488,7 @@ def test_a_killed_run_goes_on_with_the_round_it_was_killed_in(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, stop: signal.Signals
 ) -> None:
     path, out, whole = written(tmp_path), tmp_path / "out", tmp_path / "whole"
-    asked = ("--no-figures", "--accuracy", FINER)
+    asked = ("--figures", "none", "--accuracy", FINER)
     assert slipstick("run", path, "-o", whole, *asked) == 0
     last = summary(whole).accuracy.rounds
     assert last > 1
@@ -528,7 +521,7 @@ def test_a_run_killed_while_it_writes_solves_its_last_round_once(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]
 ) -> None:
     path, out = written(tmp_path), tmp_path / "out"
-    asked = ("--no-figures", "--accuracy", FINER)
+    asked = ("--figures", "none", "--accuracy", FINER)
 
     def killed(*given, **more):
         signal.raise_signal(signal.SIGKILL)
@@ -565,7 +558,7 @@ def test_where_a_climb_stands_is_the_same_after_it_was_kept(tmp_path: Path, solv
 def test_what_was_kept_of_another_request_is_begun_anew(tmp_path: Path) -> None:
     kept = tmp_path / ".out.rounds"
     kept.write_bytes(b"no rounds")
-    asked = ("--no-figures", "--accuracy", "1%")
+    asked = ("--figures", "none", "--accuracy", "1%")
     assert slipstick("run", written(tmp_path), "-o", tmp_path / "out", *asked) == 0
     assert not kept.exists()
 
@@ -575,7 +568,7 @@ def test_a_run_without_accuracy_leaves_nothing_of_a_killed_one_with_it(tmp_path:
     rounds.write_bytes(b"of another scene")
     solve_of_round.mkdir()
     (solve_of_round / "part-000000").write_bytes(b"of another scene")
-    assert slipstick("run", written(tmp_path), "-o", tmp_path / "out", "--no-figures") == 0
+    assert slipstick("run", written(tmp_path), "-o", tmp_path / "out", "--figures", "none") == 0
     assert sorted(path.name for path in tmp_path.iterdir()) == ["out", "scene.toml"]
 
 

@@ -144,10 +144,10 @@ def test_command_draws_reports_or_folders_in_their_order(
     spoilt = Baseline(case=NAME, levels={"quick": with_error(recorded, 9.0)})
     (worse / f"{NAME}.json").write_text(dump_baseline(spoilt), encoding="utf-8")
     page = tmp_path / "made" / "history.html"
-    assert slipstick("history", clone, worse, "--output", page) == 0
+    assert slipstick("maintain", "history", clone, worse, "--output", page) == 0
     assert "2 standings; worse or dearer at the last: 1" in capsys.readouterr().out
     assert page.read_text(encoding="utf-8").count("<circle") == 1
-    assert slipstick("history", worse, "--level", "full", "--output", page) == 2
+    assert slipstick("maintain", "history", worse, "--level", "full", "--output", page) == 2
     assert "has nothing of level full" in capsys.readouterr().err
 
 
@@ -159,5 +159,5 @@ def test_without_a_clone_reports_are_asked_for(
 
     monkeypatch.setenv("GIT_CEILING_DIRECTORIES", str(tmp_path.parent))
     monkeypatch.setattr("verification.regression.history.standings_of_commits", nowhere)
-    assert slipstick("history", "--output", tmp_path / "page.html") == 2
+    assert slipstick("maintain", "history", "--output", tmp_path / "page.html") == 2
     assert "use a clone, or name reports" in capsys.readouterr().err

@@ -1,4 +1,4 @@
-"""`slipstick frf`: exact, of the lower body alone, and with every bad request named."""
+"""`slipstick maintain frf`: exact, of the lower body alone, and with every bad request named."""
 
 import csv
 import json
@@ -33,7 +33,7 @@ def ask(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> Ask:
         path = tmp_path / "scene.toml"
         path.write_text(text, encoding="utf-8")
         with pytest.raises(SystemExit) as leaving:
-            main(["frf", str(path), *map(str, arguments)])
+            main(["maintain", "frf", str(path), *map(str, arguments)])
         shown = capsys.readouterr()
         return int(leaving.value.code or 0), shown.out, shown.err
 

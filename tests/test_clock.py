@@ -71,7 +71,7 @@ def files(directory: Path) -> dict[str, bytes]:
 
 @pytest.fixture(scope="module")
 def expected(tmp_path_factory: pytest.TempPathFactory) -> dict[str, bytes]:
-    return run(tmp_path_factory.mktemp("expected"), "--no-figures")
+    return run(tmp_path_factory.mktemp("expected"), "--figures", "none")
 
 
 def run(directory: Path, *options: str, scene: str = SCENE) -> dict[str, bytes]:
@@ -93,7 +93,7 @@ def test_a_run_writes_the_same_bytes_whatever_the_clocks_do(
     name: str, expected: dict[str, bytes], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     set_clocks(monkeypatch, CLOCKS[name])
-    assert run(tmp_path, "--no-figures") == expected
+    assert run(tmp_path, "--figures", "none") == expected
 
 
 def test_so_it_does_with_figures(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -115,12 +115,12 @@ def test_what_a_run_finds_may_be_of_any_time(
     age: str, expected: dict[str, bytes], tmp_path: Path
 ) -> None:
     """Results of before, a lock that nobody holds, and what a killed run has left."""
-    run(tmp_path, "--no-figures")
+    run(tmp_path, "--figures", "none")
     (tmp_path / ".out.in-use").write_text("process 1 on nowhere", encoding="utf-8")
     (tmp_path / "out" / ".out.partial-0").mkdir()
     for path in (tmp_path, *tmp_path.rglob("*")):
         os.utime(path, (AGES[age], AGES[age]))
-    assert run(tmp_path, "--no-figures") == expected
+    assert run(tmp_path, "--figures", "none") == expected
 
 
 def all_of(age: float, directory: Path) -> None:

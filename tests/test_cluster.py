@@ -47,7 +47,7 @@ def test_silent_address_is_named(monkeypatch: pytest.MonkeyPatch) -> None:
         ClusterWorkers("tcp://127.0.0.1:1")
 
 
-@pytest.mark.parametrize("command", [["verify"], ["study", "coated-tractions"]])
+@pytest.mark.parametrize("command", [["verify"], ["maintain", "study", "coated-tractions"]])
 def test_command_refuses_before_any_work(command: list[str], tmp_path: Path) -> None:
     ended = outcome(*command, "--scheduler", "localhost:8786", cwd=tmp_path)
     assert ended.returncode == 2

@@ -139,8 +139,8 @@ def test_of_many_at_a_time_one_is_let_in(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize(
     "command",
-    [("run", "scene.toml"), ("run", "scene.toml", "--solver", "fem"), ("verify", "classical_forms"),
-     ("study", "sampling", "scene.toml"), ("study", "stability")],
+    [("run", "scene.toml"), ("run", "scene.toml", "--solver=fem"), ("verify", "layered_identities"),
+     ("maintain", "study", "sampling", "scene.toml"), ("maintain", "study", "stability")],
     ids=" ".join,
 )  # fmt: skip
 def test_commands_leave_a_directory_in_use_alone(

@@ -24,7 +24,6 @@ from verification.problems.drawn.families import FAMILIES, JUDGING, TRAINING, dr
 from verification.problems.drawn.known_scene import (
     APPROACH,
     CELLS,
-    F2,
     MISES,
     PEAK,
     RADIUS,
@@ -80,8 +79,7 @@ def solved(known: KnownScene, fine: bool) -> Any:
 def errors(known: KnownScene, fine: bool, *, stress: bool) -> Iterator[tuple[Truth, float]]:
     """Relative to the truth; but for the input work, a sum over increments."""
     result = solved(known, fine)
-    tension = any(truth.quantity == F2 for truth in known.truths)
-    steps = values_of(result, fretting_cycles(result, surface_stress=tension))
+    steps = values_of(result, fretting_cycles(result))
     maxima = cache(partial(stress_maxima, result))
     for truth in known.truths:
         if (truth.quantity in STRESSES) is stress and truth.quantity != WORK:

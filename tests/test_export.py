@@ -37,7 +37,7 @@ def place(tmp_path_factory: pytest.TempPathFactory) -> Path:
         ("rings", solved(LOOP, 8, harmonics=2)),
     ):
         (directory / name).mkdir()
-        write_result(of, directory / name, with_figures=False)
+        write_result(of, directory / name, figures="none")
     state = STATES["cells"]
     field = stress_on_cells(state, see_edge=False, volume=True)
     write_stress(

@@ -44,8 +44,8 @@ def result() -> Any:
 def directories(result: Any, tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, Path]:
     """The same result with the fields of every increment, and by default."""
     every, ends = (tmp_path_factory.mktemp(name) for name in ("every", "ends"))
-    write_result(result, every, with_figures=False, every_increment=True)
-    write_result(result, ends, with_figures=False)
+    write_result(result, every, figures="none", every_increment=True)
+    write_result(result, ends, figures="none")
     return every, ends
 
 

@@ -99,7 +99,7 @@ def test_slip_amplitude_is_that_of_mindlin_and_deresiewicz(fine):
 
 
 def test_ruiz_parameters_are_those_of_the_closed_form(fine):
-    (cycle,) = fretting_cycles(fine, surface_stress=True)
+    (cycle,) = fretting_cycles(fine)
     assert np.max(cycle.ruiz_f1) == pytest.approx(exact().largest_f1, rel=1e-3)
     # Tension reaches three cells into the contact: at 256 cells the error is 0.9 %.
     assert np.max(cycle.ruiz_f2) == pytest.approx(exact().largest_f2, rel=3e-2)
@@ -123,7 +123,7 @@ def test_the_energy_of_a_cycle_is_four_times_its_ruiz_work(fine):
 def test_it_does_not_matter_where_in_the_cycle_one_begins():
     """From no force, up, down and back to none: the same range of slip and the same friction."""
     around, from_nothing = (
-        fretting_cycles(loop(24, PRESS, *steps), surface_stress=True)[-1]
+        fretting_cycles(loop(24, PRESS, *steps))[-1]
         for steps in ((push(0.9), push(-0.9), push(0.9)), (push(0.9), push(-0.9), push(0.0)))
     )
     for name in ("slip_amplitude", "ruiz_f1", "ruiz_f2"):
@@ -150,7 +150,7 @@ def test_a_sliding_contact_finds_the_tension_of_its_trailing_edge():
     errors = []
     for cells in (32, 128):
         described = contact_scenes.scene(PRESS, slide(20), slide(-20), slide(20), friction=0.3)
-        (cycle,) = fretting_cycles(solve(described, grid(cells, 1.1), 1e-6), surface_stress=True)
+        (cycle,) = fretting_cycles(solve(described, grid(cells, 1.1), 1e-6))
         errors.append(1 - np.max(cycle.surface_tension) / expected)
     assert 0 < errors[1] < 0.1
     assert errors[1] < 0.75 * errors[0]
@@ -168,7 +168,7 @@ def test_parameters_scale_with_length_and_modulus():
     ball = paraboloid(stiff).model_copy(update={"radius": length * contact_scenes.RADIUS})
     small = SurfaceGrid(one.grid.cells, tuple(length * side for side in one.grid.window))
     other = solve(contact_scenes.scene(*loads, indenter=ball, body=stiff), small, TOLERANCE)
-    (cycle,), (scaled,) = (fretting_cycles(result, surface_stress=True) for result in (one, other))
+    (cycle,), (scaled,) = (fretting_cycles(result) for result in (one, other))
     for name, factor in (
         ("slip_amplitude", length),
         ("ruiz_f1", modulus * length),
@@ -180,8 +180,7 @@ def test_parameters_scale_with_length_and_modulus():
 
 def test_a_force_along_y_gives_the_same_turned_by_a_quarter():
     along_x, along_y = (
-        fretting_cycles(solve(contact_scenes.scene(PRESS, *steps), grid(20), TOLERANCE),
-                        surface_stress=True)[0]
+        fretting_cycles(solve(contact_scenes.scene(PRESS, *steps), grid(20), TOLERANCE))[0]
         for steps in (
             (push(0.8), push(-0.8), push(0.8)),
             (push(0.0, 0.8), push(0.0, -0.8), push(0.0, 0.8)),
@@ -199,8 +198,7 @@ def test_a_rigid_body_leaves_the_tension_to_the_indenter():
     lower = coupled_scenes.scene(*loading, body=Body(material=soft))
     upper = coupled_scenes.scene(*loading, body=Body(material=RIGID), indenter=paraboloid(soft))
     one, other = (
-        fretting_cycles(solve(described, grid(24), TOLERANCE), surface_stress=True)[0]
-        for described in (lower, upper)
+        fretting_cycles(solve(described, grid(24), TOLERANCE))[0] for described in (lower, upper)
     )
     assert np.max(other.surface_tension) == pytest.approx(np.max(one.surface_tension), rel=1e-3)
     assert np.max(other.ruiz_f2) == pytest.approx(np.max(one.ruiz_f2), rel=1e-2)
@@ -218,7 +216,7 @@ def test_a_rigid_body_leaves_the_tension_to_the_indenter():
 )
 def test_without_a_change_of_force_tension_has_no_direction(loading):
     described = coupled_scenes.scene(*({**step, "increments": 2} for step in loading))
-    cycles = fretting_cycles(solve(described, grid(24), TOLERANCE), surface_stress=True)
+    cycles = fretting_cycles(solve(described, grid(24), TOLERANCE))
     assert cycles
     for cycle in cycles:
         assert cycle.surface_tension is None
@@ -233,8 +231,8 @@ def test_a_cycle_that_ends_at_the_limit_of_friction_has_no_slip():
 
 def test_cycles_reach_all_files(tmp_path, undrawn):
     result = loop(16, PRESS, push(0.8), push(-0.8), push(0.8), push(-0.8))
-    write_result(result, tmp_path, surface_stress=True)
-    last = fretting_cycles(result, surface_stress=True)[-1]
+    write_result(result, tmp_path, figures="all")
+    last = fretting_cycles(result)[-1]
     steps = json.loads((tmp_path / "summary.json").read_text(encoding="utf-8"))["steps"]
     assert [step["cycle_start"] for step in steps] == [None, None, None, 2, 3]
     assert steps[2]["slip_amplitude"] is None
@@ -264,7 +262,7 @@ result = solve(scene(PRESS, push(0.5), push(-0.5), push(0.5)), grid(16), 1e-8)
 (cycle,) = fretting_cycles(result)
 assert cycle.ruiz_f2 is None
 assert not [name for name in sys.modules if name.startswith("semi_analytical.stress")]
-(cycle,) = fretting_cycles(result, surface_stress=True)
+(cycle,) = fretting_cycles(result)
 assert "semi_analytical.stress" in sys.modules
 """
 

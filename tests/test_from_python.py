@@ -177,7 +177,7 @@ def test_a_stored_run_needs_none_of_the_files_of_its_scene(tmp_path: Path) -> No
 def test_what_is_no_run_is_refused_by_name(tmp_path: Path) -> None:
     with pytest.raises(FileNotFoundError, match=r"is no run: it has no summary.json"):
         slipstick.load(tmp_path)
-    write_result(solved(SCENE), tmp_path, with_figures=False)
+    write_result(solved(SCENE), tmp_path, figures="none")
     (tmp_path / "result.h5").write_bytes(b"something else")
     with pytest.raises(ValueError, match=r"is not the result.h5 of a run"):
         slipstick.load(tmp_path)

@@ -22,24 +22,33 @@ normal_force = 100
 cells = [16, 16]
 edge = "off"
 """
-QUICK = ("--no-figures", "--no-error")
+QUICK = ("--figures", "none", "--no-error")
 COMMANDS = {
     "run": ("run", "scene.toml", *QUICK, "-o"),
     "run, elements": ("run", "scene.toml", *QUICK, "--solver", "fem", "-o"),
     "run, radial": ("run", "scene.toml", *QUICK, "--solver", "radial", "-o"),
     "stress": ("stress", "scene.toml", *QUICK, "-o"),
-    "frf": ("frf", "scene.toml", "--points", "2", "-o"),
+    "frf": ("maintain", "frf", "scene.toml", "--points", "2", "-o"),
     "challenge": ("challenge", "export", "hertz_point", "-o"),
-    "history": ("history", "baselines", "baselines", "-o"),
+    "history": ("maintain", "history", "baselines", "baselines", "-o"),
     "judge": ("judge", "answered", "--page"),
     "export": ("export", "run", "-o"),
 }
 # These look where they write before they compute, and keep what is done where they are cut off.
 LONG = {
-    "verify": ("verify", "classical_forms", "--workers", "1", "-o"),
-    "study": ("study", "mesh", "scene.toml", "--levels", "4", "--workers", "1", "-o"),
-    "bench": ("bench", "--no-peers", "--cells", "32", "-o"),
-    "baseline": ("baseline", "--accept", "--because", "so", "--from", "report.json", "--to"),
+    "verify": ("verify", "layered_identities", "--workers", "1", "-o"),
+    "study": ("maintain", "study", "mesh", "scene.toml", "--levels", "4", "--workers", "1", "-o"),
+    "bench": ("maintain", "bench", "--no-peers", "--cells", "32", "-o"),
+    "baseline": (
+        "maintain",
+        "baseline",
+        "--accept",
+        "--because",
+        "so",
+        "--from",
+        "report.json",
+        "--to",
+    ),
 }
 ROOT = Path(__file__).resolve().parents[1]
 

@@ -183,7 +183,6 @@ ORDERS = {
             "natural_sizes",
             "remarks",
             "cycles",
-            "path_error",
         ),
         *("files", "stress", "figures", "result_files", "stress_files", "export"),
     ),
@@ -216,9 +215,7 @@ ORDERS = {
         *("answer_files", "field_tables", "reading"),
         *("coverage", "verdicts", "judgement", "door", "named_solver"),
     ),
-    "slipstick": (
-        *("solvers", "path_errors", "solving", "stored_run", "tables", "cli", "__main__"),
-    ),
+    "slipstick": (*("solvers", "solving", "stored_run", "tables", "cli", "__main__"),),
     # Its floors: what judges stands on what is known, what is shown on what was judged.
     "verification": (
         *(

@@ -35,7 +35,7 @@ INTERRUPTED
 from slipstick.cli import main
 main()
 """
-CASES = ("classical_forms", "cattaneo_mindlin")
+CASES = ("layered_identities", "cattaneo_mindlin")
 
 
 def started(directory: Path, *arguments: str, by: str = "") -> "subprocess.Popen[str]":

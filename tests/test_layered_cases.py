@@ -10,7 +10,6 @@ from semi_analytical.frf import matrix
 from semi_analytical.frf.surface import SurfaceScalars
 from semi_analytical.influence import bodies, layered
 from verification.cases import layered_reference as reference
-from verification.cases.classical_forms import classical_forms
 from verification.cases.coated_paraboloid import coated_paraboloid_on
 from verification.cases.film_stiffness import film_stiffness
 from verification.cases.frf_laws import frf_laws
@@ -153,7 +152,7 @@ def test_tables_are_shown_and_cannot_become_markup() -> None:
     assert sheets.count("G₁/G₂ = 0.5") == 9
 
 
-@pytest.mark.parametrize("build", [classical_forms, sampling_route, frf_laws])
+@pytest.mark.parametrize("build", [sampling_route, frf_laws])
 def test_studies_pass_and_draw(build: Callable[[], Case]) -> None:
     case = build()
     assert all(charts.rows for charts in (case.charts({}) if case.charts else ()))

@@ -35,7 +35,7 @@ normal_force = 100
 RUN_TWICE = """
 for _ in range(2):
     try:
-        slipstick.cli.main(['run', 'scene.toml', '-o', 'out', '--solver', 'radial', '--no-figures'])
+        slipstick.cli.main(['run', 'scene.toml', '-o', 'out', '--solver=radial', '--figures=none'])
     except SystemExit as ending:
         assert not ending.code
 from verification.running.local_workers import cores

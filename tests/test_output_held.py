@@ -41,7 +41,17 @@ def _no_pauses(monkeypatch: pytest.MonkeyPatch) -> None:
 def run(directory: Path, increments: int) -> "subprocess.CompletedProcess[str]":
     text = SCENE.replace("INCREMENTS", str(increments))
     (directory / "scene.toml").write_text(text, encoding="utf-8")
-    words = ("run", "scene.toml", "-o", "out", "--solver", "radial", "--no-figures", "--no-error")
+    words = (
+        "run",
+        "scene.toml",
+        "-o",
+        "out",
+        "--solver",
+        "radial",
+        "--figures",
+        "none",
+        "--no-error",
+    )
     return outcome(*words, cwd=directory)
 
 

@@ -7,12 +7,17 @@ from coupled_scenes import bulk, coated
 from coupled_scenes import press as pressed
 from coupled_scenes import scene as coupled_scene
 
-from contact_results.path_error import shear_difference
 from contact_scene import RIGID, Cone, Ellipsoid, FlatPunch
 from semi_analytical import Result, SurfaceGrid, plan, solve
 
 TOLERANCE = 1e-7
 DEFAULT = 1e-2
+
+
+def shear_difference(described, one, other) -> float:
+    """Σ|q - q_other| / Σµp of the other [1]."""
+    limit = np.sum(described.friction.limit(other.pressure))
+    return np.sum(np.hypot(*(one.shear - other.shear))) / limit
 
 
 def counts(described, accuracy=DEFAULT):

@@ -173,7 +173,7 @@ def test_whoever_does_not_check_is_told_too(
     """Once each, and a run says it again to whoever reads its summary."""
     changes = ("friction.coefficient=30", "semi_analytical.cells=[16,16]")
     words = [word for change in changes for word in ("--set", change)]
-    out = ("-o", tmp_path / "out", "--no-figures", "--no-error") if command == "run" else ()
+    out = ("-o", tmp_path / "out", "--figures", "none", "--no-error") if command == "run" else ()
     assert slipstick(command, SCENES[2], *words, *out) == 0
     assert capsys.readouterr().err.count('was "30 per cent" meant?') == 1
     if out:

@@ -291,7 +291,7 @@ def test_errors_hold_what_is_known_and_can_be_read_back(tmp_path: Path) -> None:
     end = result.steps[0]
     assert work is not None
     assert work >= abs(end.input_work - end.elastic_energy) > 1e-3 * end.elastic_energy  # type: ignore[operator]
-    slipstick.save(result, tmp_path / "out", errors=errors)
+    slipstick.save(result, tmp_path / "out", figures="all", errors=errors)
     run = slipstick.load(tmp_path / "out")
     assert run.summary.solver == "radial"
     assert np.array_equal(run.increments["pressure"].array[-1], result.steps[-1].pressure)

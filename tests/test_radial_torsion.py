@@ -215,7 +215,7 @@ def test_beyond_its_limit_the_contact_turns_and_carries_no_more(tmp_path: Path) 
     assert_allclose(sliding.torque, carried, rtol=1e-9)
     assert back.torque is not None
     assert_allclose(back.torque, -sliding.torque, rtol=1e-9)  # type: ignore[operator]
-    slipstick.save(torsion, tmp_path / "out", errors=stated_errors(torsion))
+    slipstick.save(torsion, tmp_path / "out", figures="all", errors=stated_errors(torsion))
     assert (tmp_path / "out" / "profiles.png").is_file()
 
 

@@ -598,18 +598,18 @@ def test_report_is_compared_with_the_baseline_of_its_level(
     numbers = {"quick": 0.0, "standard": 1e-5, "full": 2e-5}
     report, baselines = tmp_path / "report", tmp_path / "baselines"
     report.mkdir()
-    compare = ("compare", report, "--baseline", baselines)
+    compare = ("maintain", "compare", report, "--baseline", baselines)
     for name, part in numbers.items():
         if name != level:
             write_report(at_level(name, shifted(healthy, "approach", part)), report)
-            assert slipstick("baseline", "--accept", "--because", REASON, "--from", report, "--to",
-                             baselines) == 0  # fmt: skip
+            words = ("--because", REASON, "--from", report, "--to", baselines)
+            assert slipstick("maintain", "baseline", "--accept", *words) == 0
     write_report(at_level(level, shifted(healthy, "approach", numbers[level])), report)
     capsys.readouterr()
     assert slipstick(*compare) == 5
     assert f"at level {level}; to record it" in capsys.readouterr().err
-    assert slipstick("baseline", "--accept", "--because", REASON, "--from", report, "--to",
-                     baselines) == 0  # fmt: skip
+    assert slipstick("maintain", "baseline", "--accept", "--because", REASON, "--from", report,
+                     "--to", baselines) == 0  # fmt: skip
     assert f"1 baselines of level {level}" in capsys.readouterr().out
     assert slipstick(*compare) == 0
     write_report(at_level(level, shifted(healthy, "approach", numbers[level] + 3e-6)), report)
@@ -651,7 +651,7 @@ def test_comparison_ends_by_what_changed(
 ) -> None:
     report, baselines = places
     write_report(report_of(shifted(healthy, "approach", part)), report)
-    assert slipstick("compare", report, "--baseline", baselines) == code
+    assert slipstick("maintain", "compare", report, "--baseline", baselines) == code
     output = capsys.readouterr().out
     assert said in output
     assert ("reproduce: slipstick verify hertz_point" in output) == (code > 0)
@@ -669,11 +669,11 @@ def test_a_solver_that_is_slower_is_red_and_says_how_to_see_it(
         (tmp_path / name).mkdir()
         write_report(report.model_copy(update={"provenance": told}), tmp_path / name)
     then = tmp_path / "then" / "report.json"
-    assert slipstick("compare", tmp_path / "now", "--baseline", then) == 7
+    assert slipstick("maintain", "compare", tmp_path / "now", "--baseline", then) == 7
     output = capsys.readouterr().out
     assert "1 dearer" in output
     assert "reproduce: slipstick verify --level quick" in output
-    assert slipstick("compare", tmp_path / "then", "--baseline", then) == 0
+    assert slipstick("maintain", "compare", tmp_path / "then", "--baseline", then) == 0
 
 
 def test_reports_are_compared_with_each_other(
@@ -682,15 +682,15 @@ def test_reports_are_compared_with_each_other(
     now = tmp_path / "now"
     now.mkdir()
     write_report(report_of(with_counts(healthy, iterations=9999)), now)
-    assert slipstick("compare", now, "--baseline", places[0] / RECORD) == 7
-    assert slipstick("compare", places[0] / RECORD, "--baseline", places[0]) == 0
+    assert slipstick("maintain", "compare", now, "--baseline", places[0] / RECORD) == 7
+    assert slipstick("maintain", "compare", places[0] / RECORD, "--baseline", places[0]) == 0
 
 
 def test_comparison_without_baseline_says_so_and_does_not_pass(
     places: tuple[Path, Path], tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     (tmp_path / "none").mkdir()
-    assert slipstick("compare", places[0], "--baseline", tmp_path / "none") == 5
+    assert slipstick("maintain", "compare", places[0], "--baseline", tmp_path / "none") == 5
     captured = capsys.readouterr()
     assert "no baseline yet of level quick" in captured.out
     assert "nothing is recorded of these cases at level quick; to record it" in captured.err
@@ -711,7 +711,7 @@ def test_damaged_baseline_ends_the_commands_before_any_work(
 ) -> None:
     report, baselines = places
     (baselines / "hertz_point.json").write_text("{", encoding="utf-8")
-    assert slipstick("compare", report, "--baseline", baselines) == 2
+    assert slipstick("maintain", "compare", report, "--baseline", baselines) == 2
     monkeypatch.setattr(baseline_files, "BASELINES", baselines)
     assert slipstick("verify", "hertz_point", "--output", tmp_path / "out") == 2
     assert capsys.readouterr().err.count("is damaged") == 2
@@ -726,7 +726,16 @@ def test_verification_warns_of_drift_and_passes(
     verify = ("verify", "dissimilar_bodies", "--output", output, "--studies", tmp_path)
     assert slipstick(*verify) == 0
     assert "no baseline yet" in capsys.readouterr().out
-    accepted = ("baseline", "--accept", "--with-changes", "--from", output, "--to", baselines)
+    accepted = (
+        "maintain",
+        "baseline",
+        "--accept",
+        "--with-changes",
+        "--from",
+        output,
+        "--to",
+        baselines,
+    )
     assert slipstick(*accepted, "--because", "as computed") == 0
     file = baselines / "dissimilar_bodies.json"
     content = json.loads(file.read_text(encoding="utf-8"))
@@ -737,20 +746,22 @@ def test_verification_warns_of_drift_and_passes(
     assert slipstick(*verify) == 0
     printed = capsys.readouterr().out
     assert len(re.findall(r"^WARN drift dissimilar_bodies/", printed, re.MULTILINE)) == 2
-    assert slipstick("compare", output) == 5
+    assert slipstick("maintain", "compare", output) == 5
 
 
 def test_acceptance_needs_its_reason(
     places: tuple[Path, Path], tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     new = tmp_path / "new"
-    assert slipstick("baseline", "--accept", "--from", places[0], "--to", new) == 2
+    assert slipstick("maintain", "baseline", "--accept", "--from", places[0], "--to", new) == 2
     assert "needs a reason" in capsys.readouterr().err
-    assert slipstick("baseline", "--because", "it is", "--from", places[0], "--to", new) == 2
+    assert (
+        slipstick("maintain", "baseline", "--because=it is", "--from", places[0], "--to", new) == 2
+    )
     assert not new.exists()
     words = ("--because", "it is right", "--from", places[0], "--to", new)
-    assert slipstick("baseline", "--accept", *words) == 0
-    assert slipstick("baseline", "--to", new) == 0
+    assert slipstick("maintain", "baseline", "--accept", *words) == 0
+    assert slipstick("maintain", "baseline", "--to", new) == 0
     listed = capsys.readouterr().out
     assert "it is right" in listed
     assert "1a2b3c4" in listed

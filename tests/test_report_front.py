@@ -54,7 +54,7 @@ def test_every_sheet_and_study_is_folded_under_one_line_and_its_anchor_is_inside
     )
     front, sheets = render_page(report), render_sheets(report)
     for page, name in (
-        (sheets, "hertz_point"), (front, "study-stability"), (front, "study-penalty")
+        (sheets, "hertz_point"), (front, "study-stability"), (front, "study-mutants")
     ):  # fmt: skip
         before, _, _ = page.partition(f'<article id="{name}">')
         line = before[before.rindex("<details") :]
@@ -199,7 +199,7 @@ def test_studies_have_pages_beside_a_full_report_and_none_of_an_earlier_one_stay
     level: str, tmp_path: Path
 ) -> None:
     report = report_of((), (study("stability"),)).model_copy(update={"level": level})
-    (tmp_path / APPENDICES["penalty"]).write_text("of an earlier report")
+    (tmp_path / APPENDICES["mutants"]).write_text("of an earlier report")
     write_report(report, tmp_path)
     there = {path.name for path in tmp_path.iterdir()} & {*APPENDICES.values()}
     assert there == ({APPENDICES["stability"]} if level == "full" else set())

@@ -267,7 +267,7 @@ def test_promises_lead_the_page_with_figures_or_with_the_command_that_finds_them
     plan, cost, stable, stated = features(report)
     assert "2.5 to 2.5 times the convolutions" in plan.figures
     assert cost.status is None
-    assert "slipstick study work-precision" in cost.figures
+    assert "slipstick maintain study work-precision" in cost.figures
     assert stable.status is Status.FAIL
     header = render_page(report).split("</header>")[0]
     for feature in (plan, cost, stable, stated):
@@ -290,7 +290,7 @@ def test_a_promise_is_told_in_a_line_also_by_a_study_without_an_answer() -> None
 @pytest.mark.parametrize("number", [0, 1, 2])
 def test_headline_names_studies_that_are_inconclusive(number: int) -> None:
     claim = Statement(claim="c", outcome=Status.INCONCLUSIVE, measured="m")
-    names = ("stability", "penalty", "gross-sliding")[: number + 1]
+    names = ("stability", "mutants", "gross-sliding")[: number + 1]
     records = [study(name) for name in names]
     open_ = [
         one.model_copy(update={"conclusion": one.conclusion.model_copy(
@@ -361,7 +361,7 @@ def test_a_missing_study_names_the_command_that_makes_it(name: str) -> None:
     page = render_page(report_of(()))
     article = page[page.index(f'id="study-{name}"') :].split("</article>")[0]
     assert name in STUDIES
-    assert f"slipstick study {name} --level quick" in article
+    assert f"slipstick maintain study {name} --level quick" in article
 
 
 def test_a_study_that_was_made_is_shown_with_its_level_and_what_it_lost() -> None:

@@ -84,7 +84,7 @@ def test_case_that_vanished_is_gone(
 ) -> None:
     report, baselines = places
     write_report(report_of(three_cases().cases[:left]), report)
-    assert slipstick("compare", report, "--baseline", baselines) == 5
+    assert slipstick("maintain", "compare", report, "--baseline", baselines) == 5
     printed = capsys.readouterr().out
     assert f"{3 - left} gone" in printed
     assert "two/case" in printed
@@ -93,7 +93,7 @@ def test_case_that_vanished_is_gone(
 def test_case_without_baseline_is_new(places: tuple[Path, Path]) -> None:
     report, baselines = places
     (baselines / "two.json").unlink()
-    assert slipstick("compare", report, "--baseline", baselines) == 5
+    assert slipstick("maintain", "compare", report, "--baseline", baselines) == 5
     outcome = compared(three_cases(), baselines_of(report_of(three_cases().cases[:2]), REASON))
     assert [(row.case, row.kind) for row in change_rows(outcome)] == [("two", ChangeKind.NEW)]
 
@@ -102,7 +102,7 @@ def test_chosen_cases_never_stand_for_all(
     places: tuple[Path, Path], capsys: pytest.CaptureFixture[str]
 ) -> None:
     report, baselines = places
-    compare = ("compare", report, "--baseline", baselines)
+    compare = ("maintain", "compare", report, "--baseline", baselines)
     for number, missing in ((1, "three, two"), (2, "two")):
         write_report(chosen_of(three_cases().cases[:number]), report)
         assert slipstick(*compare) == 2
@@ -122,9 +122,9 @@ def test_cases_of_another_level_are_not_missed(places: tuple[Path, Path]) -> Non
     full = chosen_of((one,)).model_copy(update={"level": "full"})
     accept(full, REASON, baselines, with_changes=True)
     write_report(full, report)
-    assert slipstick("compare", report, "--baseline", baselines) == 0
+    assert slipstick("maintain", "compare", report, "--baseline", baselines) == 0
     write_report(chosen_of((one,)), report)
-    assert slipstick("compare", report, "--baseline", baselines) == 2
+    assert slipstick("maintain", "compare", report, "--baseline", baselines) == 2
 
 
 def test_a_badge_has_the_class_of_its_word() -> None:
@@ -160,7 +160,7 @@ def test_chosen_cases_are_compared_on_demand_and_say_so(
     report, baselines = places
     chosen = chosen_of(three_cases().cases[:1])
     write_report(chosen, report)
-    assert slipstick("compare", report, "--baseline", baselines, "--chosen") == 0
+    assert slipstick("maintain", "compare", report, "--baseline", baselines, "--chosen") == 0
     assert "chosen cases alone" in capsys.readouterr().out
     assert "chosen cases alone" in render_summary(chosen)
     assert "of chosen cases" in render_page(chosen)
@@ -239,9 +239,9 @@ def test_report_that_is_not_there_is_told_with_the_one_before(
 ) -> None:
     report, baselines = places
     set_aside_report(report)
-    assert slipstick("compare", report, "--baseline", baselines) == 2
+    assert slipstick("maintain", "compare", report, "--baseline", baselines) == 2
     assert f"the report before it is in {report / EARLIER}" in capsys.readouterr().err
-    assert slipstick("compare", report / EARLIER, "--baseline", baselines) == 0
+    assert slipstick("maintain", "compare", report / EARLIER, "--baseline", baselines) == 0
 
 
 # ---- reports and records that were changed -------------------------------------------------------
@@ -298,9 +298,9 @@ def test_report_that_contradicts_itself_is_refused(
     edited(report / RECORD, edit)
     words = ("--because", "it is right", "--with-changes", "--to", baselines)
     for command in (
-        ("compare", report, "--baseline", baselines),
-        ("baseline", "--accept", "--from", report, *words),
-        ("report", report),
+        ("maintain", "compare", report, "--baseline", baselines),
+        ("maintain", "baseline", "--accept", "--from", report, *words),
+        ("maintain", "report", report),
     ):
         assert slipstick(*command) == 2, command
         message = capsys.readouterr().err
@@ -343,7 +343,9 @@ def test_quantity_that_moves_away_by_more_than_is_allowed_is_outside(
     for place, report in (("before", before), ("after", after)):
         (tmp_path / place).mkdir()
         write_report(report, tmp_path / place)
-    code = slipstick("compare", tmp_path / "after", "--baseline", tmp_path / "before" / RECORD)
+    code = slipstick(
+        "maintain", "compare", tmp_path / "after", "--baseline", tmp_path / "before" / RECORD
+    )
     assert code == {ChangeKind.OUTSIDE: 1, ChangeKind.WORSE: 7}.get(kind, 5)
 
 
@@ -396,7 +398,10 @@ def test_inconclusive_is_neither_passed_nor_failed(
     for place, status in (("was", was), ("now", now)):
         (tmp_path / place).mkdir()
         write_report(report_of((an_order(status),)), tmp_path / place)
-    assert slipstick("compare", tmp_path / "now", "--baseline", tmp_path / "was" / RECORD) == code
+    assert (
+        slipstick("maintain", "compare", tmp_path / "now", "--baseline", tmp_path / "was" / RECORD)
+        == code
+    )
     assert bool(report_of((an_order(now),)).failures) is (now is Status.FAIL)
 
 

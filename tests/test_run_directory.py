@@ -28,7 +28,7 @@ def fill(directory: Path, text: str = "new") -> None:
     """Write what a run would: a summary, a table and its times."""
     (directory / SUMMARY).write_text(text)
     (directory / "profiles.csv").write_text(text)
-    write_timing(Stopwatch(), directory)
+    write_timing(Stopwatch(), directory, ())
 
 
 def contents(directory: Path) -> dict[str, str]:

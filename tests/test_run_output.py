@@ -16,6 +16,7 @@ from conftest import leave_figures_undrawn
 from synthetic_result import CONVOLUTIONS, ITERATIONS, MU, WORST_RESIDUAL, synthetic_result
 
 from contact_results.directory.file_names import RUN_FILES, SUMMARY
+from contact_results.directory.timing import Stopwatch, write_timing
 from contact_results.result_files import write_result
 from contact_scene.engineering_units import quantity
 from contact_scene.summary import load_summary, summary_schema
@@ -27,7 +28,7 @@ ROOT = Path(__file__).resolve().parents[1]
 @pytest.fixture(scope="module")
 def written(tmp_path_factory: pytest.TempPathFactory) -> tuple[Result, Path]:
     result, directory = synthetic_result(), tmp_path_factory.mktemp("written")
-    write_result(result, directory)
+    write_result(result, directory, figures="all")
     return result, directory
 
 
@@ -36,7 +37,7 @@ def frictionless(tmp_path_factory: pytest.TempPathFactory) -> Path:
     directory = tmp_path_factory.mktemp("frictionless")
     with pytest.MonkeyPatch.context() as patch:
         leave_figures_undrawn(patch)
-        write_result(synthetic_result(friction=False), directory)
+        write_result(synthetic_result(friction=False), directory, figures="all")
     return directory
 
 
@@ -46,7 +47,7 @@ def test_equal_results_give_equal_bytes(written: tuple[Result, Path], tmp_path: 
         "import sys; from pathlib import Path\n"
         "from synthetic_result import synthetic_result\n"
         "from contact_results.result_files import write_result\n"
-        "write_result(synthetic_result(), Path(sys.argv[1]))"
+        "write_result(synthetic_result(), Path(sys.argv[1]), figures='all')"
     )
     (tmp_path / "matplotlibrc").write_text(
         "font.size: 20\nlines.solid_capstyle: butt\naxes.facecolor: red\n"
@@ -81,16 +82,15 @@ def test_summary_fulfils_its_schema_and_reads_back(written: tuple[Result, Path])
         assert step.tangential_force == tuple(end.tangential_force)
 
 
-def test_summary_counts_the_work_of_all_increments_of_a_step(
-    written: tuple[Result, Path],
-) -> None:
-    result, directory = written
-    steps = json.loads((directory / SUMMARY).read_text(encoding="utf-8"))["steps"]
-    increments = [end.increments_in_step for end in result.steps]
-    assert [step["iterations"] for step in steps] == [ITERATIONS * number for number in increments]
-    assert [step["convolutions"] for step in steps] == [
-        CONVOLUTIONS * number for number in increments
-    ]
+def test_timing_counts_the_work_of_all_increments_of_a_step(tmp_path: Path) -> None:
+    result = synthetic_result()
+    write_timing(Stopwatch(), tmp_path, result.increments)
+    steps = json.loads((tmp_path / "timing.json").read_text(encoding="utf-8"))["counters"]
+    numbers = [end.increments_in_step for end in result.steps]
+    assert [step["increments"] for step in steps] == numbers
+    assert [step["iterations"] for step in steps] == [ITERATIONS * number for number in numbers]
+    assert [step["convolutions"] for step in steps] == [CONVOLUTIONS * n for n in numbers]
+    assert [step["factorizations"] for step in steps] == [None] * len(numbers)
 
 
 def test_frictionless_summary_has_all_keys_and_null_for_friction(frictionless: Path) -> None:
@@ -104,7 +104,7 @@ def test_frictionless_summary_has_all_keys_and_null_for_friction(frictionless: P
 @pytest.mark.parametrize("ny", [20, 21])
 def test_profile_holds_the_numbers_of_the_line_y_0(tmp_path: Path, ny: int) -> None:
     result = synthetic_result((24, ny))
-    write_result(result, tmp_path, with_figures=False)
+    write_result(result, tmp_path, figures="none")
     table = rows(tmp_path / "profiles.csv")
     assert list(table[0]) == [
         *("step", "x [m]", "y [m]", "shear_x [Pa]", "shear_y [Pa]", "slip_x [m]", "slip_y [m]"),
@@ -186,7 +186,7 @@ def test_a_force_beyond_any_friction_figure_is_drawn_for_many_steps(tmp_path: Pa
         update={"loading": (result.scene.loading[0], *(tangential * 30))}
     )
     long = replace(result, scene=scene, increments=(result.increments[0], *many))
-    write_result(long, tmp_path)
+    write_result(long, tmp_path, figures="all")
     assert all(path.stat().st_size < 1_000_000 for path in tmp_path.glob("*.png"))
 
 

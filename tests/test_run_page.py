@@ -36,7 +36,7 @@ def hostile() -> Any:
 
 @pytest.mark.usefixtures("undrawn")
 def test_a_page_holds_all_figures_and_asks_for_nothing(tmp_path: Path) -> None:
-    write_result(hostile(), tmp_path)
+    write_result(hostile(), tmp_path, figures="all")
     page = (tmp_path / "index.html").read_text(encoding="utf-8")
     assert page.count("<img") == len(list(tmp_path.glob("*.png")))
     assert all(source.startswith("data:") for source in re.findall(r'src="([^"]*)', page))

@@ -70,7 +70,7 @@ def _write(result: Result, directory: Path) -> None:
     with pytest.MonkeyPatch.context() as patch:
         if result.scene.title != DRAWN:
             leave_figures_undrawn(patch)
-        write_result(result, directory)
+        write_result(result, directory, figures="all")
 
 
 def test_every_file_has_a_known_name(written: tuple[Result, Path]) -> None:
@@ -230,7 +230,7 @@ def place(tmp_path_factory: pytest.TempPathFactory) -> Path:
     directory = tmp_path_factory.mktemp("commands")
     (directory / "scene.toml").write_text(TOML, encoding="utf-8")
     for solver in ("fem", "fem-complementarity"):
-        asked = ("-o", directory / solver, "--solver", solver, "--no-figures")
+        asked = ("-o", directory / solver, "--solver", solver, "--figures", "none")
         assert slipstick("run", directory / "scene.toml", *asked) == 0
     return directory
 
@@ -252,14 +252,14 @@ def test_run_names_its_solver(place: Path, solver: str, name: str) -> None:
 
 def test_the_other_solvers_table_is_ignored(place: Path) -> None:
     code = slipstick("run", place / "scene.toml", "-o", place / "again", "--solver", "fem",
-                     "--set", "semi_analytical.cells=[32,32]", "--no-figures")  # fmt: skip
+                     "--set", "semi_analytical.cells=[32,32]", "--figures", "none")  # fmt: skip
     assert code == 0
     assert (place / "again/profiles.csv").read_bytes() == (place / "fem/profiles.csv").read_bytes()
 
 
 def test_own_table_is_heeded(place: Path) -> None:
     code = slipstick("run", place / "scene.toml", "-o", place / "finer", "--solver", "fem",
-                     "--set", "fem_reference.elements_per_radius=12", "--no-figures")  # fmt: skip
+                     "--set", "fem_reference.elements_per_radius=12", "--figures=none")  # fmt: skip
     assert code == 0
     assert len(rows(place / "finer/profiles.csv")) > len(rows(place / "fem/profiles.csv"))
 
@@ -298,7 +298,6 @@ def test_stress_of_a_run_keeps_both_sides_of_an_interface(place: Path) -> None:
 
 REFUSED = {
     "a step names a moment": ("run", "--set", "loading[1].moment=[0.1,0]"),
-    "--path-error is of the semi-analytical solver": ("run", "--path-error"),
     "--volume out": ("stress", "--volume"),
 }
 

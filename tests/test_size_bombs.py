@@ -212,7 +212,7 @@ def frugal() -> Iterator[None]:
 
 def claiming(result: Any, path: Path, **changed: tuple[int, ...]) -> None:
     """A stored run in which datasets claim other shapes, and were never written."""
-    write_result(result, path.parent, with_figures=False)
+    write_result(result, path.parent, figures="none")
     with h5py.File(path, "a") as file:
         for name, shape in changed.items():
             place = name.replace("_of_", "/")

@@ -35,8 +35,8 @@ increments = 4
 cells = [32, 32]
 """
 RUNS = {
-    "run": ("run", "scene.toml", "-o", "out", "--no-figures"),
-    "to an accuracy": ("run", "scene.toml", "-o", "out", "--no-figures", "--accuracy", "20%"),
+    "run": ("run", "scene.toml", "-o", "out", "--figures", "none"),
+    "to an accuracy": ("run", "scene.toml", "-o", "out", "--figures", "none", "--accuracy", "20%"),
     "stress": ("stress", "scene.toml", "-o", "out", "--no-figures"),
 }
 

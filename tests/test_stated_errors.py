@@ -483,7 +483,7 @@ def runs(tmp_path_factory: pytest.TempPathFactory) -> dict[str, tuple[dict[str, 
     (folder / "scene.toml").write_text(FRETTING, encoding="utf-8")
     found = {}
     for option in ("--error", "--no-error"):
-        asked = ("run", "scene.toml", "-o", option, "--no-figures", option)
+        asked = ("run", "scene.toml", "-o", option, "--figures", "none", option)
         ended = outcome(*asked, cwd=folder)
         assert ended.returncode == 0, ended.stderr
         written = (folder / option / "summary.json").read_text(encoding="utf-8")
@@ -672,7 +672,7 @@ def test_stress_counts_what_increments_leave_wrong_in_the_tractions(tmp_path: Pa
     path = tmp_path / "scene.toml"
     coupled = FRETTING.replace("420 GPa", "210 GPa", 1)
     path.write_text(coupled.split("[[loading]]\ntangential_force", 1)[0] + TWENTY, encoding="utf-8")
-    common = ("--no-figures", "-o")
+    common = ("--figures", "none", "-o")
     assert slipstick("run", path, *common, tmp_path / "run") == 0
     assert slipstick("stress", path, *common, tmp_path / "of_scene") == 0
     assert slipstick("stress", tmp_path / "run", *common, tmp_path / "of_run") == 0

@@ -206,7 +206,7 @@ def test_both_solvers_state_the_tension_at_the_trailing_edge_of_a_coating(tmp_pa
     }
     for solver, setting in few.items():
         run, stress = tmp_path / solver, tmp_path / f"{solver} stress"
-        options = ("--solver", solver, "--set", setting, "--no-figures", "--no-error")
+        options = ("--solver", solver, "--set", setting, "--figures", "none", "--no-error")
         assert slipstick("run", scene, *options, "-o", run) == 0
         assert slipstick("stress", run, "-o", stress) == 0
         maxima = json.loads((stress / "stress.json").read_text(encoding="utf-8"))["maxima"]

@@ -51,7 +51,7 @@ def place(tmp_path_factory: pytest.TempPathFactory) -> Path:
     scene = directory / "scene.toml"
     scene.write_text(SCENE, encoding="utf-8")
     for arguments in (
-        ("run", scene, "-o", directory / "run", "--no-figures", "--no-error"),
+        ("run", scene, "-o", directory / "run", "--figures", "none", "--no-error"),
         ("stress", scene, "-o", directory / "out"),
     ):
         ended = outcome(*arguments, cwd=ROOT)

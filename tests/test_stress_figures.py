@@ -7,15 +7,12 @@ import numpy as np
 import pytest
 from matplotlib.figure import Figure
 
-from contact_results.figures.section_panel import even_levels, rising_levels
 from contact_results.figures.stress_plot import (
     axis_plot,
-    interface_plot,
     section_plot,
     surface_plot,
 )
 from contact_results.figures.style import figure_style
-from contact_results.natural_sizes import SI, NaturalUnit, Units
 from contact_results.stress.points import FittedEdge, StressField, StressPoints
 from contact_scene import Body, IsotropicMaterial, Layer
 
@@ -54,9 +51,9 @@ def field() -> StressField:
     )  # fmt: skip
 
 
-def drawn(draw: Any, of: StressField | None = None, units: Units = SI) -> Figure:
+def drawn(draw: Any, of: StressField | None = None) -> Figure:
     with figure_style():
-        figure: Figure = draw(of or field(), BODY, "title", units)
+        figure: Figure = draw(of or field(), BODY, "title")
     return figure
 
 
@@ -106,51 +103,3 @@ def test_the_line_along_the_surface_is_the_stress_there() -> None:
     assert along.get_label() == "$σ_{xx}$"
     np.testing.assert_allclose(along.get_xdata(), 1e3 * X)
     np.testing.assert_allclose(along.get_ydata(), field().section.components["xx"][0] / 1e9)
-
-
-def test_figures_over_the_sizes_of_the_contact_show_the_same_numbers() -> None:
-    sizes = {"length": NaturalUnit(RADIUS, "a"), "pressure": NaturalUnit(TRAILING, "p")}
-    units = Units(sizes, "a is the radius")
-    (ax,) = drawn(surface_plot, units=units).axes
-    np.testing.assert_allclose(ax.lines[0].get_xdata(), X / RADIUS)
-    xx = field().section.components["xx"][0]
-    np.testing.assert_allclose(ax.lines[0].get_ydata(), xx / TRAILING)
-    assert (ax.get_xlabel().split(",")[0], ax.get_ylabel()) == ("x / a", "stress / p")
-    figure = drawn(axis_plot, units=units)
-    assert figure.get_suptitle() == "title\na is the radius"
-    assert figure.axes[1].get_title() == "below the edge, x = -1 a"
-    assert figure.axes[0].get_ylabel() == "depth z / a"
-    for plot in (section_plot, interface_plot):
-        shown = [ax for ax in drawn(plot, units=units).axes if ax.get_label() != "<colorbar>"]
-        assert {ax.get_xlabel() for ax in shown} <= {"", "x / a"}
-        assert shown[-1].get_xlim()[1] <= 2.3
-
-
-def test_the_line_along_the_surface_runs_over_the_fitted_edge() -> None:
-    middle = 0.05e-3
-    (ax,) = drawn(surface_plot, with_edge(middle)).axes
-    along, ends = ax.lines[0], 1e3 * (middle + np.array([-RADIUS, RADIUS]))
-    assert np.max(along.get_ydata()) == pytest.approx(7.0, rel=1e-3)
-    assert np.all(np.diff(along.get_xdata()) >= 0)
-    dotted = [line.get_xdata()[0] for line in ax.lines if line.get_linestyle() == ":"]
-    np.testing.assert_allclose(dotted, ends, rtol=1e-3)
-
-
-@pytest.mark.parametrize(("low", "high"), [(-4.17, 1.13), (0.3, 2.71), (0.0, 0.0), (-3.0, -1.0)])
-def test_levels_are_round_and_hold_all_values(low: float, high: float) -> None:
-    levels = even_levels(low, high)
-    assert levels[0] <= low <= high <= levels[-1]
-    assert len(levels) < 20
-    steps = np.diff(levels)
-    np.testing.assert_allclose(steps, steps[0])
-    np.testing.assert_allclose(float(f"{steps[0]:.2g}"), steps[0])
-    assert low >= 0 or high <= 0 or np.min(np.abs(levels)) < 1e-12
-
-
-@pytest.mark.parametrize("high", [1.0, 1.168, 2.0, 4.99, 807.0, 0.031])
-def test_a_tail_of_a_fiftieth_of_the_peak_is_within_a_level_above_zero(high: float) -> None:
-    levels = rising_levels(high)
-    assert levels[0] == 0.0
-    assert levels[-2] < high <= levels[-1]
-    assert 0 < levels[1] <= high / 20
-    assert {f"{level:e}"[0] for level in levels[1:]} == {"1", "2", "5"}

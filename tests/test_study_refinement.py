@@ -451,7 +451,7 @@ def test_study_resumes_to_the_same_bytes(
     monkeypatch.chdir(scene_file.parent)
     folder = scene_file.parent
     coarse = ("--cells", "16", "--set", "loading[3].increments=2")
-    command = ("study", "increments", "turning.toml", *coarse, "--workers", "1")
+    command = ("maintain", "study", "increments", "turning.toml", *coarse, "--workers", "1")
     leave_well([*command, "--output", "one"])
     shutil.copytree(folder / "one" / "cases", folder / "two" / "cases")
     for record in sorted((folder / "two" / "cases").glob("*.json"))[::2]:
@@ -473,18 +473,21 @@ def test_study_resumes_to_the_same_bytes(
 @pytest.mark.parametrize(
     ("arguments", "text"),
     [
-        (("study", "increments"), "needs a scene file"),
-        (("study", "coated-tractions", "turning.toml"), "takes no scene file"),
-        (("study", "mesh", "turning.toml"), "coarsest of 4 grids"),
-        (("study", "increments", "turning.toml", "--step", "9"), "the scene has 3"),
-        (("study", "window", "turning.toml", "--solver", "fem"), "is of semi-analytical"),
+        (("maintain", "study", "increments"), "needs a scene file"),
+        (("maintain", "study", "coated-tractions", "turning.toml"), "takes no scene file"),
+        (("maintain", "study", "mesh", "turning.toml"), "coarsest of 4 grids"),
+        (("maintain", "study", "increments", "turning.toml", "--step", "9"), "the scene has 3"),
         (
-            ("study", "domain", "turning.toml", "--solver", "semi-analytical"),
+            ("maintain", "study", "window", "turning.toml", "--solver", "fem"),
+            "is of semi-analytical",
+        ),
+        (
+            ("maintain", "study", "domain", "turning.toml", "--solver", "semi-analytical"),
             "is of fem or fem-complementarity",
         ),
-        (("study", "domain", "turning.toml", "--solver", "fem"), "takes one direction"),
-        (("study", "stability", "--step", "2"), "--step is of a scene"),
-        (("study", "coated-tractions", "--solver", "fem"), "--solver is of a scene"),
+        (("maintain", "study", "domain", "turning.toml", "--solver", "fem"), "takes one direction"),
+        (("maintain", "study", "stability", "--step", "2"), "--step is of a scene"),
+        (("maintain", "study", "coated-tractions", "--solver", "fem"), "--solver is of a scene"),
     ],
 )
 def test_mistakes_on_the_command_line_are_named(

@@ -28,7 +28,7 @@ from verification.running.stored_studies import stored_studies
 from verification.running.study import Settings
 from verification.studies.catalogue import STUDIES
 
-STUDY = ("study", "coated-tractions", "--cells", "16", "--output", "out")
+STUDY = ("maintain", "study", "coated-tractions", "--cells", "16", "--output", "out")
 
 
 @dataclass
@@ -217,13 +217,15 @@ def test_study_leaves_page_record_figures_and_tables(
 
 
 def test_studies_are_listed_and_mistakes_are_refused(tmp_path: Path) -> None:
-    listed = outcome("study", "--list", cwd=tmp_path)
+    listed = outcome("maintain", "study", "--list", cwd=tmp_path)
     assert listed.returncode == 0
     assert "gross-sliding" in listed.stdout
-    unknown = outcome("study", "gross-slidin", cwd=tmp_path)
+    unknown = outcome("maintain", "study", "gross-slidin", cwd=tmp_path)
     assert unknown.returncode == 2
     assert "gross-sliding?" in unknown.stderr
-    assert outcome("study", "gross-sliding", "--cells", "33", cwd=tmp_path).returncode == 2
+    assert (
+        outcome("maintain", "study", "gross-sliding", "--cells", "33", cwd=tmp_path).returncode == 2
+    )
     assert list(tmp_path.iterdir()) == []
 
 
@@ -235,7 +237,7 @@ def stored(directory: Path, name: str = "stability") -> StudyRecord:
         conclusion=chosen.conclude(Settings(Level.QUICK), {}).model_copy(
             update={"answer": "Yes, 1 < 2."}
         ),
-        lost=(), provenance=provenance("slipstick study", {}),
+        lost=(), provenance=provenance("slipstick maintain study", {}),
     )  # fmt: skip
     write_study(record, {}, directory / name)
     return record
@@ -281,7 +283,7 @@ def test_a_study_that_is_stopped_leaves_no_record_of_an_earlier_one(
     monkeypatch.setattr("verification.running.case_pool.run_cases", stopped)
     chosen = STUDIES["coated-tractions"]
     with pytest.raises(KeyboardInterrupt):
-        _studied(chosen, Settings(Level.QUICK, 16), "slipstick study", directory, 1)
+        _studied(chosen, Settings(Level.QUICK, 16), "slipstick maintain study", directory, 1)
     assert stored_studies(tmp_path) == ()
     assert len(stored_studies(directory)) == 1
 

@@ -8,7 +8,7 @@ import pytest
 from verification.studies.promises.commands import results, run
 
 SCENE = (Path(__file__).resolve().parents[1] / "scenes" / "coated_ball.toml").read_text("utf-8")
-QUICK = ("--no-figures", "--no-error")
+QUICK = ("--figures", "none", "--no-error")
 
 
 @pytest.fixture

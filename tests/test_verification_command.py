@@ -1,4 +1,4 @@
-"""`slipstick verify` and `slipstick report` from end to end, on one small case."""
+"""`slipstick verify` and `slipstick maintain report` from end to end, on one small case."""
 
 import json
 from pathlib import Path
@@ -29,7 +29,7 @@ def test_one_case_is_verified_and_reported(made: Path) -> None:
 def test_report_is_rendered_again_from_its_record(made: Path) -> None:
     page = (made / PAGE).read_bytes()
     (made / PAGE).unlink()
-    ended = outcome("report", str(made), cwd=made)
+    ended = outcome("maintain", "report", str(made), cwd=made)
     assert ended.returncode == 0, ended.stderr
     assert (made / PAGE).read_bytes() == page
 
@@ -50,9 +50,9 @@ def test_unknown_case_is_refused_with_the_known_ones(tmp_path: Path) -> None:
 
 
 def test_missing_and_foreign_records_are_refused(tmp_path: Path) -> None:
-    assert outcome("report", str(tmp_path), cwd=tmp_path).returncode == 2
+    assert outcome("maintain", "report", str(tmp_path), cwd=tmp_path).returncode == 2
     (tmp_path / RECORD).write_text('{"other": 1}', encoding="utf-8")
-    ended = outcome("report", str(tmp_path), cwd=tmp_path)
+    ended = outcome("maintain", "report", str(tmp_path), cwd=tmp_path)
     assert ended.returncode == 2
     assert "not a report that can be used" in ended.stderr
 

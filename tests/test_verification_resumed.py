@@ -23,7 +23,7 @@ from verification.report.files import EARLIER, FILES, PAGE, RECORD
 
 ROOT = Path(__file__).resolve().parents[1]
 # Of every kind: on a surface grid, on a section, and without a solve.
-CASES = ("dissimilar_bodies", "fem_indentation", "flat_punch", "classical_forms")
+CASES = ("dissimilar_bodies", "fem_indentation", "flat_punch", "layered_identities")
 PROGRAM = f"""
 import sys
 sys.path.insert(0, {str(ROOT)!r})
@@ -137,7 +137,7 @@ def test_damaged_record_is_named_and_computed_again(uninterrupted: Path, tmp_pat
     target.mkdir()
     for path in (uninterrupted / "cases").glob("[a-z]*.json"):
         content = path.read_bytes()
-        damaged = path.name.startswith("classical_forms")
+        damaged = path.name.startswith("layered_identities")
         (target / path.name).write_bytes(content[:-100] if damaged else content)
     again = outcome("verify", *CASES, "-o", tmp_path, "--workers", "1", cwd=tmp_path.parent)
     log = again.stderr

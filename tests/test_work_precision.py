@@ -226,7 +226,7 @@ def test_the_clock_changes_the_provenance_alone() -> None:
         return StudyRecord(
             name=STUDY.name, title=STUDY.title, question=STUDY.question, level="quick",
             conclusion=STUDY.conclude(SETTINGS, records), lost=(),
-            provenance=provenance("slipstick study", {}, timed=STUDY.timed(SETTINGS, records)),
+            provenance=provenance("slipstick", {}, timed=STUDY.timed(SETTINGS, records)),
         )  # fmt: skip
 
     files: list[Mapping[str, str]] = []

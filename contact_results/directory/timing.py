@@ -1,15 +1,17 @@
-"""`timing.json`: seconds, machine and versions; everything that differs between equal runs."""
+"""`timing.json`: seconds, counters of the solver, machine and versions."""
 
 import json
 import sys
 import time
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, field
+from itertools import groupby
 from pathlib import Path
 
 from contact_results.directory.file_names import TIMING
 from contact_results.directory.machine import library_versions, machine, program_version
+from contact_scene.increment import COUNTERS, ReportedIncrement
 
 
 @dataclass
@@ -30,18 +32,34 @@ class Stopwatch:
             self.cpu_seconds[name] = time.process_time() - cpu
 
 
-def write_timing(stopwatch: Stopwatch, directory: Path) -> None:
-    """Write what the stopwatch measured, and where."""
+def write_timing(
+    stopwatch: Stopwatch, directory: Path, increments: Iterable[ReportedIncrement]
+) -> None:
+    """Write what the stopwatch measured, where, and the counters of the solver by load step."""
     record = {
         "program": "slipstick",
         "version": program_version(),
         "wall_seconds": stopwatch.wall_seconds,
         "cpu_seconds": stopwatch.cpu_seconds,
         "peak_memory_bytes": _peak_memory(),
+        "counters": _counters(increments),
         "machine": machine(),
         "libraries": library_versions(),
     }
     (directory / TIMING).write_text(json.dumps(record, indent=2) + "\n", encoding="utf-8")
+
+
+def _counters(increments: Iterable[ReportedIncrement]) -> list[dict[str, int | None]]:
+    """Sum the counters over the increments of each load step; null where a solver has none."""
+    steps = []
+    for number, of_step in groupby(increments, lambda increment: increment.step):
+        within = list(of_step)
+        sums = {
+            name: None if None in (found := [getattr(i, name) for i in within]) else sum(found)
+            for name in COUNTERS
+        }
+        steps.append({"step": number, "increments": len(within), **sums})
+    return steps
 
 
 def _peak_memory() -> int | None:

@@ -65,12 +65,16 @@ def write_figures(
     directory: Path,
     errors: Mapping[str, StatedError] | None = None,
     units: Units = SI,
+    *,
+    everything: bool = False,
 ) -> None:
-    """Draw what the scene calls for, and the last cycle if there is one; equal results give equal
-    bytes on equal libraries.
+    """Draw the overview, or all that the scene calls for and the last cycle if there is one.
 
-    errors  of the last step, for the captions
-    units   of the axes
+    Equal results give equal bytes on equal libraries.
+
+    errors      of the last step, for the captions
+    units       of the axes
+    everything  draw all figures, not the overview alone
     """
     with figure_style():
         for name, figure in _figures_called_for(result, cycles, errors, units):
@@ -79,6 +83,8 @@ def write_figures(
             save(figure, directory / name, dots)
             # Its parts refer to one another: the next would be drawn before they have gone.
             figure.clear()
+            if not everything:
+                break
 
 
 def _figures_called_for(

@@ -14,7 +14,6 @@ from contact_results.files.stored_values import fields_digest
 from contact_results.remarks import remarks
 from contact_scene.accuracy_reached import AccuracyReached
 from contact_scene.increment import SCALARS
-from contact_scene.path_error import PathError
 from contact_scene.reported import Kind
 from contact_scene.stated_error import StatedError, StatedErrors
 from contact_scene.summary import (
@@ -34,12 +33,11 @@ def write_summary(
     result: Result,
     cycles: Sequence[FrettingCycle],
     directory: Path,
-    path_errors: tuple[PathError, ...] | None,
     errors: StatedErrors | None = None,
     accuracy: AccuracyReached | None = None,
 ) -> None:
     """Write the summary, with the digest of the fields; equal results give equal bytes."""
-    summary = summary_of(result, cycles, path_errors, errors, accuracy)
+    summary = summary_of(result, cycles, errors, accuracy)
     digest = fields_digest(directory / FIELDS)
     text = dump_summary(summary.model_copy(update={"fields_digest": digest}))
     (directory / SUMMARY).write_text(text, encoding="utf-8")
@@ -48,7 +46,6 @@ def write_summary(
 def summary_of(
     result: Result,
     cycles: Sequence[FrettingCycle],
-    path_errors: tuple[PathError, ...] | None = None,
     errors: StatedErrors | None = None,
     accuracy: AccuracyReached | None = None,
 ) -> RunSummary:
@@ -73,7 +70,6 @@ def summary_of(
         remarks=remarks(result),
         companions=errors.companions if errors else None,
         accuracy=accuracy,
-        path_errors=path_errors,
     )
 
 
@@ -111,8 +107,6 @@ def _step_summary(
 
 def _together(kind: Kind, values: Sequence[Any]) -> Any:
     known = [value for value in values if value is not None]
-    if kind is Kind.COUNTER:
-        return sum(known) if known else None
     if kind is Kind.LARGEST:
         return float(np.max(known)) if known else None
     end = values[-1]

@@ -13,7 +13,6 @@ from numpy.typing import NDArray
 from contact_results.directory.file_names import FIELDS
 from contact_results.files.stored_run import load
 from contact_results.files.stored_values import MISREAD, ends_of_steps
-from contact_results.natural_sizes import SI, Units, natural_units, natural_units_of
 from contact_results.surface import Surface, surface_of, surface_on
 from contact_scene import Body, CoulombFriction, FiniteElementDiscretisation, Scene
 from contact_scene.geometry import ShapedBody
@@ -58,7 +57,6 @@ class LoadedBodies:
                     as the run has them, which knows more than its cells; None where nobody has told
                     [length], [force/length^2]
     edges           whether the tractions have their edges inside the cells, and are means of these
-    units           the contact's own, for figures
     by_increments   part of themselves by which increments may leave the tractions wrong; None where
                     nobody has stated it
     """
@@ -77,7 +75,6 @@ class LoadedBodies:
     pressed: tuple[ShapedBody, float, float] | None = None
     contact_radius: float | None = None
     peak_pressure: float | None = None
-    units: Units = SI
 
     @property
     def on_rings(self) -> bool:
@@ -111,7 +108,6 @@ def state_of_result(
         tractions={name: field for name, field in fields.items() if field is not None},
         discretisation=getattr(result, "discretisation", None),
         direction=surface.direction,
-        units=natural_units(result),
     )
 
 
@@ -147,7 +143,6 @@ def state_of_run(directory: Path, step: int | None) -> LoadedBodies:
         tractions=tractions,
         discretisation=run.discretisation,
         direction=run.direction,
-        units=natural_units_of(run.scene, run.summary.steps),
     )
 
 

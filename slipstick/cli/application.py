@@ -9,7 +9,7 @@ import typer
 from contact_results.directory.stop_signals import cleaned_up_when_stopped
 from contact_results.one_thread import one_thread
 from slipstick.cli.errors import ExitCode, explain
-from slipstick.cli.lazy_commands import LazyCommands
+from slipstick.cli.lazy_commands import MAINTAIN, LazyCommands, MaintenanceCommands
 
 application = typer.Typer(
     cls=LazyCommands,
@@ -21,6 +21,20 @@ application = typer.Typer(
     "70 internal error; 141 output closed.",
     context_settings={"help_option_names": ["-h", "--help"]},
 )
+
+
+maintenance = typer.Typer(cls=MaintenanceCommands, no_args_is_help=True)
+application.add_typer(
+    maintenance,
+    name=MAINTAIN,
+    rich_help_panel="For those who maintain the program",
+    help="Maintain the program: studies, baselines, reports, schemas, costs.",
+)
+
+
+@maintenance.callback()
+def maintain() -> None:
+    """Maintain the program: studies, baselines, reports, schemas, costs."""
 
 
 def _print_version(wanted: bool) -> None:

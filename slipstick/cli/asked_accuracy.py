@@ -57,14 +57,13 @@ def asked_accuracy(
     return contents.accuracy
 
 
-def refuse_beside_accuracy(options: dict[str, bool]) -> None:
-    """Refuse options that cannot be met where errors are needed."""
-    for option, asked in options.items():
-        if asked:
-            raise typer.BadParameter(
-                f"{option} cannot be met beside an accuracy; leave it or --accuracy (and the table "
-                "[accuracy]) out"
-            )
+def refuse_without_error(error: bool) -> None:
+    """Refuse --no-error beside an accuracy, which needs the errors."""
+    if not error:
+        raise typer.BadParameter(
+            "--no-error cannot be met beside an accuracy; leave it or --accuracy (and the table "
+            "[accuracy]) out"
+        )
 
 
 def leave_unless_met(accuracy: "AccuracyReached | None") -> None:
@@ -100,7 +99,6 @@ def climbed_to(
     output: Path,
     most_seconds: float | None,
     *,
-    surface_stress: bool = False,
     step: int | None = None,
 ) -> "Iterator[Climb[Any]]":
     """The scene solved ever finer until a request is met. Beside the results every round leaves
@@ -134,12 +132,11 @@ def climbed_to(
     ladder = solver.ladder(
         contents.scene,
         fineness,
-        surface_stress=surface_stress,
         stress_at=(step or len(contents.scene.loading)) if request.binds_stress else None,
         keeping=keeping,
         watching=watching,
     )
-    asked = (contents.scene, fineness, vars(solver), request, surface_stress, step)
+    asked = (contents.scene, fineness, vars(solver), request, step)
     identity = solve_identity(*asked, code_digest((*SOLVERS, "contact_results", "contact_errors")))
     with kept_value(output, identity, tell, ROUNDS) as kept, ExitStack() as of_round:
 

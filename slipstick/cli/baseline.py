@@ -1,4 +1,4 @@
-"""`slipstick baseline`: the numbers that later reports are compared with."""
+"""`slipstick maintain baseline`: the numbers that later reports are compared with."""
 
 from __future__ import annotations
 

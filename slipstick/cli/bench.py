@@ -1,4 +1,4 @@
-"""`slipstick bench`: what our method costs, beside other codes in turn."""
+"""`slipstick maintain bench`: what our method costs, beside other codes in turn."""
 
 from __future__ import annotations
 

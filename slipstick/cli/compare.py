@@ -1,4 +1,4 @@
-"""`slipstick compare`: what changed since the numbers that were accepted, or since a report."""
+"""`slipstick maintain compare`: changes since the accepted numbers, or since a report."""
 
 from __future__ import annotations
 
@@ -63,7 +63,7 @@ def compare(
     if len(without_baseline(outcome)) == len(outcome.cases) > 0:
         typer.echo(
             f"error: nothing is recorded of these cases at level {outcome.level}; to record it: "
-            f"slipstick baseline --accept --because '...' --from {report}",
+            f"slipstick maintain baseline --accept --because '...' --from {report}",
             err=True,
         )
     code = exit_code_of(outcome)

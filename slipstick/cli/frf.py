@@ -1,4 +1,4 @@
-"""`slipstick frf`: the surface frequency response of the lower body of a scene."""
+"""`slipstick maintain frf`: the surface frequency response of the lower body of a scene."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""`slipstick history`: accuracy and cost over commits, as a page."""
+"""`slipstick maintain history`: accuracy and cost over commits, as a page."""
 
 from __future__ import annotations
 

@@ -25,38 +25,61 @@ class LazyCommand:
         return typer.main.get_command(single)
 
 
-COMMANDS: dict[str, LazyCommand] = {
-    name: LazyCommand(f"slipstick.cli.{name}", name, summary)
-    for name, summary in {
+def _commands(summaries: dict[str, str]) -> dict[str, LazyCommand]:
+    return {
+        name: LazyCommand(f"slipstick.cli.{name}", name, summary)
+        for name, summary in summaries.items()
+    }
+
+
+COMMANDS = _commands(
+    {
         "check": "Validate a scene file and say what it describes.",
-        "plan": "Say which effects a scene needs, on which grid, in how many increments.",
-        "run": "Solve a scene and write its results, tables and figures.",
-        "frf": "Tabulate and plot the surface FRF of the lower body of a scene.",
+        "plan": "Say which effects a scene needs, on which grid, and how long a run would take.",
+        "run": "Solve a scene and write its results, tables and pictures.",
         "stress": "Compute displacement and stress below the surface.",
-        "table": "Print a table of reference numbers with their uncertainty.",
         "export": "Write the surface of a run for ParaView.",
+        "table": "Print a table of reference numbers with their uncertainty.",
         "verify": "Measure the accuracy against closed forms and write the report.",
-        "compare": "Say what changed since the numbers that were accepted, or since a report.",
-        "history": "Draw accuracy and cost over commits, and say what became worse.",
-        "baseline": "List the accepted numbers, or accept those of a report.",
-        "bench": "Measure what the method costs, beside other codes in turn.",
         "challenge": "List or export problems for other codes to solve.",
         "judge": "Judge another code's answers to a challenge.",
+    }
+)
+MAINTAIN = "maintain"
+MAINTENANCE = _commands(
+    {
         "study": "Compute a study on a pool of processes and write its page.",
+        "compare": "Say what changed since the numbers that were accepted, or since a report.",
+        "baseline": "List the accepted numbers, or accept those of a report.",
+        "history": "Draw accuracy and cost over commits, and say what became worse.",
         "report": "Render the report again from recorded results.",
+        "bench": "Measure what the method costs, beside other codes in turn.",
+        "frf": "Tabulate and plot the surface FRF of the lower body of a scene.",
         "schema": "Print the JSON Schema of a scene file, a summary or a report.",
-    }.items()
-}
+    }
+)
+
+
+# By the words that call them.
+ALL_COMMANDS = COMMANDS | {f"{MAINTAIN} {name}": each for name, each in MAINTENANCE.items()}
 
 
 class LazyCommands(TyperGroup):
     """A group that knows names and summaries from a table and imports only what is called."""
 
+    table = COMMANDS
+
     def __init__(self, **settings: Any) -> None:
         super().__init__(**settings)
-        for name, command in COMMANDS.items():
+        for name, command in self.table.items():
             self.add_command(TyperCommand(name, help=command.summary))
 
     def resolve_command(self, ctx: Any, args: list[str]) -> Any:
         name, listed, rest = super().resolve_command(ctx, args)
-        return name, COMMANDS[name].load(name) if name in COMMANDS else listed, rest
+        return name, self.table[name].load(name) if name in self.table else listed, rest
+
+
+class MaintenanceCommands(LazyCommands):
+    """Commands for the maintenance of the program."""
+
+    table = MAINTENANCE

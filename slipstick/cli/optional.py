@@ -21,6 +21,3 @@ OutputOption: TypeAlias = Annotated[
     Path,
     typer.Option("--output", "-o", metavar="DIR", help="Where the results go; made if absent."),
 ]
-FiguresOption: TypeAlias = Annotated[
-    bool, typer.Option("--figures/--no-figures", help="Draw figures, or leave them out.")
-]

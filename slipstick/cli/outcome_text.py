@@ -9,15 +9,12 @@ import numpy as np
 
 from contact_results.natural_sizes import ROUND_OFF, natural_size
 from contact_results.number_text import Uncertainty, measured_like, number_text, uncertainty
-from contact_results.quantities import largest_difference
 from contact_scene.engineering_units import engineering_unit
 from contact_scene.increment import SCALARS, State, components, numbers
-from contact_scene.path_error import DoubledQuantity, PathError
 from contact_scene.reported import Kind
 from contact_scene.stated_error import StatedError, StatedErrors
 
 if TYPE_CHECKING:
-    import semi_analytical
     from contact_results.surface import Result
     from contact_scene.accuracy_reached import AccuracyReached
 
@@ -71,15 +68,6 @@ def against(asked: float, reached: float | None) -> str:
     return f"asked {100 * asked:.3g} %, {found}"
 
 
-def saving(
-    planned: semi_analytical.Result, forced: semi_analytical.Result
-) -> Iterator[tuple[str, str]]:
-    """What forcing all effects on has cost, and that it changed nothing."""
-    few, many = (sum(i.convolutions for i in r.increments) for r in (planned, forced))
-    yield "all effects", f"{many} convolutions; as planned {few}, a ratio of {many / few:.1f}"
-    yield "difference", f"{largest_difference(planned, forced):.1e} of pressure and approach"
-
-
 def outcome_columns(
     ends: Sequence[State], errors: Sequence[Errors] | None = None
 ) -> dict[str, list[str]]:
@@ -104,37 +92,6 @@ def outcome_columns(
         for texts in columns.values():
             texts.insert(gap, "…")
     return columns
-
-
-def path_error_columns(errors: Sequence[PathError]) -> dict[str, list[str]]:
-    """Headings and texts, one per loading step: relative errors of fields and scalars."""
-    errors, gap = _shown(errors)
-    columns = {
-        "step": [str(e.step) for e in errors],
-        "incre-\nments": [str(e.increments) for e in errors],
-        "pressure\nL1": [f"{e.pressure:.1e}" for e in errors],
-    }
-    if any(e.shear is not None for e in errors):
-        columns["shear\nL1"] = ["–" if e.shear is None else f"{e.shear:.1e}" for e in errors]
-    found = [{q.name: q for q in e.quantities} for e in errors]
-    for name in dict.fromkeys(name for step in found for name in step):
-        values = [_relative_error(step.get(name), name, found) for step in found]
-        if any(value != "–" for value in values):
-            columns["\n".join(name.split("_", 1))] = values
-    if gap is not None:
-        for texts in columns.values():
-            texts.insert(gap, "…")
-    return columns
-
-
-def _relative_error(
-    quantity: DoubledQuantity | None, name: str, found: Sequence[dict[str, DoubledQuantity]]
-) -> str:
-    """Relative to the largest value of the history; nothing for what is prescribed."""
-    largest = np.max([abs(step[name].value) for step in found if name in step])
-    if quantity is None or largest == 0 or quantity.error <= NEGLIGIBLE * largest:
-        return "–"
-    return f"{quantity.error / largest:.1e}"
 
 
 def _shown(steps: Sequence[Shown]) -> tuple[list[Shown], int | None]:

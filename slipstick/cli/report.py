@@ -1,4 +1,4 @@
-"""`slipstick report`: render a report again from its record."""
+"""`slipstick maintain report`: render a report again from its record."""
 
 from __future__ import annotations
 

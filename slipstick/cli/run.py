@@ -1,7 +1,8 @@
 """`slipstick run`: from a scene to a directory of results."""
 
 from contextlib import ExitStack
-from typing import TYPE_CHECKING, Annotated, Any
+from enum import StrEnum
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
@@ -12,9 +13,9 @@ from slipstick.cli.asked_accuracy import (
     climbed_to,
     forget_rounds,
     leave_unless_met,
-    refuse_beside_accuracy,
+    refuse_without_error,
 )
-from slipstick.cli.optional import FiguresOption, OutputOption
+from slipstick.cli.optional import OutputOption
 from slipstick.cli.scene_options import SceneArgument, SetOption, warn_of_odd_numbers
 from slipstick.cli.solver_option import SolverOption
 from slipstick.solvers.names import SolverName
@@ -22,10 +23,16 @@ from slipstick.solvers.names import SolverName
 if TYPE_CHECKING:
     from contact_results.surface import Result
     from contact_scene.accuracy_reached import AccuracyReached
-    from contact_scene.path_error import PathError
-    from contact_scene.standing import Keeper
     from contact_scene.stated_error import StatedErrors
     from slipstick.solvers.solver import Solver
+
+
+class Figures(StrEnum):
+    """Pictures that a run draws."""
+
+    NONE = "none"
+    OVERVIEW = "overview"
+    ALL = "all"
 
 
 def run(
@@ -33,32 +40,17 @@ def run(
     output: OutputOption,
     overrides: SetOption = None,
     solver: SolverOption = SolverName.SEMI_ANALYTICAL,
-    figures: FiguresOption = True,
-    normalised: Annotated[
-        bool,
+    figures: Annotated[
+        Figures,
         typer.Option(
-            "--normalised",
-            help="Draw figures over the sizes of Hertz' contact, x/a, p/p0, q/µp0; files stay in "
-            "SI.",
+            "--figures",
+            help="overview: one picture, and the page index.html; all: maps, profiles and loops, "
+            "too; none: neither.",
         ),
-    ] = False,
+    ] = Figures.OVERVIEW,
     overwrite: Annotated[
         bool,
         typer.Option("--overwrite", help="Replace files in DIR that are not of an earlier run."),
-    ] = False,
-    all_effects: Annotated[
-        bool,
-        typer.Option(
-            "--all-effects",
-            help="Compute every effect, called for or not, and say what the plan would save.",
-        ),
-    ] = False,
-    surface_stress: Annotated[
-        bool,
-        typer.Option(
-            "--surface-stress",
-            help="Compute the stress at the surface at the ends of load cycles, for Ruiz's F2.",
-        ),
     ] = False,
     error: Annotated[
         bool,
@@ -78,15 +70,8 @@ def run(
     ] = False,
     accuracy: AccuracyOption = None,
     most_seconds: MostSecondsOption = None,
-    path_error: Annotated[
-        bool,
-        typer.Option(
-            "--path-error",
-            help="Solve with twice the increments too, and say what finite increments cost.",
-        ),
-    ] = False,
 ) -> None:
-    """Solve a scene and write summary, fields, tables and figures into DIR.
+    """Solve a scene and write summary, fields, tables, a picture and a page into DIR.
 
     DIR appears whole or not at all. The results of an earlier run in it are replaced once the new
     ones are there; other files in it are left alone. A run that takes longer leaves checkpoints
@@ -104,38 +89,25 @@ def run(
     from contact_scene import read_scene_file
     from slipstick.cli.terminal import tell
 
-    if normalised and not figures:
-        raise typer.BadParameter("--normalised is of figures; leave it or --no-figures out")
     stopwatch = Stopwatch()
     with stopwatch.phase("read"):
         contents = read_scene_file(scene, overrides or ())
         request = asked_accuracy(contents, accuracy, most_seconds)
         told = warn_of_odd_numbers(contents)
-    if solver is not SolverName.SEMI_ANALYTICAL:
-        _refuse_beside_others(
-            {
-                "--all-effects": all_effects,
-                "--surface-stress": surface_stress,
-                "--path-error": path_error,
-            }
-        )
     if request is not None:
-        refuse_beside_accuracy({"--all-effects": all_effects, "--no-error": not error})
+        refuse_without_error(error)
     with stopwatch.phase("import"):
         chosen = solver.solver
         from slipstick.cli.progress import solve_progress
     fineness = chosen.fineness(contents)
-    asked = (contents.scene, fineness, solver, all_effects)
+    identity = solve_identity(contents.scene, fineness, solver)
     with (
         cleaned_up_when_stopped(kept=lambda: NOTHING_KEPT),
-        checkpointed(output, solve_identity(*asked), tell) as keeper,
-        checkpointed(output, solve_identity(*asked, 2), tell, "doubled-checkpoint") as doubled,
+        checkpointed(output, identity, tell) as keeper,
         ExitStack() as until_written,
         run_directory(output, overwrite=overwrite) as staging,
     ):
         decided = chosen.plan(contents.scene, fineness)
-        if all_effects:
-            decided = _with_all_effects(decided)
         stated = reached = None
         with stopwatch.phase("solve"):
             if request is not None:
@@ -146,7 +118,6 @@ def run(
                         contents,
                         output,
                         most_seconds,
-                        surface_stress=surface_stress,
                     )
                 )
                 result, stated = climbed.rung.result, climbed.rung.stated
@@ -154,65 +125,40 @@ def run(
             else:
                 with solve_progress(decided.increments) as observe:
                     result = chosen.solve(contents.scene, fineness, decided, observe, keeper)
-        by_doubling = None
-        if path_error:
-            with stopwatch.phase("path error"):
-                by_doubling = _path_errors(result, doubled)
         if error and stated is None:
             with stopwatch.phase("error"):
-                stated = _stated_errors(chosen, result, surface_stress)
+                stated = _stated_errors(chosen, result)
         with stopwatch.phase("write"):
             from contact_results.result_files import write_result
 
             write_result(
                 result,
                 staging,
-                with_figures=figures,
-                normalised=normalised,
-                surface_stress=surface_stress,
-                path_errors=by_doubling,
+                figures=figures.value,
                 errors=stated,
                 accuracy=reached,
                 every_increment=every_increment,
             )
-        write_timing(stopwatch, staging)
+        write_timing(stopwatch, staging, result.increments)
     from contact_results.remarks import remarks
 
     if request is None:
         forget_rounds(output)
-    _print_outcome(chosen, result, stated, reached, by_doubling, stopwatch.wall_seconds)
+    _print_outcome(chosen, result, stated, reached, stopwatch.wall_seconds)
     for remark in remarks(result):
         if remark not in told:
             tell(f"warning: {remark}")
     if not error:
         typer.echo("  no errors: --no-error left them out")
     typer.echo(f"results in {output}")
-    if all_effects:
-        _print_saving(result)
     leave_unless_met(reached)
 
 
-def _refuse_beside_others(options: dict[str, bool]) -> None:
-    for option, asked in options.items():
-        if asked:
-            raise typer.BadParameter(
-                f"{option} is of the semi-analytical solver; leave it or --solver out"
-            )
-
-
-def _path_errors(result: Any, keeper: "Keeper") -> "tuple[PathError, ...]":
-    from slipstick.cli.progress import solve_progress
-    from slipstick.path_errors import path_errors
-
-    with solve_progress(result.plan.doubled().increments) as observe:
-        return path_errors(result, observe, keeper)
-
-
-def _stated_errors(solver: "Solver", result: "Result", surface_stress: bool) -> "StatedErrors":
+def _stated_errors(solver: "Solver", result: "Result") -> "StatedErrors":
     from slipstick.cli.progress import companion_progress
 
     with companion_progress() as observe:
-        return solver.errors(result, surface_stress=surface_stress, progress=observe)
+        return solver.errors(result, progress=observe)
 
 
 def _print_outcome(
@@ -220,14 +166,12 @@ def _print_outcome(
     result: "Result",
     stated: "StatedErrors | None",
     reached: "AccuracyReached | None",
-    by_doubling: "tuple[PathError, ...] | None",
     seconds: dict[str, float],
 ) -> None:
     from slipstick.cli.outcome_text import (
         how_accurate,
         how_stated,
         outcome_columns,
-        path_error_columns,
         solved_in,
     )
     from slipstick.cli.terminal import print_pairs, print_table
@@ -238,23 +182,3 @@ def _print_outcome(
     print_pairs([*solver.layout(result), *solved, *stated_in, *accurate])
     columns = outcome_columns(result.steps, stated.steps if stated else None)
     print_table(columns, zip(*columns.values(), strict=True), numbers=True)
-    if by_doubling is not None:
-        typer.echo("  errors by finite increments, estimated by doubling them:")
-        columns = path_error_columns(by_doubling)
-        print_table(columns, zip(*columns.values(), strict=True), numbers=True)
-
-
-def _with_all_effects(plan: Any) -> Any:
-    from semi_analytical import all_effects
-
-    return all_effects(plan)
-
-
-def _print_saving(forced: Any) -> None:
-    """Solve again as planned, on the same grid, and compare."""
-    from semi_analytical import plan, solve
-    from slipstick.cli.outcome_text import saving
-    from slipstick.cli.terminal import print_pairs
-
-    planned = plan(forced.scene, edge=forced.plan.edge).cut_into(forced.plan.increments)
-    print_pairs(saving(solve(forced.scene, forced.grid, forced.tolerance, plan=planned), forced))

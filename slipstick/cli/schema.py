@@ -1,4 +1,4 @@
-"""`slipstick schema`: the JSON Schema of what is read and of what is written."""
+"""`slipstick maintain schema`: the JSON Schema of what is read and of what is written."""
 
 import json
 from enum import StrEnum

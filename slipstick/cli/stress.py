@@ -14,7 +14,7 @@ from slipstick.cli.asked_accuracy import (
     asked_accuracy,
     leave_unless_met,
 )
-from slipstick.cli.optional import FiguresOption, OutputOption, optional
+from slipstick.cli.optional import OutputOption, optional
 from slipstick.cli.scene_options import SetOption, warn_of_odd_numbers
 from slipstick.cli.solver_option import AskedSolver
 from slipstick.solvers.names import SolverName
@@ -61,15 +61,9 @@ def stress(
     volume: Annotated[
         bool, typer.Option("--volume", help="Write the whole volume as VTU too, not only y = 0.")
     ] = False,
-    figures: FiguresOption = True,
-    normalised: Annotated[
-        bool,
-        typer.Option(
-            "--normalised",
-            help="Draw figures over the sizes of Hertz' contact, x/a and stress over p0; files "
-            "stay in SI.",
-        ),
-    ] = False,
+    figures: Annotated[
+        bool, typer.Option("--figures/--no-figures", help="Draw figures, or leave them out.")
+    ] = True,
     error: Annotated[
         bool,
         typer.Option(
@@ -89,8 +83,6 @@ def stress(
     "max_principal 1%" binds the largest tension in the body.
     """
     _refuse_file_in_the_way(output)
-    if normalised and not figures:
-        raise typer.BadParameter("--normalised is of figures; leave it or --no-figures out")
     asked = None if depths is None else [_length(text) for text in depths.split(",")]
     chosen = solver or SolverName.SEMI_ANALYTICAL
     if source.is_dir():
@@ -143,7 +135,6 @@ def stress(
             found,
             output,
             with_figures=figures,
-            normalised=normalised,
             errors=errors,
             accuracy=reached,
         )

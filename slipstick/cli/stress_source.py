@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import typer
 
-from slipstick.cli.asked_accuracy import climbed_to, refuse_beside_accuracy
+from slipstick.cli.asked_accuracy import climbed_to, refuse_without_error
 from slipstick.solvers.names import SolverName
 
 if TYPE_CHECKING:
@@ -57,7 +57,7 @@ def state_of_scene(
         result, stated = _solved(contents, solver, error)
         reached = None
     else:
-        refuse_beside_accuracy({"--no-error": not error})
+        refuse_without_error(error)
         output.parent.mkdir(parents=True, exist_ok=True)
         climbed = until_written.enter_context(
             climbed_to(request, solver.solver, contents, output, most_seconds, step=step)

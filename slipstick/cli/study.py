@@ -1,4 +1,4 @@
-"""`slipstick study`: compute a study's cases and write what follows from them."""
+"""`slipstick maintain study`: compute a study's cases and write what follows from them."""
 
 from __future__ import annotations
 
@@ -107,7 +107,7 @@ def study(
     known = [*STUDIES, *SCENE_STUDIES]
     if name is None:
         raise typer.BadParameter(f"name a study; there are {', '.join(known)}")
-    if problem := unknown_names("study", [name], known, "slipstick study --list"):
+    if problem := unknown_names("study", [name], known, "slipstick maintain study --list"):
         raise typer.BadParameter(problem)
     if (scene is None) == (name in SCENE_STUDIES):
         problem = "needs a scene file" if scene is None else "takes no scene file"
@@ -225,7 +225,7 @@ def _command(
     solver: SolverName | None,
 ) -> str:
     """The command that makes the same study again."""
-    words = ["slipstick", "study", name, *([] if scene is None else [str(scene)])]
+    words = ["slipstick", "maintain", "study", name, *([] if scene is None else [str(scene)])]
     words += ["--level", level.value, *(w for change in overrides for w in ("--set", change))]
     words += [] if solver is None else ["--solver", solver.value]
     for option, value in (("--cells", cells), ("--step", step), ("--levels", levels)):

@@ -65,9 +65,9 @@ def verify(
     """Measure the accuracy against closed forms and write the report.
 
     Exit code 0 if nothing failed, 1 if a verdict failed, or a study that these same sources have
-    made and the report shows; what is new since the baseline is printed
-    and is no failure ('slipstick compare' has an exit code for it). DIR receives index.html (the
-    report, to be opened in a browser) with sheets.html, report.json, junit.xml and summary.md.
+    made and the report shows; what is new since the baseline is printed and is no failure
+    ('slipstick maintain compare' has an exit code for it). DIR receives index.html (the report, to
+    be opened in a browser) with sheets.html, report.json, junit.xml and summary.md.
 
     Every finished case leaves a record in DIR/cases: the same command goes on where a killed one
     stopped, and computes again what other sources or libraries made; a case that was running is
@@ -192,7 +192,7 @@ def _print_outcome(report: Report, directory: Path) -> None:
         typer.echo(f"WARN {row.line}")
     if len(rows) > MOST_WARNINGS:
         some = " --chosen" if report.chosen else ""
-        more = f"slipstick compare {directory}{some}"
+        more = f"slipstick maintain compare {directory}{some}"
         typer.echo(f"WARN and {len(rows) - MOST_WARNINGS} more: {more}")
     typer.echo(f"since the baseline: {changes_text(report)}")
     typer.echo(f"{SYMBOLS[report.status]} {WORDS[report.status]}: {counts_text(report)}")

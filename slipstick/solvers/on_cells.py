@@ -15,10 +15,10 @@ from contact_errors.cost_estimate import (
 )
 from contact_scene import Scene, SceneFile, SurfaceDiscretisation
 from contact_scene.engineering_units import engineering_unit
-from contact_scene.solver_errors import ContactNotResolved
+from contact_scene.solver_errors import ContactNotResolved, SolverError
 from contact_scene.standing import Keeper
 from contact_scene.stated_error import StatedErrors
-from semi_analytical import Plan, Result, SurfaceGrid
+from semi_analytical import Plan, Result, SurfaceGrid, all_effects
 from semi_analytical.memory import estimated_bytes
 from slipstick.solvers.solver import (
     MOST_STEPS_SHOWN,
@@ -31,6 +31,8 @@ from slipstick.solvers.solver import (
 if TYPE_CHECKING:
     from contact_errors.ladder_on_cells import CellLadder, Keeping, Watching
 
+# Load steps, of one increment each, by which the saving of the plan is counted.
+FORCED_INCREMENTS = 4
 FEWEST = 8  # cells along a side of the coarse solve behind the time of a run
 
 
@@ -56,19 +58,16 @@ class OnCells:
     ) -> Result:
         return semi_analytical.solve_discretised(scene, fineness, progress, plan, keeper)
 
-    def errors(
-        self, result: Result, *, surface_stress: bool = False, progress: Progress | None = None
-    ) -> StatedErrors:
+    def errors(self, result: Result, *, progress: Progress | None = None) -> StatedErrors:
         from contact_errors.on_cells import stated_errors
 
-        return stated_errors(result, surface_stress=surface_stress, progress=progress)
+        return stated_errors(result, progress=progress)
 
     def ladder(
         self,
         scene: Scene,
         fineness: SurfaceDiscretisation,
         *,
-        surface_stress: bool = False,
         stress_at: int | None = None,
         keeping: Keeping | None = None,
         watching: Watching | None = None,
@@ -77,7 +76,7 @@ class OnCells:
         from contact_errors.ladder_on_cells import CellLadder
 
         kept, watched = keeping or unkept, watching or unkept
-        return CellLadder(scene, fineness, surface_stress, stress_at, kept, watched)
+        return CellLadder(scene, fineness, stress_at, kept, watched)
 
     def work(self, scene: Scene, fineness: SurfaceDiscretisation, plan: Plan) -> Pairs:
         """Grid, tolerance, increments and memory; what the scene left open says so."""
@@ -91,6 +90,7 @@ class OnCells:
             accuracy = f"{fineness.path_accuracy:.3g}, where the scene names no increments"
             yield "path accuracy", accuracy
         yield self._time(scene, fineness, grid, plan)
+        yield from _saving(scene, fineness, grid, plan)
         yield "memory", f"about {estimated_bytes(grid, plan) / 2**20:.0f} MiB"
 
     def _time(
@@ -130,6 +130,26 @@ class OnCells:
 
     def layout(self, result: Result) -> Pairs:
         yield "grid", _grid_text(result.grid)
+
+
+def _saving(scene: Scene, fineness: SurfaceDiscretisation, grid: SurfaceGrid, plan: Plan) -> Pairs:
+    """Count the convolutions that the plan saves, in a coarse solve of the beginning."""
+    forced = all_effects(plan)
+    if not any(was.on < now.on for was, now in zip(plan.effects, forced.effects, strict=True)):
+        return
+    steps = plan.path[:FORCED_INCREMENTS]
+    begin = scene.model_copy(update={"loading": scene.loading[:FORCED_INCREMENTS]})
+    cells = tuple(min(n, MAX_CELLS) for n in grid.cells)
+    coarse = fineness.model_copy(update={"cells": cells})
+    counts = []
+    try:
+        for each in (plan, forced):
+            cut = replace(each, path=steps).cut_into([1] * len(steps))
+            result = semi_analytical.solve_discretised(begin, coarse, plan=cut)
+            counts.append(sum(increment.convolutions for increment in result.increments))
+    except SolverError:
+        return
+    yield "saving", f"all effects on would take {counts[1] / counts[0]:.2g} times the convolutions"
 
 
 def _grid_text(grid: SurfaceGrid) -> str:

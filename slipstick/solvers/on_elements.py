@@ -58,19 +58,16 @@ class OnElements:
     ) -> Result:
         return fem_reference.solve(scene, fineness, self.method, progress, keeper)
 
-    def errors(
-        self, result: Result, *, surface_stress: bool = False, progress: Progress | None = None
-    ) -> StatedErrors:
+    def errors(self, result: Result, *, progress: Progress | None = None) -> StatedErrors:
         from contact_errors.on_elements import stated_errors
 
-        return stated_errors(result, surface_stress=surface_stress, progress=progress)
+        return stated_errors(result, progress=progress)
 
     def ladder(
         self,
         scene: Scene,
         fineness: FiniteElementDiscretisation,
         *,
-        surface_stress: bool = False,
         stress_at: int | None = None,
         keeping: Keeping | None = None,
         watching: Watching | None = None,

@@ -39,9 +39,7 @@ class OnRadii:
     ) -> Result:
         return radial.solve(scene, fineness, progress, plan, keeper)
 
-    def errors(
-        self, result: Result, *, surface_stress: bool = False, progress: Progress | None = None
-    ) -> StatedErrors:
+    def errors(self, result: Result, *, progress: Progress | None = None) -> StatedErrors:
         from contact_errors.on_radii import stated_errors
 
         return stated_errors(result, progress)

@@ -54,27 +54,19 @@ class Solver(Protocol):
     ) -> Result:
         """The result of a plan; raises a SolverError."""
 
-    def errors(
-        self, result: Any, *, surface_stress: bool = False, progress: Progress | None = None
-    ) -> StatedErrors:
-        """How far off the numbers of a result may be, by companion solves.
-
-        surface_stress  also of what takes the stress at the surface
-        """
+    def errors(self, result: Any, *, progress: Progress | None = None) -> StatedErrors:
+        """How far off the numbers of a result may be, by companion solves."""
 
     def ladder(
         self,
         scene: Scene,
         fineness: Any,
         *,
-        surface_stress: bool = False,
         stress_at: int | None = None,
         keeping: Any = None,
         watching: Any = None,
     ) -> Ladder[Any]:
         """Ever finer solves of a scene, for an accuracy that is asked for.
-
-        surface_stress  whether numbers that take the stress at the surface are wanted
         stress_at       step at whose end the stress below it is; None where it is not wanted
         keeping         from a fineness to a block that has the keeper of its solve
         watching        the same for what is told of its increments

@@ -1,1 +1,1 @@
-"""Recorded numbers, one file per case; `slipstick baseline --accept --because …` writes them."""
+"""Recorded numbers, one file per case, written by `slipstick maintain baseline --accept`."""

@@ -70,7 +70,6 @@ CASES = (
     "fem_penalty_slip",
     "layered_reference",
     "frf_laws",
-    "classical_forms",
     "sampling_route",
     "worked_examples",
     "written_files",

@@ -116,7 +116,7 @@ def record_of(
         "process of its own, CPU seconds of one thread, set-up included, imports not",
         "date": date.today().isoformat(),
         "python": platform.python_version(),
-        "machine": provenance("slipstick bench", {}).machine,
+        "machine": provenance("slipstick maintain bench", {}).machine,
         "contacts": {name: contact.title for name, contact in ASKED.items()},
         "asked": [peer.distribution for peer in PEERS] if installed else [],
         "missing": installed.missing if installed else {},

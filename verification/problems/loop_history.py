@@ -142,17 +142,17 @@ def loop_energy(result: Result) -> float:
     return energy_between(result, LOADED, RELOADED)
 
 
-def loop_cycle(result: Result, *, surface_stress: bool = False) -> FrettingCycle:
+def loop_cycle(result: Result) -> FrettingCycle:
     """What the loop does to the surface."""
     from contact_results.cycles import fretting_cycles
 
-    (cycle,) = fretting_cycles(result, surface_stress=surface_stress)
+    (cycle,) = fretting_cycles(result)
     return cycle
 
 
 def largest_f2(result: Result) -> float:
     """Ruiz's second parameter of the loop [force²/length³]."""
-    f2 = loop_cycle(result, surface_stress=True).ruiz_f2
+    f2 = loop_cycle(result).ruiz_f2
     assert f2 is not None
     return float(np.max(f2))
 

@@ -17,7 +17,6 @@ TITLES = {
     "work-precision": "What accuracy costs",
     "error-coverage": "Whether stated errors hold",
     "error-budget": "Where the error of the headline cases comes from",
-    "penalty": "What a penalty costs",
     "stability": "The stability map",
     "seeded-defects": "Seeded defects",
     "mutants": "What the tests of kernels notice",
@@ -44,7 +43,7 @@ class StudySection:
 
 def study_section(report: Report, name: str) -> StudySection:
     """The section of a study of this name; KeyError if the page has no place for it."""
-    command = f"slipstick study {name} --level {report.level}"
+    command = f"slipstick maintain study {name} --level {report.level}"
     return StudySection(name, TITLES[name], study_of(report, name), command)
 
 

@@ -87,4 +87,4 @@ def _changes(report: Report) -> Iterator[str]:
         yield f"| {' | '.join(cell.replace('|', '/') for cell in cells)} |"
     if len(rows) > MOST_LINES:
         yield ""
-        yield f"and {len(rows) - MOST_LINES} more; `slipstick compare` lists them."
+        yield f"and {len(rows) - MOST_LINES} more; `slipstick maintain compare` lists them."

@@ -1,4 +1,4 @@
-"""The studies that `slipstick study` knows."""
+"""The studies that `slipstick maintain study` knows."""
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
@@ -10,7 +10,6 @@ from verification.studies.cross_check import STUDY as CROSS_CHECK
 from verification.studies.error_budget.study import STUDY as ERROR_BUDGET
 from verification.studies.error_coverage.study import STUDY as ERROR_COVERAGE
 from verification.studies.mutants.study import STUDY as MUTANTS
-from verification.studies.penalty.study import STUDY as PENALTY
 from verification.studies.promises.study import STUDY as PROMISES
 from verification.studies.refinement.domain import domain_study
 from verification.studies.refinement.increments import increments_study
@@ -50,7 +49,6 @@ STUDIES: dict[str, Study] = {
         COATED_TRACTIONS,
         GROSS_SLIDING,
         STABILITY,
-        PENALTY,
         CROSS_CHECK,
         SEEDED_DEFECTS,
         MUTANTS,

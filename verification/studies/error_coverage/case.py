@@ -17,7 +17,7 @@ from contact_results.cycles import fretting_cycles
 from contact_scene.solver_errors import SolverError
 from contact_scene.stated_error import StatedError
 from verification.problems.drawn.families import drawn
-from verification.problems.drawn.known_scene import CELLS, F2, STRESSES, KnownScene, Truth
+from verification.problems.drawn.known_scene import CELLS, STRESSES, KnownScene, Truth
 from verification.running.row import CaseRecord, Row, Value, parameters_of
 from verification.studies.error_coverage.stress_maxima import stress_maxima
 
@@ -60,9 +60,8 @@ class CoverageCase:
 
 def _judged(known: KnownScene) -> Iterator[Row]:
     """Rows of what the run gives of the truths that have a size: shares of zero tell nothing."""
-    tension = any(truth.quantity == F2 for truth in known.truths)
-    result, errors = _run(known, tension)
-    steps = values_of(result, fretting_cycles(result, surface_stress=tension))
+    result, errors = _run(known)
+    steps = values_of(result, fretting_cycles(result))
     stressed = {truth.step for truth in known.truths if truth.quantity in STRESSES}
     stresses = {step: stress_maxima(result, step) for step in sorted(stressed)}
     for truth in known.truths:
@@ -91,12 +90,12 @@ def judged(truth: Truth, found: float, stated: StatedError | None) -> Row:
     )
 
 
-def _run(known: KnownScene, tension: bool) -> tuple[Any, Sequence[Mapping[str, StatedError]]]:
+def _run(known: KnownScene) -> tuple[Any, Sequence[Mapping[str, StatedError]]]:
     """A result, and what is stated of the ends of its steps."""
     asked: Any = known.fineness.asked
     if known.fineness.solver == CELLS:
         result = semi_analytical.solve_discretised(known.scene, asked)
-        return result, on_cells.stated_errors(result, surface_stress=tension).steps
+        return result, on_cells.stated_errors(result).steps
     method = fem_reference.Method.COMPLEMENTARITY
     on_sections = fem_reference.solve(known.scene, asked, method)
     return on_sections, on_elements.stated_errors(on_sections).steps

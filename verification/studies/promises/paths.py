@@ -49,7 +49,7 @@ FRICTION
 normal_force = 1
 """
 OF_THE_SYSTEM = ("/dev/", "/proc/", "/etc/")
-COMMANDS = (("verify", "NAME"), ("study", "NAME"), ("challenge", "export", "NAME"))
+COMMANDS = (("verify", "NAME"), ("maintain", "study", "NAME"), ("challenge", "export", "NAME"))
 ASKED = ("../out/x", "OUT/x", "hertz_point/../../out/x", "..", "/", "hertz_point\n", "CON", "a:b")
 
 

@@ -17,7 +17,7 @@ from verification.studies.promises.promise import Attempt
 from verification.studies.promises.scenes import CONTACT, LAYER, absurd, fretting
 
 SOLVERS = ("semi-analytical", "fem", "fem-complementarity", "radial")
-QUIET = ("--no-figures", "--no-error")
+QUIET = ("--figures", "none", "--no-error")
 WITHIN = 0.15  # of the peak
 LONGEST = 10.0  # CPU seconds of a plan
 ANSWERS = {0, 2, 3, 4}  # an answer, or a refusal by name
@@ -85,13 +85,13 @@ COMMANDS = (
     ("run", "scene.toml", "-o", "out", "--accuracy", "1%"),
     ("run", "scene.toml", "-o", "out", "--solver", "radial"),
     ("stress", "scene.toml", "-o", "out"),
-    ("frf", "scene.toml", "-o", "out"),
+    ("maintain", "frf", "scene.toml", "-o", "out"),
     ("challenge", "export", "hertz_point", "-o", "out"),
     ("table", "ball"),
-    ("history", "-o", "history.html"),
+    ("maintain", "history", "-o", "history.html"),
     ("plan", "scene.toml", "--accuracy", "1%"),
     ("verify", "hertz_point", "-o", "out"),
-    ("study", "cross-check", "-o", "out", "--workers", "1"),
+    ("maintain", "study", "cross-check", "-o", "out", "--workers", "1"),
     ("check", "scene.toml"),
 )
 

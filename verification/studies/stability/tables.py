@@ -78,8 +78,8 @@ def _of_cells(group: list[Item]) -> Table:
         },
         shown,
         "A cell is named by the coordinates that differ from the ordinary ones; all of them "
-        "are in `rows.csv`, which `slipstick study stability` writes. Rounds: the most that "
-        "pressure and shear took to agree in an increment.",
+        "are in `rows.csv`, which `slipstick maintain study stability` writes. Rounds: the most "
+        "that pressure and shear took to agree in an increment.",
     )
 
 

@@ -31,7 +31,7 @@ Points = Mapping[tuple[str, str], tuple[Point, ...]]
 
 
 def recorded_peers() -> Record:
-    """The record that `slipstick bench` wrote."""
+    """The record that `slipstick maintain bench` wrote."""
     return load_reference(NAME)
 
 

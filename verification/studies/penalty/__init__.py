@@ -1,1 +1,0 @@
-"""What a penalty costs in accuracy and in work, by finite elements."""
