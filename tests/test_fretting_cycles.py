@@ -252,23 +252,19 @@ def test_cycles_reach_all_files(tmp_path, undrawn):
     assert {"dissipation.png", "fretting.png"} <= {path.name for path in tmp_path.iterdir()}
 
 
-UNASKED = """
+WITHOUT_CYCLE = """
 import sys
 sys.path.insert(0, {tests!r})
 from contact_scenes import PRESS, grid, push, scene
 from semi_analytical import solve
 from contact_results.cycles import fretting_cycles
-result = solve(scene(PRESS, push(0.5), push(-0.5), push(0.5)), grid(16), 1e-8)
-(cycle,) = fretting_cycles(result)
-assert cycle.ruiz_f2 is None
+assert not fretting_cycles(solve(scene(PRESS, push(0.5), push(-0.5)), grid(16), 1e-8))
 assert not [name for name in sys.modules if name.startswith("semi_analytical.stress")]
-(cycle,) = fretting_cycles(result)
-assert "semi_analytical.stress" in sys.modules
 """
 
 
-def test_stress_is_neither_imported_nor_computed_unless_asked_for():
-    script = UNASKED.format(tests=str(ROOT / "tests"))
+def test_stress_is_neither_imported_nor_computed_where_no_cycle_closes():
+    script = WITHOUT_CYCLE.format(tests=str(ROOT / "tests"))
     ran = subprocess.run(
         [sys.executable, "-c", script], capture_output=True, text=True, check=False
     )

@@ -93,7 +93,7 @@ def test_a_solver_is_all_that_a_plan_imports(solver: SolverName) -> None:
 def test_a_result_comes_back_as_it_was_saved(solver: SolverName, tmp_path: Path) -> None:
     """The same bits as the solver's own call, and back from the disk with units and places."""
     result: Any = slipstick.solve(SCENE, solver.value, COARSE[solver])
-    slipstick.save(result, tmp_path / "out", figures=False)
+    slipstick.save(result, tmp_path / "out", figures="none")
     run = slipstick.load(tmp_path / "out")
     assert run.scene == SCENE
     assert run.summary.solver == result.solver
@@ -163,7 +163,7 @@ def test_a_stored_run_needs_none_of_the_files_of_its_scene(tmp_path: Path) -> No
         ),
     )  # fmt: skip
     result = slipstick.solve(scene, discretisation=COARSE["semi-analytical"])
-    slipstick.save(result, tmp_path / "out", figures=False)
+    slipstick.save(result, tmp_path / "out", figures="none")
     (tmp_path / "ball.npy").unlink()
     run = slipstick.load(tmp_path / "out")
     assert run.scene == scene
@@ -207,7 +207,7 @@ def test_a_summary_is_not_paired_with_the_fields_of_another_run(
 ) -> None:
     for name, scene in (("one", SCENE.model_copy(update=changed)), ("other", SCENE)):
         result = solved(scene)
-        slipstick.save(result, tmp_path / name, figures=False)
+        slipstick.save(result, tmp_path / name, figures="none")
     (tmp_path / "other" / "result.h5").replace(tmp_path / "one" / "result.h5")
     with pytest.raises(ValueError, match=rf"are of different runs: {complaint}"):
         slipstick.load(tmp_path / "one")
@@ -225,7 +225,7 @@ def test_tables_of_another_run_are_not_exported(
 ) -> None:
     for name, scene in (("one", SCENE.model_copy(update=changed)), ("other", SCENE)):
         result = solved(scene)
-        slipstick.save(result, tmp_path / name, figures=False)
+        slipstick.save(result, tmp_path / name, figures="none")
     assert slipstick.load(tmp_path / "one").tables["increments"]
     (tmp_path / "other" / "increments.csv").replace(tmp_path / "one" / "increments.csv")
     tables = slipstick.load(tmp_path / "one").tables
@@ -244,7 +244,7 @@ def test_values_without_unit_or_meaning_are_refused_by_name(mark: str, tmp_path:
 
 def stored(directory: Path) -> Any:
     slipstick.save(slipstick.solve(SCENE, discretisation=COARSE["semi-analytical"]),
-                   directory / "again", figures=False)  # fmt: skip
+                   directory / "again", figures="none")  # fmt: skip
     return slipstick.load(directory / "again").increments
 
 
@@ -255,7 +255,7 @@ def test_errors_are_stated_by_the_solver_of_the_result_and_saved(
     pressed = SCENE.model_copy(update={"loading": SCENE.loading[:1]})
     result = slipstick.solve(pressed, solver.value, COARSE[solver])
     errors = slipstick.stated_errors(result)
-    slipstick.save(result, tmp_path / "out", figures=False, errors=errors)
+    slipstick.save(result, tmp_path / "out", figures="none", errors=errors)
     (end,) = slipstick.load(tmp_path / "out").summary.steps
     assert end.errors is not None
     assert end.errors == errors.steps[0]
