@@ -14,7 +14,6 @@ from contact_scene.height_map import interpolate
 from contact_scene.linear_theory import beyond_linear_theory
 from contact_scene.pair import contact_modulus
 from contact_scene.plausibility import unlikely
-from contact_scene.summary import ContactStatus
 
 if TYPE_CHECKING:
     import semi_analytical
@@ -24,8 +23,13 @@ Field = NDArray[np.float64]
 
 # Of the peak pressure, below which there is nothing to say of what cells leave out.
 NEGLIGIBLE = 1e-3
-# Cells across a contact below which its edge cannot be fitted.
-LEAST_ACROSS = 5
+NOT_CORRECTED = (
+    "the edge of the contact is not corrected: {}; the tractions there are constant on cells"
+)
+NO_BORDER = (
+    "the edge of the contact is corrected, but the border of stick is not: it is rough, too thin, "
+    "or does not follow from the preceding step"
+)
 
 
 def remarks(result: Result) -> tuple[str, ...]:
@@ -53,23 +57,13 @@ def _edges_left(result: semi_analytical.Result) -> Iterator[str]:
         return
     left: dict[str, list[str]] = {}
     for end in result.steps:
-        if end.edge_change is None:
-            left.setdefault(_why_left(result, end), []).append(str(end.step))
-    for why, steps in left.items():
-        yield (
-            f"at the end of step {', '.join(steps)} the edges of contact and stick could not be "
-            f"put inside the cells: {why}; the tractions there are constant on cells"
-        )
-
-
-def _why_left(result: semi_analytical.Result, end: semi_analytical.Increment) -> str:
-    if end.contact_radius < LEAST_ACROSS / 2 * max(result.grid.spacing):
-        return f"fewer than {LEAST_ACROSS} of them lie across the contact"
-    if end.shear is None or not np.any(end.shear):
-        return "the edge of the contact is rough, or a part of it is too thin"
-    if result.plan.couples and end.status is ContactStatus.GROSS_SLIDING:
-        return "all of them slip"
-    return "they are rough, too thin or slip narrowly, or the film or history is not known enough"
+        report = end.edge_report
+        if report is not None and report.cause is not None:
+            left.setdefault(NOT_CORRECTED.format(report.cause), []).append(str(end.step))
+        elif report is not None and not report.border:
+            left.setdefault(NO_BORDER, []).append(str(end.step))
+    for remark, steps in left.items():
+        yield f"at the end of step {', '.join(steps)} {remark}"
 
 
 def left_out(result: semi_analytical.Result) -> float:

@@ -10,6 +10,7 @@ from contact_scene import Scene
 from contact_scene.increment import ReportedIncrement
 from contact_scene.reported import Kind, Reported
 from contact_scene.summary import ContactStatus
+from semi_analytical.edge.corrected import EdgeReport
 from semi_analytical.grid import SurfaceGrid
 from semi_analytical.plan import Plan
 
@@ -30,6 +31,7 @@ class Increment(ReportedIncrement):
     slip_before, dissipation_before
                  slip and dissipation at the start of the increment
     in_stick     contact cells that did not slip in this increment
+    edge_report  outcome of the edge correction; None where it was not attempted
 
     Slip is of the lower body's particles relative to the indenter's, so that it opposes the shear.
     Fields of shear are None without friction.
@@ -69,6 +71,7 @@ class Increment(ReportedIncrement):
         Field | None,
         Reported("J/m^2", "Energy per area lost to friction since the start.", F),
     ] = None
+    edge_report: EdgeReport | None = None
     slip_before: VectorField | None = None
     dissipation_before: Field | None = None
 

@@ -11,8 +11,7 @@ from contact_scene import LoadRamp
 from contact_scene.march import Reached, marked_increments
 from contact_scene.standing import Mark, Standing
 from semi_analytical.balance import balanced
-from semi_analytical.contact_area import stuck_cells
-from semi_analytical.edge.corrected import Corrected
+from semi_analytical.edge.corrected import Corrected, EdgeReport
 from semi_analytical.energy import NOTHING_YET
 from semi_analytical.fields import Increment
 from semi_analytical.increment import State, reached_moment, residuals_of, solve_increment, unfolded
@@ -28,16 +27,14 @@ Mask = NDArray[np.bool_]
 Advance = Callable[
     [ContactModel, State | None, NormalTarget, TangentialTarget | None, float], State
 ]
-# Shear, friction limit and cells that stick: the area of these in cells.
-Sticking = Callable[[Field, Field, Mask], float]
 
 
 class Correct(Protocol):
-    """See `edge_correction.state.EdgeCorrection`."""
+    """See `edge_correction.correction.EdgeCorrection`."""
 
     def __call__(
         self, last: State | None, state: State, *, way_known: bool, tolerance: float
-    ) -> Corrected | None: ...
+    ) -> Corrected | EdgeReport: ...
 
 
 # An increment that has taken more without converging is not cut any further. In one go converge
@@ -59,9 +56,7 @@ def marked(
     since   where the same march stood before, to go on from there
     raises  NotConverged and GrossSliding, with the last converged increment as `last_state`
     """
-    solver = _Solver(
-        model, plan, _advance(plan), _correction(model, plan), _sticking(plan), tolerance
-    )
+    solver = _Solver(model, plan, _advance(plan), _correction(model, plan), tolerance)
     return marked_increments(model.scene, plan.increments, solver, since)
 
 
@@ -79,25 +74,12 @@ def _advance(plan: Plan) -> Advance:
 
 
 def _correction(model: ContactModel, plan: Plan) -> Correct | None:
-    """How edges are put inside the cells, where they are."""
+    """The edge correction, where it is applied."""
     if plan.edge == "off":
         return None
-    if plan.couples:
-        from semi_analytical.edge_correction.coupled import CoupledEdgeCorrection
+    from semi_analytical.edge_correction.correction import EdgeCorrection
 
-        return CoupledEdgeCorrection(model)
-    from semi_analytical.edge_correction.state import EdgeCorrection
-
-    return EdgeCorrection(model)
-
-
-def _sticking(plan: Plan) -> Sticking:
-    """How the area of the stick zone is found where its border is not inside the cells."""
-    if plan.couples:
-        from semi_analytical.edge_correction.stick_area import stick_area
-
-        return stick_area
-    return stuck_cells
+    return EdgeCorrection(model, coupled=plan.couples)
 
 
 @dataclass(frozen=True)
@@ -108,7 +90,6 @@ class _Solver:
     plan: Plan
     increment: Advance
     correct: Correct | None
-    sticking: Sticking
     tolerance: float
 
     @property
@@ -142,16 +123,17 @@ class _Solver:
             way_known=last is before or not matters,
             tolerance=self.tolerance,
         )
-        return replace(after, corrected=edges)
+        if isinstance(edges, EdgeReport):
+            return replace(after, edge_report=edges)
+        border = self.plan.couples or after.sheared is None or edges.sheared is not None
+        return replace(after, corrected=edges, edge_report=replace(edges.report, border=border))
 
     def report(self, reached: Reached[State], last: Increment | None) -> Increment:
         """The state, with what the increment has changed and cost."""
-        return _increment(self.model, self.sticking, last, reached)
+        return _increment(self.model, last, reached)
 
 
-def _increment(
-    model: ContactModel, sticking: Sticking, last: Increment | None, reached: Reached[State]
-) -> Increment:
+def _increment(model: ContactModel, last: Increment | None, reached: Reached[State]) -> Increment:
     """The state on the whole window as it is reported, with what the increment after the last one
     has changed and cost."""
     state = unfolded(reached.state, model.shear_part)
@@ -178,19 +160,13 @@ def _increment(
         halvings=reached.halvings,
         rounds=state.rounds,
         convolutions=int(np.ceil(reached.spent)),
+        edge_report=state.edge_report,
     )
     if state.corrected is not None:
         pressed = _with_edges(pressed, state.corrected, model, state.target)
     if sheared is None:
         return pressed
-    edges = state.corrected.sheared if state.corrected else None
-    if state.corrected is None or edges is None:
-        stuck = sticking(sheared.shear, model.friction.limit(p), sheared.in_stick)
-    else:
-        stuck = edges.stick_cells
-        # Force and shift stay those of cells, as does the work that they do along the history.
-        sheared = replace(sheared, shear=edges.shear, in_stick=edges.stick)
-        pressed = replace(pressed, edge_change=max(state.corrected.change, edges.change))
+    stuck, sheared, pressed = _stick(model, p, sheared, state.corrected, pressed)
     increment = replace(
         pressed,
         status=sheared.status if model.scene.friction else pressed.status,
@@ -227,6 +203,32 @@ def _with_edges(
         peak_pressure=corrected.peak,
         edge_change=corrected.change,
     )
+
+
+def _stick(
+    model: ContactModel,
+    p: Field,
+    sheared: Sheared,
+    corrected: Corrected | None,
+    increment: Increment,
+) -> tuple[float, Sheared, Increment]:
+    """Area of the stick zone in cells, and shear and increment with their edges inside the cells.
+
+    p  pressure on cells
+    Force, shift and their work along the history stay those of the cells.
+    """
+    border = corrected.sheared if corrected else None
+    if corrected is not None and border is not None:
+        sheared = replace(sheared, shear=border.shear, in_stick=border.stick)
+        change = max(corrected.change, border.change)
+        return border.stick_cells, sheared, replace(increment, edge_change=change)
+    from semi_analytical.edge_correction.stick_area import stick_area
+
+    stuck = stick_area(sheared.shear, model.friction.limit(p), sheared.in_stick)
+    if corrected is None or corrected.shear is None:
+        return stuck, sheared, increment
+    stick = sheared.in_stick & (corrected.pressure > 0)
+    return stuck, replace(sheared, shear=corrected.shear, in_stick=stick), increment
 
 
 def _traced(increment: Increment, last: Increment | None, sheared: Sheared) -> Increment:

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from contact_scene.residuals import Residuals
 from semi_analytical.admissible_shear import magnitude
 from semi_analytical.behind import Behind, further_shear
-from semi_analytical.edge.corrected import Corrected
+from semi_analytical.edge.corrected import Corrected, EdgeReport
 from semi_analytical.energy import NOTHING_YET, Energy
 from semi_analytical.model import ContactModel
 from semi_analytical.part import WHOLE, Part
@@ -33,6 +33,7 @@ class State:
     rounds        steps for pressure and shear together that it took; 0 without
     corrected     the same with its edges inside the cells, which no later state knows of; None
                   where that was not asked for, or is not safe
+    edge_report   outcome of the edge correction; None where it was not attempted
     behind        the state before, where the next one is predicted
     """
 
@@ -44,6 +45,7 @@ class State:
     energy: Energy = NOTHING_YET
     rounds: int = 0
     corrected: Corrected | None = None
+    edge_report: EdgeReport | None = None
     behind: Behind | None = None
 
     def seen(self) -> Behind | None:

@@ -19,9 +19,8 @@ MOST_CONTRAST = 1e12
 # Names of the effects that let a part of the window tell tractions, and that put edges inside.
 MIRROR_PLANES = "mirror planes"
 EDGES = "edge correction"
-# What edges inside the cells cost, on 64² to 256².
-CHEAP = "10 to 100 convolutions each time"
-DEAR = "60 to 180 convolutions each time"
+# Cost of the edge correction, on 64² to 256² cells.
+EDGE_COST = "10 to 100 convolutions each time"
 
 
 class Coupling(StrEnum):
@@ -111,7 +110,7 @@ def plan(scene: Scene, path_accuracy: float = PATH_ACCURACY, edge: EdgeCorrectio
         effect.coupled(scene, coupled, why),
         effect.load_history(len(scene.loading) > 1 and shear),
         Effect(MIRROR_PLANES, even, _why_even(even, tilt, what)),
-        Effect(EDGES, *_edges(scene, edge, torsion, coupled)),
+        Effect(EDGES, *_edges(scene, edge, torsion)),
     )
     acting = Coupling.FULL if coupled else Coupling.NONE
     bodies = Bodies(coupled, dundurs_beta(scene), scene.friction or FRICTIONLESS)
@@ -193,7 +192,7 @@ def _why_torsion(friction: bool, torsion: bool) -> str:
     return "no step names a torque or a twist: the indenter is held from turning"
 
 
-def _edges(scene: Scene, asked: EdgeCorrection, torsion: bool, coupled: bool) -> tuple[bool, str]:
+def _edges(scene: Scene, asked: EdgeCorrection, torsion: bool) -> tuple[bool, str]:
     """Whether edges are put inside the cells, and why (not)."""
     if asked == "off":
         return False, "not asked for: tractions are constant on cells up to their edges"
@@ -204,5 +203,4 @@ def _edges(scene: Scene, asked: EdgeCorrection, torsion: bool, coupled: bool) ->
     if scene.friction is not None and scene.friction.uniform is None:
         return False, "the friction limit is not the same multiple of the pressure everywhere"
     when = "increment" if asked == "all" else "step"
-    price = DEAR if coupled else CHEAP
-    return True, f"at the end of each {when} tractions fall to zero inside the cells: {price}"
+    return True, f"at the end of each {when} tractions fall to zero inside the cells: {EDGE_COST}"

@@ -1,6 +1,7 @@
 """Pressure and shear of bodies that couple, with their edges inside the cells, against the radial
 solver: rings that end where the contact does."""
 
+from dataclasses import replace
 from functools import cache
 
 import numpy as np
@@ -11,10 +12,11 @@ from contact_results.remarks import remarks
 from contact_scene import Body, IsotropicMaterial, LoadStep, Paraboloid, RadialDiscretisation, Scene
 from contact_scene.pair import outermost_beta
 from semi_analytical import SurfaceGrid, plan, solve
-from semi_analytical.edge_correction.stick_area import stick_area
+from verification.problems.coupled_edges import CONTACTS
 from verification.problems.layered_scene import coated, film, half_space, pressed, rigid_ball
 from verification.problems.paper_scene import FRICTION_LIMIT, HERTZ, RADIUS, pressing
 from verification.problems.shifted_grid import ShiftedGrid
+from verification.references import load_reference
 
 A, MU, P = HERTZ.contact_radius, 0.1, HERTZ.peak_pressure
 CELLS, INCREMENTS, SIDE = 48, 6, 2.8 * A
@@ -128,36 +130,33 @@ def pushed(edge: str):
     return solved(ball("soft film", push), edge)
 
 
-def test_edges_of_the_last_state_alone_are_nearly_those_of_every_increment():
-    """Cells alone miss 1e-2 of the pressure, 6e-3 of the shear and 8e-3 µp_H of it at the edge of
-    the contact. What edges move of the surface, taken for slip of the last increment, leaves 2e-3
-    of the shear, and 1.6e-3 µp_H at the edge."""
-    every, last = (pushed(edge).steps[-1] for edge in ("all", "last"))
-    assert last.edge_change is not None
-    p = every.pressure
-    assert np.linalg.norm(last.pressure - p) < 1.5e-4 * np.linalg.norm(p)
-    off = np.hypot(*(last.shear - every.shear))
-    assert np.sum(off) < 1.6e-3 * MU * np.sum(p)
-    x, y = pushed("all").grid.coordinates()
-    at_edge = np.hypot(x, y) > every.contact_radius - 3 * SIDE / CELLS
-    assert np.sqrt(np.mean(off[at_edge & (p > 0)] ** 2)) < 1.3e-3 * MU * P
-    assert last.stick_radius == pytest.approx(every.stick_radius, rel=2e-3)
+def test_the_correction_of_a_state_does_not_depend_on_that_of_earlier_ones():
+    for every, last in zip(pushed("all").steps, pushed("last").steps, strict=True):
+        assert last.edge_change is not None
+        for name in ("pressure", "shear", "approach", "stick_area"):
+            np.testing.assert_array_equal(getattr(every, name), getattr(last, name))
+
+
+def test_step_ends_have_the_radius_and_approach_of_the_former_correction_on_256_cells():
+    """Radii on cells alone are 5e-3 off on 64² cells, and 7 of all 37 step ends were corrected."""
+    ends, off = load_reference("coupled_edges")["ends"], []
+    for name in ("film 4, .4", "film 10, .3", "ellipsoid", "oblique"):
+        contact = CONTACTS[name]
+        result = solve(contact.scene, contact.grid(64), 1e-8, plan=plan(contact.scene, edge="last"))
+        for end, known in zip(result.steps, ends[name], strict=True):
+            assert end.edge_report == replace(end.edge_report, cause=None)
+            radius, approach = known["contact_radius"], known["approach"]
+            off.append((end.contact_radius / radius - 1, end.approach / approach - 1))
+    radii, approaches = np.abs(off).T
+    assert np.median(radii) < 5e-4
+    assert np.median(approaches) < 2e-5
+    assert np.max(radii) < 2e-3
 
 
 def test_the_last_state_of_a_step_alone_has_its_edges_inside_the_cells():
     result = pushed("last")
     ends = [end is result.steps[end.step - 1] for end in result.increments]
     assert [end.edge_change is not None for end in result.increments] == ends
-
-
-def test_strong_friction_that_slips_on_a_few_cells_only_keeps_its_cells():
-    """Its pressure next to the edge feels the stick zone, which the law of the edge leaves out."""
-    strong = pressed("strong", rigid_ball(), half_space(0.2), pressing(3), friction=0.5)
-    result = solved(strong, "last", 32)
-    end = result.steps[-1]
-    assert 0 < end.stick_radius < end.contact_radius
-    assert end.edge_change is None
-    assert any("edge" in said for said in remarks(result))
 
 
 def test_pushed_the_shear_carries_the_force_and_is_its_mirror_image():
@@ -171,25 +170,8 @@ def test_pushed_the_shear_carries_the_force_and_is_its_mirror_image():
         np.testing.assert_allclose(field, image, rtol=0, atol=1e-5 * np.max(end.pressure))
 
 
-def test_pushed_the_stick_area_is_that_of_the_shear():
-    """Slip spreads on one side, on the other the zone that pressing has left ends."""
-    result = pushed("all")
-    for end in result.steps:
-        cells = stick_area(end.shear, MU * end.pressure, end.in_stick)
-        assert end.stick_area == cells * result.grid.cell_area
-
-
-@pytest.mark.parametrize("edge", ["last", "all"])
-def test_pushed_no_later_state_knows_of_the_correction(edge):
-    for one, other in zip(pushed("off").increments, pushed(edge).increments, strict=True):
-        assert one.dissipated_energy == other.dissipated_energy
-        assert one.tangential_shift[0] == other.tangential_shift[0]
-        np.testing.assert_array_equal(one.slip, other.slip)
-
-
-@pytest.mark.parametrize(("body", "cells"), [("bare", 6), ("thin film", 32)])
-def test_where_no_edge_is_known_tractions_are_kept_and_the_remarks_say_so(body, cells):
-    """Of a contact of two cells, and of a film within whose thickness no root holds."""
-    plain, asked = (solved(ball(body), edge, cells) for edge in ("off", "last"))
+def test_of_a_contact_of_two_cells_tractions_are_kept_and_the_remarks_state_the_cause():
+    plain, asked = (solved(ball("bare"), edge, 6) for edge in ("off", "last"))
     np.testing.assert_array_equal(plain.steps[-1].pressure, asked.steps[-1].pressure)
-    assert any("could not be put" in remark for remark in remarks(asked))
+    assert asked.steps[-1].edge_report.cause == "the contact is too thin"
+    assert any("the contact is too thin" in remark for remark in remarks(asked))

@@ -27,6 +27,7 @@ from contact_scene import Cone, Ellipsoid, FlatPunch, HeightMap, Scene, SurfaceD
 from semi_analytical import SurfaceGrid, plan, solve
 from semi_analytical.resolution import resolution
 from verification.closed_forms.cone import ConeContact
+from verification.closed_forms.hertz import PointContact
 from verification.closed_forms.moduli import contact_modulus
 from verification.problems.shifted_grid import ShiftedGrid
 
@@ -126,7 +127,7 @@ def test_every_patch_has_its_edge_inside_the_cells():
 
 
 def test_beside_a_patch_that_is_too_thin_the_pressure_stays():
-    of, grid = bumps(32, *PATCHES)
+    of, grid = bumps(24, *PATCHES)
     plain, asked = (solved(of, edge, grid).steps[-1] for edge in ("off", "last"))
     assert asked.edge_change is None
     np.testing.assert_array_equal(plain.pressure, asked.pressure)
@@ -282,14 +283,22 @@ def test_a_mirrored_contact_has_a_mirrored_edge():
             np.testing.assert_allclose(field, image, atol=1e-8 * np.max(field))
 
 
-def test_where_the_normal_force_changes_under_shear_the_tractions_stay():
+def test_where_the_stick_border_cannot_follow_the_pressure_is_corrected_alone():
+    """At a changed normal force; before, the approach jumped by 2e-4 at a constant one."""
     loading = PRESS, {"tangential_force": (0.5 * LIMIT, 0.0)}, {"normal_force": 1.2 * LOAD}
     of = scene(*loading, indenter=paraboloid(ALIKE), body=ALIKE)
-    plain, asked = (solved(of, edge).steps for edge in ("off", "all"))
-    assert [end.edge_change is None for end in asked] == [False, False, True]
-    assert any("step 3 the edges" in told and "history" in told for told in remarks(solved(of)))
-    np.testing.assert_array_equal(plain[2].shear, asked[2].shear)
-    np.testing.assert_array_equal(plain[2].pressure, asked[2].pressure)
+    result = solved(of)
+    assert [end.edge_report.border for end in result.steps] == [True, True, False]
+    assert any("step 3 " in told and "stick" in told for told in remarks(result))
+    end, exact = (
+        result.steps[-1],
+        PointContact.under_load(1.2 * LOAD, RADIUS, EXACT.contact_modulus),
+    )
+    assert end.contact_radius == pytest.approx(exact.contact_radius, rel=1e-4)
+    assert end.approach == pytest.approx(exact.approach, rel=1e-5)
+    assert np.all(np.hypot(*end.shear) <= MU * end.pressure * (1 + 1e-12))
+    carried = np.sum(end.shear, axis=(1, 2)) * result.grid.cell_area
+    np.testing.assert_allclose(carried, end.tangential_force, atol=1e-6 * LIMIT)
 
 
 def test_not_asked_for_it_is_not_even_imported():
@@ -310,9 +319,9 @@ def test_where_the_contact_is_too_thin_the_pressure_stays_and_the_remarks_say_so
     plain, asked = (solved(frictionless(PRESS), edge, thin) for edge in ("off", "last"))
     np.testing.assert_array_equal(plain.steps[-1].pressure, asked.steps[-1].pressure)
     assert asked.steps[-1].edge_change is None
-    told = "could not be put inside the cells: fewer than 5 of them lie across the contact"
+    told = "the edge of the contact is not corrected: the contact is too thin"
     assert any(told in remark for remark in remarks(asked))
-    assert not any("inside" in remark for remark in remarks(plain))
+    assert not any("corrected" in remark for remark in remarks(plain))
 
 
 def test_where_the_edge_is_rough_the_remarks_say_so():
@@ -322,7 +331,7 @@ def test_where_the_edge_is_rough_the_remarks_say_so():
     rough = HeightMap(file=heights, spacing=6 * A / CELLS, material=steel())
     result = solved(frictionless(PRESS, indenter=rough), "last", grid)
     assert result.steps[-1].edge_change is None
-    assert any("step 1 the edges" in told and "is rough" in told for told in remarks(result))
+    assert any("step 1 the edge" in told and "is rough" in told for told in remarks(result))
 
 
 def test_whoever_asks_for_nothing_has_edges_inside_the_cells():
@@ -334,20 +343,14 @@ def test_whoever_asks_for_nothing_has_edges_inside_the_cells():
 
 def test_a_pressure_that_is_not_smooth_at_its_edge_is_left_as_it_is():
     """Heights at random from cell to cell leave no edge to fit."""
-    from semi_analytical.edge_correction.operators import EdgeOperators
-    from semi_analytical.edge_correction.pressure import edge_pressure
-    from semi_analytical.model import ContactModel
-    from semi_analytical.pressing import NormalTarget
-
     grid = SurfaceGrid((CELLS, CELLS), (WINDOW, WINDOW))
-    model = ContactModel.of(frictionless(PRESS), grid)
-    rng = np.random.default_rng(1)
-    model.gap = model.gap + 0.003 * APPROACH * rng.uniform(size=grid.cells)
-    from semi_analytical.pressing import press
-
-    target = NormalTarget(force=LOAD)
-    base = press(model, target, 1e-8)
-    assert edge_pressure(EdgeOperators(model), target, base.pressure) is None
+    x, y = grid.coordinates()
+    heights = (x**2 + y**2) / (2 * RADIUS)
+    heights += 0.003 * APPROACH * np.random.default_rng(1).uniform(size=grid.cells)
+    rough = HeightMap(file=heights, spacing=WINDOW / CELLS, material=steel())
+    result = solved(frictionless(PRESS, indenter=rough), "last", grid)
+    assert result.steps[-1].edge_change is None
+    assert any("edge is rough" in told for told in remarks(result))
 
 
 @pytest.mark.parametrize(
@@ -366,14 +369,12 @@ def test_the_plan_says_of_what_edges_are_not_known(of, because):
 
 
 @pytest.mark.parametrize(
-    ("of", "least", "most"),
-    [(frictionless(PRESS), 10, 100), (scene(PRESS, body=steel(0.1)), 60, 180)],
-    ids=["alike", "bodies that couple"],
+    "of", [frictionless(PRESS), scene(PRESS, body=steel(0.1))], ids=["alike", "coupled"]
 )
-def test_the_plan_says_what_edges_cost(of, least, most):
+def test_the_plan_says_what_edges_cost(of):
     decided = plan(of, edge="last")
     effect = next(e for e in decided.effects if e.name == "edge correction")
-    assert f"{least} to {most} convolutions" in effect.why
+    assert "10 to 100 convolutions" in effect.why
     off, last = (solved(of, edge).increments for edge in ("off", "last"))
     assert last[-1].edge_change is not None
-    assert least < last[-1].convolutions - off[-1].convolutions < most
+    assert 10 < last[-1].convolutions - off[-1].convolutions < 100

@@ -97,20 +97,18 @@ ORDER = (
 ORDERS = {
     "semi_analytical": ORDER,
     "semi_analytical.edge": (
-        *("means", "quadratic", "fit", "touching", "shape", "line"),
-        *("film", "film_response", "kernels", "film_shape", "band", "parts", "fitted", "rim"),
+        *("means", "quadratic", "fit", "shape", "line"),
+        *("film", "film_response", "kernels", "film_shape", "parts", "rim"),
         *("moment_spectra", "displacement", "mirrored_displacement", "peak", "corrected"),
     ),
     "semi_analytical.edge_correction": (
-        "mixing",
         "operators",
         "closing",
+        "shear_at_edge",
         "pressure",
         "shear",
         "stick_area",
-        "coupled_shear",
-        "coupled",
-        "state",
+        "correction",
     ),
     "fem_reference": (
         *("memory", "scales", "mesh", "elasticity", "path", "refusals"),

@@ -4,14 +4,12 @@ import re
 
 import numpy as np
 import pytest
-from contact_scenes import APPROACH, PRESS, RADIUS, A, bump, grid, scene, slide, steel
-from coupled_scenes import press
-from coupled_scenes import scene as coupled
+from contact_scenes import APPROACH, PRESS, RADIUS, A, bump, scene, steel
 
 from contact_errors.on_cells import stated_errors
 from contact_results.remarks import remarks
 from contact_scene import HeightMap
-from semi_analytical import SurfaceGrid, plan, solve
+from semi_analytical import SurfaceGrid, solve
 
 POINTS = 192
 
@@ -79,11 +77,3 @@ def test_the_stated_error_of_the_peak_covers_what_the_cells_leave_out(seed, cell
     found, exact = (result.steps[0].peak_pressure for result in (thinned, whole))
     stated = stated_errors(thinned).steps[0]["peak_pressure"]
     assert 0.005 * exact < abs(found - exact) < stated.error < 10 * abs(found - exact)
-
-
-def test_it_is_said_that_edges_are_left_where_bodies_couple_and_all_slides():
-    described = coupled(press(), slide(2000, increments=1))
-    result = solve(described, grid(32, 1.1), 1e-8, plan=plan(described, edge="last"))
-    assert any(
-        "step 2" in remark and "cells: all of them slip" in remark for remark in remarks(result)
-    )

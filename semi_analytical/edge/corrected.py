@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from semi_analytical.edge.displacement import Within
-from semi_analytical.edge.rim import AlongEdge
+from semi_analytical.edge.rim import Rim
 
 Field = NDArray[np.float64]
 
@@ -38,8 +38,26 @@ class CorrectedShear:
 
 
 @dataclass(frozen=True)
+class EdgeReport:
+    """Outcome of the edge correction of a state: relative changes in its last iteration.
+
+    cause     for which the state could not be corrected; None where it is corrected
+    response  of the approach, or of the normal force where the approach is prescribed
+    peak      of the largest pressure
+    radius    of the contact radius
+    border    whether the stick border of uncoupled bodies is corrected, too, or there is none
+    """
+
+    cause: str | None = None
+    response: float = 0.0
+    peak: float = 0.0
+    radius: float = 0.0
+    border: bool = True
+
+
+@dataclass(frozen=True)
 class Corrected:
-    """What a state would be with its edges inside the cells; fields on the whole window.
+    """A state with its edges inside the cells; fields on the whole window.
 
     pressure       (nx, ny) its mean over each cell, also over those that the contact reaches into
                    from outside their centre [force/length^2]
@@ -47,10 +65,13 @@ class Corrected:
     gap            (nx, ny) at the centres of the cells [length]
     approach       of the bodies [length]
     contact_cells  area of the contact in cells
-    change         of the pressure in the last round, Σ|Δp|/Σp
-    edge           what the pressure is in the cells along that of the contact
+    change         of the pressure in the last iteration, Σ|Δp|/Σp
+    edge           the pressure in the cells along the edge of the contact
+    report         changes in the last iteration
     tilt           of the indenter (x, y); None where nothing tilts
-    sheared        the tangential part; None where no shear arises
+    shear          (2, nx, ny) that follows the pressure [force/length^2]; None without friction
+    sheared        the tangential part with the border of stick inside the cells; None where bodies
+                   couple, without shear, or where that border is not fitted
     """
 
     pressure: Field
@@ -59,6 +80,8 @@ class Corrected:
     approach: float
     contact_cells: float
     change: float
-    edge: AlongEdge
+    edge: Rim
+    report: EdgeReport
     tilt: tuple[float, float] | None = None
+    shear: Field | None = None
     sheared: CorrectedShear | None = None

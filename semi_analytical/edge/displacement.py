@@ -54,6 +54,16 @@ class Within:
         rest = values - told @ LINEAR.T
         return cls(slopes, i, j, rest.reshape(parts.shape))
 
+    def along(self, n: Field, component: Field) -> Within:
+        """Within a component of a vector of this size and direction n (nx, ny).
+
+        component  its means over the cells (nx, ny)
+        """
+        slopes = np.stack(list(np.gradient(component)))
+        at = self.i, self.j
+        slopes[:, *at] = n[at] * self.slopes[:, *at]
+        return Within(slopes, self.i, self.j, n[at][:, None, None] * self.rest)
+
     @classmethod
     def nothing(cls, cells: tuple[int, ...]) -> Within:
         """Of no traction on these cells."""

@@ -29,7 +29,7 @@ from semi_analytical.edge.fit import (
 )
 from semi_analytical.edge.kernels import PARTS, part_centres
 from semi_analytical.edge.line import EdgeLine, Seen
-from semi_analytical.edge.means import centre_value
+from semi_analytical.edge.means import Exponent, centre_value, power
 from semi_analytical.edge.quadratic import Quadratic
 from semi_analytical.edge.shape import ASKED, CUT_WEIGHT, EdgeShape
 from semi_analytical.part import WHOLE, Part
@@ -119,16 +119,18 @@ def film_shape(
     law: FilmLaw,
     depth: Field,
     part: Part = WHOLE,
+    exponent: Exponent = 0.5,
     before: EdgeLine | None = None,
 ) -> FilmShape:
     """Shape of the edge of a region.
 
-    means   (nx, ny) cell means of p, positive in the region
-    depth   of the region, see `shape.depth_of`
-    part    of the window that all are given on
-    before  the edge of about the same region
+    means     (nx, ny) cell means of p, positive in the region
+    depth     of the region, see `shape.depth_of`
+    part      of the window that all are given on
+    exponent  alpha: p is the ratio of the law to the root of the distance, times phi^alpha
+    before    edge of about the same region
     """
-    problem = _Problem(np.where(region, means, 0.0), region, stencil, law, depth, part)
+    problem = _Problem(np.where(region, means, 0.0), region, stencil, law, depth, part, exponent)
     along = np.nonzero(region & (depth < ALONG))
     line = problem.first(*along) if before is None else before
     for _ in range(TURNS if before is None else TURNS_AGAIN):
@@ -148,6 +150,7 @@ class _Problem:
     law: FilmLaw
     depth: Field
     part: Part
+    exponent: Exponent
 
     @property
     def band(self) -> tuple[Indices, Indices]:
@@ -161,7 +164,7 @@ class _Problem:
         size = np.sqrt(np.prod(self.law.stretched))
         s = np.maximum(self.depth - 0.5, 0.5) * size
         curved = np.full(s.shape, -9 / 8 / (np.max(self.depth) * size))  # Hertz's
-        return np.asarray((self.means / self.law.over_root(s, curved)) ** 2)
+        return power(self.means / self.law.over_root(s, curved), np.divide(1, self.exponent))
 
     def first(self, i: Indices, j: Indices) -> EdgeLine:
         """A guess, from cells that are not cut."""
@@ -178,8 +181,10 @@ class _Problem:
         along_x, along_y = np.array(self.law.stretched)[:, None] * seen.normal
         c = bent(seen, self.depth, self.law)
         ratio, leans = self.law.means_over_root(seen.distance, along_x, along_y, c)
-        slope = seen.slope_here
-        phi[i, j] = centre_value(self.means[i, j] / ratio, slope * along_x, slope * along_y, 0.5)
+        slope, a = seen.slope_here, self.exponent
+        of_band = a[i, j] if isinstance(a, np.ndarray) else a
+        means = self.means[i, j] / ratio
+        phi[i, j] = centre_value(means, slope * along_x, slope * along_y, of_band)
         leaning[i, j] = np.maximum(leans, MOST_LEANING) * slope / seen.slope
         cut = np.abs(seen.distance) < (np.abs(along_x) + np.abs(along_y)) / 2
         weight[i, j] = np.where(cut, CUT_WEIGHT, 1.0)
@@ -187,7 +192,7 @@ class _Problem:
             means=self.means,
             phi=phi,
             weight=weight,
-            exponent=0.5,
+            exponent=a,
             stencil=self.stencil,
             depth=self.depth,
             part=self.part,

@@ -47,63 +47,6 @@ class Fits:
     count: Indices
 
 
-@dataclass(frozen=True)
-class Windows:
-    """Windows about cells (i, j), shape (n,), with the weights of what is in them: they fit any
-    data that have these.
-
-    believed  (n, window) weights
-    total     (n,) of a window, and how many are not zero
-    factors   (m, m, n) of the normal matrices of m = 3 degree coefficients, see `factored`
-    """
-
-    i: Indices
-    j: Indices
-    stencil: Stencil
-    part: Part
-    believed: Field
-    total: Field
-    count: Indices
-    factors: Field
-
-    @classmethod
-    def about(
-        cls,
-        weight: Field,
-        i: Indices,
-        j: Indices,
-        stencil: Stencil,
-        degree: int = 2,
-        part: Part = WHOLE,
-    ) -> Windows:
-        """See `fit_about`."""
-        weight, fade = part.framed(weight, stencil.reach), fading(stencil)
-        believed = np.empty((len(i), len(fade)))
-        factors = np.empty((3 * degree, 3 * degree, len(i)))
-        for some in _chunks(len(i)):
-            np.multiply(taken(weight, i[some], j[some], stencil), fade, out=believed[some])
-            factors[..., some] = factored(normal_matrices(stencil, believed[some], degree))
-        count = np.sum(believed > 0, axis=1)
-        return cls(i, j, stencil, part, believed, np.sum(believed, axis=1), count, factors)
-
-    def fits(self, data: Field) -> Fits:
-        """To cell means (nx, ny)."""
-        data = self.part.framed(data, self.stencil.reach)
-        basis = monomials(self.stencil)[: len(self.factors)]
-        found, squares = np.zeros((6, len(self.i))), np.empty(len(self.i))
-        for some in _chunks(len(self.i)):
-            given = taken(data, self.i[some], self.j[some], self.stencil)
-            believed = self.believed[some]
-            fit = found[: len(basis), some]
-            fit[:] = basis @ (believed * given).T
-            solve(self.factors[..., some], fit)
-            given -= fit.T @ basis
-            squares[some] = np.einsum("nk,nk,nk->n", believed, given, given)
-        rms = np.sqrt(squares / np.maximum(self.total, LEAST_TOTAL))
-        quadratic = Quadratic(self.i.astype(float), self.j.astype(float), *found)
-        return Fits(quadratic, rms, self.count)
-
-
 def fit_about(
     data: Field,
     weight: Field,
@@ -120,7 +63,21 @@ def fit_about(
     degree  1 or 2; of 1 nothing bends
     part    of the window that they are given on
     """
-    return Windows.about(weight, i, j, stencil, degree, part).fits(data)
+    data, weight = (part.framed(field, stencil.reach) for field in (data, weight))
+    fade, basis = fading(stencil), monomials(stencil)[: 3 * degree]
+    found = np.zeros((6, len(i)))
+    rms, count = np.empty(len(i)), np.empty(len(i), dtype=int)
+    for some in _chunks(len(i)):
+        given, believed = (taken(field, i[some], j[some], stencil) for field in (data, weight))
+        believed *= fade
+        fit = basis @ (believed * given).T
+        solve(factored(normal_matrices(stencil, believed, degree)), fit)
+        found[: len(basis), some] = fit
+        given -= fit.T @ basis
+        total = np.maximum(np.sum(believed, axis=1), LEAST_TOTAL)
+        rms[some] = np.sqrt(np.sum(believed * given**2, axis=1) / total)
+        count[some] = np.count_nonzero(believed, axis=1)
+    return Fits(Quadratic(i.astype(float), j.astype(float), *found), rms, count)
 
 
 def _chunks(count: int) -> list[slice]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from semi_analytical.edge.band import Band
+from semi_analytical.edge.fit import Indices
 from semi_analytical.edge.kernels import PARTS, part_centres
 from semi_analytical.edge.means import Exponent, mean_of_cut, mean_of_smooth
 from semi_analytical.edge.quadratic import Quadratic
@@ -52,11 +52,14 @@ def _means_of_power(phi: Quadratic, a: Exponent) -> Field:
     return parts
 
 
-def by_differences(means: Field, band: Band, part: Part) -> Field:
-    """Parts (n, PARTS, PARTS) of a traction, given by means (nx, ny), in the deep cells."""
-    i, j = (at + 1 for at in band.deep)
+def by_differences(means: Field, i: Indices, j: Indices, fade: Field, part: Part) -> Field:
+    """Parts (n, PARTS, PARTS) of a traction, given by means (nx, ny), in the cells (i, j).
+
+    fade  weight of the second differences (n,)
+    """
+    i, j = i + 1, j + 1
     p = part.framed(means, 1)
-    centre, fade = p[i, j], band.fade
+    centre = p[i, j]
     lower, upper, left, right = p[i - 1, j], p[i + 1, j], p[i, j - 1], p[i, j + 1]
     corners = p[i + 1, j + 1] + p[i - 1, j - 1] - p[i + 1, j - 1] - p[i - 1, j + 1]
     f_xx, f_yy = fade * (lower + upper - 2 * centre), fade * (left + right - 2 * centre)

@@ -1,4 +1,4 @@
-"""The cells along the edge of a region, and the traction in their parts."""
+"""Traction in the subcells along the edge of a region, from fits of phi there."""
 
 from __future__ import annotations
 
@@ -7,61 +7,59 @@ from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.ndimage import binary_dilation
 
-from semi_analytical.edge.band import Band
 from semi_analytical.edge.film import FilmLaw
-from semi_analytical.edge.fit import Indices
-from semi_analytical.edge.fitted import Fitted, film_fitted, first_fitted, fitted_again
+from semi_analytical.edge.film_shape import FilmShape, film_shape
+from semi_analytical.edge.fit import WIDER, Indices, Stencil
+from semi_analytical.edge.line import EdgeLine
 from semi_analytical.edge.means import Exponent
 from semi_analytical.edge.parts import by_differences, means_of_power
+from semi_analytical.edge.shape import LARGEST_RMS, EdgeShape, depth_of, edge_shape
 from semi_analytical.part import WHOLE, Part
 
 Field = NDArray[np.float64]
 Mask = NDArray[np.bool_]
 
-# Radius of a region in cells that is thick enough to be fitted.
+# Least radius of a region in cells that can be fitted.
 THICK = 1.9
-# By so much of a cell the edge must have passed the centre of one for it to change sides: those
-# that go to and fro would keep rounds from settling, and take new fits.
+# Layers inside the edge with subcells from fits, and with subcells from second differences, which
+# fade out towards the last layer. Farther in a traction is a slope within a cell, to 1/500 of it.
+FITTED, INSIDE = 2.5, 5.5
+# Wider than for exact means: the error of one cell shall not spread to the others. Next to a
+# plateau of the pressure on a film narrow fits give edges that waver; but where friction slips at
+# the edge, the exponent holds within the slip zone, which is often narrow.
+STENCIL, OF_FILM = Stencil(4, 2.2), WIDER
+# By this part of a cell the edge must have passed the centre of a cell to change its side:
+# otherwise cells alternate between both sides and the iteration does not settle.
 PASSED = 0.01
 
 
 @dataclass(frozen=True)
-class AlongEdge:
-    """What is kept of a rim.
-
-    i, j, parts, part  see `Rim`
-    """
-
-    i: Indices
-    j: Indices
-    parts: Field
-    part: Part
-
-
-@dataclass(frozen=True)
 class Rim:
-    """Cells along the edge of a region that are fitted well.
+    """Cells along the edge of a region with a reliable fit.
 
     region   (nx, ny) cells whose centre is inside the edge
     i, j     the cells (n,)
-    parts    (n, PARTS, PARTS) mean of the traction in the parts of each
-    unsafe   part of all cells along the edge that are not fitted well
-    part     of the window that all are on
-    fitted   what it was made of
+    parts    (n, PARTS, PARTS) mean of the traction over the subcells of each
+    area     of the region and its mirror images, in cells
+    unsafe   part of all cells along the edge without a reliable fit
+    part     of the window that all fields are given on
+    line     edge of a contact on a film
     """
 
     region: Mask
     i: Indices
     j: Indices
     parts: Field
+    area: float
     unsafe: float
     part: Part
-    fitted: Fitted
+    line: EdgeLine | None = None
 
     @cached_property
     def outer(self) -> Mask:
-        """(nx, ny) cells that the region reaches into, and whose centre is outside."""
+        """(nx, ny) cells that the region reaches into and whose centre is outside."""
         return (self.means > 0) & ~self.region
 
     @cached_property
@@ -71,16 +69,6 @@ class Rim:
         means[self.i, self.j] = self.parts.mean(axis=(1, 2))
         return means
 
-    @property
-    def area(self) -> float:
-        """Of the region and its images, in cells."""
-        return self.fitted.area(self.part)
-
-    @property
-    def kept(self) -> AlongEdge:
-        """Without what only the next fit needs."""
-        return AlongEdge(self.i, self.j, self.parts, self.part)
-
 
 def rim(
     means: Field,
@@ -89,78 +77,52 @@ def rim(
     exponent: Exponent = 0.5,
     part: Part = WHOLE,
     film: FilmLaw | None = None,
-    *,
-    on_cells: bool = False,
-    anew: bool = False,
 ) -> Rim | None:
-    """The rim of a region of tractions; None where it is too thin to have one.
+    """Fit the rim of a region of tractions; None where the region is too thin.
 
     means     (nx, ny) mean of the traction over each cell [force/length^2]
     loaded    (nx, ny) cells where it is positive
-    before    the rim of about the same region: cells outside it are no data, but what comes of it
-    exponent  the traction goes with this power of the distance from the edge
-    part      of the window that all are given on
-    film      instead of the power ½: the law of a pressure on layered bodies
-    on_cells  whether the means are those of a pressure that is constant on cells, not yet corrected
-    anew      whether to find slopes within the cells by fits to the others first, not in the rim
-              before: dearer, and where pressure and shear move the edge together that settles
+    before    rim of the preceding iteration: cells outside it are not fitted to
+    exponent  power of the distance from the edge with which the traction falls
+    part      of the window that all fields are given on
+    film      law of a pressure on layered bodies, a factor of that power
     """
-    fitted = _fitted(means, loaded, before, exponent, part, film, on_cells=on_cells, anew=anew)
-    if fitted is None:
+    region = loaded if before is None else loaded & before.region
+    depth = depth_of(region, part)
+    if np.max(depth) <= THICK:
         return None
-    (i, j), phi, safe = fitted.band.fitted, fitted.about, fitted.safe
-    deep = by_differences(means, fitted.band, part)
-    unsafe = np.count_nonzero(~safe) / (len(safe) + len(deep))
+    largest = np.max(means)
+    scaled = means / largest
+    shape: EdgeShape
+    if film is None:
+        shape = edge_shape(
+            scaled, region, STENCIL, rings=0, exponent=exponent, depth=depth, part=part
+        )
+    else:
+        line = before.line if before else None
+        stencil = STENCIL if isinstance(exponent, np.ndarray) else OF_FILM
+        shape = film_shape(scaled, region, stencil, film, depth, part, exponent, line)
+    touched = binary_dilation(part.framed(region, 1), np.ones((3, 3)))[1:-1, 1:-1]
+    i, j = np.nonzero(touched & (depth <= FITTED))
+    deep_i, deep_j = np.nonzero((depth > FITTED) & (depth <= INSIDE))
+    phi, missed = shape.about_cells(i, j)
+    safe = missed < LARGEST_RMS
     i, j, phi = i[safe], j[safe], phi.chosen(safe)
     parts = means_of_power(phi, exponent[i, j] if isinstance(exponent, np.ndarray) else exponent)
-    if fitted.film is not None:
-        parts *= fitted.film.parts_over_root(phi)
-    parts *= np.max(means)
-    inside = fitted.band.region.copy()
-    was = np.zeros(len(i)) if before is None else np.where(before.region[i, j], 1.0, -1.0)
-    inside[i, j] = phi.f > -PASSED * was * phi.slope
-    deep_i, deep_j = fitted.band.deep
+    if isinstance(shape, FilmShape):
+        parts *= shape.parts_over_root(phi)
+    fade = (INSIDE - depth[deep_i, deep_j]) / (INSIDE - FITTED)
+    inside, covered = region.copy(), region.astype(float)
+    side = np.zeros(len(i)) if before is None else np.where(before.region[i, j], 1.0, -1.0)
+    inside[i, j] = phi.f > -PASSED * side * phi.slope
+    covered[i, j] = phi.cell_mean(0.0)
     return Rim(
         region=inside,
         i=np.concatenate([i, deep_i]),
         j=np.concatenate([j, deep_j]),
-        parts=np.concatenate([parts, deep]),
-        unsafe=unsafe,
+        parts=np.concatenate([parts * largest, by_differences(means, deep_i, deep_j, fade, part)]),
+        area=part.images * float(np.sum(covered)),
+        unsafe=np.count_nonzero(~safe) / (len(safe) + len(deep_i)),
         part=part,
-        fitted=fitted,
+        line=shape.line if isinstance(shape, FilmShape) else None,
     )
-
-
-def area_within(means: Field, edge: Rim, exponent: Exponent = 0.5) -> float:
-    """Area in cells of a region that a rim is about, when its tractions are these means (nx, ny):
-    all around it, in the whole window."""
-    shape = edge.fitted.film
-    law = None if shape is None else shape.law
-    fitted = _fitted(means, means > 0, edge, exponent, edge.part, law)
-    return edge.area if fitted is None else fitted.area(edge.part)
-
-
-def _fitted(
-    means: Field,
-    loaded: Mask,
-    before: Rim | None,
-    exponent: Exponent,
-    part: Part,
-    film: FilmLaw | None,
-    *,
-    on_cells: bool = False,
-    anew: bool = False,
-) -> Fitted | None:
-    """phi in the cells along the edge; see `rim`."""
-    last = before.fitted if before else None
-    region = loaded if before is None else loaded & ~before.outer
-    same = last is not None and np.array_equal(region, last.band.region)
-    band = last.band if last and same else Band.of(region, part)
-    if np.max(band.depth) <= THICK:
-        return None
-    scaled = means / np.max(means)
-    if film is not None:
-        return film_fitted(scaled, band, last, film, part)
-    if last is None or anew:
-        return first_fitted(scaled, band, exponent, part, on_cells=on_cells)
-    return fitted_again(scaled, band, last, exponent, part)

@@ -12,7 +12,6 @@ from scipy.ndimage import distance_transform_edt
 from semi_analytical.edge.fit import Fits, Indices, Stencil, fit_about
 from semi_analytical.edge.means import Exponent, centre_value, power
 from semi_analytical.edge.quadratic import Quadratic
-from semi_analytical.edge.touching import Touching
 from semi_analytical.part import WHOLE, Part
 
 Field = NDArray[np.float64]
@@ -27,6 +26,9 @@ ASKED = 3.5
 # Of a step to the edge, and of all of them, in cells.
 LONGEST_STEP, FARTHEST = 1.0, 2.0
 REFITS = 3
+# From a cell to itself, to the cells that touch it at a side, and at a corner (2, 9, 1).
+STEPS = np.array([[0, 1, -1, 0, 0, 1, 1, -1, -1], [0, 0, 0, 1, -1, 1, -1, 1, -1]])[..., None]
+SIDES = 4
 
 
 @dataclass(frozen=True)
@@ -75,16 +77,33 @@ class EdgeShape:
         fits = self.fits(*self.nearest_to(x, y))
         return fits.quadratic.about(x, y), believed(fits)
 
-    def about_cells(self, i: Indices, j: Indices) -> tuple[Quadratic, Mask]:
-        """phi about cells of the region and all that touch them, shape (n,), and whether to believe
-        it: outside of it the mean of what the nearest say, as a mirror image would have it."""
-        inside = self.depth[i, j] > 0
-        of_fits = i[inside], j[inside]
-        fits = self.fits(*of_fits)
-        touching = Touching.of(i[~inside], j[~inside], of_fits, self.depth.shape, self.part)
-        phi, safe = touching.joined(fits, believed(fits))
-        place = np.argsort(inside, kind="stable").argsort()
-        return phi.chosen(place), safe[place]
+    def about_cells(self, i: Indices, j: Indices) -> tuple[Quadratic, Field]:
+        """phi about cells of the region and cells that touch it, shape (n,), and the rms of the
+        fits over the fall of phi over a cell, infinite where there is little data.
+
+        Outside of the region the mean of the fits about the cells that touch at a side, else at a
+        corner: the edge of a mirrored contact is the mirrored edge.
+        """
+        last = np.array(self.depth.shape)[:, None, None] - 1
+        at = np.stack([i, j])[:, None] + STEPS
+        inside = np.all((at >= 0) & (at <= last), axis=0)
+        inside &= self.depth[tuple(np.clip(at, 0, last))] > 0
+        inside[1:, inside[0]] = False
+        inside[1 + SIDES :, np.any(inside[: 1 + SIDES], axis=0)] = False
+        step, place = np.nonzero(inside)
+        shape = self.depth.shape
+        number = np.ravel_multi_index(tuple(at[:, step, place]), shape)
+        cells, which = np.unique(number, return_inverse=True)
+        fits = self.fits(*np.unravel_index(cells, shape))
+        missed = np.where(fits.count < LEAST_DATA, np.inf, fits.rms)
+        missed /= np.maximum(fits.quadratic.slope, np.finfo(float).tiny)
+        each = fits.quadratic.chosen(which).about(i[place].astype(float), j[place].astype(float))
+        share = 1 / np.sum(inside, axis=0)[place]
+        means = [
+            np.bincount(place, value * share, len(i)).astype(float)
+            for value in (*vars(each).values(), missed[which])
+        ]
+        return Quadratic(*means[:-1]), means[-1]
 
     def edge_points(self, i: Indices, j: Indices) -> tuple[Quadratic, Mask]:
         """phi about the points of the edge nearest to cells (n,), and whether to believe it.

@@ -20,16 +20,11 @@ from semi_analytical.part import Part
 Mask = NDArray[np.bool_]
 Shape = tuple[int, int]
 Row = tuple[tuple[int, str], ...]
+Matrix = tuple[Row, ...]
 
-PRESSURE: tuple[Row, ...] = (((1, "zz"),),)
-SHEAR: tuple[Row, ...] = (((1, "xx"), (1, "xy")), ((1, "xy"), (1, "yy")))
-# xz and yz are zx and zy with the opposite sign: what moves the surfaces apart at a place by shear
-# elsewhere moves them sideways there by pressure here.
-COUPLED: tuple[Row, ...] = (
-    ((1, "xx"), (1, "xy"), (-1, "zx")),
-    ((1, "xy"), (1, "yy"), (-1, "zy")),
-    ((1, "zx"), (1, "zy"), (1, "zz")),
-)
+PRESSURE: Matrix = (((1, "zz"),),)
+SHEAR: Matrix = (((1, "xx"), (1, "xy")), ((1, "xy"), (1, "yy")))
+APART: Matrix = (((1, "zx"), (1, "zy"), (1, "zz")),)
 
 
 class EdgeOperators:
@@ -37,7 +32,7 @@ class EdgeOperators:
 
     def __init__(self, model: ContactModel) -> None:
         self.model = model
-        self._known: dict[tuple[int, Shape], EdgeOperator] = {}
+        self._known: dict[tuple[Matrix, Shape], EdgeOperator] = {}
 
     def by_pressure(self, shape: Shape) -> EdgeOperator | MirroredEdgeOperator:
         """u_z by the pressure within the cells of the part that tells pressures."""
@@ -57,9 +52,9 @@ class EdgeOperators:
         """(u_x, u_y) by the shear."""
         return self._operator(SHEAR, shape)
 
-    def by_all(self, shape: Shape) -> EdgeOperator:
-        """(u_x, u_y, u_z) by shear and pressure (x, y, z)."""
-        return self._operator(COUPLED, shape)
+    def apart(self, shape: Shape) -> EdgeOperator:
+        """u_z by shear and pressure (x, y, z)."""
+        return self._operator(APART, shape)
 
     def film(self, contact: Mask, part: Part) -> FilmLaw | None:
         """The law of the pressure at the edge of a contact (nx, ny) where layers change it within a
@@ -72,8 +67,8 @@ class EdgeOperators:
         scene = self.model.scene
         return film_law(scene.body, scene.indenter, self.model.grid.spacing)
 
-    def _operator(self, rows: tuple[Row, ...], shape: Shape) -> EdgeOperator:
-        key = len(rows), shape
+    def _operator(self, rows: Matrix, shape: Shape) -> EdgeOperator:
+        key = rows, shape
         if key not in self._known:
             whole = self.model.grid.cells
             if shape != whole:

@@ -1,9 +1,9 @@
-"""The pressure with its edge inside the cells.
+"""The pressure with its edge inside the cells, by deferred correction.
 
-Constant on cells, a pressure that falls to zero like a root is wrong by O(h) at its edge. Fitted
-there, p^2 passes smoothly through zero and tells what the pressure is within the cells; by that it
-moves the surface, and the pressure is solved for again, until it fits what it is fitted to
-(deferred correction).
+Constant on cells, a pressure that falls to zero like a power of the distance from its edge is wrong
+by O(h) there. φ = p^(1/α) passes smoothly through zero: a fit of φ yields the pressure within the
+cells and the displacement by it, for which the pressure is solved again, until both agree. Where
+bodies couple the shear follows the pressure and moves the surface, too.
 """
 
 from __future__ import annotations
@@ -15,141 +15,210 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from contact_scene.pair import outermost_beta
 from semi_analytical.box import Box, box_around
-from semi_analytical.edge.corrected import Corrected
+from semi_analytical.edge.corrected import Corrected, EdgeReport
 from semi_analytical.edge.displacement import Within
+from semi_analytical.edge.film import FilmLaw
+from semi_analytical.edge.means import Exponent
 from semi_analytical.edge.peak import peak_of
-from semi_analytical.edge.rim import Rim, area_within, rim
+from semi_analytical.edge.rim import Rim, rim
 from semi_analytical.edge_correction.closing import closed
-from semi_analytical.edge_correction.mixing import Mixing
 from semi_analytical.edge_correction.operators import EdgeOperators
+from semi_analytical.edge_correction.shear_at_edge import FollowingShear
+from semi_analytical.increment import State
+from semi_analytical.mirrored_operator import MirroredNormalOperator
 from semi_analytical.model import ContactModel
-from semi_analytical.normal_load import Motion, NormalLoad
-from semi_analytical.pressing import MARGIN, NormalTarget
+from semi_analytical.normal_load import Motion
+from semi_analytical.operator import NormalOperator
+from semi_analytical.part import WHOLE, Part
+from semi_analytical.pressing import MARGIN
 
 Field = NDArray[np.float64]
+Mask = NDArray[np.bool_]
 
-MOST_ROUNDS = 8
-# Root mean square error that edges inside the cells leave in the end, of a pressure on N cells that
-# carry it: LEFT_BY_ONE N^-LEFT_FALLS, within a third, of circles and ellipses of 8 to 100 cells per
-# radius. The rounds have settled where the next one would change the pressure by about as much.
-LEFT_BY_ONE, LEFT_FALLS = 0.006, 0.575
-SETTLED = 2.5
-# So much more may change once the rounds have learnt from a change: the next leaves less of it.
-LEARNT = 2.0
-# Part of its residual that the solve of a round leaves.
-ENOUGH = 0.1
-# To be accepted: the change that the rounds leave, and its part of the first; the part of the edge
-# that could not be fitted.
-LEAST_SETTLED, LEAST_FALL = 1e-3, 0.1
+MAX_ITERATIONS = 8
+# Part of the change that is applied, but of the first: the pressure of the cells is far off. On
+# thin stiff films a whole change overshoots by as much again.
+DAMPED = 0.6
+# Part of its residual that the solve of an iteration leaves.
+INNER_REDUCTION = 0.1
+# Change Σ|Δp|/Σp of an iteration at which the iteration stops, and at most in the end.
+SETTLED, LEAST_SETTLED = 5e-5, 1e-3
+# Part of the edge that need not be fitted.
 MOST_UNSAFE = 0.03
 
 
+class NotFitted(Exception):
+    """The edge of a state cannot be corrected; the message states the cause."""
+
+
 def edge_pressure(
-    operators: EdgeOperators, target: NormalTarget, pressure: Field
-) -> Corrected | None:
-    """A solved pressure (nx, ny) with its edge inside the cells; None where that is not safe: the
-    contact is too thin, its edge is rough, or the rounds do not settle."""
-    part = operators.model.part
-    p, mixing, changes = part.of(pressure), Mixing(), list[float]()
-    problem = _Problem(operators, target, box_around(p > 0, MARGIN, part))
-    film = operators.film(p > 0, part)
-    edge = rim(p, p > 0, part=part, film=film, on_cells=True)
-    for number in range(MOST_ROUNDS):
-        if edge is None or edge.unsafe > MOST_UNSAFE:
-            return None
-        solved = problem.solve(p, edge)
-        change = solved.pressure - p
-        changes.append(float(np.sum(np.abs(change)) / np.sum(p)))
-        scale = p if number < 2 else LEARNT * p
-        settled = has_settled(change, scale, int(part.images * np.count_nonzero(p)))
-        # Base solutions are so far off that nothing is to be learnt from the first change.
-        p = solved.pressure if number == 0 else problem.load.admissible(mixing.next(p, change))
-        if settled and settles(changes):
-            break
-        edge = rim(p, p > 0, edge, part=part, film=film)
-    if edge is None or not settles(changes):
-        return None
-    return problem.corrected(p, solved, edge, changes[-1])
+    operators: EdgeOperators, state: State, shear: FollowingShear | None, *, coupled: bool
+) -> Corrected:
+    """Correct the pressure of a solved state.
 
-
-def has_settled(change: Field, scale: Field, cells: int) -> bool:
-    """Whether what a round changes is as little as the error that is left in the end.
-
-    scale  what it is relative to, in root mean square
-    cells  that carry it
+    shear    that follows the pressure; None without friction
+    coupled  whether the shear moves the surfaces apart
+    Raises NotFitted where the contact is too thin, its edge is rough, or the iteration does not
+    settle.
     """
-    left = LEFT_BY_ONE * max(cells, 1) ** -LEFT_FALLS
-    return bool(np.linalg.norm(change) <= SETTLED * left * np.linalg.norm(scale))
-
-
-def settles(changes: list[float]) -> bool:
-    """Whether the changes of the rounds have become small, and a small part of the first."""
-    return changes[-1] <= min(LEAST_SETTLED, LEAST_FALL * changes[0])
+    part = WHOLE if coupled else operators.model.part
+    problem = _Problem(operators, state, shear, coupled, part)
+    p = part.of(state.pressing.pressure)
+    edge = problem.rim(p, None)
+    response = problem.response(state.pressing.approach, p)
+    for number in range(MAX_ITERATIONS):
+        solved = problem.solve(p, edge)
+        step = solved.pressure - p
+        change = float(np.sum(np.abs(step)) / np.sum(p))
+        before, p = _Last(p, edge.area, response), p + (DAMPED if number else 1.0) * step
+        edge = problem.rim(p, edge)
+        approach, _ = state.target.reached(operators.model, solved.motion)
+        response = problem.response(approach, p)
+        if change <= SETTLED:
+            break
+    if change > LEAST_SETTLED:
+        raise NotFitted(f"the correction does not settle: its last change is {change:.1e}")
+    return problem.corrected(_Last(p, edge.area, response), before, solved, edge, change)
 
 
 class _Solved(NamedTuple):
-    """Of a round: pressure (nx, ny) and motion of the load, and how far what the pressure is within
-    the cells moves the surface (nx, ny)."""
+    """Pressure (nx, ny), motion of the load, displacement by everything but `pressure` (nx, ny)."""
 
     pressure: Field
     motion: Motion
-    by_within: Field
+    beside: Field
+
+
+class _Last(NamedTuple):
+    """Iterate: pressure (nx, ny), area in cells, approach or force."""
+
+    pressure: Field
+    area: float
+    response: float
 
 
 @dataclass(frozen=True)
 class _Problem:
-    """box  around the contact, in the part of the window that tells pressures"""
+    """State whose pressure is corrected on a part of the window; see `edge_pressure`."""
 
     operators: EdgeOperators
-    target: NormalTarget
-    box: Box
+    state: State
+    shear: FollowingShear | None
+    coupled: bool
+    part: Part
 
     @property
     def model(self) -> ContactModel:
         return self.operators.model
 
     @cached_property
-    def load(self) -> NormalLoad:
-        return self._load_in(Box.whole(self.gap.shape))
+    def contact(self) -> Mask:
+        """Cells in contact."""
+        return self.part.of(self.state.pressing.pressure) > 0
 
-    def _load_in(self, box: Box) -> NormalLoad:
-        return self.target.on(self.model, box, self.model.part)
+    @cached_property
+    def box(self) -> Box:
+        """Around the contact."""
+        return box_around(self.contact, MARGIN, self.part)
 
     @cached_property
     def gap(self) -> Field:
-        return self.model.part.of(self.target.gap(self.model))
+        return self.part.of(self.state.target.gap(self.model))
+
+    @cached_property
+    def exponent(self) -> Exponent:
+        """Of the distance from the edge."""
+        solved = self.state.sheared
+        if not self.coupled or self.shear is None or solved is None:
+            return 0.5
+        if not np.any(self.contact & ~solved.in_stick):
+            return 0.5
+        return self.shear.exponent(self.contact, outermost_beta(self.model.scene))
+
+    @cached_property
+    def film(self) -> FilmLaw | None:
+        return self.operators.film(self.contact, self.part)
+
+    def rim(self, p: Field, before: Rim | None) -> Rim:
+        """Fit of the edge of a pressure. Raises NotFitted."""
+        edge = rim(p, p > 0, before, self.exponent, self.part, self.film)
+        if edge is None:
+            raise NotFitted("the contact is too thin")
+        if edge.unsafe > MOST_UNSAFE:
+            raise NotFitted(f"the edge is rough: {edge.unsafe:.2g} of it cannot be fitted")
+        return edge
+
+    def response(self, approach: float, p: Field) -> float:
+        """Approach, or sum of the pressure where the approach is prescribed."""
+        return approach if self.state.target.approach is None else float(np.sum(p))
 
     def solve(self, p: Field, edge: Rim) -> _Solved:
-        """The pressure with the edge where it is.
+        """Pressure for the edge of an iterate.
 
-        Cells that the contact only reaches into carry what the fit says of them, and the load
-        that is left to the others is theirs to find.
+        Cells that the contact only reaches into carry the pressure of the fit; the others carry the
+        rest of the load.
         """
-        box = self.box.slices
-        operator = self.model.pressure_operator(self.box.shape)
+        box, model = self.box.slices, self.model
         reached = np.where(edge.outer, edge.means, 0.0)[box]
-        within = Within.of(p, edge.i, edge.j, edge.parts, self.model.part)
-        by_within = self.operators.by_pressure(p.shape)(within)[0]
+        beside = self.by_edge(p, edge)
+        operator = self._operator(self.box.shape)
+        load = self.state.target.on(model, self.box, self.part)
         found = closed(
             operator,
             operator.precondition,
-            (self.gap + by_within)[box],
-            self._load_in(self.box).less(reached),
+            (self.gap + beside)[box],
+            load.less(reached),
             edge.region[box],
             p[box],
             reached,
-            ENOUGH,
+            INNER_REDUCTION,
         )
-        return _Solved(self.box.embed(found.pressure, p.shape), found.motion, by_within)
+        return _Solved(self.box.embed(found.pressure, p.shape), found.motion, beside)
 
-    def corrected(self, p: Field, solved: _Solved, edge: Rim, change: float) -> Corrected:
-        """The pressure of the last round, as a state."""
-        approach, tilt = self.target.reached(self.model, solved.motion)
-        u = solved.by_within + self.model.pressure_operator(p.shape)(solved.pressure)
-        gap = np.maximum(self.gap + u - self.load.closure(solved.motion), 0.0)
+    def by_edge(self, p: Field, edge: Rim) -> Field:
+        """Displacement by the pressure within its cells, and by the shear that follows."""
+        by_p = Within.of(p, edge.i, edge.j, edge.parts, edge.part)
+        if not self.coupled or self.shear is None:
+            return np.asarray(self.operators.by_pressure(p.shape)(by_p)[0])
+        q, limit = self.shear(p), self.model.friction.limit
+        of_limit = Within.of(limit(p), edge.i, edge.j, limit(edge.parts))
+        within = [of_limit.along(n, one) for n, one in zip(self.shear.slip, q, strict=True)]
+        u = self.operators.apart(p.shape)(*within, by_p)[0]
+        return np.asarray(u + self.model.coupling_operator(p.shape).normal_by_shear(q))
+
+    def _operator(self, shape: tuple[int, int]) -> NormalOperator | MirroredNormalOperator:
+        if self.part.quarter:
+            return self.model.pressure_operator(shape)
+        return self.model.normal_operator(shape)
+
+    def corrected(
+        self, last: _Last, before: _Last, solved: _Solved, edge: Rim, change: float
+    ) -> Corrected:
+        """The last iterate as a state on the window."""
+        target, unfolded = self.state.target, self.part.unfolded
+        approach, tilt = target.reached(self.model, solved.motion)
+        load = target.on(self.model, Box.whole(self.gap.shape), self.part)
+        u = solved.beside + self._operator(self.gap.shape)(solved.pressure)
+        gap = np.maximum(self.gap + u - load.closure(solved.motion), 0.0)
         gap[edge.region] = 0.0
-        area = area_within(p, edge)
-        unfolded = self.model.part.unfolded
-        p, gap = unfolded(p), unfolded(gap)
-        return Corrected(p, peak_of(p), gap, approach, area, change, edge.kept, tilt)
+        p = unfolded(last.pressure)
+        peak, peak_before = peak_of(p), peak_of(unfolded(before.pressure))
+        report = EdgeReport(
+            response=abs(last.response / before.response - 1),
+            peak=abs(peak / peak_before - 1),
+            radius=abs((last.area / before.area) ** 0.5 - 1),
+        )
+        return Corrected(
+            pressure=p,
+            peak=peak,
+            gap=unfolded(gap),
+            approach=approach,
+            contact_cells=last.area,
+            change=change,
+            edge=edge,
+            report=report,
+            tilt=tilt,
+            shear=None if self.shear is None else self.shear(p),
+        )

@@ -13,22 +13,22 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.ndimage import correlate1d, distance_transform_edt
 
 from contact_scene.solver_errors import NotConverged
 from semi_analytical.admissible_shear import ShearSum, Vector, magnitude
 from semi_analytical.edge.corrected import CorrectedShear
 from semi_analytical.edge.displacement import Within
 from semi_analytical.edge.rim import Rim, rim
-from semi_analytical.edge_correction.mixing import Mixing
 from semi_analytical.edge_correction.operators import EdgeOperators
 from semi_analytical.edge_correction.pressure import (
-    ENOUGH,
-    MOST_ROUNDS,
+    DAMPED,
+    INNER_REDUCTION,
+    LEAST_SETTLED,
+    MAX_ITERATIONS,
     MOST_UNSAFE,
-    has_settled,
-    settles,
+    SETTLED,
 )
+from semi_analytical.edge_correction.shear_at_edge import direction_of_slip
 from semi_analytical.linearised_shear import Point
 from semi_analytical.sheared import Sheared
 from semi_analytical.tangential import TangentialSolution, solve_tangential
@@ -37,12 +37,6 @@ Field = NDArray[np.float64]
 VectorField = NDArray[np.float64]
 Mask = NDArray[np.bool_]
 WithinVector = tuple[Within, Within]
-
-# Layers of cells that a fit of the border of stick may ask for the slip of.
-LAYERS = 12
-BESIDE = np.ones(3)
-# Of the sum of the directions of neighbours, below which they point against each other.
-LEAST_COMMON = 1e-3
 
 
 @dataclass(frozen=True)
@@ -55,22 +49,6 @@ class Missing:
     slip: VectorField
     stick: Mask
     edge: Rim
-
-
-def direction_of_slip(q: VectorField, slips: Mask) -> VectorField:
-    """Of cells that slip (2, nx, ny), and of the others as those next to them have it, layer by
-    layer; far from all the nearest cell's."""
-    size = magnitude(q)
-    known = slips & (size > 0)
-    n = np.where(known, q / np.where(known, size, 1.0), 0.0)
-    for _ in range(LAYERS):
-        about = correlate1d(correlate1d(n, BESIDE, 1, mode="constant"), BESIDE, 2, mode="constant")
-        size = magnitude(about)
-        new = ~known & (size > LEAST_COMMON)
-        n = np.where(new, about / np.where(new, size, 1.0), n)
-        known |= new
-    nearest = distance_transform_edt(~known, return_distances=False, return_indices=True)
-    return np.asarray(n[:, nearest[0], nearest[1]])
 
 
 def sliding_shear(
@@ -196,7 +174,7 @@ class ShearProblem:
             motion,
             model.self_compliance,
             self.tolerance,
-            ENOUGH,
+            INNER_REDUCTION,
         )
         return replace(
             solution,
@@ -222,8 +200,7 @@ def edge_shear(
     full = problem.full(problem.bound, missing.slip, problem.before[0])
     missing = replace(missing, full=full)
     q, motion = full - missing.shear, solved.shift
-    mixing, changes = Mixing(), []
-    for number in range(MOST_ROUNDS):
+    for number in range(MAX_ITERATIONS):
         within = problem.within(q, missing)
         u = problem.operators.by_shear(q.shape[1:])(*within)
         try:
@@ -231,20 +208,18 @@ def edge_shear(
         except NotConverged:
             return None
         answer, motion = solution.shear, solution.motion
-        change = answer - q
-        changes.append(float(np.sum(magnitude(change)) / np.sum(problem.bound)))
-        edge, stick = missing.edge, (problem.bound > 0) & ~solution.in_slip
-        q = answer if number == 0 else mixing.next(q, change)
-        settled = has_settled(change, problem.bound, int(np.count_nonzero(problem.bound)))
-        if (settled and settles(changes)) or number == MOST_ROUNDS - 1:
+        change = float(np.sum(magnitude(answer - q)) / np.sum(problem.bound))
+        if change <= SETTLED or number == MAX_ITERATIONS - 1:
             break
+        edge, stick = missing.edge, (problem.bound > 0) & ~solution.in_slip
+        q = q + (DAMPED if number else 1.0) * (answer - q)
         next_missing = problem.missing(
             q, problem.bound, problem.before[0], stick | edge.outer, edge
         )
         if next_missing is None:
             return None
         missing = next_missing
-    if not settles(changes):
+    if change > LEAST_SETTLED:
         return None
     return CorrectedShear(
         shear=answer,
@@ -252,7 +227,7 @@ def edge_shear(
         slip=missing.slip,
         displacement=solution.displacement + u,
         shift=motion,
-        stick=edge.region,
-        stick_cells=edge.area,
-        change=changes[-1],
+        stick=missing.edge.region,
+        stick_cells=missing.edge.area,
+        change=change,
     )

@@ -18,8 +18,8 @@ from scipy.ndimage import distance_transform_edt
 from semi_analytical.box import box_around
 from semi_analytical.contact_area import stuck_cells
 from semi_analytical.edge.fit import NARROW, WIDE, Stencil
-from semi_analytical.edge.shape import Mask, depth_of, edge_shape
-from semi_analytical.edge_correction.shear import LAYERS, direction_of_slip
+from semi_analytical.edge.shape import LARGEST_RMS, Mask, depth_of, edge_shape
+from semi_analytical.edge_correction.shear_at_edge import LAYERS, direction_of_slip
 
 Field = NDArray[np.float64]
 VectorField = NDArray[np.float64]
@@ -33,7 +33,6 @@ TWICE = 2.0
 THICK = 3.0
 # Layers inside and outside the border of cells that it may cut.
 CUT = 1.5
-TINY = np.finfo(float).tiny
 
 
 @dataclass(frozen=True)
@@ -86,10 +85,5 @@ def _parts(
 ) -> _Parts:
     """Of cells (i, j) along the border."""
     shape = edge_shape(missing, stick, stencil, rings=0, exponent=exponent, rounds=2, depth=depth)
-    phi, safe = shape.about_cells(i, j)
-    inside = stick[i, j]
-    fits = shape.fits(i[inside], j[inside])
-    missed = np.full(stick.shape, np.inf)
-    missed[i[inside], j[inside]] = fits.rms / np.maximum(fits.quadratic.slope, TINY)
-    of_nearest = missed[tuple(shape.nearest[:, i, j])]
-    return _Parts(phi.cell_mean(0.0), np.where(safe, of_nearest, np.inf))
+    phi, missed = shape.about_cells(i, j)
+    return _Parts(phi.cell_mean(0.0), np.where(missed < LARGEST_RMS, missed, np.inf))

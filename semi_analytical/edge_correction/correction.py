@@ -1,4 +1,4 @@
-"""A solved state with its edges inside the cells."""
+"""Edge correction of states: of the pressure, and of the stick border of uncoupled bodies."""
 
 from __future__ import annotations
 
@@ -6,50 +6,60 @@ from dataclasses import replace
 
 import numpy as np
 
-from semi_analytical.edge.corrected import Corrected, CorrectedShear
+from semi_analytical.edge.corrected import Corrected, CorrectedShear, EdgeReport
 from semi_analytical.edge.displacement import Within
 from semi_analytical.edge_correction.operators import EdgeOperators
-from semi_analytical.edge_correction.pressure import edge_pressure
+from semi_analytical.edge_correction.pressure import NotFitted, edge_pressure
 from semi_analytical.edge_correction.shear import ShearProblem, edge_shear, sliding_shear
+from semi_analytical.edge_correction.shear_at_edge import FollowingShear
 from semi_analytical.increment import State
 from semi_analytical.model import ContactModel
 from semi_analytical.sheared import Sheared, rigid
 
 
 class EdgeCorrection:
-    """Of the states of a model. They remain as they are, and so does what follows from them."""
+    """Edge correction of the states of a model, which remain unchanged.
 
-    def __init__(self, model: ContactModel) -> None:
-        self._operators = EdgeOperators(model)
+    coupled  whether pressure and shear of the bodies are coupled
+    """
+
+    def __init__(self, model: ContactModel, *, coupled: bool) -> None:
+        self._operators, self._coupled = EdgeOperators(model), coupled
 
     def __call__(
         self, last: State | None, state: State, *, way_known: bool, tolerance: float
-    ) -> Corrected | None:
-        """The state with its edges inside the cells; None where that is not safe.
+    ) -> Corrected | EdgeReport:
+        """Correct a state, or report the cause for which it cannot be corrected.
 
-        last       a state before, the corrected one where there is one; None before first touch
-        way_known  whether what surfaces remember of the way from there is told by its ends
+        last       an earlier state, from which the stick border of uncoupled bodies follows; None
+                   before first touch
+        way_known  whether its ends determine the load history from there
         """
+        try:
+            pressed = self._pressed(last, state)
+        except NotFitted as cause:
+            return EdgeReport(str(cause))
         sheared = state.sheared
-        if sheared is None:
-            return self._pressed(last, state, tolerance)
+        if self._coupled or sheared is None:
+            return pressed
         free = not np.any(sheared.shear) or not np.any(sheared.in_stick)
         before = last if way_known else None
         if not free and not _leads_to(before, state, sheared):
-            return None
-        pressed = self._pressed(last, state, tolerance)
-        if pressed is None:
-            return None
-        shear = self._sheared(before, state, sheared, pressed, tolerance)
-        return None if shear is None else replace(pressed, sheared=shear)
+            return pressed
+        border = self._sheared(before, state, sheared, pressed, tolerance)
+        return replace(pressed, sheared=border)
 
-    def _pressed(self, last: State | None, state: State, tolerance: float) -> Corrected | None:
-        """The pressure; of one that has not changed it is known."""
-        p, target = state.pressing.pressure, state.target
-        known = last.corrected if last and last.target == target else None
-        if known and last and np.array_equal(last.pressing.pressure, p):
-            return known
-        return edge_pressure(self._operators, target, p)
+    def _pressed(self, last: State | None, state: State) -> Corrected:
+        """The pressure; reused where it has not changed."""
+        p, sheared, law = state.pressing.pressure, state.sheared, self._operators.model.friction
+        follows = None
+        if sheared is not None:
+            follows = FollowingShear.of(law, p, sheared.shear, sheared.in_stick)
+        known = last.corrected if last and last.target == state.target else None
+        if not self._coupled and known and last and np.array_equal(last.pressing.pressure, p):
+            shear = None if follows is None else follows(known.pressure)
+            return replace(known, shear=shear, sheared=None)
+        return edge_pressure(self._operators, state, follows, coupled=self._coupled)
 
     def _sheared(
         self,
@@ -59,7 +69,7 @@ class EdgeCorrection:
         pressed: Corrected,
         tolerance: float,
     ) -> CorrectedShear | None:
-        """The shear at a corrected pressure."""
+        """The shear at a corrected pressure; None where its stick border cannot be fitted."""
         model, edge = self._operators.model, pressed.edge
         bound = model.friction.limit(pressed.pressure)
         if not np.any(solved.shear):
@@ -75,9 +85,8 @@ class EdgeCorrection:
                 stick_cells=pressed.contact_cells,
                 change=0.0,
             )
-        mu = model.friction.uniform
-        assert mu is not None
-        on_part = Within.of(edge.part.of(bound), edge.i, edge.j, mu * edge.parts, edge.part)
+        parts = model.friction.limit(edge.parts)
+        on_part = Within.of(edge.part.of(bound), edge.i, edge.j, parts, edge.part)
         limit = on_part.unfolded(edge.part)
         if not np.any(solved.in_stick):
             return sliding_shear(self._operators, bound, limit, solved)
@@ -105,9 +114,9 @@ class EdgeCorrection:
 
 
 def _leads_to(before: State | None, state: State, sheared: Sheared) -> bool:
-    """Whether the border of stick of a state is known to follow from a state before."""
+    """Whether the stick border of a state follows from that of an earlier one."""
     last = before.corrected.sheared if before and before.corrected else None
     if before is None or last is None or last.shift is None or sheared.shift is None:
         return False
-    # With another pressure nobody knows how the border of stick lies to the one before.
+    # At another pressure the relation of both stick borders is not known.
     return before.target == state.target or not np.any(last.shear)
