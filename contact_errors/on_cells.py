@@ -129,11 +129,7 @@ def rules_at(
         alone=any(state.edge_change is None for state in beside),
         layers=bool(scene.body.layers or scene.indenter.layers),
         film=not coupled and film_law(scene.body, scene.indenter, result.grid.spacing) is not None,
-        pushed=any(
-            np.any(ramp.tangential.end)
-            for ramp in scene.load_path()
-            if any(ramp.step <= state.step for state in states)
-        ),
+        border=all(state.edge_report is None or state.edge_report.border for state in states),
     )
 
 

@@ -144,9 +144,9 @@ RULES = with_their_likes(
 EDGES = with_their_likes(
     {
         "stick_radius": Rule(1.5, 0.0045, 9, 1.0, 2.0, 1.0, Lengthscale.STICK),
-        "approach": Rule(2, 0.0018, 9, 0.45, path_factor=1.5),
-        "contact_radius": Rule(2.5, 0.0125, 2, 1.95, path_factor=1.5),
-        "peak_pressure": Rule(3, 0.0535, 9, 0.6, path_factor=2.0),
+        "approach": Rule(2, 0.0027, 9, 0.45, path_factor=1.5),
+        "contact_radius": Rule(2.5, 0.019, 2, 1.95, path_factor=1.5),
+        "peak_pressure": Rule(3, 0.08, 9, 0.6, path_factor=2.0),
         "tilt": Rule(3, 0.0145, 2, 1.4, path_factor=1.5, lengthscale=Lengthscale.TURN_WITHIN),
     }
 )
@@ -155,7 +155,7 @@ EDGES = with_their_likes(
 ON_FILM = with_their_likes(
     {
         "approach": Rule(2.5, 0.006, 1, 1.45, path_factor=1.5),
-        "contact_radius": Rule(2, 0.0183, 0.1, 1.7, path_factor=1.5),
+        "contact_radius": Rule(2, 0.0275, 0.1, 1.7, path_factor=1.5),
         "peak_pressure": Rule(2.5, 0.009, 1, 1.1, path_factor=2.0),
         "tilt": Rule(3, 0.0165, 9, 1.8, path_factor=1.5, lengthscale=Lengthscale.TURN_WITHIN),
     }
@@ -177,22 +177,21 @@ CAP = {"peak_pressure": replace(PEAK, least=1.0)}
 # Where friction acts back on a pressing contact its pressure has a cusp on the axis.
 CUSP = {"peak_pressure": replace(PEAK, order=1, factor=1.65, lengthscale=Lengthscale.CUSP)}
 # Where bodies couple, of states with their edges inside the cells: the cusp and the front of a
-# stick zone that grows remain those of cells, and slip reaches less far in than a contact does.
+# stick zone that grows remain those of cells. Pushed, they have stick near the edge on one side,
+# farther in on the other (rigid balls and ellipsoids on bare and coated bodies, 11 to 29 cells per
+# radius: at most 0.07 m^-3/2).
 COUPLED = with_their_likes(
     {
         "approach": Rule(2, 0.005, 1, 1.5, path_factor=1.5),
-        "contact_radius": Rule(1.5, 0.012, 2, 1.4, path_factor=1.5),
+        "contact_radius": Rule(1.5, 0.06, 2, 1.4, path_factor=1.5),
     }
 )
 # On these alone, no less.
 COUPLED_ALONE = ALONE | with_their_likes(
-    {"approach": Rule(2, 0.006, UNTOLD, 1.2, 1.5, lengthscale=Lengthscale.FILM)}
-)
-# Pushed, they have stick near the edge on one side, farther in on the other (rigid balls and
-# ellipsoids on bare and coated bodies, 11 to 29 cells per radius: at most 0.07 m^-3/2).
-PUSHED = COUPLED | with_their_likes({"contact_radius": Rule(1.5, 0.06, 2, 1.4, path_factor=1.5)})
-PUSHED_ALONE = COUPLED_ALONE | with_their_likes(
-    {"contact_radius": Rule(1.5, 0.06, UNTOLD, 1.2, 1.5, lengthscale=Lengthscale.FILM)}
+    {
+        "approach": Rule(2, 0.006, UNTOLD, 1.2, 1.5, lengthscale=Lengthscale.FILM),
+        "contact_radius": Rule(1.5, 0.06, UNTOLD, 1.2, 1.5, lengthscale=Lengthscale.FILM),
+    }
 )
 # A rim lies within cells: whatever holds the indenter is off as the radius a that the cells make of
 # it is, motions and energies with 1/a, rotations with 1/a³.
@@ -220,7 +219,7 @@ def rules_for(
     alone: bool = False,
     layers: bool = True,
     film: bool = False,
-    pushed: bool = False,
+    border: bool = True,
 ) -> Mapping[str, Rule]:
     """The rule of every quantity below an indenter; none of what is infinite in the exact answer.
 
@@ -229,12 +228,13 @@ def rules_for(
     alone   whether they are not inside those of a companion
     layers  whether a body has any
     film    whether edges are fitted with the law of one
-    pushed  whether a load pushes sideways, or has done so
+    border  whether the stick border of uncoupled bodies is inside the cells, too
     """
     with_edges = ALONE if alone else EDGES | ON_FILM if film else EDGES
     if cusp:
-        both, one = (PUSHED, PUSHED_ALONE) if pushed else (COUPLED, COUPLED_ALONE)
-        with_edges = CUSP | {name: (one if alone else both)[name] for name in COUPLED}
+        with_edges = CUSP | {name: (COUPLED_ALONE if alone else COUPLED)[name] for name in COUPLED}
+    elif not border:
+        with_edges |= {name: RULES[name] for name in ("stick_radius", "stick_area")}
     without = CAP if isinstance(indenter, SmoothTip) and not layers else {}
     rules = RULES | (with_edges if edges else CUSP if cusp else without)
     if indenter.rim is not None:

@@ -45,6 +45,7 @@ class EdgeReport:
     response  of the approach, or of the normal force where the approach is prescribed
     peak      of the largest pressure
     radius    of the contact radius
+    ridge     whether the peak lies on a ridge, not on a cap
     border    whether the stick border of uncoupled bodies is corrected, too, or there is none
     """
 
@@ -52,6 +53,7 @@ class EdgeReport:
     response: float = 0.0
     peak: float = 0.0
     radius: float = 0.0
+    ridge: bool = False
     border: bool = True
 
 

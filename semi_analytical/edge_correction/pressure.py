@@ -204,15 +204,16 @@ class _Problem:
         gap = np.maximum(self.gap + u - load.closure(solved.motion), 0.0)
         gap[edge.region] = 0.0
         p = unfolded(last.pressure)
-        peak, peak_before = peak_of(p), peak_of(unfolded(before.pressure))
+        peak, before_peak = peak_of(p), peak_of(unfolded(before.pressure))
         report = EdgeReport(
             response=abs(last.response / before.response - 1),
-            peak=abs(peak / peak_before - 1),
+            peak=abs(peak.value / before_peak.value - 1),
+            ridge=peak.ridge,
             radius=abs((last.area / before.area) ** 0.5 - 1),
         )
         return Corrected(
             pressure=p,
-            peak=peak,
+            peak=peak.value,
             gap=unfolded(gap),
             approach=approach,
             contact_cells=last.area,
