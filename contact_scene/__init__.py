@@ -6,12 +6,12 @@ A scene is made in Python from the frozen values named here, or read from a TOML
 
 from contact_scene.array_file import ArrayFile
 from contact_scene.body import Body, Layer
-from contact_scene.body_file import read_body
 from contact_scene.discretisation import (
     FiniteElementDiscretisation,
     RadialDiscretisation,
     SurfaceDiscretisation,
 )
+from contact_scene.document import scene_schema
 from contact_scene.friction import CoulombFriction, FrictionMap
 from contact_scene.geometry import Cone, Ellipsoid, FlatPunch, HeightMap, Paraboloid, Sphere
 from contact_scene.load_path import ControlKind, LoadRamp, ScalarControl, VectorControl
@@ -19,8 +19,7 @@ from contact_scene.loading import LoadStep
 from contact_scene.material import RIGID, IsotropicMaterial, Rigid
 from contact_scene.problem import Problem, SceneError
 from contact_scene.scene import Scene
-from contact_scene.scene_file import SceneFile, load_scene, read_scene_file
-from contact_scene.scene_schema import scene_schema
+from contact_scene.scene_file import SceneFile, load_scene, read_body, read_scene_file
 
 __all__ = [
     "RIGID",

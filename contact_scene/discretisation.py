@@ -3,9 +3,8 @@
 from typing import Annotated, Literal
 
 from contact_scene.description import Description
-from contact_scene.quantity import PositiveLength, Quantity, Tolerance
+from contact_scene.quantity import PositiveLength, Quantity, Tolerance, WholeNumber
 from contact_scene.units import PURE_NUMBER
-from contact_scene.whole_number import WholeNumber
 
 PATH_ACCURACY = 1e-2
 

@@ -1,5 +1,6 @@
-"""The whole of a scene file: the scene, and beside it how fine each solver shall be,
-or how accurate the answer."""
+"""The whole of a scene file, the scene and how fine or how accurate, and its JSON Schema."""
+
+from typing import Any
 
 from contact_scene.accuracy import AccuracyRequest
 from contact_scene.consistency import Parts
@@ -8,6 +9,7 @@ from contact_scene.discretisation import (
     RadialDiscretisation,
     SurfaceDiscretisation,
 )
+from contact_scene.geometry import SHAPES
 from contact_scene.scene import Scene
 
 
@@ -29,3 +31,15 @@ class SceneDocument(Scene):
 
     def _parts(self) -> Parts:
         return {**super()._parts(), "semi_analytical": self.semi_analytical}
+
+
+def scene_schema() -> dict[str, Any]:
+    """JSON Schema of a scene file (TOML read as JSON).
+
+    It holds what a schema can say; what the parts must have in common is checked on reading.
+    """
+    schema = SceneDocument.model_json_schema(mode="validation")
+    schema["title"] = "slipstick scene"
+    for shape in SHAPES.values():  # in Python the class says it, in a file nothing else does
+        schema["$defs"][shape.__name__]["required"].insert(0, "shape")
+    return {"$schema": "https://json-schema.org/draft/2020-12/schema", **schema}

@@ -5,9 +5,16 @@ from typing import Annotated
 from pydantic import model_validator
 
 from contact_scene.description import Description
-from contact_scene.quantity import Force, Length, Moment, PositiveForce, PositiveLength, Rotation
+from contact_scene.quantity import (
+    Force,
+    Length,
+    Moment,
+    PositiveForce,
+    PositiveLength,
+    Rotation,
+    WholeNumber,
+)
 from contact_scene.refusal import refusal
-from contact_scene.whole_number import WholeNumber
 
 MOST_STEPS = 20_000
 Increments = Annotated[int, WholeNumber(1, 100_000)]

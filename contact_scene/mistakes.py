@@ -1,21 +1,19 @@
 """What pydantic finds wrong, told in the words and keys of the scene file."""
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from difflib import get_close_matches
-from typing import Any
+from typing import Any, get_args
 
-from pydantic import ValidationError
+from pydantic import BaseModel, ValidationError
 from pydantic_core import ErrorDetails
 
 from contact_scene.body import Body
-from contact_scene.expectation import (
-    expected_table,
-    expected_value,
-    is_branch,
-    known_keys,
-)
+from contact_scene.document import SceneDocument
+from contact_scene.friction import FrictionMap
 from contact_scene.geometry import SHAPES
+from contact_scene.material import IsotropicMaterial
 from contact_scene.problem import Path, Problem
+from contact_scene.quantity import Quantity
 from contact_scene.refusal import shown
 
 _MISSING = "the key is missing"
@@ -51,15 +49,15 @@ def _problem(document: Mapping[str, Any], detail: ErrorDetails) -> Problem:
     if kind == "refused":
         return Problem(path, context["message"], context["expected"], context["hint"])
     if kind == "missing" and isinstance(location[-1], str):
-        return Problem(path, _MISSING, expected_value(location))
+        return Problem(path, _MISSING, _expected_value(location))
     if kind == "missing":
         return Problem(path[:-1], got, "an array of 2, for x and y")
     if kind == "extra_forbidden":
-        return _unknown_key(path, known_keys(location[:-1]))
+        return _unknown_key(path, _known_keys(location[:-1]))
     if kind.startswith("union_tag"):
         return _unknown_shape(path, detail["input"])
     if kind in _NO_TABLE:
-        return Problem(path, got, expected_table(location), _brackets(path, detail["input"]))
+        return Problem(path, got, _expected_table(location), _brackets(path, detail["input"]))
     if kind in _NO_ARRAY:
         return Problem(path, got, "an array", _brackets(path, detail["input"]))
     if kind in ("too_short", "too_long"):
@@ -80,7 +78,7 @@ def _as_written(document: Mapping[str, Any], detail: ErrorDetails) -> Path:
     value: Any = document
     unknown = detail["loc"][-1:] if detail["type"] == "extra_forbidden" else ()
     for part in detail["loc"][: len(detail["loc"]) - len(unknown)]:
-        if is_branch(part):
+        if _is_branch(part):
             continue
         if not isinstance(value, dict if isinstance(part, str) else list):
             break
@@ -167,3 +165,67 @@ def _without_echoes(problems: list[Problem]) -> list[Problem]:
         if problem.message != _MISSING
         or (problem.path[:-1], _did_you_mean(str(problem.path[-1]))) not in meant
     ]
+
+
+# Where pydantic goes through a union, its locations name the branch in angle brackets.
+Location = tuple[str | int, ...]
+
+_MATERIAL = '{ young_modulus = "210 GPa", poisson_ratio = 0.3 } or "rigid"'
+_IN_BRANCH = {"<elastic>": _MATERIAL, "<rigid>": _MATERIAL}
+_MODEL_IN_BRANCH: dict[str, type[BaseModel]] = {
+    "<elastic>": IsotropicMaterial,
+    "<mapped>": FrictionMap,
+    **{f"<{name}>": shape for name, shape in SHAPES.items()},
+}
+
+
+def _is_branch(part: str | int) -> bool:
+    """Whether this part of a location names a branch of a union and not a key."""
+    return isinstance(part, str) and part.startswith("<")
+
+
+def _model_at(location: Iterable[str | int]) -> type[BaseModel] | None:
+    """The part of the scene that is described at a location."""
+    model: type[BaseModel] | None = SceneDocument
+    for part in location:
+        if isinstance(part, int):
+            continue
+        if _is_branch(part):
+            model = _MODEL_IN_BRANCH.get(part)
+        elif model is not None and part in model.model_fields:
+            model = _model_in(model.model_fields[part].annotation)
+    return model
+
+
+def _known_keys(location: Location) -> list[str]:
+    """Keys of the table at a location."""
+    model = _model_at(location)
+    return list(model.model_fields) if model is not None else []
+
+
+def _expected_value(location: Location) -> str:
+    """What a key stands for, in words."""
+    model, key = _model_at(location[:-1]), location[-1]
+    field = model.model_fields.get(str(key)) if model is not None else None
+    if field is None:
+        return ""
+    quantity = next((m for m in field.metadata if isinstance(m, Quantity)), None)
+    if quantity is not None:
+        return quantity.expected
+    sentence = " ".join((field.description or "").split()).rstrip(".")
+    return sentence[:1].lower() + sentence[1:]
+
+
+def _expected_table(location: Location) -> str:
+    """The table that belongs at a location, by the keys it must have."""
+    if location and location[-1] in _IN_BRANCH:
+        return _IN_BRANCH[str(location[-1])]
+    model = _model_at(location)
+    required = [k for k, f in (model.model_fields.items() if model else ()) if f.is_required()]
+    return "a table with " + " and ".join(required) if required else "a table"
+
+
+def _model_in(annotation: Any) -> type[BaseModel] | None:
+    if isinstance(annotation, type) and issubclass(annotation, BaseModel):
+        return annotation
+    return next(filter(None, map(_model_in, get_args(annotation))), None)

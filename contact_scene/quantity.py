@@ -1,16 +1,19 @@
-"""Physical quantities as they are written in a scene: a number in SI or a string with a unit."""
+"""Physical quantities as they are written in a scene: a number in SI or a string with a unit; and
+whole numbers within bounds."""
 
 import math
 import re
 from dataclasses import dataclass
 from decimal import Context, Decimal
 from difflib import get_close_matches
+from numbers import Real
+from operator import index
 from typing import Annotated, Any
 
+import numpy as np
 from pydantic import GetCoreSchemaHandler, GetJsonSchemaHandler, ValidationInfo
 from pydantic_core import CoreSchema, core_schema
 
-from contact_scene.plain_number import has_unit, is_plain
 from contact_scene.refusal import refusal, shown
 from contact_scene.units import (
     ANGLE,
@@ -160,6 +163,53 @@ class Quantity:
             "examples": [f"1 {unit}" for unit in self.kind.units if unit.isascii()],
         }
         return {"anyOf": [number, written]}
+
+
+@dataclass(frozen=True)
+class WholeNumber:
+    """Validator of a whole number, bounds included, for use in `Annotated[int, ...]`."""
+
+    at_least: int
+    at_most: int
+
+    def __call__(self, value: Any) -> int:
+        """The number; raises a refusal for anything else, 5.0 and true included."""
+        try:
+            number = index(value) if is_plain(value) else None
+        except TypeError:
+            number = None
+        if number is None or not self.at_least <= number <= self.at_most:
+            raise refusal(
+                f"got {shown(value)}", f"a whole number from {self.at_least} to {self.at_most}"
+            )
+        return number
+
+    def __get_pydantic_core_schema__(
+        self, source: Any, handler: GetCoreSchemaHandler
+    ) -> CoreSchema:
+        return core_schema.no_info_plain_validator_function(self)
+
+    def __get_pydantic_json_schema__(
+        self, schema: CoreSchema, handler: GetJsonSchemaHandler
+    ) -> dict[str, Any]:
+        return {"type": "integer", "minimum": self.at_least, "maximum": self.at_most}
+
+
+def is_plain(value: Any) -> bool:
+    """Whether nothing is lost when a value is taken for a number: it has no unit, mask, imaginary
+    part or second entry, and is neither a truth value nor a time."""
+    if type(value) in (float, int):
+        return True
+    if type(value) is np.ndarray:
+        return value.shape == () and value.dtype.kind in "fiu"
+    if isinstance(value, bool | np.timedelta64) or not isinstance(value, Real | Decimal):
+        return False
+    return not has_unit(value)
+
+
+def has_unit(value: Any) -> bool:
+    """Whether a value is one of a library of units, as of pint, astropy or unyt."""
+    return hasattr(value, "units") or hasattr(value, "unit")
 
 
 Length = Annotated[float, Quantity(LENGTH, "a length")]

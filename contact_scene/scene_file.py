@@ -1,13 +1,16 @@
-"""Reading a scene file."""
+"""Reading a scene file: what it and the overrides on top of it say, and where."""
 
-from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
+from collections.abc import Iterable, Iterator, Mapping
+from contextlib import contextmanager
+from dataclasses import dataclass, replace
 from os import PathLike
+from pathlib import Path
 from typing import Any, TypeVar, cast
 
 from pydantic import TypeAdapter, ValidationError
 
 from contact_scene.accuracy import AccuracyRequest, accuracy_texts, of_option
+from contact_scene.body import Body
 from contact_scene.consistency import Parts, inconsistencies
 from contact_scene.description import Description
 from contact_scene.discretisation import (
@@ -17,10 +20,12 @@ from contact_scene.discretisation import (
 )
 from contact_scene.document import SceneDocument
 from contact_scene.mistakes import mistakes
-from contact_scene.override import assign, override
+from contact_scene.override import assign, origin, override
+from contact_scene.problem import Path as Key
 from contact_scene.problem import Problem, SceneError
+from contact_scene.quantity import ANY_MAGNITUDE
 from contact_scene.scene import Scene
-from contact_scene.source import read_source
+from contact_scene.toml_file import read_toml
 
 
 @dataclass(frozen=True)
@@ -48,7 +53,7 @@ def read_scene_file(path: str | PathLike[str], overrides: Iterable[str] = ()) ->
                arrays count from 1: `loading[2].increments=5`
     Raises `SceneError` with every mistake, each with file, line and key.
     """
-    source = read_source(path, overrides)
+    source = _read(path, overrides)
     with source.placing():
         return _checked(source.document, {"folder": source.file.parent})
 
@@ -59,18 +64,38 @@ def read_accuracy(text: str, option: str) -> AccuracyRequest:
     option  how messages name where the text comes from
     Raises `SceneError` with every mistake.
     """
-    document = {"accuracy": accuracy_texts(text, option)}
     try:
-        asked = _Asked.model_validate(document)
-    except ValidationError as error:
-        raise of_option(SceneError(mistakes(document, error, {})), option) from None
-    return asked.accuracy
+        return _valid(_Accuracy, {"accuracy": accuracy_texts(text, option)}, {}).accuracy
+    except SceneError as error:
+        raise of_option(error, option) from None
 
 
-class _Asked(Description):
+def read_body(path: str | PathLike[str], overrides: Iterable[str] = ()) -> Body:
+    """Read and check the lower body of a scene file; the rest need neither be there nor be right.
+
+    A modulus or thickness may have any magnitude that can be computed with, because a body alone
+    makes no problem that has to be well posed.
+
+    path       a TOML file
+    overrides  as for `read_scene_file`
+    Raises `SceneError` with every mistake in the table [body], each with file, line and key.
+    """
+    source = _read(path, overrides)
+    document = {name: source.document[name] for name in ("body",) if name in source.document}
+    with source.placing():
+        return _valid(_Body, document, {ANY_MAGNITUDE: True}).body
+
+
+class _Accuracy(Description):
     """The part of a document that an option stands for."""
 
     accuracy: AccuracyRequest
+
+
+class _Body(Description):
+    """The one table of a scene file that is read."""
+
+    body: Body
 
 
 def changed_scene(
@@ -95,16 +120,17 @@ def changed_scene(
     return _valid(Scene, document, {})
 
 
-D = TypeVar("D", bound=Scene)
+D = TypeVar("D", bound=Description)
 
 
 def _valid(kind: type[D], document: dict[str, Any], context: dict[str, Any]) -> D:
-    """The document as a scene; raises `SceneError` with every mistake in it."""
+    """Check a document; raises `SceneError` with every mistake in it."""
     try:
         return kind.model_validate(document, context=context)
     except ValidationError as error:
         found = mistakes(document, error, context)
-        found += inconsistencies(_valid_parts(document, error, context))
+        if issubclass(kind, Scene):
+            found += inconsistencies(_valid_parts(document, error, context))
         raise SceneError(found) from None
 
 
@@ -138,3 +164,62 @@ def _valid_parts(
         elif not field.is_required():
             parts[name] = field.get_default()
     return cast(Parts, parts)
+
+
+@dataclass(frozen=True)
+class _Source:
+    """A document that is not checked yet.
+
+    file        where it was read
+    document    its contents, overrides applied
+    lines       line of every key in the file
+    overridden  the options that set a key
+    refused     what is wrong with options that set none
+    """
+
+    file: Path
+    document: dict[str, Any]
+    lines: Mapping[Key, int]
+    overridden: Mapping[Key, str]
+    refused: tuple[Problem, ...]
+
+    @contextmanager
+    def placing(self) -> Iterator[None]:
+        """Raise a `SceneError` of the block again with the file and line of every mistake.
+
+        Mistakes of refused options are among them; they are raised too where the block raises none.
+        """
+        placed: list[Problem] = []
+        try:
+            yield
+        except SceneError as error:
+            placed = [self._placed(problem) for problem in error.problems]
+        if found := (*self.refused, *placed):
+            raise SceneError(sorted(found, key=lambda problem: problem.line or 0))
+
+    def _placed(self, problem: Problem) -> Problem:
+        """The problem with the file and line it belongs to, or with the override."""
+        path, made = problem.path, self.overridden
+        prefixes = [path[:length] for length in range(len(path), -1, -1)]
+        source = next((made[prefix] for prefix in prefixes if prefix in made), None)
+        if source is None and path not in self.lines:  # a table that only an override has made
+            inside = (key for key in made if key[: len(path)] == path and path)
+            source = next((made[key] for key in inside), None)
+        if source is not None:
+            return replace(problem, file=source)
+        line = next((self.lines[prefix] for prefix in prefixes if prefix in self.lines), 1)
+        return replace(problem, file=str(self.file), line=line)
+
+
+def _read(path: str | PathLike[str], overrides: Iterable[str]) -> _Source:
+    """Read a file and apply overrides in order; raises `SceneError` for what is no document."""
+    file = Path(path)
+    document, lines = read_toml(file)
+    overridden: dict[Key, str] = {}
+    refused: list[Problem] = []
+    for assignment in overrides:
+        try:
+            overridden[override(document, assignment)] = origin(assignment)
+        except SceneError as error:
+            refused += error.problems
+    return _Source(file, document, lines, overridden, tuple(refused))
