@@ -23,17 +23,17 @@ def write_result(
     figures: Literal["none", "overview", "all"] = "overview",
     errors: StatedErrors | None = None,
     accuracy: AccuracyReached | None = None,
-    every_increment: bool = False,
+    all_fields: bool = False,
 ) -> None:
     """Write summary, fields, tables, figures and their page into a directory that has none of them.
 
     figures         one picture and the page, all pictures and the page, or neither
     accuracy        that the result was refined to
-    every_increment store the fields of all increments, not of the last one of each load step
+    all_fields store the fields of all increments, not of the last one of each load step
     """
     cycles = fretting_cycles(result)
     write_tables(result, cycles, directory)
-    write_fields(result, cycles, directory, every_increment=every_increment)
+    write_fields(result, cycles, directory, all_fields=all_fields)
     write_summary(result, cycles, directory, errors, accuracy)
     if figures != "none":
         from contact_results.figures.figure_files import write_figures

@@ -155,7 +155,7 @@ def save(
     *,
     figures: Literal["none", "overview", "all"] = "overview",
     errors: StatedErrors | None = None,
-    every_increment: bool = False,
+    all_fields: bool = False,
 ) -> None:
     """Write the files that `slipstick run` writes: summary, tables, fields and figures.
 
@@ -163,7 +163,7 @@ def save(
     OutputRefused where other files are in the way.
 
     errors  of the result, from `stated_errors`; they are left out if absent
-    every_increment
+    all_fields
                 store the fields of all increments, not of the last one of each load step
     """
     from contact_results.directory.run_directory import run_directory
@@ -182,7 +182,7 @@ def save(
             staging,
             figures=figures,
             errors=errors,
-            every_increment=every_increment,
+            all_fields=all_fields,
         )
 
 

@@ -44,7 +44,7 @@ def result() -> Any:
 def directories(result: Any, tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, Path]:
     """The same result with the fields of every increment, and by default."""
     every, ends = (tmp_path_factory.mktemp(name) for name in ("every", "ends"))
-    write_result(result, every, figures="none", every_increment=True)
+    write_result(result, every, figures="none", all_fields=True)
     write_result(result, ends, figures="none")
     return every, ends
 
@@ -83,7 +83,7 @@ def test_one_increment_is_found_or_refused(directories: tuple[Path, Path]) -> No
     for row in ENDS.tolist():
         assert np.array_equal(ends.increments.at("shear", row), every.increments.at("shear", row))
         assert ends.increments.at("approach", row) == every.increments.at("approach", row)
-    with pytest.raises(KeyError, match=r"increment 12 is not one of them.*--every-increment"):
+    with pytest.raises(KeyError, match=r"increment 12 is not one of them.*--all-fields"):
         ends.increments.at("shear", int(ENDS[1]) - 1)
 
 
@@ -113,7 +113,7 @@ def test_fields_that_stay_are_those_of_every_increment(tmp_path):
     """Pressures while the load rests are packed once, between others that are not."""
     lighter = {"normal_force": 0.5 * LOAD, "increments": 2}
     result = solve(scene(PRESS, push(0.2, increments=3), lighter, push(-0.2)), grid(16), 1e-8)
-    write_fields(result, (), tmp_path, every_increment=True)
+    write_fields(result, (), tmp_path, all_fields=True)
     with h5py.File(tmp_path / FIELDS) as file:
         for name in ("pressure", "in_contact", "gap", "shear", "slip"):
             for index, increment in enumerate(result.increments):

@@ -69,7 +69,7 @@ def test_files_are_the_same_to_the_byte(
     for number, result in enumerate(results):
         directory = tmp_path / str(number)
         directory.mkdir()
-        write_result(result, directory, figures="none", every_increment=True)
+        write_result(result, directory, figures="none", all_fields=True)
         written.append({path.name: path.read_bytes() for path in directory.iterdir()})
     assert written[0] == written[1]
 
@@ -116,7 +116,7 @@ def test_writing_holds_a_few_fields(tmp_path: Path) -> None:
     gc.collect()
     tracemalloc.start()
     try:
-        write_result(result, tmp_path, figures="none", every_increment=True)
+        write_result(result, tmp_path, figures="none", all_fields=True)
         _, peak = tracemalloc.get_traced_memory()
     finally:
         tracemalloc.stop()

@@ -42,12 +42,12 @@ def write_fields(
     cycles: Sequence[FrettingCycle],
     directory: Path,
     *,
-    every_increment: bool = False,
+    all_fields: bool = False,
 ) -> None:
     """Write scene, axes, fields and scalars, and of the last cycle the fields; equal results give
     equal bytes.
 
-    every_increment  store the fields of all increments, not of the last one of each load step
+    all_fields  store the fields of all increments, not of the last one of each load step
 
     The first index of a scalar is the increment, that of a field the load step or the increment. A
     field has one chunk per value of this index, so that one can be read without the others. An
@@ -76,8 +76,8 @@ def write_fields(
         for name, values in surface.axes.items():
             _write(file, name, values, Reported(*AXES[name]), (name,))
         group = file.create_group("increments", track_order=False)
-        shown = increments if every_increment else result.steps
-        counted = PER_INCREMENT if every_increment else PER_STEP
+        shown = increments if all_fields else result.steps
+        counted = PER_INCREMENT if all_fields else PER_STEP
         for name, mark in reported(type(increments[0])).items():
             if mark.kind is Kind.FIELD:
                 _write_field(group, name, mark, surface, shown, counted)

@@ -88,7 +88,7 @@ def row_of(dataset: h5py.Dataset, increment: int) -> int:
     if not len(found):
         raise KeyError(
             f"{dataset.file.filename} has {dataset.name} at the ends of load steps only, and "
-            f"increment {increment + 1} is not one of them; run again with --every-increment"
+            f"increment {increment + 1} is not one of them; run again with --all-fields"
         )
     return int(found[0])
 

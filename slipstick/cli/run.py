@@ -44,6 +44,7 @@ def run(
         Figures,
         typer.Option(
             "--figures",
+            metavar="NAME",
             help="overview: one picture, and the page index.html; all: maps, profiles and loops, "
             "too; none: neither.",
         ),
@@ -60,10 +61,10 @@ def run(
             "them out.",
         ),
     ] = True,
-    every_increment: Annotated[
+    all_fields: Annotated[
         bool,
         typer.Option(
-            "--every-increment",
+            "--all-fields",
             help="Store the fields of every increment in result.h5, not only those at the ends of "
             "load steps.",
         ),
@@ -137,7 +138,7 @@ def run(
                 figures=figures.value,
                 errors=stated,
                 accuracy=reached,
-                every_increment=every_increment,
+                all_fields=all_fields,
             )
         write_timing(stopwatch, staging, result.increments)
     from contact_results.remarks import remarks

@@ -132,7 +132,7 @@ def _written() -> _Written:
     result = semi_analytical.solve(SCENE, grid, SOLVER_TOLERANCE)
     with TemporaryDirectory() as name:
         directory = Path(name)
-        write_result(result, directory, figures="none", every_increment=True)
+        write_result(result, directory, figures="none", all_fields=True)
         with h5py.File(directory / FIELDS) as file:
             arrays = {
                 f"increments/{key}": np.array(value) for key, value in _of(file, "increments")
