@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 import json
 import os
+import subprocess
 import sys
 import tomllib
 from collections.abc import Callable
@@ -420,6 +421,50 @@ def test_filled_files_pass_and_their_sheet_is_escaped(
     assert "stranger <b>" not in page.read_text()
     badge = json.loads((tmp_path / "badge.json").read_text())
     assert (badge["message"], badge["color"]) == ("A · 2/2", "brightgreen")
+
+
+@pytest.mark.parametrize("number", ["nan", "inf", "-inf", "1e308"])
+def test_a_page_shows_levels_whose_numbers_are_not_finite(
+    number: str, filled: Path, tmp_path: Path
+) -> None:
+    page, sizes = tmp_path / "sheet.html", ("4", "2", "1")
+    with (filled / "levels.csv").open("a") as levels:
+        levels.writelines(f"{n},solved,,{h},um,,{n}\n" for n, h in enumerate(sizes, start=2))
+    write(filled, *((str(n), "1", "approach", number if n > 2 else "1", "um", number)
+                    for n in (1, 2, 3, 4)))  # fmt: skip
+    assert slipstick("judge", filled, "--page", page) == 1
+    assert "approach" in page.read_text()
+
+
+@pytest.mark.parametrize("there", [False, True])
+def test_an_export_that_is_killed_leaves_all_files_or_none(there: bool, tmp_path: Path) -> None:
+    """At every call that publishes a file or a folder, the process stops for good."""
+    script = """
+import os, sys
+from pathlib import Path
+from verification.challenge.cases import challenges
+from verification.challenge.export import export
+left = int(sys.argv[1])
+def dying(call):
+    def counted(*arguments, **named):
+        global left
+        left -= 1
+        if left == 0:
+            os._exit(9)
+        return call(*arguments, **named)
+    return counted
+for name in ("rename", "replace", "fsync", "mkdir", "unlink"):
+    setattr(os, name, dying(getattr(os, name)))
+export(challenges()["hertz_point"], Path("out"), blind=False)
+"""
+    for calls in (1, 3, 8, 12, 13, 1000):
+        folder = tmp_path / str(calls)
+        (folder / "out" if there else folder).mkdir(parents=True)
+        ran = subprocess.run([sys.executable, "-c", script, str(calls)], cwd=folder, check=False)
+        found = sorted(path.name for path in (folder / "out").glob("*"))
+        assert len(found) in (0, 9), found
+        assert (ran.returncode == 0) is (calls == 1000)
+        assert found or ran.returncode
 
 
 @pytest.mark.parametrize(

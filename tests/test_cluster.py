@@ -69,6 +69,8 @@ def test_cluster_gives_the_records_and_names_what_is_lost(address: str, tmp_path
     cases = (Square(1.0), Refusing(20.0), Square(2.0), Killed(30.0), Square(3.0))
     store = CaseStore(tmp_path, Number)
     ends = run_cases(cases, store, ClusterWorkers(address), lambda end: None)
+    dead = [warning for end in ends for warning in end.warnings]
+    assert any(re.fullmatch(r"worker tcp://\S+ has died: its cases go to .*", one) for one in dead)
     values = {end.case.name: end.record.value for end in ends if isinstance(end.record, Number)}
     assert values == {"square-1": 1.0, "square-2": 4.0, "square-3": 9.0}
     lost = {end.lost.name: end.lost.reason for end in ends if end.lost is not None}

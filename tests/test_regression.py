@@ -4,6 +4,7 @@ import json
 import os
 import re
 import sys
+import time
 from collections.abc import Callable
 from pathlib import Path
 from xml.etree import ElementTree
@@ -386,13 +387,15 @@ def test_a_solver_that_takes_twice_as_long_is_dearer(
     assert [slower.ratio for slower in report.slower] == [times] * (code == 7)
 
 
-def test_the_loop_that_times_are_told_in_takes_time() -> None:
+def test_the_loop_that_times_are_told_in_takes_time(monkeypatch: pytest.MonkeyPatch) -> None:
     def work() -> float:
         return float(sum(k * k for k in range(400_000)))
 
     found, loops = in_loops(work)
     assert found == work()
     assert 0.1 < loops < 1000
+    monkeypatch.setattr(time, "process_time", lambda: 7.0)  # a clock of coarse ticks
+    assert in_loops(work)[1] == 0.0
 
 
 def test_what_appears_is_new_and_what_disappears_is_gone(healthy: CaseOutcome) -> None:

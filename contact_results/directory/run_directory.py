@@ -6,7 +6,6 @@ the files are replaced one by one, and the new `summary.json` comes last: a dire
 summary is complete. Only the names of `file_names.RUN_FILES` are ever replaced or removed.
 """
 
-import errno
 import json
 import os
 import secrets
@@ -142,13 +141,14 @@ def _is_earlier_run(directory: Path) -> bool:
 def _create_staging(target: Path) -> tuple[Path, int | None]:
     """Create and lock the hidden directory, and clear away those of runs that were killed.
 
-    An existing target hosts it: it may be a mount point of its own, or the only place that may
-    be written. The lock tells a killed run's leftovers from a run that is still going on.
+    An existing target that is not empty hosts it: it may be a mount point of its own, or the only
+    place that may be written. The lock tells a killed run's leftovers from a run that goes on.
     """
     prefix = f".{target.name}.partial-"
     for place in (target.parent, target):
         _remove_abandoned(place, prefix)
-    place = target if target.is_dir() else target.parent
+    beside = os.access(target.parent, os.W_OK) and not (target.is_dir() and any(target.iterdir()))
+    place = target.parent if beside else target
     while True:
         staging = place / (prefix + secrets.token_hex(4))
         try:
@@ -182,9 +182,10 @@ def _publish(staging: Path, target: Path, summary: str, earlier: Sequence[str]) 
             os.rename(staging, target)
             _flush(target.parent)
             return
-        except OSError as error:
-            if error.errno not in (errno.ENOTEMPTY, errno.EEXIST):
-                raise  # else another run into the same directory was faster
+        except OSError:
+            # Another run into the same directory was faster, or it is a mount point, or Windows.
+            if not target.is_dir():
+                raise
     _replace_files(staging, target, summary, earlier)
 
 

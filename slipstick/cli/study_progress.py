@@ -30,8 +30,8 @@ def study_progress(cases: int) -> Iterator[Observer]:
         nonlocal ended, computed
         ended += 1
         computed += not end.stored
-        if end.damaged:
-            console.print(f"{end.damaged}; computed again", markup=False)
+        for warning in end.warnings:
+            console.print(warning, markup=False)
         spent = time.monotonic() - started
         text = f"{ended}/{cases} {_how(end)} {end.case.name}, {spent:.0f} s"
         if computed and ended < cases:  # at the pace so far; stored cases took no time
@@ -50,8 +50,8 @@ def study_progress(cases: int) -> Iterator[Observer]:
 
         def advance(end: CaseEnd) -> None:
             bar.update(task, advance=1, description=end.case.name)
-            if end.damaged:
-                console.print(f"{end.damaged}; computed again", markup=False)
+            for warning in end.warnings:
+                console.print(warning, markup=False)
             if end.lost is not None:
                 console.print(f"LOST {end.case.name}: {end.lost.reason}", markup=False)
 

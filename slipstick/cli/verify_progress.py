@@ -64,8 +64,8 @@ def verify_progress(solves: Mapping[str, int]) -> Iterator[Observer]:
 
     def line(end: CaseEnd, *, time_left: bool) -> None:
         tally.add(end)
-        if end.damaged:
-            console.print(f"{end.damaged}; computed again", markup=False)
+        for warning in end.warnings:
+            console.print(warning, markup=False)
         left = tally.seconds_left if time_left and tally.left else None
         rest = "" if left is None else f", about {left:.0f} s left"
         console.print(f"{_what(end)} ({tally.ended} of {len(tally.solves)}{rest})", markup=False)

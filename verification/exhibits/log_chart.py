@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
+from math import isfinite
 
 from verification.exhibits.chart import Chart, Curve, Look, Panel, curve
 
@@ -35,8 +36,8 @@ def log_chart(
 
 
 def drawable(points: Iterable[tuple[float | None, float | None]]) -> Points:
-    """The magnitudes that logarithmic axes can show: without zeros and what is not known."""
-    return [(x, abs(y)) for x, y in points if x and y]
+    """The magnitudes that logarithmic axes can show: finite, not zero and known."""
+    return [(x, abs(y)) for x, y in points if x and y and isfinite(x) and isfinite(y)]
 
 
 def point_curves(lines: Iterable[tuple[str, Points]], look: Look = Look.POINTS) -> list[Curve]:

@@ -46,7 +46,7 @@ def slowdowns(report: Report, baselines: Mapping[str, Recording]) -> Iterator[Sl
     for case in report.cases:
         now, recorded = report.provenance.loops.get(case.name), baselines.get(case.name)
         solvers = {run.solver for run in case.runs}
-        if now is None or recorded is None or recorded.loops is None or len(solvers) != 1:
+        if now is None or recorded is None or not recorded.loops or len(solvers) != 1:
             continue
         if {run.label for run in case.runs} != {run.label for run in recorded.runs}:
             continue

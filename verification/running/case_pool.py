@@ -7,7 +7,7 @@ The processes are workers of this machine, or those of a cluster that is there a
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from concurrent.futures import Future, as_completed
 from concurrent.futures.process import BrokenProcessPool
 from dataclasses import dataclass, replace
@@ -30,6 +30,7 @@ class CaseEnd:
 
     stored   whether the record was there before
     damaged  what was there in its place and could not be used; empty if nothing was
+    workers  addresses of workers that were found dead meanwhile; others compute their cases
     """
 
     case: StudyCase
@@ -37,6 +38,13 @@ class CaseEnd:
     lost: LostCase | None = None
     stored: bool = False
     damaged: str = ""
+    workers: tuple[str, ...] = ()
+
+    @property
+    def warnings(self) -> tuple[str, ...]:
+        """Sentences on what went wrong and cost nothing but time."""
+        dead = (f"worker {one} has died: its cases go to other workers" for one in self.workers)
+        return (*((f"{self.damaged}; computed again",) if self.damaged else ()), *dead)
 
 
 Observer = Callable[[CaseEnd], None]
@@ -65,6 +73,9 @@ class Workers(Protocol):
 
     def submit(self, compute: Callable[[StudyCase], Answer], case: StudyCase) -> Future[Answer]:
         """Call the function in some other process."""
+
+    def lost(self) -> Sequence[str]:
+        """Return the addresses of workers that have died since the last call."""
 
     def close(self) -> None:
         """Give up what has not been begun, and let the workers go."""
@@ -102,7 +113,8 @@ def run_cases(
     try:
         futures = {pool.submit(_answer, end.case): end for end in missing.values()}
         for future in as_completed(futures):
-            ended(_ended(futures[future], _received(future, pool), store))
+            end = _ended(futures[future], _received(future, pool), store)
+            ended(replace(end, workers=tuple(pool.lost())))
     finally:
         pool.close()
     return tuple(ends[case.name] for case in cases)

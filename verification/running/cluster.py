@@ -49,11 +49,21 @@ class ClusterWorkers:
         except (OSError, ValueError, TypeError) as error:  # TypeError: tls without certificates
             raise ClusterUnavailable(f"no dask scheduler answers at {address}: {error}") from error
         self._executor = self._client.get_executor(pure=False, retries=0)
+        self._known = set(self._client.nthreads())
 
     def submit(self, compute: Callable[[StudyCase], Answer], case: StudyCase) -> Future[Answer]:
         """Call the function in a worker."""
         future: Future[Answer] = self._executor.submit(compute, case)
         return future
+
+    def lost(self) -> list[str]:
+        """Return the addresses of workers that have left the cluster since the last call."""
+        try:
+            now = set(self._client.nthreads())
+        except OSError:  # the scheduler has gone: every case that is left tells so
+            return []
+        gone, self._known = self._known - now, now
+        return sorted(gone)
 
     def close(self) -> None:
         """Give up what has not ended, and leave the cluster as it is."""

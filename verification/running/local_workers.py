@@ -43,6 +43,10 @@ class LocalWorkers:
         """Call the function in a worker; BrokenProcessPool if that dies meanwhile."""
         return self._threads.submit(self._call, compute, *arguments)
 
+    def lost(self) -> list[str]:
+        """Return none: a worker that dies takes its case with it, which is named."""
+        return []
+
     def close(self) -> None:
         """Give up what has not been begun, and let the workers go."""
         self._threads.shutdown(cancel_futures=True)
@@ -78,6 +82,10 @@ class ThisProcess:
         except Exception as error:
             future.set_exception(error)
         return future
+
+    def lost(self) -> list[str]:
+        """Return none."""
+        return []
 
     def close(self) -> None:
         """Nothing was begun."""
