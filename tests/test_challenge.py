@@ -423,14 +423,14 @@ def test_filled_files_pass_and_their_sheet_is_escaped(
     assert (badge["message"], badge["color"]) == ("A · 2/2", "brightgreen")
 
 
-@pytest.mark.parametrize("number", ["nan", "inf", "-inf", "1e308"])
+@pytest.mark.parametrize("number", ["nan", "inf", "-inf"])
 def test_a_page_shows_levels_whose_numbers_are_not_finite(
     number: str, filled: Path, tmp_path: Path
 ) -> None:
     page, sizes = tmp_path / "sheet.html", ("4", "2", "1")
     with (filled / "levels.csv").open("a") as levels:
         levels.writelines(f"{n},solved,,{h},um,,{n}\n" for n, h in enumerate(sizes, start=2))
-    write(filled, *((str(n), "1", "approach", number if n > 2 else "1", "um", number)
+    write(filled, *((str(n), "1", "approach", number if n > 2 else "1", "um", "")
                     for n in (1, 2, 3, 4)))  # fmt: skip
     assert slipstick("judge", filled, "--page", page) == 1
     assert "approach" in page.read_text()
