@@ -5,10 +5,37 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from contact_scene.body import Body
+from contact_scene.geometry import Sphere
 from contact_scene.load_path import ControlKind, LoadRamp
 from contact_scene.material import IsotropicMaterial
 from contact_scene.pair import contact_modulus
 from contact_scene.scene import Scene
+from contact_scene.solver_errors import UnsupportedScene
+
+# atanh(x) with x atanh(x) = 1: at an approach of R the contact of a rigid sphere has the radius xR
+# and the force atanh(x) E* R^2 (Sneddon 1965).
+_AT_EQUATOR = 1.19967864
+
+
+def refuse_equator(scene: Scene) -> None:
+    """Raise UnsupportedScene for a sphere that is pressed to its equator, beyond which it has no
+    shape: by its approach, or by its force between bodies without layers."""
+    indenter = scene.indenter
+    if not isinstance(indenter, Sphere):
+        return
+    R, layered = indenter.radius, scene.body.layers or indenter.layers
+    for ramp in scene.load_path():
+        end, by_force = ramp.normal.end, ramp.normal.kind is ControlKind.FORCE
+        if by_force and layered:
+            continue
+        most = _AT_EQUATOR * contact_modulus(scene) * R**2 if by_force else R
+        if end >= most:
+            load, unit = ("normal force", "N") if by_force else ("approach", "m")
+            raise UnsupportedScene(
+                f"step {ramp.step} presses the sphere to its equator: a {load} of {end:.4g} "
+                f"{unit}, and {most:.4g} {unit} press it in by its radius; take less, or a "
+                "paraboloid"
+            )
 
 
 @dataclass(frozen=True)

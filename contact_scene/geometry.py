@@ -274,6 +274,14 @@ class HeightMap(ShapedBody):
         (nx, ny), (dx, dy) = self.file.shape, self.spacing
         return nx * dx, ny * dy
 
+    @property
+    def lowest_on_rim(self) -> bool:
+        """Whether an outermost height is as low as the lowest point: it touches first."""
+        heights = self.file.values
+        lowest, dip, _ = _first_contact(self.file)
+        rim = min(np.min(heights[[0, -1]]), np.min(heights[:, [0, -1]]))
+        return bool(rim - lowest <= dip)
+
     def initial_gap(self, x: ArrayLike, y: ArrayLike) -> Gap:
         """Heights above the minimum of the surface between the outermost points.
 

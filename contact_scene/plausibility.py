@@ -98,6 +98,8 @@ def unlikely(scene: Scene, **fineness: BaseModel) -> tuple[str, ...]:
         *unusual,
         *_ratios_of_stiff(scene),
         *_steep(scene),
+        *_on_rim(scene),
+        *_too_small(scene, pressed, fineness),
         *_of_no_effect(scene, pressed),
         *_far(pressed),
         *_yielding(pressed),
@@ -177,6 +179,33 @@ def _steep(scene: Scene) -> Iterator[str]:
             yield (
                 f"indenter.file: the heights differ by {range_} and neighbours by {steepest:.2g} "
                 "times their distance; they are read in metres"
+            )
+
+
+def _on_rim(scene: Scene) -> Iterator[str]:
+    if isinstance(indenter := scene.indenter, HeightMap) and indenter.lowest_on_rim:
+        yield (
+            "indenter.file: the lowest point lies on the rim of the map, and the contact begins "
+            "there; heights count away from the body: change their sign if they count towards it"
+        )
+
+
+def _too_small(
+    scene: Scene, pressed: tuple[ExpectedContact, ...], fineness: Mapping[str, BaseModel]
+) -> Iterator[str]:
+    """On a window or a mesh that does not hold the expected contact."""
+    a = max((end.radius for end in pressed), default=scene.indenter.rim or 0.0)
+    window = getattr(fineness.get("semi_analytical"), "window", None)
+    radius = getattr(fineness.get("fem_reference"), "contact_radius", None)
+    for key, size, reach in (
+        ("semi_analytical.window", window and min(window), 2 * a),
+        ("fem_reference.contact_radius", radius, a),
+    ):
+        if size is not None and size < reach:
+            yield (
+                f"{key}: {quantity(size, 'm', 6)} is less than the "
+                f"{'diameter' if key.endswith('window') else 'radius'} of the contact of about "
+                f"{quantity(reach, 'm', 2)}; leave it out to have it chosen"
             )
 
 

@@ -6,6 +6,7 @@ from math import ceil, hypot
 from contact_scene import ControlKind, LoadRamp, Scene
 from contact_scene.cycles import loop_increments
 from contact_scene.effect import Effect
+from contact_scene.expected_contact import refuse_equator
 from contact_scene.normal_form import normal_form
 from contact_scene.pair import coupling, refuse_contrast
 from fem_reference.effects import effects
@@ -41,6 +42,7 @@ class Plan:
 def plan(scene: Scene) -> Plan:
     """Decide the path of a scene; raises UnsupportedScene for what is not axisymmetric enough."""
     scene = normal_form(scene)
+    refuse_equator(scene)
     refuse_shapes(scene)
     refuse_contrast(
         scene, MOST_CONTRAST, f", and finite elements carry a ratio up to {MOST_CONTRAST:.0e}"

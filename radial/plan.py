@@ -8,6 +8,7 @@ from math import ceil, hypot
 from contact_scene import ControlKind, LoadRamp, Scene, effect
 from contact_scene.cycles import loop_increments
 from contact_scene.effect import Effect
+from contact_scene.expected_contact import refuse_equator
 from contact_scene.load_path import along_one_line
 from contact_scene.normal_form import normal_form
 from contact_scene.pair import coupling, refuse_contrast
@@ -76,6 +77,7 @@ class Plan:
 def plan(scene: Scene) -> Plan:
     """Whether a scene is one of pressure on a disc; raises UnsupportedScene where it is not."""
     scene = normal_form(scene)
+    refuse_equator(scene)
     _refuse_shape(scene)
     refuse_contrast(
         scene, MOST_CONTRAST, f", and this solver carries a ratio up to {MOST_CONTRAST:.0e}"

@@ -1,5 +1,6 @@
 """Cells and window for a scene that leaves them open."""
 
+from dataclasses import replace
 from functools import partial
 from itertools import product
 from math import sqrt
@@ -14,6 +15,7 @@ from contact_scene.scene_text import shape_text
 from contact_scene.solver_errors import (
     ContactAtWindowEdge,
     ContactNotResolved,
+    SolverError,
     UnsupportedScene,
 )
 from semi_analytical.grid import SurfaceGrid
@@ -34,6 +36,8 @@ ROUND_OFF = 1e-9  # of the number of values of a map in a window
 SCOUT_CELLS = 64
 SCOUT_TOLERANCE = 1e-3
 MOST_ENLARGEMENTS = 40
+# Coupling changes the radius of a contact by less than this part of the load does (3.5 %).
+SURELY = 0.9
 GROWTH = 1.6
 
 
@@ -116,6 +120,21 @@ def fitted_window(scene: Scene) -> Pair:
         "sphere pressed to its equator) or it is far larger than expected; give a window in "
         "[semi_analytical]"
     )
+
+
+def refuse_small_window(scene: Scene, grid: SurfaceGrid) -> None:
+    """Raise ContactAtWindowEdge if the contact under the largest load of the history will reach the
+    border of a window: that without friction does so under `SURELY` of the load."""
+    decided = plan(scene)
+    model = ContactModel.of(scene, grid, even=decided.quarter)
+    for load in _largest_loads(scene, decided.tilt):
+        force, approach = (None if x is None else SURELY * x for x in (load.force, load.approach))
+        try:
+            press(model, replace(load, force=force, approach=approach), SCOUT_TOLERANCE)
+        except ContactAtWindowEdge as error:
+            raise ContactAtWindowEdge(f"under the largest load of the history {error}") from None
+        except SolverError:  # of too few cells; the history meets it, or does not
+            return
 
 
 def _contact(model: ContactModel, load: NormalTarget) -> NDArray[np.bool_]:

@@ -7,6 +7,7 @@ from enum import StrEnum
 from contact_scene import Scene, effect
 from contact_scene.discretisation import PATH_ACCURACY, EdgeCorrection
 from contact_scene.effect import Effect
+from contact_scene.expected_contact import refuse_equator
 from contact_scene.friction import FRICTIONLESS
 from contact_scene.normal_form import normal_form
 from contact_scene.pair import coupling, dundurs_beta, refuse_contrast
@@ -84,6 +85,7 @@ def plan(scene: Scene, path_accuracy: float = PATH_ACCURACY, edge: EdgeCorrectio
     edge           at the end of which increments edges shall be put inside the cells
     """
     scene = normal_form(scene)
+    refuse_equator(scene)
     refuse_contrast(
         scene,
         MOST_CONTRAST,

@@ -224,8 +224,16 @@ def _touches(model: ContactModel, target: NormalTarget) -> bool:
 
 def refuse_unresolved_contact(model: ContactModel, target: NormalTarget) -> None:
     """Raise ContactNotResolved if no cell of the window touches, or none where it would have to;
-    ContactAtWindowEdge if that is for want of window."""
+    ContactAtWindowEdge if that is for want of window, or if the border of the window touches first.
+    """
     if _touches(model, target):
+        undeformed = target.gap(model)
+        tilts = target.tilting is not None and target.tilting.moment is not None
+        if not tilts and np.min(_rim(undeformed)) <= np.min(undeformed):
+            raise ContactAtWindowEdge(
+                "the lowest point of the indenter lies at the border of the window, where the "
+                f"contact begins; {_lower(model)}"
+            )
         return
     if target.tilting is None or target.tilting.moment is None:
         gap = float(np.min(model.gap))
@@ -247,6 +255,16 @@ def refuse_unresolved_contact(model: ContactModel, target: NormalTarget) -> None
 def _rim(values: Field) -> Field:
     """Values at the border of the window."""
     return np.concatenate([values[0], values[-1], values[:, 0], values[:, -1]])
+
+
+def _lower(model: ContactModel) -> str:
+    """What helps where the border of the window touches first."""
+    if model.scene.indenter.extent is None:
+        return _wider(model)
+    return (
+        "heights count away from the body: change their sign if they count towards it, and remove "
+        "the slope of a measured map"
+    )
 
 
 def _wider(model: ContactModel) -> str:

@@ -8,7 +8,7 @@ from contact_scene.one_thread import one_thread
 from contact_scene.solver_errors import ContactAtWindowEdge
 from contact_scene.standing import Keeper, Standing
 from contact_scene.stored_fields import FieldStore
-from semi_analytical.discretise import discretise, enlarged
+from semi_analytical.discretise import discretise, enlarged, refuse_small_window
 from semi_analytical.fields import Increment, Result
 from semi_analytical.grid import SurfaceGrid
 from semi_analytical.history import marked
@@ -21,6 +21,8 @@ from semi_analytical.resolution import refuse_unresolved
 Progress = Callable[[Increment], None]
 
 MOST_ENLARGEMENTS = 5
+# Increments of a history from which on the largest contact is computed first.
+FORESEEN = 4
 
 
 @one_thread()
@@ -108,6 +110,8 @@ def solve_discretised(
                 break
             grids.append(larger)
     last = keeper.last() if keeper else None
+    if len(grids) == 1 and not last and sum(decided.increments) >= FORESEEN:
+        refuse_small_window(scene, first)
     if last and last.extent in grids:  # the smaller ones have been outgrown
         grids = grids[grids.index(last.extent) :]
     for grid in grids:

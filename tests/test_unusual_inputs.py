@@ -15,15 +15,18 @@ from contact_scene import (
     CoulombFriction,
     Ellipsoid,
     FiniteElementDiscretisation,
+    FlatPunch,
     HeightMap,
     IsotropicMaterial,
     Layer,
     LoadStep,
     Paraboloid,
     Scene,
+    Sphere,
     SurfaceDiscretisation,
 )
-from contact_scene.solver_errors import ContactAtWindowEdge
+from contact_scene.plausibility import implausible
+from contact_scene.solver_errors import ContactAtWindowEdge, UnsupportedScene
 from contact_scene.standing import Mark, Standing
 from contact_scene.stated_error import StatedErrors
 from semi_analytical import solve_discretised
@@ -186,3 +189,70 @@ def test_a_window_that_cannot_grow_is_solved_once_however_slow_the_machine(
     kept = other.last()
     assert kept is not None
     assert len(kept.increments) == 1
+
+
+# Scenes that have no answer are refused before the work, with their reason.
+
+
+def measured(heights: NDArray[np.float64]) -> HeightMap:
+    return HeightMap(material=RIGID, file=heights, spacing=5e-6)  # type: ignore[arg-type]
+
+
+AT = np.square(np.arange(32) - 15.5) * 5e-6**2 / (2 * R)
+ROUND = AT[:, None] + AT
+RIDGES = 1e-8 * np.cos(np.arange(32))[:, None] * np.cos(np.arange(32))
+
+
+@pytest.mark.parametrize(
+    "heights",
+    [np.zeros((32, 32)), -ROUND, ROUND + 2e-2 * np.arange(32) * 5e-6, np.ones((9, 40))],
+    ids=["flat", "inverted", "tilted", "flat, above zero"],
+)
+def test_a_map_that_touches_first_at_its_rim_is_refused_at_once(
+    heights: NDArray[np.float64],
+) -> None:
+    asked = scene(PRESS, PUSH, indenter=measured(heights), friction=MU)
+    told: list[object] = []
+    assert any("lies on the rim of the map" in remark for remark in implausible(asked))
+    with pytest.raises(ContactAtWindowEdge, match=r"border of the window.*change their sign"):
+        slipstick.solve(asked, progress=told.append)
+    assert not told
+
+
+def test_a_contact_that_will_reach_the_rim_is_foreseen() -> None:
+    low = measured(ROUND + RIDGES)
+    steps = [{"normal_force": force, "increments": 3} for force in (0.01, 100.0)]
+    told: list[object] = []
+    with pytest.raises(ContactAtWindowEdge, match="under the largest load of the history"):
+        slipstick.solve(scene(*steps, indenter=low), progress=told.append)
+    assert not told
+    assert not any("rim" in remark for remark in implausible(scene(*steps, indenter=low)))
+
+
+@pytest.mark.parametrize("solver", COARSE)
+@pytest.mark.parametrize("load", [{"approach": R}, {"approach": 3 * R}, {"normal_force": 1e8}])
+def test_a_sphere_pressed_to_its_equator_is_refused_by_name(
+    solver: Any, load: dict[str, float]
+) -> None:
+    asked = scene(load, indenter=Sphere(material=RIGID, radius=R))
+    for call in (slipstick.plan, slipstick.solve):
+        with pytest.raises(UnsupportedScene, match=r"presses the sphere to its equator.*take less"):
+            call(asked, solver)
+    below = scene({"approach": 0.5 * R}, indenter=Sphere(material=RIGID, radius=R))
+    assert slipstick.plan(below, solver)
+
+
+def test_windows_and_meshes_below_the_expected_contact_are_remarked() -> None:
+    small = {
+        "semi_analytical": SurfaceDiscretisation(window=(2e-4, 2e-3)),
+        "fem_reference": FiniteElementDiscretisation(contact_radius=1e-4),
+    }
+    large = {
+        "semi_analytical": SurfaceDiscretisation(window=(2e-3, 2e-3)),
+        "fem_reference": FiniteElementDiscretisation(contact_radius=1e-3),
+    }
+    keys = [remark.partition(":")[0] for remark in implausible(BARE, **small)]
+    assert keys == ["semi_analytical.window", "fem_reference.contact_radius"]
+    assert implausible(BARE, **large) == ()
+    punch = scene({"approach": 1e-6}, indenter=FlatPunch(material=RIGID, radius=1e-3))
+    assert len(implausible(punch, **small)) == 2
