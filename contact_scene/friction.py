@@ -132,13 +132,14 @@ class CoulombFriction(Description):
         return self.coefficient.extent if isinstance(self.coefficient, FrictionMap) else None
 
     def on(self, cells: tuple[int, int], spacing: Pair) -> "CoulombFriction":
-        """The same law with one coefficient for every cell of a grid, where it varies.
+        """The same law with one coefficient for every cell of a grid, where it is given as a map.
 
         spacing  of the cells [length]
+        ValueError beyond the extent of the map.
         """
-        if self.varying is None:
+        if not isinstance(self.coefficient, FrictionMap):
             return self
-        return CoulombFriction(coefficient=self.varying.on(cells, spacing))
+        return CoulombFriction(coefficient=self.coefficient.on(cells, spacing))
 
     @property
     def is_even(self) -> bool:

@@ -276,11 +276,9 @@ class HeightMap(ShapedBody):
 
     @property
     def lowest_on_rim(self) -> bool:
-        """Whether an outermost height is as low as the lowest point: it touches first."""
-        heights = self.file.values
-        lowest, dip, _ = _first_contact(self.file)
-        rim = min(np.min(heights[[0, -1]]), np.min(heights[:, [0, -1]]))
-        return bool(rim - lowest <= dip)
+        """Whether the lowest point, which touches first, is an outermost one."""
+        *_, place = _first_contact(self.file)
+        return any(at in (0.0, n - 1.0) for at, n in zip(place, self.file.shape, strict=True))
 
     def initial_gap(self, x: ArrayLike, y: ArrayLike) -> Gap:
         """Heights above the minimum of the surface between the outermost points.

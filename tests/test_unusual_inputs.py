@@ -174,7 +174,7 @@ def test_a_window_that_cannot_grow_is_solved_once_however_slow_the_machine(
     keeper = Checkpoint(tmp_path / "kept", "of this scene", print, seconds_between=0.0)
     with pytest.raises(ContactAtWindowEdge, match="friction map"):
         solve_discretised(
-            scene({"normal_force": 1e-3, "increments": 1}, PRESS, friction=small),
+            scene(*({"normal_force": f, "increments": 1} for f in (1e-3, 100.0)), friction=small),
             SurfaceDiscretisation(cells=(32, 32)),
             progress=lambda i: starts.append(i) if (i.step, i.index) == (1, 1) else None,
             keeper=keeper,
