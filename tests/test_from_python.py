@@ -194,43 +194,12 @@ def test_what_is_no_run_is_refused_by_name(tmp_path: Path) -> None:
         stored(tmp_path)["shaer"]
 
 
-@pytest.mark.parametrize(
-    ("changed", "complaint"),
-    [
-        ({"title": "another"}, 'title is "another" and "ball"'),
-        ({"loading": SCENE.loading[:2]}, "there are 2 and 4 loading steps"),
-        ({"friction": slipstick.CoulombFriction(coefficient=0.2)}, "tangential_shift differs"),
-    ],
-)
-def test_a_summary_is_not_paired_with_the_fields_of_another_run(
-    changed: dict[str, Any], complaint: str, tmp_path: Path
-) -> None:
-    for name, scene in (("one", SCENE.model_copy(update=changed)), ("other", SCENE)):
-        result = solved(scene)
-        slipstick.save(result, tmp_path / name, figures="none")
+def test_a_summary_is_not_paired_with_the_fields_of_another_run(tmp_path: Path) -> None:
+    for name, scene in (("one", SCENE.model_copy(update={"title": "another"})), ("other", SCENE)):
+        slipstick.save(solved(scene), tmp_path / name, figures="none")
     (tmp_path / "other" / "result.h5").replace(tmp_path / "one" / "result.h5")
-    with pytest.raises(ValueError, match=rf"are of different runs: {complaint}"):
+    with pytest.raises(ValueError, match="or is of another run: its digest"):
         slipstick.load(tmp_path / "one")
-
-
-@pytest.mark.parametrize(
-    ("changed", "complaint"),
-    [
-        ({"loading": SCENE.loading[:2]}, r"there are \d+ and \d+ increments"),
-        ({"friction": slipstick.CoulombFriction(coefficient=0.2)}, "tangential_shift differs"),
-    ],
-)
-def test_tables_of_another_run_are_not_exported(
-    changed: dict[str, Any], complaint: str, tmp_path: Path
-) -> None:
-    for name, scene in (("one", SCENE.model_copy(update=changed)), ("other", SCENE)):
-        result = solved(scene)
-        slipstick.save(result, tmp_path / name, figures="none")
-    assert slipstick.load(tmp_path / "one").tables["increments"]
-    (tmp_path / "other" / "increments.csv").replace(tmp_path / "one" / "increments.csv")
-    tables = slipstick.load(tmp_path / "one").tables
-    with pytest.raises(ValueError, match=rf"are of different runs: {complaint}"):
-        dict(tables)
 
 
 @pytest.mark.parametrize("mark", ["unit", "description"])

@@ -9,7 +9,6 @@ from pathlib import Path
 from typing import Any
 
 import h5py
-import numpy as np
 from numpy.typing import NDArray
 
 from contact_results.directory.file_names import (
@@ -21,11 +20,10 @@ from contact_results.directory.file_names import (
     STRESS,
     SUMMARY,
 )
-from contact_results.files.stored_table import StoredTable, StoredTables, StoredValues
+from contact_results.files.stored_table import StoredTables, StoredValues
 from contact_results.files.stored_values import (
     MAPS,
     MISREAD,
-    ends_of_steps,
     fields_digest,
     opened,
     row_of,
@@ -33,10 +31,7 @@ from contact_results.files.stored_values import (
     values,
 )
 from contact_scene import FiniteElementDiscretisation, Scene
-from contact_scene.increment import SCALARS, components
 from contact_scene.problem import SceneError
-from contact_scene.refusal import shown
-from contact_scene.reported import Kind
 from contact_scene.summary import RunSummary, load_summary
 
 
@@ -76,26 +71,6 @@ class StoredGroup(Mapping[str, StoredValues]):
 
     def __len__(self) -> int:
         return len(self._names)
-
-
-class TablesOfRun(StoredTables):
-    """Tables beside the fields of a run; ValueError for increments of another, which have other
-    numbers."""
-
-    def __init__(self, directory: Path, increments: StoredGroup) -> None:
-        super().__init__(directory, (PROFILES, INCREMENTS, CYCLES), COLUMNS)
-        self._directory, self._increments = directory, increments
-
-    def __getitem__(self, name: str) -> StoredTable:
-        table = super().__getitem__(name)
-        if name == Path(INCREMENTS).stem:
-            strange = next(_other_numbers(table, self._increments), None)
-            if strange:
-                raise ValueError(
-                    f"{self._directory / INCREMENTS} and {self._directory / FIELDS} are of "
-                    f"different runs: {strange}; run again"
-                )
-        return table
 
 
 @dataclass(frozen=True)
@@ -154,54 +129,16 @@ def load(directory: str | PathLike[str]) -> StoredRun:
                 fineness = FiniteElementDiscretisation.model_validate_json(asked)
             if "increments" not in file:
                 raise ValueError("it has no increments")
-            strange = next(_strange(record, scene, file), None)
             x, y = file.attrs.get("direction", (1.0, 0.0))
         groups = [StoredGroup(fields, group) for group in ("/", "increments", "last_cycle")]
     except (*MISREAD, SceneError) as error:
         raise ValueError(f"{fields} is not the {FIELDS} of a run: {error}") from None
-    if strange:
-        raise ValueError(f"{summary} and {fields} are of different runs: {strange}; run again")
     if record.schema_version > 2 and record.fields_digest != fields_digest(fields):
-        raise ValueError(f"{fields} was changed or damaged: its digest is not that in {summary}")
+        raise ValueError(
+            f"{fields} was changed or damaged, or is of another run: its digest is not that in "
+            f"{summary}; run again"
+        )
     places, increments, cycle = groups
-    tables = TablesOfRun(Path(directory), increments)
+    tables = StoredTables(Path(directory), (PROFILES, INCREMENTS, CYCLES), COLUMNS)
     direction = float(x), float(y)
     return StoredRun(record, scene, places, increments, cycle, tables, direction, fineness)
-
-
-def _strange(summary: RunSummary, scene: Scene, file: h5py.File) -> Iterator[str]:
-    """What a summary and fields say differently. They have all scalars at the end of every step in
-    common, to the last bit."""
-    group = file["increments"]
-    marks = dict(file.attrs) | {"title": scene.title}
-    for name in ("title", "solver", "tolerance"):
-        if (one := getattr(summary, name)) != (other := marks[name]):
-            yield f"{name} is {shown(one)} and {shown(other)}"
-    steps = values(group["step"])
-    ends = ends_of_steps(steps)
-    if len(summary.steps) != len(ends):
-        yield f"there are {len(summary.steps)} and {len(ends)} loading steps"
-        return
-    for name, mark in SCALARS.items():
-        if name not in group or mark.kind not in (Kind.SCALAR, Kind.VECTOR):
-            continue
-        stored = values(group[name])[ends]
-        told = [getattr(step, name) for step in summary.steps]
-        nothing = np.full(stored.shape[1:], np.nan)
-        known = np.array([nothing if value is None else value for value in told])
-        if not np.array_equal(known, stored, equal_nan=True):
-            yield f"{name} differs at the end of loading steps"
-
-
-def _other_numbers(table: StoredTable, increments: StoredGroup) -> Iterator[str]:
-    """What a table and fields say differently: numbers are in both to the last bit."""
-    for name in ("step", *SCALARS):
-        if name not in increments:
-            continue
-        parts = ("step",) if name == "step" else components(name)
-        told = np.transpose([table[part].array for part in parts if part in table])
-        stored = increments[name].array.reshape(len(increments[name].array), -1)
-        if told.shape != stored.shape:
-            yield f"there are {len(told)} and {len(stored)} increments"
-        elif not np.array_equal(told.astype(float), stored.astype(float), equal_nan=True):
-            yield f"{name} differs"
