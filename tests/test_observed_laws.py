@@ -10,9 +10,16 @@ from contact_scene import Body, CoulombFriction, LoadStep
 from contact_scene.solver_errors import NotConverged
 from verification.cases import coupled_history
 from verification.judging.case import Case
-from verification.judging.law_verdicts import OTHER_NORMS, judge_laws
+from verification.judging.law_verdicts import judge_laws
 from verification.judging.outcome import Status
-from verification.judging.run import SOLVER_TOLERANCE, Run, SectionRun, per_radius
+from verification.judging.run import (
+    OTHER_NORMS,
+    SOLVER_TOLERANCE,
+    RadiiRun,
+    Run,
+    SectionRun,
+    per_radius,
+)
 from verification.judging.verdicts import judge_quantity
 from verification.observed.laws import observed
 from verification.observed.prescribed import missed
@@ -73,17 +80,22 @@ RUNS = {
     "rings, twisted": SectionRun("rings, twisted", twisted(), MESH),
     "springs": SectionRun("springs", scene(*LOOP), MESH, Method.PENALTY),
     "springs, twisted": SectionRun("springs, twisted", twisted(), MESH, Method.PENALTY),
+    "radii": RadiiRun("radii", scene(*LOOP)),
+    "radii, coupled": RadiiRun("radii, coupled", coupled()),
+    "radii, twisted": RadiiRun("radii, twisted", twisted()),
+    "radii, on points": RadiiRun("radii, on points", twisted(), at_points=True),
 }
 
 
 @pytest.fixture(scope="module", params=RUNS)
-def result(request: pytest.FixtureRequest):
-    return RUNS[request.param].solve()
+def solved_run(request: pytest.FixtureRequest):
+    return RUNS[request.param], RUNS[request.param].solve()
 
 
 @pytest.fixture(scope="module")
 def solved():
-    return {name: RUNS[name].solve() for name in ("cells", "cells, twisted", "rings", "springs")}
+    names = ("cells", "cells, twisted", "rings", "springs", "radii", "radii, twisted")
+    return {name: RUNS[name].solve() for name in names}
 
 
 def changed(result, **factors):
@@ -93,10 +105,26 @@ def changed(result, **factors):
     return replace(result, increments=(*before, replace(last, **named)))
 
 
-def test_laws_are_found_in_what_is_returned(result):
+def test_laws_are_found_in_what_is_returned(solved_run):
+    run, result = solved_run
     violation, imbalance = observed(result)
-    assert violation <= ALLOWED
-    assert imbalance <= ALLOWED
+    assert violation <= run.laws
+    assert imbalance <= run.energy
+
+
+@pytest.mark.parametrize(
+    ("run", "name", "factor"),
+    [
+        *(("radii", name, 1.02) for name in ("pressure", "shear_radial", "normal_force")),
+        *(("radii", name, 1.02) for name in ("approach", "elastic_energy")),
+        *(("radii", name, 1.1) for name in ("slip_radial", "dissipated_energy", "input_work")),
+        *(("radii, twisted", name, 1.02) for name in ("torque", "shear_circumferential")),
+        *(("radii, twisted", name, -1.0) for name in ("slip_circumferential", "twist")),
+    ],
+)
+def test_broken_law_on_radii_is_seen(solved, run, name, factor):
+    violation, imbalance = observed(changed(solved[run], **{name: factor}))
+    assert violation > RUNS[run].laws or imbalance > RUNS[run].energy
 
 
 @pytest.mark.parametrize(

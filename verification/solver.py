@@ -4,10 +4,11 @@ from enum import StrEnum
 
 
 class Solver(StrEnum):
-    """The two solvers."""
+    """The three solvers."""
 
     CELLS = "semi-analytical"
     ELEMENTS = "finite elements"
+    RADII = "radial"
 
 
 class Method(StrEnum):

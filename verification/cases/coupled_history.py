@@ -15,8 +15,7 @@ from contact_scene.residuals import worst
 from verification.cases.coupled_contacts import BACK, BARE, FILM, PRESSED, PUSHED
 from verification.cases.turned import difference_after_quarter, difference_of_motion
 from verification.judging.case import Case, Comparison, Finding, Level, Quantity, Required
-from verification.judging.law_verdicts import OTHER_NORMS
-from verification.judging.run import SOLVER_TOLERANCE, Run, SectionRun
+from verification.judging.run import OTHER_NORMS, SOLVER_TOLERANCE, Run, SectionRun
 from verification.observed.laws import observed
 from verification.problems.reference import ReferenceKind, identity
 

@@ -2,138 +2,67 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass
-from functools import cache
 from typing import Any
 
 import numpy as np
 
-import radial
-from contact_scene import Scene
-from contact_scene.residuals import worst
-from radial import Increment
 from radial.bodies import Bodies
 from radial.disc import disc
 from radial.surface import pressure
-from verification.judging.case import Case, Check, Level, Required
+from verification.judging.case import Case, Level
+from verification.judging.declared_case import Within, case, judged
+from verification.judging.ladder import on_radii
+from verification.judging.observable import error_norm
+from verification.judging.observables import APPROACH, CONTACT_RADIUS
 from verification.problems.classical import CONE, PUNCH, mean_pressure
 from verification.problems.coated_ball import BARE, ROWS, coated_ball
-from verification.problems.paper_scene import HERTZ
-from verification.problems.problem import Problem
-from verification.problems.reference import Reference
+from verification.problems.problem import OVER_PEAK, Problem
 
-ASKED = Required(
-    1e-12, "both are right to rounding, of which forty times are allowed; 1e-10 was asked"
-)
+ASKED = "both are right to rounding, of which forty times are allowed; 1e-10 was asked"
 WITHIN = 0.995  # radii up to which pressures are compared: at the edge they have no finite slope
-COATED = [coated_ball(row) for row in ROWS]
-CLOSED = {"ball": (BARE, HERTZ.peak_pressure), "cone": (CONE, mean_pressure(CONE)),
-          "punch": (PUNCH, mean_pressure(PUNCH))}  # fmt: skip
+PROBLEMS = {"ball": BARE, "cone": CONE, "punch": PUNCH} | {
+    f"E1/E2 = {row['E1_over_E2']:g}, h = {row['h_over_aH']:g} a_H": coated_ball(row) for row in ROWS
+}
+
+
+def _pressure_error(result: Any, _: int, problem: Problem) -> float:
+    """At the rings, or at the radii of a table."""
+    end, exact = result.steps[-1], problem.ends[0]
+    scale = problem.scales.get(OVER_PEAK) or mean_pressure(problem)
+    r, found = end.radii, end.pressure
+    if hasattr(exact, "radii"):
+        r = exact.radii
+        contact = disc(Bodies.of(problem.scene), problem.scene.indenter, end.contact_radius)
+        found = pressure(contact, r / contact.radius)
+    else:
+        inside = r < WITHIN * problem.radius
+        r, found = r[inside], found[inside]
+    return float(np.max(np.abs(found - exact.pressure(r))) / scale)
+
+
+PRESSURE = error_norm(
+    "pressure",
+    f"largest error of the pressure up to {WITHIN:g} a, or at the radii of a table",
+    _pressure_error,
+    "p_H, or the mean pressure of cone and punch",
+)
+ROWS_OF_ALL = [
+    Within(what, 1e-12, ASKED, each=True) for what in (APPROACH, CONTACT_RADIUS, PRESSURE)
+]
 
 
 def radial_pressing(level: Level = Level.QUICK) -> Case:
-    """The case, the same at every level."""
-    checks = [
-        check for name, (problem, _) in CLOSED.items() for check in _of_loads(name, [problem])
-    ]
-    checks += [
-        _check(
-            f"{name}_pressure",
-            [problem],
-            f"largest error of the pressure up to {WITHIN:g} a",
-            _PressureOver(scale),
-        )
-        for name, (problem, scale) in CLOSED.items()
-    ]
-    checks += _of_loads("coated", COATED)
-    checks.append(
-        _check(
-            "coated_pressure",
-            COATED,
-            "largest error of the pressure at the radii of the rows, over p_H",
-            _row_error,
-        )
-    )
-    return Case(
-        name="radial_pressing",
-        title="Pressing in one dimension",
-        problem="The paper's ball, a cone and a flat punch on half-spaces, and the ball, rigid, on "
-        f"{len(COATED)} coatings, under 1 kN without friction, by the radial solver. It has the "
+    """The case; above the quick level also with twice the orders and points."""
+    fineness = (1,) if level is Level.QUICK else (2, 1)
+    return case(
+        "radial_pressing",
+        "Pressing in one dimension",
+        "The paper's ball, a cone and a flat punch on half-spaces, and the ball, rigid, on "
+        f"{len(ROWS)} coatings, under 1 kN without friction, by the radial solver. It has the "
         "response of layers to a wavenumber in common with the semi-analytical solver; the "
         "references have neither that nor its polynomials.",
-        runs=(),
-        quantities=(),
-        checks=tuple(checks),
+        *(
+            judged(on_radii(problem, name, fineness), ROWS_OF_ALL)
+            for name, problem in PROBLEMS.items()
+        ),
     )
-
-
-def _of_loads(name: str, problems: list[Problem]) -> list[Check]:
-    return [
-        _check(
-            f"{name}_{of}",
-            problems,
-            f"largest error of the {of.replace('_', ' ')} relative to itself",
-            _Relative(of),
-        )
-        for of in ("approach", "contact_radius")
-    ]
-
-
-def _check(
-    name: str, problems: list[Problem], meaning: str, error: Callable[[Problem], float]
-) -> Check:
-    first = problems[0]
-    return Check(
-        name,
-        meaning,
-        "",
-        f"{len(problems)} coatings" if len(problems) > 1 else first.scene.title,
-        lambda: worst(*(error(problem) for problem in problems)),
-        Reference(0.0, first.kind, first.source, max(of.uncertainty for of in problems)),
-        ASKED,
-        1.0,
-        "1",
-    )
-
-
-@dataclass(frozen=True)
-class _Relative:
-    """Error of a scalar, by name."""
-
-    name: str
-
-    def __call__(self, problem: Problem) -> float:
-        value, exact = (getattr(end, self.name) for end in (_solved(problem), problem.ends[0]))
-        return float(abs(value / exact - 1))
-
-
-@dataclass(frozen=True)
-class _PressureOver:
-    """Error of the pressure at the rings, against the function of the radius."""
-
-    scale: float
-
-    def __call__(self, problem: Problem) -> float:
-        end = _solved(problem)
-        inside = end.radii < WITHIN * problem.radius
-        exact: Any = problem.ends[0]
-        off = end.pressure[inside] - exact.pressure(end.radii[inside])
-        return float(np.max(np.abs(off)) / self.scale)
-
-
-@cache
-def _of_scene(text: str) -> Increment:
-    return radial.solve(Scene.model_validate_json(text)).steps[-1]
-
-
-def _solved(problem: Problem) -> Increment:
-    return _of_scene(problem.scene.model_dump_json())
-
-
-def _row_error(problem: Problem) -> float:
-    """Against the table, at its radii."""
-    row: Any = problem.ends[0]
-    made = disc(Bodies.of(problem.scene), problem.scene.indenter, _solved(problem).contact_radius)
-    found = pressure(made, row.radii / made.radius)
-    return float(np.max(np.abs(found - row.pressure(row.radii))) / HERTZ.peak_pressure)

@@ -68,29 +68,29 @@ OF_BALL = (
         "square-root edges of stick zone and contact, as in the Cattaneo-Mindlin case",
     ),
 )  # fmt: skip
+LOOP_TWISTS = tuple(
+    replace(
+        TWIST, name=f"twist_{name}", meaning=f"twist after step {step + 1} of the loop", step=step,
+        over=OVER_TWIST, source=MASING,
+    )
+    for step, name in {1: "loaded", 2: "unloaded", 3: "reversed", 4: "closed"}.items()
+)  # fmt: skip
+ENERGY_PER_CYCLE = Observable(
+    "energy_per_cycle", "energy lost from the first to the second torque of + 0.9", "J",
+    lambda result, *_: energy_between(result, 2, 5),
+    lambda end: float(end.energy_per_cycle), source=MASING,
+)  # fmt: skip
+TORQUE = number("torque", "torque at the twist of 0.9 of the limit", exact="moment")
 OF_LOOP = (
     *(
-        Within(
-            replace(
-                TWIST, name=f"twist_{name}", meaning=f"twist after step {step + 1} of the loop",
-                step=step, over=OVER_TWIST, source=MASING,
-            ),
-            1e-4, f"four times what 128 cells leave; {HALF_A_PER_CENT}",
-        )
-        for step, name in {2: "unloaded", 3: "reversed", 4: "closed"}.items()
+        Within(twist, 1e-4, f"four times what 128 cells leave; {HALF_A_PER_CENT}")
+        for twist in LOOP_TWISTS[1:]
     ),
-    Within(
-        Observable(
-            "energy_per_cycle", "energy lost from the first to the second torque of + 0.9", "J",
-            lambda result, *_: energy_between(result, 2, 5),
-            lambda end: float(end.energy_per_cycle), source=MASING,
-        ),
-        2e-4, f"four times what 128 cells leave; {HALF_A_PER_CENT}",
-    ),
-)  # fmt: skip
+    Within(ENERGY_PER_CYCLE, 2e-4, f"four times what 128 cells leave; {HALF_A_PER_CENT}"),
+)
 OF_GIVEN_TWIST = (
     Within(
-        number("torque", "torque at the twist of 0.9 of the limit", exact="moment"), 3e-5,
+        TORQUE, 3e-5,
         "a quarter of what is allowed of a twist: near the limit the torque hardly depends on it",
         name="torque_of_given_twist",
     ),

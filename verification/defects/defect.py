@@ -10,7 +10,7 @@ from types import ModuleType
 from typing import Any
 
 PRODUCT = (
-    *("contact_scene", "semi_analytical", "fem_reference"),
+    *("contact_scene", "semi_analytical", "fem_reference", "radial"),
     *("contact_results", "verification", "slipstick"),
 )
 # What runs the studies remembers nothing that a defect could change.
@@ -19,6 +19,7 @@ LEFT_ALONE = "verification.running"
 REMEMBERING = (
     "semi_analytical",
     "fem_reference",
+    "radial",
     "verification.cases",
     "verification.problems",
     "verification.judging",

@@ -6,6 +6,7 @@ from verification.defects.defect import Defect
 from verification.defects.finite_elements import FINITE_ELEMENTS
 from verification.defects.histories import HISTORIES
 from verification.defects.outputs import OUTPUTS
+from verification.defects.radii import RADII
 from verification.defects.surface_response import SURFACE_RESPONSE
 from verification.defects.told import TOLD
 
@@ -17,6 +18,7 @@ DEFECTS: dict[str, Defect] = {
         *HISTORIES,
         *CONTROLS_AND_BODIES,
         *FINITE_ELEMENTS,
+        *RADII,
         *OUTPUTS,
         *TOLD,
     )

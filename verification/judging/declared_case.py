@@ -20,7 +20,7 @@ from verification.judging.case import (
 from verification.judging.ladder import Ladder, Rung
 from verification.judging.observable import Observable
 from verification.judging.order_of_convergence import NotYetAsymptotic, OrderOfConvergence
-from verification.judging.run import Run, SectionRun
+from verification.judging.run import AnyRun
 
 Allowed = float | Mapping[int, float] | Callable[[Rung], float]
 Results = Mapping[str, Any]
@@ -80,7 +80,7 @@ Row = Within | Refined | Falls | Reported
 class Judged:
     """What is judged on the runs of a ladder."""
 
-    runs: tuple[Run | SectionRun, ...]
+    runs: tuple[AnyRun, ...]
     quantities: tuple[Quantity, ...] = ()
     orders: tuple[OrderOfConvergence, ...] = ()
     findings: tuple[Finding, ...] = ()
@@ -101,7 +101,7 @@ def case(
     title: str,
     problem: str,
     *parts: Judged,
-    runs: tuple[Run | SectionRun, ...] = (),
+    runs: tuple[AnyRun, ...] = (),
     quantities: tuple[Quantity, ...] = (),
     findings: tuple[Finding, ...] = (),
     comparisons: tuple[Comparison, ...] = (),

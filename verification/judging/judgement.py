@@ -20,7 +20,7 @@ from verification.judging.outcome import (
     SceneRecord,
     Verdict,
 )
-from verification.judging.run import AnyRun, Run, SectionRun
+from verification.judging.run import AnyRun, RadiiRun, Run, SectionRun
 from verification.judging.section_sketch import section_sketch
 from verification.judging.verdicts import (
     finite,
@@ -102,6 +102,7 @@ def _run_record(run: AnyRun, case: Case, result: Any) -> RunRecord:
         cells=grid.cells if grid else None,
         window=grid.window if grid else None,
         elements_per_radius=mesh.elements_per_radius if mesh else None,
+        rings=run.rings if isinstance(run, RadiiRun) else None,
         method=run.method if isinstance(run, SectionRun) else None,
         problem=run.problem,
         planned=_planned(run, case),

@@ -6,7 +6,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
 from semi_analytical import SurfaceGrid
-from verification.judging.run import Run, SectionRun, per_radius
+from verification.judging.run import OVER_RINGS, AnyRun, RadiiRun, Run, SectionRun, per_radius
 from verification.observed.ring_errors import judged_within
 from verification.problems.problem import Problem
 from verification.problems.shifted_grid import ShiftedGrid
@@ -31,12 +31,15 @@ HATS = {
     "sum": "∫",
     "but": "",
 }
+RINGS = HATS | {"edge": "radius of the contact"}
 SPRINGS = HATS | {
     "point": "Gauss point",
     "edge": "where the pressure ends, by a fit of its square",
 }
 
 WINDOW_PER_RADIUS = 3.0
+RINGS_SHOWN = 64  # where the radial solver tells its fields
+EXACT = 1e-10  # tolerance of its residuals, so that rings alone make errors
 MIDDLE = 0.5  # of an element
 ASKED_AT = 64  # elements per radius
 
@@ -45,11 +48,11 @@ ASKED_AT = 64  # elements per radius
 class Rung:
     """A run, and how fine it is.
 
-    count  cells per side or elements per radius
+    count  cells per side, elements per radius, or rings at which fields are told
     reach  that these go over, in radii
     """
 
-    run: Run | SectionRun
+    run: AnyRun
     count: int
     reach: float = 1.0
 
@@ -58,6 +61,8 @@ class Rung:
         """What this discretisation calls what is measured."""
         if isinstance(self.run, Run):
             return CELLS
+        if isinstance(self.run, RadiiRun):
+            return RINGS
         hats = self.run.method is not Method.PENALTY
         within = f"{judged_within(self.count):.2g}"
         return (HATS if hats else SPRINGS) | {"within": within, "between": f"0.1 to {within}"}
@@ -78,7 +83,7 @@ class Ladder:
     followed: tuple[Rung, ...]
 
     @property
-    def runs(self) -> tuple[Run | SectionRun, ...]:
+    def runs(self) -> tuple[AnyRun, ...]:
         """Of all rungs."""
         return tuple(rung.run for rung in self.rungs)
 
@@ -174,6 +179,29 @@ def on_elements(
             for n in elements
         ],
     )
+
+
+def on_radii(
+    problem: Problem,
+    name: str,
+    fineness: Sequence[float] = (1,),
+    *,
+    rings: int = RINGS_SHOWN,
+    laws: float = OVER_RINGS,
+    at_points: bool = False,
+) -> Ladder:
+    """Discs, or rings so many times as fine as the solver chooses; values are judged at 1.
+
+    name  of the run; the others as `RadiiRun` has them
+    """
+
+    def rung(times: float) -> Rung:
+        label = name if times == 1 else f"{name}, {times:g} times as fine"
+        scene = problem.scene
+        return Rung(RadiiRun(label, scene, times, rings, EXACT, laws, at_points, name), rings)
+
+    rungs = {times: rung(times) for times in fineness}
+    return Ladder(problem, tuple(rungs.values()), rungs[1], tuple(rungs.values()))
 
 
 def on_springs(of: Ladder, name: str, **penalty: float) -> Ladder:

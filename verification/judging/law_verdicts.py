@@ -7,9 +7,10 @@ are looked for in tractions, gaps, slips and motions alone, with no influence co
 displacements follow from the tractions shows only as far as Betti's theorem goes, in the energy. Of
 finite elements it works the displacements out anew, but shares what they are worked out from:
 meshes, the bodies' compliances with and without torsion, undeformed gap, hat functions and Gauss
-points, and the energy stored and put in that are compared. A wrong compliance, a mesh that is too
-coarse or ends too near, a wrong shape and a wrong E*, G or µ obey all laws: only the references of
-a case see them.
+points, and the energy stored and put in that are compared. Of the radial solver it shares µ and the
+indenter's undeformed gap; integrals are its own sums over the rings. A wrong compliance, a mesh
+that is too coarse or ends too near, a wrong shape and a wrong E*, G or µ obey all laws: only the
+references of a case see them.
 """
 
 from __future__ import annotations
@@ -19,12 +20,16 @@ from typing import Any
 
 from verification.judging.case import Case
 from verification.judging.outcome import IMBALANCE, VIOLATION, Verdict
+from verification.judging.run import OTHER_NORMS, OVER_ANGLES, OVER_RINGS
 from verification.judging.verdicts import judge_worst
 from verification.observed.laws import observed
 from verification.observed.unseen import Unseen, unseen
 
-# Fields are judged apart from the solver, with other norms.
-OTHER_NORMS = 10.0
+WITHIN = (
+    f"on cells and elements within {OTHER_NORMS:g} times the tolerance, as the norms of the solver "
+    f"are others; on radii within what sums over rings and angles leave: "
+    f"{OVER_RINGS:g}, or {OVER_ANGLES:g} where the solver interpolates between angles"
+)
 
 
 def judge_laws(case: Case, results: Mapping[str, Any]) -> tuple[Verdict, ...]:
@@ -41,8 +46,7 @@ def judge_laws(case: Case, results: Mapping[str, Any]) -> tuple[Verdict, ...]:
             f"increment of the {{runs}} run(s); it is in this one{but_slip}",
             "gap, overlap, friction, slip against shear, forces, moments and energy lost, found "
             "again in the fields",
-            f"within the tolerance, but for a factor of {OTHER_NORMS:g} between the norms of the "
-            "solver and these", OTHER_NORMS,
+            WITHIN, lambda run: run.laws,
         )
     ]  # fmt: skip
     if missing:
@@ -52,8 +56,8 @@ def judge_laws(case: Case, results: Mapping[str, Any]) -> tuple[Verdict, ...]:
                 case, missing, IMBALANCE, "largest part of the energy that any increment cannot "
                 f"account for of the {{runs}} run(s); it is in this one{but_energy}",
                 "first law: work put in is stored, dissipated or left open by the increment",
-                "residuals within the tolerance move the energy by a few times as much; "
-                f"{OTHER_NORMS:g} times are allowed", OTHER_NORMS,
+                f"residuals within the tolerance move the energy by a few times as much; {WITHIN}",
+                lambda run: run.energy,
             )
         )  # fmt: skip
     return tuple(verdicts)

@@ -204,10 +204,13 @@ class RunRecord(Description):
     label: str
     cells: tuple[int, int] | None
     window: tuple[float, float] | None
-    """Cells and window of the surface; null for finite elements."""
+    """Cells and window of the surface; null without a surface grid."""
 
     elements_per_radius: int | None = None
-    """Elements over the contact radius; null for a surface grid."""
+    """Elements over the contact radius; null without finite elements."""
+
+    rings: int | None = None
+    """Rings at which the radial solver tells its fields; null for other solvers."""
 
     method: Method | None = None
     """Null for a surface grid, and in older records."""
@@ -231,12 +234,16 @@ class RunRecord(Description):
     @property
     def solver(self) -> Solver:
         """What solved it."""
+        if self.rings is not None:
+            return Solver.RADII
         return Solver.ELEMENTS if self.cells is None else Solver.CELLS
 
     @property
     def fineness(self) -> int:
-        """Cells a side, or elements per contact radius."""
-        return self.cells[0] if self.cells is not None else self.elements_per_radius or 0
+        """Cells a side, elements per contact radius, or rings."""
+        if self.cells is not None:
+            return self.cells[0]
+        return self.elements_per_radius or self.rings or 0
 
 
 class SceneRecord(Description):

@@ -10,7 +10,7 @@ from typing import Any
 
 from verification.judging.case import Case, Quantity
 from verification.judging.outcome import RefinedErrors
-from verification.judging.run import AnyRun, Run, SectionRun
+from verification.judging.run import AnyRun, RadiiRun, Run, SectionRun
 
 LEAST = 4  # levels: from fewer nothing is known of their scatter
 
@@ -54,11 +54,13 @@ def _differ_in_fineness(one: AnyRun, other: AnyRun) -> bool:
             update={name: getattr(other.discretisation, name) for name in fineness}
         )
         return replace(one, label=other.label, discretisation=same) == other
+    if isinstance(one, RadiiRun) and isinstance(other, RadiiRun):
+        return replace(one, label=other.label, fineness=other.fineness) == other
     return False
 
 
 def _radius(run: AnyRun, result: Any) -> float:
     """What a run's spacing is divided by to be a part of the contact radius."""
-    if isinstance(run, SectionRun):
+    if not isinstance(run, Run):
         return 1.0
     return max(float(increment.contact_radius) for increment in result.increments)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from typing import Any
 
 from contact_results.quantities import largest_residual
@@ -177,7 +177,7 @@ def judge_residuals(case: Case, results: Results) -> Verdict:
     return judge_worst(
         case, found, RESIDUAL, "largest residual of any increment of the {runs} run(s); it is in "
         "this one", "the equations of contact and friction, evaluated afresh after every increment",
-        "every increment ends within the tolerance that was asked for",
+        "every increment ends within the tolerance that was asked for", lambda run: run.tolerance,
     )  # fmt: skip
 
 
@@ -188,20 +188,19 @@ def judge_worst(
     meaning: str,
     source: str,
     because: str,
-    factor: float = 1.0,
+    allowed: Callable[[AnyRun], float],
 ) -> Verdict:
-    """Of numbers that should vanish, by the label of their run, the one that is worst for the
-    tolerance of its run; what is no number is worse than all.
+    """Of numbers that should vanish, by the label of their run, the one that is worst for what is
+    allowed on its run; what is no number is worse than all.
 
     meaning  with the number of runs in place of {runs}
-    factor   what is allowed over the tolerance
     """
-    ratio = {label: value / case.run(label).tolerance for label, value in found.items()}
+    ratio = {label: value / allowed(case.run(label)) for label, value in found.items()}
     worst = max(ratio, key=lambda label: (math.isnan(ratio[label]), ratio[label]))
-    allowed = factor * case.run(worst).tolerance
     return _law(
-        name, meaning.format(runs=len(found)), worst, found[worst], source, allowed, because
-    )
+        name, meaning.format(runs=len(found)), worst, found[worst], source,
+        allowed(case.run(worst)), because,
+    )  # fmt: skip
 
 
 def unsolved(run: AnyRun, message: str) -> Verdict:

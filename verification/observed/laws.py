@@ -1,4 +1,4 @@
-"""What either solver returns, against all laws."""
+"""What any solver returns, against all laws."""
 
 from __future__ import annotations
 
@@ -16,6 +16,10 @@ def observed(result: Any) -> tuple[float, float | None]:
     one way."""
     if isinstance(result, semi_analytical.Result):
         return surface_violation(result), surface_imbalance(result)
+    if result.solver == "radial":
+        from verification.observed.radii import ring_laws
+
+        return ring_laws(result)
     from verification.observed.sections import section_laws
 
     return section_laws(result)

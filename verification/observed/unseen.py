@@ -21,14 +21,17 @@ class Unseen:
             turned on the way, or the motion of the indenter is undefined
     energy  not held against the first law: they were halved, or follow one with shear whose motion
             is undefined
-    told    on a surface grid: in these the stored energy and what the increment leaves open are
-            taken as told, as a contact with friction has grown since it was first pressed
+    told    in these the stored energy and what the increment leaves open are taken as told, as a
+            contact with friction has grown since it was first pressed: on a surface grid, and
+            wherever coupled bodies are on radii
+    small   on radii: too few rings inside the contact to integrate anything
     """
 
     increments: int = 0
     slip: int = 0
     energy: int = 0
     told: int = 0
+    small: int = 0
 
     def __add__(self, other: Unseen) -> Unseen:
         return Unseen(
@@ -36,12 +39,17 @@ class Unseen:
             self.slip + other.slip,
             self.energy + other.energy,
             self.told + other.told,
+            self.small + other.small,
         )
 
     @property
     def of_slip(self) -> str:
         """In words; empty if all are seen."""
-        return _words((self.slip, "slip is not held against shear"), of=self.increments)
+        return _words(
+            (self.slip, "slip is not held against shear"),
+            (self.small, "the contact has too few rings for sums over it"),
+            of=self.increments,
+        )
 
     @property
     def of_energy(self) -> str:
@@ -50,13 +58,21 @@ class Unseen:
             (self.energy, "this is not looked at"),
             (self.told, "a contact with friction has grown, and what is stored and left open is "
              "taken as told"),
+            (self.small, "the contact has too few rings for sums over it"),
             of=self.increments,
         )  # fmt: skip
 
 
 def unseen(result: Any) -> Unseen:
-    """In a result of either solver."""
+    """In a result of any solver."""
     increments = result.increments
+    if getattr(result, "solver", None) == "radial":
+        from verification.observed.radii import is_small
+
+        halved = sum(has_shear(now) and now.halvings > 0 for now in increments)
+        told = len(increments) * result.plan.coupled
+        small = sum(is_small(now, result) for now in increments)
+        return Unseen(len(increments), slip=halved, energy=halved, told=told, small=small)
     on_grid = isinstance(result, semi_analytical.Result)
     grown = list(has_grown(increments)) if on_grid else [False] * len(increments)
     found, undefined = Unseen(), False

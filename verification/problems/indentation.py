@@ -15,6 +15,7 @@ from verification.problems.sheared import OVER_LIMIT
 from verification.problems.tabulated import TabulatedContact
 from verification.references import load_reference
 
+OVER_HERTZ_RADIUS = "a_H"
 FEW, MANY = 20, 40  # increments, uniform in contact radius
 REFERENCE_ERROR = 1e-7  # of radii and approach, relative
 
@@ -50,6 +51,7 @@ class Indentation(TabulatedContact):
             REFERENCE_ERROR,
             {
                 OVER_PEAK: HERTZ.peak_pressure,
+                OVER_HERTZ_RADIUS: HERTZ.contact_radius,
                 OVER_LIMIT: self.friction * HERTZ.peak_pressure,
             },
         )

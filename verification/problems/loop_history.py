@@ -18,7 +18,7 @@ from verification.norms import shear_error
 from verification.problems import paper_scene as paper
 from verification.problems.paper_scene import FRICTION, HERTZ
 from verification.problems.problem import Problem
-from verification.problems.sheared import OVER_LIMIT
+from verification.problems.sheared import OVER_LIMIT, OVER_SLIDING_SHIFT
 
 if TYPE_CHECKING:
     from contact_results.cycles import FrettingCycle
@@ -130,6 +130,7 @@ def fretting_loop(title: str, material: IsotropicMaterial, quarter: int) -> Prob
         SOURCE,
         scales={
             OVER_LARGEST_SHIFT: exact.end.shift,
+            OVER_SLIDING_SHIFT: exact.sliding_shift,
             OVER_LARGEST_SLIP: slip,
             OVER_LARGEST_WAY: 5 * slip,
             OVER_LIMIT: FRICTION * HERTZ.peak_pressure,

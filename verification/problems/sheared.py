@@ -14,9 +14,14 @@ OVER_LIMIT = "µp_H"
 SLIDING_SHIFT = paper.partial_slip(NU_ZERO, 0.0).sliding_shift
 
 
-def sheared(title: str, parts: tuple[float, ...], material: IsotropicMaterial = NU_ZERO) -> Problem:
-    """To these parts of µW, one increment each."""
-    steps = (paper.tangential_step(part, increments=1) for part in parts)
+def sheared(
+    title: str,
+    parts: tuple[float, ...],
+    material: IsotropicMaterial = NU_ZERO,
+    increments: int = 1,
+) -> Problem:
+    """To these parts of µW, in so many increments each."""
+    steps = (paper.tangential_step(part, increments) for part in parts)
     stops = tuple(paper.partial_slip(material, part * FRICTION_LIMIT) for part in parts)
     sliding = stops[0].sliding_shift
     return Problem(

@@ -12,7 +12,11 @@ from verification.judging.outcome import CaseOutcome, RunRecord, Verdict
 from verification.running.report_record import Report
 from verification.solver import Method, Solver
 
-WORDS = {Solver.CELLS: "cells (SAM)", Solver.ELEMENTS: "finite elements"}
+WORDS = {
+    Solver.CELLS: "cells (SAM)",
+    Solver.ELEMENTS: "finite elements",
+    Solver.RADII: "radial",
+}
 SERIES = {Solver.CELLS: 0, Solver.ELEMENTS: 1}
 SAME = 1e-9  # relative, of two values of one reference
 LEAST = 1e-8  # an error is drawn no smaller: the axis is logarithmic

@@ -7,7 +7,7 @@ from verification.judging.outcome import FOUND_IN_A_RUN, CaseOutcome, Status, Ve
 from verification.judging.verdict_text import clearance_text, order_text
 from verification.solver import Solver
 
-FINENESS = {Solver.CELLS: "cells", Solver.ELEMENTS: "elements"}
+FINENESS = {Solver.CELLS: "cells", Solver.ELEMENTS: "elements", Solver.RADII: "rings"}
 BARE = ("1", "dimensionless", "")  # scales that say nothing of an error
 
 

@@ -7,7 +7,7 @@ from typing import Any
 
 from verification.exhibits.chart import Chart, Curve, Look, Panel, curve, stacked
 from verification.exhibits.numbers import plain
-from verification.judging.law_verdicts import OTHER_NORMS
+from verification.judging.run import OTHER_NORMS
 from verification.studies.stability.record import CellRecord, Verdict
 from verification.studies.stability.verdicts import WORK
 from verification.studies.stability.views import View

@@ -14,7 +14,7 @@ from contact_scene.solver_errors import (
     SolverError,
     UnsupportedScene,
 )
-from verification.judging.law_verdicts import OTHER_NORMS
+from verification.judging.run import OTHER_NORMS
 from verification.running.row import CaseRecord
 from verification.studies.stability.cell import StabilityCell
 from verification.studies.stability.pose import TOLERANCE, pose

@@ -1,0 +1,249 @@
+"""Laws of contact, recomputed from the fields that the radial solver returns.
+
+Within a disc r = a sin φ integrals are those of a spline in φ, since tractions fall to zero or rise
+like a root at the edge. Tractions at points on rings are hats (piecewise linear in r); their
+integrals are exact. Angles of points have equal weights. The fields between the points' angles are
+interpolated by the solver, and obey the laws of friction only approximately.
+
+Without friction while it is pressed, a contact has the normal displacement δ - f and the
+tangential displacement of slip and rigid motion. Otherwise particles move past each other before
+they touch, and the stored energy is not recomputed.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.interpolate import CubicSpline
+
+from contact_scene.friction import FRICTIONLESS
+from radial import Increment, Result
+from verification.observed.prescribed import missed
+
+Field = NDArray[np.float64]
+
+# Rings inside a disc, inside its slip annulus, and inside a contact on hats; over fewer nothing is
+# integrated.
+FEWEST, IN_ANNULUS, FEWEST_HATS = 48, 96, 8
+LEAST_SLIP = 1e-3  # of the approach: less slip has no direction
+GROWTH = 1.1  # of the radius of a disc; where it grows more the solver divides the increment
+GAUSS = np.polynomial.legendre.leggauss(4)
+
+
+def ring_laws(result: Result) -> tuple[float, float]:
+    """Return the largest violation of a law in any increment, and the largest part of the energy
+    that differs from what the fields give; both dimensionless, infinite if a number is not
+    finite."""
+    nows = [_Surface.of(increment, result) for increment in result.increments]
+    befores: list[_Surface | None] = [None, *nows]
+    pairs = list(zip(befores, nows, strict=False))
+    violations = [v for before, now in pairs for v in _violations(before, now)]
+    violations += missed(result.scene, result.steps)
+    imbalances, largest = [0.0], 0.0
+    for before, now in pairs:
+        largest = max(largest, now.told.elastic_energy or 0.0, abs(now.told.input_work or 0.0))
+        imbalances += [e / largest for e in _missing(before, now)]
+    violation, imbalance = (
+        max(found) if np.all(np.isfinite(found)) else float("inf")
+        for found in (violations, imbalances)
+    )
+    return violation, imbalance
+
+
+@dataclass(frozen=True)
+class _Surface:
+    """The fields of an increment at its places (rings, angles).
+
+    arm      distance from the axis, on hats its mean [length]
+    weights  area of the places [length^2]; None where there are too few to integrate
+    f        undeformed gap, on hats its mean; zero without pressure [length]
+    q, s     shear and slip, outward and around the axis (2, rings, angles)
+    limit    of friction [force/length^2]
+    along    unit vector at angle zero
+    on_disc  whether fields are those of a disc, not of hats
+    rubs     whether pressing alone makes particles slip
+    """
+
+    told: Increment
+    arm: Field
+    weights: Field | None
+    f: Field
+    p: Field
+    q: Field
+    s: Field
+    limit: Field
+    along: tuple[float, float]
+    on_disc: bool
+    rubs: bool
+
+    @classmethod
+    def of(cls, now: Increment, result: Result) -> _Surface:
+        r, shape = now.radii, (len(now.radii), -1)
+        p = now.pressure.reshape(shape)
+        q, s = (
+            np.stack([np.zeros_like(p) if v is None else v.reshape(shape) for v in vector])
+            for vector in (
+                (now.shear_radial, now.shear_circumferential),
+                (now.slip_radial, now.slip_circumferential),
+            )
+        )
+        gap = result.scene.indenter.initial_gap
+        ends = result.scene.indenter.rim is None
+        arm, f = r, gap(r, 0.0)
+        weights = None
+        if is_small(now, result):
+            pass
+        elif result.plan.circle is None:
+            weights = _weights_on_disc(r, now.contact_radius, ends=ends)
+        else:
+            weights = _over_hats(r, np.ones_like)
+            arm, f = (_over_hats(r, g) / weights for g in (lambda r: r, lambda r: gap(r, 0.0)))
+        return cls(
+            told=now,
+            arm=arm[:, None],
+            weights=None if weights is None else weights[:, None] * _shares(now.angles),
+            f=np.where(p > 0, f[:, None], 0.0),
+            p=p,
+            q=q,
+            s=s,
+            limit=(result.scene.friction or FRICTIONLESS).limit(p),
+            along=result.plan.direction,
+            on_disc=result.plan.circle is None,
+            rubs=result.plan.coupled,
+        )
+
+    def over(self, field: Field) -> float:
+        """∫ f dA."""
+        assert self.weights is not None
+        return float(np.sum(self.weights * field))
+
+    def divided(self, before: _Surface | None) -> bool:
+        """Whether the solver took states in between, which it does not return."""
+        last = None if before is None else before.told
+        grown = last is None or self.told.contact_radius > GROWTH * last.contact_radius
+        return self.told.halvings > 0 or (self.on_disc and self.rubs and grown)
+
+    @property
+    def carried(self) -> Field:
+        """Forces in x and y and moment about the axis, of the shear (3,)."""
+        outward, around = self.q
+        if self.told.angles is None:
+            return np.array([0.0, 0.0, self.over(self.arm * around)])
+        cos, sin = np.cos(self.told.angles), np.sin(self.told.angles)
+        ahead = self.over(outward * cos - around * sin)
+        x, y = self.along
+        if self.told.angles[-1] <= np.pi:  # the other half is the mirror image
+            return np.array([x * ahead, y * ahead, 0.0])
+        aside = self.over(outward * sin + around * cos)
+        return np.array(
+            [x * ahead - y * aside, y * ahead + x * aside, self.over(self.arm * around)]
+        )
+
+
+def is_small(now: Increment, result: Result) -> bool:
+    """Whether a contact has too few rings inside to integrate anything."""
+    fewest = FEWEST if result.plan.circle is None else FEWEST_HATS
+    return bool(np.count_nonzero(now.radii < now.contact_radius) < fewest)
+
+
+def _weights_on_disc(r: Field, radius: float, *, ends: bool) -> Field:
+    """Weights of rings in the integral over a disc.
+
+    ends  whether tractions fall to zero at the edge
+    """
+    inside = (r < radius) & (r > 0)
+    phi = np.arcsin(r[inside] / radius)
+    # The integrand vanishes on the axis, and at the edge unless tractions rise there.
+    nodes = np.concatenate([[0.0], phi, [np.pi / 2] if ends else []])
+    parts = CubicSpline(nodes, np.eye(len(nodes))).integrate(0.0, np.pi / 2)
+    weights = np.zeros_like(r)
+    weights[inside] = parts[1 : len(phi) + 1]
+    weights[inside] *= 2 * np.pi * radius**2 * np.sin(phi) * np.cos(phi)
+    return weights
+
+
+def _over_hats(r: Field, function: Callable[[Field], Field]) -> Field:
+    """2π ∫ ψ g r dr of the hats ψ of the rings."""
+    nodes, shares = GAUSS
+    v, length = (1 + nodes) / 2, np.diff(r)[:, None]
+    at = r[:-1, None] + length * v
+    part = np.pi * function(at) * at * length * shares
+    return np.append(part @ (1 - v), 0.0) + np.append(0.0, part @ v)
+
+
+def _shares(angles: Field | None) -> Field:
+    """Shares of a circle at these angles: over all of it, or over half of it with both ends."""
+    if angles is None:
+        return np.ones(1)
+    shares = np.ones(len(angles))
+    if angles[-1] <= np.pi:
+        shares[[0, -1]] = 0.5
+    return shares / np.sum(shares)
+
+
+def _violations(before: _Surface | None, now: _Surface) -> Iterator[float]:
+    told, p, gap = now.told, now.p, now.told.gap.reshape(now.p.shape)
+    open_gap = np.where(np.isposinf(gap), 0.0, gap)
+    yield float(np.max(-p) / np.max(p))
+    yield float(np.max(-open_gap) / told.approach)
+    yield float(np.max(p * np.abs(open_gap)) / (np.max(p) * told.approach))
+    if now.weights is None:
+        return
+    yield abs(now.over(p) / told.normal_force - 1)
+    if not (np.any(now.q) or np.any(now.limit)):
+        return
+    # The arm of an empty limit is no scale: without friction any shear is too much.
+    most = now.over(now.limit) or told.normal_force
+    yield now.over(np.maximum(np.hypot(*now.q) - now.limit, 0.0)) / most
+    due = np.array([*(told.tangential_force or (0.0, 0.0)), told.torque or 0.0])
+    missing = np.abs(now.carried - due) / most
+    yield from missing[:2]
+    if told.torque is not None:
+        yield float(missing[2]) / told.contact_radius
+    if now.on_disc and np.count_nonzero(told.in_contact & ~np.asarray(told.in_stick)) < IN_ANNULUS:
+        return
+    way, start = now.s, 0.0 if before is None else before.limit
+    so_far = told.dissipated_energy or 0.0
+    lost = so_far
+    if before is not None:
+        way, lost = way - before.s, so_far - (before.told.dissipated_energy or 0.0)
+    length = np.hypot(*way)
+    least = LEAST_SLIP * most * told.approach * most / told.normal_force
+    scale = max(now.over(now.limit * length), so_far, least)
+    if not told.halvings:  # else slip may have turned
+        yield abs(now.over(now.limit * length + np.sum(now.q * way, axis=0))) / scale
+    if not now.divided(before):
+        yield abs(now.over(0.5 * (start + now.limit) * length) - lost) / scale
+
+
+def _missing(before: _Surface | None, now: _Surface) -> Iterator[float]:
+    """Differences of the returned energies and work from those of the fields [force length]."""
+    told, last = now.told, None if before is None else before.told
+    if now.weights is None or (before is not None and before.weights is None):
+        return
+    if now.divided(before):
+        return
+    stored, lost, work = told.elastic_energy, told.dissipated_energy, told.input_work
+    if stored is not None and not now.rubs:
+        by_motion = now.over(now.p * (told.approach - now.f)) + _power(told, told)
+        yield abs(0.5 * (by_motion + now.over(np.sum(now.q * now.s, axis=0))) - stored)
+    if work is not None:
+        done = told.normal_force * told.approach + _power(told, told)
+        if last is not None:
+            force, depth = told.normal_force + last.normal_force, told.approach - last.approach
+            done = force * depth + 2 * (last.input_work or 0.0)
+            done += _power(told, told) - _power(told, last) + _power(last, told)
+            done -= _power(last, last)
+        yield abs(0.5 * done - work)
+        if told.unresolved_work is not None:
+            yield abs(work - (stored or 0.0) - (lost or 0.0) - told.unresolved_work)
+
+
+def _power(of: Increment, moved: Increment) -> float:
+    """Work of tangential force and torque of an increment on the motions of another."""
+    force, shift = of.tangential_force or (0.0, 0.0), moved.tangential_shift or (0.0, 0.0)
+    turned = (of.torque or 0.0) * (moved.twist or 0.0)
+    return force[0] * shift[0] + force[1] * shift[1] + turned
