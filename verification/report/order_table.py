@@ -25,7 +25,18 @@ FASTER = (
     "ever faster, with 1.4 to 1.8 while pressed in 4 to 64 increments and with 1.6 to 2.0 while "
     "sheared in 4 to 256"
 )
+OF_RADII = {
+    Refinement.MESH: "discs are exact to rounding; of a push fronts fall anywhere between rings: "
+    "the shift falls with 1.9 ± 0.5 over 15 sets of rings, too wide to hold it to 2",
+    Refinement.INCREMENTS: "held against references at one number of increments; cells and "
+    "elements show the orders of the same paths",
+}
 REASONS = {
+    **{
+        (of, Solver.RADII, refined): reason
+        for of in Followed
+        for refined, reason in OF_RADII.items()
+    },
     (Followed.ENERGY, Solver.CELLS, Refinement.MESH): (
         "what is left of it depends on how circles cut the cells: 2.4 ± 0.2 from 96 or 128 grids, "
         "too wide to hold it to 5/2"
