@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from contact_scene import Scene
-from fem_reference.elasticity.hats import Hats, hats_on
+from fem_reference.elasticity.hat_functions import Hats, hats_on
 from fem_reference.fields import Increment
 from fem_reference.plan import Path, Plan
 

@@ -15,7 +15,7 @@ from contact_scene import (
 )
 from contact_scene.scene_text import shape_text
 from contact_scene.solver_errors import ContactAtZoneEdge, UnsupportedScene
-from fem_reference.contact.complementarity.method import complementarity_method
+from fem_reference.contact.method import ContactMethod
 from fem_reference.history import march
 from fem_reference.mesh.section_outline import sufficient_box
 from fem_reference.model import ContactModel, outermost_modulus
@@ -93,9 +93,8 @@ def _coarse_radius(scene: Scene, ramp: LoadRamp, guess: float) -> float:
     radius = guess
     for _ in range(MOST_TRIALS):
         model = ContactModel.of(pressing, _coarse(scene, radius), radius)
-        method = complementarity_method(model, decided)
         try:
-            (pressed,) = march(pressing, decided, method, COARSE_TOLERANCE)
+            (pressed,) = march(ContactMethod(model, decided), COARSE_TOLERANCE)
         except ContactAtZoneEdge:
             radius *= GROWTH
             continue

@@ -13,27 +13,22 @@ class NormalTarget:
 
 @dataclass(frozen=True)
 class TangentialTarget:
-    """Either the tangential force [force] or the shift [length], along the plan's direction."""
+    """Either the load or the motion of the indenter along the shear.
 
-    force: float | None = None
-    shift: float | None = None
+    load    tangential force along the plan's direction [force], or torque [force length]
+    motion  shift along that direction [length], or twist [radian]
+    """
+
+    load: float | None = None
+    motion: float | None = None
 
 
-@dataclass(frozen=True)
-class TwistTarget:
-    """Either the torque [force length] or the twist [radian]."""
-
-    torque: float | None = None
-    twist: float | None = None
+STILL = TangentialTarget(motion=0.0)
 
 
 @dataclass(frozen=True)
 class Loads:
-    """Everything that is prescribed at the end of an increment.
-
-    tangential, twisting  None where the plan's path has no such motion
-    """
+    """Loads or motions that are prescribed at the end of an increment."""
 
     normal: NormalTarget
-    tangential: TangentialTarget | None = None
-    twisting: TwistTarget | None = None
+    tangential: TangentialTarget = STILL

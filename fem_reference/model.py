@@ -13,7 +13,7 @@ from contact_scene import (
 )
 from contact_scene.friction import FRICTIONLESS, CoulombFriction
 from fem_reference.elasticity.compliance import NodalCompliance, composite
-from fem_reference.elasticity.hats import Hats, hats_on
+from fem_reference.elasticity.hat_functions import Hats, hats_on
 from fem_reference.elasticity.motion import TORSION, Motion, motion
 from fem_reference.mesh.section_mesh import SectionMesh, section_mesh
 from fem_reference.scales import Scales
@@ -65,8 +65,13 @@ class ContactModel:
     @cached_property
     def hats(self) -> Hats:
         """Of the corners that can carry traction: they end at a rim."""
+        return hats_on(self.radii, self.rim)
+
+    @property
+    def rim(self) -> float:
+        """Radius beyond which the indenter cannot touch; infinite without a rim [length]."""
         rim = self.scene.indenter.rim
-        return hats_on(self.radii, np.inf if rim is None else rim)
+        return np.inf if rim is None else rim
 
     @property
     def ends_at_rim(self) -> bool:

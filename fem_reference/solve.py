@@ -2,7 +2,6 @@
 
 from collections.abc import Callable, Iterator
 from dataclasses import replace
-from typing import Any
 
 from contact_scene import FiniteElementDiscretisation, Scene
 from contact_scene.normal_form import normal_form
@@ -10,12 +9,15 @@ from contact_scene.one_thread import one_thread
 from contact_scene.solver_errors import ContactAtZoneEdge
 from contact_scene.standing import Keeper, Mark, Standing
 from contact_scene.stored_fields import FieldStore
+from fem_reference.contact.angular_grid import end_grid
+from fem_reference.contact.augmented_lagrangian import Penalty
+from fem_reference.contact.method import ContactMethod
+from fem_reference.contact.point_state import PointState
 from fem_reference.expected_radius import meshed_radius
 from fem_reference.fields import Increment, Method, Result
-from fem_reference.history import Method as Solver
 from fem_reference.history import marked
 from fem_reference.model import ContactModel
-from fem_reference.plan import Path, Plan, plan
+from fem_reference.plan import Plan, plan
 
 Progress = Callable[[Increment], None]
 
@@ -73,7 +75,7 @@ def solve(
         if last:
             model.settled.update(last.settled)
         solver = _solver(model, decided, discretisation, method)
-        history = marked(scene, decided, solver, discretisation.tolerance, last)
+        history = marked(solver, discretisation.tolerance, last)
         try:
             increments = tuple(_told(model, radius, history, last, progress, keeper))
         except ContactAtZoneEdge:
@@ -96,30 +98,20 @@ def _solver(
     decided: Plan,
     discretisation: FiniteElementDiscretisation,
     method: Method,
-) -> Solver[Any]:
-    """The method on a model; imported only where it is used."""
+) -> ContactMethod:
+    """The contact method on a model, with the law that is asked for."""
+    penalty = None
     if method is Method.PENALTY:
-        from fem_reference.contact.augmentation import Penalty
-        from fem_reference.contact.penalty.method import penalty_method
-
         penalty = Penalty(
             discretisation.penalty, discretisation.augmentations, discretisation.overlap
         )
-        return penalty_method(model, decided, penalty, discretisation.harmonics)
-    if decided.path is Path.HARMONICS:
-        from fem_reference.contact.harmonics.angular_grid import end_grid
-        from fem_reference.contact.harmonics.method import harmonic_method
-
-        return harmonic_method(model, decided, end_grid(discretisation.harmonics))
-    from fem_reference.contact.complementarity.method import complementarity_method
-
-    return complementarity_method(model, decided)
+    return ContactMethod(model, decided, penalty, end_grid(discretisation.harmonics))
 
 
 def _told(
     model: ContactModel,
     radius: float,
-    history: Iterator[tuple[Increment, Mark[Any]]],
+    history: Iterator[tuple[Increment, Mark[PointState]]],
     since: Standing | None,
     progress: Progress | None,
     keeper: Keeper | None,

@@ -11,7 +11,7 @@ from hankel_responses import Coating
 from scipy.special import jv
 
 from fem_reference.contact.harmonics.ring_compliance import RingCompliance
-from fem_reference.elasticity.hats import hats_on
+from fem_reference.elasticity.hat_functions import hats_on
 
 # Beyond k = CUT / (width of a hat) hats hold a part of 1e-7 of their energy.
 CUT = 40.0

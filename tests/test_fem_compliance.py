@@ -15,7 +15,7 @@ from fem_reference import memory
 from fem_reference.elasticity import factored_section, sources
 from fem_reference.elasticity.compliance import composite, condense
 from fem_reference.elasticity.factored_section import FactoredSection
-from fem_reference.elasticity.hats import hats_on
+from fem_reference.elasticity.hat_functions import hats_on
 from fem_reference.elasticity.motion import PRESSING, SHEARING, TORSION, motion
 from fem_reference.mesh.gmsh_mesh import GmshMissing, gmsh_section_mesh
 from fem_reference.mesh.section_mesh import SectionMesh, section_mesh

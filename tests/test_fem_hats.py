@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from fem_reference.elasticity.hats import hats_on
+from fem_reference.elasticity.hat_functions import hats_on
 
 
 @st.composite

@@ -1,7 +1,5 @@
 """What friction can carry in all: whether a load is at that limit, and what the contact does."""
 
-from math import pi
-
 import numpy as np
 from numpy.typing import NDArray
 
@@ -15,21 +13,22 @@ Mask = NDArray[np.bool_]
 AT_LIMIT = 1e-6
 
 
-def reaches_limit(load: float | None, capacity: float, unit: float = 2 * pi) -> bool:
-    """Whether a force or torque is at the friction limit; GrossSliding if it is beyond.
+def reaches_limit(load: float | None, capacity: float) -> bool:
+    """Whether a force or torque is at the friction limit.
 
     load      None where the motion is prescribed
     capacity  the largest load that friction carries
-    unit      what both are to be multiplied with
     """
-    if load is None:
-        return False
-    if abs(load) > capacity * (1 + AT_LIMIT):
+    return load is not None and abs(load) >= capacity * (1 - AT_LIMIT)
+
+
+def refuse_beyond_limit(load: float | None, capacity: float) -> None:
+    """Raise GrossSliding for a force or torque beyond the friction limit; see `reaches_limit`."""
+    if load is not None and abs(load) > capacity * (1 + AT_LIMIT):
         raise GrossSliding(
-            f"tangential force or torque {unit * abs(load):.6g} exceeds the friction limit "
-            f"{unit * capacity:.6g}: gross sliding; prescribe the shift or twist instead"
+            f"tangential force or torque {abs(load):.6g} exceeds the friction limit "
+            f"{capacity:.6g}: gross sliding; prescribe the shift or twist instead"
         )
-    return abs(load) >= capacity * (1 - AT_LIMIT)
 
 
 def contact_status(
@@ -43,6 +42,6 @@ def contact_status(
     if np.any(stuck):
         whole = np.array_equal(stuck, loaded)
         return ContactStatus.FULL_STICK if whole else ContactStatus.PARTIAL_SLIP
-    if carried is not None and abs(carried) >= capacity * (1 - AT_LIMIT):
+    if carried is not None and reaches_limit(carried, capacity):
         return ContactStatus.GROSS_SLIDING
     return ContactStatus.NO_STICK_AREA_LEFT

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from contact_scene.kept_arrays import remembered
 from fem_reference.elasticity.factored_section import FactoredSection
 from fem_reference.elasticity.motion import Motion
-from fem_reference.elasticity.sources import sources_digest
+from fem_reference.elasticity.source_digest import sources_digest
 from fem_reference.mesh.section_mesh import SectionMesh
 
 

@@ -8,10 +8,9 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from fem_reference.contact.harmonics.angular_grid import AngularGrid, end_grid, mid_grid
-from fem_reference.contact.penalty import fitted_edge
-from fem_reference.contact.penalty.gauss_points import POINTS_PER_EDGE
-from fem_reference.contact.ring_edge import BEYOND, Beyond, contact_edge
+from fem_reference.contact.angular_grid import AngularGrid, end_grid, mid_grid
+from fem_reference.contact.gauss_points import POINTS_PER_EDGE
+from fem_reference.contact.ring_edge import BEYOND, Beyond, Edge, GaussEdge, HatEdge, contact_edge
 from fem_reference.elasticity.motion import PRESSING, SHEARING, TORSION, Motion, motion
 from fem_reference.fields import Increment
 
@@ -127,11 +126,10 @@ class SurfaceTractions:
     def _edges(self) -> Field:
         """Radius of the edge on every ray [length]: between rings from the axis on, or between
         Gauss points."""
-        if self._per_element == 1:
-            return np.array([contact_edge(self.radii, ray, self.edge) for ray in self._rays.T])
-        last = int(np.flatnonzero(self._rays[:, 0] > 0)[-1])
-        element = self.radii[last] - self.radii[last - POINTS_PER_EDGE]
-        return np.array([fitted_edge.edge_radius(self.radii, self._rays[:, 0], last, element)])
+        edge: Edge = HatEdge(self.edge)
+        if self._per_element > 1:
+            edge = GaussEdge(float(self.radii[POINTS_PER_EDGE] - self.radii[0]))
+        return np.array([contact_edge(self.radii, ray, edge) for ray in self._rays.T])
 
     def _linear(self, radii: Field, rays: Field) -> Field:
         """(4, radii, harmonics)"""

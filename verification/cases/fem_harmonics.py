@@ -18,7 +18,7 @@ from contact_scene import (
     LoadStep,
     Scene,
 )
-from fem_reference.contact.harmonics.surface_tractions import tractions_at
+from fem_reference.contact.surface_tractions import tractions_at
 from verification.cases.cattaneo_mindlin import CATTANEO, PARTS
 from verification.cases.fem_harmonics_run import PointsRun
 from verification.cases.fem_levels import because, finest

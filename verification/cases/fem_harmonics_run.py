@@ -7,8 +7,8 @@ from dataclasses import dataclass, replace
 from math import hypot
 
 from fem_reference import Path, Plan, Result, plan
-from fem_reference.contact.harmonics.angular_grid import end_grid, mid_grid
-from fem_reference.contact.harmonics.method import harmonic_method
+from fem_reference.contact.angular_grid import end_grid, mid_grid
+from fem_reference.contact.method import ContactMethod
 from fem_reference.expected_radius import meshed_radius
 from fem_reference.fields import Increment
 from fem_reference.history import march
@@ -35,9 +35,7 @@ class PointsRun(SectionRun):
         model = ContactModel.of(scene, discretisation, radius)
         own, between = (
             march(
-                scene,
-                decided,
-                harmonic_method(model, decided, grid(discretisation.harmonics)),
+                ContactMethod(model, decided, around=grid(discretisation.harmonics)),
                 self.tolerance,
             )
             for grid in (end_grid, mid_grid)

@@ -8,11 +8,10 @@ from typing import Any
 import numpy as np
 
 from contact_scene import CoulombFriction
-from fem_reference.contact.complementarity import contact_problem, ring_increment, slipping
-from fem_reference.contact.complementarity.ring_state import untouched
-from fem_reference.contact.penalty import law as penalty_law
-from fem_reference.contact.penalty.spring_contact import PenaltyLaw
-from fem_reference.elasticity import compliance, hats, section_basis, weak_form
+from fem_reference.contact import increment, ring_compliance
+from fem_reference.contact.augmented_lagrangian import Penalty
+from fem_reference.contact.natural_map import Equations
+from fem_reference.elasticity import compliance, hat_functions, section_basis, weak_form
 from fem_reference.elasticity.factored_section import FactoredSection
 from fem_reference.model import ContactModel
 from verification.defects.defect import Defect, Patches
@@ -51,7 +50,7 @@ def _resultant_weight(patches: Patches) -> None:
 
         return on
 
-    patches.function(hats, "hats_on", wrap)
+    patches.function(hat_functions, "hats_on", wrap)
 
 
 def _circumferential_shear(patches: Patches) -> None:
@@ -95,15 +94,16 @@ def _upper_body_rigid(patches: Patches) -> None:
 
 def _coupling(patches: Patches, factor: float) -> None:
     def wrap(whole: Any) -> Any:
-        def sideways(*given: Any) -> Any:
-            right = whole(*given)
-            if right is None or right.by_pressure is None:
-                return right
-            return replace(right, by_pressure=factor * right.by_pressure)
+        def compliance(*given: Any, **more: Any) -> Any:
+            right = whole(*given, **more)
+            for A in right.harmonics:
+                A[:2, :, 2] *= factor
+                A[2, :, :2] *= factor
+            return right
 
-        return sideways
+        return compliance
 
-    patches.function(contact_problem, "_sideways", wrap)
+    patches.function(ring_compliance, "ring_compliance", wrap)
 
 
 def _friction(patches: Patches) -> None:
@@ -117,46 +117,59 @@ def _friction(patches: Patches) -> None:
 
 def _forgetful(patches: Patches) -> None:
     def wrap(whole: Any) -> Any:
-        def sheared(sideways: Any, p: Any, last: Any, loads: Any) -> Any:
-            return whole(sideways, p, untouched(len(p)), loads)
+        def advance(contact: Any, before: Any, *more: Any) -> Any:
+            if before is not None:
+                first = contact.untouched()
+                forgotten = {
+                    name: getattr(first, name)
+                    for name in ("shear", "displacement", "slip", "motion", "dissipated_energy")
+                }
+                before = replace(before, **forgotten)
+            return whole(contact, before, *more)
 
-        return sheared
+        return advance
 
-    patches.function(ring_increment, "_sheared", wrap)
+    patches.function(increment, "advance", wrap)
 
 
 def _slip_reversed(patches: Patches) -> None:
     def wrap(whole: Any) -> Any:
-        def slid(sideways: Any, p: Any, q: Any, motion: Any, sides: Any, last: Any) -> Any:
-            after, step = whole(sideways, p, q, motion, sides, last)
-            return replace(after, dissipated=2 * last.dissipated - after.dissipated), step
+        def state(self: Any, passes: Any) -> Any:
+            after, energy = whole(self, passes), self.before.dissipated_energy
+            return replace(after, dissipated_energy=2 * energy - after.dissipated_energy)
 
-        return slid
+        return state
 
-    patches.function(slipping, "slid", wrap)
+    patches.method(increment._Increment, "state", wrap)
+
+
+class _Level(CoulombFriction):
+    """A limit whose slope is said to be zero."""
+
+    def slope(self, *given: Any, **more: Any) -> Any:
+        return 0.0 * super().slope(*given, **more)
 
 
 def _tangent(patches: Patches) -> None:
     def wrap(whole: Any) -> Any:
-        def response(self: PenaltyLaw, overlap: Any) -> Any:
-            right = whole(self, overlap)
-            tangent = right.tangent.copy()
-            tangent[1:, 0] = 0.0
-            return replace(right, tangent=tangent)
+        def linearised(self: Equations, at: Any) -> Any:
+            level = _Level(coefficient=self.problem.friction.coefficient)
+            wrong = Equations(replace(self.problem, friction=level))
+            return whole(wrong, at)
 
-        return response
+        return linearised
 
-    patches.method(PenaltyLaw, "response", wrap)
+    patches.method(Equations, "linearised", wrap)
 
 
 def _soft(patches: Patches) -> None:
-    patches.function(
-        penalty_law, "penalty_stiffness", lambda whole: lambda *given: 0.1 * whole(*given)
+    patches.method(
+        Penalty, "stiffness", lambda whole: lambda self, *given: 0.1 * whole(self, *given)
     )
 
 
 def _not_augmented(patches: Patches) -> None:
-    patches.attribute(PenaltyLaw, "carrying", lambda self, traction: self)
+    patches.attribute(increment._Increment, "again", lambda self, last: last)
 
 
 FINITE_ELEMENTS = (

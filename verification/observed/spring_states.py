@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from contact_scene import IsotropicMaterial
 from fem_reference import Increment, Path, Result
-from fem_reference.contact.penalty.gauss_points import gauss_points
+from fem_reference.contact.gauss_points import gauss_points
 from verification.observed.rings import along_load, model_of, section_radii
 from verification.observed.section_energy import EnergeticState
 
@@ -55,7 +55,7 @@ class SpringSurface:
         radii, nodes = result.increments[-1].radii, section_radii(result)
         middle = float(radii[0] + radii[2]) / 2  # of the first element
         model = model_of(result, middle / float(nodes[1]))
-        points = gauss_points(model.radii[: 2 * len(radii) // 3 + 1])
+        points = gauss_points(model.radii, model.rim)
         path = result.plan.path
         pressing = model.compliance(0).matrix
         blocks = {"zz": pressing[1, :, 1]}
@@ -65,10 +65,9 @@ class SpringSurface:
             blocks["tt"] = along_load(model)
         elif path is Path.TWISTING:
             blocks["tt"] = model.torsion().matrix[0, :, 0]
-        count = points.trace.shape[1]
         moves = {Path.SHEARING: np.ones_like(points.radii), Path.TWISTING: points.radii}
         by_force = {
-            name: points.trace @ block[:count, :count] @ points.trace.T * points.weights
+            name: points.compliance(block) / points.weights[:, None]
             for name, block in blocks.items()
         }
         return cls(

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from scipy.linalg import cho_factor, cho_solve
 
 from contact_scene.solver_errors import NotConverged
-from fem_reference.contact.harmonics.admissible_shear import project
+from fem_reference.contact.admissible_shear import project
 from fem_reference.loads import TangentialTarget
 
 Matrix = NDArray[np.float64]
@@ -43,7 +43,7 @@ class ShearProblem:
     areas: Vector
     along: Field
     bound: Vector
-    load: TangentialTarget
+    led: TangentialTarget
 
     def stiffness(self) -> Vector:
         """d (points,): the metric in which discs stay discs."""
@@ -52,8 +52,8 @@ class ShearProblem:
 
     def forced(self) -> Field:
         """c with the shift in it, where that is prescribed."""
-        shift = self.load.shift
-        return self.target if shift is None else self.target + shift * self.along
+        motion = self.led.motion
+        return self.target if motion is None else self.target + motion * self.along
 
 
 @dataclass(frozen=True)
@@ -77,7 +77,7 @@ def solve_shear(problem: ShearProblem, start: Field, tolerance: float) -> Sheare
     raises     NotConverged
     """
     K, c, d = problem.compliance, problem.forced(), problem.stiffness()
-    along, bound, total = problem.along, problem.bound, problem.load.force
+    along, bound, total = problem.along, problem.bound, problem.led.load
     least = LEAST_SHEAR * np.sum(problem.areas * bound)
     q, _ = project(start, bound, d, along, total)
     residual, solves = np.inf, 0
@@ -91,7 +91,7 @@ def solve_shear(problem: ShearProblem, start: Field, tolerance: float) -> Sheare
         residual = _sum(problem.areas, moved) / scale
         in_slip = length > bound
         if residual <= tolerance:
-            shift = omega if problem.load.shift is None else problem.load.shift
+            shift = omega if problem.led.motion is None else problem.led.motion
             return Sheared(q, shift, in_slip, residual, solves)
         aimed = _newton_point(problem, c, z, length, in_slip, d)
         aimed, _ = project(aimed, bound, d, along, total)
@@ -155,9 +155,9 @@ def _newton_point(
     sources = np.stack([c.ravel() - K @ fixed.ravel(), problem.along.ravel()], axis=1)
     sources = on_unknowns(sources)
     x, by_shift = cho_solve(factor, sources, check_finite=False).T
-    if problem.load.force is not None:
+    if problem.led.load is not None:
         carried = np.sum(problem.along * fixed) + np.sum(sources[:, 1] * x)
-        x = x + (problem.load.force - carried) / np.sum(sources[:, 1] * by_shift) * by_shift
+        x = x + (problem.led.load - carried) / np.sum(sources[:, 1] * by_shift) * by_shift
     q = fixed
     q[:, stick] = x[: len(sticking)].reshape(2, -1)
     q[:, slip] += np.stack([-n[1], n[0]]) * x[len(sticking) :]

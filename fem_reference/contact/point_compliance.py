@@ -7,8 +7,8 @@ from typing import TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from fem_reference.contact.harmonics.angular_grid import AngularGrid
-from fem_reference.contact.harmonics.ring_compliance import RingCompliance
+from fem_reference.contact.angular_grid import AngularGrid
+from fem_reference.contact.ring_compliance import RingCompliance
 
 Matrix = NDArray[np.float64]
 Field = NDArray[np.float64]
@@ -20,19 +20,19 @@ Scalar = TypeVar("Scalar", np.float64, np.bool_)
 class PointCompliance:
     """Displacements of all points by tractions on all points, weighted with the area of a point.
 
-    The point on ring r_i at angle θ_j stands for the area w_ij = Δθ_j ∫ φ_i r dr. The axis is one
-    point, with one traction for the whole hat that peaks there. Fields on points are flat
-    (points,), the axis first, then ring by ring; vectors (2, points) are r and θ components, on the
-    axis x and y.
+    The point on ring r_i at angle θ_j stands for the area w_ij = Δθ_j ∫ φ_i r dr. The first ring is
+    one point: on several angles it is the axis, with one traction for the whole hat that peaks
+    there. Fields on points are flat (points,), the axis first, then ring by ring; vectors
+    (2, points) are r and θ components, on the axis of several angles x and y.
 
     rings, grid  where the points are
-    springs      compliance of springs between the surfaces, normal and tangential
+    springs      compliance of springs between the surfaces, the same along and across them
                  [length^3/force]: zero, or one over a penalty
     """
 
     rings: RingCompliance
     grid: AngularGrid
-    springs: tuple[float, float] = (0.0, 0.0)
+    springs: float = 0.0
 
     @property
     def shape(self) -> tuple[int, int]:
@@ -53,22 +53,28 @@ class PointCompliance:
         return self.rings.areas[self.ring_of_point] * np.concatenate([[np.sum(weights)], around])
 
     @cached_property
-    def e_x(self) -> Field:
-        """The direction of the load at the points (2, points); zero if nothing depends on θ."""
+    def motion(self) -> Field:
+        """Displacement of the points per unit of the indenter's shift or twist (2, points)."""
         if self.grid.highest == 0:
-            return np.zeros((2, len(self.ring_of_point)))
+            return self.rings.motion
         around = np.tile(self._e_x_around, len(self.rings.radii) - 1)
         return np.concatenate([[[1.0], [0.0]], around], axis=1)
 
-    @property
-    def along_x(self) -> Field:
-        """T = Σ along_x · q (2, points) [length^2]."""
-        return np.asarray(self.areas * self.e_x)
+    @cached_property
+    def along(self) -> Field:
+        """Load, a force or torque: Σ along · q (2, points) [length^2] or [length^3]."""
+        return np.asarray(self.areas * self.motion)
 
-    @property
+    @cached_property
     def carries_shear(self) -> NDArray[np.bool_]:
-        """Where there can be shear (points,): not on the axis if nothing depends on θ."""
-        return np.asarray((self.ring_of_point > 0) | (self.grid.highest > 0))
+        """Where there can be shear (points,): on the axis only along a tangential load."""
+        on_axis = self.rings.radii[self.ring_of_point] == 0.0
+        return np.asarray(~on_axis | (self.motion[0] != 0.0))
+
+    @cached_property
+    def couples(self) -> bool:
+        """Whether pressure displaces the surfaces past each other."""
+        return any(np.any(A[:2, :, 2]) for A in self.rings.harmonics)
 
     @cached_property
     def matrix(self) -> Matrix:
@@ -90,14 +96,12 @@ class PointCompliance:
         K = self._summed_on_axis(by_rings).reshape(2 * (3 * len(self.areas),))
         diagonal = np.diagonal(K).reshape(3, -1)
         diagonal = np.where(diagonal == 0, diagonal[2], diagonal)
-        normal, tangential = self.springs
-        springs = np.array([tangential, tangential, normal])[:, None] * self.areas
-        K[np.diag_indices_from(K)] = diagonal.ravel() + springs.ravel()
+        K[np.diag_indices_from(K)] = (diagonal + self.springs * self.areas).ravel()
         return K
 
     def displacement(self, pressure: Vector, shear: Field) -> tuple[Field, Vector]:
         """u_t (2, points) and u_z (points,) [length] by tractions, harmonic by harmonic: does not
-        use the matrix."""
+        use the matrix. u_t is zero where there can be no shear."""
         tractions = np.stack([*shear, pressure])
         amplitudes = self.grid.amplitudes(self._spread(tractions))
         weak = np.stack(
@@ -108,9 +112,8 @@ class PointCompliance:
             axis=-1,
         )
         w_u = self._summed_on_axis(self.grid.at_points(weak) * self.grid.weights)
-        normal, tangential = self.springs
-        u = w_u / self.areas + np.array([[tangential], [tangential], [normal]]) * tractions
-        return u[:2], u[2]
+        u = w_u / self.areas + self.springs * tractions
+        return u[:2] * self.carries_shear, u[2]
 
     def scalar_on_grid(self, values: NDArray[Scalar]) -> NDArray[Scalar]:
         """(rings, angles) of values at points."""
@@ -130,12 +133,13 @@ class PointCompliance:
 
     @cached_property
     def _axis(self) -> Field:
-        """Unit tractions of the axis x, y, z (3,) in components r, θ, z (3,) at all angles. None
-        along y, by mirror symmetry, nor along x if nothing depends on θ."""
+        """Unit tractions of the axis x, y, z (3,) in components r, θ, z (3,) at all angles: none
+        along y, by mirror symmetry. Where nothing depends on θ it is a ring like the others."""
+        if self.grid.highest == 0:
+            return np.eye(3)[:, :, None]
         unit = np.zeros((3, 3, self.grid.points))
         unit[2, 2] = 1.0
-        if self.grid.highest > 0:
-            unit[0, :2] = self._e_x_around
+        unit[0, :2] = self._e_x_around
         return unit
 
     def _spread(self, values: Field) -> Field:

@@ -60,8 +60,8 @@ class AngularGrid:
     def at_points(self, amplitudes: Matrix) -> Matrix:
         """Values (3, rings, points) of the r, θ, z components with these amplitudes (3, rings,
         harmonics)."""
-        cosines, sines = self.modes(self.angles)
-        return np.stack([f @ m for f, m in zip(amplitudes, (cosines, sines, cosines), strict=True)])
+        waves = [d * self.norms[:, None] / self.weights for d in self.transforms]
+        return np.stack([f @ wave for f, wave in zip(amplitudes, waves, strict=True)])
 
     def modes(self, angles: Vector) -> tuple[Matrix, Matrix]:
         """cos nθ and sin nθ at any angles (harmonics, angles)."""
@@ -70,8 +70,8 @@ class AngularGrid:
 
 
 def axisymmetric_grid() -> AngularGrid:
-    """One point for the whole ring: q_r and p do not depend on θ, and there is no q_θ."""
-    return AngularGrid(np.zeros(1), np.full(1, 2 * np.pi), np.ones((1, 1)), np.zeros((1, 1)))
+    """One point for the whole ring: no component depends on θ."""
+    return AngularGrid(np.zeros(1), np.full(1, 2 * np.pi), np.ones((1, 1)), np.ones((1, 1)))
 
 
 def end_grid(highest: int) -> AngularGrid:

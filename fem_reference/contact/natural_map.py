@@ -12,13 +12,14 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from fem_reference.contact.friction_limit import AT_LIMIT
-from fem_reference.contact.harmonics.turns import CoupledProblem, CoupledSolution
+from fem_reference.contact.alternating_iteration import CoupledProblem, CoupledSolution
 
 Field = NDArray[np.float64]
 Vector = NDArray[np.float64]
 Matrix = NDArray[np.float64]
 Mask = NDArray[np.bool_]
+
+LEAST_FRICTION = 1e-6  # shear is measured by no less of the pressure
 
 
 @dataclass(frozen=True)
@@ -53,8 +54,8 @@ class Equations:
         self.n = len(self.w)
         diagonal = np.diagonal(self.K).reshape(3, -1)
         self.d_t, self.d_z = 0.5 * (diagonal[0] + diagonal[1]), diagonal[2]
-        self.along = compliance.along_x
-        self.force, self.pressed = problem.tangential.force, problem.normal.force
+        self.along = compliance.along
+        self.force, self.pressed = problem.tangential.load, problem.normal.force
         self.scale = float(np.mean(self.w))
 
     def missed(self, at: Iterate) -> Vector:
@@ -86,7 +87,8 @@ class Equations:
             by_t[c, :, -3] = self.along[c] / d_t
             by_t[c, :, -1] = -z_t[c] * w / d_t
         radial = np.einsum("cn,cnk->nk", normal, by_t)
-        carrying = np.where(self._carries, self.problem.friction.slope(), 0.0)
+        slope = self.problem.friction.slope(np.maximum(z_z, 0.0))
+        carrying = np.where(self.problem.compliance.carries_shear, slope, 0.0)
         turned = kept[:, None] * (by_t - normal[:, :, None] * radial)
         turned += normal[:, :, None] * carrying[:, None] * by_z
         jacobian = np.zeros((3 * n + 2, count))
@@ -106,15 +108,15 @@ class Equations:
     def size(self, missed: Vector, at: Iterate) -> float:
         """Of what is left: parts of the load and of what friction carries, added up; infinite where
         no load is prescribed and none is carried."""
-        n, friction = self.n, self.problem.friction.largest
-        load = self.pressed or float(np.sum(self.w * np.abs(at.tractions[2 * n :])))
+        n, p = self.n, at.tractions[2 * self.n :]
+        load = self.pressed or float(np.sum(self.w * np.abs(p)))
         if not load > 0:
             return np.inf
         by_shear = np.sum(self.w * np.hypot(*missed[: 2 * n].reshape(2, n)))
         by_shear += self.scale * abs(missed[-2]) if self.force is not None else 0.0
         by_pressure = np.sum(self.w * np.abs(missed[2 * n : 3 * n]))
         by_pressure += self.scale * abs(missed[-1]) if self.pressed is not None else 0.0
-        return float(by_pressure + by_shear / max(friction, AT_LIMIT)) / load
+        return float(by_pressure + by_shear / max(self.problem.mean_friction(p), LEAST_FRICTION)) / load
 
     def solution(self, at: Iterate, in_slip: Mask, solves: int) -> CoupledSolution:
         """What the laws make of an iterate without springs, so that they hold exactly."""
@@ -124,10 +126,6 @@ class Equations:
         safe = np.where(length > 0, length, 1.0)
         q = z_t * np.where(length > bound, bound / safe, 1.0)
         return CoupledSolution(p, q, at.approach, at.shift, in_slip, 0, solves)
-
-    @property
-    def _carries(self) -> Mask:
-        return self.problem.compliance.carries_shear
 
     def _equations(self, at: Iterate) -> tuple[Vector, Field, Vector, Vector]:
         """What is missed, z_t (2, points), z_z and µ⟨z_z⟩ (points,)."""

@@ -11,8 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from contact_scene.solver_errors import NotConverged
-from fem_reference.contact.harmonics.equations import Equations, Iterate
-from fem_reference.contact.harmonics.turns import (
+from fem_reference.contact.natural_map import Equations, Iterate
+from fem_reference.contact.alternating_iteration import (
     CoupledProblem,
     CoupledSolution,
     approach_of,
@@ -94,7 +94,7 @@ def _first(problem: CoupledProblem, start: Start, springs: float) -> tuple[Itera
     if not np.any(pressure > 0):
         pressed = press(problem, np.zeros_like(start.shear), sides_of(pressure))
         pressure, approach, solves = pressed.values, approach_of(problem, pressed), pressed.steps
-    shifted, pressed_by = problem.tangential.shift, problem.normal.approach
+    shifted, pressed_by = problem.tangential.motion, problem.normal.approach
     return Iterate(
         np.concatenate([start.shear.ravel(), pressure]),
         start.shift if shifted is None else shifted,

@@ -20,10 +20,11 @@ from fem_reference.contact.box_program import (
     Total,
     solve_box,
 )
-from fem_reference.contact.friction_limit import AT_LIMIT
-from fem_reference.contact.harmonics.point_compliance import PointCompliance
-from fem_reference.contact.harmonics.shear_in_discs import Sheared, ShearProblem, solve_shear
+from fem_reference.contact.friction_limit import reaches_limit
+from fem_reference.contact.point_compliance import PointCompliance
+from fem_reference.contact.tangential_newton import Sheared, ShearProblem, solve_shear
 from fem_reference.loads import NormalTarget, TangentialTarget
+from fem_reference.residuals import over
 
 Field = NDArray[np.float64]
 Vector = NDArray[np.float64]
@@ -39,9 +40,9 @@ DEPENDENT = 1e-10  # part of a difference below which the others explain it
 class CoupledProblem:
     """An increment on points.
 
-    gap                   undeformed gap (points,) [length]
-    friction              between the surfaces
-    target                u_t of the state before less its shift (2, points) [length]
+    gap         without pressure (points,) [length]
+    friction    between the surfaces
+    target      u_t of the state before less the motion of the indenter then (2, points) [length]
     """
 
     compliance: PointCompliance
@@ -56,12 +57,24 @@ class CoupledProblem:
         carrying = np.where(self.compliance.carries_shear, pressure, 0.0)
         return self.friction.limit(carrying)
 
+    def mean_friction(self, pressure: Vector) -> float:
+        """Friction limit over pressure, both as means over the contact; 0 without contact."""
+        w, p = self.compliance.areas, np.maximum(pressure, 0.0)
+        return over(float(np.sum(w * self.friction.limit(p))), float(np.sum(w * p)))
+
+    def capacity(self, pressure: Vector) -> float:
+        """The largest load, a force or torque, that friction carries under a pressure."""
+        lever = np.hypot(*self.compliance.motion)
+        return float(np.sum(self.compliance.areas * lever * self.bound(pressure)))
+
 
 @dataclass(frozen=True)
 class CoupledSolution:
     """Pressure (points,) and shear (2, points) with the rigid motion.
 
-    shift  None where the force is all that friction can carry: everything slips along it
+    shift  of the indenter, or twist; None where the load is all that friction can carry:
+           everything slips along it
+    way    how it was found
     """
 
     pressure: Vector
@@ -71,6 +84,7 @@ class CoupledSolution:
     in_slip: Mask
     turns: int
     solves: int
+    way: str = "alternation"
 
 
 class TurnsFailed(NotConverged):
@@ -93,14 +107,18 @@ def solve_coupled(
     """
     w, target = problem.compliance.areas, problem.normal
     q, turn, solves, change = shear, 0, 0, np.inf
-    inner, tightest = max(LOOSEST, 0.1 * tolerance), 0.1 * tolerance
+    couples, tightest = problem.compliance.couples, 0.1 * tolerance
+    inner = max(LOOSEST, tightest) if couples else tightest
     known = _Anderson(w, target.force)
     try:
         pressed = press(problem, q, sides_of(pressure))
-        p = pressed.values
+        p, solves = pressed.values, pressed.steps
         for turn in range(1, MOST_TURNS + 1):
             sheared = _shear(problem, p, q, inner)
             q, solves = sheared.shear, solves + sheared.solves
+            if not couples:
+                delta = approach_of(problem, pressed)
+                return CoupledSolution(p, q, delta, sheared.shift, sheared.in_slip, turn, solves)
             pressed = press(problem, q, pressed.sides)
             solves += pressed.steps
             change = _change(w, p, pressed.values)
@@ -159,26 +177,26 @@ def press(problem: CoupledProblem, q: Field, guess: Sides) -> BoxSolution:
 
 def _shear(problem: CoupledProblem, p: Vector, start: Field, tolerance: float) -> Sheared:
     """The shear at a pressure, on the points that carry it."""
-    compliance, load = problem.compliance, problem.tangential
+    compliance, target = problem.compliance, problem.tangential
     w, K = compliance.areas, compliance.matrix
     points = len(w)
     bound = problem.bound(p)
-    capacity = float(np.sum(w * bound))
-    if load.force is not None and abs(load.force) >= capacity * (1 - AT_LIMIT):
-        q = np.copysign(1.0, load.force) * bound * compliance.e_x
-        return Sheared(q, None, bound > 0, 0.0, 0)
+    if target.load is not None and reaches_limit(target.load, problem.capacity(p)):
+        lever = np.hypot(*compliance.motion)
+        along = np.divide(compliance.motion, lever, out=np.zeros_like(start), where=lever > 0)
+        return Sheared(np.copysign(bound, target.load) * along, None, bound > 0, 0.0, 0)
     inside = np.flatnonzero(bound > 0)
     if len(inside) == 0:
-        return Sheared(np.zeros_like(start), load.shift, bound > 0, 0.0, 0)
+        return Sheared(np.zeros_like(start), target.motion, bound > 0, 0.0, 0)
     both = np.concatenate([inside, points + inside])
     by_pressure = (K[: 2 * points, 2 * points :] @ p).reshape(2, -1)
     part = ShearProblem(
         compliance=K[np.ix_(both, both)],
         target=(w * problem.target - by_pressure)[:, inside],
         areas=w[inside],
-        along=compliance.along_x[:, inside],
+        along=compliance.along[:, inside],
         bound=bound[inside],
-        load=load,
+        led=target,
     )
     solved = solve_shear(part, start[:, inside], tolerance)
     q, in_slip = np.zeros_like(start), np.zeros(points, dtype=bool)

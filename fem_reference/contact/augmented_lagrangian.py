@@ -1,4 +1,10 @@
-"""Springs between surfaces, and Uzawa's update: tractions of a pass are multipliers of the next."""
+"""The penalty law and Uzawa's update: tractions of a pass are multipliers of the next.
+
+Springs of stiffness ε between the surfaces carry t = λ + ε (overlap): the pressure is
+p = ⟨λ − ε g⟩ (Wriggers 2006, Computational Contact Mechanics, ch. 6), the shear λ_t + ε v returned
+to Coulomb's cone (Giannakopoulos 1989, Comput. Struct. 32, 157). This is the exact law of contact
+and friction between bodies on which the springs, of compliance 1/ε, lie in series.
+"""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -32,6 +38,15 @@ class Penalty:
         if self.augmentations < 0:
             raise ValueError(f"augmentations cannot be negative, as {self.augmentations} is")
 
+    def stiffness(self, contact_modulus: float, edge_length: float) -> float:
+        """Compute ε [force/length^3].
+
+        contact_modulus  E* of the outermost materials [force/length^2]: it is them that an overlap
+                         as short as an edge presses
+        edge_length      of a contact edge of the mesh [length]
+        """
+        return self.factor * contact_modulus / edge_length
+
 
 def augmented(
     first: P,
@@ -40,7 +55,7 @@ def augmented(
     penalty: Penalty,
     fewest: int,
 ) -> list[P]:
-    """All passes of an increment, the last one the best.
+    """Return all passes of an increment, the last one the best.
 
     (Alart and Curnier 1991, Comput. Methods Appl. Mech. Eng. 92, 353; Simo and Laursen 1992,
     Comput. Struct. 42, 97.) One update of stiff springs takes away nearly all of the penalty's

@@ -5,6 +5,7 @@ tested with the same hats: no more conditions than the displacement can meet, so
 does not ripple and the matrix stays symmetric.
 """
 
+from abc import ABC, abstractmethod
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
@@ -28,10 +29,10 @@ def product(hat: Any, trace: Any, w: Any) -> Any:
 
 
 @dataclass(frozen=True)
-class Hats:
-    """Hat functions φ of the corner nodes, and their products with the quadratic trace ψ.
+class TractionBasis(ABC):
+    """Functions φ of the radius that span the tractions, and their products with the trace ψ.
 
-    radii     (n,) of the corners
+    radii     (n,) of the rings whose values are the unknowns [length]
     products  ∫ ψ_i φ_j r dr (m, n) [length^2]
     weights   ∫ φ r dr (n,) [length^2]
     arms      ∫ φ r² dr (n,) [length^3]
@@ -43,16 +44,29 @@ class Hats:
     arms: Field
 
     def compliance(self, nodal: Matrix) -> Matrix:
-        """Displacements over the hats per traction at the corners, Mᵀ C M.
+        """Compute displacements, integrated over φ, per traction at the rings: Mᵀ C M.
 
         nodal  displacement per generalised force at the nodes (m, m)
         """
         weak = self.products.T @ nodal @ self.products
         return np.asarray(weak)
 
+    @abstractmethod
     def of(self, function: Callable[[Field], Field]) -> Field:
-        """∫ f φ r dr of a function of the radius."""
+        """Integrate f φ r dr for a function f of the radius."""
+
+
+class Hats(TractionBasis):
+    """Hat functions of the corner nodes."""
+
+    def of(self, function: Callable[[Field], Field]) -> Field:
+        """Integrate f φ r dr for a function f of the radius."""
         return _integrals(_hat_basis(self.radii), function)
+
+
+def corners_under(nodes: Field, reach: float) -> int:
+    """Count the corners from the axis out to a radius; corners have the even indices of `nodes`."""
+    return int(np.count_nonzero(nodes[::2] <= reach * (1 + SAME)))
 
 
 def hats_on(nodes: Field, reach: float = np.inf) -> Hats:
@@ -60,8 +74,7 @@ def hats_on(nodes: Field, reach: float = np.inf) -> Hats:
 
     At the last corner half a hat is left: no traction reaches further.
     """
-    corners = nodes[::2]
-    radii = corners[corners <= reach * (1 + SAME)]
+    radii = nodes[::2][: corners_under(nodes, reach)]
     hats = _hat_basis(radii)
     traces = hats.with_element(ElementLineP2())
     outwards = np.argsort(traces.doflocs[0])

@@ -17,9 +17,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from contact_scene.solver_errors import NotConverged
-from fem_reference.contact.harmonics.equations import Equations, Iterate
-from fem_reference.contact.harmonics.root import Root, Start, root
-from fem_reference.contact.harmonics.turns import CoupledProblem, CoupledSolution
+from fem_reference.contact.natural_map import Equations, Iterate
+from fem_reference.contact.coupled_newton import Root, Start, root
+from fem_reference.contact.alternating_iteration import CoupledProblem, CoupledSolution
 
 Vector = NDArray[np.float64]
 Matrix = NDArray[np.float64]
@@ -170,7 +170,7 @@ def _scales(equations: Equations, at: Iterate, softness: float) -> Vector:
     area = float(np.sum(w, where=p > 0))
     mean = float(np.sum(w * np.abs(p))) / area
     share = np.sqrt(area / w)
-    rubbed = max(equations.problem.friction.largest, LITTLE_FRICTION) * mean * share
+    rubbed = max(equations.problem.mean_friction(p), LITTLE_FRICTION) * mean * share
     approach = abs(at.approach)
     return np.concatenate(
         [rubbed, rubbed, mean * share, [max(abs(at.shift), approach), approach, softness]]

@@ -1,1 +1,0 @@
-"""Contact and friction as complementarity problems, without a penalty."""

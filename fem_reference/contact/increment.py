@@ -1,0 +1,360 @@
+"""One load increment on points: from state to state."""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from contact_scene.friction import sliding_friction
+from contact_scene.residuals import Residuals, ShearResiduals
+from contact_scene.solver_errors import NotConverged, motion_undefined
+from contact_scene.summary import ContactStatus
+from fem_reference.contact.alternating_iteration import (
+    CoupledProblem,
+    CoupledSolution,
+    TurnsFailed,
+    solve_coupled,
+)
+from fem_reference.contact.augmented_lagrangian import augmented
+from fem_reference.contact.contact_fraction import touching_share
+from fem_reference.contact.continuation import solve_by_continuation
+from fem_reference.contact.coupled_newton import Start, solve_by_newton
+from fem_reference.contact.friction_limit import contact_status, refuse_beyond_limit
+from fem_reference.contact.point_contact import PointContact
+from fem_reference.contact.point_state import PointState, length, longest
+from fem_reference.loads import Loads
+from fem_reference.plan import Path
+from fem_reference.residuals import LEAST_SLIP, complementarity, friction_cone, over, penetration
+
+Field = NDArray[np.float64]
+Vector = NDArray[np.float64]
+Mask = NDArray[np.bool_]
+
+MOST_ATTEMPTS = 4
+# Of the approach: tangential displacements below are round-off of bodies that do not couple.
+ROUND_OFF = 1e-6
+# Overlap over approach up to which springs do not move the edge of the contact visibly.
+AT_EDGE = 5e-3
+# A mesh's zone of equal elements is so much wider than its contact, at most.
+WIDEST_ZONE = 1.25
+
+
+def advance(
+    contact: PointContact, before: PointState | None, loads: Loads, tolerance: float
+) -> PointState:
+    """Solve an increment; all residuals of the state at its end are at most the tolerance.
+
+    raises   NotConverged, SurfacesOverlap, GrossSliding
+    """
+    before = before or contact.untouched()
+    if before.motion is None:
+        raise motion_undefined()
+    increment = _Increment(contact, before, loads, tolerance)
+    passes = [increment.first()]
+    if contact.penalty is not None:
+        # Springs stiff enough need one update at Gauss points to be as good as the mesh.
+        fewest = int(contact.at_gauss_points)
+        passes = augmented(
+            passes[0], increment.again, increment.left, contact.penalty, fewest
+        )
+    return increment.state(passes)
+
+
+@dataclass(frozen=True)
+class _Pass:
+    """A solution beside given multipliers, with what follows from it.
+
+    multiplier    as of the state
+    displacement  u_t of the bodies [length]
+    law_gap       gap with the strain of springs, zero where there is pressure [length]
+    passed        how far the indenter's particles moved past the body's in the increment, less the
+                  strain of springs (2, points): that way they pull these along
+    motion        as of the state
+    turns         of the alternating iteration, in all attempts; solves likewise
+    """
+
+    problem: CoupledProblem
+    solution: CoupledSolution
+    multiplier: Field
+    displacement: Field
+    law_gap: Vector
+    passed: Field
+    motion: float | None
+    residuals: Residuals
+    turns: int
+    solves: int
+
+    @property
+    def tractions(self) -> Field:
+        """Shear and pressure, r, θ, z (3, points)."""
+        return np.concatenate([self.solution.shear, self.solution.pressure[None]])
+
+    @property
+    def strain(self) -> Field:
+        """Of the springs, r, θ, z (3, points) [length]."""
+        return self.problem.compliance.springs * (self.tractions - self.multiplier)
+
+    @property
+    def overlap(self) -> float:
+        """Largest overlap that springs leave [length]."""
+        loaded = self.solution.pressure > 0
+        return float(np.max(np.abs(self.strain[2]), where=loaded, initial=0.0))
+
+    @property
+    def overlap_share(self) -> float:
+        """The overlap over the approach."""
+        return over(self.overlap, abs(self.solution.approach))
+
+
+@dataclass(frozen=True)
+class _Increment:
+    """What an increment starts from, and what it leads to."""
+
+    contact: PointContact
+    before: PointState
+    loads: Loads
+    tolerance: float
+
+    def first(self) -> _Pass:
+        """The first pass. At Gauss points the multiplier of the pressure starts from zero, so that
+        no ripples pile up from one increment to the next; that of the shear has a memory."""
+        before, penalty = self.before, self.contact.penalty
+        multiplier = np.zeros_like(before.tractions)
+        if self.contact.at_gauss_points:
+            multiplier[:2] = before.shear
+        elif penalty is not None and penalty.augmentations > 0:
+            multiplier = before.tractions
+        motion = before.motion or 0.0, before.approach
+        return self._solve(multiplier, before.tractions, motion)
+
+    def again(self, last: _Pass) -> _Pass:
+        """The pass whose multipliers are the tractions of the last one."""
+        motion = last.motion, last.solution.approach
+        after = self._solve(last.tractions, last.tractions, motion)
+        turns, solves = last.turns + after.turns, last.solves + after.solves
+        return replace(after, turns=turns, solves=solves)
+
+    def left(self, one: _Pass) -> float:
+        """What springs leave: overlap over approach, or their strain along the surface over the
+        motion of the surfaces there, both as means weighted with the shear.
+
+        At Gauss points the square of the part of the mesh's zone that touches counts, too: the
+        error that elements make is inverse to it, and overlap need not be smaller than that.
+        """
+        w, q = self.contact.compliance.areas, length(one.solution.shear)
+        moved = float(np.sum(w * q * length(one.displacement)))
+        moved += ROUND_OFF * abs(one.solution.approach) * float(np.sum(w * q))
+        along = over(float(np.sum(w * q * length(one.strain[:2]))), moved)
+        left = max(one.overlap_share, along)
+        if not self.contact.at_gauss_points:
+            return left
+        rings = self.contact.rings
+        touching = np.flatnonzero(one.solution.pressure > 0)
+        reached = float(rings.radii[touching[-1]]) if len(touching) else rings.reach
+        return left * min(1.0, WIDEST_ZONE * reached / rings.reach) ** 2
+
+    def state(self, passes: list[_Pass]) -> PointState:
+        """The state that the last pass makes."""
+        contact, before, last = self.contact, self.before, passes[-1]
+        compliance, problem, solution = contact.compliance, last.problem, last.solution
+        p, q, w = solution.pressure, solution.shear, compliance.areas
+        # At Gauss points augmented tractions ripple at the edge.
+        for_edges = passes if contact.at_gauss_points else [last]
+        edges = next((one for one in for_edges if one.overlap_share <= AT_EDGE), last).tractions
+        in_stick = (problem.friction.limit(p) > 0) & ~solution.in_slip
+        slipped = np.where(in_stick, 0.0, self._touching_share(p, edges[2]) * last.passed)
+        energy = None
+        if last.motion is not None and before.dissipated_energy is not None:
+            bounds = problem.bound(before.pressure), problem.bound(p)
+            friction = sliding_friction(before.shear, q, last.passed, *bounds)
+            energy = before.dissipated_energy + float(np.sum(w * friction * slipped))
+        load = float(np.sum(compliance.along * q))
+        return PointState(
+            axisymmetric=contact.axisymmetric,
+            pressure=p,
+            shear=q,
+            displacement=last.displacement,
+            multiplier=last.multiplier,
+            edge_tractions=edges,
+            gap=last.law_gap - last.strain[2],
+            slip=before.slip - slipped,
+            in_stick=in_stick,
+            status=self._status(problem, p, in_stick, load),
+            normal_force=float(np.sum(w * p)),
+            approach=solution.approach,
+            load=load,
+            motion=last.motion,
+            dissipated_energy=energy,
+            residuals=last.residuals,
+            overlap=last.overlap,
+            turns=last.turns,
+            solves=last.solves,
+            augmentations=len(passes) - 1,
+            way=solution.way if compliance.couples else None,
+        )
+
+    def _solve(
+        self, multiplier: Field, start: Field, motion: tuple[float | None, float]
+    ) -> _Pass:
+        """One pass. Judged by displacements computed afresh from the final tractions, harmonic by
+        harmonic.
+
+        start   tractions r, θ, z (3, points)
+        motion  of the indenter, tangential and approach
+        raises  NotConverged, GrossSliding
+        """
+        contact, before, loads = self.contact, self.before, self.loads
+        compliance = contact.compliance
+        # Springs at Gauss points forget their strain, which the bodies could not follow.
+        strained = 0.0 if contact.at_gauss_points else before.shear - before.multiplier[:2]
+        memory = before.displacement + compliance.springs * (multiplier[:2] + strained)
+        problem = CoupledProblem(
+            compliance,
+            contact.gap - compliance.springs * multiplier[2],
+            contact.friction,
+            memory - (before.motion or 0.0) * compliance.motion,
+            loads.normal,
+            loads.tangential,
+        )
+        (q, p), (moved, approach) = (start[:2], start[2]), motion
+        at = Start(p, q, moved if moved is not None else before.motion or 0.0, approach)
+        aim, turns, solves = 0.5 * self.tolerance, 0, 0
+        for _ in range(MOST_ATTEMPTS):
+            solution = _solved(problem, at, aim)
+            turns, solves = turns + solution.turns, solves + solution.solves
+            refuse_beyond_limit(loads.tangential.load, problem.capacity(solution.pressure))
+            done = self._judged(problem, solution, multiplier, turns, solves)
+            if done.residuals.worst <= self.tolerance:
+                return done
+            moved = at.shift if solution.shift is None else solution.shift
+            at = Start(solution.pressure, solution.shear, moved, solution.approach)
+            aim *= 0.1
+        raise NotConverged("the increment", solves, done.residuals.worst, self.tolerance)
+
+    def _judged(
+        self,
+        problem: CoupledProblem,
+        solution: CoupledSolution,
+        multiplier: Field,
+        turns: int,
+        solves: int,
+    ) -> _Pass:
+        compliance, motion = problem.compliance, solution.shift
+        if motion is None and not np.any(problem.bound(solution.pressure)):
+            # Where friction carries nothing, the indenter stays.
+            motion = self.before.motion
+        u_t, u_z = compliance.displacement(solution.pressure, solution.shear)
+        passed = np.zeros_like(u_t)
+        if motion is not None:
+            passed = motion * compliance.motion + problem.target - u_t
+        gap = problem.gap + u_z - solution.approach
+        # The springs' strain is no displacement of the bodies.
+        displacement = u_t - compliance.springs * solution.shear
+        residuals = self._residuals(problem, solution, gap, passed if motion is not None else None)
+        return _Pass(
+            problem, solution, multiplier, displacement, gap, passed, motion, residuals,
+            turns, solves,
+        )  # fmt: skip
+
+    def _status(
+        self, problem: CoupledProblem, p: Vector, in_stick: Mask, load: float
+    ) -> ContactStatus:
+        carries = problem.compliance.carries_shear
+        driven = bool(np.any(problem.compliance.motion))
+        return contact_status(
+            (p > 0) & carries, in_stick & carries, load if driven else None, problem.capacity(p)
+        )
+
+    def _touching_share(self, p: Vector, at_edges: Vector) -> Vector:
+        """See `touching_share`; at the points (points,), ray by ray.
+
+        at_edges  pressure by which the edge is found at the end (points,)
+        """
+        compliance, before = self.contact.compliance, self.before
+        rings = compliance.rings
+        rays = zip(
+            *(
+                compliance.scalar_on_grid(values).T
+                for values in (
+                    (before.pressure == 0) & (before.gap > 0),
+                    p == 0,
+                    before.edge_tractions[2],
+                    at_edges,
+                )
+            ),
+            strict=True,
+        )
+        shares = [
+            touching_share(rings.radii, apart_before, apart, *map(rings.contact_edge, edges))
+            for apart_before, apart, *edges in rays
+        ]
+        axis, *others = np.stack(shares, axis=1)
+        return np.concatenate([axis[:1], *others])
+
+    def _residuals(
+        self, problem: CoupledProblem, solution: CoupledSolution, g: Vector, passed: Field | None
+    ) -> Residuals:
+        """Residuals of the law: with a penalty, of that of the springs.
+
+        g       gap with the strain of springs
+        passed  as of a pass; None where the motion is undefined
+        """
+        p, q, w = solution.pressure, solution.shear, problem.compliance.areas
+        bound, approach = problem.bound(p), solution.approach
+        normal, load = problem.normal.force, problem.tangential.load
+        carried = float(np.sum(w * p))
+        pressing = Residuals(
+            complementarity=complementarity(p, w * g, w, approach),
+            penetration=penetration(w * g, w, approach),
+            normal_equilibrium=None if normal is None else abs(carried - normal) / normal,
+        )
+        direction = missing = None
+        if passed is not None:
+            # What shear alone does: where all sticks from the start, all together moves nothing.
+            by_shear, _ = problem.compliance.displacement(np.zeros_like(p), q)
+            lengths = longest(by_shear), longest(self.before.displacement), ROUND_OFF * approach
+            direction = slip_direction(q, bound, passed, w, float(np.max(lengths)))
+        if load is not None and (limit := problem.capacity(p)) > 0:
+            missing = abs(float(np.sum(problem.compliance.along * q)) - load) / limit
+        path = self.contact.rings.path
+        if path is Path.PRESSING:
+            return pressing
+        twists = path is Path.TWISTING
+        return pressing.with_shear(
+            ShearResiduals(
+                friction_cone=friction_cone(length(q), bound),
+                slip_direction=direction,
+                tangential_equilibrium=None if twists else missing,
+                torque_equilibrium=missing if twists else None,
+            )
+        )
+
+
+def _solved(problem: CoupledProblem, start: Start, tolerance: float) -> CoupledSolution:
+    """By the alternating iteration, which needs a motion only below the friction limit; else by
+    Newton's method; where that runs to and fro, by continuation."""
+    try:
+        return solve_coupled(problem, start.pressure, start.shear, tolerance)
+    except TurnsFailed as error:
+        failed = error
+    spent = failed.solves
+    for way, solve in (("newton", solve_by_newton), ("continuation", solve_by_continuation)):
+        try:
+            solution = solve(problem, start, tolerance)
+        except NotConverged as error:
+            spent += error.iterations
+            continue
+        return replace(solution, turns=failed.turns, solves=spent + solution.solves, way=way)
+    raise NotConverged("the coupled increment", spent, failed.residual, failed.tolerance)
+
+
+def slip_direction(q: Field, bound: Vector, passed: Field, areas: Vector, moved: float) -> float:
+    """∫(b|s| − q·s) / ∫b|s| with s the motion of the indenter past the body: zero if the shear has
+    its full length along s wherever there is slip.
+
+    moved  largest displacement: the scale where slip nearly vanishes and has no direction
+    """
+    work = areas * bound * length(passed)
+    missing = np.sum(work - areas * np.sum(q * passed, axis=0))
+    scale = np.maximum(np.sum(work), LEAST_SLIP * moved * np.sum(areas * bound))
+    return 0.0 if scale == 0 else float(missing / scale)

@@ -1,0 +1,136 @@
+"""A state on points as an increment of the result."""
+
+from dataclasses import replace
+from math import pi, sqrt
+
+import numpy as np
+from numpy.typing import NDArray
+
+from contact_scene.march import Place
+from contact_scene.summary import ContactStatus
+from fem_reference.contact.point_contact import PointContact
+from fem_reference.contact.point_state import PointState
+from fem_reference.contact.ring_edge import stick_area
+from fem_reference.fields import Increment
+from fem_reference.plan import Path
+
+Field = NDArray[np.float64]
+
+
+def reported(
+    contact: PointContact, state: PointState, direction: tuple[float, float], place: Place
+) -> Increment:
+    """Fields on (rings, angles), or on (rings,) as long as nothing depends on θ.
+
+    direction  of the tangential load, from which angles count
+    """
+    compliance, rings = contact.compliance, contact.rings
+    p = _shown(contact, state.pressure)
+    gap = np.where(state.pressure > 0, 0.0, np.maximum(state.gap, 0.0))
+    edges = _edges(contact, state)
+    pressed = Increment(
+        step=place.step,
+        index=place.index,
+        increments_in_step=place.increments_in_step,
+        radii=rings.radii,
+        angles=None if contact.axisymmetric else compliance.grid.angles,
+        pressure=p,
+        gap=_shown(contact, gap),
+        normal_force=state.normal_force,
+        approach=state.approach,
+        contact_radius=sqrt(_contact_area(contact, edges) / pi),
+        peak_pressure=float(np.max(p)),
+        residuals=state.residuals,
+        iterations=state.solves,
+        sweeps=state.turns,
+        overlap=state.overlap if contact.penalty else None,
+        augmentations=state.augmentations if contact.penalty else None,
+        path=state.way,
+    )
+    return pressed if rings.path is Path.PRESSING else _with_shear(
+        pressed, contact, state, direction, edges
+    )
+
+
+def _with_shear(
+    pressed: Increment,
+    contact: PointContact,
+    state: PointState,
+    direction: tuple[float, float],
+    edges: Field,
+) -> Increment:
+    """The increment with its shear and slip by the names that they have on the plan's path."""
+    sheared = replace(
+        pressed,
+        status=state.status,
+        in_stick=_shown(contact, state.in_stick),
+        stick_radius=sqrt(_stick_area(contact, state, edges) / pi),
+        dissipated_energy=state.dissipated_energy,
+    )
+    shear, slip = (
+        [_ring(contact, component) for component in contact.compliance.vector_on_grid(vectors)]
+        for vectors in (state.shear, state.slip)
+    )
+    path, (x, y) = contact.rings.path, direction
+    if path is Path.TWISTING:
+        return replace(
+            sheared,
+            shear_circumferential=shear[1],
+            slip_circumferential=slip[1],
+            torque=state.load,
+            twist=state.motion,
+        )
+    sheared = replace(
+        sheared,
+        tangential_force=(state.load * x, state.load * y),
+        tangential_shift=None if state.motion is None else (state.motion * x, state.motion * y),
+    )
+    if path is Path.SHEARING:
+        return replace(sheared, shear_along_load=shear[0], slip_along_load=slip[0])
+    sheared = replace(sheared, shear_radial=shear[0], slip_radial=slip[0])
+    if contact.axisymmetric:
+        return sheared
+    return replace(sheared, shear_circumferential=shear[1], slip_circumferential=slip[1])
+
+
+def _shown(contact: PointContact, values: Field) -> Field:
+    """Values at points (points,), on (rings, angles) or (rings,)."""
+    return _ring(contact, contact.compliance.scalar_on_grid(values))
+
+
+def _ring(contact: PointContact, on_grid: Field) -> Field:
+    """(rings,) instead of (rings, 1)."""
+    return on_grid[:, 0] if contact.axisymmetric else on_grid
+
+
+def _edges(contact: PointContact, state: PointState) -> Field:
+    """Radius of the contact's edge on every ray (angles,) [length]: on the last ring, the rim of a
+    flat punch, the ring; 0 without contact."""
+    p = contact.compliance.scalar_on_grid(state.edge_tractions[2])
+    return np.array([contact.rings.contact_edge(ray) for ray in p.T])
+
+
+def _contact_area(contact: PointContact, edges: Field) -> float:
+    """½∫a² dθ with the radius a of the contact's edge on every ray [length^2]."""
+    return float(0.5 * np.sum(contact.compliance.grid.weights * np.square(edges)))
+
+
+def _stick_area(contact: PointContact, state: PointState, edges: Field) -> float:
+    """½∫c² dθ with the radius c of the edge of stick on every ray, between the rings
+    [length^2]."""
+    contact_area = _contact_area(contact, edges)
+    if state.status is ContactStatus.FULL_STICK:
+        return contact_area
+    compliance, rings = contact.compliance, contact.rings
+    p = state.edge_tractions[2]
+    bound = contact.friction.limit(p) * compliance.carries_shear
+    slips = (p > 0) & ~state.in_stick
+    rays = zip(
+        compliance.scalar_on_grid(bound).T,
+        compliance.vector_on_grid(state.edge_tractions[:2]).transpose(2, 0, 1),
+        compliance.scalar_on_grid(slips).T,
+        edges,
+        strict=True,
+    )
+    areas = [stick_area(rings.radii, *ray, rings.edge) for ray in rays]
+    return min(float(np.sum(compliance.grid.weights * areas) / (2 * pi)), contact_area)

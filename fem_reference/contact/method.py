@@ -1,0 +1,79 @@
+"""The contact method of a scene: bodies on points, the law between them, and the load path.
+
+Until there is a tangential load on coupled bodies nothing depends on θ, and one point stands for
+its whole ring; so it is on all paths without coupling.
+"""
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from contact_scene.march import Place
+from contact_scene.solver_errors import ContactAtZoneEdge
+from fem_reference.contact.angular_grid import AngularGrid, axisymmetric_grid, end_grid
+from fem_reference.contact.augmented_lagrangian import Penalty
+from fem_reference.contact.increment import advance
+from fem_reference.contact.increment_report import reported
+from fem_reference.contact.point_contact import PointContact, point_contact
+from fem_reference.contact.point_state import PointState
+from fem_reference.fields import Increment
+from fem_reference.loads import STILL, Loads
+from fem_reference.model import ContactModel
+from fem_reference.plan import Path, Plan
+
+HIGHEST = 8
+
+
+@dataclass(frozen=True)
+class ContactMethod:
+    """Solves increments of a model's scene, and reports them.
+
+    penalty  None: the exact law of Coulomb and Signorini
+    around   points on the half circle, from the direction of the load on, for Path.HARMONICS
+    """
+
+    model: ContactModel
+    plan: Plan
+    penalty: Penalty | None = None
+    around: AngularGrid = end_grid(HIGHEST)
+
+    def advance(self, before: PointState | None, loads: Loads, tolerance: float) -> PointState:
+        """The state at the end of an increment.
+
+        raises  NotConverged, SurfacesOverlap, GrossSliding, ContactAtZoneEdge
+        """
+        contact = self._on_rings
+        if self.plan.path is Path.HARMONICS:
+            led = bool(loads.tangential.load or loads.tangential.motion)
+            if led or (before is not None and not before.axisymmetric):
+                contact = self._on_points
+                if before is not None and before.axisymmetric:
+                    before = contact.lifted(before)
+            else:
+                loads = Loads(loads.normal, STILL)
+        state = advance(contact, before, loads, tolerance)
+        self._refuse_contact_at_edge(contact, state)
+        return state
+
+    def increment(self, state: PointState, place: Place) -> Increment:
+        """The state as it is reported."""
+        contact = self._on_rings if state.axisymmetric else self._on_points
+        return reported(contact, state, self.plan.direction, place)
+
+    @cached_property
+    def _on_rings(self) -> PointContact:
+        return point_contact(self.model, self.plan.path, axisymmetric_grid(), self.penalty)
+
+    @cached_property
+    def _on_points(self) -> PointContact:
+        return point_contact(self.model, self.plan.path, self.around, self.penalty)
+
+    def _refuse_contact_at_edge(self, contact: PointContact, state: PointState) -> None:
+        """Raise ContactAtZoneEdge where the contact is at the end of the zone of fine elements."""
+        last = contact.compliance.ring_of_point == len(contact.rings.radii) - 1
+        if not self.model.ends_at_rim and np.any(state.pressure[last] > 0):
+            raise ContactAtZoneEdge(
+                f"the contact reaches {contact.rings.radii[-1]:.6g} m, where the zone of fine "
+                f"elements ends; give a larger contact_radius"
+            )

@@ -1,1 +1,0 @@
-"""Contact and friction by an augmented penalty at Gauss points."""

@@ -1,0 +1,106 @@
+"""Two bodies on points, before any load, and the law between them."""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from contact_scene.friction import FRICTIONLESS, CoulombFriction
+from contact_scene.pair import contact_modulus
+from contact_scene.residuals import Residuals
+from contact_scene.summary import ContactStatus
+from fem_reference.contact.angular_grid import AngularGrid
+from fem_reference.contact.augmented_lagrangian import Penalty
+from fem_reference.contact.point_compliance import PointCompliance
+from fem_reference.contact.point_state import PointState
+from fem_reference.contact.ring_compliance import RingCompliance, ring_compliance
+from fem_reference.contact.ring_edge import GaussEdge
+from fem_reference.memory import require_memory
+from fem_reference.model import ContactModel
+from fem_reference.plan import Path
+
+Vector = NDArray[np.float64]
+
+COPIES = 4  # of the matrix between all points, while it is put together or parts are cut out
+
+
+@dataclass(frozen=True)
+class PointContact:
+    """Compliance, friction, and the law of contact.
+
+    penalty   None: the exact law of Coulomb and Signorini
+    """
+
+    compliance: PointCompliance
+    friction: CoulombFriction
+    penalty: Penalty | None = None
+
+    @property
+    def rings(self) -> RingCompliance:
+        """The rings that the points are on."""
+        return self.compliance.rings
+
+    @property
+    def gap(self) -> Vector:
+        """Undeformed gap, the mean over each point's function (points,) [length]."""
+        return self.rings.gap[self.compliance.ring_of_point]
+
+    @property
+    def axisymmetric(self) -> bool:
+        """Whether points are whole rings."""
+        return self.compliance.grid.highest == 0
+
+    @property
+    def at_gauss_points(self) -> bool:
+        """Whether there are more points than displacements that could tell pressures apart."""
+        return isinstance(self.rings.edge, GaussEdge)
+
+    def untouched(self) -> PointState:
+        """The state before first touch."""
+        nothing = np.zeros((3, len(self.gap)))
+        return PointState(
+            axisymmetric=self.axisymmetric,
+            pressure=nothing[2],
+            shear=nothing[:2],
+            displacement=nothing[:2],
+            multiplier=nothing,
+            edge_tractions=nothing,
+            gap=self.gap,
+            slip=nothing[:2],
+            in_stick=np.zeros(len(self.gap), dtype=bool),
+            status=ContactStatus.FULL_STICK,
+            normal_force=0.0,
+            approach=0.0,
+            load=0.0,
+            motion=0.0,
+            dissipated_energy=0.0,
+            residuals=Residuals(0.0, 0.0),
+        )
+
+    def lifted(self, state: PointState) -> PointState:
+        """An axisymmetric state on these points."""
+        ring = self.compliance.ring_of_point
+        arrays = {k: v[..., ring] for k, v in vars(state).items() if isinstance(v, np.ndarray)}
+        return replace(state, axisymmetric=self.axisymmetric, **arrays)
+
+
+def point_contact(
+    model: ContactModel, path: Path, grid: AngularGrid, penalty: Penalty | None = None
+) -> PointContact:
+    """The bodies of a model on the rings of its mesh and the angles of a grid.
+
+    The penalty law acts at Gauss points, but on harmonics at nodes.
+    Raises ResourceRefused where the memory does not suffice for the matrix between all points.
+    """
+    rings = ring_compliance(
+        model, path, grid.highest, at_gauss_points=bool(penalty) and path is not Path.HARMONICS
+    )
+    unknowns = 3.0 * len(rings.radii) * grid.points
+    require_memory(COPIES * 8 * unknowns**2)
+    springs = 0.0
+    if penalty:
+        edge = float(model.radii[2] - model.radii[0])
+        springs = 1 / penalty.stiffness(contact_modulus(model.scene), edge)
+    compliance = PointCompliance(rings, grid, springs)
+    friction = FRICTIONLESS if path is Path.PRESSING else model.friction
+    return PointContact(compliance, friction, penalty)

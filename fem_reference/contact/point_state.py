@@ -1,0 +1,72 @@
+"""The state of a contact on points at the end of an increment."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from contact_scene.residuals import Residuals
+from contact_scene.summary import ContactStatus
+
+Field = NDArray[np.float64]
+Vector = NDArray[np.float64]
+Mask = NDArray[np.bool_]
+
+
+@dataclass(frozen=True)
+class PointState:
+    """Converged fields; vectors (2, points) are components r and θ, on Path.SHEARING x alone.
+
+    axisymmetric       whether points are whole rings
+    displacement       u_t of the bodies [length]; with the motion the memory of the next increment
+    multiplier         tractions that need no springs, r, θ, z (3, points); zero for the exact law
+    edge_tractions     r, θ, z (3, points) by which the edges of contact and stick are found: of the
+                       first pass of a penalty that does not move them, as later ones ripple there
+    gap                between the bodies, negative where they overlap [length]
+    slip               since the start, of the lower body's particles past the indenter's [length]
+    load               tangential force [force] or torque [force length]
+    motion             shift [length] or twist [radian]; None at the friction limit under a load
+    dissipated_energy  None where the motion is
+    overlap            largest overlap that springs leave [length]
+    turns, solves      of the alternating iteration, and linear systems solved
+    augmentations      updates of the multipliers
+    way                how pressure and shear were found; None where they do not depend on each
+                       other
+    """
+
+    axisymmetric: bool
+    pressure: Vector
+    shear: Field
+    displacement: Field
+    multiplier: Field
+    edge_tractions: Field
+    gap: Vector
+    slip: Field
+    in_stick: Mask
+    status: ContactStatus
+    normal_force: float
+    approach: float
+    load: float
+    motion: float | None
+    dissipated_energy: float | None
+    residuals: Residuals
+    overlap: float = 0.0
+    turns: int = 0
+    solves: int = 0
+    augmentations: int = 0
+    way: str | None = None
+
+    @property
+    def tractions(self) -> Field:
+        """Shear and pressure, r, θ, z (3, points)."""
+        return np.concatenate([self.shear, self.pressure[None]])
+
+
+def length(vectors: Field) -> Vector:
+    """Of each vector of (2, points)."""
+    return np.asarray(np.sqrt(vectors[0] ** 2 + vectors[1] ** 2))
+
+
+def longest(vectors: Field) -> float:
+    """Length of the longest of them."""
+    return float(np.max(length(vectors)))
