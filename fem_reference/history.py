@@ -1,4 +1,4 @@
-"""Load stepping: a state, an increment, the next state; the contact method solves the increments."""
+"""Load stepping: state, increment, state; the contact method solves the increments."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass, replace

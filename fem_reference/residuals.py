@@ -38,13 +38,14 @@ def friction_cone(size: Field, bound: Field) -> float:
     return 0.0 if largest == 0 else float(np.maximum(0.0, np.max(size - bound)) / largest)
 
 
-def slip_direction(q: Field, bound: Field, slip: Field, moved: Field) -> float:
-    """Σ(b|s| + q s) / Σ b|s|: zero if all that slips carries its bound against the slip.
+def slip_direction(q: Field, bound: Field, passed: Field, areas: Field, moved: float) -> float:
+    """∫(b|s| − q·s) / ∫b|s| with s the motion of the indenter past the body: zero if the shear has
+    its full length along s wherever there is slip.
 
-    slip   slip increment over the hats
-    moved  motion of the surfaces over the hats: the scale where slip nearly vanishes
+    q, passed  (2, points)
+    moved      largest displacement: the scale where slip nearly vanishes and has no direction
     """
-    work = bound * np.abs(slip)
-    missing = np.sum(work + q * slip)
-    scale = np.maximum(np.sum(work), LEAST_SLIP * np.sum(bound * np.abs(moved)))
+    work = areas * bound * np.hypot(*passed)
+    missing = np.sum(work - areas * np.sum(q * passed, axis=0))
+    scale = np.maximum(np.sum(work), LEAST_SLIP * moved * np.sum(areas * bound))
     return 0.0 if scale == 0 else float(missing / scale)

@@ -1,21 +1,24 @@
 """Contacts on points without finite elements: ball and contact of radius 1, shear modulus 1."""
 
+from dataclasses import replace
+
 import numpy as np
 from hankel_responses import Coating
 from ring_responses import half_space, rings
 
 from contact_scene import CoulombFriction
-from fem_reference.contact.harmonics.angular_grid import AngularGrid, axisymmetric_grid, end_grid
-from fem_reference.contact.harmonics.point_compliance import PointCompliance
-from fem_reference.contact.harmonics.point_contact import PointContact
-from fem_reference.contact.harmonics.point_increment import advance
-from fem_reference.contact.harmonics.point_state import PointState
-from fem_reference.loads import NormalTarget, TangentialTarget
+from fem_reference.contact.angular_grid import AngularGrid, axisymmetric_grid, end_grid
+from fem_reference.contact.augmented_lagrangian import Penalty
+from fem_reference.contact.increment import advance
+from fem_reference.contact.point_compliance import PointCompliance
+from fem_reference.contact.point_contact import PointContact
+from fem_reference.contact.point_state import PointState
+from fem_reference.loads import Loads, NormalTarget, TangentialTarget
 
 RINGS = 16  # on the contact radius
 HIGHEST = 8
 TOLERANCE = 1e-8
-STILL = TangentialTarget(shift=0.0)
+SPRINGS_ALONE = Penalty(augmentations=0, overlap=np.inf)
 
 
 def contact(
@@ -23,7 +26,7 @@ def contact(
     mu: float = 0.1,
     per_radius: int = RINGS,
     grid: AngularGrid | None = None,
-    springs: tuple[float, float] = (0.0, 0.0),
+    springs: float = 0.0,
     reach: float = 1.25,
     power: int = 2,
 ) -> PointContact:
@@ -37,8 +40,9 @@ def contact(
     radii, h = known.radii, 1 / per_radius
     inner, outer = np.maximum(radii - h, 0.0), np.minimum(radii + h, radii[-1])
     gap = np.array([_mean_gap(*edges, power) for edges in zip(inner, radii, outer, strict=True)])
-    compliance = PointCompliance(known, grid, springs)
-    return PointContact(compliance, gap[compliance.ring_of_point], CoulombFriction(coefficient=mu))
+    compliance = PointCompliance(replace(known, gap=gap), grid, springs)
+    law = SPRINGS_ALONE if springs else None
+    return PointContact(compliance, CoulombFriction(coefficient=mu), law)
 
 
 def _mean_gap(inner, peak, outer, power):
@@ -59,16 +63,11 @@ def hertz_force(nu: float, bodies: int = 1) -> float:
 
 def pressed(of: PointContact, force: float, increments: int) -> PointState:
     """Pressed by the force in increments of equal contact radius, and set on the points of `of`."""
-    compliance = of.compliance
-    ring = PointContact(
-        PointCompliance(compliance.rings, axisymmetric_grid(), compliance.springs),
-        of.gap[np.unique(compliance.ring_of_point, return_index=True)[1]],
-        of.friction,
-    )
+    ring = replace(of, compliance=replace(of.compliance, grid=axisymmetric_grid()))
     state = None
     for k in range(1, increments + 1):
         target = NormalTarget(force=force * (k / increments) ** 3)
-        state = advance(ring, state, target, STILL, TOLERANCE)
+        state = advance(ring, state, Loads(target), TOLERANCE)
     assert state is not None
     return of.lifted(state)
 
@@ -77,13 +76,13 @@ def sheared(of: PointContact, state: PointState, *forces: float) -> PointState:
     """Sheared by forces, one increment each, under the normal force of the state."""
     normal = NormalTarget(force=state.normal_force)
     for force in forces:
-        state = advance(of, state, normal, TangentialTarget(force=force), TOLERANCE)
+        state = advance(of, state, Loads(normal, TangentialTarget(load=force)), TOLERANCE)
     return state
 
 
-def along_load(state: PointState):
+def along_load(of: PointContact, state: PointState):
     """q_x and q_y (rings, angles)."""
-    return cartesian(state.compliance.grid, state.compliance.vector_on_grid(state.shear))
+    return cartesian(of.compliance.grid, of.compliance.vector_on_grid(state.shear))
 
 
 def cartesian(grid, vector):

@@ -10,8 +10,10 @@ import numpy as np
 from hankel_responses import Coating
 from scipy.special import jv
 
-from fem_reference.contact.harmonics.ring_compliance import RingCompliance
+from fem_reference.contact.ring_compliance import RingCompliance
+from fem_reference.contact.ring_edge import HatEdge
 from fem_reference.elasticity.hat_functions import hats_on
+from fem_reference.plan import Path
 
 # Beyond k = CUT / (width of a hat) hats hold a part of 1e-7 of their energy.
 CUT = 40.0
@@ -39,7 +41,16 @@ def rings(per_unit: int, reach: float, highest: int, *bodies: Coating) -> RingCo
     hats = _hats(per_unit, len(radii), highest)
     nodes = np.sort(np.concatenate([radii, (radii[1:] + radii[:-1]) / 2]))
     harmonics = tuple(_harmonic(n, hats, ss, tt, zz, C) for n in range(highest + 1))
-    return RingCompliance(radii, hats_on(nodes).weights, harmonics)
+    return RingCompliance(
+        radii=radii,
+        areas=hats_on(nodes).weights,
+        gap=0.0 * radii,
+        harmonics=harmonics,
+        path=Path.HARMONICS,
+        motion=np.zeros((2, len(radii))),
+        reach=float(radii[-1]),
+        edge=HatEdge(),
+    )
 
 
 def _harmonic(n, hats, ss, tt, zz, C):

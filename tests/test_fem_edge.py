@@ -9,7 +9,7 @@ from fem_scenes import end, solved
 from scipy.linalg import toeplitz
 
 from fem_reference.contact.box_program import BoxProgram, Total, solve_box
-from fem_reference.contact.ring_edge import edge_radius, stick_area
+from fem_reference.contact.ring_edge import HatEdge, stick_area
 from verification.closed_forms.hertz import PointContact
 from verification.closed_forms.moduli import contact_modulus
 from verification.references import load_reference
@@ -46,7 +46,7 @@ def test_edge_of_plane_contact_is_found_within_its_element(beyond: float) -> Non
     p = plane_contact(a)
     last = int(np.flatnonzero(p > 0)[-1])
     # So far out a circle is as good as straight.
-    assert edge_radius(np.arange(len(p)) + 1e6, p, last) == pytest.approx(1e6 + a, abs=3e-3)
+    assert HatEdge().radius(np.arange(len(p)) + 1e6, p, last) == pytest.approx(1e6 + a, abs=3e-3)
     assert last + 0.5 != pytest.approx(a, abs=3e-3) or beyond == 0.5
 
 
@@ -88,9 +88,9 @@ def test_values_that_fall_inwards_have_their_edge_inside() -> None:
     p = plane_contact(150.4)
     last = int(np.flatnonzero(p > 0)[-1])
     radii = np.arange(len(p)) + 1e6
-    outward = edge_radius(radii, p, last) - radii[0]
+    outward = HatEdge().radius(radii, p, last) - radii[0]
     first = len(p) - 1 - last
-    inward = radii[-1] - edge_radius(radii, p[::-1].copy(), first, -1)
+    inward = radii[-1] - HatEdge().radius(radii, p[::-1].copy(), first, -1)
     assert inward == pytest.approx(outward, abs=1e-5)
 
 
@@ -113,12 +113,14 @@ def test_area_of_a_stuck_ring() -> None:
     sides = np.zeros(40, np.int8)
     sides[:11], sides[30:36] = 1, 1
     bound = np.where(radii < 36, 1.0, 0.0)
-    area = stick_area(radii, bound, np.where(sides != 0, bound, 0.0)[None], sides != 0, 35.5)
+    area = stick_area(
+        radii, bound, np.where(sides != 0, bound, 0.0)[None], sides != 0, 35.5, HatEdge()
+    )
     assert area == pytest.approx(pi * (29.5**2 - 10.5**2), rel=0.06)
 
 
 def test_single_ring_in_contact_counts_half_its_element() -> None:
-    assert edge_radius(np.arange(5.0), np.array([1.0, 0, 0, 0, 0]), 0) == 0.5
+    assert HatEdge().radius(np.arange(5.0), np.array([1.0, 0, 0, 0, 0]), 0) == 0.5
 
 
 def test_elastic_constants_do_not_move_the_edge() -> None:
@@ -137,11 +139,13 @@ def test_elastic_constants_do_not_move_the_edge() -> None:
 
 def test_two_rings_tell_an_edge_and_one_does_not() -> None:
     radii = np.arange(6.0)
-    near, far = (edge_radius(radii, np.sqrt(np.maximum(a**2 - radii**2, 0)), 1) for a in (1.2, 1.8))
+    near, far = (
+        HatEdge().radius(radii, np.sqrt(np.maximum(a**2 - radii**2, 0)), 1) for a in (1.2, 1.8)
+    )
     assert 1 < near < far < 2.05
     alone = np.array([0.0, 0, 0, 0, 0, 1])
-    assert edge_radius(radii, alone, 5, -1) == 4.5
-    assert 3 < edge_radius(radii, np.array([0.0, 0, 0, 0, 1, 2]), 4, -1) < 4
+    assert HatEdge().radius(radii, alone, 5, -1) == 4.5
+    assert 3 < HatEdge().radius(radii, np.array([0.0, 0, 0, 0, 1, 2]), 4, -1) < 4
 
 
 @pytest.mark.parametrize("side", [1, -1])
@@ -151,9 +155,9 @@ def test_slip_within_stick_has_its_edge_where_nothing_is_missing_from_the_limit(
     bound = np.sqrt(np.maximum(outer**2 - radii**2, 0))
     missing = np.minimum(np.sqrt(np.maximum(radii**2 - inner**2, 0)), bound)
     sides = np.where(radii < inner, side, 0).astype(np.int8)
-    whole = stick_area(radii, bound, np.zeros((1, 60)), np.zeros(60, bool), outer)
+    whole = stick_area(radii, bound, np.zeros((1, 60)), np.zeros(60, bool), outer, HatEdge())
     assert whole == pytest.approx(pi * outer**2, rel=1e-2)
-    area = stick_area(radii, bound, side * (bound - missing)[None], sides != 0, outer)
+    area = stick_area(radii, bound, side * (bound - missing)[None], sides != 0, outer, HatEdge())
     assert whole - area == pytest.approx(pi * inner**2, rel=1e-2)
 
 
@@ -168,7 +172,7 @@ def test_three_rings_tell_an_advancing_front(step: int) -> None:
     def edge_of_last(count: int) -> float:
         first = 4 if step > 0 else 3
         rings = slice(5 - count, None) if step > 0 else slice(0, first + count)
-        return edge_radius(radii[rings], values[rings], count - 1 if step > 0 else first, step)
+        return HatEdge().radius(radii[rings], values[rings], count - 1 if step > 0 else first, step)
 
     assert edge_of_last(3) == edge_of_last(5)
     assert step * edge_of_last(3) > step * edge_of_last(2) + 0.1
@@ -181,5 +185,7 @@ def test_slip_narrower_than_an_element_is_found_by_what_is_missing_from_the_limi
     missing, bound = plane_contact(stick), plane_contact(contact)
     radii = np.arange(len(bound)) + 1e6
     nothing = np.zeros(len(bound), bool)
-    area = stick_area(radii, bound, way * (bound - missing)[None], nothing, 1e6 + contact)
+    area = stick_area(
+        radii, bound, way * (bound - missing)[None], nothing, 1e6 + contact, HatEdge()
+    )
     assert np.sqrt(area / pi) - 1e6 == pytest.approx(stick, abs=3e-3)

@@ -1,13 +1,15 @@
 """What the residuals of the finite-element reference say about states that are wrong."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from contact_scenes import MU, PRESS, RIGID_BALL, push, scene
-from fem_scenes import solved
+from fem_scenes import elements, solved
 
 from contact_scene.solver_errors import NotConverged
-from fem_reference import residuals
-from fem_reference.contact.complementarity import ring_increment as increment_module
+from fem_reference import Method, residuals, solve
+from fem_reference.contact import increment
 
 WEIGHTS = np.array([0.1, 0.4, 0.5])
 PRESSURE = np.array([2.0, 1.0, 0.0])
@@ -18,9 +20,10 @@ def test_right_state_leaves_nothing() -> None:
     assert residuals.complementarity(PRESSURE, gap, WEIGHTS, 0.1) == 0
     assert residuals.penetration(gap, WEIGHTS, 0.1) == 0
     bound = MU * PRESSURE
-    slip = np.array([0.0, -0.2, 5.0])
-    assert residuals.friction_cone(np.abs([0.1, MU, 0.0]), bound) == 0
-    assert residuals.slip_direction(np.array([0.1, MU, 0.0]), bound, slip, slip) == 0
+    shear = np.array([[0.1, MU, 0.0], [0.0, 0.0, 0.0]])
+    passed = np.array([[0.0, 0.2, 5.0], [0.0, 0.0, 0.0]])
+    assert residuals.friction_cone(np.abs(shear[0]), bound) == 0
+    assert residuals.slip_direction(shear, bound, passed, WEIGHTS, 1.0) == 0
 
 
 def test_pressure_across_a_gap_counts_with_both() -> None:
@@ -42,28 +45,29 @@ def test_shear_beyond_the_limit_counts() -> None:
 @pytest.mark.parametrize("shear", [1.0, 0.5, 0.0, -0.5])
 def test_slip_along_the_shear_or_below_the_limit_counts(shear: float) -> None:
     """1 + q/b for slip of unit size: 2 where slip and shear go together, 1 without shear."""
-    found = residuals.slip_direction(np.array([shear]), np.array([1.0]), np.ones(1), np.ones(1))
+    q, passed = np.array([[shear], [0.0]]), np.array([[-1.0], [0.0]])
+    found = residuals.slip_direction(q, np.ones(1), passed, np.ones(1), 1.0)
     assert found == pytest.approx(1 + shear)
 
 
 def test_nothing_that_moves_has_no_wrong_direction() -> None:
-    nothing = np.zeros(3)
-    assert residuals.slip_direction(nothing, PRESSURE, nothing, nothing) == 0
+    nothing = np.zeros((2, 3))
+    assert residuals.slip_direction(nothing, PRESSURE, nothing, WEIGHTS, 0.0) == 0
 
 
-@pytest.mark.parametrize("what", ["press", "shear"])
-def test_wrong_answer_of_a_solver_is_not_accepted(what: str, monkeypatch) -> None:
+@pytest.mark.parametrize("method", Method)
+@pytest.mark.parametrize("what", ["pressure", "shear"])
+def test_wrong_answer_of_a_solver_is_not_accepted(what: str, method: Method, monkeypatch) -> None:
     """The last check of an increment starts from its fields, whatever the solver says."""
-    honest = getattr(increment_module, what)
+    honest = increment.solve_coupled
 
     def wrong(*arguments):
         answer = honest(*arguments)
-        field = {"press": "pressure", "shear": "shear"}[what]
-        return type(answer)(**{**vars(answer), field: 1.001 * getattr(answer, field)})
+        return replace(answer, **{what: 1.001 * getattr(answer, what)})
 
-    monkeypatch.setattr(increment_module, what, wrong)
+    monkeypatch.setattr(increment, "solve_coupled", wrong)
     with pytest.raises(NotConverged, match="residual"):
-        solved(scene(PRESS, push(0.5)))
+        solve(scene(PRESS, push(0.5)), elements(), method)
 
 
 def test_equilibrium_is_measured_where_it_is_asked_for() -> None:

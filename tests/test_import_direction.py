@@ -112,8 +112,8 @@ ORDERS = {
     ),
     "fem_reference": (
         *("memory", "scales", "mesh", "elasticity", "path", "refusals"),
-        *("effects", "plan", "loads", "residuals", "fields", "energy", "model", "history"),
-        *("contact", "stress", "expected_radius", "solve"),
+        *("effects", "plan", "loads", "residuals", "fields", "energy", "model", "contact"),
+        *("history", "stress", "expected_radius", "solve"),
     ),
     "radial": (
         *(
@@ -150,26 +150,14 @@ ORDERS = {
     "fem_reference.mesh": ("section_outline", "section_mesh", "gmsh_mesh"),
     "fem_reference.elasticity": (
         *("far_field", "motion", "section_basis", "weak_form", "elimination_order", "numbering"),
-        *("factored_section", "sources", "compliance", "hats"),
+        *("factored_section", "source_digest", "compliance", "hat_functions"),
     ),
     "fem_reference.contact": (
-        *("box_program", "ring_edge", "first_touch", "friction_limit", "one_component"),
-        "zone_edge",
-        *("augmentation", "complementarity", "harmonics", "penalty"),
-    ),
-    "fem_reference.contact.complementarity": (
-        *("contact_problem", "pressing", "tresca", "ring_state", "slipping"),
-        *("together", "sweeps", "ring_increment", "method"),
-    ),
-    "fem_reference.contact.harmonics": (
-        *("angular_grid", "ring_compliance", "point_compliance", "point_state", "point_contact"),
-        *("admissible_shear", "shear_in_discs", "turns", "equations", "root", "continuation"),
-        *("point_increment", "reported", "surface_tractions", "method"),
-    ),
-    "fem_reference.contact.penalty": (
-        *("gauss_points", "coulomb_return", "law", "surface", "fitted_edge", "problem"),
-        *("spring_contact", "step", "newton", "springs", "spring_state"),
-        *("spring_residuals", "passes", "method"),
+        *("box_program", "ring_edge", "contact_fraction", "friction_limit", "gauss_points"),
+        *("angular_grid", "ring_compliance", "point_compliance", "point_state"),
+        *("augmented_lagrangian", "point_contact", "admissible_shear", "tangential_newton"),
+        *("alternating_iteration", "natural_map", "coupled_newton", "continuation", "increment"),
+        *("increment_report", "method", "surface_tractions"),
     ),
     "contact_results": (
         *(
@@ -399,7 +387,7 @@ PLANTED = {
     "semi_analytical/helpers.py": "import math",
     "fem_reference/elasticity/motion.py": "import importlib\n"
     "importlib.import_module('semi_analytical.grid')",
-    "fem_reference/elasticity/hats.py": "from fem_reference.model import ContactModel",
+    "fem_reference/elasticity/hat_functions.py": "from fem_reference.model import ContactModel",
     "fem_reference/meshes.py": "import numpy as np",
     "radial/disc.py": "from semi_analytical.grid import SurfaceGrid",
     "radial/plan.py": "from fem_reference.refusals import refuse_shapes",
@@ -420,7 +408,7 @@ SOUND = {
     "semi_analytical/influence/from_frf.py": "from ..frf.half_space import f\nfrom . import cell",
     "semi_analytical/influence/cell.py": "from semi_analytical.grid import SurfaceGrid",
     "semi_analytical/frf/half_space.py": "import numpy as np",
-    "fem_reference/elasticity/hats.py": "from fem_reference.elasticity.compliance import Nodal",
+    "fem_reference/elasticity/hat_functions.py": "from fem_reference.elasticity.compliance import N",
     "fem_reference/elasticity/compliance.py": "from .motion import motion",
     "radial/bodies.py": "from semi_analytical.frf.half_space import f",
     "semi_analytical/solve.py": "from . import grid\nfrom contact_scene import Scene",

@@ -4,7 +4,6 @@ import csv
 import shutil
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
@@ -13,7 +12,7 @@ from scene_texts import RIGID_BALL
 
 from contact_results.quantities import unit_of
 from fem_reference import Method
-from fem_reference.contact.complementarity import method as complementarity
+from fem_reference.contact.ring_compliance import RingCompliance
 from slipstick.cli import main
 from verification.convergence.stored_field import SHEAR, StoredField, at_centres, change
 from verification.judging.case import Level
@@ -348,12 +347,12 @@ def test_size_of_a_level_is_an_elements_side_over_the_radius(pressed: Path) -> N
 def test_edge_that_is_off_by_a_part_of_an_element_is_seen(
     frictionless: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    right = complementarity.contact_edge
+    right = RingCompliance.contact_edge
 
-    def off(radii: np.ndarray, *rest: Any) -> float:
-        return right(radii, *rest) + 0.1 * float(radii[1])
+    def off(rings: RingCompliance, pressure: np.ndarray) -> float:
+        return right(rings, pressure) + 0.1 * float(rings.radii[1])
 
-    monkeypatch.setattr(complementarity, "contact_edge", off)
+    monkeypatch.setattr(RingCompliance, "contact_edge", off)
     found = of_elements(frictionless)
     assert found["order of the contact radius"] is Status.FAIL
     assert found["order of the approach"] is Status.PASS

@@ -17,9 +17,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from contact_scene.solver_errors import NotConverged
-from fem_reference.contact.natural_map import Equations, Iterate
-from fem_reference.contact.coupled_newton import Root, Start, root
 from fem_reference.contact.alternating_iteration import CoupledProblem, CoupledSolution
+from fem_reference.contact.coupled_newton import Root, Start, root
+from fem_reference.contact.natural_map import Equations, Iterate
 
 Vector = NDArray[np.float64]
 Matrix = NDArray[np.float64]

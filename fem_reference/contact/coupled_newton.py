@@ -11,7 +11,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from contact_scene.solver_errors import NotConverged
-from fem_reference.contact.natural_map import Equations, Iterate
 from fem_reference.contact.alternating_iteration import (
     CoupledProblem,
     CoupledSolution,
@@ -19,6 +18,7 @@ from fem_reference.contact.alternating_iteration import (
     press,
     sides_of,
 )
+from fem_reference.contact.natural_map import Equations, Iterate
 
 Field = NDArray[np.float64]
 Vector = NDArray[np.float64]

@@ -24,7 +24,13 @@ from fem_reference.contact.point_contact import PointContact
 from fem_reference.contact.point_state import PointState, length, longest
 from fem_reference.loads import Loads
 from fem_reference.plan import Path
-from fem_reference.residuals import LEAST_SLIP, complementarity, friction_cone, over, penetration
+from fem_reference.residuals import (
+    complementarity,
+    friction_cone,
+    over,
+    penetration,
+    slip_direction,
+)
 
 Field = NDArray[np.float64]
 Vector = NDArray[np.float64]
@@ -54,9 +60,7 @@ def advance(
     if contact.penalty is not None:
         # Springs stiff enough need one update at Gauss points to be as good as the mesh.
         fewest = int(contact.at_gauss_points)
-        passes = augmented(
-            passes[0], increment.again, increment.left, contact.penalty, fewest
-        )
+        passes = augmented(passes[0], increment.again, increment.left, contact.penalty, fewest)
     return increment.state(passes)
 
 
@@ -168,6 +172,7 @@ class _Increment:
             bounds = problem.bound(before.pressure), problem.bound(p)
             friction = sliding_friction(before.shear, q, last.passed, *bounds)
             energy = before.dissipated_energy + float(np.sum(w * friction * slipped))
+        target, force = problem.tangential, problem.normal.force
         load = float(np.sum(compliance.along * q))
         return PointState(
             axisymmetric=contact.axisymmetric,
@@ -180,9 +185,9 @@ class _Increment:
             slip=before.slip - slipped,
             in_stick=in_stick,
             status=self._status(problem, p, in_stick, load),
-            normal_force=float(np.sum(w * p)),
+            normal_force=float(np.sum(w * p)) if force is None else force,
             approach=solution.approach,
-            load=load,
+            load=load if target.load is None else target.load,
             motion=last.motion,
             dissipated_energy=energy,
             residuals=last.residuals,
@@ -193,9 +198,7 @@ class _Increment:
             way=solution.way if compliance.couples else None,
         )
 
-    def _solve(
-        self, multiplier: Field, start: Field, motion: tuple[float | None, float]
-    ) -> _Pass:
+    def _solve(self, multiplier: Field, start: Field, motion: tuple[float | None, float]) -> _Pass:
         """One pass. Judged by displacements computed afresh from the final tractions, harmonic by
         harmonic.
 
@@ -346,15 +349,3 @@ def _solved(problem: CoupledProblem, start: Start, tolerance: float) -> CoupledS
             continue
         return replace(solution, turns=failed.turns, solves=spent + solution.solves, way=way)
     raise NotConverged("the coupled increment", spent, failed.residual, failed.tolerance)
-
-
-def slip_direction(q: Field, bound: Vector, passed: Field, areas: Vector, moved: float) -> float:
-    """∫(b|s| − q·s) / ∫b|s| with s the motion of the indenter past the body: zero if the shear has
-    its full length along s wherever there is slip.
-
-    moved  largest displacement: the scale where slip nearly vanishes and has no direction
-    """
-    work = areas * bound * length(passed)
-    missing = np.sum(work - areas * np.sum(q * passed, axis=0))
-    scale = np.maximum(np.sum(work), LEAST_SLIP * moved * np.sum(areas * bound))
-    return 0.0 if scale == 0 else float(missing / scale)

@@ -2,6 +2,7 @@
 
 from dataclasses import replace
 from math import pi, sqrt
+from typing import TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,6 +16,7 @@ from fem_reference.fields import Increment
 from fem_reference.plan import Path
 
 Field = NDArray[np.float64]
+Scalar = TypeVar("Scalar", np.float64, np.bool_)
 
 
 def reported(
@@ -47,8 +49,10 @@ def reported(
         augmentations=state.augmentations if contact.penalty else None,
         path=state.way,
     )
-    return pressed if rings.path is Path.PRESSING else _with_shear(
-        pressed, contact, state, direction, edges
+    return (
+        pressed
+        if rings.path is Path.PRESSING
+        else _with_shear(pressed, contact, state, direction, edges)
     )
 
 
@@ -93,12 +97,12 @@ def _with_shear(
     return replace(sheared, shear_circumferential=shear[1], slip_circumferential=slip[1])
 
 
-def _shown(contact: PointContact, values: Field) -> Field:
+def _shown(contact: PointContact, values: NDArray[Scalar]) -> NDArray[Scalar]:
     """Values at points (points,), on (rings, angles) or (rings,)."""
     return _ring(contact, contact.compliance.scalar_on_grid(values))
 
 
-def _ring(contact: PointContact, on_grid: Field) -> Field:
+def _ring(contact: PointContact, on_grid: NDArray[Scalar]) -> NDArray[Scalar]:
     """(rings,) instead of (rings, 1)."""
     return on_grid[:, 0] if contact.axisymmetric else on_grid
 
@@ -119,7 +123,7 @@ def _stick_area(contact: PointContact, state: PointState, edges: Field) -> float
     """½∫c² dθ with the radius c of the edge of stick on every ray, between the rings
     [length^2]."""
     contact_area = _contact_area(contact, edges)
-    if state.status is ContactStatus.FULL_STICK:
+    if state.status is ContactStatus.FULL_STICK and contact.at_gauss_points:
         return contact_area
     compliance, rings = contact.compliance, contact.rings
     p = state.edge_tractions[2]

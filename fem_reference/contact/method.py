@@ -30,13 +30,14 @@ class ContactMethod:
     """Solves increments of a model's scene, and reports them.
 
     penalty  None: the exact law of Coulomb and Signorini
-    around   points on the half circle, from the direction of the load on, for Path.HARMONICS
+    around   points on the half circle, from the direction of the load on, for Path.HARMONICS;
+             None: end_grid(8)
     """
 
     model: ContactModel
     plan: Plan
     penalty: Penalty | None = None
-    around: AngularGrid = end_grid(HIGHEST)
+    around: AngularGrid | None = None
 
     def advance(self, before: PointState | None, loads: Loads, tolerance: float) -> PointState:
         """The state at the end of an increment.
@@ -67,7 +68,8 @@ class ContactMethod:
 
     @cached_property
     def _on_points(self) -> PointContact:
-        return point_contact(self.model, self.plan.path, self.around, self.penalty)
+        around = self.around or end_grid(HIGHEST)
+        return point_contact(self.model, self.plan.path, around, self.penalty)
 
     def _refuse_contact_at_edge(self, contact: PointContact, state: PointState) -> None:
         """Raise ContactAtZoneEdge where the contact is at the end of the zone of fine elements."""

@@ -116,7 +116,10 @@ class Equations:
         by_shear += self.scale * abs(missed[-2]) if self.force is not None else 0.0
         by_pressure = np.sum(self.w * np.abs(missed[2 * n : 3 * n]))
         by_pressure += self.scale * abs(missed[-1]) if self.pressed is not None else 0.0
-        return float(by_pressure + by_shear / max(self.problem.mean_friction(p), LEAST_FRICTION)) / load
+        return (
+            float(by_pressure + by_shear / max(self.problem.mean_friction(p), LEAST_FRICTION))
+            / load
+        )
 
     def solution(self, at: Iterate, in_slip: Mask, solves: int) -> CoupledSolution:
         """What the laws make of an iterate without springs, so that they hold exactly."""

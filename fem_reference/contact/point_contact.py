@@ -1,6 +1,7 @@
 """Two bodies on points, before any load, and the law between them."""
 
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -80,8 +81,10 @@ class PointContact:
     def lifted(self, state: PointState) -> PointState:
         """An axisymmetric state on these points."""
         ring = self.compliance.ring_of_point
-        arrays = {k: v[..., ring] for k, v in vars(state).items() if isinstance(v, np.ndarray)}
-        return replace(state, axisymmetric=self.axisymmetric, **arrays)
+        lifted: dict[str, Any] = {
+            k: v[..., ring] for k, v in vars(state).items() if isinstance(v, np.ndarray)
+        }
+        return replace(state, axisymmetric=self.axisymmetric, **lifted)
 
 
 def point_contact(

@@ -79,7 +79,10 @@ def ring_compliance(
             motion[R] = 1.0
     edge: Edge
     if isinstance(basis, GaussPoints):
-        edge, reach = GaussEdge(float(nodes[2] - nodes[0])), float(nodes[2 * (rings // POINTS_PER_EDGE)])
+        edge, reach = (
+            GaussEdge(float(nodes[2] - nodes[0])),
+            float(nodes[2 * (rings // POINTS_PER_EDGE)]),
+        )
     else:
         edge = HatEdge(beyond_pressure(model.scene.body, model.scene.indenter))
         reach = float(basis.radii[-1])

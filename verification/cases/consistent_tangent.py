@@ -62,7 +62,9 @@ def _error(springs: float, seed: int) -> float:
         TangentialTarget(load=0.2),
     )
     equations = Equations(problem)
-    tractions = np.concatenate([random.uniform(-0.2, 0.2, 2 * points), random.uniform(0, 1, points)])
+    tractions = np.concatenate(
+        [random.uniform(-0.2, 0.2, 2 * points), random.uniform(0, 1, points)]
+    )
     here = Iterate(tractions, 0.1, 0.5, 0.2)
     _, tangent, _ = equations.linearised(here)
     largest, values = 0.0, here.values

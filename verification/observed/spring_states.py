@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from contact_scene import IsotropicMaterial
+from contact_scene import CoulombFriction, IsotropicMaterial
 from fem_reference import Increment, Path, Result
 from fem_reference.contact.gauss_points import gauss_points
 from verification.observed.rings import along_load, model_of, section_radii
@@ -47,7 +47,7 @@ class SpringSurface:
     twists: bool
     along: tuple[float, float]
     stiffness: float
-    friction: float
+    friction: CoulombFriction
 
     @classmethod
     def of(cls, result: Result) -> SpringSurface:
@@ -78,7 +78,7 @@ class SpringSurface:
             twists=path is Path.TWISTING,
             along=result.plan.direction,
             stiffness=spring_stiffness(result, float(model.radii[2])),
-            friction=model.friction.largest,
+            friction=model.friction,
         )
 
     def displaced(self, component: str, p: Field, q: Field | None) -> Field:
@@ -144,6 +144,6 @@ class SpringState:
         slip = np.zeros_like(p) if slip is None else slip
         return EnergeticState(
             self.told, surface.weights, stored, surface.gap, p, -self.overlap, q[None],
-            surface.friction * p, None if passed is None else -passed[None],
+            surface.friction.limit(p), None if passed is None else -passed[None],
             slip[None], yields=True,
         )  # fmt: skip

@@ -2,7 +2,8 @@
 
 After an augmentation the pressure is p = ⟨λ + εv⟩, with v the overlap and λ the pressure of the
 pass before, which is not told. What must hold whatever λ ≥ 0 has been: nothing overlaps by more
-than p/ε, and with λ = p − εv no shear has changed by more than µ(p + λ) between the passes.
+than p/ε, and with λ = p − εv no shear has changed between the passes by more than the friction
+limits of p and λ together.
 """
 
 from __future__ import annotations
@@ -82,7 +83,7 @@ def _of_shear(
 ) -> Iterator[float]:
     told, p, q = now.told, now.p, now.q
     assert q is not None
-    limit = surface.friction * p
+    limit = surface.friction.limit(p)
     if not np.any(limit):
         yield float(np.max(np.abs(q)) / np.max(p))
         return
@@ -108,12 +109,12 @@ def _of_slip(
     if before is not None and before.passed is not None:
         assert before.slip is not None
         slip, passed, touched = slip - before.slip, passed - before.passed, before.p > 0
-    limit, approach = surface.friction * p, abs(now.told.approach)
+    limit, approach = surface.friction.limit(p), abs(now.told.approach)
     work = surface.weights * limit * np.abs(slip)
-    least = least_slip(surface.friction, approach) * float(np.sum(surface.weights * limit))
+    least = least_slip(surface.friction.largest, approach) * float(np.sum(surface.weights * limit))
     against = surface.weights * now.q * slip
     yield float(np.sum(work + against) / max(float(np.sum(work)), least))
-    yielded = other_than_motion(-slip[None], passed[None], touched) - surface.friction * (
-        2 * p / surface.stiffness - now.overlap
-    )
+    of_pass_before = np.maximum(p - surface.stiffness * now.overlap, 0.0)
+    most = (limit + surface.friction.limit(of_pass_before)) / surface.stiffness
+    yielded = other_than_motion(-slip[None], passed[None], touched) - most
     yield float(np.max(np.where(p > 0, yielded, 0.0)) / approach)
