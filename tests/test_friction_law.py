@@ -2,28 +2,32 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
 import pytest
 from contact_scenes import LIMIT, LOAD, RADIUS, grid, hertz, steel
 
+import fem_reference
 import radial
 import semi_analytical
 from contact_scene import (
     RIGID,
     Body,
     CoulombFriction,
+    FiniteElementDiscretisation,
     LoadStep,
     Paraboloid,
     RadialDiscretisation,
     Scene,
 )
 from contact_scene.solver_errors import GrossSliding
+from verification.observed.sections import section_laws
 from verification.observed.surfaces import surface_violation
 
 TOLERANCE = 1e-6
-# Of 40 cells and 24 rings; energy of thin annuli is known no better.
+# Of 40 cells, 24 rings and 32 elements; energy of thin annuli is known no better.
 AGREE = {"approach": 2e-4, "tangential_shift": 1e-2, "twist": 1e-2, "dissipated_energy": 0.2}
 PEAK = hertz().peak_pressure
 PRESS = LoadStep(normal_force=LOAD, increments=6)
@@ -66,6 +70,21 @@ def on_cells(scene: Scene) -> semi_analytical.Result:
 def on_rings(scene: Scene) -> radial.Result:
     """The default rings."""
     return radial.solve(scene, RadialDiscretisation())
+
+
+def on_elements(method: fem_reference.Method) -> Callable[[Scene], fem_reference.Result]:
+    """Springs on harmonics alone, as only their law can be observed."""
+
+    def solve(scene: Scene) -> fem_reference.Result:
+        on_harmonics = fem_reference.plan(scene).path is fem_reference.Path.HARMONICS
+        more = {"penalty": 1000.0, "augmentations": 0, "overlap": 1.0} if on_harmonics else {}
+        mesh = FiniteElementDiscretisation(elements_per_radius=32, harmonics=4, **more)
+        return fem_reference.solve(scene, mesh, method)
+
+    return solve
+
+
+ELEMENTS = {method.value: on_elements(method) for method in fem_reference.Method}
 
 
 def scene(*loading: LoadStep, coupled: bool, mu: float = 0.1) -> Scene:
@@ -122,11 +141,16 @@ def test_any_law_of_friction_holds_in_every_solver_which_agree(law, history) -> 
     assert asked.friction.uniform is None
     assert asked.friction.carried(LOAD) is None
     cells, rings = on_cells(asked), on_rings(asked)
+    elements = {name: solve(asked) for name, solve in ELEMENTS.items()}
     assert surface_violation(cells) < TOLERANCE
     assert ring_violation(rings) < bound
+    for name, result in elements.items():
+        assert section_laws(result)[0] < TOLERANCE, name
     for name, most in AGREE.items():
-        found, expected = (number(getattr(r.steps[-1], name)) for r in (cells, rings))
-        assert found == pytest.approx(expected, rel=most, abs=1e-12), name
+        expected = number(getattr(rings.steps[-1], name))
+        for result in (cells, *elements.values()):
+            found = number(getattr(result.steps[-1], name))
+            assert found == pytest.approx(expected, rel=most, abs=1e-12), (name, result.solver)
 
 
 def number(value: Any) -> float:
@@ -134,7 +158,7 @@ def number(value: Any) -> float:
     return 0.0 if value is None else float(np.ravel(value)[0])
 
 
-@pytest.mark.parametrize("solve", [on_cells, on_rings])
+@pytest.mark.parametrize("solve", [on_cells, on_rings, *ELEMENTS.values()])
 def test_a_force_between_the_limit_of_the_law_and_that_of_its_coefficient_slides(law, solve):
     push = LoadStep(tangential_force=(0.9 * LIMIT, 0.0))
     with pytest.raises(GrossSliding):

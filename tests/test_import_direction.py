@@ -408,7 +408,7 @@ SOUND = {
     "semi_analytical/influence/from_frf.py": "from ..frf.half_space import f\nfrom . import cell",
     "semi_analytical/influence/cell.py": "from semi_analytical.grid import SurfaceGrid",
     "semi_analytical/frf/half_space.py": "import numpy as np",
-    "fem_reference/elasticity/hat_functions.py": "from fem_reference.elasticity.compliance import N",
+    "fem_reference/elasticity/hat_functions.py": "from .compliance import Nodal",
     "fem_reference/elasticity/compliance.py": "from .motion import motion",
     "radial/bodies.py": "from semi_analytical.frf.half_space import f",
     "semi_analytical/solve.py": "from . import grid\nfrom contact_scene import Scene",

@@ -111,6 +111,7 @@ def test_the_worst_is_the_one_that_is_not_a_number_wherever_it_stands(place: int
 BOUND = np.array([[2.0, 1.0], [0.0, 1.0]])
 FIELD = np.ones((2, 2, 2))
 WEIGHTS, LINE = np.array([0.1, 0.4, 0.5]), np.array([2.0, 1.0, 0.5])
+PAIRS = np.ones((2, 3))
 MEASURES: dict[str, tuple[Callable[..., float], tuple[Any, ...]]] = {
     "complementarity of cells": (of_cells.complementarity, (BOUND + 1, BOUND, 0.5)),
     "penetration of cells": (of_cells.penetration, (BOUND, 0.5)),
@@ -119,7 +120,10 @@ MEASURES: dict[str, tuple[Callable[..., float], tuple[Any, ...]]] = {
     "complementarity of rings": (of_rings.complementarity, (LINE, LINE, WEIGHTS, 0.1)),
     "penetration of rings": (of_rings.penetration, (LINE, WEIGHTS, 0.1)),
     "friction cone of rings": (of_rings.friction_cone, (LINE, LINE)),
-    "slip direction of rings": (of_rings.slip_direction, (LINE, LINE, LINE, LINE)),
+    "slip direction of rings": (
+        of_rings.slip_direction,
+        (PAIRS, LINE, PAIRS, WEIGHTS, 1.0),
+    ),
 }
 
 
