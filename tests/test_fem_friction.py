@@ -5,7 +5,7 @@ from math import log
 import numpy as np
 import pytest
 from contact_scenes import LOAD, MU, NU, PRESS, RADIUS, RIGID_BALL, YOUNG, A, grid, scene
-from fem_scenes import elements, end, solved
+from fem_scenes import both_laws, elements, end, solved
 
 import semi_analytical
 from contact_scene import RIGID, FlatPunch, IsotropicMaterial, Scene
@@ -32,11 +32,12 @@ def pressed(friction: float | None = MU, increments: int = 20, indenter=RIGID_BA
     return scene(steps, indenter=indenter, body=BODY, friction=friction)
 
 
+@both_laws
 @pytest.mark.parametrize(("mu", "increments", "allowed"), [(0.1, 20, 5e-3), (0.3, 60, 1e-2)])
-def test_self_similar_indentation(mu: float, increments: int, allowed: float) -> None:
+def test_self_similar_indentation(mu: float, increments: int, allowed: float, law: Method) -> None:
     row = REFERENCE[mu]
     a = row["a_over_aH"] * HERTZ.contact_radius
-    found = end(pressed(mu, increments), 32, contact_radius=a)
+    found = end(pressed(mu, increments), 32, law, contact_radius=a)
     assert found.contact_radius == pytest.approx(a, rel=2e-3)
     assert found.approach == pytest.approx(row["delta_over_deltaH"] * HERTZ.approach, rel=2e-4)
     assert found.stick_radius == pytest.approx(row["c_over_a"] * a, abs=0.02 * a)
@@ -45,6 +46,8 @@ def test_self_similar_indentation(mu: float, increments: int, allowed: float) ->
     p = along_radius(found, found.pressure, r * a) / HERTZ.peak_pressure
     q = along_radius(found, found.shear_radial, r * a) / (mu * HERTZ.peak_pressure)
     assert np.max(np.abs(p - row["p_over_pH"])[judged]) < 2e-3
+    # At Gauss points each place that the edge of stick has passed keeps a ripple.
+    allowed *= 1 if law is Method.COMPLEMENTARITY else 3
     assert np.max(np.abs(q - row["q_over_mu_pH"])[judged]) < allowed
 
 
@@ -91,11 +94,15 @@ def test_more_friction_sticks_more_and_moves_less() -> None:
     assert np.all(np.diff([i.approach for i in found]) < 0)
 
 
+@both_laws
 @pytest.mark.parametrize("mu", [0.1, 1.0, 5.0])
 @pytest.mark.parametrize("poisson_ratio", [-0.5, 0.0, 0.3, 0.45])
-def test_equations_hold_however_strong_the_coupling(mu: float, poisson_ratio: float) -> None:
+def test_equations_hold_however_strong_the_coupling(
+    mu: float, poisson_ratio: float, law: Method
+) -> None:
     body = IsotropicMaterial(young_modulus=YOUNG, poisson_ratio=poisson_ratio)
-    result = solved(scene({**PRESS, "increments": 5}, indenter=RIGID_BALL, body=body, friction=mu))
+    asked = scene({**PRESS, "increments": 5}, indenter=RIGID_BALL, body=body, friction=mu)
+    result = solved(asked, law=law, overlap=1.0)
     for increment in result.increments:
         assert increment.residuals.worst <= result.tolerance
         assert np.all(np.abs(increment.shear_radial) <= mu * increment.pressure)
@@ -105,12 +112,13 @@ def test_uncoupled_bodies_carry_no_shear() -> None:
     assert end(scene(PRESS)).shear_radial is None
 
 
-def test_unloading_dissipates_and_turns_the_shear() -> None:
+@both_laws
+def test_unloading_dissipates_and_turns_the_shear(law: Method) -> None:
     there_and_back = scene(
         {**PRESS, "increments": 10}, {"normal_force": 0.05 * LOAD, "increments": 15},
         indenter=RIGID_BALL, body=BODY,
     )  # fmt: skip
-    found = solved(there_and_back).increments
+    found = solved(there_and_back, law=law).increments
     energy = [increment.dissipated_energy for increment in found]
     assert np.all(np.diff(energy) >= 0)
     assert np.min(found[-1].shear_radial) < 0

@@ -18,12 +18,12 @@ from contact_scenes import (
     scene,
     steel,
 )
-from fem_scenes import elements, end, solved
+from fem_scenes import both_laws, end, solved
 
 from contact_results.quantities import shift_along_x
 from contact_scene.solver_errors import GrossSliding
 from contact_scene.summary import ContactStatus
-from fem_reference import solve
+from fem_reference import Method
 from verification.closed_forms.cattaneo_mindlin import PartialSlip
 from verification.closed_forms.moduli import tangential_modulus
 from verification.closed_forms.tangential_history import TangentialHistory
@@ -36,6 +36,8 @@ VIRGIN = PartialSlip(
 )  # fmt: skip
 UNTWISTED = TorsionalPartialSlip(A, HERTZ.peak_pressure, MU, G / 2, A)
 PUNCH = INDENTERS["flat punch"]
+# In elements: the edge of stick, on its own; at Gauss points it is fitted.
+OF_STICK = {Method.COMPLEMENTARITY: 0.067, Method.PENALTY: 0.3}
 
 
 def loaded(*parts: float) -> TangentialHistory:
@@ -46,32 +48,37 @@ def loaded(*parts: float) -> TangentialHistory:
     return history
 
 
+@both_laws
 @pytest.mark.parametrize("part", [0.3, 0.6, 0.9])
-def test_cattaneo_and_mindlin(part: float) -> None:
-    found, exact = end(scene(PRESS, push(part))), loaded(part)
+def test_cattaneo_and_mindlin(part: float, law: Method) -> None:
+    found, exact = end(scene(PRESS, push(part)), law=law), loaded(part)
     assert shift_along_x(found) == pytest.approx(exact.shift, rel=4e-3)
-    assert found.stick_radius == pytest.approx(exact.stick_radius, abs=4e-3 * A)
+    assert found.stick_radius == pytest.approx(exact.stick_radius, abs=OF_STICK[law] / 16 * A)
     assert found.status is ContactStatus.PARTIAL_SLIP
     apart = np.abs(found.radii - exact.stick_radius) > 0.1 * A
     error = np.abs(found.shear_along_load - exact.shear(found.radii))
     assert np.max(error[apart & (found.radii < 0.85 * A)]) < 0.02 * MU * HERTZ.peak_pressure
 
 
+@both_laws
 @pytest.mark.parametrize("parts", [(0.9, -0.9, 0.9), (0.8, 0.2, 0.6, -0.3), (0.5, -0.5, 0.9)])
-def test_history_is_remembered_through_reversals(parts: tuple[float, ...]) -> None:
+def test_history_is_remembered_through_reversals(parts: tuple[float, ...], law: Method) -> None:
     """Shift and loss follow the closed form of any history, as exactly as the first loading. The
-    edge of stick is known to a fifth of an element where an older one is next to it."""
-    result = solved(scene(PRESS, *map(push, parts)))
+    edge of stick is known three times worse where an older one is next to it."""
+    result = solved(scene(PRESS, *map(push, parts)), law=law)
     largest = loaded(0.9).shift
     for number, step in enumerate(result.steps[1:], start=1):
         exact = loaded(*parts[:number])
         assert shift_along_x(step) == pytest.approx(exact.shift, abs=4e-3 * largest)
         scale = loaded(0.9, -0.9).dissipated_energy
         assert step.dissipated_energy == pytest.approx(exact.dissipated_energy, abs=6e-3 * scale)
-        assert step.stick_radius == pytest.approx(exact.stick_radius, abs=0.2 / 16 * A)
+        assert step.stick_radius == pytest.approx(
+            exact.stick_radius, abs=3 * OF_STICK[law] / 16 * A
+        )
 
 
-def test_slip_adds_up_over_the_history() -> None:
+@both_laws
+def test_slip_adds_up_over_the_history(law: Method) -> None:
     """Mindlin and Deresiewicz again, with ν = 0, for which the closed form has the slip."""
     soft = steel(0.0)
     contact = hertz(LOAD, 0.0)
@@ -81,7 +88,7 @@ def test_slip_adds_up_over_the_history() -> None:
     parts = (0.9, -0.6, 0.3)
     asked = scene(PRESS, *map(push, parts), indenter=paraboloid(soft), body=soft)
     history = TangentialHistory(virgin)
-    for part, step in zip(parts, solved(asked).steps[1:], strict=True):
+    for part, step in zip(parts, solved(asked, law=law).steps[1:], strict=True):
         history = history.loaded_to(part * LIMIT)
         r = step.radii
         judged = r < 0.9 * contact.contact_radius
@@ -139,29 +146,34 @@ def test_control_takes_over_where_the_other_has_led() -> None:
     )
 
 
-def test_sliding_contact_carries_all_that_friction_can() -> None:
-    sliding = end(scene(PRESS, {"tangential_shift": (3 * VIRGIN.sliding_shift, 0.0)}))
+@both_laws
+def test_sliding_contact_carries_all_that_friction_can(law: Method) -> None:
+    sliding = end(scene(PRESS, {"tangential_shift": (3 * VIRGIN.sliding_shift, 0.0)}), law=law)
     assert sliding.status is ContactStatus.GROSS_SLIDING
     assert sliding.tangential_force[0] == pytest.approx(LIMIT, rel=1e-9)
     assert sliding.stick_radius == 0
-    at_limit = end(scene(PRESS, push(1.0)))
+    at_limit = end(scene(PRESS, push(1.0)), law=law)
     assert at_limit.status is ContactStatus.GROSS_SLIDING
     assert at_limit.tangential_shift is None
     assert at_limit.dissipated_energy is None
     assert at_limit.shear_along_load == pytest.approx(sliding.shear_along_load)
 
 
-def test_gross_sliding_under_force_is_refused_by_name() -> None:
+@both_laws
+def test_gross_sliding_under_force_is_refused_by_name(law: Method) -> None:
     """Unloading by approach leaves too little pressure: nothing in the scene gives that away."""
     asked = scene(PRESS, push(0.5), {"approach": 0.2 * HERTZ.approach, "increments": 5})
     with pytest.raises(GrossSliding, match="prescribe the shift") as caught:
-        solve(asked, elements())
+        solved(asked, law=law)
     assert caught.value.where.startswith("step 3, increment")
     assert caught.value.last_state.tangential_force == (0.5 * LIMIT, 0.0)
 
 
-def test_less_pressure_under_constant_shear_slips_inwards() -> None:
-    result = solved(scene(PRESS, push(0.5), {"normal_force": 0.6 * LOAD, "increments": 10}))
+@both_laws
+def test_less_pressure_under_constant_shear_slips_inwards(law: Method) -> None:
+    result = solved(
+        scene(PRESS, push(0.5), {"normal_force": 0.6 * LOAD, "increments": 10}), law=law
+    )
     radii = [step.stick_radius for step in result.increments[1:]]
     assert np.all(np.diff(radii) < 0)
     shifts = [shift_along_x(step) for step in result.increments[1:]]
@@ -169,20 +181,22 @@ def test_less_pressure_under_constant_shear_slips_inwards() -> None:
     assert max(i.residuals.worst for i in result.increments) < 1e-11
 
 
-def test_stuck_disc_twists_as_reissner_and_sagoci() -> None:
+@both_laws
+def test_stuck_disc_twists_as_reissner_and_sagoci(law: Method) -> None:
     torque = 1e-3
-    found = end(scene(PRESS, {"torque": torque}, indenter=PUNCH, friction=10.0))
-    assert found.twist == pytest.approx(StuckTorsion(A, G / 2, torque).twist, rel=5e-3)
+    found = end(scene(PRESS, {"torque": torque}, indenter=PUNCH, friction=10.0), law=law)
+    assert found.twist == pytest.approx(StuckTorsion(A, G / 2, torque).twist, rel=2e-2)
     assert found.status is ContactStatus.FULL_STICK
 
 
+@both_laws
 @pytest.mark.parametrize("part", [0.4, 0.6, 0.9])
-def test_twisted_ball_slips_from_its_edge(part: float) -> None:
+def test_twisted_ball_slips_from_its_edge(part: float, law: Method) -> None:
     torque = part * UNTWISTED.sliding_moment
     exact = TorsionalPartialSlip.under_moment(torque, A, HERTZ.peak_pressure, MU, G / 2)
-    found = end(scene(PRESS, {"torque": torque}), 32)
+    found = end(scene(PRESS, {"torque": torque}), 32, law)
     assert found.twist == pytest.approx(exact.twist, rel=6e-3)
-    assert found.stick_radius == pytest.approx(exact.stick_radius, abs=3e-3 * A)
+    assert found.stick_radius == pytest.approx(exact.stick_radius, abs=1.5 * OF_STICK[law] / 32 * A)
     apart = (np.abs(found.radii - exact.stick_radius) > 0.1 * A) & (found.radii < 0.85 * A)
     error = np.abs(found.shear_circumferential - exact.shear(found.radii))
     assert np.max(error[apart]) < 0.02 * MU * HERTZ.peak_pressure
@@ -205,11 +219,12 @@ def test_torque_and_twist_lead_to_the_same_state() -> None:
         end(scene(PRESS, {"torque": 1.2 * UNTWISTED.sliding_moment}))
 
 
-def test_equations_hold_to_round_off() -> None:
+@both_laws
+def test_equations_hold_to_round_off(law: Method) -> None:
     loop = scene(PRESS, push(0.9), push(-0.9), push(0.9))
     twisted = scene(PRESS, {"torque": 0.01}, {"torque": -0.01}, {"twist": 0.0})
     for asked in (loop, twisted):
-        result = solved(asked)
-        assert max(i.residuals.worst for i in result.increments) < 1e-11
+        result = solved(asked, law=law)
+        assert max(i.residuals.worst for i in result.increments) < 1e-10
         energy = [i.dissipated_energy for i in result.increments]
         assert np.all(np.diff(energy) >= 0)
