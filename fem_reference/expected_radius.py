@@ -22,7 +22,7 @@ from fem_reference.model import ContactModel, outermost_modulus
 from fem_reference.plan import plan
 from fem_reference.scales import Scales
 
-# Layered bodies are pressed on a coarse mesh first.
+# Bodies with layers that are not deep are pressed on a coarse mesh first.
 COARSE = 8
 GROWTH, TOO_SMALL = 1.5, 0.5
 MOST_TRIALS = 30
@@ -30,6 +30,8 @@ COARSE_TOLERANCE = 1e-8
 # In contact radii: of coatings a million times as stiff as what is below them, sections are larger
 # by many decades, and so is the work; the radius needs none of them.
 LARGEST_COARSE_BOX = 1e4
+# In contact radii: the contact hardly depends on what lies below a thicker layer.
+DEEP = 100.0
 
 
 def meshed_radius(scene: Scene, asked: float | None) -> float:
@@ -41,13 +43,17 @@ def meshed_radius(scene: Scene, asked: float | None) -> float:
 def expected_radius(scene: Scene) -> float:
     """Largest contact radius of the history without friction [length].
 
-    Closed forms for half-spaces; with layers, from a coarse
-    mesh of about the right size.
+    Closed forms for half-spaces and below deep layers; with other layers, from a coarse mesh of
+    about the right size.
     """
     guess = max(_half_space_radius(scene, ramp) for ramp in scene.load_path())
     layered = scene.body.layers or scene.indenter.layers
     if not layered or scene.indenter.rim is not None:
         return guess
+    bare = max(_bare_radius(scene, ramp) for ramp in scene.load_path())
+    thick = [body.layers[0].thickness for body in (scene.body, scene.indenter) if body.layers]
+    if min(thick) > DEEP * bare:
+        return bare
     return max(_coarse_radius(scene, ramp, guess) for ramp in _extremes(scene))
 
 
@@ -56,6 +62,18 @@ def _extremes(scene: Scene) -> list[LoadRamp]:
     ramps = scene.load_path()
     kinds = [[r for r in ramps if r.normal.kind is kind] for kind in ControlKind]
     return [max(same, key=lambda ramp: ramp.normal.end) for same in kinds if same]
+
+
+def _bare_radius(scene: Scene, ramp: LoadRamp) -> float:
+    """Of a contact between half-spaces of the outermost materials."""
+    outermost = [
+        body.model_copy(update={"material": body.layers[0].material, "layers": ()})
+        if body.layers
+        else body
+        for body in (scene.body, scene.indenter)
+    ]
+    bodies = dict(zip(("body", "indenter"), outermost, strict=True))
+    return _half_space_radius(scene.model_copy(update=bodies), ramp)
 
 
 def _half_space_radius(scene: Scene, ramp: LoadRamp) -> float:

@@ -1,5 +1,6 @@
 """Unusual but valid inputs give the numbers of the theory, or of the scene without their effect."""
 
+import tracemalloc
 from pathlib import Path
 from typing import Any
 
@@ -256,3 +257,21 @@ def test_windows_and_meshes_below_the_expected_contact_are_remarked() -> None:
     assert implausible(BARE, **large) == ()
     punch = scene({"approach": 1e-6}, indenter=FlatPunch(material=RIGID, radius=1e-3))
     assert len(implausible(punch, **small)) == 2
+
+
+def test_a_contact_on_a_layer_of_many_radii_is_laid_out_without_a_solve() -> None:
+    """The radius is that of the layer alone; a layer beyond all meshes is refused at once."""
+    from fem_reference.expected_radius import expected_radius
+
+    hard = IsotropicMaterial(young_modulus=6.9e18, poisson_ratio=0.3)
+    ball = Paraboloid(material=RIGID, radius=18e-3)
+    load = {"normal_force": 1e3}
+    alone = (3 * 1e3 * 18e-3 / (4 * hard.plane_strain_modulus)) ** (1 / 3)
+    for thickness in (1e-3, 0.1, 4.4):
+        layered = scene(load, indenter=ball, body=coated((thickness, hard)))
+        assert expected_radius(layered) == pytest.approx(alone, rel=1e-12)
+    tracemalloc.start()
+    with pytest.raises(UnsupportedScene, match="contact radii thick"):
+        slipstick.solve(layered, "fem-complementarity")
+    assert tracemalloc.get_traced_memory()[1] < 100e6  # imports
+    tracemalloc.stop()
