@@ -65,12 +65,12 @@ class TangentialLoad(Protocol):
 class ShearSum:
     """Force control: the sum Σq of all cell shears, T / cell area, shape (2,).
 
-    even  components that are told so; the others are odd about mirror planes: whatever their sums
-          here, with those of the images they vanish, and do not move the indenter
+    summed  components with a resultant; the others are odd about a mirror plane: with their images
+            they have none, and do not move the indenter
     """
 
     total: Vector
-    even: tuple[bool, bool] = (True, True)
+    summed: tuple[bool, bool] = (True, True)
 
     def rigid(self, motion: Vector) -> VectorField:
         """The shift, everywhere the same."""
@@ -80,25 +80,25 @@ class ShearSum:
         self, y: VectorField, bound: Field, gamma: float, motion: Vector
     ) -> tuple[VectorField, Vector]:
         """By projection; the multiplier of the sum is γ times the shift."""
-        q, multiplier = project(y, bound, self.total, gamma * motion, self.even)
+        q, multiplier = project(y, bound, self.total, gamma * motion, self.summed)
         return q, multiplier / gamma
 
     def admissible(self, q: VectorField, bound: Field) -> VectorField:
         """On the discs, with the sum."""
-        return project(q, bound, self.total, even=self.even)[0]
+        return project(q, bound, self.total, summed=self.summed)[0]
 
     def free_motions(self, shape: tuple[int, ...]) -> tuple[VectorField, ...]:
         """Along x and along y, or one of these."""
-        return tuple(np.broadcast_to(everywhere(e), shape) for e in np.eye(2)[list(self.even)])
+        return tuple(np.broadcast_to(everywhere(e), shape) for e in np.eye(2)[list(self.summed)])
 
     @property
     def given(self) -> Vector:
         """The sum."""
-        return self.total[list(self.even)]
+        return self.total[list(self.summed)]
 
     def forces(self, q: VectorField) -> Vector:
         """The sum of a shear."""
-        return np.array([np.sum(one) for one, even in zip(q, self.even, strict=True) if even])
+        return np.array([np.sum(one) for one, summed in zip(q, self.summed, strict=True) if summed])
 
     def exhausts(self, bound: Field) -> bool:
         """Whether the force is at the friction limit or beyond."""
@@ -174,20 +174,20 @@ def project(
     bound: Field,
     total: Vector,
     guess: Vector | None = None,
-    even: tuple[bool, bool] = (True, True),
+    summed: tuple[bool, bool] = (True, True),
 ) -> tuple[VectorField, Vector]:
     """The nearest shear with |q| <= bound and Σq = total, and the multiplier λ of the sum.
 
     y      any shear (2, nx, ny)
     bound  friction limit µp (nx, ny); |total| must be less than its sum
     guess  where to start the search for λ
-    even   components that have a sum; λ is zero of others
+    summed  components that have a sum; λ is zero of others
     """
     if guess is None:
         open_cells = bound > 0
         excess = np.sum(y, axis=(1, 2), where=open_cells) - total
-        guess = -excess / np.count_nonzero(open_cells) * even
-    shifted, multiplier = find_multiplier(lambda m: _Shifted.by(m, y, bound, total, even), guess)
+        guess = -excess / np.count_nonzero(open_cells) * summed
+    shifted, multiplier = find_multiplier(lambda m: _Shifted.by(m, y, bound, total, summed), guess)
     return shifted.q, multiplier
 
 
@@ -199,7 +199,7 @@ class _Shifted:
     outside    where that is longer than the bound
     scale, q   factor of the cut (nx, ny), and q = scale z
     defect     Σq - total (2,), the gradient of the dual function of λ; zero of what has no sum
-    even       components that have a sum
+    summed       components that have a sum
     capacity   sum of the bound
     """
 
@@ -209,7 +209,7 @@ class _Shifted:
     scale: Field
     q: VectorField
     defect: Vector
-    even: tuple[bool, bool]
+    summed: tuple[bool, bool]
     capacity: float
 
     @classmethod
@@ -219,7 +219,7 @@ class _Shifted:
         y: VectorField,
         bound: Field,
         total: Vector,
-        even: tuple[bool, bool],
+        summed: tuple[bool, bool],
     ) -> "_Shifted":
         """Shift `y` by a multiplier and cut it off."""
         z = y + everywhere(multiplier)
@@ -227,8 +227,8 @@ class _Shifted:
         outside = length > bound
         scale = np.where(outside, bound / np.where(outside, length, 1.0), 1.0) * (bound > 0)
         q = z * scale
-        defect = (np.sum(q, axis=(1, 2)) - total) * even
-        return cls(z, length, outside, scale, q, defect, even, float(np.sum(bound)))
+        defect = (np.sum(q, axis=(1, 2)) - total) * summed
+        return cls(z, length, outside, scale, q, defect, summed, float(np.sum(bound)))
 
     @property
     def strength(self) -> float:
@@ -249,7 +249,7 @@ class _Shifted:
         w = np.where(self.outside, self.scale / np.where(self.outside, self.length**2, 1.0), 0.0)
         x, y = self.z
         xx, yy = np.sum(self.scale - w * x * x), np.sum(self.scale - w * y * y)
-        xy = -np.sum(w * x * y) if all(self.even) else 0.0
+        xy = -np.sum(w * x * y) if all(self.summed) else 0.0
         damping = 1e-3 * (xx + yy) * np.sum(np.abs(self.defect)) / self.capacity
         matrix = np.array([[xx + damping, xy], [xy, yy + damping]])
         return -np.linalg.solve(matrix, self.defect)

@@ -21,22 +21,22 @@ def balanced(
     """
     end = configuration(model, after)
     if before is None:
-        spent, start = NOTHING_YET, Configuration.at_rest(model.shear_gap, end)
+        spent, start = NOTHING_YET, Configuration.at_rest(model.gap, end)
     else:
         spent, start = before.energy, configuration(model, before)
     dissipated = 0.0 if after.sheared is None else after.sheared.dissipated_energy
     energy = after_increment(
-        spent, start, end, dissipated, model.shear_area, path_matters=path_matters
+        spent, start, end, dissipated, model.grid.cell_area, path_matters=path_matters
     )
     return replace(after, energy=energy)
 
 
 def configuration(model: ContactModel, state: State) -> Configuration:
-    """What the balance needs of a state, on the part of the window that tells shear; where no shear
-    arises its tangential fields are empty."""
-    pressing, sheared, part = state.pressing, state.sheared, model.shear_part
-    pressure, displacement = part.of(pressing.pressure), part.of(pressing.displacement)
-    gap = model.shear_gap + displacement - pressing.closure(model)
+    """Collect tractions, displacements and loads of a state for the energy balance; without shear
+    its tangential fields are empty."""
+    pressing, sheared = state.pressing, state.sheared
+    pressure, displacement = pressing.pressure, pressing.displacement
+    gap = model.gap + displacement - pressing.closure(model)
     force = state.target.force
     normal = state.normal_force if force is None else force
     if sheared is None:

@@ -27,13 +27,14 @@ def bearing_pressure(gap: Field, load: NormalLoad, modulus: float, area: float) 
     area     of a cell, with its images beyond mirror planes [length^2]
     """
     touchable = np.isfinite(gap)
-    gaps = np.sort(gap[touchable])
-    radii = np.sqrt(area / pi * np.arange(1, gaps.size + 1))
+    # Mirror images have equal gaps: they bear together, so that all domains have the same start.
+    gaps, counts = np.unique(gap[touchable], return_counts=True)
+    radii = np.sqrt(area / pi * np.cumsum(counts))
     depth = load.bearing_depth(gaps, 8 / 3 * modulus / area * radii)
     bears = gap < depth
     if modulus <= 0 or not load.touches(np.where(bears, gap, np.inf)):
         return np.where(touchable, 1.0, 0.0)
-    factor = 4 * modulus / (pi * radii[np.count_nonzero(bears) - 1])
+    factor = 4 * modulus / (pi * radii[np.count_nonzero(gaps < depth) - 1])
     return np.asarray(factor * np.sqrt(depth * np.maximum(depth - gap, 0.0)))
 
 

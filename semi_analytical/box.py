@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from semi_analytical.part import WHOLE, Part
+from semi_analytical.operator.domain import WINDOW, ReducedDomain
 
 Field = NDArray[np.float64]
 Mask = NDArray[np.bool_]
@@ -45,15 +45,15 @@ class Box:
         return inside
 
 
-def box_around(cells: Mask, margin: int, part: Part = WHOLE) -> Box:
+def box_around(cells: Mask, margin: int, domain: ReducedDomain = WINDOW) -> Box:
     """The smallest box with sides of whole quanta around marked cells and a margin.
 
-    A side that does not fit becomes the side of the window. Of a part of the window, the same part
-    of the box around the cells and their images.
+    A side that does not fit becomes the side of the window. On a reduced domain: the part in the
+    domain of the box around the cells and their images.
     """
     sides = [
         (_half_side if mirrored else _side)(np.any(cells, axis=1 - axis), margin)
-        for axis, mirrored in enumerate(part.mirrored)
+        for axis, mirrored in enumerate(domain.mirrors)
     ]
     return Box((sides[0][0], sides[1][0]), (sides[0][1], sides[1][1]))
 

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.ndimage import distance_transform_edt
 
-from semi_analytical.part import WHOLE, Part
+from semi_analytical.operator.domain import WINDOW, ReducedDomain
 
 Field = NDArray[np.float64]
 Mask = NDArray[np.bool_]
@@ -38,24 +38,24 @@ CORNER_SIGNS = np.array([1.0, -1.0, -1.0, 1.0])
 FLAT = 1e-12
 
 
-def covered_cells(values: Field, inside: Mask, part: Part = WHOLE) -> float:
+def covered_cells(values: Field, inside: Mask, domain: ReducedDomain = WINDOW) -> float:
     """Area of a region in cells, its edge cells counted by the part that is covered.
 
     values  (nx, ny), positive inside, falling like a square root towards the edge
     inside  cells whose centre is in the region
-    part    of the window that both are given on; the area is that in the whole window
+    domain  that both are on; the area, in cells of the domain, does not count their images
     Edge cells are counted whole or not at all where the region is too thin for a fit and where
     the values do not fall towards the edge (below a flat punch they rise).
     """
-    framed = part.framed(inside, FRAME)
+    framed = domain.framed(inside, FRAME)
     trusted = np.zeros_like(framed)
     trusted[1:-1, 1:-1] = ~_near(~framed)
     core = slice(FRAME, -FRAME)
     near = _near(framed)[FRAME - 1 : 1 - FRAME, FRAME - 1 : 1 - FRAME]
     i, j = np.nonzero(near & ~trusted[core, core])
     if len(i) == 0:
-        return float(part.images * np.count_nonzero(inside))
-    phi = part.framed(np.square(values / np.max(values)), FRAME)
+        return float(np.count_nonzero(inside))
+    phi = domain.framed(np.square(values / np.max(values)), FRAME)
     pieces = range(0, len(i), AT_ONCE)
     fits = [_fit(phi, trusted, i[k : k + AT_ONCE], j[k : k + AT_ONCE]) for k in pieces]
     *fit, mean, count = np.concatenate(fits, axis=1)
@@ -65,7 +65,7 @@ def covered_cells(values: Field, inside: Mask, part: Part = WHOLE) -> float:
     )
     believed = (count >= LEAST_CELLS) & (fit[0] < LEAST_FALL * mean)
     whole = np.count_nonzero(trusted[core, core])
-    return float(part.images * (whole + np.sum(np.where(believed, parts, centre_inside))))
+    return float(whole + np.sum(np.where(believed, parts, centre_inside)))
 
 
 def stuck_cells(shear: Field, bound: Field, in_stick: Mask) -> float:

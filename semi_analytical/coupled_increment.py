@@ -20,15 +20,15 @@ from semi_analytical.full_slip import (
 from semi_analytical.globalisation import solve_together
 from semi_analytical.increment import State, reached_moment
 from semi_analytical.model import ContactModel
-from semi_analytical.part import Part
+from semi_analytical.operator.domain import ReducedDomain
 from semi_analytical.predictor import predicted
 from semi_analytical.pressing import (
     MARGIN,
     NormalTarget,
     Pressing,
-    nested_start,
     refuse_contact_at_edge,
     refuse_unresolved_contact,
+    rough_start,
 )
 from semi_analytical.residuals import complementarity, penetration
 from semi_analytical.sheared import Sheared, first_motion, rigid, surface_target, untouched
@@ -58,7 +58,7 @@ def solve_coupled_increment(
     assert tangential is not None
     refuse_unresolved_contact(model, normal)
     last = before.sheared if before is not None and before.sheared is not None else None
-    last = last or untouched(model.shear_cells)
+    last = last or untouched(model.grid.cells)
     if last.shift is None:
         raise motion_undefined()
     if tangential.force is not None and normal.force is not None:
@@ -66,7 +66,7 @@ def solve_coupled_increment(
         if carried is not None:
             force_reaches_limit(tangential.force, carried)
     start, shear, iterations = _start(model, before, last, normal, tangential)
-    box = _roomy((start > 0) | (last.shear[0] != 0), model.shear_part)
+    box = _roomy((start > 0) | (last.shear[0] != 0), model.domain)
     aim, residual = tolerance, np.inf
     motion = first_motion(last, tangential)
     for _ in range(MOST_ATTEMPTS):
@@ -86,19 +86,19 @@ def solve_coupled_increment(
             refuse_contact_at_edge(state.pressing.pressure, model)
             return state if before is None else replace(state, behind=before.seen())
         start, shear = state.sheared.pressure, state.sheared.shear
-        overlap_outside = (g < 0) & ~box.mask(model.shear_cells)
+        overlap_outside = (g < 0) & ~box.mask(model.grid.cells)
         if np.any(overlap_outside):
-            box = _roomy((start > 0) | overlap_outside, model.shear_part)
+            box = _roomy((start > 0) | overlap_outside, model.domain)
         else:
             aim *= 0.1
     raise NotConverged("the coupled increment", iterations, residual, tolerance)
 
 
-def _roomy(cells: NDArray[np.bool_], part: Part) -> Box:
-    """The box around marked cells of a part of the window, with room for the contact to move."""
+def _roomy(cells: NDArray[np.bool_], domain: ReducedDomain) -> Box:
+    """The box around marked cells, with room for the contact to move."""
     nx, ny = (int(np.count_nonzero(np.any(cells, axis=axis))) for axis in (1, 0))
-    widest = max(part.window((nx, ny)))
-    return box_around(cells, max(MARGIN, round(ROOM * widest)), part)
+    widest = max(domain.window((nx, ny)))
+    return box_around(cells, max(MARGIN, round(ROOM * widest)), domain)
 
 
 def _start(
@@ -110,12 +110,12 @@ def _start(
 ) -> tuple[Field, VectorField, int]:
     """First pressure and shear: as the path predicts them; where it does not, the pressure of a
     frictionless contact, roughly, which knows how far the contact reaches, and the shear
-    of the state before. All on the part that tells shear. With the iterations that took."""
+    of the state before. With the iterations that took."""
     guess = None if before is None else predicted(model, before, normal, tangential)
     if guess is not None:
         return *guess, 0
-    start, iterations = nested_start(model, normal)
-    return model.shear_part.of(start), last.shear, iterations
+    start, iterations = rough_start(model, normal)
+    return start, last.shear, iterations
 
 
 def _problem(
@@ -125,35 +125,33 @@ def _problem(
     normal: NormalTarget,
     tangential: TangentialTarget,
 ) -> CoupledProblem:
-    """The increment in a box of cells of the part that tells shear."""
-    part = model.shear_part
-    together = model.coupled_operator(box.shape)
-    pressed, sheared, coupling = together.normal, together.tangential, together.coupling
+    """The increment in a box of cells."""
+    operator = model.operator(box.shape)
     target = surface_target(model, last, tangential)
     rotation = None if tangential.torsion is None else model.rotation[(..., *box.slices)]
     return CoupledProblem(
-        normal=pressed,
-        precondition_normal=pressed.precondition,
-        shear=sheared,
-        invert_shear=lambda v: model.shear_preconditioner(box.shape)(v),  # built where it is needed
-        normal_by_shear=coupling.normal_by_shear,
-        shear_by_pressure=coupling.tangential_by_pressure,
-        together=together,
-        precondition_together=model.periodic_inverse(box.shape),
-        gap=part.of(normal.gap(model))[box.slices],
+        normal=operator.normal,
+        precondition_normal=operator.precondition,
+        shear=operator.tangential,
+        invert_shear=lambda v: operator.shear_inverse(v),  # built where it is needed
+        normal_by_shear=operator.normal_by_shear,
+        shear_by_pressure=operator.tangential_by_pressure,
+        together=operator.together,
+        precondition_together=operator.inverse,
+        gap=normal.gap(model)[box.slices],
         friction_limit=partial(model.friction_limit, first=box.first),
         friction_slope=partial(model.friction_slope, first=box.first),
         target=target[(..., *box.slices)],
-        normal_load=normal.on(model, box, part),
-        tangential_load=tangential.on(model.grid.cell_area, rotation, part),
+        normal_load=normal.on(model, box),
+        tangential_load=tangential.on(model.grid.cell_area, rotation, model.domain),
         self_compliance=model.self_compliance,
-        part=part,
+        domain=model.domain,
     )
 
 
 @dataclass(frozen=True)
 class _Trial:
-    """A solution in a box, to be judged on the whole window or the part of it that tells shear."""
+    """A solution in a box, to be judged on the whole domain."""
 
     model: ContactModel
     last: Sheared
@@ -164,35 +162,34 @@ class _Trial:
     iterations: int
 
     def state(self) -> tuple[State, Field]:
-        """The state that the solution would make, and its gap on the part that tells shear."""
-        model, solution, cells = self.model, self.solution, self.model.shear_cells
-        part = model.shear_part
+        """The state that the solution would make, and its gap."""
+        model, solution, cells = self.model, self.solution, self.model.grid.cells
         p, q = self.box.embed(solution.pressure, cells), self.box.embed(solution.shear, cells)
-        u = model.coupled_operator(cells)(np.concatenate([q, p[None]]))
+        u = model.operator(cells).together(np.concatenate([q, p[None]]))
         u_t, u_z = u[:2], u[2]
-        gap = part.of(self.normal.gap(model))
-        load = self.normal.on(model, Box.whole(cells), part)
+        gap = self.normal.gap(model)
+        load = self.normal.on(model, Box.whole(cells))
         g = np.where(np.isfinite(gap), gap, np.inf) + u_z - load.closure(solution.closing)
         overlap = load.overlap(solution.closing, gap, np.isfinite(gap))
         approach, tilt = self.normal.reached(model, solution.closing)
         pressing = Pressing(
-            pressure=part.unfolded(p),
-            displacement=part.unfolded(u_z),
+            pressure=p,
+            displacement=u_z,
             approach=approach,
             complementarity=complementarity(p, g, overlap),
             penetration=penetration(g, overlap),
-            covered_cells=covered_cells(p, p > 0, part),
+            covered_cells=covered_cells(p, p > 0, model.domain),
             iterations=self.iterations,
             tilt=tilt,
         )
-        normal_force = float(np.sum(p)) * model.shear_area
+        normal_force = float(np.sum(p)) * model.grid.cell_area
         moment = reached_moment(model, self.normal, pressing.pressure)
         sheared = self._sheared(p, q, u_t)
         rounds = self.solution.rounds
         return State(self.normal, normal_force, pressing, sheared, moment, rounds=rounds), g
 
     def _sheared(self, p: Field, q: VectorField, u_t: VectorField) -> Sheared:
-        model, solution, cells = self.model, self.solution, self.model.shear_cells
+        model, solution, cells = self.model, self.solution, self.model.grid.cells
         bound = model.friction_limit(p)
         if solution.at_limit:
             return self._slid(p, bound, u_t)
@@ -201,7 +198,7 @@ class _Trial:
         # its pressure does around it.
         moved = u_t
         if not np.any(solution.in_slip):
-            moved = np.maximum(np.abs(model.shear_operator(cells)(q)), np.max(np.abs(u_t)))
+            moved = np.maximum(np.abs(model.operator(cells).tangential(q)), np.max(np.abs(u_t)))
         shearing = Shearing(
             shear=q,
             displacement=moved,
@@ -221,7 +218,7 @@ class _Trial:
         if load.torsion is not None and load.torsion.torque is not None:
             refuse_excessive_torque(model, bound, load)
         elif load.force is not None:
-            force_reaches_limit(load.force, float(np.sum(bound)) * model.shear_area)
+            force_reaches_limit(load.force, float(np.sum(bound)) * model.grid.cell_area)
             if np.any(bound):
                 return replace(at_limit(model, p, last, load), displacement=u_t)
         return unresisted(model, p, u_t, last, load, self.solution.motion)

@@ -9,14 +9,14 @@ from numpy.typing import NDArray
 
 from semi_analytical.admissible_shear import Field, TangentialLoad, Vector, VectorField
 from semi_analytical.normal_load import Motion, NormalLoad
-from semi_analytical.part import WHOLE, Part
+from semi_analytical.operator.domain import WINDOW, ReducedDomain
 
 # Along the shorter side of a box. With more Newton's method stalls, with fewer it takes more steps.
 PATCHES = 40
 
 
 class Preconditioner(Protocol):
-    """Roughly the tractions that cause displacements; see `periodic_inverse`."""
+    """Roughly the tractions that cause displacements; see `ApproximateInverse`."""
 
     def __call__(self, displacements: NDArray[Any], /) -> NDArray[Any]: ...
 
@@ -34,13 +34,13 @@ class CoupledProblem:
     invert_shear             see `tangential.solve_tangential`
     together                 (u_x, u_y, u_z) by (q_x, q_y, p): all four of them at once
     precondition_together    roughly the inverse without the coupling, and behind that the shears of
-                             one component that are held back (see `periodic_inverse`)
+                             one component that are held back (see `ApproximateInverse`)
     gap                      undeformed gap (nx, ny), infinite where the bodies can never touch
     friction_limit           pressure (nx, ny) -> largest shear (nx, ny)
     friction_slope           pressure (nx, ny) -> derivative of the largest shear (nx, ny)
     target                   u_t - motion of the state before (2, nx, ny)
     self_compliance          tangential displacement of a cell by its own unit shear
-    part                     of the window that all fields are on
+    domain                   that all fields are on
     """
 
     normal: Callable[[Field], Field]
@@ -58,7 +58,7 @@ class CoupledProblem:
     normal_load: NormalLoad
     tangential_load: TangentialLoad
     self_compliance: float
-    part: Part = WHOLE
+    domain: ReducedDomain = WINDOW
 
     @property
     def gamma(self) -> float:
@@ -68,7 +68,7 @@ class CoupledProblem:
         smooth and as wide as the contact; against the compliance of one cell of very many it looks
         so large that cells which carry pressure would part in masses.
         """
-        shortest = min(self.part.window(self.gap.shape))
+        shortest = min(self.domain.window(self.gap.shape))
         return 1 / (self.self_compliance * max(1.0, shortest / PATCHES))
 
     def yielding(self, compliance: float, tractions: Field) -> "CoupledProblem":

@@ -101,7 +101,7 @@ def fitted_window(scene: Scene) -> Pair:
     window = (2 * MARGIN * semi_axes[0], 2 * MARGIN * semi_axes[1])
     for _ in range(MOST_ENLARGEMENTS):
         grid = SurfaceGrid((SCOUT_CELLS, SCOUT_CELLS), window)
-        model = ContactModel.of(scene, grid, even=decided.quarter)
+        model = ContactModel.of(scene, grid, decided.symmetry)
         try:
             marked = np.any([_contact(model, load) for load in loads], axis=0)
         except ContactAtWindowEdge:
@@ -126,7 +126,7 @@ def refuse_small_window(scene: Scene, grid: SurfaceGrid) -> None:
     """Raise ContactAtWindowEdge if the contact under the largest load of the history will reach the
     border of a window: that without friction does so under `SURELY` of the load."""
     decided = plan(scene)
-    model = ContactModel.of(scene, grid, even=decided.quarter)
+    model = ContactModel.of(scene, grid, decided.symmetry)
     for load in _largest_loads(scene, decided.tilt):
         force, approach = (None if x is None else SURELY * x for x in (load.force, load.approach))
         try:
@@ -140,9 +140,9 @@ def refuse_small_window(scene: Scene, grid: SurfaceGrid) -> None:
 def _contact(model: ContactModel, load: NormalTarget) -> NDArray[np.bool_]:
     """Cells in contact, none where it is too small for the grid."""
     try:
-        return np.asarray(press(model, load, SCOUT_TOLERANCE).pressure > 0)
+        return model.domain.extend(press(model, load, SCOUT_TOLERANCE).pressure > 0)
     except ContactNotResolved:
-        return np.zeros(model.grid.cells, dtype=bool)
+        return np.zeros(model.window.cells, dtype=bool)
 
 
 def _extents(contact: NDArray[np.bool_], grid: SurfaceGrid) -> tuple[float, float]:

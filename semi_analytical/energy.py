@@ -46,7 +46,7 @@ Vector = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Configuration:
-    """A state as its energy sees it; fields on the window or the part of it that tells shear, but
+    """A state as its energy sees it; fields on the domain, but
     tangential ones without cells where no shear arises.
 
     pressure, normal_displacement       p and u_z (nx, ny)
@@ -137,7 +137,7 @@ def after_increment(
 
     spent       those at its start
     dissipated  since the start of the history, None where undefined [force length]
-    cell_area   of a cell, times the images that it stands for
+    cell_area   of a cell and its images
     path_matters  whether the end depends on how finely the loading step is cut
     """
     elastic = elastic_energy(after, cell_area)

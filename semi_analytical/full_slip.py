@@ -42,7 +42,7 @@ def refuse_excessive_torque(model: ContactModel, bound: Field, load: TangentialT
         raise GrossSliding(f"torque {torque:.6g} N m on a contact without friction")
     from semi_analytical.torsion import ShearMoments
 
-    held = load.on(model.grid.cell_area, model.rotation)
+    held = load.on(model.grid.cell_area, model.rotation, model.domain)
     assert isinstance(held, ShearMoments)
     if not held.exhausts(bound):
         return
@@ -64,13 +64,13 @@ def at_limit(
     bound, force = model.friction_limit(pressure), load.force
     assert force is not None
     q = bound * (force / np.hypot(*force))[:, None, None]
-    defect = model.shear_part.resultant(q) - force / model.grid.cell_area
+    defect = model.domain.resultant(q) - force / model.grid.cell_area
     twist, torque = torsion_reached(model, load, np.zeros(2), q)
     return replace(
         last,
         shear=q,
         pressure=pressure,
-        displacement=model.shear_operator(bound.shape)(q),
+        displacement=model.operator(bound.shape).tangential(q),
         shift=None,
         in_stick=np.zeros_like(bound, dtype=bool),
         dissipated_energy=None,
@@ -79,7 +79,7 @@ def at_limit(
         residuals=ShearResiduals(
             friction_cone(q, bound),
             None,
-            float(np.hypot(*defect) / np.sum(bound) / model.shear_part.images),
+            float(np.hypot(*defect) / np.sum(bound)),
         ),
         iterations=0,
         twist=twist,
@@ -101,7 +101,7 @@ def unresisted(
     motion        of the load
     """
     nothing = np.zeros_like(last.shear)
-    touching = touching_share(last.pressure, pressure, model.shear_gap)
+    touching = touching_share(last.pressure, pressure, model.gap)
     twist, torque = torsion_reached(model, load, motion, nothing)
     after = replace(
         last,

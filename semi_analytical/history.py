@@ -14,7 +14,7 @@ from semi_analytical.balance import balanced
 from semi_analytical.edge.corrected import Corrected, EdgeReport
 from semi_analytical.energy import NOTHING_YET
 from semi_analytical.fields import Increment
-from semi_analytical.increment import State, reached_moment, residuals_of, solve_increment, unfolded
+from semi_analytical.increment import State, reached_moment, residuals_of, solve_increment
 from semi_analytical.load_targets import normal_target, tangential_target
 from semi_analytical.model import ContactModel
 from semi_analytical.plan import Coupling, Plan
@@ -118,8 +118,8 @@ class _Solver:
         stepwise = self.plan.edge == "last" and not self.plan.couples
         last = start if stepwise else before
         edges = self.correct(
-            None if last is None else unfolded(last, self.model.shear_part),
-            unfolded(after, self.model.shear_part),
+            last,
+            after,
             way_known=last is before or not matters,
             tolerance=self.tolerance,
         )
@@ -134,22 +134,22 @@ class _Solver:
 
 
 def _increment(model: ContactModel, last: Increment | None, reached: Reached[State]) -> Increment:
-    """The state on the whole window as it is reported, with what the increment after the last one
-    has changed and cost."""
-    state = unfolded(reached.state, model.shear_part)
-    pressing, sheared, cell = state.pressing, state.sheared, model.grid.cell_area
-    before = reached.before
-    p = pressing.pressure
+    """Report the state on the window, with the changes and the cost of the increment after the
+    last one. All fields are extended to the window here."""
+    state, extend, before = reached.state, model.domain.extend_fields, reached.before
+    pressing, sheared = extend(state.pressing), extend(state.sheared) if state.sheared else None
+    p, cell = pressing.pressure, model.window.cell_area
+    gap = model.gap + state.pressing.displacement - state.pressing.closure(model)
     force, tilt = state.target.force, pressing.tilt
     pressed = Increment(
         **vars(reached.place),
         pressure=p,
-        gap=model.gap + pressing.displacement - pressing.closure(model),
+        gap=model.domain.extend(gap),
         normal_force=state.normal_force if force is None else force,
         approach=pressing.approach,
         moment=None if state.moment is None else np.array(state.moment),
         tilt=None if tilt is None else np.array(tilt),
-        contact_area=pressing.covered_cells * cell,
+        contact_area=pressing.covered_cells * model.grid.cell_area,
         peak_pressure=float(np.max(p)),
         elastic_energy=state.energy.elastic,
         input_work=state.energy.input_work,
@@ -189,7 +189,7 @@ def _with_edges(
     increment: Increment, corrected: Corrected, model: ContactModel, target: NormalTarget
 ) -> Increment:
     """With the contact as it is with its edge inside the cells; energies stay those of cells."""
-    p, tilt, cell = corrected.pressure, corrected.tilt, model.grid.cell_area
+    p, tilt, cell = corrected.pressure, corrected.tilt, model.window.cell_area
     moment = reached_moment(model, target, p)
     return replace(
         increment,

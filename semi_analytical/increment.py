@@ -11,7 +11,6 @@ from semi_analytical.behind import Behind, further_shear
 from semi_analytical.edge.corrected import Corrected, EdgeReport
 from semi_analytical.energy import NOTHING_YET, Energy
 from semi_analytical.model import ContactModel
-from semi_analytical.part import WHOLE, Part
 from semi_analytical.pressing import NormalTarget, Pair, Pressing, press
 from semi_analytical.sheared import Sheared, untouched
 from semi_analytical.shearing import TangentialTarget
@@ -69,13 +68,6 @@ class State:
     def iterations(self) -> int:
         """Of the pressure and shear solvers, in the increment."""
         return self.pressing.iterations + (self.sheared.iterations if self.sheared else 0)
-
-
-def unfolded(state: State, part: Part) -> State:
-    """A state whose tangential fields are on a part of the window, with these on all of it."""
-    if state.sheared is None or part == WHOLE:
-        return state
-    return replace(state, sheared=state.sheared.unfolded(part))
 
 
 def moment_of(model: ContactModel, pressure: Field) -> Pair:
@@ -138,8 +130,8 @@ def solve_increment(
         ahead, behind = further_shear(seen, before.behind, tangential), seen
     sheared = slip_and_stick(
         model,
-        model.shear_part.of(pressing.pressure),
-        last or untouched(model.shear_cells),
+        pressing.pressure,
+        last or untouched(model.grid.cells),
         tangential,
         tolerance,
         ahead,

@@ -8,9 +8,9 @@ from semi_analytical.plan import Coupling, Plan
 
 DOUBLE = 8
 # Arrays of the size of the window held at once: coefficients, spectra, work space, solver vectors,
-# results of an increment. Of a problem that a part of the window tells the first number is of the
-# window, the second of that part. Measured of whole runs on fitted windows, of which the contact
-# takes nine tenths along each side. A history of bodies that couple takes as much on any part.
+# results of an increment. Of two numbers the second has the size of the reduced domain. Measured of
+# complete runs on fitted windows, of which the contact takes nine tenths along each side. A history
+# of bodies that couple takes as much on any domain.
 PRESSURE_ARRAYS = 12, 20
 HISTORY_ARRAYS, COUPLED_HISTORY_ARRAYS = 4, 60
 SHEAR_ARRAYS = 28, 54
@@ -21,8 +21,8 @@ TORSION_ARRAYS = 6
 COUPLING_ARRAYS = {Coupling.NONE: 0, Coupling.ONE_WAY: 8, Coupling.FULL: 8}
 # Spectra of what tractions do within the cells, and that along the edge, in about as many cells as
 # a side has; more of it where loads turn, whose edges stay inside the cells. Those of shear are of
-# the window, in work space that shear has, too. So are all of bodies that couple, beside what is
-# kept of a part of it, if that tells their tractions.
+# the window, in work space that shear has, too. So are all of bodies that couple, beside the arrays
+# of their reduced domain.
 EDGE_ARRAYS = 25
 EDGE_RIM = 74_000  # bytes per cell of a side, in the mean
 EDGE_SHEAR, EDGE_SHEAR_ARRAYS = 23 << 20, 100
@@ -53,18 +53,17 @@ def estimated_bytes(grid: SurfaceGrid, plan: Plan) -> int:
     return int(LIBRARIES + held + max(solving, _drawing(array, plan)))
 
 
-def _told(grid: SurfaceGrid, plan: Plan) -> tuple[float, float]:
-    """The parts of the window that tell pressures without shear, and shear."""
-    pressed = 1 / 4 if plan.quarter and grid.even else 1.0
-    return pressed, 1 / plan.told.images if grid.even else 1.0
+def _share(grid: SurfaceGrid, plan: Plan) -> float:
+    """Cells of the domain over those of the window."""
+    return 1 / plan.symmetry.images if grid.even else 1.0
 
 
 def _arrays(grid: SurfaceGrid, plan: Plan) -> float:
     """Of the size of the window while it is solved on cells."""
-    pressed, sheared = _told(grid, plan)
-    arrays = PRESSURE_ARRAYS[0] + PRESSURE_ARRAYS[1] * pressed
+    share = _share(grid, plan)
+    arrays = PRESSURE_ARRAYS[0] + PRESSURE_ARRAYS[1] * share
     if plan.shear:
-        arrays += SHEAR_ARRAYS[0] + (SHEAR_ARRAYS[1] + COUPLING_ARRAYS[plan.coupling]) * sheared
+        arrays += SHEAR_ARRAYS[0] + (SHEAR_ARRAYS[1] + COUPLING_ARRAYS[plan.coupling]) * share
     arrays += TILT_ARRAYS * plan.tilt + TORSION_ARRAYS * plan.torsion
     if sum(plan.increments) > 1:
         arrays += HISTORY_ARRAYS
@@ -77,18 +76,18 @@ def _edges(grid: SurfaceGrid, plan: Plan) -> float:
     if plan.edge == "off":
         return 0
     array, side = grid.cells[0] * grid.cells[1] * DOUBLE, sum(grid.cells) / 2
-    pressed, sheared = _told(grid, plan)
+    share = _share(grid, plan)
     alone = EDGE_ARRAYS * array + EDGE_RIM * side
     if not plan.shear:
-        return alone * pressed
+        return alone * share
     if plan.couples:
-        coupled = EDGE_COUPLED_ARRAYS + EDGE_BESIDE_PART * (sheared < 1)
+        coupled = EDGE_COUPLED_ARRAYS + EDGE_BESIDE_PART * (share < 1)
         return alone + EDGE_COUPLED + coupled * array + EDGE_SHEAR_RIM * side
     # Where the way to the end of a step matters, that end alone does not tell the edge of stick.
     steps = sum(plan.edge == "all" or not s.path_matters or s.count == 1 for s in plan.path[1:])
     if not steps:
         return alone
-    arrays = EDGE_SHEAR_ARRAYS - SHEAR_ARRAYS[1] * sheared
+    arrays = EDGE_SHEAR_ARRAYS - SHEAR_ARRAYS[1] * share
     rim = EDGE_SHEAR_RIM + (EDGE_TURNED_RIM if steps > 1 else 0)
     return alone + EDGE_SHEAR + arrays * array + rim * side
 

@@ -62,6 +62,8 @@ def _residual(problem: CoupledProblem, at: NewtonIterate) -> float:
     overlap = problem.normal_load.overlap(at.closing, problem.gap, allowed)
     # Where all sticks the surface may not move at all: of the shear, its own cells tell a scale.
     moved = np.maximum(np.abs(point.displacements[:2]), problem.self_compliance * np.abs(q))
+    if not np.any(natural.slip & (natural.bound > 0)):  # a single cell: only the surface around it
+        moved = np.full_like(moved, np.max(moved))
     return worst(
         complementarity(p, natural.gap, overlap),
         penetration(natural.gap, overlap),

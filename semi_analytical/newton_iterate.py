@@ -50,7 +50,7 @@ class NewtonIterate:
         """In the zones of the point; and go to tractions nearby that friction allows there."""
         problem, motion = self._problem, self.natural.motion
         zones = Zones.of(self.natural, problem)
-        images = problem.part.images
+        images = problem.domain.images
         contact, changed = np.sum(zones.contact), zones.changes(self._zones)
         self.settled = bool(images * changed <= SETTLED * np.sqrt(images * contact))
         increment = self._increment

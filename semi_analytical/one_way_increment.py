@@ -29,9 +29,9 @@ def solve_one_way_increment(
     assert tangential is not None
     pressed = solve_increment(model, before, normal, None, tolerance)
     last = before.sheared if before is not None and before.sheared is not None else None
-    last = last or untouched(model.shear_cells)
-    p = model.shear_part.of(pressed.pressing.pressure)
-    u_by_p = model.coupled_operator(p.shape).coupling.tangential_by_pressure(p)
+    last = last or untouched(model.grid.cells)
+    p = pressed.pressing.pressure
+    u_by_p = model.operator(p.shape).tangential_by_pressure(p)
     # The shear problem knows displacement by shear alone: what pressure adds now, the state
     # before has less of.
     moved = replace(last, displacement=last.displacement - u_by_p)

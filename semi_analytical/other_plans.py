@@ -3,7 +3,7 @@
 from dataclasses import replace
 
 from contact_scene.effect import COUPLING, Effect
-from semi_analytical.part import WHOLE
+from semi_analytical.operator.domain import WINDOW
 from semi_analytical.plan import EDGES, MIRROR_PLANES, Coupling, Plan
 
 # Names of the effects that can be computed where they vanish.
@@ -18,8 +18,7 @@ def all_effects(plan: Plan) -> Plan:
         tilt=True,
         torsion=True,
         coupling=Coupling.FULL,
-        quarter=False,
-        told=WHOLE,
+        symmetry=WINDOW,
         effects=tuple(_forced(effect) for effect in plan.effects),
     )
 
@@ -41,7 +40,7 @@ def one_way(plan: Plan) -> Plan:
         shear=True,
         coupling=Coupling.ONE_WAY,
         edge=edge,
-        told=plan.told if plan.coupling is Coupling.FULL else WHOLE,
+        symmetry=plan.symmetry if plan.coupling is Coupling.FULL else WINDOW,
         couples=False,
         effects=tuple(effects),
     )

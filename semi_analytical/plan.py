@@ -11,13 +11,13 @@ from contact_scene.expected_contact import refuse_equator
 from contact_scene.friction import FRICTIONLESS
 from contact_scene.normal_form import normal_form
 from contact_scene.pair import coupling, dundurs_beta, refuse_contrast
-from semi_analytical.part import QUARTER, WHOLE, Part
+from semi_analytical.operator.domain import QUARTER, WINDOW, ReducedDomain
 from semi_analytical.path_increments import Bodies, StepIncrements, path_increments, refined
 
 # Of the shear moduli within a body: beyond, its influence coefficients lose the softest part.
 MOST_CONTRAST = 1e12
 
-# Names of the effects that let a part of the window tell tractions, and that put edges inside.
+# Names of the effects of a reduced domain and of edges inside the cells.
 MIRROR_PLANES = "mirror planes"
 EDGES = "edge correction"
 # Cost of the edge correction, on 64² to 256² cells.
@@ -45,10 +45,7 @@ class Plan:
     edge        at the end of which increments edges are put inside the cells
     couples     whether edges of contact and stick are those of bodies that couple, not only
                 computed as if they did
-    quarter     whether pressures without shear are even about x = 0 and y = 0: a quarter of the
-                window tells them
-    told        the part of the window that then tells shear, too, and the pressure of bodies that
-                couple
+    symmetry    the domain that tractions are solved on
     effects     every effect with its reason, as shown to people
     """
 
@@ -59,8 +56,7 @@ class Plan:
     path: tuple[StepIncrements, ...]
     effects: tuple[Effect, ...]
     edge: EdgeCorrection = "off"
-    quarter: bool = False
-    told: Part = WHOLE
+    symmetry: ReducedDomain = WINDOW
     couples: bool = False
 
     @property
@@ -98,9 +94,8 @@ def plan(scene: Scene, path_accuracy: float = PATH_ACCURACY, edge: EdgeCorrectio
     coupled = scene.friction is not None and scene.friction.largest > 0 and couples
     shear = friction and (loaded or coupled)
     tilt = any(step.moment is not None or any(step.tilt or (0, 0)) for step in scene.loading)
-    even = scene.indenter.is_even and not tilt
     torsion = shear and any(step.torque is not None or step.twist for step in scene.loading)
-    told, what = _told(scene, shear, coupled, torsion)
+    symmetry, why_symmetry = _symmetry(scene, shear, coupled, tilt, torsion)
     effects = (
         effect.PRESSURE,
         effect.second_body(scene),
@@ -111,15 +106,14 @@ def plan(scene: Scene, path_accuracy: float = PATH_ACCURACY, edge: EdgeCorrectio
         Effect("torsion", torsion, _why_torsion(friction, torsion)),
         effect.coupled(scene, coupled, why),
         effect.load_history(len(scene.loading) > 1 and shear),
-        Effect(MIRROR_PLANES, even, _why_even(even, tilt, what)),
+        Effect(MIRROR_PLANES, symmetry != WINDOW, why_symmetry),
         Effect(EDGES, *_edges(scene, edge, torsion)),
     )
     acting = Coupling.FULL if coupled else Coupling.NONE
     bodies = Bodies(coupled, dundurs_beta(scene), scene.friction or FRICTIONLESS)
     path = path_increments(scene, shear, bodies, path_accuracy)
     corrected = edge if effects[-1].on else "off"
-    told = told if even else WHOLE
-    return Plan(shear, tilt, torsion, acting, path, effects, corrected, even, told, couples=coupled)
+    return Plan(shear, tilt, torsion, acting, path, effects, corrected, symmetry, couples=coupled)
 
 
 def _tangentially_loaded(scene: Scene) -> bool:
@@ -145,45 +139,35 @@ def _why_tilt(tilt: bool) -> str:
     return "no step names a moment or a tilt: the indenter is held upright"
 
 
-def _told(scene: Scene, shear: bool, coupled: bool, torsion: bool) -> tuple[Part, str]:
-    """The part of the window that tells the shear below an even indenter, too, and in words what
-    parts of it tell."""
-    alone = "first pressures" if coupled else "pressures"
-    if not shear:
-        return WHOLE, f"a quarter of the window tells {alone}"
-    but = f"a quarter of the window tells {alone}, but not shear, for"
-    if torsion:
-        return WHOLE, f"{but} the indenter twists"
-    if scene.friction is not None and not scene.friction.is_even:
-        return WHOLE, f"{but} friction is not even"
-    axes = {axis for ramp in scene.load_path() for axis in (0, 1) if ramp.tangential.end[axis]}
-    if len(axes) > 1:
-        return WHOLE, f"{but} not all loads push along the same axis"
-    if not coupled:
-        return (
-            replace(QUARTER, along=axes.pop()),
-            "a quarter of the window tells pressures and shear, at a third of the price",
-        )
-    if not axes:
-        return QUARTER, "a quarter of the window tells pressures and shear, at a third of the price"
-    pushed = axes.pop()
-    return (
-        Part((pushed == 1, pushed == 0)),
-        f"a quarter of the window tells first pressures, and half of it, {'yx'[pushed]} > 0, "
-        f"pressures and shear, at three fifths of the price",
-    )
+def _symmetry(
+    scene: Scene, shear: bool, coupled: bool, tilt: bool, torsion: bool
+) -> tuple[ReducedDomain, str]:
+    """Choose the domain, and state why.
 
-
-def _why_even(even: bool, tilt: bool, told: str) -> str:
-    """Why parts of the window tell tractions, or not.
-
-    told  which, below an even indenter
+    A plane is a mirror plane if it preserves the shear of all loads, or reverses that of all.
     """
     if tilt:
-        return "the indenter tilts"
-    if not even:
-        return "the indenter does not say that it is even about x = 0 and y = 0"
-    return f"even about x = 0 and y = 0: {told}, where its cell counts are even"
+        return WINDOW, "the indenter tilts"
+    if not scene.indenter.is_even:
+        return WINDOW, "the indenter does not declare symmetry about x = 0 and y = 0"
+    even = "symmetric about x = 0 and y = 0, with even numbers of cells: "
+    if not shear:
+        return QUARTER, even + "solved on a quarter of the window"
+    if scene.friction is not None and not scene.friction.is_even:
+        return WINDOW, "friction is not symmetric about x = 0 and y = 0"
+    ramps = list(scene.load_path())
+    pushed = {axis for ramp in ramps for axis in (0, 1) if ramp.tangential.end[axis]}
+    if torsion and pushed:
+        return WINDOW, "the indenter twists and is pushed"
+    signs = {(-1, 1) if axis == 0 else (1, -1) for axis in pushed}
+    signs |= {(-1, -1)} if torsion else set()
+    signs |= {(1, 1)} if coupled or not signs else set()
+    x, y = (len({sign[axis] for sign in signs}) == 1 for axis in (0, 1))
+    if not (x or y):
+        return WINDOW, "the loads have no mirror plane in common"
+    (s_x, s_y), *_ = signs
+    found = ReducedDomain((x, y), (s_x if x else 1, s_y if y else 1))
+    return found, even + f"solved on {'a quarter' if x and y else 'half'} of the window"
 
 
 def _why_torsion(friction: bool, torsion: bool) -> str:

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from semi_analytical.behind import FURTHEST, Behind, further
 from semi_analytical.increment import State
 from semi_analytical.model import ContactModel
-from semi_analytical.part import WHOLE, Parity, Part
+from semi_analytical.operator.domain import WINDOW, Parity, ReducedDomain
 from semi_analytical.pressing import NormalTarget
 from semi_analytical.shearing import TangentialTarget
 
@@ -27,32 +27,32 @@ Start = tuple[Field, VectorField]
 
 @dataclass(frozen=True)
 class Lens:
-    """Dilates fields of a part of the window by a factor about a centre, given in cells."""
+    """Dilates fields of a domain by a factor about a centre, given in cells."""
 
     centre: tuple[float, float]
     factor: float
-    part: Part = WHOLE
+    domain: ReducedDomain = WINDOW
 
     @classmethod
-    def over(cls, pressure: Field, factor: float, part: Part = WHOLE) -> Lens:
+    def over(cls, pressure: Field, factor: float, domain: ReducedDomain = WINDOW) -> Lens:
         """About the centre of a pressure, which lies on mirror planes."""
         lines = (np.sum(pressure, axis=1), np.sum(pressure, axis=0))
         x, y = (
             -0.5 if mirrored else float(np.sum(np.arange(len(line)) * line) / np.sum(line))
-            for line, mirrored in zip(lines, part.mirrored, strict=True)
+            for line, mirrored in zip(lines, domain.mirrors, strict=True)
         )
-        return cls((x, y), factor, part)
+        return cls((x, y), factor, domain)
 
     def __call__(self, values: Field) -> Field:
         """What a scalar (nx, ny) or vector field (2, nx, ny) is at a place nearer to the centre by
         the factor: linear in between, and at the border as at its nearest cell."""
         if values.ndim == 2:
-            return self._dilated(values, self.part.scalar)
-        components = zip(values, self.part.vector, strict=True)
+            return self._dilated(values, self.domain.scalar)
+        components = zip(values, self.domain.vector, strict=True)
         return np.stack([self._dilated(one, parity) for one, parity in components])
 
     def _dilated(self, values: Field, parity: Parity) -> Field:
-        for axis, (middle, sign) in enumerate(zip(self.centre, parity.signs, strict=True)):
+        for axis, (middle, sign) in enumerate(zip(self.centre, parity, strict=True)):
             count = values.shape[axis]
             at = middle + (np.arange(count) - middle) / self.factor
             beyond = at[0]
@@ -77,26 +77,22 @@ class Lens:
 def predicted(
     model: ContactModel, before: State, normal: NormalTarget, tangential: TangentialTarget
 ) -> Start | None:
-    """Pressure and shear at the end of an increment, roughly, on the part of the window that tells
-    shear; None where the path says nothing."""
+    """Pressure and shear at the end of an increment, roughly; None where the path says nothing."""
     seen = before.seen()
     if seen is None:
         return None
     behind = before.behind
     if before.target == normal:
-        return _straight_on(model.shear_part, seen, behind, tangential)
+        return _straight_on(seen, behind, tangential)
     return _dilated(model, seen, behind, normal)
 
 
-def _straight_on(
-    on: Part, now: Behind, behind: Behind | None, tangential: TangentialTarget
-) -> Start:
+def _straight_on(now: Behind, behind: Behind | None, tangential: TangentialTarget) -> Start:
     """As much further as the tangential load goes straight on; else as before."""
     part = further(now, behind, tangential)
-    p = on.of(now.pressure)
     if behind is None or part == 0:
-        return p, now.shear
-    p = p + part * (p - on.of(behind.pressure))
+        return now.pressure, now.shear
+    p = now.pressure + part * (now.pressure - behind.pressure)
     return np.maximum(p, 0.0), now.shear + part * (now.shear - behind.shear)
 
 
@@ -119,8 +115,7 @@ def _dilated(
         wider, rise = 1 / exponent, 1 + 1 / exponent
     if min(load, *loads) <= 0:
         return None
-    on = model.shear_part
-    pressure = on.of(now.pressure)
+    on, pressure = model.domain, now.pressure
     way = np.log(load / loads[0])
     last_way = np.log(loads[0] / loads[-1])
     if behind is None or abs(way) > FURTHEST * abs(last_way) or behind.normal_force <= 0:
@@ -131,9 +126,8 @@ def _dilated(
     risen = np.log(now.normal_force / behind.normal_force)
     lens = Lens.over(pressure, np.exp(part * grown), on)
     p, q = lens.grown(pressure, now.shear, np.exp(part * risen))
-    pressed = on.of(behind.pressure)
-    last = Lens.over(pressed, np.exp(grown), on)
-    p_missed, q_missed = last.grown(pressed, behind.shear, np.exp(risen))
+    last = Lens.over(behind.pressure, np.exp(grown), on)
+    p_missed, q_missed = last.grown(behind.pressure, behind.shear, np.exp(risen))
     p += part * lens(pressure - p_missed)
     q += part * lens(now.shear - q_missed)
     return np.maximum(p, 0.0), q

@@ -13,7 +13,6 @@ from semi_analytical.contact_area import covered_cells
 from semi_analytical.model import ContactModel, doubled
 from semi_analytical.normal import solve_normal
 from semi_analytical.normal_load import FixedApproach, Motion, NormalLoad, PressureSum
-from semi_analytical.part import WHOLE, Part
 from semi_analytical.residuals import complementarity, penetration
 
 Field = NDArray[np.float64]
@@ -27,7 +26,7 @@ MOST_ATTEMPTS = 4
 
 @dataclass(frozen=True)
 class Pressing:
-    """Pressure and its normal displacement on the whole window, approach, residuals, cost.
+    """Pressure and its normal displacement on the domain, approach, residuals, cost.
 
     covered_cells  contact area in cells, with sub-cell accuracy
     tilt           of the indenter (x, y); None where nothing tilts
@@ -79,10 +78,9 @@ class NormalTarget:
             return 0.0
         return float(np.min(model.gap - _plane(model, self.tilting.tilt)))
 
-    def on(self, model: ContactModel, box: Box, part: Part = WHOLE) -> NormalLoad:
-        """The load on that gap, as the solver sees it in a box of one grid, or of its part, where
-        nothing tilts."""
-        total = None if self.force is None else self.force / model.grid.cell_area / part.images
+    def on(self, model: ContactModel, box: Box) -> NormalLoad:
+        """The load on that gap, as the solver sees it in a box of cells."""
+        total = None if self.force is None else self.force / model.grid.cell_area
         if self.tilting is not None and self.tilting.moment is not None:
             from semi_analytical.tilting import PressureMoments
 
@@ -111,42 +109,40 @@ def _plane(model: ContactModel, tilt: Pair) -> Field:
 
 
 def press(model: ContactModel, target: NormalTarget, tolerance: float) -> Pressing:
-    """Solve the pressure problem on the whole window.
+    """Solve the pressure problem.
 
-    The answer is checked with a fresh convolution over the window: if bodies overlap outside the
-    box that was solved, the box grows to the window; if round-off has crept in, the solve is
+    The answer is checked with a fresh convolution over the domain: if bodies overlap outside the
+    box that was solved, the box grows to the domain; if round-off has crept in, the solve is
     repeated more tightly.
     raises  ContactAtWindowEdge, ContactNotResolved, NotConverged
     """
     refuse_unresolved_contact(model, target)
-    start, iterations = _nested_start(model, target)
-    part = model.part
-    gap = part.of(target.gap(model))
-    box = box_around(start > 0, MARGIN, part)
+    start, iterations = nested_start(model, target)
+    gap = target.gap(model)
+    box = box_around(start > 0, MARGIN, model.domain)
     whole = Box.whole(gap.shape)
     allowed = np.isfinite(gap)
-    load = target.on(model, whole, part)
+    load = target.on(model, whole)
     aim, residual = tolerance, np.inf
     for _ in range(MOST_ATTEMPTS):
-        operator = model.pressure_operator(box.shape)
+        operator = model.operator(box.shape)
         solution = solve_normal(
-            operator,
+            operator.normal,
             operator.precondition,
             gap[box.slices],
-            target.on(model, box, part),
+            target.on(model, box),
             start[box.slices],
             0.5 * aim,
         )
         iterations += solution.iterations
         p = box.embed(solution.pressure, whole.shape)
-        u = model.pressure_operator(whole.shape)(p)
+        u = model.operator(whole.shape).normal(p)
         g = np.where(allowed, gap, np.inf) + u - load.closure(solution.motion)
         overlap = load.overlap(solution.motion, gap, allowed)
         measures = (complementarity(p, g, overlap), penetration(g, overlap))
         residual = worst(*measures)
         if residual <= tolerance:
-            covered = covered_cells(p, p > 0, part)
-            p, u = part.unfolded(p), part.unfolded(u)
+            covered = covered_cells(p, p > 0, model.domain)
             refuse_contact_at_edge(p, model)
             approach, tilt = target.reached(model, solution.motion)
             return Pressing(p, u, approach, *measures, covered, iterations, tilt)
@@ -157,40 +153,32 @@ def press(model: ContactModel, target: NormalTarget, tolerance: float) -> Pressi
 
 
 def nested_start(model: ContactModel, target: NormalTarget) -> tuple[Field, int]:
-    """A first pressure: the frictionless solution of the coarser model, found the same way, or,
-    where there is none, roughly that of the model; and all the iterations that took."""
-    found = _rough if model.coarse is None else _nested_start
-    start, iterations = found(model, target)
-    return model.part.unfolded(start), iterations
-
-
-def _nested_start(model: ContactModel, target: NormalTarget) -> tuple[Field, int]:
-    """A first pressure on the part of the window that tells pressures: by the coarser model, or by
-    Hertz's law."""
-    coarse, part = model.coarse, model.part
+    """Initial guess of the pressure: the frictionless solution of the coarser model, found the same
+    way, or by Hertz's law where there is none; and all the iterations that took."""
+    coarse = model.coarse
     if coarse is None or not _touches(coarse, target):
-        gap = part.of(target.gap(model))
-        load = target.on(model, Box.whole(gap.shape), part)
-        area = part.images * model.grid.cell_area
-        return bearing_pressure(gap, load, model.bearing_modulus, area), 0
+        gap = target.gap(model)
+        load = target.on(model, Box.whole(gap.shape))
+        return bearing_pressure(gap, load, model.bearing_modulus, model.grid.cell_area), 0
     pressure, iterations = _rough(coarse, target)
-    finer = _on_half_cells(pressure)
-    if part.quarter and not coarse.part.quarter:  # with a cell on a plane
-        finer = part.of(finer)
-    touchable = np.isfinite(part.of(model.gap))
-    return np.where(touchable, finer, 0.0), iterations
+    return np.where(np.isfinite(model.gap), _on_half_cells(pressure), 0.0), iterations
+
+
+def rough_start(model: ContactModel, target: NormalTarget) -> tuple[Field, int]:
+    """The same, but where there is no coarser model the pressure roughly solved on this one."""
+    return _rough(model, target) if model.coarse is None else nested_start(model, target)
 
 
 def _rough(model: ContactModel, target: NormalTarget) -> tuple[Field, int]:
-    """The pressure on that part to the accuracy of a first guess."""
-    start, iterations = _nested_start(model, target)
-    gap = model.part.of(target.gap(model))
-    operator = model.pressure_operator(gap.shape)
+    """The pressure to the accuracy of an initial guess."""
+    start, iterations = nested_start(model, target)
+    gap = target.gap(model)
+    operator = model.operator(gap.shape)
     solution = solve_normal(
-        operator,
+        operator.normal,
         operator.precondition,
         gap,
-        target.on(model, Box.whole(gap.shape), model.part),
+        target.on(model, Box.whole(gap.shape)),
         start,
         COARSE_TOLERANCE,
     )
@@ -218,7 +206,7 @@ def _touches(model: ContactModel, target: NormalTarget) -> bool:
     """Whether the cells can carry the load: a force brings the nearest ones into contact, an
     approach only those whose gap is smaller."""
     gap = target.gap(model)
-    load = target.on(model, Box.whole(model.grid.cells))
+    load = target.on(model, Box.whole(gap.shape))
     return load.touches(gap)
 
 
@@ -229,7 +217,7 @@ def refuse_unresolved_contact(model: ContactModel, target: NormalTarget) -> None
     if _touches(model, target):
         undeformed = target.gap(model)
         tilts = target.tilting is not None and target.tilting.moment is not None
-        if not tilts and np.min(_rim(undeformed)) <= np.min(undeformed):
+        if not tilts and np.min(model.domain.rim(undeformed)) <= np.min(undeformed):
             raise ContactAtWindowEdge(
                 "the lowest point of the indenter lies at the border of the window, where the "
                 f"contact begins; {_lower(model)}"
@@ -242,7 +230,7 @@ def refuse_unresolved_contact(model: ContactModel, target: NormalTarget) -> None
             f"no cell of the window touches: {least} at the cell centres; take more cells or a "
             f"smaller window"
         )
-    if np.isfinite(_rim(model.gap)).any():
+    if np.isfinite(model.domain.rim(model.gap)).any():
         raise ContactAtWindowEdge(
             f"under its moment the normal force acts outside the window; {_wider(model)}"
         )
@@ -250,11 +238,6 @@ def refuse_unresolved_contact(model: ContactModel, target: NormalTarget) -> None
         "under its moment the normal force acts beyond the outermost cells of the indenter: it "
         "tips over; take a smaller moment, or prescribe tilt instead"
     )
-
-
-def _rim(values: Field) -> Field:
-    """Values at the border of the window."""
-    return np.concatenate([values[0], values[-1], values[:, 0], values[:, -1]])
 
 
 def _lower(model: ContactModel) -> str:
@@ -278,8 +261,8 @@ def _wider(model: ContactModel) -> str:
 
 def refuse_contact_at_edge(p: Field, model: ContactModel) -> None:
     """Raise ContactAtWindowEdge if a cell at the border of the window carries pressure."""
-    if np.any(_rim(p) > 0):
-        w = model.grid.window
+    if np.any(model.domain.rim(p) > 0):
+        w = model.window.window
         raise ContactAtWindowEdge(
             f"the contact reaches the edge of the window of {w[0]:.4g} m by {w[1]:.4g} m; "
             f"{_wider(model)}"

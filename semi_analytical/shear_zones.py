@@ -78,8 +78,8 @@ class ShearZones:
 
             M = Π χ_0 F⁻¹ χ_0 Π + Σ_j χ_j t (f + d_j)⁻¹ t χ_j,    χ_0 = 1 where it sticks
 
-        with F, f and the shares χ_j of grades as in `periodic_inverse` and `grades`. Far beyond the
-        last grade f is nothing beside d: there M goes over to t (K₀ + d)⁻¹ t.
+        with F, f and the shares χ_j of grades as in `ApproximateInverse` and `grades`. Far beyond
+        the last grade f is nothing beside d: there M goes over to t (K₀ + d)⁻¹ t.
 
         inverse  F⁻¹ of two components, then the (f + d_j)⁻¹ of one each
         """

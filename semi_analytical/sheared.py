@@ -1,6 +1,6 @@
 """The tangential part of a state, and what it means for the increment that starts from it."""
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -9,7 +9,6 @@ from contact_scene.residuals import ShearResiduals
 from contact_scene.summary import ContactStatus
 from semi_analytical.admissible_shear import everywhere
 from semi_analytical.model import ContactModel
-from semi_analytical.part import WHOLE, Part
 from semi_analytical.shearing import TangentialTarget
 
 Field = NDArray[np.float64]
@@ -20,7 +19,7 @@ Vector = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Sheared:
-    """The tangential part of a state, all fields on the part of the window that tells shear.
+    """The tangential part of a state, all fields on the domain.
 
     pressure           p that the shear is below (nx, ny) [force/length^2]
     touching           part of the increment for which cells are in contact (nx, ny), of those that
@@ -56,22 +55,6 @@ class Sheared:
         """Shift, and twist where there is one."""
         assert self.shift is not None
         return self.shift if self.twist is None else np.array([*self.shift, self.twist])
-
-    def unfolded(self, part: Part) -> "Sheared":
-        """The same on the whole window."""
-        if part == WHOLE:
-            return self
-        return replace(
-            self,
-            shear=part.unfolded_vector(self.shear),
-            pressure=part.unfolded(self.pressure),
-            touching=part.unfolded(self.touching),
-            displacement=part.unfolded_vector(self.displacement),
-            slip=part.unfolded_vector(self.slip),
-            slip_distance=part.unfolded(self.slip_distance),
-            dissipation=part.unfolded(self.dissipation),
-            in_stick=part.unfolded(self.in_stick),
-        )
 
 
 def untouched(cells: tuple[int, int]) -> Sheared:

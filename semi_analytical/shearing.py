@@ -15,7 +15,7 @@ from semi_analytical.admissible_shear import (
 from semi_analytical.box import box_around
 from semi_analytical.linearised_shear import Point
 from semi_analytical.model import ContactModel
-from semi_analytical.part import WHOLE, Part
+from semi_analytical.operator.domain import WINDOW, ReducedDomain
 from semi_analytical.tangential import solve_tangential
 
 Field = NDArray[np.float64]
@@ -23,8 +23,7 @@ Field = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Shearing:
-    """Shear and its displacement on the part of the window that tells shear, the motion of the
-    load, slip zone, and iterations."""
+    """Shear and its displacement, the motion of the load, slip zone, and iterations."""
 
     shear: VectorField
     displacement: VectorField
@@ -51,21 +50,24 @@ class TangentialTarget:
     torsion: Torsion | None = None
 
     def on(
-        self, cell_area: float, rotation: VectorField | None, part: Part = WHOLE
+        self, cell_area: float, rotation: VectorField | None, domain: ReducedDomain = WINDOW
     ) -> TangentialLoad:
         """The load as the solver sees it on cells of this area.
 
         rotation  (-y, x) of the cells (2, nx, ny) [length]; None where nothing twists
-        part      of the window that the cells are of; all of it where something twists
+        domain    that the cells are of
         """
-        total = None if self.force is None else self.force / cell_area / part.images
+        total = None if self.force is None else self.force / cell_area
         if self.torsion is not None and self.torsion.torque is not None:
             assert rotation is not None
             from semi_analytical.torsion import ShearMoments
 
-            return ShearMoments(rotation, self.torsion.torque / cell_area, total, self.shift)
+            shift = self.shift
+            if not any(domain.summed):  # without resultants nothing shifts
+                total, shift = None, np.zeros(2)
+            return ShearMoments(rotation, self.torsion.torque / cell_area, total, shift)
         if total is not None:
-            return ShearSum(total, part.even)
+            return ShearSum(total, domain.summed)
         assert self.shift is not None
         return FixedShift(self.shift)
 
@@ -79,23 +81,24 @@ def shear(
     motion: Vector,
     tolerance: float,
 ) -> Shearing:
-    """Solve the shear problem of one increment; all fields on the part that tells shear.
+    """Solve the shear problem of one increment.
 
     bound          friction limit µp, not zero everywhere
     target         c, from the state before (see tangential.solve_tangential)
     start, motion  first guesses
     raises         NotConverged
     """
-    part, cells = model.shear_part, bound.shape
-    box = box_around(bound > 0, 0, part)
+    cells = bound.shape
+    box = box_around(bound > 0, 0, model.domain)
+    operator = model.operator(box.shape)
     inside = (..., *box.slices)
     rotation = None if load.torsion is None else model.rotation[inside]
     solution = solve_tangential(
-        model.shear_operator(box.shape),
-        model.shear_preconditioner(box.shape),
+        operator.tangential,
+        operator.shear_inverse,
         bound[box.slices],
         target[inside],
-        load.on(model.grid.cell_area, rotation, part),
+        load.on(model.grid.cell_area, rotation, model.domain),
         Point(start.shear[inside], start.displacement[inside]),
         motion,
         model.self_compliance,
@@ -104,7 +107,7 @@ def shear(
     q, u = box.embed(solution.shear, cells), solution.displacement
     return Shearing(
         shear=q,
-        displacement=u if box.shape == cells else model.shear_operator(cells)(q),
+        displacement=u if box.shape == cells else model.operator(cells).tangential(q),
         motion=solution.motion,
         in_slip=box.embed(solution.in_slip.astype(np.float64), cells) > 0,
         iterations=solution.iterations,

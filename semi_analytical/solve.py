@@ -69,7 +69,7 @@ def solve(
     scene = normal_form(scene)
     decided = plan_of(scene) if plan is None else plan
     refuse_if_too_large(grid, decided)
-    model = ContactModel.of(scene, grid, even=decided.quarter, told=decided.told)
+    model = ContactModel.of(scene, grid, decided.symmetry)
     last = keeper.last() if keeper else None
     since = last if last and last.extent == grid else None
     increments, fields = [*since.increments] if since else [], FieldStore()

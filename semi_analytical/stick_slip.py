@@ -48,8 +48,7 @@ def slip_and_stick(
     tolerance: float,
     ahead: Point | None = None,
 ) -> Sheared:
-    """Shear the contact from the state `last` to a force or shift, at a given pressure; all fields
-    on the part of the window that tells shear.
+    """Shear the contact from the state `last` to a force or shift, at a given pressure.
 
     ahead   a first guess of the shear with its displacement; that of the last state if absent
     raises  NotConverged; GrossSliding if a force exceeds what friction can carry
@@ -94,7 +93,7 @@ def _without_solving(
     moved = last.shear, last.shift, last.displacement
     if load.torsion is None and not any(np.any(a) for a in (load.force, *moved)):
         return replace(last, pressure=pressure, in_stick=bound > 0, iterations=0)
-    if not force_reaches_limit(load.force, float(np.sum(bound)) * model.shear_area):
+    if not force_reaches_limit(load.force, float(np.sum(bound)) * model.grid.cell_area):
         return None
     if np.any(bound):
         return at_limit(model, pressure, last, load)
@@ -117,8 +116,8 @@ def shear_residuals(
     q = solution.shear
     equilibrium = None
     if load.force is not None:
-        defect = model.shear_part.resultant(q) - load.force / model.grid.cell_area
-        equilibrium = float(np.hypot(*defect) / np.sum(bound) / model.shear_part.images)
+        defect = model.domain.resultant(q) - load.force / model.grid.cell_area
+        equilibrium = float(np.hypot(*defect) / np.sum(bound))
     torque_equilibrium = None
     if load.torsion is not None and load.torsion.torque is not None:
         missing = torque_of(model, q) - load.torsion.torque
@@ -149,12 +148,12 @@ def advanced(
     # A residual of the solver may point against the shear; friction lets nothing slip that way.
     backward = q[0] * passed[0] + q[1] * passed[1] < 0
     in_stick = (bound > 0) & (~solution.in_slip | backward)
-    touching = touching_share(last.pressure, pressure, model.shear_gap)
+    touching = touching_share(last.pressure, pressure, model.gap)
     slips = ((pressure > 0) | (last.pressure > 0)) & ~in_stick
     slipped = np.where(slips, touching * passed, 0.0)
     friction = sliding_friction(last.shear, q, passed, model.friction_limit(last.pressure), bound)
     lost = np.sum(friction * slipped, axis=0)
-    force = model.shear_part.resultant(q) * model.grid.cell_area
+    force = model.domain.resultant(q) * model.grid.cell_area
     assert last.dissipated_energy is not None
     twist, torque = torsion_reached(model, load, solution.motion, q)
     after = Sheared(
@@ -167,7 +166,7 @@ def advanced(
         slip_distance=last.slip_distance + np.hypot(*slipped),
         dissipation=last.dissipation + lost,
         in_stick=in_stick,
-        dissipated_energy=last.dissipated_energy + float(np.sum(lost)) * model.shear_area,
+        dissipated_energy=last.dissipated_energy + float(np.sum(lost)) * model.grid.cell_area,
         status=ContactStatus.NO_STICK_AREA_LEFT,
         force=force if load.force is None else load.force,
         residuals=residuals,
@@ -183,7 +182,7 @@ def _status(model: ContactModel, after: Sheared, bound: Field, last: Sheared) ->
         everything = np.count_nonzero(after.in_stick) == np.count_nonzero(bound)
         return ContactStatus.FULL_STICK if everything else ContactStatus.PARTIAL_SLIP
     if after.twist is None:
-        work, power = float(np.hypot(*after.force)) / model.shear_area, float(np.sum(bound))
+        work, power = float(np.hypot(*after.force)) / model.grid.cell_area, float(np.sum(bound))
     else:
         moved = rigid(model, after.motion) - rigid(model, last.motion)
         work, power = float(np.sum(after.shear * moved)), float(np.sum(bound * magnitude(moved)))

@@ -103,7 +103,7 @@ def solve_tangential(
 
     displace         shear (2, nx, ny) -> tangential displacement (2, nx, ny); symmetric, positive
     inverse          roughly the inverse of `displace`, and that of slip held back: (2 + grades,
-                     nx, ny) of as many (see `periodic_inverse`); symmetric, positive
+                     nx, ny) of as many (see `ApproximateInverse`); symmetric, positive
     bound            friction limit µp (nx, ny), zero outside the contact [force/length^2]
     target           c (2, nx, ny): cells stick where A q = ω + c [length]
     load             what leads the indenter: Σq (with |Σq| < Σ bound) or the shift ω
@@ -132,12 +132,16 @@ def solve_tangential(
         point, natural = _toward(problem, taken, Point(q, displace(q)), natural.motion)
         on_the_way = point.shear is not q
         taken = point, natural.error
-        direction = slip_direction(point.shear, bound, natural.slipped, point.displacement)
+        in_slip = (bound > 0) & (magnitude(natural.z) > bound)
+        moved = point.displacement
+        if not np.any(in_slip):  # a single cell may not move at all, only the surface around it
+            largest = max(float(np.max(np.abs(u))) for u in (moved, target))
+            moved = np.full_like(moved, largest)
+        direction = slip_direction(point.shear, bound, natural.slipped, moved)
         residual = worst(natural.error, direction)
         first = residual if number == 0 else first
         aim = max(tolerance, enough * first)
         if residual <= aim:
-            in_slip = (bound > 0) & (magnitude(natural.z) > bound)
             return TangentialSolution(*point, natural.motion, in_slip, residual, iterations)
         guess = point
         if on_the_way:  # its zones are other ones

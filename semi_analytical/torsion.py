@@ -216,7 +216,11 @@ class _Shifted:
         return bool(np.sum(np.abs(self.defect)) <= ROUND_OFF * strength + blur)
 
     def newton_step(self) -> Vector:
-        """Change of λ that removes the defect to first order, damped while all cells slip."""
+        """Change of λ that removes the defect to first order, damped while all cells slip.
+
+        The damping is relative to the stiffness of the cells, which does not vanish, as the trace
+        of the derivative does where all cells slip along their motion.
+        """
         w = np.where(self.outside, self.scale / np.where(self.outside, self.length**2, 1.0), 0.0)
         along = [np.sum(self.z * unit, axis=0) for unit in self.units]
         matrix = np.array(
@@ -228,5 +232,6 @@ class _Shifted:
                 for one, a in zip(self.units, along, strict=True)
             ]
         )
-        damping = 1e-3 * np.trace(matrix) * (np.sum(np.abs(self.defect)) / self.capacity) ** 2
+        stiffness = sum(float(np.sum(self.scale * unit * unit)) for unit in self.units)
+        damping = 1e-3 * stiffness * (np.sum(np.abs(self.defect)) / self.capacity) ** 2
         return -np.linalg.solve(matrix + damping * np.eye(len(matrix)), self.defect)

@@ -10,7 +10,7 @@ from semi_analytical.bearing import bearing_pressure, modulus_of
 from semi_analytical.influence.bodies import influence_coefficients
 from semi_analytical.model import ContactModel
 from semi_analytical.normal_load import FixedApproach, PressureSum
-from semi_analytical.part import QUARTER
+from semi_analytical.operator.domain import QUARTER
 from verification.closed_forms.hertz import PointContact
 
 CELLS = grid(96)
@@ -42,9 +42,9 @@ def test_a_quarter_has_the_same():
     quarter = QUARTER
     whole = bearing_pressure(GAP, FixedApproach(HERTZ.approach), MODULUS, CELLS.cell_area)
     part = bearing_pressure(
-        quarter.of(GAP), FixedApproach(HERTZ.approach), MODULUS, 4 * CELLS.cell_area
+        quarter.restrict(GAP), FixedApproach(HERTZ.approach), MODULUS, 4 * CELLS.cell_area
     )
-    np.testing.assert_allclose(quarter.unfolded(part), whole, rtol=1e-12)
+    np.testing.assert_allclose(quarter.extend(part), whole, rtol=1e-12)
 
 
 @pytest.mark.parametrize("load", [PressureSum(1.0), FixedApproach(1.0)])
@@ -73,7 +73,7 @@ def test_below_every_tip_it_saves_a_quarter_of_the_iterations_or_more(name, step
                 pressing, "bearing_pressure", lambda gap, *_: np.isfinite(gap).astype(float)
             )
         tip = scene(step, indenter=INDENTERS[name])
-        model = ContactModel.of(tip, grid(32, 3.0), even=True)
+        model = ContactModel.of(tip, grid(32, 3.0), QUARTER)
         target = pressing.NormalTarget(step.get("normal_force"), step.get("approach"))
         spent[guess] = pressing.press(model, target, 1e-8).iterations
     assert spent["Hertz"] < 0.75 * spent["the same"]

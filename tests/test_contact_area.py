@@ -5,7 +5,7 @@ import pytest
 from scipy.ndimage import binary_erosion
 
 from semi_analytical.contact_area import FRAME, _coverage, _fit, covered_cells, stuck_cells
-from semi_analytical.part import QUARTER, WHOLE
+from semi_analytical.operator.domain import QUARTER, WINDOW
 
 # Semi-axes in cells, and how well the area is found: a small contact has few cells for the fits.
 ELLIPSES = {
@@ -43,8 +43,8 @@ def test_two_contacts_count_both():
 def test_a_quarter_tells_the_area(cells):
     values = dome((17.0, 11.0), cells=cells)
     quarter = QUARTER
-    told = covered_cells(quarter.of(values), quarter.of(values > 0), quarter)
-    assert told == pytest.approx(covered_cells(values, values > 0), rel=1e-12)
+    part = covered_cells(quarter.restrict(values), quarter.restrict(values > 0), quarter)
+    assert 4 * part == pytest.approx(covered_cells(values, values > 0), rel=1e-12)
 
 
 def test_area_does_not_depend_on_the_unit_of_the_values():
@@ -153,7 +153,7 @@ def test_a_fit_has_value_and_slope_of_a_quadratic_where_it_is_asked_for():
     x, y = np.indices((24, 24)) - 11.5
     phi = 9 + 0.3 * x - 0.2 * y - 0.01 * x**2 + 0.02 * x * y - 0.03 * y**2
     i, j = np.array([8, 12, 15]), np.array([11, 7, 14])
-    framed, everywhere = (WHOLE.framed(field, FRAME) for field in (phi, phi > -np.inf))
+    framed, everywhere = (WINDOW.framed(field, FRAME) for field in (phi, phi > -np.inf))
     f, f_x, f_y, *_ = _fit(framed, everywhere, i, j)
     at_x, at_y = i - 11.5, j - 11.5
     np.testing.assert_allclose(f, phi[i, j], rtol=1e-6)

@@ -25,7 +25,7 @@ from contact_scene.summary import ContactStatus
 from semi_analytical import GrossSliding, SurfaceGrid, coupled_increment, solve
 from semi_analytical.box import Box, box_around
 from semi_analytical.model import ContactModel
-from semi_analytical.part import QUARTER
+from semi_analytical.operator.domain import QUARTER
 from semi_analytical.pressing import MARGIN
 
 TOLERANCE = 1e-8
@@ -200,15 +200,14 @@ LOADINGS = {
 
 def displacement(model, increment):
     """u_t by operators on the whole window, their coupling included."""
-    cells = model.grid.cells
-    by_pressure = model.coupling_operator(cells).tangential_by_pressure(increment.pressure)
-    return model.tangential_operator(cells)(increment.shear) + by_pressure
+    A = model.operator(model.grid.cells)
+    return A.tangential(increment.shear) + A.tangential_by_pressure(increment.pressure)
 
 
 def elastic_energy(model, increment):
     """½ Σ t·u of the tractions."""
-    cells, p, q = model.grid.cells, increment.pressure, increment.shear
-    u_z = model.normal_operator(cells)(p) + model.coupling_operator(cells).normal_by_shear(q)
+    A, p, q = model.operator(model.grid.cells), increment.pressure, increment.shear
+    u_z = A.normal(p) + A.normal_by_shear(q)
     u_t = displacement(model, increment)
     return 0.5 * float(np.sum(p * u_z) + np.sum(q * u_t)) * model.grid.cell_area
 
@@ -314,11 +313,12 @@ import sys
 sys.path.insert(0, {tests!r})
 from contact_scenes import PRESS, grid, push, scene
 import semi_analytical
-from semi_analytical.model import ContactModel
-from semi_analytical.part import QUARTER
-def forbidden(*args):
-    raise AssertionError("a coupling operator was built")
-ContactModel.coupling_operator = forbidden
+from semi_analytical.operator import operator
+whole = operator.kernel_spectrum
+def forbidden(coefficients, pair, reach):
+    assert pair not in ("xz", "yz"), "a spectrum of the coupling was built"
+    return whole(coefficients, pair, reach)
+operator.kernel_spectrum = forbidden
 semi_analytical.solve(scene(PRESS, push(0.5), push(-0.5)), grid(16), 1e-8)
 semi_analytical.solve(scene(PRESS, friction=None), grid(16), 1e-8)
 unwanted = {{
@@ -385,3 +385,22 @@ def test_one_cell_that_touches_sticks_and_its_slip_of_round_off_is_none():
     assert end.status is ContactStatus.FULL_STICK
     assert end.halvings == 0
     assert end.residuals.slip_direction < 1e-10
+
+
+@pytest.mark.parametrize("cells", [25, 29, 33, 35, 49])
+def test_a_contact_of_one_or_five_cells_is_an_ordinary_state(cells):
+    """The cell in the middle does not slip: its slip is round-off without a direction."""
+    body = Body(material=IsotropicMaterial(young_modulus=100e9, poisson_ratio=0.2))
+    loads = 50.0 * (np.arange(1, 7) / 50) ** 3  # as the first increments of 50 below 50 N
+    described = scene(
+        *({"normal_force": load, "increments": 1} for load in loads),
+        body=body,
+        indenter=Paraboloid(radius=0.01, material=RIGID),
+        friction=0.3,
+    )
+    for width in (336e-6, 338e-6):
+        on = SurfaceGrid((cells, cells), (width, width))
+        increments = solve(described, on, TOLERANCE).increments
+        assert np.count_nonzero(increments[0].in_contact) == 1
+        assert np.max(np.abs(increments[0].shear)) < 1e-9 * increments[0].peak_pressure
+        assert np.count_nonzero(increments[-1].in_contact) >= 5

@@ -15,8 +15,8 @@ from semi_analytical.edge.kernels import (
     part_centres,
 )
 from semi_analytical.influence.bodies import influence_coefficients
-from semi_analytical.kernel_spectrum import even_transform
-from semi_analytical.padded_transform import Convolutions, offsets_for
+from semi_analytical.operator.spectra import even_transform
+from semi_analytical.operator.transforms import Convolutions, offsets_for
 
 Field = NDArray[np.float64]
 

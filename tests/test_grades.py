@@ -64,7 +64,7 @@ def test_graded_preconditioner_of_shears_is_symmetric_and_positive(seed):
     rng = np.random.default_rng(seed)
     model = ContactModel.of(scene(PRESS), grid(24))
     zones, _ = zones_of(rng, model.self_compliance)
-    inverse = model.shear_inverse(SHAPE)
+    inverse = model.operator(SHAPE).shear_inverse
     x, y = (zones.free(v) for v in rng.standard_normal((2, 2, *SHAPE)))
     M_x, M_y = zones.preconditioned(x, inverse), zones.preconditioned(y, inverse)
     scale = np.sqrt(np.sum(x * M_x) * np.sum(y * M_y))
@@ -80,8 +80,8 @@ def test_graded_preconditioner_keeps_the_spectrum_of_slip_narrow(excess, spread,
     shape = (12, 12)
     model = ContactModel.of(scene(PRESS), grid(24))
     A, inverse, K = (
-        model.tangential_operator(shape),
-        model.shear_inverse(shape),
+        model.operator(shape).tangential,
+        model.operator(shape).shear_inverse,
         model.self_compliance,
     )
     z = np.zeros((2, *shape))

@@ -23,23 +23,10 @@ PACKAGES = (
 
 ORDER = (
     "grid",
-    "part",
     "frf",
     "influence",
-    "kernel_spectrum",
-    "padded_transform",
-    "operator",
-    "mirrored_transform",
-    "mirrored_operator",
-    "sines",
-    "waves",
-    "amplitudes",
     "grades",
-    "mirrored_shear",
-    "mirrored_coupling",
-    "mirrored_inverse",
-    "periodic_inverse",
-    "coupled_operator",
+    "operator",
     "edge",
     "stress",
     "multipliers",
@@ -61,7 +48,6 @@ ORDER = (
     "other_plans",
     "fields",
     "memory",
-    "on_boxes",
     "model",
     "box",
     "pressing",
@@ -96,10 +82,11 @@ ORDER = (
 
 ORDERS = {
     "semi_analytical": ORDER,
+    "semi_analytical.operator": ("domain", "spectra", "transforms", "operator"),
     "semi_analytical.edge": (
         *("means", "quadratic", "fit", "shape", "line"),
         *("film", "film_response", "kernels", "film_shape", "parts", "rim"),
-        *("moment_spectra", "displacement", "mirrored_displacement", "peak", "corrected"),
+        *("moment_spectra", "displacement", "peak", "corrected"),
     ),
     "semi_analytical.edge_correction": (
         "operators",

@@ -20,7 +20,6 @@ from semi_analytical.linearised_increment import LinearisedIncrement
 from semi_analytical.model import ContactModel
 from semi_analytical.newton_increment import solve_by_newton
 from semi_analytical.newton_iterate import reached
-from semi_analytical.periodic_inverse import PeriodicInverse
 from semi_analytical.predictor import Lens, predicted
 from semi_analytical.pressing import NormalTarget
 from semi_analytical.shearing import TangentialTarget
@@ -34,28 +33,28 @@ def model(cells=32):
 
 @pytest.mark.parametrize("shape", [(32, 32), (16, 48), (80, 32)])
 def test_the_fused_product_is_that_of_the_operators_and_takes_three_convolutions(shape, rng):
-    A = model(96).coupled_operator(shape)
+    A = model(96).operator(shape)
     tractions = rng.standard_normal((3, *shape))
     q, p = tractions[:2], tractions[2]
-    u_t = A.tangential(q) + A.coupling.tangential_by_pressure(p)
-    u_z = A.normal(p) + A.coupling.normal_by_shear(q)
-    counter = A.tangential.transform.counter
+    u_t = A.tangential(q) + A.tangential_by_pressure(p)
+    u_z = A.normal(p) + A.normal_by_shear(q)
+    counter = A.transforms.counter
     before = counter.count
-    u = A(tractions)
+    u = A.together(tractions)
     assert counter.count == before + 3
     np.testing.assert_allclose(u[:2], u_t, rtol=0, atol=1e-14 * np.max(np.abs(u_t)))
     np.testing.assert_allclose(u[2], u_z, rtol=0, atol=1e-14 * np.max(np.abs(u_z)))
 
 
-def test_the_periodic_inverse_of_coupled_bodies_is_that_of_both_problems_in_single_precision(rng):
+def test_the_inverse_of_coupled_bodies_is_that_of_both_problems_in_single_precision(rng):
     contact = model()
-    A, shape = contact.coupled_operator((32, 16)), (32, 16)
+    A, shape = contact.operator((32, 16)), (32, 16)
     stiffness = contact.self_compliance * STIFFNESSES
     u = 1e-9 * rng.standard_normal((3 + len(stiffness), *shape))
-    t = contact.periodic_inverse(shape)(u)
+    t = A.inverse(u)
     sheared = np.delete(u, 2, axis=0)
-    expected = PeriodicInverse(A.tangential, contact.self_compliance)(sheared)
-    expected = np.insert(expected, 2, A.normal.precondition(u[2]), axis=0)
+    expected = A.shear_inverse(sheared)
+    expected = np.insert(expected, 2, A.precondition(u[2]), axis=0)
     np.testing.assert_allclose(t, expected, rtol=0, atol=1e-5 * np.max(np.abs(expected)))
     # The stiffer a cell is held, the nearer it is to its own spring.
     held = stiffness[:, None, None]
@@ -205,23 +204,27 @@ def test_springs_at_rest_pull_at_nothing_and_others_in_proportion(rng):
 
 
 @pytest.mark.parametrize("softness", [0.01, 1.0, 100.0])
-def test_the_periodic_inverse_of_cells_on_springs_is_that_of_the_sum_of_compliances(softness, rng):
+def test_the_inverse_of_cells_on_springs_is_that_of_the_sum_of_compliances(softness, rng):
     contact, shape = model(), (32, 16)
     own = contact.self_compliance
-    A, more = contact.coupled_operator(shape), softness * contact.self_compliance
-    found = contact.periodic_inverse(shape).yielding(more)
+    A, more = contact.operator(shape), softness * contact.self_compliance
+    found = A.inverse.yielding(more)
     u = 1e-9 * rng.standard_normal((3 + len(STIFFNESSES), *shape))
     # F + ρ by F of the coefficients, those of a cell on itself raised by the springs.
-    rows, columns = A.tangential.transform.period
+    rows, columns = A.transforms.half_period
+
+    def unpadded(pair):
+        return A.spectrum(pair)[::2][:, ::2].T
+
     spectra = np.fft.rfft2(u, (rows, columns))
-    xx, yy, xy = (symbol.unpadded() for symbol in A.tangential.symbols)
+    xx, yy, xy = (unpadded(pair) for pair in ("xx", "yy", "xy"))
     matrix = np.moveaxis(np.array([[xx + more, xy], [xy, yy + more]]), (0, 1), (-2, -1))
     sheared = np.linalg.solve(matrix, np.moveaxis(spectra[:2], 0, -1)[..., None])[..., 0]
-    graded = A.tangential.mean() + more + (own + more) * STIFFNESSES[:, None, None]
+    graded = 0.5 * (xx + yy) + more + (own + more) * STIFFNESSES[:, None, None]
     solved = np.concatenate(
         [
             np.moveaxis(sheared, -1, 0),
-            spectra[2:3] / (1 / A.normal.inverse + more),
+            spectra[2:3] / (unpadded("zz") + more),
             spectra[3:] / graded,
         ]
     )

@@ -148,7 +148,7 @@ def test_slip_is_the_displacement_of_the_surfaces_past_each_other():
     problem = scene(PRESS, push(0.8), push(-0.7, increments=3), push(0.2, 0.4, increments=3))
     model = ContactModel.of(problem, grid(CELLS))
     for increment in solve(problem, grid(CELLS), TOLERANCE).increments:
-        u = model.tangential_operator((CELLS, CELLS))(increment.shear)
+        u = model.operator((CELLS, CELLS)).tangential(increment.shear)
         expected = u - increment.tangential_shift[:, None, None]
         np.testing.assert_allclose(
             increment.slip[:, increment.in_contact],

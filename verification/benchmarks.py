@@ -18,7 +18,7 @@ from semi_analytical.influence.layered import LayeredCoefficients
 from semi_analytical.model import ContactModel
 from semi_analytical.normal import solve_normal
 from semi_analytical.normal_load import PressureSum
-from semi_analytical.padded_transform import offsets_for
+from semi_analytical.operator.transforms import offsets_for
 from verification.problems import paper_scene as paper
 from verification.problems.layered_scene import (
     coated,
@@ -116,13 +116,13 @@ def _solve(cells: int, *layers: Layer) -> Callable[[], float]:
     """A pressure solve on the whole window, operator ready; gives its seconds per convolution."""
     grid = paper.hertz_grid(cells)
     model = ContactModel.of(pressed("benchmark", rigid_ball(), coated(*layers)), grid)
-    operator = model.normal_operator(grid.cells)
+    operator = model.operator(grid.cells)
     load = PressureSum(paper.NORMAL_FORCE / grid.cell_area)
     start = np.ones(grid.cells)
 
     def solve() -> float:
         before, started = model.convolutions.count, time.perf_counter()
-        solve_normal(operator, operator.precondition, model.gap, load, start, TOLERANCE)
+        solve_normal(operator.normal, operator.precondition, model.gap, load, start, TOLERANCE)
         return (time.perf_counter() - started) / (model.convolutions.count - before)
 
     return solve

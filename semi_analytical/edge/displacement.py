@@ -11,9 +11,10 @@ from numpy.typing import NDArray
 
 from semi_analytical.edge.kernels import PARTS, REACH, EdgeKernels, part_centres
 from semi_analytical.edge.moment_spectra import spectra_of
-from semi_analytical.kernel_spectrum import KernelSpectrum
-from semi_analytical.padded_transform import Convolutions, PaddedTransform, Spectrum
-from semi_analytical.part import WHOLE, Part
+from semi_analytical.operator.domain import WINDOW, Pair, ReducedDomain
+from semi_analytical.operator.operator import Array, Response, response
+from semi_analytical.operator.spectra import KernelSpectrum
+from semi_analytical.operator.transforms import Convolutions, Transforms
 
 Field = NDArray[np.float64]
 Indices = NDArray[np.intp]
@@ -42,12 +43,19 @@ class Within:
     rest: Field
 
     @classmethod
-    def of(cls, means: Field, i: Indices, j: Indices, parts: Field, part: Part = WHOLE) -> Within:
+    def of(
+        cls,
+        means: Field,
+        i: Indices,
+        j: Indices,
+        parts: Field,
+        domain: ReducedDomain = WINDOW,
+    ) -> Within:
         """From means (nx, ny) by central differences, and in the cells (i, j) by parts.
 
-        part  of the window that all are on
+        domain  that all are on
         """
-        slopes = part.differences(means) * (means != 0)
+        slopes = domain.differences(means) * (means != 0)
         values = parts.reshape(-1, PARTS**2)
         told = values @ (LINEAR / [1, 1 / MOMENT, 1 / MOMENT] / PARTS**2)
         slopes[:, i, j] = told[:, 1:].T
@@ -70,21 +78,17 @@ class Within:
         none = np.zeros(0, dtype=int)
         return cls(np.zeros((2, *cells)), none, none, np.zeros((0, PARTS, PARTS)))
 
-    def unfolded(self, part: Part) -> Within:
-        """On the whole window what an even traction is on its part."""
-        if not part.quarter:
-            return self
-        slopes, i, j, rest = self.slopes, self.i, self.j, self.rest
-        for axis, (nx, ny) in enumerate((slopes.shape[1:], (2 * slopes.shape[1], slopes.shape[2]))):
-            images = np.flip(slopes, axis + 1).copy()
-            images[axis] *= -1
-            slopes = np.concatenate([images, slopes], axis + 1)
-            at, beside = (i, j) if axis == 0 else (j, i)
-            count = (nx, ny)[axis]
-            at, beside = np.concatenate([count - 1 - at, count + at]), np.tile(beside, 2)
-            i, j = (at, beside) if axis == 0 else (beside, at)
+    def extended(self, domain: ReducedDomain) -> Within:
+        """Extend what an even traction is within the cells of a domain to the window."""
+        at, rest = np.stack([self.i, self.j]), self.rest
+        for axis in domain.planes:
+            count = self.slopes.shape[1 + axis]
+            images = at.copy()
+            images[axis], at[axis] = count - 1 - at[axis], count + at[axis]
+            at = np.concatenate([images, at], axis=1)
             rest = np.concatenate([np.flip(rest, axis + 1), rest])
-        return Within(slopes, i, j, rest)
+        slopes = ReducedDomain(domain.mirrors).extend(self.slopes)
+        return Within(slopes, at[0], at[1], rest)
 
     @classmethod
     def summed(cls, slopes: Field, terms: Sequence[tuple[Field, Within]]) -> Within:
@@ -111,22 +115,33 @@ class EdgeOperator:
     def __init__(
         self,
         kernels: Matrix,
-        shape: tuple[int, int],
+        shape: Pair,
         counter: Convolutions,
         known: Mapping[str, KernelSpectrum] | None = None,
+        domain: ReducedDomain = WINDOW,
     ) -> None:
         """kernels  rows are displacements, columns tractions: sign and kernels of a component
         known    spectra of components of the coefficients that are even along both sides
+        domain   that all are on; below the window for pressures alone
         """
-        self._transform = PaddedTransform(shape, counter)
-        self._components: dict[str, tuple[KernelSpectrum, KernelSpectrum]] = {}
+        self._transforms = Transforms(shape, ReducedDomain(domain.mirrors), counter)
+        columns, self._counter, self._domain = len(kernels[0]), counter, domain
+        # The slopes of a scalar have the parities of a vector, and such responses.
+        reduced = domain.images > 1
+        inputs = "xy" if reduced else "zz" * columns
+        self._sides = self._transforms.sides(inputs, "z" * len(kernels))
+        self._components: dict[str, Sequence[Response]] = {}
         for _, of in chain.from_iterable(kernels):
             if of.component not in self._components:
                 spectrum = known.get(of.component) if known else None
-                moments = spectra_of(of, self._transform.reach, spectrum)
-                self._components[of.component] = moments
+                moments = spectra_of(of, self._transforms.reach, spectrum)
+                pairs = zip(("xz", "yz"), moments, strict=True)
+                self._components[of.component] = (
+                    [response(self._transforms, *pair) for pair in pairs] if reduced else moments
+                )
         self._matrix = [
-            [(sign * (-1j if of.even else 1), of.component) for sign, of in row] for row in kernels
+            [(sign * (-1j if of.even and not reduced else 1), of.component) for sign, of in row]
+            for row in kernels
         ]
         self._near = [
             np.concatenate([sign * of.near.reshape(-1, PARTS**2) for sign, of in column])
@@ -137,25 +152,23 @@ class EdgeOperator:
         """The displacements (rows, nx, ny) at the centres of the cells by one `Within` per column
         [length]."""
         slopes = np.concatenate([w.slopes for w in within])
-        u = self._transform.convolved(slopes, len(self._matrix), self._multiplied)
+        self._counter.count += 0.5 * (len(self._matrix) + len(slopes))
+        u = self._transforms.filtered(slopes, *self._sides, self._multiplied)
         for traction, near in zip(within, self._near, strict=True):
-            moved = around(traction, near, len(self._matrix))
-            u += moved[:, REACH:-REACH, REACH:-REACH]
+            for total, moved in zip(u, around(traction, near, len(self._matrix)), strict=True):
+                total += self._domain.folded(moved, REACH)
         return u
 
-    def _multiplied(self, spectra: Spectrum, columns: slice) -> Spectrum:
-        symbols = {
-            name: [spectrum[columns] for spectrum in pair]
-            for name, pair in self._components.items()
-        }
-        u = np.zeros((len(self._matrix), *spectra.shape[1:]), dtype=spectra.dtype)
-        for total, row in zip(u, self._matrix, strict=True):
+    def _multiplied(self, amplitudes: Sequence[Array], columns: slice) -> list[Array]:
+        symbols = {name: [one[columns] for one in pair] for name, pair in self._components.items()}
+        u = []
+        for row in self._matrix:
+            total: Array | float = 0.0
             for k, (factor, name) in enumerate(row):
                 along_x, along_y = symbols[name]
-                part = along_x * spectra[2 * k]
-                part += along_y * spectra[2 * k + 1]
-                part *= factor
-                total += part
+                part = along_x * amplitudes[2 * k] + along_y * amplitudes[2 * k + 1]
+                total = total + factor * part
+            u.append(np.asarray(total))
         return u
 
 

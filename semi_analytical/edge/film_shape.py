@@ -32,7 +32,7 @@ from semi_analytical.edge.line import EdgeLine, Seen
 from semi_analytical.edge.means import Exponent, centre_value, power
 from semi_analytical.edge.quadratic import Quadratic
 from semi_analytical.edge.shape import ASKED, CUT_WEIGHT, EdgeShape
-from semi_analytical.part import WHOLE, Part
+from semi_analytical.operator.domain import WINDOW, ReducedDomain
 
 Field = NDArray[np.float64]
 Mask = NDArray[np.bool_]
@@ -66,7 +66,7 @@ class FilmShape(EdgeShape):
         """Fits about cells of the region, shape (n,), to phi(x) + leaning phi(edge)."""
         reach = self.stencil.reach
         phi, weight, leaning = (
-            self.part.framed(f, reach) for f in (self.phi, self.weight, self.leaning)
+            self.domain.framed(f, reach) for f in (self.phi, self.weight, self.leaning)
         )
         to_x, to_y = self.line.seen_from(i, j).foot / np.array(self.line.stretched)[:, None]
         foot = np.stack([to_x**0, to_x, to_y, to_x**2 / 2, to_x * to_y, to_y**2 / 2])
@@ -118,7 +118,7 @@ def film_shape(
     stencil: Stencil,
     law: FilmLaw,
     depth: Field,
-    part: Part = WHOLE,
+    domain: ReducedDomain = WINDOW,
     exponent: Exponent = 0.5,
     before: EdgeLine | None = None,
 ) -> FilmShape:
@@ -126,11 +126,11 @@ def film_shape(
 
     means     (nx, ny) cell means of p, positive in the region
     depth     of the region, see `shape.depth_of`
-    part      of the window that all are given on
+    domain      that all are given on
     exponent  alpha: p is the ratio of the law to the root of the distance, times phi^alpha
     before    edge of about the same region
     """
-    problem = _Problem(np.where(region, means, 0.0), region, stencil, law, depth, part, exponent)
+    problem = _Problem(np.where(region, means, 0.0), region, stencil, law, depth, domain, exponent)
     along = np.nonzero(region & (depth < ALONG))
     line = problem.first(*along) if before is None else before
     for _ in range(TURNS if before is None else TURNS_AGAIN):
@@ -138,7 +138,7 @@ def film_shape(
         line = EdgeLine.of(shape.fits(*along).quadratic, law.stretched)
         if before is None:
             line = line.evened()
-        line = line.with_images(part)
+        line = line.with_images(domain)
     return problem.about(line)
 
 
@@ -149,7 +149,7 @@ class _Problem:
     stencil: Stencil
     law: FilmLaw
     depth: Field
-    part: Part
+    domain: ReducedDomain
     exponent: Exponent
 
     @property
@@ -169,8 +169,8 @@ class _Problem:
     def first(self, i: Indices, j: Indices) -> EdgeLine:
         """A guess, from cells that are not cut."""
         inner = (self.region & (self.depth >= ALONG)).astype(float)
-        fits = fit_about(self.by_depth, inner, i, j, self.stencil, part=self.part)
-        return EdgeLine.of(fits.quadratic, self.law.stretched).evened().with_images(self.part)
+        fits = fit_about(self.by_depth, inner, i, j, self.stencil, domain=self.domain)
+        return EdgeLine.of(fits.quadratic, self.law.stretched).evened().with_images(self.domain)
 
     def about(self, line: EdgeLine) -> FilmShape:
         """With distances from a line."""
@@ -195,7 +195,7 @@ class _Problem:
             exponent=a,
             stencil=self.stencil,
             depth=self.depth,
-            part=self.part,
+            domain=self.domain,
             leaning=leaning,
             line=line,
             law=self.law,

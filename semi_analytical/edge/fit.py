@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from semi_analytical.edge.quadratic import Quadratic
-from semi_analytical.part import WHOLE, Part
+from semi_analytical.operator.domain import WINDOW, ReducedDomain
 
 Field = NDArray[np.float64]
 Indices = NDArray[np.intp]
@@ -54,16 +54,16 @@ def fit_about(
     j: Indices,
     stencil: Stencil,
     degree: int = 2,
-    part: Part = WHOLE,
+    domain: ReducedDomain = WINDOW,
 ) -> Fits:
     """Least squares about the cells (i, j), shape (n,).
 
     data    (nx, ny) cell means
     weight  (nx, ny) beside that of the stencil; zero where there are none
     degree  1 or 2; of 1 nothing bends
-    part    of the window that they are given on
+    domain    that they are given on
     """
-    data, weight = (part.framed(field, stencil.reach) for field in (data, weight))
+    data, weight = (domain.framed(field, stencil.reach) for field in (data, weight))
     fade, basis = fading(stencil), monomials(stencil)[: 3 * degree]
     found = np.zeros((6, len(i)))
     rms, count = np.empty(len(i)), np.empty(len(i), dtype=int)

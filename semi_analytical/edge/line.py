@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from semi_analytical.edge.quadratic import Quadratic
-from semi_analytical.part import Part
+from semi_analytical.operator.domain import ReducedDomain
 
 Field = NDArray[np.float64]
 Indices = NDArray[np.intp]
@@ -96,12 +96,10 @@ class EdgeLine:
         curvature = np.full_like(bend, np.median(self.curvature))
         return replace(self, bend=bend, curvature=curvature)
 
-    def with_images(self, part: Part) -> EdgeLine:
-        """With the images of its points beyond the mirror planes of a part of the window."""
-        if not part.quarter:
-            return self
+    def with_images(self, domain: ReducedDomain) -> EdgeLine:
+        """With the images of its points beyond the mirror planes of a domain."""
         line = self
-        for axis in (0, 1):
+        for axis in domain.planes:
             line = line._beside(line._mirrored(axis))
         return line
 

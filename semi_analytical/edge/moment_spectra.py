@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from semi_analytical.edge.kernels import EdgeKernels
-from semi_analytical.kernel_spectrum import (
+from semi_analytical.operator.spectra import (
     KernelSpectrum,
     even_transform,
     mixed_transform,

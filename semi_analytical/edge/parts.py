@@ -9,7 +9,7 @@ from semi_analytical.edge.fit import Indices
 from semi_analytical.edge.kernels import PARTS, part_centres
 from semi_analytical.edge.means import Exponent, mean_of_cut, mean_of_smooth
 from semi_analytical.edge.quadratic import Quadratic
-from semi_analytical.part import Part
+from semi_analytical.operator.domain import ReducedDomain
 
 Field = NDArray[np.float64]
 
@@ -52,13 +52,15 @@ def _means_of_power(phi: Quadratic, a: Exponent) -> Field:
     return parts
 
 
-def by_differences(means: Field, i: Indices, j: Indices, fade: Field, part: Part) -> Field:
+def by_differences(
+    means: Field, i: Indices, j: Indices, fade: Field, domain: ReducedDomain
+) -> Field:
     """Parts (n, PARTS, PARTS) of a traction, given by means (nx, ny), in the cells (i, j).
 
     fade  weight of the second differences (n,)
     """
     i, j = i + 1, j + 1
-    p = part.framed(means, 1)
+    p = domain.framed(means, 1)
     centre = p[i, j]
     lower, upper, left, right = p[i - 1, j], p[i + 1, j], p[i, j - 1], p[i, j + 1]
     corners = p[i + 1, j + 1] + p[i - 1, j - 1] - p[i + 1, j - 1] - p[i - 1, j + 1]

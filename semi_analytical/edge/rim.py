@@ -16,7 +16,7 @@ from semi_analytical.edge.line import EdgeLine
 from semi_analytical.edge.means import Exponent
 from semi_analytical.edge.parts import by_differences, means_of_power
 from semi_analytical.edge.shape import LARGEST_RMS, EdgeShape, depth_of, edge_shape
-from semi_analytical.part import WHOLE, Part
+from semi_analytical.operator.domain import WINDOW, ReducedDomain
 
 Field = NDArray[np.float64]
 Mask = NDArray[np.bool_]
@@ -44,7 +44,7 @@ class Rim:
     parts    (n, PARTS, PARTS) mean of the traction over the subcells of each
     area     of the region and its mirror images, in cells
     unsafe   part of all cells along the edge without a reliable fit
-    part     of the window that all fields are given on
+    domain     that all fields are given on
     line     edge of a contact on a film
     """
 
@@ -54,7 +54,7 @@ class Rim:
     parts: Field
     area: float
     unsafe: float
-    part: Part
+    domain: ReducedDomain
     line: EdgeLine | None = None
 
     @cached_property
@@ -75,7 +75,7 @@ def rim(
     loaded: Mask,
     before: Rim | None = None,
     exponent: Exponent = 0.5,
-    part: Part = WHOLE,
+    domain: ReducedDomain = WINDOW,
     film: FilmLaw | None = None,
 ) -> Rim | None:
     """Fit the rim of a region of tractions; None where the region is too thin.
@@ -84,11 +84,11 @@ def rim(
     loaded    (nx, ny) cells where it is positive
     before    rim of the preceding iteration: cells outside it are not fitted to
     exponent  power of the distance from the edge with which the traction falls
-    part      of the window that all fields are given on
+    domain      that all fields are given on
     film      law of a pressure on layered bodies, a factor of that power
     """
     region = loaded if before is None else loaded & before.region
-    depth = depth_of(region, part)
+    depth = depth_of(region, domain)
     if np.max(depth) <= THICK:
         return None
     largest = np.max(means)
@@ -96,13 +96,13 @@ def rim(
     shape: EdgeShape
     if film is None:
         shape = edge_shape(
-            scaled, region, STENCIL, rings=0, exponent=exponent, depth=depth, part=part
+            scaled, region, STENCIL, rings=0, exponent=exponent, depth=depth, domain=domain
         )
     else:
         line = before.line if before else None
         stencil = STENCIL if isinstance(exponent, np.ndarray) else OF_FILM
-        shape = film_shape(scaled, region, stencil, film, depth, part, exponent, line)
-    touched = binary_dilation(part.framed(region, 1), np.ones((3, 3)))[1:-1, 1:-1]
+        shape = film_shape(scaled, region, stencil, film, depth, domain, exponent, line)
+    touched = binary_dilation(domain.framed(region, 1), np.ones((3, 3)))[1:-1, 1:-1]
     i, j = np.nonzero(touched & (depth <= FITTED))
     deep_i, deep_j = np.nonzero((depth > FITTED) & (depth <= INSIDE))
     phi, missed = shape.about_cells(i, j)
@@ -120,9 +120,11 @@ def rim(
         region=inside,
         i=np.concatenate([i, deep_i]),
         j=np.concatenate([j, deep_j]),
-        parts=np.concatenate([parts * largest, by_differences(means, deep_i, deep_j, fade, part)]),
-        area=part.images * float(np.sum(covered)),
+        parts=np.concatenate(
+            [parts * largest, by_differences(means, deep_i, deep_j, fade, domain)]
+        ),
+        area=domain.images * float(np.sum(covered)),
         unsafe=np.count_nonzero(~safe) / (len(safe) + len(deep_i)),
-        part=part,
+        domain=domain,
         line=shape.line if isinstance(shape, FilmShape) else None,
     )

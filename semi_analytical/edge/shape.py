@@ -12,7 +12,7 @@ from scipy.ndimage import distance_transform_edt
 from semi_analytical.edge.fit import Fits, Indices, Stencil, fit_about
 from semi_analytical.edge.means import Exponent, centre_value, power
 from semi_analytical.edge.quadratic import Quadratic
-from semi_analytical.part import WHOLE, Part
+from semi_analytical.operator.domain import WINDOW, ReducedDomain
 
 Field = NDArray[np.float64]
 Mask = NDArray[np.bool_]
@@ -41,7 +41,7 @@ class EdgeShape:
     exponent   alpha, a number or (nx, ny)
     stencil    of the fits
     depth      (nx, ny) distance to the nearest cell outside of the region, zero there
-    part       of the window that all are on
+    domain       that all are on
     """
 
     means: Field
@@ -50,7 +50,7 @@ class EdgeShape:
     exponent: Exponent
     stencil: Stencil
     depth: Field
-    part: Part = WHOLE
+    domain: ReducedDomain = WINDOW
 
     @cached_property
     def nearest(self) -> Indices:
@@ -60,7 +60,7 @@ class EdgeShape:
 
     def fits(self, i: Indices, j: Indices) -> Fits:
         """Fits about cells of the region, shape (n,)."""
-        return fit_about(self.phi, self.weight, i, j, self.stencil, part=self.part)
+        return fit_about(self.phi, self.weight, i, j, self.stencil, domain=self.domain)
 
     def nearest_to(self, x: Field, y: Field) -> Indices:
         """Cells of the region nearest to places (n,), indices (2, n)."""
@@ -148,7 +148,7 @@ def edge_shape(
     trusted: Mask | None = None,
     rounds: int = 3,
     depth: Field | None = None,
-    part: Part = WHOLE,
+    domain: ReducedDomain = WINDOW,
 ) -> EdgeShape:
     """Shape of the edge of a region.
 
@@ -163,11 +163,11 @@ def edge_shape(
     rounds    data of the first are means^(1/alpha), from cells beyond the cut ones; of the others
               `centre_value` with the slope of the last
     depth     of the region, where it is known: see `depth_of`
-    part      of the window that all are given on
+    domain      that all are given on
     Raises ValueError where no cell is left to be data.
     """
     means = np.where(region, means, 0.0)
-    depth = depth_of(region, part) if depth is None else depth
+    depth = depth_of(region, domain) if depth is None else depth
     usable = region if trusted is None else region & trusted
     data = usable & (depth >= rings + 0.5)
     inner = usable & (depth >= max(rings, 1) + 0.5)
@@ -182,18 +182,18 @@ def edge_shape(
     # Farther in the differences of data tell the slope, which hardly matters there.
     i, j = np.nonzero(band & (depth < max(rings, 1) + 2))
     for _ in range(rounds - 1):
-        quadratic = fit_about(phi, weight, i, j, stencil, part=part).quadratic
-        slopes = part.differences(phi)
+        quadratic = fit_about(phi, weight, i, j, stencil, domain=domain).quadratic
+        slopes = domain.differences(phi)
         slopes[:, i, j] = quadratic.f_x, quadratic.f_y
         phi[band] = centre_value(means[band], slopes[0][band], slopes[1][band], of_band)
         weight = data.astype(float)
         weight[i, j] = np.where(quadratic.cut, CUT_WEIGHT, 1.0)
-    return EdgeShape(means, phi, weight, exponent, stencil, depth, part)
+    return EdgeShape(means, phi, weight, exponent, stencil, depth, domain)
 
 
-def depth_of(region: Mask, part: Part = WHOLE) -> Field:
+def depth_of(region: Mask, domain: ReducedDomain = WINDOW) -> Field:
     """Distance of every cell of a region from the nearest outside (nx, ny), beyond the window too;
     zero outside."""
-    frame = (0, 1) if part.quarter else (1, 1)
-    depth = distance_transform_edt(np.pad(region, frame))[frame[0] : -1, frame[0] : -1]
-    return np.asarray(depth)
+    frame = [(int(not mirrored), 1) for mirrored in domain.mirrors]
+    depth = distance_transform_edt(np.pad(region, frame))
+    return np.asarray(depth[frame[0][0] : -1, frame[1][0] : -1])

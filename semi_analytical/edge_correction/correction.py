@@ -24,7 +24,9 @@ class EdgeCorrection:
     """
 
     def __init__(self, model: ContactModel, *, coupled: bool) -> None:
-        self._operators, self._coupled = EdgeOperators(model), coupled
+        self._domain, self._coupled = model.domain, coupled
+        # The direction of slip at the edge of coupled bodies is found on the window.
+        self._operators = EdgeOperators(model.on_window if coupled else model)
 
     def __call__(
         self, last: State | None, state: State, *, way_known: bool, tolerance: float
@@ -35,36 +37,48 @@ class EdgeCorrection:
                    before first touch
         way_known  whether its ends determine the load history from there
         """
+        extended = self._extended(state)
         try:
-            pressed = self._pressed(last, state)
+            pressed = self._pressed(last, state, extended)
         except NotFitted as cause:
             return EdgeReport(str(cause))
-        sheared = state.sheared
+        sheared = extended.sheared
         if self._coupled or sheared is None:
             return pressed
         free = not np.any(sheared.shear) or not np.any(sheared.in_stick)
-        before = last if way_known else None
+        before = self._extended(last) if last and way_known else None
         if not free and not _leads_to(before, state, sheared):
             return pressed
-        border = self._sheared(before, state, sheared, pressed, tolerance)
+        border = self._sheared(before, sheared, pressed, tolerance)
         return replace(pressed, sheared=border)
 
-    def _pressed(self, last: State | None, state: State) -> Corrected:
+    def _extended(self, state: State) -> State:
+        """Extend the fields of a state to the window."""
+        extend, sheared = self._domain.extend_fields, state.sheared
+        tangential = None if sheared is None else extend(sheared)
+        return replace(state, pressing=extend(state.pressing), sheared=tangential)
+
+    def _pressed(self, last: State | None, state: State, extended: State) -> Corrected:
         """The pressure; reused where it has not changed."""
-        p, sheared, law = state.pressing.pressure, state.sheared, self._operators.model.friction
+        p, sheared, law = (
+            extended.pressing.pressure,
+            extended.sheared,
+            self._operators.model.friction,
+        )
         follows = None
         if sheared is not None:
             follows = FollowingShear.of(law, p, sheared.shear, sheared.in_stick)
         known = last.corrected if last and last.target == state.target else None
-        if not self._coupled and known and last and np.array_equal(last.pressing.pressure, p):
+        same = last is not None and np.array_equal(last.pressing.pressure, state.pressing.pressure)
+        if not self._coupled and known and same:
             shear = None if follows is None else follows(known.pressure)
             return replace(known, shear=shear, sheared=None)
-        return edge_pressure(self._operators, state, follows, coupled=self._coupled)
+        solved = extended if self._coupled else state
+        return edge_pressure(self._operators, solved, follows, coupled=self._coupled)
 
     def _sheared(
         self,
         before: State | None,
-        state: State,
         solved: Sheared,
         pressed: Corrected,
         tolerance: float,
@@ -86,8 +100,8 @@ class EdgeCorrection:
                 change=0.0,
             )
         parts = model.friction.limit(edge.parts)
-        on_part = Within.of(edge.part.of(bound), edge.i, edge.j, parts, edge.part)
-        limit = on_part.unfolded(edge.part)
+        domain = edge.domain
+        limit = Within.of(domain.restrict(bound), edge.i, edge.j, parts, domain).extended(domain)
         if not np.any(solved.in_stick):
             return sliding_shear(self._operators, bound, limit, solved)
         assert before is not None

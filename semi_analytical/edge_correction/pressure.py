@@ -27,11 +27,8 @@ from semi_analytical.edge_correction.closing import closed
 from semi_analytical.edge_correction.operators import EdgeOperators
 from semi_analytical.edge_correction.shear_at_edge import FollowingShear
 from semi_analytical.increment import State
-from semi_analytical.mirrored_operator import MirroredNormalOperator
 from semi_analytical.model import ContactModel
 from semi_analytical.normal_load import Motion
-from semi_analytical.operator import NormalOperator
-from semi_analytical.part import WHOLE, Part
 from semi_analytical.pressing import MARGIN
 
 Field = NDArray[np.float64]
@@ -63,9 +60,8 @@ def edge_pressure(
     Raises NotFitted where the contact is too thin, its edge is rough, or the iteration does not
     settle.
     """
-    part = WHOLE if coupled else operators.model.part
-    problem = _Problem(operators, state, shear, coupled, part)
-    p = part.of(state.pressing.pressure)
+    problem = _Problem(operators, state, shear, coupled)
+    p = state.pressing.pressure
     edge = problem.rim(p, None)
     response = problem.response(state.pressing.approach, p)
     for number in range(MAX_ITERATIONS):
@@ -101,13 +97,12 @@ class _Last(NamedTuple):
 
 @dataclass(frozen=True)
 class _Problem:
-    """State whose pressure is corrected on a part of the window; see `edge_pressure`."""
+    """State whose pressure is corrected; see `edge_pressure`."""
 
     operators: EdgeOperators
     state: State
     shear: FollowingShear | None
     coupled: bool
-    part: Part
 
     @property
     def model(self) -> ContactModel:
@@ -116,16 +111,16 @@ class _Problem:
     @cached_property
     def contact(self) -> Mask:
         """Cells in contact."""
-        return self.part.of(self.state.pressing.pressure) > 0
+        return self.state.pressing.pressure > 0
 
     @cached_property
     def box(self) -> Box:
         """Around the contact."""
-        return box_around(self.contact, MARGIN, self.part)
+        return box_around(self.contact, MARGIN, self.model.domain)
 
     @cached_property
     def gap(self) -> Field:
-        return self.part.of(self.state.target.gap(self.model))
+        return self.state.target.gap(self.model)
 
     @cached_property
     def exponent(self) -> Exponent:
@@ -139,11 +134,11 @@ class _Problem:
 
     @cached_property
     def film(self) -> FilmLaw | None:
-        return self.operators.film(self.contact, self.part)
+        return self.operators.film(self.contact, self.model.domain)
 
     def rim(self, p: Field, before: Rim | None) -> Rim:
         """Fit of the edge of a pressure. Raises NotFitted."""
-        edge = rim(p, p > 0, before, self.exponent, self.part, self.film)
+        edge = rim(p, p > 0, before, self.exponent, self.model.domain, self.film)
         if edge is None:
             raise NotFitted("the contact is too thin")
         if edge.unsafe > MOST_UNSAFE:
@@ -163,10 +158,10 @@ class _Problem:
         box, model = self.box.slices, self.model
         reached = np.where(edge.outer, edge.means, 0.0)[box]
         beside = self.by_edge(p, edge)
-        operator = self._operator(self.box.shape)
-        load = self.state.target.on(model, self.box, self.part)
+        operator = model.operator(self.box.shape)
+        load = self.state.target.on(model, self.box)
         found = closed(
-            operator,
+            operator.normal,
             operator.precondition,
             (self.gap + beside)[box],
             load.less(reached),
@@ -179,32 +174,27 @@ class _Problem:
 
     def by_edge(self, p: Field, edge: Rim) -> Field:
         """Displacement by the pressure within its cells, and by the shear that follows."""
-        by_p = Within.of(p, edge.i, edge.j, edge.parts, edge.part)
+        by_p = Within.of(p, edge.i, edge.j, edge.parts, edge.domain)
         if not self.coupled or self.shear is None:
-            return np.asarray(self.operators.by_pressure(p.shape)(by_p)[0])
+            return np.asarray(self.operators.by_pressure(by_p)[0])
         q, limit = self.shear(p), self.model.friction.limit
         of_limit = Within.of(limit(p), edge.i, edge.j, limit(edge.parts))
         within = [of_limit.along(n, one) for n, one in zip(self.shear.slip, q, strict=True)]
-        u = self.operators.apart(p.shape)(*within, by_p)[0]
-        return np.asarray(u + self.model.coupling_operator(p.shape).normal_by_shear(q))
-
-    def _operator(self, shape: tuple[int, int]) -> NormalOperator | MirroredNormalOperator:
-        if self.part.quarter:
-            return self.model.pressure_operator(shape)
-        return self.model.normal_operator(shape)
+        u = self.operators.apart(*within, by_p)[0]
+        return np.asarray(u + self.model.operator(p.shape).normal_by_shear(q))
 
     def corrected(
         self, last: _Last, before: _Last, solved: _Solved, edge: Rim, change: float
     ) -> Corrected:
         """The last iterate as a state on the window."""
-        target, unfolded = self.state.target, self.part.unfolded
+        target, extend = self.state.target, self.model.domain.extend
         approach, tilt = target.reached(self.model, solved.motion)
-        load = target.on(self.model, Box.whole(self.gap.shape), self.part)
-        u = solved.beside + self._operator(self.gap.shape)(solved.pressure)
+        load = target.on(self.model, Box.whole(self.gap.shape))
+        u = solved.beside + self.model.operator(self.gap.shape).normal(solved.pressure)
         gap = np.maximum(self.gap + u - load.closure(solved.motion), 0.0)
         gap[edge.region] = 0.0
-        p = unfolded(last.pressure)
-        peak, before_peak = peak_of(p), peak_of(unfolded(before.pressure))
+        p = extend(last.pressure)
+        peak, before_peak = peak_of(p), peak_of(extend(before.pressure))
         report = EdgeReport(
             response=abs(last.response / before.response - 1),
             peak=abs(peak.value / before_peak.value - 1),
@@ -214,7 +204,7 @@ class _Problem:
         return Corrected(
             pressure=p,
             peak=peak.value,
-            gap=unfolded(gap),
+            gap=extend(gap),
             approach=approach,
             contact_cells=last.area,
             change=change,

@@ -64,12 +64,14 @@ def sliding_shear(
         Within.summed(n * limit.slopes + np.stack(np.gradient(n)) * bound, [(n, limit)])
         for n in slip
     )
-    operator = operators.model.tangential_operator(bound.shape)
+    model = operators.model
+    operator, domain = model.operator(model.grid.cells), model.domain
+    by_means = domain.extend(operator.tangential(domain.restrict(shear)))
     return CorrectedShear(
         shear=shear,
         within=(x, y),
         slip=slip,
-        displacement=operator(shear) + operators.by_shear(bound.shape)(x, y),
+        displacement=by_means + operators.by_shear(x, y),
         shift=solved.shift,
         stick=nowhere,
         stick_cells=0.0,
@@ -155,22 +157,23 @@ class ShearProblem:
     def solve(
         self, q: VectorField, motion: Field, missing: Missing, u: VectorField
     ) -> TangentialSolution:
-        """The shear with the border of stick where it is, found on the part that tells shear.
+        """The shear with the border of stick where it is, solved on the domain.
 
         Cells that the stick zone only reaches into are missing from full slip what the fit says.
         """
         model = self.operators.model
-        part, cells = model.shear_part, model.shear_cells
-        operator = model.shear_operator(cells)
+        domain, operator = model.domain, model.operator(model.grid.cells)
         reached = magnitude(missing.full - missing.edge.means * missing.slip)
-        q, target = (np.stack([part.of(one) for one in v]) for v in (q, self.target - u))
+        q, target = domain.restrict(q), domain.restrict(self.target - u)
         solution = solve_tangential(
-            operator,
-            model.shear_preconditioner(cells),
-            part.of(np.where(missing.edge.outer, np.minimum(reached, self.bound), self.bound)),
+            operator.tangential,
+            operator.shear_inverse,
+            domain.restrict(
+                np.where(missing.edge.outer, np.minimum(reached, self.bound), self.bound)
+            ),
             target,
-            ShearSum(self.force / model.shear_area, part.even),
-            Point(q, operator(q)),
+            ShearSum(self.force / model.grid.cell_area, domain.summed),
+            Point(q, operator.tangential(q)),
             motion,
             model.self_compliance,
             self.tolerance,
@@ -178,9 +181,9 @@ class ShearProblem:
         )
         return replace(
             solution,
-            shear=part.unfolded_vector(solution.shear),
-            displacement=part.unfolded_vector(solution.displacement),
-            in_slip=part.unfolded(solution.in_slip),
+            shear=domain.extend(solution.shear),
+            displacement=domain.extend(solution.displacement),
+            in_slip=domain.extend(solution.in_slip),
         )
 
 
@@ -202,7 +205,7 @@ def edge_shear(
     q, motion = full - missing.shear, solved.shift
     for number in range(MAX_ITERATIONS):
         within = problem.within(q, missing)
-        u = problem.operators.by_shear(q.shape[1:])(*within)
+        u = problem.operators.by_shear(*within)
         try:
             solution = problem.solve(q, motion, missing, u)
         except NotConverged:

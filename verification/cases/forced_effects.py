@@ -56,7 +56,7 @@ def forced_effects_on(cells: int) -> Case:
         problem=(
             "Scenes whose plan leaves effects out, because they vanish: shear without friction, "
             "tilt and torsion where nothing turns the indenter, the coupling of pressure and shear "
-            "where the bodies are alike, and the images of tractions beyond mirror planes. Each is "
+            "where the bodies are alike, and the mirror images of tractions. Each is "
             "solved again with every effect forced on. The answer must be the same; what the plan "
             "saves is the ratio of the convolutions."
         ),

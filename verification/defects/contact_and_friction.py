@@ -39,7 +39,7 @@ def _friction(patches: Patches) -> None:
 def _forgetful(patches: Patches) -> None:
     def wrap(whole: Any) -> Any:
         def slip_and_stick(model: Any, pressure: Any, last: Any, *rest: Any) -> Any:
-            return whole(model, pressure, untouched(model.shear_cells), *rest)
+            return whole(model, pressure, untouched(model.grid.cells), *rest)
 
         return slip_and_stick
 

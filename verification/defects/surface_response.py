@@ -7,65 +7,43 @@ from typing import Any
 
 import numpy as np
 
-from semi_analytical import operator
 from semi_analytical.frf import stack, surface
 from semi_analytical.influence import layered_response
 from semi_analytical.influence.closed_form import HalfSpaceCoefficients
 from semi_analytical.influence.coefficients import Composite
 from semi_analytical.influence.layered_response import Components
-from semi_analytical.mirrored_coupling import MirroredCouplingOperator, MirroredPressureOperator
-from semi_analytical.mirrored_operator import MirroredNormalOperator
-from semi_analytical.mirrored_shear import MirroredTangentialOperator
-from semi_analytical.operator import CouplingOperator, NormalOperator, TangentialOperator
+from semi_analytical.operator import operator, spectra
+from semi_analytical.operator.operator import DisplacementOperator
+from semi_analytical.operator.spectra import KernelSpectrum
 from verification.defects.defect import Defect, Patches
 
-Operator = type[
-    NormalOperator
-    | MirroredNormalOperator
-    | TangentialOperator
-    | MirroredTangentialOperator
-    | MirroredPressureOperator
-    | CouplingOperator
-    | MirroredCouplingOperator
-]
-NORMAL: tuple[Operator, ...] = (
-    NormalOperator,
-    MirroredNormalOperator,
-    MirroredPressureOperator,
-)
-TANGENTIAL: tuple[Operator, ...] = (TangentialOperator, MirroredTangentialOperator)
-COUPLING: tuple[Operator, ...] = (CouplingOperator, MirroredCouplingOperator)
+# Components of displacement and traction.
+NORMAL: tuple[str, ...] = ("zz",)
+TANGENTIAL: tuple[str, ...] = ("xx", "yy", "xy")
+COUPLING: tuple[str, ...] = ("xz", "yz")
 
 
-def scaled(patches: Patches, owners: tuple[Operator, ...], factor: float) -> None:
-    """Operators whose displacements are multiplied by a factor."""
+def scaled(patches: Patches, pairs: tuple[str, ...], factor: float) -> None:
+    """Operators whose responses of some components are multiplied by a factor."""
 
     def wrap(whole: Any) -> Any:
-        def built(self: Any, *given: Any) -> None:
-            whole(self, *given)
-            self.symbols = tuple(replace(s, quarter=factor * s.quarter) for s in self.symbols)
+        def spectrum(coefficients: Any, pair: str, reach: Any) -> KernelSpectrum:
+            found: KernelSpectrum = whole(coefficients, pair, reach)
+            return replace(found, quarter=factor * found.quarter) if pair in pairs else found
 
-        return built
+        return spectrum
 
-    for owner in owners:
-        patches.method(owner, "__init__", wrap)
+    patches.function(operator, "kernel_spectrum", wrap)
 
 
 def _periodic(patches: Patches) -> None:
-    def images(self: NormalOperator, pressure: Any) -> Any:
-        self._transform.counter.count += 1
-        period = self._transform.period
-        spectrum = np.fft.rfft2(pressure, period) * self.symbols[0].unpadded()
-        nx, ny = pressure.shape
-        return np.fft.irfft2(spectrum, period)[:nx, :ny]
+    def images(self: DisplacementOperator, pressure: Any) -> Any:
+        self.transforms.counter.count += 1
+        unpadded = KernelSpectrum(self.spectrum("zz").quarter[::2, ::2], 1)
+        entries = {"zz": operator.response(self.transforms, "zz", unpadded)}
+        return operator.Product(self.transforms, entries, "z", "z", padded=False)(pressure[None])[0]
 
-    def images_of_quarter(self: MirroredNormalOperator, pressure: Any) -> Any:
-        self._transform.counter.count += 1
-        symbol = self.symbols[0].quarter[:-1:2, :-1:2]
-        return self._transform.filtered(pressure, lambda a, columns: a * symbol[columns])
-
-    patches.attribute(NormalOperator, "__call__", images)
-    patches.attribute(MirroredNormalOperator, "__call__", images_of_quarter)
+    patches.attribute(DisplacementOperator, "normal", images)
 
 
 def _without_mean(patches: Patches) -> None:
@@ -77,7 +55,7 @@ def _without_mean(patches: Patches) -> None:
 
         return transform
 
-    patches.function(operator, "even_transform", wrap)
+    patches.function(spectra, "even_transform", wrap)
 
 
 def _with_nyquist_row(patches: Patches) -> None:
@@ -90,7 +68,7 @@ def _with_nyquist_row(patches: Patches) -> None:
 
         return transform
 
-    patches.function(operator, "mixed_transform", wrap)
+    patches.function(spectra, "mixed_transform", wrap)
 
 
 def _without_cross_term(patches: Patches) -> None:

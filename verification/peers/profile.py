@@ -32,12 +32,9 @@ ITERATION = "iteration"
 # Modules and packages of the solver; `ITERATION` is what is left of it. Transforms and products of
 # edges are theirs.
 PARTS: Mapping[str, tuple[str, ...]] = {
-    "transforms": ("padded_transform", "mirrored_transform", "sines"),
-    "products": (
-        *("operator", "mirrored_operator", "mirrored_shear", "coupled_operator"),
-        *("periodic_inverse", "graded_preconditioner", "grades"),
-    ),
-    "influence": ("influence", "frf", "kernel_spectrum"),
+    "transforms": ("transforms",),
+    "products": ("operator", "graded_preconditioner", "grades"),
+    "influence": ("influence", "frf", "spectra"),
     "friction": ("admissible_shear", "generalised_derivative", "shear_zones"),
     EDGES: ("edge", "edge_correction"),
 }
@@ -114,7 +111,8 @@ def modules_at(frame: FrameType | None) -> list[str]:
     while frame is not None:
         path = Path(frame.f_code.co_filename)
         if SOLVER in path.parents:
-            modules.append(path.relative_to(SOLVER).parts[0].removesuffix(".py"))
+            package = path.relative_to(SOLVER).parts[0].removesuffix(".py")
+            modules.append(path.stem if path.stem in PART_OF else package)
         frame = frame.f_back
     return modules
 

@@ -51,7 +51,7 @@ class LawRun:
         pressed = solve(scene, grid, SOLVER_TOLERANCE).increments[-1]
         model = ContactModel.of(scene, grid)
         problem = FixedPressure.of(
-            model.tangential_operator(grid.cells),
+            model.operator(grid.cells).tangential,
             FRICTION * pressed.pressure,
             model.self_compliance,
         )

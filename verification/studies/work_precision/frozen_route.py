@@ -83,7 +83,7 @@ def frozen_history(
     model, result = solve_sampled(pressing, grid, tolerance, how)
     end = result.increments[-1]
     bound = FRICTION * end.pressure
-    problem = FixedPressure.of(model.tangential_operator(grid.cells), bound, model.self_compliance)
+    problem = FixedPressure.of(model.operator(grid.cells).tangential, bound, model.self_compliance)
     held, lost, states = at_rest(problem, shear_of(end)), 0.0, []
     for by, shift, turning in _increments(turns, increments):
         before = held

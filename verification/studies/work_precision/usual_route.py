@@ -19,7 +19,8 @@ from semi_analytical.frf.surface import SurfaceScalars, scalars
 from semi_analytical.history import march
 from semi_analytical.influence.coefficients import Composite
 from semi_analytical.model import ContactModel, Field, halved
-from semi_analytical.padded_transform import Convolutions, offsets_for
+from semi_analytical.operator.domain import ReducedGrid
+from semi_analytical.operator.transforms import Convolutions, offsets_for
 
 Spectrum = NDArray[np.complex128] | Field
 
@@ -125,7 +126,7 @@ class SampledModel(ContactModel):
     """The contact model with sampled coefficients."""
 
     def __init__(
-        self, scene: Scene, grid: SurfaceGrid, gap: Field, counter: Convolutions, how: Sampling
+        self, scene: Scene, grid: ReducedGrid, gap: Field, counter: Convolutions, how: Sampling
     ) -> None:
         super().__init__(scene, grid, gap, counter)
         self.how = how
@@ -133,8 +134,8 @@ class SampledModel(ContactModel):
     @classmethod
     def sampled(cls, scene: Scene, grid: SurfaceGrid, how: Sampling) -> SampledModel:
         """The model of a scene, its gap taken at the cell centres."""
-        x, y = grid.coordinates()
-        return cls(scene, grid, scene.indenter.initial_gap(x, y), Convolutions(), how)
+        gap = scene.indenter.initial_gap(*grid.coordinates())
+        return cls(scene, ReducedGrid(grid), gap, Convolutions(), how)
 
     @cached_property
     def coefficients(self) -> Composite:
@@ -152,7 +153,7 @@ class SampledModel(ContactModel):
     def _of(self, body: Body) -> tuple[SampledCoefficients, ...]:
         if not body.deforms:
             return ()
-        offsets = offsets_for(self.grid.cells)
+        offsets = offsets_for(self.window.cells)
         return (SampledCoefficients(stack_of(body), self.grid.spacing, offsets, self.how),)
 
 

@@ -1,4 +1,4 @@
-"""Transforms of influence coefficients on a zero-padded grid.
+"""Spectra of influence coefficients on a zero-padded grid.
 
 The coefficients are even or odd along each side, so their transforms are purely real or purely
 imaginary, and even or odd themselves: a quarter of one real array stores each.
@@ -11,6 +11,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 from scipy.fft import dct, dst
+
+from semi_analytical.influence.coefficients import InfluenceCoefficients
 
 Field = NDArray[np.float64]
 
@@ -31,9 +33,20 @@ class KernelSpectrum:
         some = self.quarter[columns]
         return np.concatenate([some, self.mirror * some[:, -2:0:-1]], axis=1)
 
-    def unpadded(self) -> Field:
-        """That of the coefficients repeated with the unpadded period (mx, my/2 + 1)."""
-        return np.ascontiguousarray(self[::2][:, ::2].T)
+
+def kernel_spectrum(
+    coefficients: InfluenceCoefficients, pair: str, reach: tuple[slice, slice]
+) -> KernelSpectrum:
+    """Transform the coefficients of two components, in alphabetical order, at the offsets in reach:
+    S, where the spectrum of zx and zy is -i S."""
+    if pair == "xy":
+        return odd_transform(coefficients.xy[reach])
+    if pair == "xz":
+        return mixed_transform(coefficients.zx[reach], odd_axis=0)
+    if pair == "yz":
+        return mixed_transform(coefficients.zy[reach], odd_axis=1)
+    even: Field = getattr(coefficients, pair)
+    return even_transform(even[reach])
 
 
 def even_transform(coefficients: Field) -> KernelSpectrum:

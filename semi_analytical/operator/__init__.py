@@ -1,0 +1,1 @@
+"""Tractions to displacements and approximately back, on the full window or a reduced domain."""

@@ -1,0 +1,206 @@
+"""Symmetry reduction: the full window, or the half or quarter of it that mirror planes cut off."""
+
+from dataclasses import dataclass, fields, replace
+from typing import Any, TypeVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from semi_analytical.grid import SurfaceGrid
+
+Field = NDArray[np.float64]
+AnyField = NDArray[Any]
+Record = TypeVar("Record")
+Pair = tuple[int, int]
+# Sign of a field's mirror image about the planes x = 0 and y = 0; 0 without a mirror plane.
+Parity = tuple[int, int]
+
+# Round-off between mirror images of a gap, relative to its largest value.
+ROUND_OFF = 1e-9
+
+
+@dataclass(frozen=True)
+class ReducedDomain:
+    """The window, its half x > 0 or y > 0, or its quarter x > 0, y > 0.
+
+    Scalar fields (pressure, gap, u_z) are even about mirror planes. Indices count from the planes.
+
+    mirrors  whether x = 0 and y = 0 are mirror planes
+    shear    about each plane, whether a mirror preserves the shear field (1) or reverses it (-1)
+    """
+
+    mirrors: tuple[bool, bool] = (False, False)
+    shear: Pair = (1, 1)
+
+    @property
+    def planes(self) -> tuple[int, ...]:
+        """Axes with a mirror plane."""
+        return tuple(axis for axis, mirrored in enumerate(self.mirrors) if mirrored)
+
+    @property
+    def _sides(self) -> Pair:
+        """Sides of the window, relative to those of the domain."""
+        x, y = self.mirrors
+        return 1 + x, 1 + y
+
+    @property
+    def images(self) -> int:
+        """Number of mirror images that make up the window."""
+        x, y = self._sides
+        return x * y
+
+    @property
+    def scalar(self) -> Parity:
+        """Parity of scalar fields."""
+        x, y = self.mirrors
+        return int(x), int(y)
+
+    @property
+    def vector(self) -> tuple[Parity, Parity]:
+        """Parity of the components x and y of tangential fields."""
+        (x, y), (s_x, s_y) = self.scalar, self.shear
+        return (-s_x * x, s_y * y), (s_x * x, -s_y * y)
+
+    @property
+    def rotating(self) -> Parity:
+        """Parity of a change of direction of a vector."""
+        x, y = self.scalar
+        return -x, -y
+
+    @property
+    def summed(self) -> tuple[bool, bool]:
+        """Components of tangential fields with a resultant: odd components have none."""
+        x, y = (-1 not in parity for parity in self.vector)
+        return x, y
+
+    def cells(self, window: Pair) -> Pair:
+        """Cells of the domain along x and y, of those of the window."""
+        x, y = self._sides
+        return window[0] // x, window[1] // y
+
+    def window(self, cells: Pair) -> Pair:
+        """Cells of the window along x and y, of those of the domain."""
+        x, y = self._sides
+        return x * cells[0], y * cells[1]
+
+    def restrict(self, field: AnyField) -> AnyField:
+        """Restrict a field of the window (…, nx, ny) to the domain."""
+        nx, ny = self.cells((field.shape[-2], field.shape[-1]))
+        return np.ascontiguousarray(field[..., field.shape[-2] - nx :, field.shape[-1] - ny :])
+
+    def extend(self, field: AnyField) -> AnyField:
+        """Extend a scalar (nx, ny) or tangential field (2, nx, ny) of the domain to the window."""
+        if not any(self.mirrors):
+            return field
+        if field.ndim == 2:
+            return _extended(field, self.scalar)
+        return np.stack([_extended(*given) for given in zip(field, self.vector, strict=True)])
+
+    def extend_fields(self, record: Record) -> Record:
+        """Extend all fields of a dataclass to the window."""
+        found = {one.name: getattr(record, one.name) for one in fields(record)}  # type: ignore[arg-type]
+        arrays = {n: v for n, v in found.items() if isinstance(v, np.ndarray) and v.ndim > 1}
+        return replace(record, **{name: self.extend(v) for name, v in arrays.items()})  # type: ignore[type-var]
+
+    def resultant(self, field: Field) -> Field:
+        """Compute the sums of the components of a tangential field (2,)."""
+        return np.where(self.summed, np.sum(field, axis=(1, 2)), 0.0)
+
+    def rim(self, values: AnyField) -> AnyField:
+        """Values (nx, ny) of the cells at the border of the window."""
+        (x, y), (nx, ny) = self.mirrors, values.shape
+        rows, columns = [0] * (not x) + [nx - 1], [0] * (not y) + [ny - 1]
+        return np.concatenate([values[rows].ravel(), values[:, columns].ravel()])
+
+    def framed(self, field: AnyField, width: int) -> AnyField:
+        """Frame a scalar field (nx, ny) by `width` cells: images beyond planes, elsewhere zero."""
+        nx, ny = field.shape
+        framed = np.zeros((nx + 2 * width, ny + 2 * width), dtype=field.dtype)
+        framed[width : width + nx, width : width + ny] = field
+        images = slice(2 * width - 1, width - 1, -1)
+        if self.mirrors[0]:
+            framed[:width] = framed[images]
+        if self.mirrors[1]:
+            framed[:, :width] = framed[:, images]
+        return framed
+
+    def folded(self, framed: Field, width: int) -> Field:
+        """Remove a frame of `width` cells from a scalar response: what a field causes beyond a
+        mirror plane, its image causes within."""
+        framed, images = framed.copy(), slice(width - 1, None, -1)
+        if self.mirrors[0]:
+            framed[width : 2 * width] += framed[images]
+        if self.mirrors[1]:
+            framed[:, width : 2 * width] += framed[:, images]
+        return framed[width:-width, width:-width]
+
+    def differences(self, field: Field) -> Field:
+        """Slopes per cell of a scalar field along both axes (2, nx, ny): central differences,
+        one-sided at the border of the window."""
+        framed, slopes = self.framed(field, 1), np.empty((2, *field.shape))
+        np.subtract(framed[2:, 1:-1], framed[:-2, 1:-1], out=slopes[0])
+        np.subtract(framed[1:-1, 2:], framed[1:-1, :-2], out=slopes[1])
+        slopes /= 2
+        slopes[0, -1], slopes[1, :, -1] = field[-1] - field[-2], field[:, -1] - field[:, -2]
+        if not self.mirrors[0]:
+            slopes[0, 0] = field[1] - field[0]
+        if not self.mirrors[1]:
+            slopes[1, :, 0] = field[:, 1] - field[:, 0]
+        return slopes
+
+    def require_even(self, gap: Field) -> None:
+        """Raise ValueError unless a gap of the window (nx, ny) is even about the mirror planes."""
+        for axis in self.planes:
+            image = np.flip(gap, axis)
+            if np.array_equal(gap, image):  # the usual case, and fast
+                continue
+            largest = np.max(np.abs(gap), where=np.isfinite(gap), initial=0.0)
+            if not np.allclose(gap, image, rtol=0.0, atol=ROUND_OFF * largest):
+                raise ValueError(
+                    "the indenter declares symmetry about x = 0 and y = 0, but its gap differs"
+                )
+
+
+def _extended(field: AnyField, parity: Parity) -> AnyField:
+    for axis, sign in enumerate(parity):
+        if sign:
+            image = np.flip(field, axis)
+            image = image if sign > 0 else 0.0 - image  # zeros stay positive
+            field = np.concatenate([image, field], axis)
+    return field
+
+
+WINDOW = ReducedDomain()
+QUARTER = ReducedDomain((True, True))
+
+
+@dataclass(frozen=True)
+class ReducedGrid:
+    """The cells of a domain, each with the area of all its images: a sum over the domain times the
+    cell area is the sum over the window.
+
+    window  grid of the full window
+    """
+
+    window: SurfaceGrid
+    domain: ReducedDomain = WINDOW
+
+    @property
+    def cells(self) -> Pair:
+        """Number of cells along x and y."""
+        return self.domain.cells(self.window.cells)
+
+    @property
+    def spacing(self) -> tuple[float, float]:
+        """Cell sides along x and y [length]."""
+        return self.window.spacing
+
+    @property
+    def cell_area(self) -> float:
+        """Area of a cell and its images [length^2]."""
+        return self.window.cell_area * self.domain.images
+
+    def coordinates(self) -> tuple[Field, Field]:
+        """Cell centres X, Y, each of shape (nx, ny) [length]."""
+        x, y = self.window.coordinates()
+        return self.domain.restrict(x), self.domain.restrict(y)

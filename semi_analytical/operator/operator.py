@@ -1,0 +1,251 @@
+"""Tractions to displacements by convolution on a domain, and approximately back."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from semi_analytical.grades import STIFFNESSES
+from semi_analytical.influence.coefficients import InfluenceCoefficients
+from semi_analytical.operator.domain import Pair, ReducedDomain
+from semi_analytical.operator.spectra import KernelSpectrum, kernel_spectrum
+from semi_analytical.operator.transforms import DOUBLE, Convolutions, Dtype, Transforms
+
+Field = NDArray[np.float64]
+Array = NDArray[Any]
+# Real symmetric response between the amplitudes of two components.
+Response = KernelSpectrum | Field
+
+SINGLE: Dtype = np.dtype(np.float32)
+BINS = "".join(str(number) for number in range(len(STIFFNESSES)))
+
+
+def response(transforms: Transforms, pair: str, spectrum: KernelSpectrum) -> Response:
+    """Compute the response between the amplitudes of two components, the second a traction.
+
+    spectrum  S; the coefficients have the spectrum i S if one component is z, else S
+    """
+    if transforms.whole:  # the phases cancel
+        return spectrum
+    row, column = pair[0], pair[1]
+    factor = 1j if row != "z" == column else 1.0
+    sign = round((transforms.phase(row).conjugate() * factor * transforms.phase(column)).real)
+    lines = sign * spectrum.quarter
+    for axis, (a, b) in enumerate(
+        zip(transforms.parity(row), transforms.parity(column), strict=True)
+    ):
+        lines = np.moveaxis(_in_order(np.moveaxis(lines, 1 - axis, 0), a, b), 0, 1 - axis)
+    return np.ascontiguousarray(lines)
+
+
+def _in_order(lines: Field, one: int, other: int) -> Field:
+    """Sort lines as the amplitudes: waves have two each, sines have the largest wavenumber in the
+    place of 0. The response between a sine and a cosine vanishes there."""
+    if one == 0:
+        return np.repeat(lines, 2, axis=0)
+    if one == other == -1:
+        return np.concatenate([lines[-1:], lines[1:-1]])
+    return lines[:-1]
+
+
+class Product:
+    """Displacements by tractions, or the reverse, of some components to others."""
+
+    def __init__(
+        self,
+        transforms: Transforms,
+        entries: Mapping[str, Response],
+        inputs: str,
+        outputs: str,
+        *,
+        padded: bool = True,
+        dtype: Dtype = DOUBLE,
+    ) -> None:
+        self._transforms = transforms
+        self._sides = transforms.sides(inputs, outputs, padded=padded, dtype=dtype)
+        names = [["".join(sorted(row + column)) for column in inputs] for row in outputs]
+        self._rows = [[(k, name) for k, name in enumerate(row) if name in entries] for row in names]
+        self._entries = {name: entries[name] for row in self._rows for _, name in row}
+
+    def __call__(self, values: Array) -> Array:
+        """Compute fields (outputs, nx, ny) of fields (inputs, nx, ny)."""
+        return self._transforms.filtered(values, *self._sides, self._times)
+
+    def _times(self, amplitudes: Sequence[Array], columns: slice) -> list[Array]:
+        dtype = amplitudes[0].dtype  # mixed products would be slower
+        entries = self._entries.items()
+        some = {name: entry[columns].astype(dtype, copy=False) for name, entry in entries}
+        found = []
+        for row in self._rows:
+            (first, name), *others = row
+            total = some[name] * amplitudes[first]
+            for k, name in others:
+                total += some[name] * amplitudes[k]
+            found.append(total)
+        return found
+
+
+class DisplacementOperator:
+    """Displacements caused by tractions on a box of `shape` cells of a domain.
+
+    A call counts half a convolution per component that is transformed. Spectra, responses and
+    approximate inverses are built at their first use.
+    """
+
+    def __init__(
+        self,
+        coefficients: InfluenceCoefficients,
+        shape: Pair,
+        domain: ReducedDomain,
+        counter: Convolutions,
+    ) -> None:
+        self._coefficients = coefficients
+        self.transforms = Transforms(shape, domain, counter)
+        self._spectra: dict[str, KernelSpectrum] = {}
+        self._responses: dict[str, Response] = {}
+        self._products: dict[tuple[str, str], Product] = {}
+
+    def normal(self, pressure: Field) -> Field:
+        """Compute u_z (nx, ny) caused by a pressure (nx, ny)."""
+        return self._product("z", "z", pressure[None])[0]
+
+    def tangential(self, shear: Field) -> Field:
+        """Compute (u_x, u_y) caused by a shear, both (2, nx, ny)."""
+        return self._product("xy", "xy", shear)
+
+    def normal_by_shear(self, shear: Field) -> Field:
+        """Compute u_z (nx, ny) caused by a shear (2, nx, ny)."""
+        return self._product("xy", "z", shear)[0]
+
+    def tangential_by_pressure(self, pressure: Field) -> Field:
+        """Compute (u_x, u_y), shape (2, nx, ny), caused by a pressure (nx, ny)."""
+        return self._product("z", "xy", pressure[None])
+
+    def together(self, tractions: Field) -> Field:
+        """Compute (u_x, u_y, u_z) caused by (q_x, q_y, p), both (3, nx, ny)."""
+        return self._product("xyz", "xyz", tractions)
+
+    def _product(self, inputs: str, outputs: str, values: Field) -> Field:
+        self.transforms.counter.count += 0.5 * (len(inputs) + len(outputs))
+        if (inputs, outputs) not in self._products:
+            pairs = {"".join(sorted(a + b)) for a in inputs for b in outputs}
+            for pair in sorted(pairs - self._responses.keys()):
+                self._responses[pair] = response(self.transforms, pair, self.spectrum(pair))
+            self._products[inputs, outputs] = Product(
+                self.transforms, self._responses, inputs, outputs
+            )
+        return self._products[inputs, outputs](values)
+
+    def spectrum(self, pair: str) -> KernelSpectrum:
+        """Compute S of the coefficients of two components, with the padded period."""
+        if pair not in self._spectra:
+            self._spectra[pair] = kernel_spectrum(self._coefficients, pair, self.transforms.reach)
+        return self._spectra[pair]
+
+    @property
+    def self_compliance(self) -> float:
+        """Tangential displacement of a cell by its own unit shear [length^3/force]."""
+        return float(0.5 * (self._coefficients.xx[0, 0] + self._coefficients.yy[0, 0]))
+
+    def precondition(self, displacement: Field) -> Field:
+        """Compute approximately the pressure that causes a normal displacement, both (nx, ny)."""
+        return self._pressure_inverse(displacement[None])[0]
+
+    @cached_property
+    def _pressure_inverse(self) -> ApproximateInverse:
+        return ApproximateInverse(self.transforms, {"zz": self._inverse_normal()})
+
+    @cached_property
+    def shear_inverse(self) -> ApproximateInverse:
+        """Approximate inverse of the tangential problem."""
+        return ApproximateInverse(self.transforms, self._inverse_tangential())
+
+    @cached_property
+    def inverse(self) -> ApproximateInverse:
+        """Approximate inverse of the coupled problem, in single precision."""
+        spectra = self._inverse_tangential() | {"zz": self._inverse_normal()}
+        return ApproximateInverse(self.transforms, spectra, SINGLE)
+
+    def _inverse_normal(self) -> Field:
+        return positive_inverse(self.spectrum("zz").quarter[::2, ::2])
+
+    def _inverse_tangential(self) -> dict[str, Field]:
+        xx, yy, xy = (self.spectrum(pair).quarter[::2, ::2] for pair in ("xx", "yy", "xy"))
+        found = dict(zip(("xx", "yy", "xy"), inverse_2x2(xx, yy, xy), strict=True))
+        mean = np.abs(0.5 * (xx + yy))
+        for number, stiffness in zip(BINS, STIFFNESSES, strict=True):
+            found[2 * number] = 1 / (mean + self.self_compliance * stiffness)
+        return found
+
+
+class ApproximateInverse:
+    """Tractions that approximately cause displacements, without the coupling: by the spectra of the
+    coefficients repeated with the unpadded period. A quarter of the cost of a convolution each.
+
+    Components are x, y and z as far as there are spectra, then the bins of slip compliance: shears
+    of one component with the compliance of the bin added.
+
+    spectra  of the inverse (quarters), by two components; real and symmetric
+    dtype    precision of the transforms
+    """
+
+    def __init__(
+        self, transforms: Transforms, spectra: Mapping[str, Field], dtype: Dtype = DOUBLE
+    ) -> None:
+        self._transforms, self._spectra, self._dtype = transforms, spectra, dtype
+        # Keeps single precision within its range.
+        self._unit = 1 / max(float(np.max(np.abs(one))) for one in spectra.values())
+        entries = {}
+        for pair, quarter in spectra.items():
+            scaled = KernelSpectrum((self._unit * quarter).astype(dtype), -1 if pair == "xy" else 1)
+            entries[pair] = response(transforms, pair, scaled)
+        names = "".join(name for name in "xyz" + BINS if 2 * name in spectra)
+        self._product = Product(transforms, entries, names, names, padded=False, dtype=dtype)
+
+    def __call__(self, displacements: Array) -> Array:
+        """Compute tractions of displacements (components, nx, ny), neither tiny nor huge."""
+        tractions = self._product(np.asarray(displacements, dtype=self._dtype))
+        tractions *= 1 / self._unit
+        return tractions
+
+    def yielding(self, compliance: float) -> ApproximateInverse:
+        """Build the inverse for cells that yield to their own tractions by `compliance` more; the
+        compliances of bins, in proportion to the self-compliance, grow with it."""
+        xx, yy, xy = (self._spectra[pair] for pair in ("xx", "yy", "xy"))
+        # (F + ρ)⁻¹ = F⁻¹ (1 + ρ F⁻¹)⁻¹, from F⁻¹ alone.
+        both = compliance * (xx * yy - xy * xy)
+        total = 1 + compliance * (xx + yy + both)
+        more = dict(zip(BINS, compliance * (1 + STIFFNESSES), strict=True))
+        alone = {pair: one for pair, one in self._spectra.items() if pair[0] not in "xy"}
+        spectra = {
+            "xx": (xx + both) / total,
+            "yy": (yy + both) / total,
+            "xy": xy / total,
+            **{p: one / (1 + more.get(p[0], compliance) * one) for p, one in alone.items()},
+        }
+        return ApproximateInverse(self._transforms, spectra, self._dtype)
+
+
+def positive_inverse(spectrum: Field) -> Field:
+    """Invert a spectrum approximately. Films much stiffer than their base interact beyond the
+    period, which turns some entries negative; conjugate gradients need a positive matrix."""
+    size = np.abs(spectrum)
+    return np.asarray(1 / np.maximum(size, np.finfo(float).eps * np.max(size)))
+
+
+def inverse_2x2(xx: Field, yy: Field, xy: Field) -> tuple[Field, Field, Field]:
+    """Invert the symmetric matrix [[xx, xy], [xy, yy]] at every wavenumber; where it is not
+    positive definite, that with the magnitudes of its eigenvalues (see `positive_inverse`)."""
+    mean, half = 0.5 * (xx + yy), np.hypot(0.5 * (xx - yy), xy)
+    least = np.finfo(float).eps * np.max(mean + half)
+    # Increase of each eigenvalue: exactly zero where it is positive.
+    lower, upper = (np.maximum(np.abs(e), least) - e for e in (mean - half, mean + half))
+    turned = 0.5 * (upper - lower) / np.where(half > 0, half, 1.0)
+    raised = 0.5 * (upper + lower) - turned * mean
+    xx, yy, xy = xx + raised + turned * xx, yy + raised + turned * yy, xy + turned * xy
+    determinant = xx * yy - xy * xy
+    return yy / determinant, xx / determinant, -xy / determinant
