@@ -61,7 +61,7 @@ from contact_scene.summary import load_summary
 from fem_reference import Method
 from semi_analytical import solve
 from slipstick import solve as solve_file
-from slipstick.cli.prices import requests_of
+from slipstick.cli.plan import requests_of
 from slipstick.solvers.names import SolverName
 from verification.closed_forms.cattaneo_mindlin import PartialSlip
 from verification.closed_forms.moduli import tangential_modulus

@@ -135,11 +135,11 @@ def test_workers_of_other_sources_are_refused(
 def test_verification_on_a_cluster_gives_the_report_of_this_machine(
     address: str, tmp_path: Path
 ) -> None:
-    from slipstick.cli.judged_cases import judged
+    from slipstick.cli.verify import judged
     from verification.cases.catalogue import choose
     from verification.judging.case import Level
 
     cases = choose(Level.QUICK, ("dissimilar_bodies", "fem_torsion"))
-    here, _ = judged(cases, "QUICK", tmp_path / "here", 1, fresh=False)
-    there, _ = judged(cases, "QUICK", tmp_path / "there", ClusterWorkers(address), fresh=False)
+    here, *_ = judged(cases, "QUICK", tmp_path / "here", 1, fresh=False)
+    there, *_ = judged(cases, "QUICK", tmp_path / "there", ClusterWorkers(address), fresh=False)
     assert there == here

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any, TypeAlias
 import typer
 
 from slipstick.cli.errors import ExitCode
-from slipstick.cli.optional import optional
+from slipstick.cli.options import optional
 
 if TYPE_CHECKING:
     from contact_errors.climb import Climb

@@ -7,8 +7,8 @@ from typing import Annotated
 
 import typer
 
-from slipstick.cli.optional import optional
-from slipstick.cli.report_file import read_report
+from slipstick.cli.options import optional
+from slipstick.cli.report import read_report
 
 
 def baseline(

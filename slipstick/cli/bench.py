@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from slipstick.cli.optional import optional
+from slipstick.cli.options import optional
 
 
 def bench(

@@ -8,7 +8,7 @@ from typing import Annotated
 
 import typer
 
-from slipstick.cli.optional import directory
+from slipstick.cli.options import directory
 
 
 class Action(StrEnum):
@@ -35,7 +35,7 @@ def challenge(
     Fill in answers.csv, levels.csv and solver.toml, then: slipstick judge DIR. Nothing of slipstick
     is needed to answer.
     """
-    from slipstick.cli.name_mistakes import unknown_names
+    from slipstick.cli.options import unknown_names
     from verification.challenge.cases import challenges
     from verification.challenge.export import export
 

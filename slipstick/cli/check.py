@@ -7,7 +7,7 @@ from typing import Annotated
 import typer
 
 from slipstick.cli.errors import ExitCode
-from slipstick.cli.scene_options import SceneArgument, SetOption, odd_numbers
+from slipstick.cli.options import SceneArgument, SetOption, odd_numbers
 
 
 def check(

@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from slipstick.cli.optional import OutputOption
+from slipstick.cli.options import OutputOption
 
 
 def export(

@@ -10,8 +10,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from slipstick.cli.optional import directory, optional
-from slipstick.cli.scene_options import SceneArgument, SetOption
+from slipstick.cli.options import SceneArgument, SetOption, directory, optional
 
 if TYPE_CHECKING:
     from contact_results.files.frequency_response import FrequencyResponse

@@ -7,9 +7,8 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from slipstick.cli.level_name import LevelName
-from slipstick.cli.optional import optional
-from slipstick.cli.report_file import read_report
+from slipstick.cli.options import LevelName, optional
+from slipstick.cli.report import read_report
 
 if TYPE_CHECKING:
     from verification.regression.history import Standing

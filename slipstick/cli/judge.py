@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from slipstick.cli.optional import optional
+from slipstick.cli.options import optional
 
 if TYPE_CHECKING:
     from verification.challenge.judgement import Judgement
@@ -92,7 +92,7 @@ def _solved(
     """Of a function; ends the command where it cannot or raises."""
     from contact_results.directory.refusal import Refused
     from slipstick.cli.errors import ExitCode
-    from slipstick.cli.name_mistakes import unknown_names
+    from slipstick.cli.options import unknown_names
     from verification.challenge.answer import Solver
     from verification.challenge.cases import challenges
     from verification.challenge.door import CannotDo

@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from slipstick.cli.report_file import read_report
+from slipstick.cli.errors import ExitCode
+
+if TYPE_CHECKING:
+    from verification.running.report_record import Report
 
 
 def report(
@@ -27,3 +30,22 @@ def report(
     refuse_if_unwritable(directory)
     draw_again(loaded, directory)
     typer.echo(f"report: {directory / PAGE}")
+
+
+def read_report(place: Path) -> Report:
+    """The report; without one that this version can read, a message and exit code 2."""
+    from verification.report.files import EARLIER, record_in
+    from verification.running.report_record import load_report
+
+    record = record_in(place) if place.is_dir() else place
+    if not record.is_file():
+        earlier = record.parent / EARLIER
+        before = f"; the report before it is in {earlier}" if record_in(earlier).is_file() else ""
+        typer.echo(f"error: {record} does not exist; 'slipstick verify' makes it{before}", err=True)
+        raise typer.Exit(ExitCode.INVALID)
+    try:
+        return load_report(record)
+    except ValueError as error:
+        reason = str(error).splitlines()[0]
+        typer.echo(f"error: {record} is not a report that can be used: {reason}", err=True)
+        raise typer.Exit(ExitCode.INVALID) from None

@@ -15,9 +15,13 @@ from slipstick.cli.asked_accuracy import (
     leave_unless_met,
     refuse_without_error,
 )
-from slipstick.cli.optional import OutputOption
-from slipstick.cli.scene_options import SceneArgument, SetOption, warn_of_odd_numbers
-from slipstick.cli.solver_option import SolverOption
+from slipstick.cli.options import (
+    OutputOption,
+    SceneArgument,
+    SetOption,
+    SolverOption,
+    warn_of_odd_numbers,
+)
 from slipstick.solvers.names import SolverName
 
 if TYPE_CHECKING:

@@ -12,19 +12,28 @@ from slipstick.cli.asked_accuracy import (
     AccuracyOption,
     MostSecondsOption,
     asked_accuracy,
+    climbed_to,
     leave_unless_met,
+    refuse_without_error,
 )
-from slipstick.cli.optional import OutputOption, optional
-from slipstick.cli.scene_options import SetOption, warn_of_odd_numbers
-from slipstick.cli.solver_option import AskedSolver
+from slipstick.cli.options import (
+    AskedSolver,
+    OutputOption,
+    SetOption,
+    optional,
+    warn_of_odd_numbers,
+)
 from slipstick.solvers.names import SolverName
 
 if TYPE_CHECKING:
     from contact_results.stress.extremes import Extreme
     from contact_results.stress.loaded_bodies import LoadedBodies
     from contact_results.stress.points import StressField
+    from contact_results.surface import Result
+    from contact_scene import SceneFile
+    from contact_scene.accuracy import AccuracyRequest
     from contact_scene.accuracy_reached import AccuracyReached
-    from contact_scene.stated_error import StatedError
+    from contact_scene.stated_error import StatedError, StatedErrors
 
 
 def stress(
@@ -93,12 +102,11 @@ def stress(
     from contact_results.stress.extremes import extremes
     from contact_results.stress_files import write_stress
     from contact_scene import read_scene_file
-    from slipstick.cli.stress_source import state_of_run_directory, state_of_scene
 
     reached = None
     with ExitStack() as until_written:
         if source.is_dir():
-            state = state_of_run_directory(source, step)
+            state = _state_of_run_directory(source, step)
         else:
             contents = read_scene_file(source, overrides or ())
             warn_of_odd_numbers(contents)
@@ -112,7 +120,7 @@ def stress(
                     "an accuracy of max_principal is of the largest at all depths: leave --depths "
                     "out, or bind other quantities"
                 )
-            state, reached = state_of_scene(
+            state, reached = _state_of_scene(
                 contents,
                 step,
                 chosen,
@@ -145,6 +153,78 @@ def stress(
     by_increments = 0.0 if on_disc else state.by_increments
     _print(found, errors, by_increments, reached, field.how.get("edge"), output)
     leave_unless_met(reached)
+
+
+def _state_of_run_directory(directory: Path, step: int | None) -> LoadedBodies:
+    """At the end of a loading step of a run, None for the last."""
+    from contact_results.stress.loaded_bodies import NoSuchState, state_of_run
+
+    try:
+        return state_of_run(directory, step)
+    except NoSuchState as error:
+        raise typer.BadParameter(str(error)) from None
+
+
+def _state_of_scene(
+    contents: SceneFile,
+    step: int | None,
+    solver: SolverName,
+    *,
+    error: bool,
+    request: AccuracyRequest | None,
+    most_seconds: float | None,
+    output: Path,
+    until_written: ExitStack,
+) -> tuple[LoadedBodies, AccuracyReached | None]:
+    """The same of a scene, solved as finely as it says or as a request needs; and how well that
+    was met.
+
+    until_written  keeps where a climb stands until it is closed
+    """
+    from contact_results.stress.loaded_bodies import state_of_result
+
+    if step is not None and step > len(contents.scene.loading):
+        raise typer.BadParameter(
+            f"there is no step {step}; the scene has steps 1 to {len(contents.scene.loading)}"
+        )
+    stated: StatedErrors | None
+    if request is None:
+        result, stated = _solved(contents, solver, error)
+        reached = None
+    else:
+        refuse_without_error(error)
+        output.parent.mkdir(parents=True, exist_ok=True)
+        climbed = until_written.enter_context(
+            climbed_to(request, solver.solver, contents, output, most_seconds, step=step)
+        )
+        result, stated = climbed.rung.result, climbed.rung.stated
+        reached = climbed.accuracy
+    return state_of_result(result, step, stated), reached
+
+
+def _solved(
+    contents: SceneFile, name: SolverName, error: bool
+) -> tuple[Result, StatedErrors | None]:
+    from slipstick.cli.progress import companion_progress, solve_progress
+
+    chosen = name.solver
+    fineness = chosen.fineness(contents)
+    decided: Any = chosen.plan(contents.scene, fineness)
+    if name is SolverName.RADIAL:
+        from contact_results.stress.radial_body import refuse_infinite, refuse_turned
+        from radial.circle import Circle
+        from radial.largest_contact import expected_radius
+
+        if decided.sheared:
+            refuse_infinite(contents.scene.indenter, expected_radius(contents.scene))
+        if decided.circle is Circle.WHOLE:
+            refuse_turned()
+    with solve_progress(decided.increments) as observe:
+        result = chosen.solve(contents.scene, fineness, decided, observe)
+    if not error:
+        return result, None
+    with companion_progress() as observe:
+        return result, chosen.errors(result, progress=observe)
 
 
 def _refuse_file_in_the_way(output: Path) -> None:

@@ -9,10 +9,14 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from slipstick.cli.errors import ExitCode
-from slipstick.cli.level_name import LevelName
-from slipstick.cli.optional import directory, optional
-from slipstick.cli.scene_options import SetOption
-from slipstick.cli.scheduler_option import SchedulerOption, workers_at
+from slipstick.cli.options import (
+    LevelName,
+    SchedulerOption,
+    SetOption,
+    directory,
+    optional,
+    workers_at,
+)
 from slipstick.solvers.names import SolverName
 
 if TYPE_CHECKING:
@@ -92,7 +96,7 @@ def study(
     stopped. DIR receives index.html, study.json, figures and tables; earlier ones of the first two
     wait in DIR/earlier meanwhile. Exit code 1 if a statement failed or a case was lost.
     """  # fmt: skip
-    from slipstick.cli.name_mistakes import unknown_names
+    from slipstick.cli.options import unknown_names
     from verification.judging.case import Level
     from verification.running.study import Settings
     from verification.studies.catalogue import SCENE_STUDIES, STUDIES
@@ -134,8 +138,7 @@ def _studied(
     study: Study, settings: Settings, command: str, directory: Path, workers: int | Workers
 ) -> StudyRecord:
     from contact_results.directory.sole_use import in_sole_use
-    from slipstick.cli.kept_cases import told_when_stopped
-    from slipstick.cli.study_progress import study_progress
+    from slipstick.cli.case_progress import case_progress, how_it_ended, resume_hint
     from verification.report.files import refuse_if_unwritable
     from verification.report.study_files import CASES, set_aside_study, write_study
     from verification.running.case_pool import run_cases
@@ -151,8 +154,8 @@ def _studied(
         set_aside_study(directory)
         store = CaseStore(directory / CASES)
         with (
-            study_progress(len(cases)) as observe,
-            told_when_stopped(cases, store),
+            case_progress({case.name: 1 for case in cases}, how_it_ended) as observe,
+            resume_hint(tuple(cases), store),
         ):
             ends = run_cases(cases, store, workers, observe)
         records = {end.case.name: end.record for end in ends if isinstance(end.record, CaseRecord)}

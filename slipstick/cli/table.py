@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from slipstick.cli.optional import optional
+from slipstick.cli.options import optional
 
 if TYPE_CHECKING:
     from slipstick.tables.table import Table
@@ -39,7 +39,7 @@ def table(
         _list(TABLES)
         return
     if name not in TABLES:
-        from slipstick.cli.name_mistakes import unknown_names
+        from slipstick.cli.options import unknown_names
 
         raise typer.BadParameter(unknown_names("table", [name], TABLES, "slipstick table"))
     chosen = TABLES[name]

@@ -8,18 +8,18 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from slipstick.cli.errors import ExitCode
-from slipstick.cli.level_name import LevelName
-from slipstick.cli.optional import directory, optional
-from slipstick.cli.scheduler_option import SchedulerOption, workers_at
+from slipstick.cli.options import LevelName, SchedulerOption, directory, optional, workers_at
 
 if TYPE_CHECKING:
     from verification.exhibits.picture import Picture
     from verification.judging.case import Case
-    from verification.running.case_pool import Workers
+    from verification.judging.outcome import CaseOutcome
+    from verification.running.case_pool import CaseEnd, Workers
     from verification.running.report_record import Benchmark, Report
 
 
 MOST_WARNINGS = 20
+CASES = "cases"  # of the report's directory: the records of finished cases
 
 
 def verify(
@@ -76,15 +76,16 @@ def verify(
     the others are finished.
     """  # fmt: skip
     from contact_results.one_thread import is_one_thread
-    from slipstick.cli.name_mistakes import unknown_names
-    from verification.cases.catalogue import CASES, choose
+    from slipstick.cli.options import unknown_names
+    from verification.cases.catalogue import CASES as KNOWN
+    from verification.cases.catalogue import choose
     from verification.judging.case import Level
     from verification.judging.outcome import Status
     from verification.running.local_workers import ThisProcess, cores
 
     chosen = Level[level.name]
     listing = f"slipstick verify --list --level {level}"
-    if problem := unknown_names("case", names or (), CASES, listing):
+    if problem := unknown_names("case", names or (), KNOWN, listing):
         raise typer.BadParameter(problem)
     cases = choose(chosen, names or ())
     if list_cases:
@@ -112,7 +113,6 @@ def _verified(
     fresh: bool,
 ) -> Report:
     from contact_results.directory.sole_use import in_sole_use
-    from slipstick.cli.judged_cases import judged
     from verification.regression.baseline_files import read_baselines
     from verification.regression.comparison import compared
     from verification.report.files import refuse_if_unwritable, set_aside_report, write_report
@@ -147,6 +147,61 @@ def _verified(
         report = compared(measured, baselines)
         write_report(report, directory)
     return report
+
+
+def judged(
+    cases: tuple[Case, ...], level: str, directory: Path, workers: int | Workers, *, fresh: bool
+) -> tuple[tuple[CaseOutcome, ...], dict[str, float], dict[str, float]]:
+    """The outcomes in the order of the cases, and of those that have a record the wall seconds and
+    the calibration loops.
+
+    level      by name, in capitals
+    directory  of the report
+    workers    processes of this machine at a time, or others
+    fresh      take nothing from earlier runs
+
+    Raises OutputRefused, before any work, where nothing can be written.
+    """
+    from slipstick.cli.case_progress import case_progress, resume_hint
+    from verification.cases.judged_case import CaseToJudge, JudgedCase, lost
+    from verification.report.files import refuse_if_unwritable
+    from verification.running.case_pool import run_cases
+    from verification.running.case_store import CaseStore
+
+    asked = [CaseToJudge(case.name, level) for case in cases]
+    refuse_if_unwritable(directory / CASES)
+    store = CaseStore(directory / CASES, JudgedCase)
+    with (
+        case_progress({case.name: max(1, len(case.runs)) for case in cases}, _verdict) as observe,
+        resume_hint(tuple(asked), store, fresh=fresh),
+    ):
+        ends = run_cases(asked, store, workers, observe, fresh=fresh)
+    outcomes: list[CaseOutcome] = []
+    seconds: dict[str, float] = {}
+    loops: dict[str, float] = {}
+    for case, end in zip(cases, ends, strict=True):
+        if isinstance(end.record, JudgedCase):
+            outcomes.append(end.record.outcome)
+            seconds[case.name], loops[case.name] = end.record.seconds, end.record.loops
+        else:
+            outcomes.append(lost(case, end.lost.reason if end.lost else "it has no record"))
+    return tuple(outcomes), seconds, loops
+
+
+def _verdict(end: CaseEnd) -> str:
+    """State the verdict of a case, with its counts and seconds."""
+    from slipstick.cli.case_progress import how_it_ended
+    from verification.cases.judged_case import JudgedCase
+    from verification.judging.status_words import SYMBOLS, WORDS
+
+    if not isinstance(end.record, JudgedCase):
+        return how_it_ended(end)
+    outcome, seconds = end.record.outcome, f"{end.record.seconds:6.1f} s"
+    took = "already there" if end.stored else seconds
+    return (
+        f"{SYMBOLS[outcome.status]} {WORDS[outcome.status]:12} {outcome.name:24} "
+        f"{len(outcome.verdicts):3} verdicts, {len(outcome.runs):3} solves, {took}"
+    )
 
 
 def _benchmarks() -> tuple[Benchmark, ...]:

@@ -1,0 +1,91 @@
+"""Progress of the cases of a verification or a study: a line for each, on a terminal also a bar."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
+
+from rich.console import Console
+from rich.progress import (
+    BarColumn,
+    MofNCompleteColumn,
+    Progress,
+    TextColumn,
+    TimeElapsedColumn,
+    TimeRemainingColumn,
+)
+
+from contact_results.directory.stop_signals import cleaned_up_when_stopped
+from verification.running.case_pool import CaseEnd, Observer
+from verification.running.case_store import CaseStore
+from verification.running.study import StudyCase
+
+
+@contextmanager
+def case_progress(work: Mapping[str, int], text: Callable[[CaseEnd], str]) -> Iterator[Observer]:
+    """Give a function to call with every case that has ended.
+
+    work  of every case, by name, such as its number of solves: the time left is in proportion
+    text  on the end of a case
+    """
+    console = Console(stderr=True, highlight=False, soft_wrap=True)
+    started, left = time.monotonic(), dict(work)
+    computed = 0  # work that took time; cases of an earlier run took none
+
+    def line(end: CaseEnd) -> None:
+        nonlocal computed
+        done = left.pop(end.case.name)
+        computed += 0 if end.stored else done
+        for warning in end.warnings:
+            console.print(warning, markup=False)
+        rest = ""
+        if computed and left and not console.is_terminal:
+            seconds = (time.monotonic() - started) * sum(left.values()) / computed
+            rest = f", about {seconds:.0f} s left"
+        count = f"{len(work) - len(left)} of {len(work)}{rest}"
+        console.print(f"{text(end)} ({count})", markup=False)
+
+    if not console.is_terminal:
+        yield line
+        return
+    columns = (
+        TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn(),
+        TextColumn("left"), TimeRemainingColumn(),
+    )  # fmt: skip
+    with Progress(*columns, console=console, transient=True) as bar:
+        task = bar.add_task("work", total=sum(work.values()))
+
+        def advance(end: CaseEnd) -> None:
+            line(end)
+            bar.update(task, completed=computed, total=computed + sum(left.values()))
+
+        yield advance
+
+
+def how_it_ended(end: CaseEnd) -> str:
+    """Name a case that is done, lost, or already there."""
+    if end.lost is not None:
+        return f"LOST           {end.case.name:24} {end.lost.reason}"
+    return f"{'already there' if end.stored else 'done'}: {end.case.name}"
+
+
+@contextmanager
+def resume_hint(
+    cases: tuple[StudyCase, ...], store: CaseStore, *, fresh: bool = False
+) -> Iterator[None]:
+    """If a signal ends the process, state the number of stored cases and how to go on.
+
+    fresh  the command takes nothing from earlier runs
+    """
+
+    def how_to_go_on() -> str:
+        stored = sum(store.path(case).exists() for case in cases)
+        again = "the same command without --fresh" if fresh else "the same command"
+        return (
+            f"{stored} of {len(cases)} cases are kept in {store.directory}; "
+            f"{again} computes the others"
+        )
+
+    with cleaned_up_when_stopped(kept=how_to_go_on):
+        yield
