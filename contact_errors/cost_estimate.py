@@ -22,9 +22,9 @@ EXPONENT = 1.1
 CELL_OVERHEAD, ELEMENT_OVERHEAD = 128.0**2, 32.0**2
 # Factorisations take as long as so many increments of a history by elements.
 SET_UP_INCREMENTS = 50
-# Limits of the coarse solve: cells along the longer side, elements over the contact radius, and
-# increments of all load steps together.
-MAX_CELLS, MAX_ELEMENTS, MAX_INCREMENTS = 32, 8, 48
+# Limits of the coarse solve: cells along the longer side, elements over the contact radius, load
+# steps from the first, and increments of these together.
+MAX_CELLS, MAX_ELEMENTS, MAX_STEPS, MAX_INCREMENTS = 32, 8, 12, 48
 
 
 @dataclass(frozen=True)

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import semi_analytical
 from contact_errors.cost_estimate import (
     MAX_CELLS,
-    MAX_INCREMENTS,
+    MAX_STEPS,
     coarse_increments,
     work_on_cells,
 )
@@ -33,6 +33,7 @@ if TYPE_CHECKING:
 
 # Load steps, of one increment each, by which the saving of the plan is counted.
 FORCED_INCREMENTS = 4
+WORTH_SAYING = 1.1
 FEWEST = 8  # cells along a side of the coarse solve behind the time of a run
 
 
@@ -103,9 +104,9 @@ class OnCells:
     ) -> tuple[str, str]:
         from contact_errors.on_cells import stated_errors
 
-        path = plan.path[:MAX_INCREMENTS]
+        path = plan.path[:MAX_STEPS]
         cut = replace(plan, path=path).cut_into(coarse_increments([s.count for s in path]))
-        begin = scene.model_copy(update={"loading": scene.loading[:MAX_INCREMENTS]})
+        begin = scene.model_copy(update={"loading": scene.loading[:MAX_STEPS]})
         share = min(1.0, most / max(grid.cells))
         nx, ny = (n if share == 1 else max(FEWEST, 2 * round(share * n / 2)) for n in grid.cells)
         coarse = fineness.model_copy(update={"cells": (nx, ny)})
@@ -149,7 +150,9 @@ def _saving(scene: Scene, fineness: SurfaceDiscretisation, grid: SurfaceGrid, pl
             counts.append(sum(increment.convolutions for increment in result.increments))
     except SolverError:
         return
-    yield "saving", f"all effects on would take {counts[1] / counts[0]:.2g} times the convolutions"
+    ratio = counts[1] / counts[0]
+    if ratio >= WORTH_SAYING:
+        yield "saving", f"all effects on would take {ratio:.2g} times the convolutions"
 
 
 def _grid_text(grid: SurfaceGrid) -> str:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import fem_reference
 from contact_errors.cost_estimate import (
     MAX_ELEMENTS,
-    MAX_INCREMENTS,
+    MAX_STEPS,
     coarse_increments,
     work_on_elements,
 )
@@ -101,8 +101,8 @@ class OnElements:
     ) -> tuple[str, str]:
         from contact_errors.on_elements import cut, stated_errors
 
-        increments = coarse_increments(plan.increments[:MAX_INCREMENTS])
-        begin = scene.model_copy(update={"loading": scene.loading[:MAX_INCREMENTS]})
+        increments = coarse_increments(plan.increments[:MAX_STEPS])
+        begin = scene.model_copy(update={"loading": scene.loading[:MAX_STEPS]})
         elements = min(MAX_ELEMENTS, fineness.elements_per_radius)
         coarse = fineness.model_copy(update={"elements_per_radius": elements})
         harmonics = fineness.harmonics if plan.path is Path.HARMONICS else 1

@@ -7,7 +7,7 @@ from dataclasses import replace
 from typing import Any
 
 import radial
-from contact_errors.cost_estimate import MAX_INCREMENTS, coarse_increments, work_on_rings
+from contact_errors.cost_estimate import MAX_STEPS, coarse_increments, work_on_rings
 from contact_scene import RadialDiscretisation, Scene, SceneFile
 from contact_scene.solver_errors import UnsupportedScene
 from contact_scene.standing import Keeper
@@ -66,8 +66,8 @@ class OnRadii:
         from contact_errors.on_radii import stated_errors
 
         solve = radial.solve
-        begin = scene.model_copy(update={"loading": scene.loading[:MAX_INCREMENTS]})
-        cut = replace(plan, increments=coarse_increments(plan.increments[:MAX_INCREMENTS]))
+        begin = scene.model_copy(update={"loading": scene.loading[:MAX_STEPS]})
+        cut = replace(plan, increments=coarse_increments(plan.increments[:MAX_STEPS]))
         return time_of_run(
             lambda: stated_errors(solve(begin, fineness, plan=cut)),
             work_on_rings(cut.increments),
