@@ -507,7 +507,7 @@ def test_every_baseline_belongs_to_a_case() -> None:
     for case, baseline in read_baselines().items():
         for level in baseline.levels:
             assert case in CASES, (case, level)
-    assert {path.suffix for path in BASELINES.glob("*.*")} <= {".json", ".py"}
+    assert {path.suffix for path in BASELINES.glob("*.*")} <= {".json", ".md", ".py"}
 
 
 # ---- accepting ---------------------------------------------------------------------------------

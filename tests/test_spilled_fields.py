@@ -37,7 +37,7 @@ cells = [32, 32]
 RUNS = {
     "run": ("run", "scene.toml", "-o", "out", "--figures", "none"),
     "to an accuracy": ("run", "scene.toml", "-o", "out", "--figures", "none", "--accuracy", "20%"),
-    "stress": ("stress", "scene.toml", "-o", "out", "--no-figures"),
+    "stress": ("stress", "scene.toml", "-o", "out", "--figures", "none"),
 }
 
 

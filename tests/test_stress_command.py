@@ -77,7 +77,7 @@ def test_a_full_disk_leaves_what_was_there(
     out = tmp_path / "out"
     if before:
         shutil.copytree(place / "out", out)
-    asked = ("stress", place / "run", "-o", out, "--step", "1", "--no-error", "--no-figures")
+    asked = ("stress", place / "run", "-o", out, "--step", "1", "--no-error", "--figures", "none")
     ended = outcome(*asked, cwd=ROOT)
     assert ended.returncode == 4
     assert f"{out / 'stress_surface.vtu'}: No space left" in ended.stderr
@@ -132,7 +132,7 @@ def test_axis_is_continuous_where_it_must_be_and_jumps_where_it_must(place: Path
 
 
 def test_run_and_scene_give_the_same(place: Path) -> None:
-    ended = outcome("stress", place / "run", "-o", place / "of_run", "--no-figures", cwd=ROOT)
+    ended = outcome("stress", place / "run", "-o", place / "of_run", "--figures", "none", cwd=ROOT)
     assert ended.returncode == 0, ended.stderr
     for name in ("stress_maxima.csv", "stress_axis.csv"):
         one, other = rows(place / "out" / name), rows(place / "of_run" / name)
@@ -149,7 +149,7 @@ def test_run_and_scene_give_the_same(place: Path) -> None:
 
 def test_step_and_depths_are_the_ones_asked_for(place: Path) -> None:
     ended = outcome(
-        "stress", place / "run", "-o", place / "first", "--no-figures", "--volume",
+        "stress", place / "run", "-o", place / "first", "--figures", "none", "--volume",
         "--step", 1, "--depths", "0, 50 um,2e-4", cwd=ROOT,
     )  # fmt: skip
     assert ended.returncode == 0, ended.stderr
@@ -186,7 +186,7 @@ def test_mesh_holds_the_fields_of_the_table(place: Path) -> None:
 
 
 def test_indenter_has_its_own_stress(place: Path) -> None:
-    asked = ("stress", place / "run", "-o", place / "ball", "--indenter", "--no-figures")
+    asked = ("stress", place / "run", "-o", place / "ball", "--indenter", "--figures", "none")
     ended = outcome(*asked, cwd=ROOT)
     assert ended.returncode == 0, ended.stderr
     record = json.loads((place / "ball" / "stress.json").read_text(encoding="utf-8"))
@@ -211,7 +211,16 @@ finally:
         "--set",
         "fem_reference={elements_per_radius=4}",
     )
-    asked = ("stress", place / "scene.toml", "-o", place / own, "--solver", solver, "--no-figures")
+    asked = (
+        "stress",
+        place / "scene.toml",
+        "-o",
+        place / own,
+        "--solver",
+        solver,
+        "--figures",
+        "none",
+    )
     ended = subprocess.run(
         [sys.executable, "-c", script, *map(str, asked), *coarse],
         cwd=ROOT, capture_output=True, text=True, check=True,

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from contextlib import ExitStack
+from enum import StrEnum
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -34,6 +35,13 @@ if TYPE_CHECKING:
     from contact_scene.accuracy import AccuracyRequest
     from contact_scene.accuracy_reached import AccuracyReached
     from contact_scene.stated_error import StatedError, StatedErrors
+
+
+class Figures(StrEnum):
+    """Figures that the command draws."""
+
+    NONE = "none"
+    ALL = "all"
 
 
 def stress(
@@ -71,8 +79,8 @@ def stress(
         bool, typer.Option("--volume", help="Write the whole volume as VTU too, not only y = 0.")
     ] = False,
     figures: Annotated[
-        bool, typer.Option("--figures/--no-figures", help="Draw figures, or leave them out.")
-    ] = True,
+        Figures, typer.Option("--figures", metavar="NAME", help="all: draw figures; none: do not.")
+    ] = Figures.ALL,
     error: Annotated[
         bool,
         typer.Option(
@@ -142,7 +150,7 @@ def stress(
             field,
             found,
             output,
-            with_figures=figures,
+            with_figures=figures is Figures.ALL,
             errors=errors,
             accuracy=reached,
         )
