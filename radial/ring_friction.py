@@ -31,6 +31,9 @@ Array = NDArray[np.float64]
 MOST_STEPS = 60
 SHORTEST = 2.0**-6  # of a step of Newton's method
 FURTHEST = 4.0  # that a load moves in a step, over what slips and what gives way to friction
+# Of the largest limit: a point nearer to its limit is at the onset of slip, or slipped before and
+# has come back to it, and counts as one that slips. Newton's method leaves a hundredth of it.
+TIE = 1e-9
 AT_ONCE = 12  # steps that are taken whole: what slips is found sooner than by shorter ones
 
 
@@ -159,6 +162,8 @@ def _ended(laws: Laws, at: At, before: Held | None, steps: int) -> Held:
     length = np.hypot(*at.y)
     bears = at.limit > 0
     share = np.where(bears, length / np.where(bears, at.limit, 1.0), np.where(inside, 1.0, np.inf))
+    at_limit = bears & (length > at.limit - TIE * np.max(at.limit))
+    share[at_limit] = np.maximum(share[at_limit], 1 + TIE)
     t, motion = at.x[:-4], at.x[-4:]
     changed = at.x - np.append(before.tractions, before.motion) if before else at.x
     return Held(

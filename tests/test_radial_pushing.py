@@ -268,6 +268,30 @@ def test_a_far_shift_slides_under_all_that_friction_carries() -> None:
     assert end.status is ContactStatus.GROSS_SLIDING
 
 
+def test_slip_zone_of_an_earlier_step_is_that_where_a_pressed_contact_returns_to_its_limit() -> (
+    None
+):
+    """More pressure lets all stick; without it the shear of the slip zone is at its limit again."""
+    material = IsotropicMaterial(young_modulus=70e9, poisson_ratio=0.3)
+    asked = Scene(
+        indenter=Paraboloid(radius=10e-3, material=material),
+        body=Body(material=material),
+        friction=CoulombFriction(coefficient=0.3),
+        loading=(
+            LoadStep(normal_force=100.0),
+            LoadStep(tangential_force=(12.0, 0.0)),
+            LoadStep(normal_force=150.0),
+            LoadStep(normal_force=100.0),
+        ),
+    )
+    _, pushed, more, back = radial.solve(asked).steps
+    assert more.status is ContactStatus.FULL_STICK
+    assert back.status is ContactStatus.PARTIAL_SLIP
+    assert back.stick_radius == pytest.approx(0.22702e-3, rel=1e-4)
+    assert back.stick_radius == pytest.approx(pushed.stick_radius, rel=1e-8)
+    assert_allclose(back.in_stick, pushed.in_stick)
+
+
 def test_the_load_may_fall_while_it_is_pushed() -> None:
     less = LoadStep(normal_force=0.5 * LOAD, increments=6)
     end = rough(scene(PRESS, push(0.3), less)).steps[2]
@@ -341,7 +365,8 @@ def test_a_solve_that_goes_on_has_the_same_bits() -> None:
 
 # ---- what is refused --------------------------------------------------------------------------
 
-MAP = CoulombFriction.model_validate({"coefficient": {"map": np.full((4, 4), 0.2), "spacing": 1.0}})
+VALUES = np.linspace(0.1, 0.2, 16).reshape(4, 4)
+MAP = CoulombFriction.model_validate({"coefficient": {"map": VALUES, "spacing": 1.0}})
 REFUSED: dict[str, dict[str, Any]] = {
     "zero": {"friction": CoulombFriction(coefficient=0.0)},
     "map": {"friction": MAP},

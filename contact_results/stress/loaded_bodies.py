@@ -123,7 +123,9 @@ def state_of_run(directory: Path, step: int | None) -> LoadedBodies:
     chosen = _existing(step, list(range(1, len(run.summary.steps) + 1)))
     end = run.summary.steps[chosen - 1]
     try:
-        axes = {name: stored.array for name, stored in run.coordinates.items()}
+        # A file lists names by the alphabet; fields have the radii first.
+        order = sorted(run.coordinates, key=lambda name: name == "angles")
+        axes = {name: run.coordinates[name].array for name in order}
         last = int(ends_of_steps(run.increments["step"].array)[chosen - 1])
         names = [name for name in TRACTIONS if name in run.increments]
         tractions = {name: run.increments.at(name, last) for name in names}
