@@ -21,6 +21,8 @@ from contact_scene.stated_error import Part, StatedError
 
 Field = NDArray[np.float64]
 
+# Regions that the edge of the contact belongs to.
+AT_SURFACE = "body", "layer 1"
 # Cells from the surface within which a stress feels the edges of the tractions.
 NEAR = 2.0
 # Of stress at a fitted edge, over itself: what the pressure of a solver that knows no edge leaves
@@ -61,16 +63,28 @@ def stress_errors(
         for e in extremes(wide, body)
     }
     errors = []
+    per_radius = sqrt(np.count_nonzero(state.tractions["pressure"]) / pi)
+    by_edge = 0.0 if field.edge is None else _by_edge(per_radius, field.edge, within=state.edges)
     for e in found:
         between = 0.0 if e.on_edge else more * beyond(field.points, e)
         rule, by_increments = rule_of(state, field.edge, e), state.by_increments or 0.0
-        if field.edge is not None and rule is AT_EDGE:
-            per_radius = sqrt(np.count_nonzero(state.tractions["pressure"]) / pi)
-            by_edge = _by_edge(per_radius, field.edge.apart, within=state.edges)
+        if field.edge is not None and (e.on_edge or rule is AT_EDGE):
             errors.append(_at_edge(e, by_edge, between, by_increments))
-        else:
-            errors.append(_error(e, between, there.get((e.region, e.measure)), rule, by_increments))
+            continue
+        error = _error(e, between, there.get((e.region, e.measure)), rule, by_increments)
+        reach = _reach(field.edge, by_edge, e)
+        if error.error is not None and np.max(error.error) < reach:
+            error = estimate.stated({"cells": np.array([reach])}, not e.at_window_edge)
+        errors.append(error)
     return tuple(errors)
+
+
+def _reach(edge: FittedEdge | None, by_edge: float, extreme: Extreme) -> float:
+    """Difference of the largest stress that an undetermined edge may have to an extreme."""
+    if edge is None or edge.determined or extreme.region not in AT_SURFACE:
+        return 0.0
+    largest = float(np.max(edge.points.measures[extreme.measure]))
+    return largest + by_edge * abs(largest) - extreme.value
 
 
 def rule_of(state: LoadedBodies, edge: FittedEdge | None, extreme: Extreme) -> Rule:
@@ -84,7 +98,8 @@ def rule_of(state: LoadedBodies, edge: FittedEdge | None, extreme: Extreme) -> R
     spacing = (x[1] - x[0], y[1] - y[0])
     if extreme.depth >= NEAR * sqrt(spacing[0] * spacing[1]):
         return INTERIOR
-    return AT_EDGE if edge is not None and near_surface(extreme.depth, spacing) else TENSION
+    seen = edge is not None and edge.determined
+    return AT_EDGE if seen and near_surface(extreme.depth, spacing) else TENSION
 
 
 def on_wide_cells(state: LoadedBodies) -> LoadedBodies:
@@ -141,18 +156,19 @@ def above_the_middle(x: Field, f: Field) -> float:
     return float(-(slope**2) / (4 * bend)) if bend < 0 else 0.0
 
 
-def _by_edge(per_radius: float, apart: float, *, within: bool) -> float:
+def _by_edge(per_radius: float, edge: FittedEdge, *, within: bool) -> float:
     """Error of a stress at a fitted edge, over itself.
 
     per_radius  cells per contact radius
-    apart       of two fits, see `FittedEdge`
     within      whether the tractions have their edges inside the cells
     """
-    by_fit = AT_EDGE.factor * max(apart - ALWAYS_APART, 0.0)
+    by_fit = AT_EDGE.factor * max(edge.apart - ALWAYS_APART, 0.0)
     if within:
-        return WITHIN + FEW_CELLS_WITHIN / per_radius**4 + by_fit
-    by_pressure = min(AT_EDGE.floor + BY_CELL * per_radius, MOST_BY_PRESSURE)
-    return by_pressure + FEW_CELLS / per_radius**4 + by_fit
+        by_fit += WITHIN + FEW_CELLS_WITHIN / per_radius**4
+    else:
+        by_fit += min(AT_EDGE.floor + BY_CELL * per_radius, MOST_BY_PRESSURE)
+        by_fit += FEW_CELLS / per_radius**4
+    return max(by_fit, edge.least)
 
 
 def _at_edge(extreme: Extreme, by_edge: float, between: float, by_increments: float) -> StatedError:

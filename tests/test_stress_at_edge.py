@@ -8,11 +8,12 @@ import pytest
 from command import slipstick
 from numpy.typing import NDArray
 
+from contact_errors.of_stress import stress_errors
 from contact_results.stress.extremes import extremes
-from contact_results.stress.loaded_bodies import LoadedBodies
+from contact_results.stress.loaded_bodies import LoadedBodies, state_of_result
 from contact_results.stress.on_cells import stress_on_cells
-from contact_scene import Body, IsotropicMaterial
-from semi_analytical import SurfaceGrid
+from contact_scene import Body, IsotropicMaterial, Layer
+from semi_analytical import SurfaceGrid, plan, solve
 from semi_analytical.edge.quadratic import Quadratic
 from semi_analytical.frf.stack import HalfSpace, Stack
 from semi_analytical.stress import EdgeNotSeen, near_edge, subsurface
@@ -22,6 +23,7 @@ from semi_analytical.stress.rectangle import RectanglePotentials, half_space_res
 from tests.cell_means import ellipse_means
 from verification.closed_forms.huber_stress import huber_stress
 from verification.closed_forms.sheared_surface import stress_by_hertz_shear, trailing_edge_tension
+from verification.problems.coupled_edges import CONTACTS, A
 
 Field = NDArray[np.float64]
 
@@ -194,6 +196,27 @@ def test_an_edge_that_is_compressed_all_around_is_found_too() -> None:
     found = near_edge(Stack([(8.0, 0.49, 2 * RADIUS)], (1.0, NU)), grid, pressure, None)
     assert np.max(found.stress()[:2]) < 0
     assert found.apart < 0.02
+
+
+def test_an_undetermined_edge_stays_a_candidate_for_the_largest_tension() -> None:
+    """Behind a ball pushed on a stiff film: 2.02 ± .01 GPa on 128² cells. Without the edge 1.6 GPa
+    are found, at the interface."""
+    stiff = IsotropicMaterial(young_modulus=840e9, poisson_ratio=0.2)
+    contact = CONTACTS["film 4, .4"]
+    pressing, _, pushing, *_ = contact.scene.loading
+    body = contact.scene.body.model_copy(
+        update={"layers": (Layer(thickness=0.4 * A, material=stiff),)}
+    )
+    of = contact.scene.model_copy(update={"body": body, "loading": (pressing, pushing)})
+    result = solve(of, contact.grid(32), 1e-8, plan=plan(of, edge="last"))
+    state = state_of_result(result, 2)
+    field = stress_on_cells(state)
+    assert field.edge is not None
+    assert not field.edge.determined
+    tension = [e for e in extremes(field, state.body) if e.measure == "max_principal"][:1]
+    (error,) = stress_errors(state, field, tension)
+    assert tension[0].on_edge
+    assert abs(tension[0].value - 2.02e9) < error.error < 0.5e9
 
 
 @pytest.mark.slow

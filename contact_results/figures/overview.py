@@ -149,7 +149,7 @@ def _draw_stress(left: Any, right: Any, result: Result, field: StressField, unit
     axes.set_xlabel(length.labelled(field.label))
     axes.set_ylabel(length.labelled("depth z"))
     draw_surface(along, field, units)
-    if field.edge is None and isinstance(surface_of(result), Cells):
+    if (field.edge is None or not field.edge.determined) and isinstance(surface_of(result), Cells):
         cell = float(np.diff(field.section.x.ravel()[:2])[0])
         along.set_title(
             f"by cells of {quantity(cell, 'm', 3)}: too low beside the edges", fontsize="medium"

@@ -117,7 +117,7 @@ def draw_surface(ax: Any, field: StressField, units: Units = SI) -> None:
 def _ends(field: StressField) -> StressPoints | None:
     """Where the fitted edge crosses y = 0, along x: the points beside it, whose stresses are
     the same by symmetry or nearly so; None without such an edge."""
-    if field.edge is None:
+    if field.edge is None or not field.edge.determined:
         return None
     points = field.edge.points
     spacing = np.diff(np.unique(_at_surface(field).x)).max()

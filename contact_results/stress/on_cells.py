@@ -66,7 +66,7 @@ def stress_on_cells(
     points = _points(field, grid)
     return StressField(
         points,
-        None if edge is None else FittedEdge(_on_edge(edge), edge.apart),
+        None if edge is None else FittedEdge(_on_edge(edge), edge.apart, edge.least, not why),
         _points(plane, grid).with_cells(),
         _axis(plane),
         points.with_cells() if volume else None,
@@ -91,7 +91,8 @@ def _with_edge(
     shear: Field | None,
     y: float | None,
 ) -> tuple[SubsurfaceField, NearEdge | None, str]:
-    """The field with the edge, and the edge; or the field as it is, and why."""
+    """The field with the edge, and the edge. If it is not determined: the field as it is, the edge
+    as far as it is fitted, and the cause."""
     from semi_analytical.frf.stack import stack_of
     from semi_analytical.stress import EdgeNotSeen, near_edge, near_surface, subsurface
 
@@ -102,9 +103,9 @@ def _with_edge(
     ):
         return field, None, "no depth is near the surface"
     try:
-        edge = near_edge(stack_of(body), grid, pressure, shear)
-    except EdgeNotSeen as reason:
-        return field, None, str(reason)
+        edge = near_edge(stack_of(body), grid, pressure, shear, corrected=state.edges)
+    except EdgeNotSeen as cause:
+        return field, cause.candidate, str(cause)
     if not state.edges:
         return edge.corrected(field, y), edge, ""
     # Beside the edge the tractions are what the field is of, and not what acts alike far away.
@@ -142,7 +143,7 @@ def _sharpened(means: Field, loaded: NDArray[np.bool_]) -> Field:
 
 def _how(edge: NearEdge | None, why: str) -> dict[str, object]:
     """Whether the edge was fitted, for the record."""
-    if edge is None:
+    if edge is None or why:
         return {"fitted": False, "because": why}
     return {"fitted": True, "points": len(edge.x), "fits_apart": edge.apart}
 

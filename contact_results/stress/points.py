@@ -154,10 +154,15 @@ class FittedEdge:
 
     points  on it (n,)
     apart   difference of the largest principal stress there by another fit, over itself
+    least   least error of that stress, over itself
+    determined
+            whether the stress there is determined; if not, it is a candidate for the largest
     """
 
     points: StressPoints
     apart: float
+    least: float = 0.0
+    determined: bool = True
 
 
 @dataclass(frozen=True, eq=False)
