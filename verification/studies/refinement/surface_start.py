@@ -76,5 +76,5 @@ def refuse_fixed_window(scene: Scene) -> None:
             "the height map says where the indenter ends, which fixes the window: beyond it there "
             "is no gap that could be computed"
         )
-    if scene.friction is not None and scene.friction.varying is not None:
+    if scene.friction is not None and scene.friction.extent is not None:
         raise UnsupportedScene("the friction map bounds the window: it says nothing beyond")
