@@ -151,7 +151,7 @@ class CoulombFriction(Description):
         """The largest ratio of shear to pressure anywhere, which is that of low pressures."""
         return float(np.max(self.slope(0.0)))
 
-    def slope(self, pressure: Field | float = 0.0, where: Where = ...) -> Field:
+    def slope(self, pressure: Field | float, where: Where = ...) -> Field:
         """Derivative of the limit with respect to the pressure, at a pressure [1].
 
         where  the cells that the pressure is of; all of them if absent

@@ -13,6 +13,7 @@ from contact_scene.friction import sliding_friction
 from contact_scene.residuals import Residuals
 from contact_scene.summary import ContactStatus
 from radial.circle import Circle
+from radial.contact_growth import front, touched
 from radial.ring_points import Points
 from radial.ring_state import ABOUT, ACROSS, ALONG, DOWN, Held, Loads
 
@@ -95,7 +96,8 @@ def pushed(
     areas, nothing = points.areas, np.zeros(len(points.areas))
     radius = sqrt(points.contact_area(end.pressure) / pi) if smooth is None else smooth
     begun = before.radius if before else 0.0
-    passed = -end.slipped.reshape(2, -1) / areas * _touched(points, end, begun, radius)
+    share = touched(np.repeat(points.radii, points.count), begun, radius) * (end.pressure > 0)
+    passed = -end.slipped.reshape(2, -1) / areas * share
     start = last.shear if last else np.zeros((2, len(nothing)))
     limits = (friction.limit(last.pressure) if last else nothing), friction.limit(end.pressure)
     rubbing = sliding_friction(start, end.shear, passed, *limits)
@@ -103,41 +105,19 @@ def pushed(
     both = carried + (before.carried if before else 0.0)
     through = None
     if smooth is None:
-        stuck = points.stick_area(end.share, end.shear, limits[1])
-        through = sqrt(min(stuck / pi, radius**2))
+        area = points.stick_area(end.share, end.shear, limits[1])
+        through = sqrt(min(area / pi, radius**2))
     turned = points.circle is not Circle.ONE or end.motion[ABOUT] != motion[ABOUT]
+    stuck = through
+    if not (turned or through is None or before is None or before.through is None):
+        stuck = front(radius, begun, through, before.begun, before.through)
     open_ = np.hypot(*(end.shear - start)) * np.hypot(*passed)
     return Pushed(
-        end, points.circle, asked, radius, begun, through,
-        through if turned or through is None else _front(radius, begun, through, before),
-        slip - passed, carried,
+        end, points.circle, asked, radius, begun, through, stuck, slip - passed, carried,
         (before.worked if before else 0.0) + 0.5 * float(both @ (end.motion - motion)),
         (before.lost if before else 0.0) + float(np.sum(rubbing * passed, axis=0) @ areas),
         (before.uncertain if before else 0.0) + float(open_ @ areas),
     )  # fmt: skip
-
-
-def _touched(points: Points, end: Held, begun: float, radius: float) -> Array:
-    """Share of the increment through which points touched: what the contact has grown over has
-    rubbed since the edge went by."""
-    r = np.repeat(points.radii, points.count)
-    share = np.ones_like(r)
-    if radius > begun:
-        share = np.clip((radius - r) / (radius - begun), 0.0, 1.0)
-        share[r <= begun] = 1.0
-    return share * (end.pressure > 0)
-
-
-def _front(radius: float, begun: float, through: float, before: Pushed | None) -> float:
-    """Stick radius at the end of an increment of pressing: what sticks through it is the disc half
-    way, so that half an increment more is on the line through this one and the one before, unless
-    the load has turned between them [length]."""
-    if before is None or before.through is None:
-        return through
-    half, last = 0.5 * (radius - begun), 0.5 * (begun - before.begun)
-    if half * last <= 0:
-        return through
-    return min(max(through + (through - before.through) * half / (half + last), 0.0), radius)
 
 
 def residuals_of(points: Points, friction: CoulombFriction, state: Pushed) -> Residuals:

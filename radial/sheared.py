@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from contact_scene import CoulombFriction
+from radial.contact_growth import front, touched
 from radial.pressing import Target
 from radial.stick_slip import Rubbed
 
@@ -82,15 +83,14 @@ def sheared(
     if before is not None:
         slip, shear = before.at(before.slip, r), before.at(before.end.shear, r)
         limit = friction.limit(before.at(finite_pressure(before.end), r))
-    # What the contact has grown over has rubbed since the edge went by.
-    touching = np.clip((a - r) / (a - begun), 0.0, 1.0) if a > begun else np.ones_like(r)
-    touching[r <= begun] = 1.0
-    slipped = touching * end.slipped * (end.sliding != 0)
+    slipped = touched(r, begun, a) * end.slipped * (end.sliding != 0)
     rubbing = 0.5 * (limit + friction.limit(finite_pressure(end))) * np.abs(slipped)
     open_ = np.abs(end.shear - shear) * np.abs(slipped)
-    middling = stick_share(end) * a
+    stuck = middling = stick_share(end) * a
+    if before is not None:
+        stuck = front(a, begun, middling, before.begun, before.middling)
     return Sheared(
-        end, target, slip + slipped, begun, middling, _front(end, begun, middling, before),
+        end, target, slip + slipped, begun, middling, stuck,
         (before.worked if before else 0.0) + 0.5 * (force + end.load) * (end.approach - depth),
         (before.lost if before else 0.0) + end.over(rubbing),
         (before.uncertain if before else 0.0) + end.over(open_),
@@ -116,19 +116,6 @@ def stick_share(end: Rubbed) -> float:
             front = min(max(x[near] - rise[near] * slope, x[i]), x[i + 1])
         area, sign = area + sign * front**2, -sign
     return sqrt(max(area + (1.0 if sign > 0 else 0.0), 0.0))
-
-
-def _front(end: Rubbed, begun: float, middling: float, before: Sheared | None) -> float:
-    """Stick radius at the end of an increment [length]: what sticks through it is the disc half
-    way, so that half an increment more is on the line through this one and the one before, unless
-    the load has turned between them."""
-    if before is None:
-        return middling
-    half, last = 0.5 * (end.radius - begun), 0.5 * (begun - before.begun)
-    if half * last <= 0:
-        return middling
-    front = middling + (middling - before.middling) * half / (half + last)
-    return min(max(front, 0.0), end.radius)
 
 
 def finite_pressure(end: Rubbed) -> Array:

@@ -113,7 +113,7 @@ ORDERS = {
             "surface",
             "half_space",
         ),
-        *("below", "pressing", "rings", "coupling", "stick_slip", "sheared"),
+        *("below", "pressing", "rings", "coupling", "stick_slip", "contact_growth", "sheared"),
         *("harmonic_kernels", "ring_energies", "ring_compliance"),
         *("circle", "stick_border", "ring_points", "ring_layout"),
         *("ring_state", "ring_laws", "ring_newton"),

@@ -101,4 +101,4 @@ class FollowingShear:
         outward = -np.stack(np.gradient(gaussian_filter(depth, SMOOTHED)))
         size = magnitude(outward)
         along = np.sum(self.slip * outward, axis=0) / np.where(size > 0, size, 1.0)
-        return np.asarray(0.5 + np.arctan(beta * self.friction.slope() * along) / np.pi)
+        return np.asarray(0.5 + np.arctan(beta * self.friction.slope(0.0) * along) / np.pi)

@@ -1,0 +1,37 @@
+"""Slip and the stick zone of a contact that grows or shrinks within an increment."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+
+
+def touched(r: Array, begun: float, radius: float) -> Array:
+    """Share of the increment through which points at these radii touch: particles that the contact
+    grows over slip from the passage of the edge on.
+
+    begun, radius  of the contact at start and end of the increment [length]
+    """
+    share = np.ones_like(r)
+    if radius > begun:
+        share = np.clip((radius - r) / (radius - begun), 0.0, 1.0)
+        share[r <= begun] = 1.0
+    return share
+
+
+def front(radius: float, begun: float, through: float, first: float, before: float) -> float:
+    """Stick radius at the end of an increment [length].
+
+    The disc that sticks through an increment is that of its middle. Half an increment later the
+    radius lies on the line through this disc and the one of the preceding increment, unless the
+    load reversed between them.
+
+    through, before  of the discs that stick through this and the preceding increment [length]
+    first, begun     radius of the contact at the start of the preceding and of this one [length]
+    """
+    half, last = 0.5 * (radius - begun), 0.5 * (begun - first)
+    if half * last <= 0:
+        return through
+    return min(max(through + (through - before) * half / (half + last), 0.0), radius)
