@@ -13,20 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from semi_analytical.edge.film import FilmLaw
-from semi_analytical.edge.fit import (
-    CHUNK,
-    LEAST_TOTAL,
-    Fits,
-    Indices,
-    Stencil,
-    factored,
-    fading,
-    fit_about,
-    monomials,
-    normal_matrices,
-    solve,
-    taken,
-)
+from semi_analytical.edge.fit import Fits, Indices, Stencil, fit_about
 from semi_analytical.edge.kernels import PARTS, part_centres
 from semi_analytical.edge.line import EdgeLine, Seen
 from semi_analytical.edge.means import Exponent, centre_value, power
@@ -64,32 +51,16 @@ class FilmShape(EdgeShape):
 
     def fits(self, i: Indices, j: Indices) -> Fits:
         """Fits about cells of the region, shape (n,), to phi(x) + leaning phi(edge)."""
-        reach = self.stencil.reach
-        phi, weight, leaning = (
-            self.domain.framed(f, reach) for f in (self.phi, self.weight, self.leaning)
+        foot = self.line.seen_from(i, j).foot / np.array(self.line.stretched)[:, None]
+        return fit_about(
+            self.phi,
+            self.weight,
+            i,
+            j,
+            self.stencil,
+            domain=self.domain,
+            leaning=(self.leaning, foot),
         )
-        to_x, to_y = self.line.seen_from(i, j).foot / np.array(self.line.stretched)[:, None]
-        foot = np.stack([to_x**0, to_x, to_y, to_x**2 / 2, to_x * to_y, to_y**2 / 2])
-        basis, fade = monomials(self.stencil), fading(self.stencil)
-        found, rms, count = np.empty((6, len(i))), np.empty(len(i)), np.empty(len(i), dtype=int)
-        for first in range(0, len(i), CHUNK):
-            some = slice(first, first + CHUNK)
-            window = i[some], j[some], self.stencil
-            given, believed, leans = (taken(f, *window) for f in (phi, weight, leaning))
-            believed *= fade
-            at = foot[:, some]
-            normal = normal_matrices(self.stencil, believed)
-            mixed = basis @ (believed * leans).T
-            normal += mixed[:, None] * at + at[:, None] * mixed
-            normal += np.sum(believed * leans**2, axis=1) * at[:, None] * at
-            fit = basis @ (believed * given).T + at * np.sum(believed * leans * given, axis=1)
-            solve(factored(normal), fit)
-            found[:, some] = fit
-            left = given - fit.T @ basis - leans * np.sum(fit * at, axis=0)[:, None]
-            total = np.maximum(np.sum(believed, axis=1), LEAST_TOTAL)
-            rms[some] = np.sqrt(np.sum(believed * left**2, axis=1) / total)
-            count[some] = np.count_nonzero(believed, axis=1)
-        return Fits(Quadratic(i.astype(float), j.astype(float), *found), rms, count)
 
     def parts_over_root(self, phi: Quadratic) -> Field:
         """The means of the law over those of the root in the parts of cells (n, PARTS, PARTS).

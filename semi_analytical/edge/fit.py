@@ -55,25 +55,41 @@ def fit_about(
     stencil: Stencil,
     degree: int = 2,
     domain: ReducedDomain = WINDOW,
+    leaning: tuple[Field, Field] | None = None,
 ) -> Fits:
-    """Least squares about the cells (i, j), shape (n,).
+    """Weighted least squares about the cells (i, j), shape (n,).
 
-    data    (nx, ny) cell means
-    weight  (nx, ny) beside that of the stencil; zero where there are none
-    degree  1 or 2; of 1 nothing bends
-    domain    that they are given on
+    data     (nx, ny) cell means
+    weight   (nx, ny) of the data, a factor of that of the stencil
+    degree   1 or 2
+    domain   that all fields are given on
+    leaning  factor (nx, ny) and vectors (dx, dy) of shape (2, n): the data are those of the fit
+             plus the factor times the fit at these places from the cells
     """
     data, weight = (domain.framed(field, stencil.reach) for field in (data, weight))
     fade, basis = fading(stencil), monomials(stencil)[: 3 * degree]
+    if leaning is not None:
+        factor, (x, y) = domain.framed(leaning[0], stencil.reach), leaning[1]
+        foot = np.stack([x**0, x, y, x**2 / 2, x * y, y**2 / 2])
     found = np.zeros((6, len(i)))
     rms, count = np.empty(len(i)), np.empty(len(i), dtype=int)
     for some in _chunks(len(i)):
-        given, believed = (taken(field, i[some], j[some], stencil) for field in (data, weight))
+        at = i[some], j[some], stencil
+        given, believed = (taken(field, *at) for field in (data, weight))
         believed *= fade
+        normal = normal_matrices(stencil, believed, degree)
         fit = basis @ (believed * given).T
-        solve(factored(normal_matrices(stencil, believed, degree)), fit)
+        if leaning is not None:
+            leans, to = taken(factor, *at), foot[:, some]
+            mixed = basis @ (believed * leans).T
+            normal += mixed[:, None] * to + to[:, None] * mixed
+            normal += np.sum(believed * leans**2, axis=1) * to[:, None] * to
+            fit += to * np.sum(believed * leans * given, axis=1)
+        solve(factored(normal), fit)
         found[: len(basis), some] = fit
         given -= fit.T @ basis
+        if leaning is not None:
+            given -= leans * np.sum(fit * to, axis=0)[:, None]
         total = np.maximum(np.sum(believed, axis=1), LEAST_TOTAL)
         rms[some] = np.sqrt(np.sum(believed * given**2, axis=1) / total)
         count[some] = np.count_nonzero(believed, axis=1)

@@ -132,10 +132,10 @@ def _downhill(here: Quadratic) -> tuple[Field, Field]:
     return here.x - step * here.f_x, here.y - step * here.f_y
 
 
-def believed(fits: Fits, largest_rms: float = LARGEST_RMS) -> Mask:
+def believed(fits: Fits) -> Mask:
     """Whether there is enough data, and it is near the fit."""
     few = fits.count < LEAST_DATA
-    return np.asarray(~few & (fits.rms < largest_rms * fits.quadratic.slope))
+    return np.asarray(~few & (fits.rms < LARGEST_RMS * fits.quadratic.slope))
 
 
 def edge_shape(

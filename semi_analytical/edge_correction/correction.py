@@ -47,10 +47,9 @@ class EdgeCorrection:
             return pressed
         free = not np.any(sheared.shear) or not np.any(sheared.in_stick)
         before = self._extended(last) if last and way_known else None
-        if not free and not _leads_to(before, state, sheared):
-            return pressed
-        border = self._sheared(before, sheared, pressed, tolerance)
-        return replace(pressed, sheared=border)
+        if free or _leads_to(before, state, sheared):
+            return replace(pressed, sheared=self._sheared(before, sheared, pressed, tolerance))
+        return pressed
 
     def _extended(self, state: State) -> State:
         """Extend the fields of a state to the window."""
@@ -60,13 +59,9 @@ class EdgeCorrection:
 
     def _pressed(self, last: State | None, state: State, extended: State) -> Corrected:
         """The pressure; reused where it has not changed."""
-        p, sheared, law = (
-            extended.pressing.pressure,
-            extended.sheared,
-            self._operators.model.friction,
-        )
-        follows = None
+        sheared, law, follows = extended.sheared, self._operators.model.friction, None
         if sheared is not None:
+            p = extended.pressing.pressure
             follows = FollowingShear.of(law, p, sheared.shear, sheared.in_stick)
         known = last.corrected if last and last.target == state.target else None
         same = last is not None and np.array_equal(last.pressing.pressure, state.pressing.pressure)
