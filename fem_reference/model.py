@@ -1,4 +1,4 @@
-"""What every method needs of a scene on one mesh: compliance, gap and friction."""
+"""Model of a scene on one mesh: compliance, gap and friction."""
 
 from dataclasses import replace
 from functools import cached_property

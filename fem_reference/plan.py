@@ -1,17 +1,17 @@
-"""Which path a scene takes: the only place that asks what kind of scene this is."""
+"""Path of a scene: its effects, its refusals, and the number of its increments."""
 
 from dataclasses import dataclass
+from enum import Enum
 from math import ceil, hypot
 
-from contact_scene import ControlKind, LoadRamp, Scene
+from contact_scene import ControlKind, LoadRamp, Scene, effect
 from contact_scene.cycles import loop_increments
 from contact_scene.effect import Effect
 from contact_scene.expected_contact import refuse_equator
 from contact_scene.normal_form import normal_form
 from contact_scene.pair import coupling, refuse_contrast
-from fem_reference.effects import effects
-from fem_reference.path import Path as Path
-from fem_reference.refusals import refuse_loads, refuse_shapes
+from contact_scene.scene_text import shape_text
+from contact_scene.solver_errors import UnsupportedScene
 
 # Of the shear moduli within a body: beyond, its stiffness matrix loses the softest part.
 MOST_CONTRAST = 1e8
@@ -19,6 +19,19 @@ ROUND_OFF = 1e-9
 # Increments of a step whose path matters; errors fall as their inverse.
 PATH_INCREMENTS = 20
 LARGEST_SHARE = 0.05
+
+# The sine of an angle below this is round-off of a load that goes straight.
+STRAIGHT = 1e-9
+
+
+class Path(Enum):
+    """Which tractions are solved for, and on which harmonics."""
+
+    PRESSING = "pressure alone"
+    PRESSING_WITH_FRICTION = "pressure and radial shear, coupled"
+    TWISTING = "pressure, then circumferential shear"
+    SHEARING = "pressure, then shear along the load"
+    HARMONICS = "pressure and shear, coupled, on many harmonics"
 
 
 @dataclass(frozen=True)
@@ -43,7 +56,7 @@ def plan(scene: Scene) -> Plan:
     """Decide the path of a scene; raises UnsupportedScene for what is not axisymmetric enough."""
     scene = normal_form(scene)
     refuse_equator(scene)
-    refuse_shapes(scene)
+    _refuse_shapes(scene)
     refuse_contrast(
         scene, MOST_CONTRAST, f", and finite elements carry a ratio up to {MOST_CONTRAST:.0e}"
     )
@@ -53,7 +66,7 @@ def plan(scene: Scene) -> Plan:
     twisted = any(ramp.twisting.end != 0 for ramp in ramps)
     couples, why = coupling(scene)
     couples = couples and scene.friction is not None and scene.friction.largest > 0
-    refuse_loads(scene, loaded, twisted, couples)
+    _refuse_loads(scene, loaded, twisted, couples)
     path = _path(friction, loaded, twisted, couples)
     matters = _path_matters(ramps, path)
     return Plan(
@@ -61,7 +74,7 @@ def plan(scene: Scene) -> Plan:
         _direction(ramps),
         _increments(scene, matters),
         matters,
-        effects(scene, path, (friction, loaded, twisted), why),
+        _effects(scene, path, (friction, loaded, twisted), why),
     )
 
 
@@ -120,3 +133,102 @@ def _path_increments(scene: Scene, ramp: LoadRamp) -> int:
     start, end = ramp.tangential.start or (0.0, 0.0), ramp.tangential.end
     change = hypot(end[0] - start[0], end[1] - start[1])
     return max(1, ceil(change / (LARGEST_SHARE * limit) - ROUND_OFF)) if limit > 0 else 1
+
+
+def _effects(
+    scene: Scene, path: Path, acting: tuple[bool, bool, bool], why_coupled: str
+) -> tuple[Effect, ...]:
+    """Every effect with its reason.
+
+    acting       whether there are friction, a tangential load, and torsion
+    why_coupled  why pressure does or does not move the surfaces past each other
+    """
+    has_friction, loaded, twisted = acting
+    return (
+        effect.PRESSURE,
+        effect.second_body(scene),
+        effect.layers(scene, "1 layer"),
+        effect.friction(scene),
+        Effect(
+            "tangential load",
+            has_friction and loaded,
+            "a step names a tangential force or shift" if loaded else "no step pushes sideways",
+        ),
+        Effect(
+            "torsion",
+            has_friction and twisted,
+            "a step names a torque or twist" if twisted else "no step twists the indenter",
+        ),
+        effect.coupled(scene, path in (Path.PRESSING_WITH_FRICTION, Path.HARMONICS), why_coupled),
+        _cross_slip(path),
+        effect.load_history(path is not Path.PRESSING and len(scene.loading) > 1),
+    )
+
+
+def _cross_slip(path: Path) -> Effect:
+    """Slip across the load, which Poisson's ratio calls for (Munisamy, Hills and Nowell 1994)."""
+    name = "slip across the load"
+    if path is Path.SHEARING:
+        return Effect(
+            name, False, "neglected, as by Cattaneo and Mindlin: shear and slip are along the load"
+        )
+    if path is Path.HARMONICS:
+        return Effect(name, True, "Coulomb's law is obeyed as a vector law at every point")
+    return Effect(name, False, "nothing pushes sideways")
+
+
+def _refuse_shapes(scene: Scene) -> None:
+    """Shapes and friction that are not the same all around; raises UnsupportedScene."""
+    indenter, friction = scene.indenter, scene.friction
+    if not indenter.is_of_revolution:
+        raise UnsupportedScene(
+            f"the indenter is not the same all around ({shape_text(indenter)}), and this solver "
+            "takes bodies of revolution; solve it with the semi-analytical solver"
+        )
+    if friction is not None and friction.varying is not None:
+        raise UnsupportedScene(
+            "friction is given as a map, and this solver takes one coefficient; name one number"
+        )
+
+
+def _refuse_loads(scene: Scene, loaded: bool, twisted: bool, coupled: bool) -> None:
+    """Loads that are not along one line or about one axis; raises UnsupportedScene.
+
+    coupled  whether pressing alone leaves shear
+    """
+    if any(any(ramp.tilting.end) for ramp in scene.load_path()):
+        raise UnsupportedScene(
+            "a step names a moment or a tilt, and this solver keeps the indenter upright; leave it "
+            "out"
+        )
+    free = any(ramp.tilting.kind is ControlKind.FORCE for ramp in scene.load_path())
+    if free and loaded and coupled:
+        raise UnsupportedScene(
+            "the indenter may tilt freely under a tangential load, and this solver keeps it "
+            "upright; prescribe the tilt"
+        )
+    if twisted and loaded:
+        raise UnsupportedScene(
+            "steps name a tangential load and a torsion, and this solver takes one of them; leave "
+            "the other out, or solve it with --solver radial"
+        )
+    if twisted and coupled:
+        raise UnsupportedScene(
+            "the indenter is twisted where pressing alone leaves radial shear, and this solver "
+            "does not combine the two; take bodies that are alike, leave the torsion out, or solve "
+            "it with --solver radial"
+        )
+    ends = [ramp.tangential.end for ramp in scene.load_path()]
+    longest = max(ends, key=lambda end: hypot(*end))
+    for end in ends:
+        if _turns(longest, end):
+            raise UnsupportedScene(
+                f"the tangential load goes along {longest} and along {end}, and this solver takes "
+                "one direction; keep to a straight line, or solve it with --solver radial"
+            )
+
+
+def _turns(one: tuple[float, float], other: tuple[float, float]) -> bool:
+    """Whether two loads are not on one line, round-off apart."""
+    cross = one[0] * other[1] - one[1] * other[0]
+    return abs(cross) > STRAIGHT * hypot(*one) * hypot(*other)

@@ -12,7 +12,8 @@ from hankel_responses import Coating, Patch, nodal_forces, patch_energy
 from contact_scene import RIGID, Body, IsotropicMaterial, Layer
 from contact_scene.solver_errors import ResourceRefused
 from fem_reference import memory
-from fem_reference.elasticity import factored_section, source_digest
+from fem_reference.elasticity import compliance as condensed
+from fem_reference.elasticity import factored_section
 from fem_reference.elasticity.compliance import composite, condense
 from fem_reference.elasticity.factored_section import FactoredSection
 from fem_reference.elasticity.hat_functions import hats_on
@@ -312,14 +313,14 @@ def test_a_compliance_of_other_sources_is_not_taken(cache, monkeypatch, tmp_path
     section = section_mesh(HALF_SPACE, 4)
     condense(section, PRESSING)
     package = tmp_path_factory.mktemp("edited")
-    for folder in source_digest.FOLDERS:
-        shutil.copytree(source_digest.PACKAGE / folder, package / folder)
-    assert source_digest.sources_digest(package) == source_digest.sources_digest()
+    for folder in condensed.FOLDERS:
+        shutil.copytree(condensed.PACKAGE / folder, package / folder)
+    assert condensed.sources_digest(package) == condensed.sources_digest()
     with (package / "elasticity" / "weak_form.py").open("a") as file:
         file.write("# another line\n")
-    source_digest.sources_digest.cache_clear()
-    edited = source_digest.sources_digest(package)
-    assert edited != source_digest.sources_digest()
+    condensed.sources_digest.cache_clear()
+    edited = condensed.sources_digest(package)
+    assert edited != condensed.sources_digest()
     monkeypatch.setattr("fem_reference.elasticity.compliance.sources_digest", lambda: edited)
     assert not condense(section, PRESSING).from_cache
     assert len(list(cache.iterdir())) == 2
@@ -328,11 +329,11 @@ def test_a_compliance_of_other_sources_is_not_taken(cache, monkeypatch, tmp_path
 def test_what_a_compliance_is_computed_by_is_in_its_key():
     """Nothing outside FOLDERS is imported there but values, refusals and libraries."""
     allowed = ("contact_scene", "fem_reference.memory")
-    for folder in source_digest.FOLDERS:
-        for source in (source_digest.PACKAGE / folder).rglob("*.py"):
+    for folder in condensed.FOLDERS:
+        for source in (condensed.PACKAGE / folder).rglob("*.py"):
             for name in re.findall(r"^from (\S+) import", source.read_text(), re.MULTILINE):
                 ours = name.startswith(("fem_reference", "contact_scene"))
-                inside = name.startswith(tuple(f"fem_reference.{f}" for f in source_digest.FOLDERS))
+                inside = name.startswith(tuple(f"fem_reference.{f}" for f in condensed.FOLDERS))
                 assert not ours or inside or name.startswith(allowed), (source.name, name)
 
 

@@ -24,10 +24,10 @@ from fem_reference.contact.angular_grid import end_grid
 from fem_reference.contact.method import ContactMethod
 from fem_reference.contact.point_contact import point_contact
 from fem_reference.contact.ring_compliance import ring_compliance
-from fem_reference.contact.surface_tractions import tractions_at
 from fem_reference.history import march
 from fem_reference.model import ContactModel
 from fem_reference.plan import Path, plan
+from verification.observed.ring_tractions import tractions_at
 
 STEEL = IsotropicMaterial(young_modulus=210e9, poisson_ratio=0.3)
 HARD = IsotropicMaterial(young_modulus=420e9, poisson_ratio=0.2)

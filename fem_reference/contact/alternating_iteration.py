@@ -1,9 +1,9 @@
-"""Pressure and shear that depend on each other: the one at the other's last value, in turns.
+"""Alternating (block Gauss-Seidel) iteration of the coupled normal and tangential problems.
 
-The turns contract by about max(β², µ|β|) (β Dundurs' second constant), so that plain turns fail for
-µ|β| ≥ 1. The pressures are therefore extrapolated: the combination of known points is taken that
-would come nearest to p' = p if the round trip p → p' were linear (Anderson 1965). For µ|β| far
-above one that fails too, and `newton` takes over.
+Each iteration solves the shear at the last pressure and the pressure at that shear (Panagiotopoulos
+1975). It contracts by about max(β², µ|β|), with Dundurs' second constant β, and diverges for
+µ|β| ≥ 1. Anderson mixing of the pressures (Anderson 1965) removes that limit up to µ|β| far above
+one; beyond, `coupled_newton` takes over. Without coupling one iteration is exact.
 """
 
 from dataclasses import dataclass
@@ -87,8 +87,8 @@ class CoupledSolution:
     way: str = "alternation"
 
 
-class TurnsFailed(NotConverged):
-    """Turns that ended without a solution, and the linear solves that they took."""
+class AlternationFailed(NotConverged):
+    """The alternating iteration did not converge; with its iterations and linear solves."""
 
     def __init__(self, turns: int, solves: int, residual: float, tolerance: float) -> None:
         super().__init__("the coupled increment", solves, residual, tolerance)
@@ -99,11 +99,11 @@ class TurnsFailed(NotConverged):
 def solve_coupled(
     problem: CoupledProblem, pressure: Vector, shear: Field, tolerance: float
 ) -> CoupledSolution:
-    """Turns from a first pressure and shear until both problems meet the tolerance at once.
+    """Iterate from a first pressure and shear until both problems meet the tolerance at once.
 
-    tolerance  of the change of the pressure by a turn, Σ w |p' − p| / Σ w p'; the shear is solved
-               to a tenth of it in the end
-    raises     TurnsFailed
+    tolerance  of the change of the pressure by an iteration, Σ w |p' − p| / Σ w p'; the shear is
+               solved to a tenth of it in the end
+    raises     AlternationFailed
     """
     w, target = problem.compliance.areas, problem.normal
     q, turn, solves, change = shear, 0, 0, np.inf
@@ -132,10 +132,10 @@ def solve_coupled(
                 inner = tightest
     except NotConverged as error:
         spent = solves + error.iterations
-        raise TurnsFailed(turn, spent, error.residual, error.tolerance) from error
+        raise AlternationFailed(turn, spent, error.residual, error.tolerance) from error
     except np.linalg.LinAlgError as error:
-        raise TurnsFailed(turn, solves, np.inf, tolerance) from error
-    raise TurnsFailed(turn, solves, change, tolerance)
+        raise AlternationFailed(turn, solves, np.inf, tolerance) from error
+    raise AlternationFailed(turn, solves, change, tolerance)
 
 
 def _change(areas: Vector, p: Vector, answer: Vector) -> float:
@@ -205,7 +205,7 @@ def _shear(problem: CoupledProblem, p: Vector, start: Field, tolerance: float) -
 
 
 class _Anderson:
-    """The next point of the iteration p → p', from all that is known of it."""
+    """Anderson mixing of the pressures p → p' of the iteration."""
 
     def __init__(self, areas: Vector, force: float | None) -> None:
         self._areas = areas

@@ -1,8 +1,8 @@
-"""Pressure and shear together by Newton's method, for where taking turns does not converge.
+"""Semismooth Newton method for pressure and shear together.
 
-Below thin incompressible films, and wherever µ|β| is far above one, each turn of pressure and shear
-carries the other further away. Newton's method knows both, by the derivative of the equations on
-the side of each kink where the iterate is. It may run to and fro between kinks: see `continuation`.
+It is used where the alternating iteration diverges: below thin incompressible films, and wherever
+µ|β| is far above one. The derivative is that of the natural map on the side of each kink where the
+iterate lies. The method may cycle between kinks: see `continuation`.
 """
 
 from dataclasses import dataclass
@@ -50,7 +50,7 @@ class Root:
 
 
 def solve_by_newton(problem: CoupledProblem, start: Start, tolerance: float) -> CoupledSolution:
-    """Pressure and shear that meet all laws at once.
+    """Solve pressure and shear together.
 
     tolerance  of Σ w |p − ⟨z_z⟩| / Σ w p + Σ w |q − P(z_t)| / Σ w µp, with what the forces lack
     raises     NotConverged
@@ -60,7 +60,7 @@ def solve_by_newton(problem: CoupledProblem, start: Start, tolerance: float) -> 
 
 
 def root(problem: CoupledProblem, start: Start, tolerance: float, springs: float = 0.0) -> Root:
-    """Where the equations miss nothing, with springs between the surfaces; raises NotConverged."""
+    """Find a root of the equations with springs between the surfaces; raises NotConverged."""
     misses: list[float] = []
     try:
         at, solves = _first(problem, start, springs)

@@ -1,7 +1,8 @@
-"""Gauss points of the contact edges: where the penalty law acts on rings.
+"""Gauss points of the contact edges, at which the penalty law acts on rings.
 
-Three points on an edge resolve the quadratic displacement that the springs of the law press, which
-two hat functions do not. Without springs as many pressures could not be told apart.
+Three points on an edge resolve the overlap that quadratic displacements leave in the springs of the
+law; two hat functions do not. The exact law cannot act there: the displacements cannot distinguish
+so many pressures.
 """
 
 from collections.abc import Callable

@@ -1,4 +1,9 @@
-"""One load increment on points: from state to state."""
+"""One load increment on points: from the state at its start to the state at its end.
+
+Pressure and shear follow from the alternating iteration; if that fails, from Newton's method for
+both; if that fails, from continuation. With a penalty an increment has several passes, of which
+each takes the tractions of the last one as multipliers (see `augmented_lagrangian`).
+"""
 
 from dataclasses import dataclass, replace
 
@@ -10,13 +15,12 @@ from contact_scene.residuals import Residuals, ShearResiduals
 from contact_scene.solver_errors import NotConverged, motion_undefined
 from contact_scene.summary import ContactStatus
 from fem_reference.contact.alternating_iteration import (
+    AlternationFailed,
     CoupledProblem,
     CoupledSolution,
-    TurnsFailed,
     solve_coupled,
 )
 from fem_reference.contact.augmented_lagrangian import augmented
-from fem_reference.contact.contact_fraction import touching_share
 from fem_reference.contact.continuation import solve_by_continuation
 from fem_reference.contact.coupled_newton import Start, solve_by_newton
 from fem_reference.contact.friction_limit import contact_status, refuse_beyond_limit
@@ -48,9 +52,9 @@ WIDEST_ZONE = 1.25
 def advance(
     contact: PointContact, before: PointState | None, loads: Loads, tolerance: float
 ) -> PointState:
-    """Solve an increment; all residuals of the state at its end are at most the tolerance.
+    """Solve an increment. All residuals of the state at its end are at most the tolerance.
 
-    raises   NotConverged, SurfacesOverlap, GrossSliding
+    raises  NotConverged, SurfacesOverlap, GrossSliding
     """
     before = before or contact.untouched()
     if before.motion is None:
@@ -66,7 +70,7 @@ def advance(
 
 @dataclass(frozen=True)
 class _Pass:
-    """A solution beside given multipliers, with what follows from it.
+    """A solution at given multipliers, with its displacements and residuals.
 
     multiplier    as of the state
     displacement  u_t of the bodies [length]
@@ -112,7 +116,7 @@ class _Pass:
 
 @dataclass(frozen=True)
 class _Increment:
-    """What an increment starts from, and what it leads to."""
+    """The increment from a state to given loads."""
 
     contact: PointContact
     before: PointState
@@ -120,8 +124,11 @@ class _Increment:
     tolerance: float
 
     def first(self) -> _Pass:
-        """The first pass. At Gauss points the multiplier of the pressure starts from zero, so that
-        no ripples pile up from one increment to the next; that of the shear has a memory."""
+        """Solve the first pass.
+
+        At Gauss points the multiplier of the pressure starts from zero in every increment, because
+        ripples would accumulate otherwise. That of the shear starts from the shear.
+        """
         before, penalty = self.before, self.contact.penalty
         multiplier = np.zeros_like(before.tractions)
         if self.contact.at_gauss_points:
@@ -132,18 +139,19 @@ class _Increment:
         return self._solve(multiplier, before.tractions, motion)
 
     def again(self, last: _Pass) -> _Pass:
-        """The pass whose multipliers are the tractions of the last one."""
+        """Solve the pass whose multipliers are the tractions of the last one."""
         motion = last.motion, last.solution.approach
         after = self._solve(last.tractions, last.tractions, motion)
         turns, solves = last.turns + after.turns, last.solves + after.solves
         return replace(after, turns=turns, solves=solves)
 
     def left(self, one: _Pass) -> float:
-        """What springs leave: overlap over approach, or their strain along the surface over the
-        motion of the surfaces there, both as means weighted with the shear.
+        """Compute the error of the penalty in a pass [1].
 
-        At Gauss points the square of the part of the mesh's zone that touches counts, too: the
-        error that elements make is inverse to it, and overlap need not be smaller than that.
+        It is the overlap over the approach, or the strain of springs along the surface over the
+        displacement there, both weighted with the shear; the larger of the two. At Gauss points it
+        counts with the square of the part of the mesh's contact zone that is in contact. The error
+        of the elements is inverse to that square, and the penalty's need not be smaller.
         """
         w, q = self.contact.compliance.areas, length(one.solution.shear)
         moved = float(np.sum(w * q * length(one.displacement)))
@@ -158,7 +166,7 @@ class _Increment:
         return left * min(1.0, WIDEST_ZONE * reached / rings.reach) ** 2
 
     def state(self, passes: list[_Pass]) -> PointState:
-        """The state that the last pass makes."""
+        """Collect the state at the end of the last pass."""
         contact, before, last = self.contact, self.before, passes[-1]
         compliance, problem, solution = contact.compliance, last.problem, last.solution
         p, q, w = solution.pressure, solution.shear, compliance.areas
@@ -199,8 +207,8 @@ class _Increment:
         )
 
     def _solve(self, multiplier: Field, start: Field, motion: tuple[float | None, float]) -> _Pass:
-        """One pass. Judged by displacements computed afresh from the final tractions, harmonic by
-        harmonic.
+        """Solve one pass. Its residuals follow from displacements that are computed anew from the
+        final tractions, harmonic by harmonic.
 
         start   tractions r, θ, z (3, points)
         motion  of the indenter, tangential and approach
@@ -208,7 +216,7 @@ class _Increment:
         """
         contact, before, loads = self.contact, self.before, self.loads
         compliance = contact.compliance
-        # Springs at Gauss points forget their strain, which the bodies could not follow.
+        # At Gauss points the strain left in springs is dropped: bodies could not follow it.
         strained = 0.0 if contact.at_gauss_points else before.shear - before.multiplier[:2]
         memory = before.displacement + compliance.springs * (multiplier[:2] + strained)
         problem = CoupledProblem(
@@ -334,11 +342,13 @@ class _Increment:
 
 
 def _solved(problem: CoupledProblem, start: Start, tolerance: float) -> CoupledSolution:
-    """By the alternating iteration, which needs a motion only below the friction limit; else by
-    Newton's method; where that runs to and fro, by continuation."""
+    """Solve by the alternating iteration, else by Newton's method, else by continuation.
+
+    Only the alternating iteration can end at the friction limit, where no motion is defined.
+    """
     try:
         return solve_coupled(problem, start.pressure, start.shear, tolerance)
-    except TurnsFailed as error:
+    except AlternationFailed as error:
         failed = error
     spent = failed.solves
     for way, solve in (("newton", solve_by_newton), ("continuation", solve_by_continuation)):
@@ -349,3 +359,25 @@ def _solved(problem: CoupledProblem, start: Start, tolerance: float) -> CoupledS
             continue
         return replace(solution, turns=failed.turns, solves=spent + solution.solves, way=way)
     raise NotConverged("the coupled increment", spent, failed.residual, failed.tolerance)
+
+
+def touching_share(
+    radii: Field, apart_before: Mask, apart: Mask, edge_before: float, edge: float
+) -> Field:
+    """Compute the contact fraction of an increment for each ring.
+
+    Particles slip past each other from their touch on and until they part. Where the edge of the
+    contact passes a ring at r on its way from a₀ to a₁, they touch for |a - r|/|a₁ - a₀| of their
+    motion, with a the larger of both: to first order in the increment, in which the motion follows
+    the radius.
+
+    radii                of the rings [length]
+    apart_before, apart  rings with a gap at start and end
+    edge_before, edge    a₀ and a₁ [length]; without contact 0
+    """
+    widest, way = max(edge_before, edge), abs(edge - edge_before)
+    passed = apart_before != apart
+    share = np.where(apart, 0.0, 1.0)
+    if way > 0:
+        share[passed] = np.clip((widest - radii[passed]) / way, 0.0, 1.0)
+    return share

@@ -1,4 +1,4 @@
-"""A state on points as an increment of the result."""
+"""Conversion of a state on points to an increment of the result."""
 
 from dataclasses import replace
 from math import pi, sqrt
@@ -22,7 +22,7 @@ Scalar = TypeVar("Scalar", np.float64, np.bool_)
 def reported(
     contact: PointContact, state: PointState, direction: tuple[float, float], place: Place
 ) -> Increment:
-    """Fields on (rings, angles), or on (rings,) as long as nothing depends on θ.
+    """Convert a state: fields are (rings, angles), or (rings,) while nothing depends on θ.
 
     direction  of the tangential load, from which angles count
     """

@@ -27,7 +27,7 @@ HIGHEST = 8
 
 @dataclass(frozen=True)
 class ContactMethod:
-    """Solves increments of a model's scene, and reports them.
+    """The contact method of a scene: solves its increments and reports them.
 
     penalty  None: the exact law of Coulomb and Signorini
     around   points on the half circle, from the direction of the load on, for Path.HARMONICS;
@@ -40,7 +40,7 @@ class ContactMethod:
     around: AngularGrid | None = None
 
     def advance(self, before: PointState | None, loads: Loads, tolerance: float) -> PointState:
-        """The state at the end of an increment.
+        """Solve an increment from the state before it.
 
         raises  NotConverged, SurfacesOverlap, GrossSliding, ContactAtZoneEdge
         """
@@ -58,7 +58,7 @@ class ContactMethod:
         return state
 
     def increment(self, state: PointState, place: Place) -> Increment:
-        """The state as it is reported."""
+        """Convert a state to the increment of a result."""
         contact = self._on_rings if state.axisymmetric else self._on_points
         return reported(contact, state, self.plan.direction, place)
 

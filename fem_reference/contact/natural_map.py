@@ -1,4 +1,4 @@
-"""Contact and friction on points as equations with kinks, and their derivative.
+"""Natural map of contact and friction on points, and its generalised derivative.
 
     p = ⟨z_z⟩,  z_z = p − (w g)/d_z        q = P(z_t),  z_t = q + (w s)/d_t,
 
@@ -39,7 +39,7 @@ class Iterate:
 
     @classmethod
     def of(cls, values: Vector) -> "Iterate":
-        """With these values."""
+        """Create the iterate with these values."""
         shift, approach, springs = (float(value) for value in values[-3:])
         return cls(values[:-3], shift, approach, springs)
 

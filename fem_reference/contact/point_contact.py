@@ -1,4 +1,4 @@
-"""Two bodies on points, before any load, and the law between them."""
+"""Contact problem on points: compliance, undeformed gap, friction, and the law of contact."""
 
 from dataclasses import dataclass, replace
 from typing import Any
@@ -48,16 +48,16 @@ class PointContact:
 
     @property
     def axisymmetric(self) -> bool:
-        """Whether points are whole rings."""
+        """True if points are whole rings."""
         return self.compliance.grid.highest == 0
 
     @property
     def at_gauss_points(self) -> bool:
-        """Whether there are more points than displacements that could tell pressures apart."""
+        """True if the displacements cannot distinguish the pressures of all points."""
         return isinstance(self.rings.edge, GaussEdge)
 
     def untouched(self) -> PointState:
-        """The state before first touch."""
+        """Return the state before first contact."""
         nothing = np.zeros((3, len(self.gap)))
         return PointState(
             axisymmetric=self.axisymmetric,
@@ -79,7 +79,7 @@ class PointContact:
         )
 
     def lifted(self, state: PointState) -> PointState:
-        """An axisymmetric state on these points."""
+        """Extend an axisymmetric state to these points."""
         ring = self.compliance.ring_of_point
         lifted: dict[str, Any] = {
             k: v[..., ring] for k, v in vars(state).items() if isinstance(v, np.ndarray)
@@ -90,7 +90,7 @@ class PointContact:
 def point_contact(
     model: ContactModel, path: Path, grid: AngularGrid, penalty: Penalty | None = None
 ) -> PointContact:
-    """The bodies of a model on the rings of its mesh and the angles of a grid.
+    """Compute the contact problem of a model on the rings of its mesh and the angles of a grid.
 
     The penalty law acts at Gauss points, but on harmonics at nodes.
     Raises ResourceRefused where the memory does not suffice for the matrix between all points.

@@ -17,7 +17,7 @@ Mask = NDArray[np.bool_]
 class PointState:
     """Converged fields; vectors (2, points) are components r and θ, on Path.SHEARING x alone.
 
-    axisymmetric       whether points are whole rings
+    axisymmetric       true if points are whole rings
     displacement       u_t of the bodies [length]; with the motion the memory of the next increment
     multiplier         tractions that need no springs, r, θ, z (3, points); zero for the exact law
     edge_tractions     r, θ, z (3, points) by which the edges of contact and stick are found: of the
@@ -63,10 +63,10 @@ class PointState:
 
 
 def length(vectors: Field) -> Vector:
-    """Of each vector of (2, points)."""
+    """Compute the length of each vector of (2, points)."""
     return np.asarray(np.sqrt(vectors[0] ** 2 + vectors[1] ** 2))
 
 
 def longest(vectors: Field) -> float:
-    """Length of the longest of them."""
+    """Compute the length of the longest vector of (2, points)."""
     return float(np.max(length(vectors)))

@@ -1,4 +1,4 @@
-"""Elasticity as the contact solver uses it: displacements of rings per traction on rings."""
+"""Compliance of rings: displacement of rings per traction on rings, by angular harmonics."""
 
 from dataclasses import dataclass
 
@@ -44,17 +44,17 @@ class RingCompliance:
     edge: Edge
 
     def contact_edge(self, pressure: Vector) -> float:
-        """Radius where a pressure (rings,) ends [length]."""
+        """Find the radius where a pressure (rings,) ends [length]."""
         return contact_edge(self.radii, pressure, self.edge, self.reach)
 
 
 def ring_compliance(
     model: ContactModel, path: Path, highest: int = 0, at_gauss_points: bool = False
 ) -> RingCompliance:
-    """Compliance of the bodies of a model; condenses the motions that are missing.
+    """Compute the compliance of the bodies of a model; condense the motions that are missing.
 
     highest          harmonic, on a path with coupled pressure and shear
-    at_gauss_points  whether rings are at Gauss points instead of corner nodes
+    at_gauss_points  rings are at Gauss points instead of corner nodes
     """
     nodes = model.radii
     basis: TractionBasis = gauss_points(nodes, model.rim) if at_gauss_points else model.hats

@@ -110,7 +110,7 @@ def solve_shear(problem: ShearProblem, start: Field, tolerance: float) -> Sheare
 
 
 def _sum(areas: Vector, vectors: Field) -> float:
-    """∫ of the length of vectors over the contact."""
+    """Integrate the length of vectors over the contact."""
     return float(np.sum(areas * np.sqrt(vectors[0] ** 2 + vectors[1] ** 2)))
 
 

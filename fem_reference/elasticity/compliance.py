@@ -2,15 +2,22 @@
 
 import hashlib
 from dataclasses import dataclass
+from functools import cache
+from pathlib import Path
 
 import numpy as np
+import scipy
+import skfem
 from numpy.typing import NDArray
 
 from contact_scene.kept_arrays import remembered
 from fem_reference.elasticity.factored_section import FactoredSection
 from fem_reference.elasticity.motion import Motion
-from fem_reference.elasticity.source_digest import sources_digest
 from fem_reference.mesh.section_mesh import SectionMesh
+
+PACKAGE = Path(__file__).resolve().parents[1]
+# All that decides the bits of a compliance, from the mesh to the condensed matrix.
+FOLDERS = ("mesh", "elasticity")
 
 
 @dataclass(frozen=True, eq=False)
@@ -95,3 +102,18 @@ def _identity(section: SectionMesh, motion: Motion) -> str:
     for array in (section.points, section.quads.astype(np.int64)):
         identity.update(np.ascontiguousarray(array).tobytes())
     return identity.hexdigest()
+
+
+@cache
+def sources_digest(package: Path = PACKAGE) -> str:
+    """Of the sources of mesh and compliance as they are now, and of the libraries.
+
+    package  the folder that holds FOLDERS
+    """
+    libraries = (np.__version__, scipy.__version__, skfem.__version__)
+    digest = hashlib.sha256(repr(libraries).encode())
+    for folder in FOLDERS:
+        for source in sorted((package / folder).rglob("*.py")):
+            content = hashlib.sha256(source.read_bytes()).hexdigest()
+            digest.update(f"{source.relative_to(package).as_posix()} {content}\n".encode())
+    return digest.hexdigest()

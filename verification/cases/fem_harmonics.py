@@ -18,7 +18,6 @@ from contact_scene import (
     LoadStep,
     Scene,
 )
-from fem_reference.contact.surface_tractions import tractions_at
 from verification.cases.cattaneo_mindlin import CATTANEO, PARTS
 from verification.cases.fem_harmonics_run import PointsRun
 from verification.cases.fem_levels import because, finest
@@ -29,6 +28,7 @@ from verification.judging.ladder import Ladder, Rung, asked, ladder, mesh_label,
 from verification.judging.observable import error_norm
 from verification.judging.observables import SHIFT, STICK_RADIUS
 from verification.judging.run import per_radius
+from verification.observed.ring_tractions import tractions_at
 from verification.problems import paper_scene as paper
 from verification.problems.paper_scene import FRICTION, HERTZ, STEEL
 from verification.problems.problem import Problem

@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from fem_reference.contact.surface_tractions import tractions_at
 from verification.cases.both_solvers.left_out import AXIS, FRONT, Field, Mask, kept_fronts
 from verification.observed.ring_errors import judged_within
+from verification.observed.ring_tractions import tractions_at
 from verification.problems.paper_scene import FRICTION, HERTZ
 
 if TYPE_CHECKING:

@@ -8,8 +8,8 @@ import numpy as np
 
 from contact_scene import Scene
 from fem_reference import Increment, Method, Result, solve
-from fem_reference.contact.surface_tractions import tractions_at
 from verification.convergence.stored_field import PRESSURE, SHEAR, Field, StoredField
+from verification.observed.ring_tractions import tractions_at
 from verification.running.row import CaseRecord
 from verification.studies.refinement.level_row import level_row
 from verification.studies.refinement.studied_scene import StudiedScene, cut_into
