@@ -1,5 +1,6 @@
-"""How far off the numbers of a result may be: coarser solves beside it, and what follows from them.
+"""Error estimates of the numbers of a result, from coarse solves and one formula.
 
-`on_cells` and `on_elements` know which companions a solver's result needs and what their
-differences mean; `estimate` puts them together; `rules` holds what was measured.
+`error_formula` holds the formula, the convergence orders and the resolution limits. `on_cells`,
+`on_elements` and `on_radii` make the coarse solves of one solver. `increment_errors` decides which
+load steps have an increment error.
 """

@@ -1,4 +1,4 @@
-"""The numbers of a result that have an error: scalars of its steps and of the cycles they close."""
+"""Scalars of a result that have an error: at the ends of load steps and of closed load cycles."""
 
 from __future__ import annotations
 
@@ -8,7 +8,9 @@ from typing import TYPE_CHECKING, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
+from contact_scene import LoadRamp
 from contact_scene.increment import SCALARS, State
+from contact_scene.load_path import ControlKind
 from contact_scene.reported import reported
 
 if TYPE_CHECKING:
@@ -19,12 +21,11 @@ if TYPE_CHECKING:
 Values: TypeAlias = Mapping[str, NDArray[np.float64]]
 
 PHYSICAL = tuple(name for name, mark in reported(State).items() if mark.physical)
-LOST, LOST_IN_CYCLE = "dissipated_energy", "energy_per_cycle"
-OF_CYCLES = (LOST_IN_CYCLE, "slip_amplitude", "ruiz_f1", "ruiz_f2")
+OF_CYCLES = ("energy_per_cycle", "slip_amplitude", "ruiz_f1", "ruiz_f2")
 
 
 def values_of(result: Result, cycles: Sequence[FrettingCycle]) -> tuple[Values, ...]:
-    """Of every step what is defined at its end, by the names of the summary."""
+    """Return the scalars that are defined at the end of each load step, by name."""
     closed = {cycle.cycle.end: _of_cycle(cycle) for cycle in cycles}
     return tuple(
         {
@@ -38,55 +39,17 @@ def values_of(result: Result, cycles: Sequence[FrettingCycle]) -> tuple[Values, 
     )
 
 
-def lost_by_steps(
-    values: Sequence[Values], cycles: Sequence[FrettingCycle]
-) -> tuple[Mapping[str, Mapping[int, float]], ...]:
-    """Of every step the energies lost in it and before, by the steps, from 0, that they add up
-    over [force length]; nothing of one that is not known."""
-    starts = {cycle.cycle.end: cycle.cycle.start for cycle in cycles}
-    lost: dict[int, float] = {}
-    found: list[Mapping[str, Mapping[int, float]]] = []
-    before = 0.0
-    for n, here in enumerate(values):
-        if LOST not in here:
-            found.append({})
-            continue
-        now = float(here[LOST][0])
-        lost[n], before = abs(now - before), now
-        of_cycle = {k: size for k, size in lost.items() if k >= starts.get(n + 1, n + 1)}
-        found.append({LOST: dict(lost)} | ({LOST_IN_CYCLE: of_cycle} if of_cycle else {}))
-    return tuple(found)
-
-
-def charged_by_increments(
-    result: Result, cycles: Sequence[FrettingCycle]
-) -> tuple[Mapping[str, float | None], ...]:
-    """Of every step by how much increments leave its energies uncertain, so far as increments tell
-    that themselves [force length]; None of one that they ought to tell and do not."""
-    uncertain = [end.dissipation_uncertainty for end in result.steps]
-    starts = {cycle.cycle.end: cycle.cycle.start for cycle in cycles}
-    found = []
-    for end, after in zip(result.steps, uncertain, strict=True):
-        known: dict[str, float | None] = {"input_work": _open_work(end)}
-        if after is not None:
-            known[LOST] = after
-        before = uncertain[starts[end.step] - 1] if end.step in starts else None
-        if after is not None and before is not None:
-            known[LOST_IN_CYCLE] = after - before
-        found.append(known)
-    return tuple(found)
-
-
-def _open_work(end: State) -> float | None:
-    """By how much the sum of trapezoids misses the work of the loads, which is all that is stored
-    and lost [force length]; None where the balance is not known."""
-    lost = 0.0 if end.dissipated_energy is None else end.dissipated_energy
-    left = end.unresolved_work
-    if left is None:
-        if end.input_work is None or end.elastic_energy is None:
-            return None
-        left = end.input_work - end.elastic_energy - lost
-    return abs(left) + (end.dissipation_uncertainty or 0.0)
+def prescribed(ramp: LoadRamp) -> frozenset[str]:
+    """Return the names of the scalars that the load step prescribes at its end."""
+    controls = (
+        (ramp.normal.kind, "normal_force", "approach"),
+        (ramp.tangential.kind, "tangential_force", "tangential_shift"),
+        (ramp.twisting.kind, "torque", "twist"),
+        (ramp.tilting.kind, "moment", "tilt"),
+    )
+    return frozenset(
+        force if kind is ControlKind.FORCE else motion for kind, force, motion in controls
+    )
 
 
 def _of_cycle(cycle: FrettingCycle) -> dict[str, float | None]:
@@ -100,8 +63,7 @@ def _of_cycle(cycle: FrettingCycle) -> dict[str, float | None]:
 
 
 def scale(name: str, values: Values) -> float:
-    """Size of the contact in the unit of a number: what a residual is relative to; zero for what
-    has none."""
+    """Return the natural size of a scalar, in its unit; 0 for a scalar that has none."""
     sizes = {key: float(np.max(np.abs(value))) for key, value in values.items()}
     length, force = sizes["approach"], sizes["normal_force"]
     radius = sizes["contact_radius"]

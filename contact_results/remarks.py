@@ -10,7 +10,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from contact_scene import HeightMap
+from contact_scene.cycles import load_cycles
 from contact_scene.height_map import interpolate
+from contact_scene.increment_error import NEAR_GROSS_SLIP, near_gross_slip, with_error
 from contact_scene.linear_theory import beyond_linear_theory
 from contact_scene.pair import contact_modulus
 from contact_scene.plausibility import unlikely
@@ -34,11 +36,40 @@ NO_BORDER = (
 
 def remarks(result: Result) -> tuple[str, ...]:
     """In sentences, for people."""
-    found = (*unlikely(result.scene), *beyond_linear_theory(result.scene, result.steps))
+    found = (
+        *unlikely(result.scene),
+        *beyond_linear_theory(result.scene, result.steps),
+        *_near_gross_slip(result),
+        *_first_cycle(result),
+    )
     if not hasattr(result, "grid"):
         return found
     on_cells = cast("semi_analytical.Result", result)
     return (*found, *_left_out(on_cells), *_edges_left(on_cells))
+
+
+def _near_gross_slip(result: Result) -> Iterator[str]:
+    """Steps pushed to nearly the friction limit, whose increments decide their shift and energy."""
+    near = near_gross_slip(result.scene)
+    if any(near):
+        yield (
+            f"step {near.index(True) + 1} pushes beyond {NEAR_GROSS_SLIP:.0%} of the friction "
+            "limit: tangential shift and dissipated energy grow like (1 - T/µW)^-1/2 and depend on "
+            "the increments; prescribe the shift, or compare increments"
+        )
+
+
+def _first_cycle(result: Result) -> Iterator[str]:
+    """A first load cycle, which starts at the virgin state of the surfaces."""
+    path = result.scene.load_path()
+    cycles = load_cycles(path)
+    if cycles and with_error(result.scene)[cycles[0].end - 1]:
+        first = cycles[0]
+        yield (
+            f"the load cycle of steps {first.start + 1} to {first.end} is the first one and starts "
+            "from the virgin state: it may dissipate several times the energy of later cycles; "
+            "repeat the steps for a steady cycle"
+        )
 
 
 def _left_out(result: semi_analytical.Result) -> Iterator[str]:

@@ -132,8 +132,9 @@ class State:
         float | None,
         Reported(
             "J",
-            "Work of forces and moments since the start of the history, by the trapezoidal rule "
-            "over the increments; null where a motion is undefined, at the friction limit under "
+            "Work of forces and moments since the start of the history: elastic_energy + "
+            "dissipated_energy (finite elements that state no elastic energy: the trapezoidal "
+            "sum); null where a motion is undefined, at the friction limit under "
             "force control.",
         ),
     ] = None
@@ -141,9 +142,8 @@ class State:
         float | None,
         Reported(
             "J",
-            "Part of the input work that is neither stored nor dissipated because increments are "
-            "finite. It vanishes with them: input_work - unresolved_work is the better value of "
-            "the work.",
+            "Trapezoidal sum of forces over motions, increment by increment, minus input_work. It "
+            "vanishes with the length of the increments.",
             physical=False,
         ),
     ] = None
@@ -151,8 +151,9 @@ class State:
         float | None,
         Reported(
             "",
-            "What is missing of input_work = elastic_energy + dissipated_energy + unresolved_work "
-            "over an increment, relative to the largest of them so far; of a step the largest.",
+            "Part of the trapezoidal sum of forces over motions that is neither stored, dissipated "
+            "nor explained by the length of the increment, relative to the largest energy so far; "
+            "of a step the largest.",
             Kind.LARGEST,
             physical=False,
         ),
@@ -176,6 +177,11 @@ class State:
             "m", "Largest overlap that a penalty leaves; null without a penalty.", physical=False
         ),
     ] = None
+
+    @property
+    def trapezoidal_work(self) -> float | None:
+        """Sum of ½(f₀ + f₁) Δω over forces, motions and increments [force length]."""
+        return None if self.input_work is None else self.input_work + (self.unresolved_work or 0.0)
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -15,7 +15,15 @@ Amount: TypeAlias = Size | tuple[Size, Size]
 
 # Where an error comes from.
 Part: TypeAlias = Literal[
-    "cells", "increments", "tolerance", "elements", "section", "penalty", "harmonics", "quadrature"
+    "cells",
+    "increments",
+    "tolerance",
+    "elements",
+    "section",
+    "penalty",
+    "harmonics",
+    "quadrature",
+    "neglected",
 ]
 
 
@@ -54,7 +62,7 @@ class Companion(Description):
     counts of any step."""
 
     differs: str
-    """In what it differs from the run: half the cells, half the increments."""
+    """Difference from the run: half the cells, other increments."""
 
     cells: tuple[int, int] | None = None
     """Its number of cells along x and y; null for finite elements."""

@@ -1,5 +1,6 @@
 """Work put in and energy stored, from what an increment reports."""
 
+from collections.abc import Iterator
 from dataclasses import replace
 from math import pi
 
@@ -12,6 +13,7 @@ from fem_reference.fields import Increment
 from fem_reference.plan import Path, Plan
 
 Field = NDArray[np.float64]
+UNCOUPLED = (Path.PRESSING, Path.SHEARING, Path.TWISTING)
 
 
 def accounted(
@@ -21,19 +23,25 @@ def accounted(
 
     before  the increment before it in the history
     """
+    work, stored = input_work(before, increment), elastic_energy(scene, plan, increment)
+    known = None if stored is None else stored + (increment.dissipated_energy or 0.0)
+    open_ = None if work is None or known is None else work - known
     return replace(
         increment,
-        input_work=input_work(before, increment),
-        elastic_energy=elastic_energy(scene, plan, increment),
+        input_work=work if open_ is None else known,
+        unresolved_work=open_,
+        elastic_energy=stored,
         dissipation_uncertainty=dissipation_uncertainty(plan, before, increment),
     )
 
 
 def input_work(before: Increment | None, increment: Increment) -> float | None:
-    """Σ ½ (f₀ + f₁)(ω₁ - ω₀) since the start of the history [force length]: forces and moments f
-    over their conjugate motions ω. None once a motion is undefined, at the friction limit under
-    force control."""
-    worked = 0.0 if before is None else before.input_work
+    """Trapezoidal sum Σ ½ (f₀ + f₁)(ω₁ - ω₀) since the start of the history [force length].
+
+    Forces and moments f are over their conjugate motions ω. None once a motion is undefined, at
+    the friction limit under force control.
+    """
+    worked = 0.0 if before is None else before.trapezoidal_work
     forces, motions = (np.zeros(4), np.zeros(4)) if before is None else _loads(before)
     now, place = _loads(increment)
     if worked is None or motions is None or place is None:
@@ -78,18 +86,38 @@ def _changed(name: str, before: Increment | None, increment: Increment) -> Field
 
 
 def elastic_energy(scene: Scene, plan: Plan, increment: Increment) -> float | None:
-    """½ ∫ p u_z dA, the energy stored in both bodies without shear [force length].
+    """½ ∫ (p u_z + q·u) dA, the energy stored in both bodies [force length].
 
-    Where there is pressure the surfaces touch, so that u_z = ω - h: no displacement is computed.
-    None on paths with shear, of whose displacement an increment knows the slipped part only.
+    Where there is pressure the surfaces touch, so that u_z = ω - h and u = slip + rigid motion: no
+    displacement is computed. None where particles may have moved past each other before they
+    touched: bodies that couple, and pressing under shear. None where the motion is undefined.
     """
-    if plan.path is not Path.PRESSING:
+    if plan.path not in UNCOUPLED or any(plan.path_matters[: increment.step]):
         return None
     carrying = increment.pressure > 0
     hats = _hats(increment.radii)
     gap = hats.of(lambda r: np.asarray(scene.indenter.initial_gap(r, 0.0)))
     p = np.where(carrying, increment.pressure, 0.0)
-    return float(pi * np.sum(p * (increment.approach * hats.weights - np.where(carrying, gap, 0))))
+    stored = pi * np.sum(p * (increment.approach * hats.weights - np.where(carrying, gap, 0)))
+    for shear, slip, motion in _sheared(plan, increment, hats):
+        if motion is None:
+            return None
+        stored += pi * np.sum(shear * (slip * hats.weights + motion))
+    return float(stored)
+
+
+def _sheared(
+    plan: Plan, increment: Increment, hats: Hats
+) -> Iterator[tuple[Field, Field, Field | None]]:
+    """Shear, slip and the rigid motion times the weights of the rings, by component."""
+    if increment.shear_along_load is not None and increment.slip_along_load is not None:
+        shift = increment.tangential_shift
+        size = None if shift is None else float(np.dot(shift, plan.direction)) * hats.weights
+        yield increment.shear_along_load, increment.slip_along_load, size
+    if increment.shear_circumferential is not None and increment.slip_circumferential is not None:
+        turned = increment.twist
+        size = None if turned is None else turned * hats.of(lambda r: r)
+        yield increment.shear_circumferential, increment.slip_circumferential, size
 
 
 def _hats(radii: Field) -> Hats:

@@ -31,9 +31,10 @@ def extrapolated(coarse: Increment, fine: Increment) -> Increment:
     """An increment of the limit, from those of both histories at the same loads."""
     values = {name: _limit(getattr(coarse, name), getattr(fine, name)) for name in LED_TO}
     stored, lost = values["elastic_energy"], values["dissipated_energy"]
-    assert fine.input_work is not None
+    assert fine.trapezoidal_work is not None
     assert fine.dissipated_energy is not None
-    values["unresolved_work"] = fine.input_work - stored - lost
+    values["input_work"] = stored + lost
+    values["unresolved_work"] = fine.trapezoidal_work - stored - lost
     values["dissipation_uncertainty"] = abs(fine.dissipated_energy - lost)
     spent = fine.iterations + coarse.iterations
     return replace(

@@ -187,8 +187,9 @@ class _Solver:
             normal_equilibrium=None if force is None else abs(contact.load / force - 1),
         )
         residuals.require(self.tolerance, "the contact radius", state.tried)
-        worked = 0.0 if last is None else last.input_work or 0.0
+        worked = 0.0 if last is None else last.trapezoidal_work or 0.0
         begun = (0.0, 0.0) if last is None else (last.normal_force, last.approach)
+        worked += 0.5 * (begun[0] + state.normal_force) * (state.approach - begun[1])
         return Increment(
             step=reached.place.step,
             index=reached.place.index,
@@ -201,7 +202,8 @@ class _Solver:
             contact_radius=contact.radius,
             peak_pressure=largest_pressure(contact, x, p),
             elastic_energy=contact.elastic_energy,
-            input_work=worked + 0.5 * (begun[0] + state.normal_force) * (state.approach - begun[1]),
+            input_work=contact.elastic_energy,
+            unresolved_work=worked - contact.elastic_energy,
             radii=self.radii,
             pressure=p,
             gap=gap,

@@ -236,7 +236,7 @@ class Pushing:
             dissipated_energy=state.lost,
             dissipation_uncertainty=state.uncertain,
             elastic_energy=end.energy,
-            input_work=state.worked,
+            input_work=end.energy + state.lost,
             unresolved_work=state.worked - end.energy - state.lost,
             radii=points.radii,
             angles=points.shown_angles if turned else None,

@@ -187,6 +187,7 @@ class Rubbing:
         gap[apart] = indenter.initial_gap(r[apart], 0.0) - end.contact.approach
         gap[apart] += displacement(end.contact, x[apart]) + raised(r[apart])
         sticks = np.asarray(state.at(np.abs(end.sliding), r) < 0.5) & (x < 1)
+        stored = end.elastic_energy(bare[: n + 1])
         return Increment(
             step=reached.place.step,
             index=reached.place.index,
@@ -204,8 +205,9 @@ class Rubbing:
             tangential_shift=(0.0, 0.0),
             dissipated_energy=state.lost,
             dissipation_uncertainty=state.uncertain,
-            elastic_energy=end.elastic_energy(bare[: n + 1]),
-            input_work=state.worked,
+            elastic_energy=stored,
+            input_work=stored + state.lost,
+            unresolved_work=state.worked - stored - state.lost,
             radii=r,
             pressure=p,
             gap=np.maximum(gap, 0.0),

@@ -106,9 +106,9 @@ class Twisting:
         x = made.radii / state.pressed.contact.radius
         shear, slip = self._fields(state.path, x, made.pressure)
         torque, twist = (last.torque or 0.0, last.twist or 0.0) if last else (0.0, 0.0)
-        assert made.input_work is not None
+        assert made.trapezoidal_work is not None
         assert made.elastic_energy is not None
-        worked = made.input_work + 0.5 * (torque + state.torque) * (state.twist - twist)
+        worked = made.trapezoidal_work + 0.5 * (torque + state.torque) * (state.twist - twist)
         stored = made.elastic_energy + state.path.work - state.path.dissipated
         lost = state.path.dissipated
         stick = state.path.stick
@@ -138,7 +138,7 @@ class Twisting:
             stick_radius=stick * state.pressed.contact.radius,
             dissipated_energy=lost,
             elastic_energy=stored,
-            input_work=worked,
+            input_work=stored + lost,
             unresolved_work=worked - stored - lost,
             shear_circumferential=shear,
             slip_circumferential=slip,

@@ -92,8 +92,8 @@ class Energy:
     """Energies since the start of the history, where all are zero [force length].
 
     elastic     stored in both bodies
-    input_work  of the forces and moments; None once a motion is undefined (at the friction limit
-                under force control), as are the three that follow
+    input_work  trapezoidal sum of the forces and moments; None once a motion is undefined (at the
+                friction limit under force control), as are the three that follow
     dissipated  by slip
     unresolved  what finite increments leave open
     uncertain   by how much finite increments leave `dissipated` uncertain
@@ -106,6 +106,18 @@ class Energy:
     unresolved: float | None = 0.0
     uncertain: float | None = 0.0
     largest: float = 0.0
+
+    @property
+    def transferred(self) -> float | None:
+        """Energy stored and dissipated [force length]."""
+        return None if self.dissipated is None else self.elastic + self.dissipated
+
+    @property
+    def left_open(self) -> float | None:
+        """Trapezoidal sum of the loads minus the energy stored and dissipated [force length]."""
+        if self.input_work is None or self.transferred is None:
+            return None
+        return self.input_work - self.transferred
 
     def imbalance(self, before: Energy) -> float | None:
         """What is missing of the balance since `before`, over the largest energy so far [1]."""

@@ -193,18 +193,18 @@ def _solved_to(
     fineness: Discretisation,
     progress: Progress | None,
 ) -> Any:
-    from contact_errors.climb import climb
+    from contact_errors.adaptive_refinement import refine
 
-    ladder = chosen.ladder(
+    levels = chosen.levels(
         scene,
         fineness,
         stress_at=len(scene.loading) if request.binds_stress else None,
         watching=lambda _: nullcontext(progress),
     )
-    made = climb(ladder, request)
+    made = refine(levels, request)
     if not made.accuracy.met:
         raise AccuracyOutOfReach(f"the accuracy was not reached: {made.accuracy.stopped}")
-    return made.rung.result
+    return made.level.result
 
 
 def _asked(

@@ -20,7 +20,7 @@ from contact_scene.stated_error import ErrorStatus
 from verification.closed_forms.coated_indentation import paraboloid
 from verification.problems.drawn.branches import Reached, Twisting, along
 from verification.problems.drawn.coated import stored_energy
-from verification.problems.drawn.families import FAMILIES, JUDGING, TRAINING, drawn
+from verification.problems.drawn.families import CHOOSING, FAMILIES, JUDGING, drawn
 from verification.problems.drawn.known_scene import (
     APPROACH,
     CELLS,
@@ -116,7 +116,7 @@ def test_stresses_rise_to_the_truth(family: str) -> None:
 def test_drawn_scenes_are_the_same_at_every_call_and_other_for_training() -> None:
     for family in ("hertz", "cattaneo", "coated"):
         assert drawn(family, SEED, 0) == scene(family, 0)
-        assert drawn(family, TRAINING, 0).scene != drawn(family, JUDGING, 0).scene
+        assert drawn(family, CHOOSING[0], 0).scene != drawn(family, JUDGING, 0).scene
 
 
 def spring(force: float) -> Reached:

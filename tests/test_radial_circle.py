@@ -154,10 +154,6 @@ def test_points_twist_as_lubkin_and_masing_say(problem: Any) -> None:
 def test_stated_errors_cover_the_closed_forms() -> None:
     result = at_points(TWISTED.scene.model_dump_json())
     errors = stated_errors(result)
-    assert [one.differs for one in errors.companions] == [
-        "half the rings",
-        "half the rings and increments",
-    ]
     for step, exact, stated in zip(
         result.steps[1:], TWISTED.ends[1:], errors.steps[1:], strict=True
     ):

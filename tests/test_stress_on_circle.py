@@ -11,7 +11,7 @@ from numpy.testing import assert_allclose
 import radial
 import semi_analytical
 import slipstick
-from contact_errors.of_stress import stress_errors
+from contact_errors.stress_errors import stress_errors
 from contact_results.stress.extremes import extremes
 from contact_results.stress.loaded_bodies import state_of_result, state_of_run
 from contact_results.stress.on_cells import stress_on_cells

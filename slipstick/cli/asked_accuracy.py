@@ -11,7 +11,7 @@ from slipstick.cli.errors import ExitCode
 from slipstick.cli.options import optional
 
 if TYPE_CHECKING:
-    from contact_errors.climb import Climb
+    from contact_errors.adaptive_refinement import Refined
     from contact_results.directory.checkpoint import Checkpoint
     from contact_scene import SceneFile
     from contact_scene.accuracy import AccuracyRequest
@@ -40,7 +40,7 @@ MostSecondsOption: TypeAlias = Annotated[
     ),
 ]
 
-# Beside the results: where a climb stands, and the solves of a round.
+# Files in the directory of the results: state of a refinement, and checkpoints of its solves.
 ROUNDS, OF_ROUND = "rounds", "checkpoint-"
 
 
@@ -92,7 +92,7 @@ def forget_rounds(output: Path) -> None:
 
 
 @contextmanager
-def climbed_to(
+def refined_to(
     request: "AccuracyRequest",
     solver: "Solver",
     contents: "SceneFile",
@@ -100,14 +100,14 @@ def climbed_to(
     most_seconds: float | None,
     *,
     step: int | None = None,
-) -> "Iterator[Climb[Any]]":
+) -> "Iterator[Refined[Any]]":
     """The scene solved ever finer until a request is met. Beside the results every round leaves
     its own checkpoint if it is killed, and all of them where the next one goes on; those of the
     last round stay until the block is done, in which the results are written.
 
     step  at whose end the stress below the surface is wanted; the last if absent
     """
-    from contact_errors.climb import climb
+    from contact_errors.adaptive_refinement import refine
     from contact_results.directory.checkpoint import checkpointed
     from contact_results.directory.code_digest import SOLVERS, code_digest, solve_identity
     from contact_results.directory.kept_value import kept_value
@@ -129,7 +129,7 @@ def climbed_to(
             yield observe
 
     fineness = solver.fineness(contents)
-    ladder = solver.ladder(
+    levels = solver.levels(
         contents.scene,
         fineness,
         stress_at=(step or len(contents.scene.loading)) if request.binds_stress else None,
@@ -149,4 +149,4 @@ def climbed_to(
         begun = kept.last()
         if begun is not None:
             tell(f"going on after round {begun.rounds} of an interrupted run ({kept.path})")
-        yield climb(ladder, request, most_seconds, tell_round, begun, between)
+        yield refine(levels, request, most_seconds, tell_round, begun, between)

@@ -94,12 +94,12 @@ def _print_prices(option: str, solver: "Solver", contents: "SceneFile") -> None:
     requests = [read_accuracy(item, "--accuracy") for item in items]
     last = len(contents.scene.loading)
     wanted = last if any(request.binds_stress for request in requests) else None
-    ladder = solver.ladder(contents.scene, solver.fineness(contents), stress_at=wanted)
-    first = ladder.climbed(ladder.first())
+    levels = solver.levels(contents.scene, solver.fineness(contents), stress_at=wanted)
+    first = levels.solved(levels.first())
     rows, refused = [], []
     for item, request in zip(items, requests, strict=True):
         try:
-            rows.append((item, *_price_texts(price(ladder, first, request))))
+            rows.append((item, *_price_texts(price(levels, first, request))))
         except AccuracyOutOfReach as error:
             refused.append((item, str(error)))
     if rows:

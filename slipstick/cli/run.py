@@ -10,9 +10,9 @@ from slipstick.cli.asked_accuracy import (
     AccuracyOption,
     MostSecondsOption,
     asked_accuracy,
-    climbed_to,
     forget_rounds,
     leave_unless_met,
+    refined_to,
     refuse_without_error,
 )
 from slipstick.cli.options import (
@@ -116,8 +116,8 @@ def run(
         stated = reached = None
         with stopwatch.phase("solve"):
             if request is not None:
-                climbed = until_written.enter_context(
-                    climbed_to(
+                refined = until_written.enter_context(
+                    refined_to(
                         request,
                         chosen,
                         contents,
@@ -125,8 +125,8 @@ def run(
                         most_seconds,
                     )
                 )
-                result, stated = climbed.rung.result, climbed.rung.stated
-                reached = climbed.accuracy
+                result, stated = refined.level.result, refined.level.stated
+                reached = refined.accuracy
             else:
                 with solve_progress(decided.increments) as observe:
                     result = chosen.solve(contents.scene, fineness, decided, observe, keeper)

@@ -13,8 +13,8 @@ from slipstick.cli.asked_accuracy import (
     AccuracyOption,
     MostSecondsOption,
     asked_accuracy,
-    climbed_to,
     leave_unless_met,
+    refined_to,
     refuse_without_error,
 )
 from slipstick.cli.options import (
@@ -187,7 +187,7 @@ def _state_of_scene(
     """The same of a scene, solved as finely as it says or as a request needs; and how well that
     was met.
 
-    until_written  keeps where a climb stands until it is closed
+    until_written  keeps the state of the refinement until the results are written
     """
     from contact_results.stress.loaded_bodies import state_of_result
 
@@ -202,11 +202,11 @@ def _state_of_scene(
     else:
         refuse_without_error(error)
         output.parent.mkdir(parents=True, exist_ok=True)
-        climbed = until_written.enter_context(
-            climbed_to(request, solver.solver, contents, output, most_seconds, step=step)
+        refined = until_written.enter_context(
+            refined_to(request, solver.solver, contents, output, most_seconds, step=step)
         )
-        result, stated = climbed.rung.result, climbed.rung.stated
-        reached = climbed.accuracy
+        result, stated = refined.level.result, refined.level.stated
+        reached = refined.accuracy
     return state_of_result(result, step, stated), reached
 
 
@@ -287,7 +287,7 @@ def _below(
 def _errors(
     state: LoadedBodies, field: StressField, found: tuple[Extreme, ...], indenter: bool
 ) -> tuple[StatedError, ...]:
-    from contact_errors.of_stress import stress_errors
+    from contact_errors.stress_errors import stress_errors
 
     return stress_errors(state, field, found, indenter=indenter)
 

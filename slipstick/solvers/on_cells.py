@@ -29,7 +29,8 @@ from slipstick.solvers.solver import (
 )
 
 if TYPE_CHECKING:
-    from contact_errors.ladder_on_cells import CellLadder, Keeping, Watching
+    from contact_errors.refinement import Keeping
+    from contact_errors.refinement_on_cells import CellLevels
 
 # Load steps, of one increment each, by which the saving of the plan is counted.
 FORCED_INCREMENTS = 4
@@ -64,20 +65,20 @@ class OnCells:
 
         return stated_errors(result, progress=progress)
 
-    def ladder(
+    def levels(
         self,
         scene: Scene,
         fineness: SurfaceDiscretisation,
         *,
         stress_at: int | None = None,
         keeping: Keeping | None = None,
-        watching: Watching | None = None,
-    ) -> CellLadder:
-        from contact_errors.ladder import unkept
-        from contact_errors.ladder_on_cells import CellLadder
+        watching: Keeping | None = None,
+    ) -> CellLevels:
+        from contact_errors.refinement import no_context
+        from contact_errors.refinement_on_cells import CellLevels
 
-        kept, watched = keeping or unkept, watching or unkept
-        return CellLadder(scene, fineness, stress_at, kept, watched)
+        kept, watched = keeping or no_context, watching or no_context
+        return CellLevels(scene, fineness, stress_at, kept, watched)
 
     def work(self, scene: Scene, fineness: SurfaceDiscretisation, plan: Plan) -> Pairs:
         """Grid, tolerance, increments and memory; what the scene left open says so."""

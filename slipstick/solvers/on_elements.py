@@ -25,7 +25,8 @@ from fem_reference.model import ContactModel
 from slipstick.solvers.solver import Pairs, Progress, increments_text, time_of_run
 
 if TYPE_CHECKING:
-    from contact_errors.ladder_on_elements import ElementLadder, Keeping, Watching
+    from contact_errors.refinement import Keeping
+    from contact_errors.refinement_on_elements import ElementLevels
 
 Meshes = tuple[SectionMesh | None, SectionMesh | None]
 
@@ -63,23 +64,25 @@ class OnElements:
 
         return stated_errors(result, progress=progress)
 
-    def ladder(
+    def levels(
         self,
         scene: Scene,
         fineness: FiniteElementDiscretisation,
         *,
         stress_at: int | None = None,
         keeping: Keeping | None = None,
-        watching: Watching | None = None,
-    ) -> ElementLadder:
-        from contact_errors.ladder import unkept
-        from contact_errors.ladder_on_elements import ElementLadder
+        watching: Keeping | None = None,
+    ) -> ElementLevels:
+        from contact_errors.refinement import no_context
+        from contact_errors.refinement_on_elements import ElementLevels
 
-        return ElementLadder(scene, fineness, self.method, keeping or unkept, watching or unkept)
+        return ElementLevels(
+            scene, fineness, self.method, keeping or no_context, watching or no_context
+        )
 
     def work(self, scene: Scene, fineness: FiniteElementDiscretisation, plan: Plan) -> Pairs:
         """Mesh, tolerance, increments, factorisations and memory."""
-        from contact_errors.ladder_on_elements import largest_bytes
+        from contact_errors.refinement_on_elements import largest_bytes
 
         radius = meshed_radius(scene, fineness.contact_radius)
         sections = ContactModel.of(scene, fineness, radius).sections
@@ -99,7 +102,7 @@ class OnElements:
     def _time(
         self, scene: Scene, fineness: FiniteElementDiscretisation, plan: Plan
     ) -> tuple[str, str]:
-        from contact_errors.on_elements import cut, stated_errors
+        from contact_errors.on_elements import stated_errors, with_increments
 
         increments = coarse_increments(plan.increments[:MAX_STEPS])
         begin = scene.model_copy(update={"loading": scene.loading[:MAX_STEPS]})
@@ -107,7 +110,9 @@ class OnElements:
         coarse = fineness.model_copy(update={"elements_per_radius": elements})
         harmonics = fineness.harmonics if plan.path is Path.HARMONICS else 1
         return time_of_run(
-            lambda: stated_errors(fem_reference.solve(cut(begin, increments), coarse, self.method)),
+            lambda: stated_errors(
+                fem_reference.solve(with_increments(begin, increments), coarse, self.method)
+            ),
             work_on_elements(elements, increments, harmonics),
             work_on_elements(fineness.elements_per_radius, plan.increments, harmonics),
         )

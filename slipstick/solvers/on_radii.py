@@ -44,7 +44,7 @@ class OnRadii:
 
         return stated_errors(result, progress)
 
-    def ladder(self, scene: Scene, fineness: RadialDiscretisation, **asked: Any) -> Any:
+    def levels(self, scene: Scene, fineness: RadialDiscretisation, **asked: Any) -> Any:
         """There is none: what the solver takes depends on no fineness but the increments."""
         raise UnsupportedScene(
             "the radial solver is as accurate as its increments let it be in one run, which states "

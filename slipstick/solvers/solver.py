@@ -9,7 +9,7 @@ from contact_errors.cost_estimate import Work, cpu_seconds, estimated_seconds
 from contact_scene.solver_errors import ContactNotResolved, SolverError
 
 if TYPE_CHECKING:
-    from contact_errors.ladder import Ladder
+    from contact_errors.refinement import Levels
     from contact_results.surface import Result
     from contact_scene import (
         FiniteElementDiscretisation,
@@ -57,7 +57,7 @@ class Solver(Protocol):
     def errors(self, result: Any, *, progress: Progress | None = None) -> StatedErrors:
         """How far off the numbers of a result may be, by companion solves."""
 
-    def ladder(
+    def levels(
         self,
         scene: Scene,
         fineness: Any,
@@ -65,7 +65,7 @@ class Solver(Protocol):
         stress_at: int | None = None,
         keeping: Any = None,
         watching: Any = None,
-    ) -> Ladder[Any]:
+    ) -> Levels[Any]:
         """Ever finer solves of a scene, for an accuracy that is asked for.
         stress_at       step at whose end the stress below it is; None where it is not wanted
         keeping         from a fineness to a block that has the keeper of its solve

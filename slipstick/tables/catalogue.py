@@ -7,7 +7,6 @@ from dataclasses import replace
 
 import numpy as np
 
-from contact_errors.on_radii import FRONT
 from contact_scene import RIGID, FlatPunch
 from radial.bodies import Bodies
 from radial.disc import disc
@@ -18,6 +17,7 @@ from semi_analytical.frf.stack import Stack
 from slipstick.tables.frictional import (
     BALL,
     FORCE,
+    FRONT,
     MODULUS,
     OF_RING,
     gripping,

@@ -11,7 +11,6 @@ import numpy as np
 from scipy.optimize import brentq
 
 import radial
-from contact_errors.on_radii import FRONT
 from contact_scene import (
     RIGID,
     Body,
@@ -34,6 +33,8 @@ from slipstick.tables.table import Found
 # Of the contact on the bare substrate: a_H = p_H = δ_H = 1, E*_2 = π/2, W = 2π/3.
 BALL, MODULUS, FORCE = Paraboloid(radius=1.0, material=RIGID), pi / 2, 2 * pi / 3
 KEPT = 16
+# Error of a stick radius of the radial solver, in contact radii.
+FRONT = 1e-3
 BESIDE = 0.05  # of the contact radius: so near to a front tractions are as uncertain as its place
 OF_RING = 2e-5  # of p_H: what rings leave of a traction where two numbers of them happen to agree
 # The coefficient of friction is sought from here on, by such factors, and to such a part of itself.

@@ -120,7 +120,7 @@ def _stored_by_elements(patches: Patches) -> None:
 def _work_on_elements(patches: Patches) -> None:
     def wrap(whole: Any) -> Any:
         def worked(before: Any, increment: Any) -> Any:
-            work, start = whole(before, increment), before.input_work if before else 0.0
+            work, start = whole(before, increment), before.trapezoidal_work if before else 0.0
             return None if work is None else start + 0.8 * (work - start)
 
         return worked

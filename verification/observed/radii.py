@@ -226,7 +226,7 @@ def _missing(before: _Surface | None, now: _Surface) -> Iterator[float]:
         return
     if now.divided(before):
         return
-    stored, lost, work = told.elastic_energy, told.dissipated_energy, told.input_work
+    stored, lost, work = told.elastic_energy, told.dissipated_energy, told.trapezoidal_work
     if stored is not None and not now.rubs:
         by_motion = now.over(now.p * (told.approach - now.f)) + _power(told, told)
         yield abs(0.5 * (by_motion + now.over(np.sum(now.q * now.s, axis=0))) - stored)
@@ -234,12 +234,12 @@ def _missing(before: _Surface | None, now: _Surface) -> Iterator[float]:
         done = told.normal_force * told.approach + _power(told, told)
         if last is not None:
             force, depth = told.normal_force + last.normal_force, told.approach - last.approach
-            done = force * depth + 2 * (last.input_work or 0.0)
+            done = force * depth + 2 * (last.trapezoidal_work or 0.0)
             done += _power(told, told) - _power(told, last) + _power(last, told)
             done -= _power(last, last)
         yield abs(0.5 * done - work)
         if told.unresolved_work is not None:
-            yield abs(work - (stored or 0.0) - (lost or 0.0) - told.unresolved_work)
+            yield abs((told.input_work or 0.0) - (stored or 0.0) - (lost or 0.0))
 
 
 def _power(of: Increment, moved: Increment) -> float:

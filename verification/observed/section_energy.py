@@ -52,7 +52,7 @@ def energy_missing(states: Sequence[EnergeticState]) -> Iterator[float]:
     before, worked, lost = None, 0.0, 0.0
     largest = 0.0
     for state in states:
-        work, told = state.told.input_work, state.told.dissipated_energy
+        work, told = state.told.trapezoidal_work, state.told.dissipated_energy
         dissipated = told or 0.0
         if work is None or state.passed is None or (np.any(state.shear) and told is None):
             return  # the motion is undefined, and with it all that follows

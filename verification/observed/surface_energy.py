@@ -103,6 +103,8 @@ def _imbalances(result: Result) -> Iterator[float]:
         elastic = 0.5 * float(np.sum(after.tractions * after.u)) * cell
         yield 0.0 if grown else abs(elastic - now.elastic_energy) / largest
         yield abs(now.energy_imbalance or 0.0)
+        transferred = now.elastic_energy + (now.dissipated_energy or 0.0)
+        yield abs((now.input_work or 0.0) - transferred) / largest
         if now.halvings == 0:  # else there are states in between
             missing = _missing(state, after, before, now, cell, grown=grown)
             yield from (e / largest for e in missing)
@@ -121,7 +123,7 @@ def _before_touch(first: Increment, undeformed: Field) -> Field:
 
 def _told(now: Increment) -> tuple[float, float, float]:
     """Work put in, dissipated and left to the increments since the start [force length]."""
-    return now.input_work or 0.0, now.dissipated_energy or 0.0, now.unresolved_work or 0.0
+    return now.trapezoidal_work or 0.0, now.dissipated_energy or 0.0, now.unresolved_work or 0.0
 
 
 def _missing(

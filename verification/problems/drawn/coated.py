@@ -8,7 +8,16 @@ import numpy as np
 from numpy.polynomial import Chebyshev
 from scipy.optimize import minimize_scalar
 
-from contact_scene import RIGID, Body, IsotropicMaterial, Paraboloid, Scene
+import radial
+from contact_scene import (
+    RIGID,
+    Body,
+    IsotropicMaterial,
+    Layer,
+    LoadStep,
+    Paraboloid,
+    Scene,
+)
 from verification.closed_forms.coated_indentation import LayeredIndentation, paraboloid
 from verification.closed_forms.coated_torsion import CoatedTorsion, TorsionalSurface, one_layer
 from verification.problems.drawn import drawing
@@ -57,6 +66,30 @@ def pressed(rng: Rng, sections: bool = False, stressed: bool = False) -> KnownSc
         truths += tuple(known(1, transformed, values, STRESS_ERROR, ReferenceKind.SEMI_CLOSED))
     scene = Scene(title="Ball on a coating", indenter=ball, body=body, loading=(step,))
     return KnownScene(scene, truths, fine)
+
+
+def films(rng: Rng) -> KnownScene:
+    """A rigid ball on a film of 1/100 to 100 times the base modulus, without friction."""
+    radius, reach = drawing.sizes(rng)
+    base = drawing.material(rng)
+    film = Layer(
+        thickness=reach * drawing.logarithmic(rng, 0.03, 3.0),
+        material=IsotropicMaterial(
+            young_modulus=base.young_modulus * drawing.logarithmic(rng, 1e-2, 1e2),
+            poisson_ratio=float(rng.uniform(0.0, 0.49)),
+        ),
+    )
+    scene = Scene(
+        title="Ball on a film",
+        indenter=Paraboloid(radius=radius, material=RIGID),
+        body=Body(material=base, layers=(film,)),
+        loading=(LoadStep(normal_force=4 * base.plane_strain_modulus * reach**3 / (3 * radius)),),
+    )
+    (end,) = radial.solve(scene).steps
+    values = {name: float(getattr(end, name)) for name in (APPROACH, RADIUS, PEAK, ELASTIC, WORK)}
+    fine = drawing.fineness(rng, (end.contact_radius,) * 2, False, finest=40.0)
+    truths = known(1, "the radial solver", values, SEMI_CLOSED_ERROR, ReferenceKind.OTHER_SOLVER)
+    return KnownScene(scene, tuple(truths), fine)
 
 
 def twisted(rng: Rng, sections: bool = False) -> KnownScene:

@@ -13,15 +13,16 @@ from verification.problems.drawn import coated, coated_indented, homogeneous, re
 from verification.problems.drawn.drawing import Rng
 from verification.problems.drawn.known_scene import KnownScene
 
-# The scenes that set the rules are not those that judge them.
-TRAINING, JUDGING = 1, 7
+# Seeds. No rule is fitted to the scenes of one quantity or family. The common factor 0.6 of the
+# convergence orders was chosen with scenes of the first two seeds; the third judges.
+CHOOSING, JUDGING = (11, 12), 34
 
 
 @dataclass(frozen=True)
 class Family:
     """Scenes drawn alike.
 
-    count  judged above the quick level, which takes one of each
+    count  of scenes judged above the quick level, which takes one of each
     """
 
     draw: Callable[[Rng], KnownScene]
@@ -29,14 +30,17 @@ class Family:
 
 
 FAMILIES = {
-    "hertz": Family(homogeneous.hertz, 78),
+    "hertz": Family(homogeneous.hertz, 40),
     "shapes": Family(homogeneous.shapes, 8),
     "ellipse": Family(homogeneous.ellipse, 8),
     "cattaneo": Family(homogeneous.cattaneo, 36),
-    "sliding": Family(homogeneous.sliding, 6),
+    "near-sliding": Family(partial(homogeneous.cattaneo, near=True), 12),
+    "sliding": Family(homogeneous.sliding, 20),
+    "similar": Family(refined.similar, 20),
     "twisted": Family(homogeneous.twisted, 6),
     "indented": Family(homogeneous.indented, 10),
-    "coated": Family(coated.pressed, 120),
+    "coated": Family(coated.pressed, 90),
+    "films": Family(coated.films, 60),
     "coated-stress": Family(partial(coated.pressed, stressed=True), 26),
     "coated-twisted": Family(coated.twisted, 140),
     "coated-sheared": Family(refined.sheared, 45),

@@ -155,8 +155,8 @@ def ellipse(rng: Rng) -> KnownScene:
     return KnownScene(led.scene(indenter, Body(material=matter), mu), truths, fine)
 
 
-def cattaneo(rng: Rng, sections: bool = False) -> KnownScene:
-    """Alike balls with ν = 0 under a tangential force, pushed or to and fro."""
+def cattaneo(rng: Rng, sections: bool = False, near: bool = False) -> KnownScene:
+    """Alike balls with ν = 0 pushed, or to and fro; with `near` once to nearly gross slip."""
     radius, a = drawing.sizes(rng)
     matter, mu = drawing.material(rng, 0.0), drawing.friction(rng)
     modulus = matter.young_modulus / 2
@@ -167,7 +167,8 @@ def cattaneo(rng: Rng, sections: bool = False) -> KnownScene:
         state = PartialSlip(contact.load, a, mu, modulus, force)
         return Reached.first(force, state.shift, state.stick_radius, state.dissipated_energy)
 
-    forces = [part * limit for part in drawing.parts(rng)]
+    shares = (1 - drawing.logarithmic(rng, 1e-4, 1e-2),) if near else drawing.parts(rng)
+    forces = [part * limit for part in shares]
     first = virgin(forces[0])
     # Mindlin's shear is the one of sliding less that of the stick disc.
     q0, c = mu * contact.peak_pressure, first.stick_radius

@@ -1,9 +1,9 @@
-"""Families without closed form: coated bodies under a tangential force, known from finer solves.
+"""Families without closed form: bodies under a tangential force, known from finer solves.
 
-Layers answer shear otherwise than pressure, so that the difference of two pressed contacts is not
-the sheared one. What is judged converges with the second power of the cells, and on cells a fourth
-as wide is off by a sixteenth (the largest slip of a cycle by a fourth); and with the first power of
-the increments, where they matter.
+Layers respond to shear otherwise than to pressure, and bodies with ν > 0 slip across the load. The
+reference is a solve on finer cells with more increments; a second one on other cells with half of
+these increments states its uncertainty. Cells and increments are refined beyond those of the error
+estimate, and separately of it.
 """
 
 from __future__ import annotations
@@ -15,8 +15,21 @@ from typing import NamedTuple
 import semi_analytical
 from contact_errors.values import Values, values_of
 from contact_results.cycles import fretting_cycles
-from contact_scene import RIGID, Paraboloid, SurfaceDiscretisation
+from contact_scene import (
+    RIGID,
+    Body,
+    Cone,
+    Ellipsoid,
+    Paraboloid,
+    Sphere,
+    SurfaceDiscretisation,
+)
+from contact_scene.geometry import Indenter
+from contact_scene.increment_error import with_error
 from verification.closed_forms.coated_indentation import paraboloid
+from verification.closed_forms.cone import ConeContact
+from verification.closed_forms.elliptical_contact import EllipticalContact
+from verification.closed_forms.sphere import SphereContact
 from verification.problems.drawn import coated, drawing
 from verification.problems.drawn.branches import led
 from verification.problems.drawn.drawing import Rng
@@ -42,15 +55,14 @@ COARSE_PATH = 4e-2  # accuracy of the path where friction acts back on the press
 
 
 class Finer(NamedTuple):
-    """Cells along a side and increments over those that are judged."""
+    """Refinement of the cells along a side and of the increments; least increments of a step."""
 
     cells: float
     increments: int
+    least: int
 
 
-# The finer first; borders cut cells elsewhere, and what they differ by the finer is off by no more.
-CELLS_FINER = Finer(4.5, 1), Finer(3.5, 1)
-PATH_FINER = Finer(3.5, 4), Finer(2.5, 2)
+FINER = Finer(3.5, 4, 32), Finer(2.5, 2, 16)
 
 
 def sheared(rng: Rng) -> KnownScene:
@@ -63,13 +75,46 @@ def sheared(rng: Rng) -> KnownScene:
     scene = led(drawing.ball_like(body, radius), body, mu, contact.load, TANGENTIAL, forces)
     pressed = tuple(coated.pressed_truths(contact, coated.stored_energy(contact)))
     known = KnownScene(scene, pressed, fine)
-    return KnownScene(scene, (*pressed, *_refined(known, forces, CELLS_FINER)), fine)
+    return KnownScene(scene, (*pressed, *_refined(known, forces)), fine)
+
+
+def similar(rng: Rng) -> KnownScene:
+    """Bare bodies of one material with ν > 0 below any tip, pushed or to and fro."""
+    radius, a = drawing.sizes(rng)
+    body, mu = Body(material=drawing.material(rng)), drawing.friction(rng)
+    indenter, load, reach = _tip(rng, body, radius, a)
+    forces = [part * mu * load for part in drawing.parts(rng)]
+    fine = drawing.fineness(rng, reach, False, finest=FINEST)
+    posed = KnownScene(led(indenter, body, mu, load, TANGENTIAL, forces), (), fine)
+    return replace(posed, truths=tuple(_refined(posed, forces, (APPROACH,))))
+
+
+def _tip(
+    rng: Rng, body: Body, radius: float, a: float
+) -> tuple[Indenter, float, tuple[float, float]]:
+    """An indenter of the material of the body, its load, and the semi-axes of the contact."""
+    matter = body.elastic_materials[0]
+    modulus = matter.plane_strain_modulus / 2
+    match int(rng.integers(4)):
+        case 0:
+            slope = drawing.logarithmic(rng, 0.005, 0.05)
+            cone = Cone(slope_angle=slope, material=matter)
+            return cone, ConeContact(slope, modulus, a).load, (a, a)
+        case 1:
+            radii = (radius, radius * drawing.logarithmic(rng, 0.3, 3.0))
+            load = modulus * a**3 / radius
+            contact = EllipticalContact.under_load(load, radii, modulus)
+            return Ellipsoid(radii=radii, material=matter), load, contact.semi_axes
+        case 2:
+            load = SphereContact(radius, modulus, a).load
+            return Sphere(radius=radius, material=matter), load, (a, a)
+    return Paraboloid(radius=radius, material=matter), 4 * modulus * a**3 / (3 * radius), (a, a)
 
 
 def coupled(rng: Rng) -> KnownScene:
     """A rigid ball pressed on a coating with friction, and pushed or led to and fro."""
     known, forces = _coupled(rng)
-    return replace(known, truths=tuple(_refined(known, forces, PATH_FINER, (APPROACH,))))
+    return replace(known, truths=tuple(_refined(known, forces, (APPROACH,))))
 
 
 def unsolved(rng: Rng) -> KnownScene:
@@ -93,15 +138,15 @@ def _coupled(rng: Rng) -> tuple[KnownScene, Sequence[float]]:
 def _refined(
     known: KnownScene,
     forces: Sequence[float],
-    finer: tuple[Finer, Finer],
     others: tuple[str, ...] = (),
 ) -> Iterator[Truth]:
     """Of the finer of two fine solves, at ends of steps that symmetry does not repeat."""
-    best, other = (_solved(known, times) for times in finer)
-    times, less = finer
+    best, other = (_solved(known, times) for times in FINER)
+    times, less = FINER
     source = (
         f"the same solver on {times.cells:g} times as many cells along a side and "
-        f"{times.increments} times as many increments, beside {less.cells:g} and {less.increments}"
+        f"{times.increments} times as many increments, at least {times.least}; compared with "
+        f"{less.cells:g}, {less.increments} and {less.least}"
     )
     for step, quantity in _wanted(forces, others):
         value, beside = (found[step - 1].get(quantity) for found in (best, other))
@@ -129,7 +174,11 @@ def _solved(known: KnownScene, times: Finer) -> Sequence[Values]:
     assert isinstance(asked, SurfaceDiscretisation)
     assert asked.cells is not None
     cells = tuple(round(times.cells * n) for n in asked.cells)
-    plan = semi_analytical.plan(known.scene, asked.path_accuracy).refined(times.increments)
+    plan = semi_analytical.plan(known.scene, asked.path_accuracy)
+    counts = zip(plan.increments, with_error(known.scene), strict=True)
+    plan = plan.cut_into(
+        [max(times.least, times.increments * n) if matters else n for n, matters in counts]
+    )
     finer = asked.model_copy(update={"cells": cells})
     result = semi_analytical.solve_discretised(known.scene, finer, plan=plan)
     return values_of(result, fretting_cycles(result))

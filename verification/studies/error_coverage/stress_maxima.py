@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from contact_errors.of_stress import stress_errors
+from contact_errors.stress_errors import stress_errors
 from contact_results.stress.extremes import extremes
 from contact_results.stress.loaded_bodies import state_of_result
 from contact_results.stress.on_cells import stress_on_cells

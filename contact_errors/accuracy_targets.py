@@ -1,4 +1,4 @@
-"""What a request for accuracy binds in a scene, and what no grid can meet."""
+"""Requested accuracy: the numbers that a request binds in a scene, and requests beyond reach."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from contact_errors.ladder import SPACE, SPARE, Rung
+from contact_errors.refinement import SPACE, SPARE, RefinementLevel, largest_of
 from contact_errors.values import OF_CYCLES, scale
 from contact_scene import Scene
 from contact_scene.accuracy import LARGEST_TENSION, AccuracyRequest
@@ -14,9 +14,9 @@ from contact_scene.cycles import load_cycles
 from contact_scene.solver_errors import AccuracyOutOfReach
 from contact_scene.stated_error import ErrorStatus
 
-# Of the largest value that its contact could have: a number below is a zero with round-off.
+# Of the natural size of a number: a smaller number is a zero with round-off.
 ROUND_OFF = 1e-7
-# The first rung's error may be so many times what the finer ones will make of it by their order.
+# The coarsest level may overestimate an error at the finest affordable one by this factor.
 DOUBT = 4.0
 
 NONE_STATED = {
@@ -36,11 +36,11 @@ INFINITE = "it is infinite in the exact answer"
 
 
 @dataclass(frozen=True)
-class Asked:
-    """What is bound.
+class Targets:
+    """Numbers that a request binds.
 
-    shares    largest error of each quantity, relative to its largest value in the history
-    left_out  quantities that are not bound, and why
+    shares    largest error of each number, relative to its largest value in the history
+    left_out  numbers that are not bound, with the reason
     """
 
     shares: Mapping[str, float]
@@ -48,8 +48,7 @@ class Asked:
 
 
 def refuse_absent(request: AccuracyRequest, scene: Scene) -> None:
-    """Raise AccuracyOutOfReach for a quantity that is named and that, to judge by the scene alone,
-    no result will have."""
+    """Raise AccuracyOutOfReach for a named number that no result of the scene can have."""
     absent = dict.fromkeys(OF_FRICTION, NO_FRICTION) if scene.friction is None else {}
     if not load_cycles(scene.load_path()):
         absent |= dict.fromkeys(OF_CYCLES, NO_CYCLE)
@@ -62,33 +61,32 @@ def refuse_absent(request: AccuracyRequest, scene: Scene) -> None:
             raise AccuracyOutOfReach(f"no accuracy of {name} can be had: {absent[name]}")
 
 
-def asked_of(request: AccuracyRequest, rung: Rung[Any]) -> Asked:
-    """What a request binds, by a first result; raises AccuracyOutOfReach for a quantity that is
-    named and that the scene has not, or not finite."""
-    left_out = {name: why for name in request.shares() if (why := _why_left_out(name, rung))}
+def targets_of(request: AccuracyRequest, level: RefinementLevel[Any]) -> Targets:
+    """Determine the numbers that a request binds, by a first result.
+
+    Raises AccuracyOutOfReach for a named number that is absent, or infinite.
+    """
+    left_out = {name: why for name in request.shares() if (why := _why_left_out(name, level))}
     for name in request.named:
         if left_out.get(name, PRESCRIBED) is not PRESCRIBED:
             raise AccuracyOutOfReach(f"no accuracy of {name} can be had: {left_out[name]}")
     shares = {name: share for name, share in request.shares().items() if name not in left_out}
-    return Asked(shares, left_out)
+    return Targets(shares, left_out)
 
 
-def refuse_unreachable(asked: Asked, rung: Rung[Any], most_growth: float) -> None:
-    """Raise AccuracyOutOfReach for what not even the finest grid that fits will meet.
+def refuse_unreachable(targets: Targets, level: RefinementLevel[Any], most_growth: float) -> None:
+    """Raise AccuracyOutOfReach for numbers that the finest affordable grid will not meet.
 
-    most_growth  of that grid, cells along a side over those of the rung
+    most_growth  its cells along a side over those of the level
     """
     told = []
-    for name, share in asked.shares.items():
-        sizes = [error.parts for error in rung.errors(name) if error.parts]
-        if not sizes:
+    for name, share in targets.shares.items():
+        known = [end.error.parts for end in level.ends(name) if end.error.parts]
+        if not known:
             continue
-        space = (_largest(parts.get(part, 0.0)) for parts in sizes for part in SPACE)
-        order, floor = rung.rules[name].order, rung.rules[name].floor
-        if share < floor:
-            told.append(f"{name} to {_percent(share)}: about {_percent(floor)} stay on any grid")
-            continue
-        reach = SPARE * max(space) / rung.largest(name) / most_growth**order
+        space = max(largest_of(parts.get(part, 0.0)) for parts in known for part in SPACE)
+        order = level.order(name)
+        reach = SPARE * space / level.largest(name) / most_growth**order
         if reach > DOUBT * share:
             told.append(
                 f"{name} to {_percent(share)}: its error falls as the cells or elements along a "
@@ -99,22 +97,18 @@ def refuse_unreachable(asked: Asked, rung: Rung[Any], most_growth: float) -> Non
         raise AccuracyOutOfReach("no grid can meet " + "; nor ".join(told))
 
 
-def _why_left_out(name: str, rung: Rung[Any]) -> str:
-    """Empty for what is bound."""
-    ends = rung.ends(name)
+def _why_left_out(name: str, level: RefinementLevel[Any]) -> str:
+    """Empty for a number that is bound."""
+    ends = level.ends(name)
     if not ends:
         return NONE_STATED.get(name, "the scene has none")
-    if name not in rung.rules:
+    if name == "peak_pressure" and level.infinite:
         return INFINITE
-    largest_contact = max(scale(name, step) for step in rung.values)
-    found = [end.error.status for end in ends if end.size > ROUND_OFF * largest_contact]
+    natural = max(scale(name, step) for step in level.values)
+    found = [end.error.status for end in ends if end.size > ROUND_OFF * natural]
     if any(status is not ErrorStatus.EXACT for status in found):
         return ""
     return PRESCRIBED if found else "it is zero throughout"
-
-
-def _largest(amount: Any) -> float:
-    return float(max(amount)) if isinstance(amount, tuple) else float(amount)
 
 
 def _percent(share: float) -> str:
