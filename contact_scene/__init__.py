@@ -19,7 +19,7 @@ from contact_scene.loading import LoadStep
 from contact_scene.material import RIGID, IsotropicMaterial, Rigid
 from contact_scene.problem import Problem, SceneError
 from contact_scene.scene import Scene
-from contact_scene.scene_file import SceneFile, load_scene, read_body, read_scene_file
+from contact_scene.scene_file import SceneFile, load_scene, read_scene_file
 
 __all__ = [
     "RIGID",
@@ -49,7 +49,6 @@ __all__ = [
     "SurfaceDiscretisation",
     "VectorControl",
     "load_scene",
-    "read_body",
     "read_scene_file",
     "scene_schema",
 ]

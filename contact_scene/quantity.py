@@ -11,7 +11,7 @@ from operator import index
 from typing import Annotated, Any
 
 import numpy as np
-from pydantic import GetCoreSchemaHandler, GetJsonSchemaHandler, ValidationInfo
+from pydantic import GetCoreSchemaHandler, GetJsonSchemaHandler
 from pydantic_core import CoreSchema, core_schema
 
 from contact_scene.refusal import refusal, shown
@@ -41,9 +41,6 @@ _EXACT = Context(prec=200)
 # Far beyond any contact, near enough to one that no product of a few quantities overflows, or
 # vanishes; a ratio may be as small as it likes.
 _PLAUSIBLE = 1e-30, 1e30
-# Key of a validation context that asks for no more than a number with room to compute.
-ANY_MAGNITUDE = "any magnitude"
-_COMPUTABLE = 1e-300, 1e300
 
 
 class WithUnit(float):
@@ -75,25 +72,19 @@ class Quantity:
         """What a writer should have written, with an example."""
         return f"{self.wanted} such as {self.kind.example}" if self.kind.units else self.wanted
 
-    def __call__(self, value: Any, info: ValidationInfo | None = None) -> float:
+    def __call__(self, value: Any) -> float:
         """The value in SI; raises a refusal that names what came and what is expected."""
         number = self._in_si(value)
         if not math.isfinite(number):
             raise refusal(f"got {shown(value)}, which is not finite", self.expected)
         if not self._is_within(number):
             raise refusal(f"got {shown(value)}", self.expected)
-        smallest, largest = self._magnitudes(info)
+        smallest, largest = (_PLAUSIBLE[0] if self.kind.units else 0.0), _PLAUSIBLE[1]
         if number != 0.0 and not smallest <= abs(number) <= largest:
             bounds = f"a magnitude between {smallest} and {largest} {self.kind.si}"
             raise refusal(f"got {shown(value)}", bounds.rstrip())
         # -0.0 and 0.0 are the same quantity and shall give the same bits
         return type(number)(number + 0.0)
-
-    def _magnitudes(self, info: ValidationInfo | None) -> tuple[float, float]:
-        """Least and largest magnitude of a number that is not zero."""
-        wide = info is not None and ANY_MAGNITUDE in (info.context or ())
-        smallest, largest = _COMPUTABLE if wide else _PLAUSIBLE
-        return (smallest if self.kind.units else 0.0), largest
 
     def _in_si(self, value: Any) -> float:
         if isinstance(value, str):
@@ -141,7 +132,7 @@ class Quantity:
     def __get_pydantic_core_schema__(
         self, source: Any, handler: GetCoreSchemaHandler
     ) -> CoreSchema:
-        return core_schema.with_info_plain_validator_function(self)
+        return core_schema.no_info_plain_validator_function(self)
 
     def __get_pydantic_json_schema__(
         self, schema: CoreSchema, handler: GetJsonSchemaHandler

@@ -10,7 +10,6 @@ from typing import Any, TypeVar, cast
 from pydantic import TypeAdapter, ValidationError
 
 from contact_scene.accuracy import AccuracyRequest, accuracy_texts, of_option
-from contact_scene.body import Body
 from contact_scene.consistency import Parts, inconsistencies
 from contact_scene.description import Description
 from contact_scene.discretisation import (
@@ -23,7 +22,6 @@ from contact_scene.mistakes import mistakes
 from contact_scene.override import assign, origin, override
 from contact_scene.problem import Path as Key
 from contact_scene.problem import Problem, SceneError
-from contact_scene.quantity import ANY_MAGNITUDE
 from contact_scene.scene import Scene
 from contact_scene.toml_file import read_toml
 
@@ -70,32 +68,10 @@ def read_accuracy(text: str, option: str) -> AccuracyRequest:
         raise of_option(error, option) from None
 
 
-def read_body(path: str | PathLike[str], overrides: Iterable[str] = ()) -> Body:
-    """Read and check the lower body of a scene file; the rest need neither be there nor be right.
-
-    A modulus or thickness may have any magnitude that can be computed with, because a body alone
-    makes no problem that has to be well posed.
-
-    path       a TOML file
-    overrides  as for `read_scene_file`
-    Raises `SceneError` with every mistake in the table [body], each with file, line and key.
-    """
-    source = _read(path, overrides)
-    document = {name: source.document[name] for name in ("body",) if name in source.document}
-    with source.placing():
-        return _valid(_Body, document, {ANY_MAGNITUDE: True}).body
-
-
 class _Accuracy(Description):
     """The part of a document that an option stands for."""
 
     accuracy: AccuracyRequest
-
-
-class _Body(Description):
-    """The one table of a scene file that is read."""
-
-    body: Body
 
 
 def changed_scene(

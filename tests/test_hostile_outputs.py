@@ -28,7 +28,6 @@ COMMANDS = {
     "run, elements": ("run", "scene.toml", *QUICK, "--solver", "fem", "-o"),
     "run, radial": ("run", "scene.toml", *QUICK, "--solver", "radial", "-o"),
     "stress": ("stress", "scene.toml", "--figures", "none", "--no-error", "-o"),
-    "frf": ("maintain", "frf", "scene.toml", "--points", "2", "-o"),
     "challenge": ("challenge", "export", "hertz_point", "-o"),
     "history": ("maintain", "history", "baselines", "baselines", "-o"),
     "judge": ("judge", "answered", "--page"),

@@ -102,7 +102,6 @@ MAINTENANCE = _commands(
         "history": "Draw accuracy and cost over commits, and say what became worse.",
         "report": "Render the report again from recorded results.",
         "bench": "Measure what the method costs, beside other codes in turn.",
-        "frf": "Tabulate and plot the surface FRF of the lower body of a scene.",
         "schema": "Print the JSON Schema of a scene file, a summary or a report.",
     }
 )

@@ -7,7 +7,6 @@ from semi_analytical.frf.depth import Descent, Level
 from semi_analytical.frf.matrix import frf_matrix
 from semi_analytical.frf.stack import Film, HalfSpace, Stack
 from semi_analytical.frf.surface import half_space_scalars, remainder_scalars, scalars
-from semi_analytical.frf.uniform_load import uniform_load_matrix
 from verification.laws.law import ROUNDING, Law, apart, deficit
 from verification.laws.random_stacks import decades, film, half_space, stack, wave_vector
 
@@ -94,7 +93,10 @@ def _rigid_limit(rng: Generator) -> float:
 def _long_waves(rng: Generator) -> float:
     films = [film(rng) for _ in range(rng.integers(1, 4))]
     softest = min(f.shear_modulus for f in films)
-    uniform = uniform_load_matrix(Stack(films))
+    # Layers are sheared by h/G and, held sideways, squeezed by h (1 - 2 nu) / 2G(1 - nu).
+    shear = np.array([f.thickness / f.shear_modulus for f in films])
+    nu = np.array([f.poisson_ratio for f in films])
+    uniform = np.diag([shear.sum(), shear.sum(), (shear * (0.5 - nu) / (1 - nu)).sum()])
     contrast = max(f.shear_modulus for f in films) / softest
     alpha = 1e-9 / (contrast * sum(f.thickness for f in films))
     return apart(frf_matrix(Stack(films), alpha, 0.0), uniform.astype(np.complex128))

@@ -85,7 +85,6 @@ COMMANDS = (
     ("run", "scene.toml", "-o", "out", "--accuracy", "1%"),
     ("run", "scene.toml", "-o", "out", "--solver", "radial"),
     ("stress", "scene.toml", "-o", "out"),
-    ("maintain", "frf", "scene.toml", "-o", "out"),
     ("challenge", "export", "hertz_point", "-o", "out"),
     ("table", "ball"),
     ("maintain", "history", "-o", "history.html"),
