@@ -6,9 +6,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 from command import slipstick
+from contact_errors.of_stress import stress_errors
 from numpy.typing import NDArray
 
-from contact_errors.of_stress import stress_errors
 from contact_results.stress.extremes import extremes
 from contact_results.stress.loaded_bodies import LoadedBodies, state_of_result
 from contact_results.stress.on_cells import stress_on_cells
