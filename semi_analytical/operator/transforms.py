@@ -211,7 +211,8 @@ class Transforms:
     ) -> Array:
         """Compute fields (outputs, nx, ny) of fields (inputs, nx, ny) by their amplitudes."""
         (x, y), (nx, ny), held = inputs[0], self.shape, max(len(inputs), len(outputs))
-        width = min(y.count, max(1, BLOCK // x.count))
+        by_matrix = not self.whole and max(nx, ny) <= MAX_BY_MATRIX
+        width = y.count if by_matrix else min(y.count, max(1, BLOCK // x.count))
         size, dtype = nx * y.count, values.dtype
         if self.whole:
             dtype = np.result_type(dtype, np.complex64)
@@ -227,7 +228,7 @@ class Transforms:
             for amplitudes, line, (side, _) in zip(block, lines, inputs, strict=False):
                 side.forward(line[:, columns].T, amplitudes)
             found = multiply(list(block), columns)
-            if width == y.count:  # products with matrices take the transpose as it is
+            if by_matrix:  # products with matrices take the transpose as it is
                 for into, one, (x, y) in zip(result, found, outputs, strict=True):
                     into[...] = y.back(x.back(one).T)
                 return result
