@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 from math import ceil
 
 import numpy as np
+from scipy.fft import next_fast_len
 
 import semi_analytical
 from contact_errors.cost_estimate import Work, estimated_seconds, work_on_cells
@@ -168,18 +169,8 @@ def _scaled(cells: tuple[int, int], factor: float) -> tuple[int, int]:
 
 
 def even_smooth(least: float) -> int:
-    """Return the smallest even number from `least` on with no prime factor above 7.
+    """Return the smallest even number from `least` on with no prime factor above 5.
 
     Fourier transforms of its multiples are fast.
     """
-    number = max(2, 2 * ceil(round(least, 6) / 2))
-    while not _is_smooth(number):
-        number += 2
-    return number
-
-
-def _is_smooth(number: int) -> bool:
-    for prime in (2, 3, 5, 7):
-        while number % prime == 0:
-            number //= prime
-    return number == 1
+    return int(2 * next_fast_len(max(1, ceil(round(least, 6) / 2)), real=True))

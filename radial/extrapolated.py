@@ -30,6 +30,8 @@ def doubled(plan: Plan) -> Plan:
 def extrapolated(coarse: Increment, fine: Increment) -> Increment:
     """An increment of the limit, from those of both histories at the same loads."""
     values = {name: _limit(getattr(coarse, name), getattr(fine, name)) for name in LED_TO}
+    for energy in ("elastic_energy", "dissipated_energy"):
+        values[energy] = max(values[energy], 0.0)  # few increments extrapolate beyond zero
     stored, lost = values["elastic_energy"], values["dissipated_energy"]
     assert fine.trapezoidal_work is not None
     assert fine.dissipated_energy is not None
