@@ -36,7 +36,7 @@ FILES = {
     "summary.json", "timing.json", "result.h5", "profiles.csv", "increments.csv",
     "columns.csv",
     "pressure.png", "shear.png", "profiles.png", "stick_slip.png", "hysteresis.png",
-    "dissipation.png", "slip.png", "slip_map.png", "overview.png", "index.html",
+    "dissipation.png", "slip.png", "overview.png", "index.html",
 }  # fmt: skip
 
 

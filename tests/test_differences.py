@@ -10,11 +10,11 @@ import numpy as np
 import pytest
 from contact_scenes import PRESS, grid, push, scene
 
-from contact_results.quantities import largest_difference
+from contact_results.key_numbers import outcome_columns
 from contact_scene.increment import SCALARS
 from contact_scene.linear_theory import beyond_linear_theory
 from semi_analytical import Result, solve
-from slipstick.cli.outcome_text import outcome_columns, solved_in
+from slipstick.cli.outcome_text import solved_in
 from verification.cases import (
     eccentric_ball,
     exchanged_bodies,
@@ -25,6 +25,7 @@ from verification.cases import (
 from verification.cases.apart_everywhere import Apart, apart_everywhere
 from verification.convergence.stored_field import PRESSURE, StoredField
 from verification.judging.outcome import Status
+from verification.quantities import largest_difference
 from verification.running.row import CaseRecord
 from verification.studies.refinement import domain, window
 

@@ -6,7 +6,6 @@ from fem_scenes import elements, solved
 from hankel_responses import Coating
 from ring_responses import half_space, rings
 
-from contact_results.quantities import shift_along_x
 from contact_scene import (
     RIGID,
     Body,
@@ -28,6 +27,7 @@ from fem_reference.history import march
 from fem_reference.model import ContactModel
 from fem_reference.plan import Path, plan
 from verification.observed.ring_tractions import tractions_at
+from verification.quantities import shift_along_x
 
 STEEL = IsotropicMaterial(young_modulus=210e9, poisson_ratio=0.3)
 HARD = IsotropicMaterial(young_modulus=420e9, poisson_ratio=0.2)

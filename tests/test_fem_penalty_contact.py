@@ -18,13 +18,13 @@ from contact_scenes import (
 )
 from fem_scenes import elements
 
-from contact_results.quantities import shift_along_x
 from contact_scene import Body, Layer, Paraboloid, Scene
 from contact_scene.solver_errors import SurfacesOverlap
 from fem_reference import Increment, Method, Result, solve
 from fem_reference.contact.increment import AT_EDGE
 from verification.closed_forms.cattaneo_mindlin import PartialSlip
 from verification.closed_forms.moduli import tangential_modulus
+from verification.quantities import shift_along_x
 
 HERTZ = hertz()
 # With Poisson's ratio zero the closed forms of Cattaneo and Mindlin are exact.

@@ -20,7 +20,6 @@ from contact_scenes import (
 )
 from fem_scenes import both_laws, end, solved
 
-from contact_results.quantities import shift_along_x
 from contact_scene.solver_errors import GrossSliding
 from contact_scene.summary import ContactStatus
 from fem_reference import Method
@@ -28,6 +27,7 @@ from verification.closed_forms.cattaneo_mindlin import PartialSlip
 from verification.closed_forms.moduli import tangential_modulus
 from verification.closed_forms.tangential_history import TangentialHistory
 from verification.closed_forms.torsion import StuckTorsion, TorsionalPartialSlip
+from verification.quantities import shift_along_x
 
 G = steel().shear_modulus
 HERTZ = hertz()

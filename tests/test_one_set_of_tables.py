@@ -13,7 +13,6 @@ import pytest
 import fem_reference
 import semi_analytical
 from contact_results.directory.file_names import FIELDS, INCREMENTS, SUMMARY
-from contact_results.quantities import named_values, unit_of
 from contact_results.result_files import write_result
 from contact_scene import (
     Body,
@@ -29,6 +28,7 @@ from contact_scene.increment import COUNTERS, SCALARS, components
 from contact_scene.reported import Kind, reported
 from contact_scene.summary import StepSummary, summary_schema
 from fem_reference import Method
+from verification.quantities import named_values, unit_of
 
 STEEL = IsotropicMaterial(young_modulus=210e9, poisson_ratio=0.3)
 BODIES = {

@@ -10,7 +10,6 @@ from contact_scenes import scene as alike_scene
 from coupled_scenes import BALL, bulk, coated, press, scene
 from coupled_scenes import push as coupled_push
 
-from contact_results.quantities import largest_difference
 from contact_scene import LoadStep
 from semi_analytical import Coupling, all_effects, one_way, plan, solve
 from semi_analytical.operator.domain import WINDOW
@@ -21,6 +20,7 @@ from semi_analytical.plan import EDGES, MIRROR_PLANES
 from verification.cases.goodman_indentation import goodman_indentation_on
 from verification.judging.judgement import judge
 from verification.judging.outcome import Status
+from verification.quantities import largest_difference
 
 TOLERANCE = 1e-8
 # Tractions answer residuals of the tolerance a few times over.

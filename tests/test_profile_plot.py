@@ -7,7 +7,7 @@ import numpy as np
 from matplotlib.figure import Figure
 from synthetic_result import synthetic_result
 
-from contact_results.figures.profile_plot import profile_plot, slip_plot
+from contact_results.figures.profile_plot import profile_plot
 from contact_results.figures.style import figure_style
 from contact_results.surface import Rings, Surface, surface_of
 
@@ -72,13 +72,6 @@ def test_rings_name_components_by_what_loads_them() -> None:
         result: Any = OnRings(component)
         surface = Rings(radii, None, direction, polar=component != "along_load")
         assert drawn(result, surface) == ["pressure p", f"shear $q_{{{symbol}}}$"]
-        with figure_style():
-            assert shown(slip_plot(result, surface)) == [f"slip $s_{{{symbol}}}$"]
-
-
-def test_without_slip_there_is_no_figure_of_it() -> None:
-    result: Any = OnRings("none")
-    assert slip_plot(result, Rings(result.steps[0].radii, None, (1.0, 0.0), polar=True)) is None
 
 
 def test_line_is_cut_to_the_contact_with_its_edge_in_view() -> None:

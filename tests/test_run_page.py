@@ -13,9 +13,9 @@ from synthetic_result import synthetic_result
 from contact_results.figures.figure_files import _figures_called_for, seen_from_above
 from contact_results.figures.load_plot import hysteresis_plot, moved
 from contact_results.figures.overview import DOTS_PER_INCH, coarser, overview, section_stress
-from contact_results.figures.run_page import decision_numbers, write_page
+from contact_results.figures.run_page import write_page
 from contact_results.figures.style import figure_style, save
-from contact_results.natural_sizes import SI
+from contact_results.key_numbers import key_numbers
 from contact_results.number_text import Uncertainty, number_text
 from contact_results.result_files import write_result
 from contact_results.stress.loaded_bodies import state_of_result
@@ -52,7 +52,7 @@ def test_a_page_holds_all_figures_and_asks_for_nothing(tmp_path: Path) -> None:
 def test_the_overview_alone_shows_the_title_and_draws_it_whatever_it_is(tmp_path: Path) -> None:
     place, titled = tmp_path / "overview.png", set()
     with figure_style():
-        for name, figure in _figures_called_for(hostile(), (), None, SI):
+        for name, figure in _figures_called_for(hostile(), (), None):
             if any("alert(1)" in text.get_text() for text in figure.findobj(Text)):
                 titled.add(name)
                 save(figure, tmp_path / name, DOTS_PER_INCH)
@@ -91,16 +91,16 @@ def test_the_overview_of_one_increment_shows_the_stress_down_the_axis() -> None:
 
 
 def test_both_radii_have_one_unit() -> None:
-    found = dict(decision_numbers(ended(synthetic_result(), stick_area=1e-12), None))
+    found = dict(key_numbers(ended(synthetic_result(), stick_area=1e-12).steps, None))
     units = {found[name].split()[-1] for name in ("contact radius", "stick radius")}
     assert units == {"mm"}
 
 
 @pytest.mark.parametrize(("name", "tiny"), [("torque", 9.9e-22), ("twist", 1e-20)])
 def test_round_off_beside_the_load_is_nothing(name: str, tiny: float) -> None:
-    found = dict(decision_numbers(ended(synthetic_result(), **{name: tiny}), None))
+    found = dict(key_numbers(ended(synthetic_result(), **{name: tiny}).steps, None))
     assert found[name].split()[0] == "0"
-    told = dict(decision_numbers(ended(synthetic_result(), **{name: 1e-5}), None))
+    told = dict(key_numbers(ended(synthetic_result(), **{name: 1e-5}).steps, None))
     assert told[name].split()[0] == "10"
 
 

@@ -10,10 +10,9 @@ from synthetic_result import synthetic_result
 
 from contact_results.figures.figure_files import seen_from_above
 from contact_results.figures.map_panels import MapFrame, RingsAbove, draw_arrows
-from contact_results.figures.maps import latest_slip, slip_map, stick_slip_map
-from contact_results.figures.profile_plot import slip_plot
+from contact_results.figures.maps import field_map, latest_slip, stick_slip_map
 from contact_results.figures.style import figure_style
-from contact_results.surface import Cells, Rings, surface_of
+from contact_results.surface import Cells, Rings
 from contact_scene.engineering_units import EngineeringUnit
 
 RADII = np.linspace(0.0, 1.0, 201)
@@ -64,7 +63,9 @@ def test_arrows_of_slip_are_in_proportion_to_it() -> None:
     result: Any = synthetic_result()
     cells = seen_from_above(result)
     with figure_style():
-        ((_, arrow), *_) = arrows(slip_map(result, cells))
+        figure = field_map(result, cells, "slip")
+    assert figure is not None
+    ((_, arrow), *_) = arrows(figure)
     step = next(step for step in result.steps if step.slip is not None and np.any(step.slip))
     i, j = (
         np.argmin(np.abs(np.subtract.outer(at, 1e3 * centres)), axis=1)
@@ -96,22 +97,6 @@ def test_slip_of_the_last_increment_is_what_it_added() -> None:
     cells, end = seen_from_above(result), result.steps[-1]
     before = result.increments[-2]
     np.testing.assert_array_equal(latest_slip(result, cells, end), end.slip - before.slip)
-
-
-def test_bars_lie_where_it_sticks_and_no_slip_is_drawn_beyond_the_contact() -> None:
-    result: Any = synthetic_result()
-    surface = surface_of(result)
-    with figure_style():
-        figure = slip_plot(result, surface)
-    assert figure is not None
-    ax, step = figure.axes[0], next(s for s in result.steps if s.slip is not None and s.slip.any())
-    slips, bars = (
-        [line for line in ax.lines if line.get_linewidth() == width] for width in (1.5, 3.0)
-    )
-    touching = surface.along(step.in_contact.astype(float)) > 0
-    np.testing.assert_array_equal(np.isfinite(slips[0].get_ydata()), touching)
-    sticking = surface.along(step.in_stick.astype(float)) > 0.5
-    np.testing.assert_array_equal(np.isfinite(bars[0].get_ydata()), sticking)
 
 
 @pytest.mark.parametrize("direction", [(1.0, 0.0), (0.6, 0.8)])

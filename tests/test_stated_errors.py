@@ -11,7 +11,6 @@ import numpy as np
 import pytest
 from command import outcome, slipstick
 from contact_scenes import LOAD, MU, PRESS, YOUNG, A, grid, hertz, paraboloid, push, scene, steel
-from matplotlib.figure import Figure
 from scene_texts import COARSE, STEEL_BALL_PRESSED
 
 import contact_errors
@@ -22,8 +21,6 @@ from contact_errors.increment_errors import ratios, recounted
 from contact_errors.stress_errors import largest_tensile_stress, on_wide_cells
 from contact_errors.values import OF_CYCLES, PHYSICAL, values_of
 from contact_results.cycles import fretting_cycles
-from contact_results.directory import file_names
-from contact_results.figures.figure_files import SHOWN, add_caption
 from contact_results.stress.loaded_bodies import LoadedBodies
 from contact_scene import (
     RIGID,
@@ -505,17 +502,6 @@ def test_the_table_shows_what_is_wrong_beside_the_number(runs: Any) -> None:
     assert " ± " in shown
     assert " ± " not in alone
     assert "--no-error left them out" in alone
-
-
-def test_every_figure_has_a_caption_with_errors() -> None:
-    drawn = {name for name in vars(file_names) if name.endswith("_FIGURE")}
-    assert {getattr(file_names, name) for name in drawn} == set(SHOWN)
-    result = solve(scene({"normal_force": 1e3}), grid(16), 1e-8)
-    figure = Figure()
-    add_caption(figure, file_names.PRESSURE_FIGURE, result, stated_errors(result).steps[-1])
-    assert figure.get_supxlabel().count(" ± ") == 2
-    add_caption(figure, file_names.PRESSURE_FIGURE, result, None)
-    assert "errors not stated" in figure.get_supxlabel()
 
 
 def test_stress_counts_what_increments_leave_wrong_in_the_tractions(tmp_path: Path) -> None:

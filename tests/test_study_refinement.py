@@ -10,13 +10,13 @@ import pytest
 from contact_scenes import LOAD, scene
 from scene_texts import RIGID_BALL
 
-from contact_results.quantities import unit_of
 from fem_reference import Method
 from fem_reference.contact.ring_compliance import RingCompliance
 from slipstick.cli import main
 from verification.convergence.stored_field import SHEAR, StoredField, at_centres, change
 from verification.judging.case import Level
 from verification.judging.outcome import Status
+from verification.quantities import unit_of
 from verification.running.row import CaseRecord
 from verification.running.study import Settings, Study
 from verification.studies.refinement import section_level

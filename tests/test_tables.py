@@ -10,16 +10,11 @@ from typing import Any
 import pytest
 from command import outcome
 
-import slipstick.tables.onset as onset_of
-from contact_scene.solver_errors import NotConverged, UnsupportedScene
 from slipstick.tables.catalogue import TABLES
-from slipstick.tables.frictional import gripping
-from slipstick.tables.onset import _enough, _onset, onset
 from slipstick.tables.table import Found, Table
 from verification.references import load_reference
 
 ROOT = Path(__file__).resolve().parents[1]
-FEW_RINGS = 0.5  # as many as the table takes
 
 
 def test_the_ball_is_that_of_the_reference_within_both_uncertainties() -> None:
@@ -59,69 +54,6 @@ def test_pressing_with_friction_is_that_of_integral_equations(
     for n, row in zip(inside, TABLES["tractions"].rows(chosen | at), strict=True):
         for name, of in (("p_over_pH",) * 2, ("q_over_mu_pH",) * 2):
             assert abs(row[name] - reference[of][n]) <= row[f"{name}_uncertainty"] + 3e-6
-
-
-def test_the_friction_that_grips_is_that_of_integral_equations() -> None:
-    reference, _ = FRICTIONAL[0]
-    found = gripping((1.0, 1.0, 0.3, reference["c_over_a"]), 1)
-    # A thousandth of a, of a stick radius that rises by 0.45 a with the logarithm of µ.
-    assert abs(found.values[0] - reference["mu"]) <= found.left[0] < 3e-3 * reference["mu"]
-
-
-def test_no_friction_grips_where_nothing_rubs() -> None:
-    with pytest.raises(UnsupportedScene, match="under any"):
-        gripping((1.0, 1.0, 0.5, 0.5), 1)
-
-
-def test_friction_beyond_all_that_is_tried_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("slipstick.tables.frictional.FURTHEST", 3.0)
-    with pytest.raises(
-        UnsupportedScene, match=r"between 0\.1 and 0\.2 lets the stick reach to 0\.9"
-    ):
-        gripping((1.0, 1.0, 0.3, 0.9), 1)
-
-
-@pytest.mark.slow
-def test_the_last_stick_goes_where_it_does_on_cells() -> None:
-    """0.97814, 0.97909, 0.97957 and 0.97982 on 96 cells in 32, 64, 128 and 256 increments of the
-    shift: 0.98007 in their limit, and 0.0001 less to more on 64 and 128 cells."""
-    coarse, fine = (onset((2.0, 1.0, 0.3, 0.1), fineness) for fineness in (1, 2))
-    stated = 2 * abs(fine.values[0] - coarse.values[0]) + coarse.left[0]
-    assert abs(coarse.values[0] - 0.9801) <= stated <= 1e-3
-
-
-def test_increments_on_rings_lose_the_last_stick_when_those_on_cells_do() -> None:
-    """In the same 32 increments of the shift; half as many rings as the table takes leave 0.003."""
-    assert _onset((2.0, 1.0, 0.3, 0.1), 1, 0.5) == pytest.approx(0.9781, abs=3e-3)
-
-
-def test_increments_are_as_many_as_tell_where_the_last_stick_goes(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
-    """Of a stiff film and much friction it goes within too few of the usual ones; on half as
-    many rings, too, which take a tenth of the time."""
-    marched = onset_of._marched
-    monkeypatch.setattr(onset_of, "_marched", lambda *asked: marched(*asked[:-1], FEW_RINGS))
-    place = 4.0, 0.3, 0.45, 0.3
-    with pytest.raises(NotConverged, match="too few increments"):
-        _onset(place, 1, 1.0)
-    assert _enough(place) == 2
-
-
-def test_stick_goes_at_the_limit_of_friction_where_pressure_moves_no_surface_past_the_other() -> (
-    None
-):
-    (row,) = TABLES["onset"].rows({"E1_over_E2": [1.0], "nu": [0.5]})
-    assert row["T_over_muW"] == 1.0
-    assert row["T_over_muW_uncertainty"] < 1e-12
-
-
-def test_the_command_says_how_long_a_slow_table_takes(tmp_path: Path) -> None:
-    slow = outcome("table", "onset", "--over", "E1_over_E2=1", "--over", "nu=0.5", cwd=tmp_path)
-    assert slow.returncode == 0
-    assert "rows: 1, about 60 s of one core each" in slow.stderr
-    quick = outcome("table", "punch", "--over", "nu=0.5", "--over", "a_over_h=1", cwd=tmp_path)
-    assert not quick.stderr
 
 
 def test_the_punch_has_the_numbers_that_the_documentation_sets_against_others() -> None:

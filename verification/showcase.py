@@ -13,13 +13,13 @@ from matplotlib.collections import Collection
 from matplotlib.figure import Figure
 
 from contact_results.figures import style
-from contact_results.figures.maps import pressure_map, shear_map, stick_slip_map
+from contact_results.figures.maps import field_map, stick_slip_map
 from contact_results.figures.stress_plot import section_plot
 from contact_results.stress.loaded_bodies import state_of_result
 from contact_results.stress.on_cells import stress_on_cells
 from contact_results.surface import Cells, surface_of
 from contact_scene import CoulombFriction, LoadStep, Scene
-from semi_analytical import solve
+from semi_analytical import Result, solve
 from verification.exhibits.picture import Picture
 from verification.problems.layered_scene import coated, film, rigid_ball
 from verification.problems.paper_scene import HERTZ, NORMAL_FORCE, pressing, square_grid
@@ -44,15 +44,15 @@ def showcase() -> tuple[Picture, ...]:
         section = section_plot(stress, result.scene.body, "")
         return (
             _picture(
-                "pressure", "Pressure", pressure_map(result, cells),
+                "pressure", "Pressure", _map(result, "pressure"),
                 f"A rigid ball pressed, µ = {FRICTION:g}, on a coating {MODULUS_RATIO:g} "
                 f"times as stiff as the body below and {THICKNESS:g} of Hertz's radius thick "
                 f"(step 1), then pushed by {PUSH:g} µW (step 2), on {CELLS} x {CELLS} cells.",
             ),
             _picture(
-                "shear", "Shear and the border of stick", shear_map(result, cells),
-                "The same contact: shear along and across the push; within the black line the "
-                "surfaces stick.",
+                "shear", "Shear and the border of stick", _map(result, "shear"),
+                "The same contact: magnitude and direction of the shear; within the white line "
+                "the surfaces stick.",
             ),
             _picture(
                 "zones", "Stick and slip", stick_slip_map(result, cells),
@@ -65,6 +65,14 @@ def showcase() -> tuple[Picture, ...]:
                 "behind the contact the coating is pulled, and it bends over the softer body.",
             ),
         )  # fmt: skip
+
+
+def _map(result: Result, field: str) -> Figure:
+    cells = surface_of(result)
+    assert isinstance(cells, Cells)
+    figure = field_map(result, cells, field)
+    assert figure is not None
+    return figure
 
 
 def _scene() -> Scene:

@@ -16,7 +16,6 @@ SHEAR_FIGURE = "shear.png"
 PROFILE_FIGURE = "profiles.png"
 STICK_SLIP_FIGURE = "stick_slip.png"
 SLIP_FIGURE = "slip.png"
-SLIP_MAP_FIGURE = "slip_map.png"
 LOADING_FIGURE = "loading_curve.png"
 HYSTERESIS_FIGURE = "hysteresis.png"
 DISSIPATION_FIGURE = "dissipation.png"
@@ -37,7 +36,6 @@ RUN_FILES = (
     PROFILE_FIGURE,
     STICK_SLIP_FIGURE,
     SLIP_FIGURE,
-    SLIP_MAP_FIGURE,
     LOADING_FIGURE,
     HYSTERESIS_FIGURE,
     DISSIPATION_FIGURE,

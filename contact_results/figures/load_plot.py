@@ -10,16 +10,13 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from contact_results.figures import style
-from contact_results.figures.shown_steps import AT_MOST, on_axis
-from contact_results.natural_sizes import SI, Units
+from contact_results.figures.shown_steps import on_axis
 from contact_scene.engineering_units import quantity
 
 if TYPE_CHECKING:
     from contact_results.surface import Increment, Result
 
 Values = NDArray[np.float64]
-
-SAME_PLACE = 0.02  # of the axis: points whose numbers would cover each other
 
 
 class Loop(NamedTuple):
@@ -47,21 +44,21 @@ def moved(increments: Sequence[Increment]) -> int:
     return max((int(np.count_nonzero(loop.forces)) for loop in loops), default=0)
 
 
-def hysteresis_plot(result: Result, units: Units = SI) -> Figure:
+def hysteresis_plot(result: Result) -> Figure:
     """The loop by itself."""
     figure = style.new_figure(5.2, 4.0)
-    draw_loop(figure.subplots(), result, units)
+    draw_loop(figure.subplots(), result)
     return figure
 
 
-def draw_loop(ax: Any, result: Result, units: Units = SI) -> None:
+def draw_loop(ax: Any, result: Result) -> None:
     """Force and shift of every increment along the direction of the largest force, or torque and
     twist where they do more work."""
     path, force, forces, motion, motions, along = max(
         _loops(result.increments), key=lambda loop: loop.work
     )
-    x, across = on_axis(motion, motions, along, units)
-    y, upward = on_axis(force, forces, along, units)
+    x, across = on_axis(motion, motions, along)
+    y, upward = on_axis(force, forces, along)
 
     ax.axhline(0.0, color=style.GREY, linewidth=0.5)
     ax.axvline(0.0, color=style.GREY, linewidth=0.5)
@@ -69,8 +66,6 @@ def draw_loop(ax: Any, result: Result, units: Units = SI) -> None:
     ends = [n for n, i in enumerate(path) if i.index == i.increments_in_step]
     label = "end of a loading step"
     ax.plot(x[ends], y[ends], "o", color=style.LINE_COLOURS[1], markersize=5, label=label)
-    if len(ends) <= AT_MOST:
-        _number(ax, x[ends], y[ends], [path[n].step for n in ends])
     ax.margins(0.08)
     ax.set_xlabel(across)
     ax.set_ylabel(upward)
@@ -101,19 +96,6 @@ def _loops(increments: Sequence[Increment]) -> list[Loop]:
     return found
 
 
-def _number(ax: Any, x: Values, y: Values, steps: Sequence[int]) -> None:
-    """Write the steps' numbers next to their points; points at the same place share a text."""
-    distance = np.hypot(np.subtract.outer(x, x) / np.ptp(x), np.subtract.outer(y, y) / np.ptp(y))
-    together = distance < SAME_PLACE
-    for n, neighbours in enumerate(together):
-        if np.argmax(neighbours) == n:  # the first of its place writes for all
-            text = ", ".join(
-                str(step) for step, here in zip(steps, neighbours, strict=True) if here
-            )
-            offset = (0, 6 if y[n] >= 0 else -13)
-            ax.annotate(text, (x[n], y[n]), offset, textcoords="offset points", ha="center")
-
-
 def _direction(force: Values) -> Values:
     """Unit vector along the largest force, turned so that its largest component is positive."""
     largest = force[np.argmax(np.hypot(force[:, 0], force[:, 1]))]
@@ -127,19 +109,19 @@ def _along(direction: Values) -> str:
     return names.get(round(degrees, 3), f"at {degrees:.1f}° to x")
 
 
-def loading_plot(result: Result, units: Units = SI) -> Figure:
+def loading_plot(result: Result) -> Figure:
     """The curve by itself."""
     figure = style.new_figure(5.0, 3.6)
-    draw_loading(figure.subplots(), result, units)
+    draw_loading(figure.subplots(), result)
     return figure
 
 
-def draw_loading(ax: Any, result: Result, units: Units = SI) -> None:
+def draw_loading(ax: Any, result: Result) -> None:
     """Force and approach of every increment, from first touch."""
     path = [(0.0, 0.0), *((i.approach, i.normal_force) for i in result.increments)]
     approach, force = np.array(path).T
-    x, along = on_axis("approach", approach, units=units)
-    y, upward = on_axis("normal_force", force, "W", units)
+    x, along = on_axis("approach", approach)
+    y, upward = on_axis("normal_force", force, "W")
     # A line between touch and one end would be no path that the contact took.
     line = "-" if len(path) > 3 else ""
     ax.plot(x, y, color=style.LINE_COLOURS[0], linestyle=line, marker="o", markersize=3.5)

@@ -12,9 +12,8 @@ from matplotlib.figure import FigureBase
 from numpy.typing import NDArray
 from scipy.ndimage import find_objects, label, map_coordinates
 
-from contact_results.natural_sizes import SI, Units
 from contact_results.surface import Cells, Rings
-from contact_scene.engineering_units import EngineeringUnit
+from contact_scene.engineering_units import EngineeringUnit, engineering_unit
 
 if TYPE_CHECKING:
     from contact_results.surface import Increment, Result
@@ -109,7 +108,7 @@ class MapFrame:
     unit: EngineeringUnit
 
     @classmethod
-    def around_contact(cls, result: Result, cells: Above, units: Units = SI) -> MapFrame:
+    def around_contact(cls, result: Result, cells: Above) -> MapFrame:
         """The frame that shows every cell that any step has in contact."""
         touching: list[Any] = [cells.scalar(step, "in_contact") for step in result.steps]
         touched = np.any(touching, axis=0)
@@ -117,7 +116,7 @@ class MapFrame:
             _half_extent(cells.x, touched.any(axis=1)),
             _half_extent(cells.y, touched.any(axis=0)),
         )
-        return cls(cells, shown, units.of("length", max(shown), "m"))
+        return cls(cells, shown, engineering_unit(max(shown), "m"))
 
     @property
     def extent(self) -> tuple[float, float, float, float]:

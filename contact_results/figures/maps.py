@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from dataclasses import dataclass
-from itertools import pairwise
 from math import floor, log10
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from matplotlib.colors import ListedColormap
-from matplotlib.figure import Figure, FigureBase
+from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 from numpy.typing import NDArray
 
@@ -24,17 +23,8 @@ from contact_results.figures.map_panels import (
     map_axes,
     outline,
 )
-from contact_results.figures.shown_steps import (
-    SAME,
-    normal_load,
-    runs_of_equal,
-    selected,
-    span,
-    tangential_load,
-    vectors,
-)
-from contact_results.natural_sizes import SI, Units
-from contact_scene.engineering_units import EngineeringUnit, engineering_unit, quantity
+from contact_results.figures.shown_steps import selected, step_title
+from contact_scene.engineering_units import EngineeringUnit, engineering_unit
 
 if TYPE_CHECKING:
     from contact_results.surface import Cells, Increment, Result
@@ -42,6 +32,13 @@ if TYPE_CHECKING:
 Field = NDArray[np.float64]
 Mask = NDArray[np.bool_]
 
+# Label, unit and components of the fields that have a map.
+FIELDS = {
+    "pressure": ("pressure p", "Pa", False),
+    "shear": ("shear |q|", "Pa", True),
+    "slip": ("slip since the start |s|", "m", True),
+    "dissipation": ("energy dissipated per area since the start", "J/m²", False),
+}
 ZONES = (
     ("no contact", style.OUTSIDE_COLOUR),
     ("slip", style.SLIP_COLOUR),
@@ -64,132 +61,56 @@ class Panel:
     outlined: Mask | None = None
 
 
-def draw_panel(
-    ax: Any, frame: MapFrame, panel: Panel, largest: float, *, signed: bool = False
-) -> Any:
-    """Draw one map and return its image; `signed` colours are even about zero."""
-    image = draw_cells(
-        ax, frame, panel.values, cmap=style.SIGNED_MAP if signed else style.MAGNITUDE_MAP,
-        vmin=-largest if signed else 0.0, vmax=largest,
-    )  # fmt: skip
+def draw_panel(ax: Any, frame: MapFrame, panel: Panel, largest: float) -> Any:
+    """Draw one map and return its image."""
+    image = draw_cells(ax, frame, panel.values, cmap=style.MAGNITUDE_MAP, vmin=0.0, vmax=largest)
     ax.set_facecolor(style.OUTSIDE_COLOUR)
     ax.set_title(panel.title)
     if panel.arrows is not None:
         draw_arrows(ax, frame, *panel.arrows)
     if panel.outlined is not None:
-        outline(ax, frame, panel.outlined, "black" if signed else "white")
+        outline(ax, frame, panel.outlined, "white")
     return image
 
 
-def draw_maps(
-    figure: FigureBase,
-    frame: MapFrame,
-    panels: Sequence[Panel],
-    label: str,
-    largest: float,
-    *,
-    signed: bool = False,
-) -> None:
-    """Draw maps with one colour bar."""
-    axes = map_axes(figure, frame, len(panels))
-    for ax, panel in zip(axes, panels, strict=True):
-        image = draw_panel(ax, frame, panel, largest, signed=signed)
-    figure.colorbar(image, ax=axes, label=label, shrink=0.9)
-
-
-def pressure_map(result: Result, cells: Cells, units: Units = SI) -> Figure:
-    """Draw the pressure at the end of the load steps; equal neighbours share a panel."""
-    frame = MapFrame.around_contact(result, cells, units)
-    groups = runs_of_equal(selected(result.steps), lambda step: step.pressure)
-    peak = max(step.peak_pressure for step in result.steps)
-    unit = units.of("pressure", peak, "Pa")
-    panels = [
-        Panel(
-            f"{span(group)}: {normal_load(group[0])}",
-            np.where(group[0].in_contact, group[0].pressure / unit.size, np.nan),
-        )
-        for group in groups
-    ]
-    figure = style.new_figure(*frame.figure_size(len(panels)))
-    draw_maps(figure, frame, panels, unit.labelled("pressure p"), peak / unit.size)
-    return figure
-
-
-def shear_map(result: Result, cells: Cells, units: Units = SI) -> Figure:
-    """Draw the shear at the end of load steps, one row of panels for each of its components.
-
-    The components have scales of their own: the one across the load is a few per cent of the one
-    along it, and left out where it is round-off.
-    """
-    frame = MapFrame.around_contact(result, cells, units)
-    shears = selected(vectors(cells, result.steps, "shear"))
-    largest = np.max([np.max(np.abs(shear), axis=(1, 2)) for _, shear in shears], axis=0).tolist()
-    components = [k for k in (0, 1) if largest[k] > SAME * max(largest)]
-    width, height = frame.figure_size(len(shears), len(components))
-    figure = style.new_figure(width, height + 0.3)  # and a line of text at the bottom
-    rows = figure.subfigures(len(components), 1, squeeze=False)[:, 0]
-    for k, row in zip(components, rows, strict=True):
-        unit = units.of("shear", largest[k], "Pa")
-        panels = [
-            Panel(_pushed(step), shear[k] / unit.size, outlined=step.in_stick)
-            for step, shear in shears
-        ]
-        label = unit.labelled(f"shear $q_{'xy'[k]}$")
-        draw_maps(row, frame, panels, label, largest[k] / unit.size, signed=True)
-    rows[-1].supxlabel("black line: border of the stick zone", fontsize="medium")
-    return figure
-
-
-def slip_map(result: Result, cells: Above, units: Units = SI) -> Figure:
-    """Draw the slip of the body on the indenter since the start of the history: its magnitude in
-    colours, arrows along it, and the border of the stick zone."""
-    frame = MapFrame.around_contact(result, cells, units)
-    slips = selected(vectors(cells, result.steps, "slip"))
-    largest = max(float(np.max(np.hypot(*slip))) for _, slip in slips)
-    unit = units.of("slip", largest, "m")
+def field_map(result: Result, cells: Above, name: str) -> Figure | None:
+    """Draw a field of `FIELDS` at the end of the load steps, with the border of the stick zone; of
+    a vector the magnitude in colours and arrows along it. None where the field is zero."""
+    frame = MapFrame.around_contact(result, cells)
+    label, symbol, is_vector = FIELDS[name]
+    read = cells.vector if is_vector else cells.scalar
+    given = [(step, read(step, name)) for step in result.steps]
+    shown = selected([(step, field) for step, field in given if field is not None and field.any()])
+    if not shown:
+        return None
+    sizes = [np.hypot(*field) if is_vector else field for _, field in shown]
+    largest = float(np.max(sizes))
+    unit = engineering_unit(largest, symbol)
     panels = []
-    for step, slip in slips:
+    for (step, field), size in zip(shown, sizes, strict=True):
         touching, sticking = cells.scalar(step, "in_contact"), cells.scalar(step, "in_stick")
         assert touching is not None
-        size = np.where(touching, np.hypot(*slip) / unit.size, np.nan)
-        panels.append(Panel(_pushed(step), size, (slip, touching), sticking))
-    width, height = frame.figure_size(len(slips))
-    figure = style.new_figure(width, height + 0.2)
-    draw_maps(figure, frame, panels, unit.labelled("slip since the start"), largest / unit.size)
-    figure.supylabel("arrows: slip of the body; white: stick", fontsize=style.CAPTION_SIZE)
-    return figure
-
-
-def dissipating(steps: Sequence[Increment], cells: Cells) -> list[tuple[Increment, Field]]:
-    """Return the load steps that dissipate energy, with the energy per area of each (nx, ny)."""
-    given = ((step, cells.scalar(step, "dissipation")) for step in steps)
-    known = [(step, field) for step, field in given if field is not None]
-    within = [*known[:1], *((now, d1 - d0) for (_, d0), (now, d1) in pairwise(known))]
-    return [(step, lost) for step, lost in within if np.any(lost)]
-
-
-def dissipation_map(result: Result, cells: Cells, units: Units = SI) -> Figure:
-    """Draw the energy per area that friction dissipates within each load step."""
-    frame = MapFrame.around_contact(result, cells, units)
-    steps = selected(dissipating(result.steps, cells))
-    peak = max(float(np.max(lost)) for _, lost in steps)
-    unit = engineering_unit(peak, "J/m²")
-    panels = [
-        Panel(
-            f"{span([step])}: {quantity(float(np.sum(lost)) * cells.cell_area, 'J', 3)}",
-            np.where(step.in_contact | (lost > 0), lost / unit.size, np.nan),
+        inside = touching | (size > 0 if name == "dissipation" else False)
+        panels.append(
+            Panel(
+                step_title(step),
+                np.where(inside, size / unit.size, np.nan),
+                (field, touching) if is_vector else None,
+                sticking,
+            )
         )
-        for step, lost in steps
-    ]
     figure = style.new_figure(*frame.figure_size(len(panels)))
-    label = f"energy dissipated per area ({unit.name})"
-    draw_maps(figure, frame, panels, label, peak / unit.size)
+    axes = map_axes(figure, frame, len(panels))
+    for ax, panel in zip(axes, panels, strict=True):
+        image = draw_panel(ax, frame, panel, largest / unit.size)
+    figure.colorbar(image, ax=axes, label=unit.labelled(label), shrink=0.9)
+    figure.supylabel("white line: border of stick", fontsize=style.CAPTION_SIZE)
     return figure
 
 
-def fretting_map(result: Result, cells: Cells, cycle: FrettingCycle, units: Units = SI) -> Figure:
+def fretting_map(result: Result, cells: Cells, cycle: FrettingCycle) -> Figure:
     """Draw slip, dissipation and Ruiz's parameters of one load cycle, each with its own scale."""
-    frame = MapFrame.around_contact(result, cells, units)
+    frame = MapFrame.around_contact(result, cells)
     fields = list(_fields_of(cycle))
     width, height = frame.figure_size(len(fields))
     columns = 2 if len(fields) == 4 else 3
@@ -224,15 +145,15 @@ def _fields_of(cycle: FrettingCycle) -> Iterator[tuple[str, EngineeringUnit, Fie
         yield "Ruiz $F_2$ = $σ_T$ τ δ", EngineeringUnit(10.0**exponent, name), cycle.ruiz_f2
 
 
-def stick_slip_map(result: Result, cells: Above, units: Units = SI) -> Figure:
+def stick_slip_map(result: Result, cells: Above) -> Figure:
     """Draw the zones of stick and slip at the end of the load steps, and the latest slip."""
-    frame = MapFrame.around_contact(result, cells, units)
+    frame = MapFrame.around_contact(result, cells)
     steps = selected([step for step in result.steps if step.in_stick is not None])
     width, height = frame.figure_size(len(steps))
     figure = style.new_figure(width - 0.6, height + 0.3)  # a legend below, no colour bar
     for ax, step in zip(map_axes(figure, frame, len(steps)), steps, strict=True):
         draw_zones(ax, frame, result, step)
-        ax.set_title(_pushed(step))
+        ax.set_title(step_title(step))
     figure.supylabel("arrows: slip in the last increment", fontsize=style.CAPTION_SIZE)
     add_zone_legend(figure)
     return figure
@@ -266,7 +187,3 @@ def latest_slip(result: Result, cells: Above, step: Increment) -> Field | None:
     number = next(n for n, increment in enumerate(result.increments) if increment is step)
     before = cells.vector(result.increments[number - 1], "slip") if number else None
     return now if now is None or before is None else now - before
-
-
-def _pushed(step: Increment) -> str:
-    return f"{span([step])}: {tangential_load(step)}"

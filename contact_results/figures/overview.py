@@ -15,14 +15,13 @@ from contact_results.figures.load_plot import draw_loading, draw_loop, moved
 from contact_results.figures.map_panels import Above, MapFrame, map_axes
 from contact_results.figures.maps import Panel, add_zone_legend, draw_panel, draw_zones
 from contact_results.figures.profile_plot import draw_end
-from contact_results.figures.run_page import decision_numbers
 from contact_results.figures.section_panel import draw_section
 from contact_results.figures.stress_plot import draw_depth, draw_surface
-from contact_results.natural_sizes import SI, Units
+from contact_results.key_numbers import key_numbers
 from contact_results.stress.loaded_bodies import LoadedBodies, state_of_result
 from contact_results.surface import Cells, surface_of
 from contact_scene import Body
-from contact_scene.engineering_units import quantity
+from contact_scene.engineering_units import engineering_unit, quantity
 from contact_scene.stated_error import StatedError
 
 if TYPE_CHECKING:
@@ -41,7 +40,6 @@ def overview(
     result: Result,
     above: Above,
     errors: Mapping[str, StatedError] | None = None,
-    units: Units = SI,
 ) -> Figure:
     """Profile, zones, history, stress on the section and along the surface, and the numbers; of a
     single increment the stress down the axis instead of a history; no stress where it would take
@@ -59,17 +57,17 @@ def overview(
     )
     panels = np.asarray(figure.subfigures(2, 3 if field else 2), dtype=object)
     profile, zones, history, *stressed, numbers = panels.flat
-    draw_end(profile.subplots(), result, surface_of(result), units)
-    _draw_seen(zones, result, above, units)
+    draw_end(profile.subplots(), result, surface_of(result))
+    _draw_seen(zones, result, above)
     if moved(result.increments) >= LEAST_MOVES:
-        draw_loop(history.subplots(), result, units)
+        draw_loop(history.subplots(), result)
     elif field and len(result.increments) == 1:
-        _draw_axis(history.subplots(), field, result.scene.body, units)
+        _draw_axis(history.subplots(), field, result.scene.body)
     else:
-        draw_loading(history.subplots(), result, units)
+        draw_loading(history.subplots(), result)
     if field:
         section, surface = stressed
-        _draw_stress(section, surface, result, field, units)
+        _draw_stress(section, surface, result, field)
     _write_numbers(numbers.subplots(), result, errors)
     return figure
 
@@ -118,8 +116,8 @@ def coarser(state: LoadedBodies, most: int) -> LoadedBodies:
     return state
 
 
-def _draw_seen(figure: Any, result: Result, above: Above, units: Units) -> None:
-    end, frame = result.steps[-1], MapFrame.around_contact(result, above, units)
+def _draw_seen(figure: Any, result: Result, above: Above) -> None:
+    end, frame = result.steps[-1], MapFrame.around_contact(result, above)
     (ax,) = map_axes(figure, frame, 1)
     if above.scalar(end, "in_stick") is not None:
         draw_zones(ax, frame, result, end)
@@ -128,27 +126,27 @@ def _draw_seen(figure: Any, result: Result, above: Above, units: Units) -> None:
         return
     pressure = above.scalar(end, "pressure")
     assert pressure is not None
-    unit = units.of("pressure", float(np.max(pressure)), "Pa")
+    unit = engineering_unit(float(np.max(pressure)), "Pa")
     seen = np.where(pressure > 0, pressure / unit.size, np.nan)
     image = draw_panel(ax, frame, Panel("", seen), float(np.nanmax(seen)))
     figure.colorbar(image, ax=ax, label=unit.labelled("pressure p"), shrink=0.8)
 
 
-def _draw_axis(ax: Any, field: StressField, body: Body, units: Units) -> None:
+def _draw_axis(ax: Any, field: StressField, body: Body) -> None:
     depth = field.shown[1]
-    length = units.of("length", depth, "m")
-    draw_depth(ax, field.axis, body, depth, length, units)
+    length = engineering_unit(depth, "m")
+    draw_depth(ax, field.axis, body, depth, length)
     ax.set_ylabel(length.labelled("depth z on the axis"))
     ax.legend(loc="lower left", fontsize="small")
 
 
-def _draw_stress(left: Any, right: Any, result: Result, field: StressField, units: Units) -> None:
+def _draw_stress(left: Any, right: Any, result: Result, field: StressField) -> None:
     axes, along = left.subplots(), right.subplots()
     body, mises = result.scene.body, field.section.von_mises
-    length = draw_section(left, axes, field, body, mises, "von Mises", bar=BAR, units=units)
+    length = draw_section(left, axes, field, body, mises, "von Mises", bar=BAR)
     axes.set_xlabel(length.labelled(field.label))
     axes.set_ylabel(length.labelled("depth z"))
-    draw_surface(along, field, units)
+    draw_surface(along, field)
     if (field.edge is None or not field.edge.determined) and isinstance(surface_of(result), Cells):
         cell = float(np.diff(field.section.x.ravel()[:2])[0])
         along.set_title(
@@ -158,6 +156,7 @@ def _draw_stress(left: Any, right: Any, result: Result, field: StressField, unit
 
 def _write_numbers(ax: Any, result: Result, errors: Mapping[str, StatedError] | None) -> None:
     ax.set_axis_off()
-    lines = [f"{name}: {text}" for name, text in decision_numbers(result, errors)]
+    lines = [f"status: {result.steps[-1].status.value}"]
+    lines += [f"{name}: {text}" for name, text in key_numbers(result.steps, errors)]
     lines += [] if errors else ["errors not stated"]
     ax.text(0.0, 1.0, "\n".join(lines), va="top", linespacing=1.6, parse_math=False)

@@ -9,12 +9,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from contact_results.directory import file_names
-from contact_results.natural_sizes import ROUND_OFF, without_round_off
-from contact_results.number_text import measured_like, number_text, uncertainty
+from contact_results.key_numbers import key_numbers
 from contact_results.remarks import remarks
 from contact_scene.engineering_units import engineering_unit
-from contact_scene.increment import SCALARS, components, numbers
-from contact_scene.reported import Kind
 from contact_scene.stated_error import StatedError
 
 if TYPE_CHECKING:
@@ -36,8 +33,6 @@ STYLE = (
 )
 HEADINGS = {
     "stick_slip": "Stick and slip",
-    "slip": "Slip at y = 0",
-    "slip_map": "Slip over the contact",
     "hysteresis": "Load over motion",
 }
 READ_ON = (
@@ -69,7 +64,8 @@ def write_page(
         '<meta name="color-scheme" content="light dark">',
         f"<title>{title}</title><style>{STYLE}</style></head><body><h1>{title}</h1>",
         f"<h2>At the end of step {result.steps[-1].step}</h2><table>",
-        *(_row(name, text) for name, text in decision_numbers(result, errors)),
+        _row("status", result.steps[-1].status.value),
+        *(_row(name, text) for name, text in key_numbers(result.steps, errors)),
         "</table>" + ("" if errors is not None else "<p>Errors were left out.</p>"),
         f'<p class="soft">{READ_ON}</p>',
         *(f"<p><strong>Remark:</strong> {escape(remark)}.</p>" for remark in remarks(result)),
@@ -82,40 +78,6 @@ def write_page(
         "</pre></details></body></html>\n",
     ]
     (directory / file_names.PAGE).write_text("\n".join(parts), encoding="utf-8")
-
-
-def decision_numbers(
-    result: Result, errors: Mapping[str, StatedError] | None
-) -> Iterator[tuple[str, str]]:
-    """Names and texts of the key numbers at the end; radii of one unit, zero
-    where a number is round-off beside the load, and no component that never acted."""
-    end = result.steps[-1]
-    values = numbers(end)
-    sizes: dict[str, float] = {}
-    keys = [name for name, mark in SCALARS.items() if mark.key]
-    for name in keys:
-        for part in components(name):
-            like = measured_like(name)
-            sizes[like] = max(sizes.get(like, 0.0), abs(values[part] or 0.0))
-    yield "status", end.status.value
-    for name in keys:
-        unit = engineering_unit(sizes[measured_like(name)], SCALARS[name].unit)
-        for part in components(name):
-            if part != components(name)[0] and not _acts(result, name, part):
-                continue
-            value, axis = values[part], part[-1] if SCALARS[name].kind is Kind.VECTOR else "x"
-            if value is None:
-                continue
-            value = without_round_off(value, result.steps, SCALARS[name].unit)
-            text = number_text(value, uncertainty((errors or {}).get(name), axis), unit.size)
-            yield part.replace("_", " "), f"{text} {unit.name}"
-
-
-def _acts(result: Result, name: str, part: str) -> bool:
-    """Whether a further component of a vector has ever been more than round-off."""
-    history = [numbers(end) for end in result.steps]
-    largest = max(abs(of[each] or 0.0) for of in history for each in components(name))
-    return any(abs(of[part] or 0.0) > ROUND_OFF * largest for of in history)
 
 
 def _settings(result: Result) -> Iterator[tuple[str, str]]:

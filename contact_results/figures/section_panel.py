@@ -15,11 +15,10 @@ from matplotlib.tri import Triangulation
 from numpy.typing import NDArray
 
 from contact_results.figures import style
-from contact_results.natural_sizes import SI, Units
 from contact_results.stress.extremes import interface_sides
 from contact_results.stress.points import StressField, StressPoints
 from contact_scene import Body
-from contact_scene.engineering_units import EngineeringUnit
+from contact_scene.engineering_units import EngineeringUnit, engineering_unit
 
 # Quadrilaterals within a cell: of a nine-node element the quarters around its middle.
 PARTS = {"quad": ((0, 1, 2, 3),), "quad9": ((0, 4, 8, 7), (4, 1, 5, 8), (8, 5, 2, 6), (7, 8, 6, 3))}
@@ -40,7 +39,6 @@ def draw_section(
     *,
     from_zero: bool = False,
     bar: Mapping[str, Any] | None = None,
-    units: Units = SI,
 ) -> EngineeringUnit:
     """Draw values at the points of the section, z downward; returns the unit of length.
 
@@ -49,10 +47,10 @@ def draw_section(
     bar        how the colour bar differs from matplotlib's
     """
     points, (reach, depth) = field.section, field.shown
-    length = units.of("length", reach, "m")
+    length = engineering_unit(reach, "m")
     triangles, drawn = _triangles(points, values, length, reach, depth)
     in_view = drawn[triangles.triangles]
-    unit = units.of("pressure", float(np.abs(in_view).max()), "Pa")
+    unit = engineering_unit(float(np.abs(in_view).max()), "Pa")
     low, high = float(in_view.min()) / unit.size, float(in_view.max()) / unit.size
     levels = rising_levels(high) if from_zero and high > 0 else even_levels(low, high)
     image = ax.tricontourf(

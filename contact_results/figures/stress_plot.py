@@ -13,22 +13,19 @@ from matplotlib.figure import Figure
 from contact_results.directory.atomic_file import atomic_file
 from contact_results.figures import style
 from contact_results.figures.section_panel import draw_interfaces, draw_section
-from contact_results.natural_sizes import SI, Units
 from contact_results.stress.files import sides
 from contact_results.stress.points import StressField, StressPoints
 from contact_scene import Body
-from contact_scene.engineering_units import EngineeringUnit
+from contact_scene.engineering_units import EngineeringUnit, engineering_unit
 
 SECTION, AXIS, INTERFACES = "stress_section.png", "stress_axis.png", "stress_interfaces.png"
 SURFACE = "stress_surface.png"
 MOST_INTERFACES = 4
 
 
-def write_stress_figures(
-    field: StressField, body: Body, directory: Path, title: str, units: Units = SI
-) -> None:
+def write_stress_figures(field: StressField, body: Body, directory: Path, title: str) -> None:
     """Write the figures of the section y = 0; without layers there is none of interfaces."""
-    figures: dict[str, Callable[[StressField, Body, str, Units], Figure]] = {
+    figures: dict[str, Callable[[StressField, Body, str], Figure]] = {
         SECTION: section_plot,
         AXIS: axis_plot,
         SURFACE: surface_plot,
@@ -39,10 +36,10 @@ def write_stress_figures(
         for name, draw in figures.items():
             with atomic_file(directory / name) as path:
                 dots = style.OF_SECTIONS if name == SECTION else style.DOTS_PER_INCH
-                style.save(draw(field, body, title, units), path, dots)
+                style.save(draw(field, body, title), path, dots)
 
 
-def section_plot(field: StressField, body: Body, title: str, units: Units = SI) -> Figure:
+def section_plot(field: StressField, body: Body, title: str) -> Figure:
     """Four stresses on the section, z downward, interfaces dashed; call within `figure_style`."""
     points = field.section
     panels = {
@@ -52,13 +49,11 @@ def section_plot(field: StressField, body: Body, title: str, units: Units = SI) 
         "tension (largest principal)": np.maximum(points.principal[0], 0.0),
     }
     half = float(points.x.min()) >= 0
-    figure = _titled(6.4 if half else 9.0, 6.4, title, units)
+    figure = _titled(6.4 if half else 9.0, 6.4, title)
     axes = figure.subplots(2, 2, sharex=True, sharey=True)
     for ax, (name, values) in zip(axes.flat, panels.items(), strict=True):
         from_zero = name.startswith("tension")
-        length = draw_section(
-            figure, ax, field, body, values, name, from_zero=from_zero, units=units
-        )
+        length = draw_section(figure, ax, field, body, values, name, from_zero=from_zero)
     for ax in axes[-1]:
         ax.set_xlabel(length.labelled(field.label))
     for ax in axes[:, 0]:
@@ -66,33 +61,33 @@ def section_plot(field: StressField, body: Body, title: str, units: Units = SI) 
     return figure
 
 
-def axis_plot(field: StressField, body: Body, title: str, units: Units = SI) -> Figure:
+def axis_plot(field: StressField, body: Body, title: str) -> Figure:
     """Stresses down the axis and down the edge of the contact with the larger tension along the
     surface, which is the trailing one; one line per material. Call within `figure_style`."""
     depth = field.shown[1]
-    lines = {"on the z axis": field.axis, **_below_edge(field, units)}
-    length = units.of("length", depth, "m")
-    figure = _titled(4.6 * len(lines) + 0.8, 4.8, title, units)
+    lines = {"on the z axis": field.axis, **_below_edge(field)}
+    length = engineering_unit(depth, "m")
+    figure = _titled(4.6 * len(lines) + 0.8, 4.8, title)
     axes = figure.subplots(1, len(lines), sharey=True, squeeze=False)[0]
     for ax, (where, points) in zip(axes, lines.items(), strict=True):
-        draw_depth(ax, points, body, depth, length, units)
+        draw_depth(ax, points, body, depth, length)
         ax.set_title(where)
     axes[0].set_ylabel(length.labelled("depth z"))
     style.legend_beside(axes[-1])
     return figure
 
 
-def surface_plot(field: StressField, body: Body, title: str, units: Units = SI) -> Figure:
+def surface_plot(field: StressField, body: Body, title: str) -> Figure:
     """Stresses along the surface; call within `figure_style`."""
-    figure = _titled(6.4, 3.4, title, units)
-    draw_surface(figure.subplots(), field, units)
+    figure = _titled(6.4, 3.4, title)
+    draw_surface(figure.subplots(), field)
     return figure
 
 
-def draw_surface(ax: Any, field: StressField, units: Units = SI) -> None:
+def draw_surface(ax: Any, field: StressField) -> None:
     """σ_xx and σ_yy at z = 0, on a fitted edge of the contact, too, and where the contact ends."""
     reach = field.shown[0]
-    length = units.of("length", reach, "m")
+    length = engineering_unit(reach, "m")
     surface, ends = _at_surface(field), _ends(field)
     parts = [surface.chosen(np.abs(surface.x) <= reach), *([ends] if ends else [])]
     x = np.concatenate([part.x for part in parts])
@@ -101,7 +96,7 @@ def draw_surface(ax: Any, field: StressField, units: Units = SI) -> None:
         _named(name): np.concatenate([part.components[name] for part in parts])[order]
         for name in ("xx", "yy")
     }
-    unit = units.of("pressure", float(max(np.abs(v).max() for v in lines.values())), "Pa")
+    unit = engineering_unit(float(max(np.abs(v).max() for v in lines.values())), "Pa")
     for number, (name, values) in enumerate(lines.items()):
         ax.plot(x[order] / length.size, values / unit.size, label=name, **style.line(number))
     ax.axhline(0.0, color="black", linewidth=0.5)
@@ -148,14 +143,14 @@ def _at_surface(field: StressField) -> StressPoints:
     return points.chosen(at[np.argsort(points.x.flat[at], kind="stable")])
 
 
-def _below_edge(field: StressField, units: Units) -> dict[str, StressPoints]:
+def _below_edge(field: StressField) -> dict[str, StressPoints]:
     """The points below the place of the section next to the edge, downward, by what it is."""
     surface, points = _at_surface(field), field.section
     ends = [int(np.argmin(np.abs(surface.x - x))) for x in _places_of_ends(field)]
     edge = float(surface.x[max(ends, key=lambda k: surface.components["xx"][k])])
     below = np.flatnonzero(np.abs(points.x - edge) <= 1e-9 * _radius(field))
     order = np.lexsort([points.material.flat[below], points.depth.flat[below]])
-    where = f"below the edge, x = {units.of('length', abs(edge), 'm').text(edge, 3)}"
+    where = f"below the edge, x = {engineering_unit(abs(edge), 'm').text(edge, 3)}"
     return {where: points.chosen(below[order])}
 
 
@@ -165,13 +160,12 @@ def draw_depth(
     body: Body,
     deepest: float,
     length: EngineeringUnit,
-    units: Units = SI,
 ) -> None:
     """Stresses at points below each other, z downward, one line per material."""
     line = points.chosen(points.depth <= deepest)
     lines = {_named(name): line.components[name] for name in ("xx", "yy", "zz", "xz")}
     lines["von Mises"] = line.von_mises
-    unit = units.of("pressure", float(max(np.abs(v).max() for v in lines.values())), "Pa")
+    unit = engineering_unit(float(max(np.abs(v).max() for v in lines.values())), "Pa")
     for number, (name, values) in enumerate(lines.items()):
         for material in np.unique(line.material):
             inside = line.material == material
@@ -187,13 +181,13 @@ def draw_depth(
     ax.set_ylim(deepest / length.size, 0.0)
 
 
-def interface_plot(field: StressField, body: Body, title: str, units: Units = SI) -> Figure:
+def interface_plot(field: StressField, body: Body, title: str) -> Figure:
     """What an interface carries, and what jumps there; call within `figure_style`."""
     reach = field.shown[0]
-    length = units.of("length", reach, "m")
+    length = engineering_unit(reach, "m")
     shown = min(len(body.layers), MOST_INTERFACES)
-    unit = units.of("pressure", float(np.abs(field.section.stress).max()), "Pa")
-    figure = _titled(9.6, 2.6 * shown + 0.5, title, units)
+    unit = engineering_unit(float(np.abs(field.section.stress).max()), "Pa")
+    figure = _titled(9.6, 2.6 * shown + 0.5, title)
     axes = figure.subplots(shown, 2, sharex=True, squeeze=False)
     for number, side, points in sides(field, body):
         if number > shown:
@@ -223,8 +217,7 @@ def _named(component: str) -> str:
     return f"$σ_{{{component}}}$"
 
 
-def _titled(width: float, height: float, title: str, units: Units) -> Figure:
+def _titled(width: float, height: float, title: str) -> Figure:
     figure = style.new_figure(width, height)
-    lines = (fill(line, int(13 * width)) for line in (title, units.note) if line)
-    figure.suptitle("\n".join(lines), fontsize=9.0)
+    figure.suptitle(fill(title, int(13 * width)), fontsize=9.0)
     return figure

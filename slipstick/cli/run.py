@@ -173,12 +173,8 @@ def _print_outcome(
     reached: "AccuracyReached | None",
     seconds: dict[str, float],
 ) -> None:
-    from slipstick.cli.outcome_text import (
-        how_accurate,
-        how_stated,
-        outcome_columns,
-        solved_in,
-    )
+    from contact_results.key_numbers import outcome_columns
+    from slipstick.cli.outcome_text import how_accurate, how_stated, solved_in
     from slipstick.cli.terminal import print_pairs, print_table
 
     stated_in = () if stated is None else how_stated(stated, seconds.get("error"))

@@ -44,9 +44,6 @@ def table(
         raise typer.BadParameter(unknown_names("table", [name], TABLES, "slipstick table"))
     chosen = TABLES[name]
     values = _values(chosen, over or ())
-    if chosen.seconds:
-        each = f"about {chosen.seconds:.2g} s of one core each"
-        typer.echo(f"rows: {chosen.count(values)}, {each}", err=True)
     rows = chosen.rows(values)
     provenance = _provenance(chosen)
     if as_json:

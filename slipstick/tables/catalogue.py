@@ -20,11 +20,9 @@ from slipstick.tables.frictional import (
     FRONT,
     MODULUS,
     OF_RING,
-    gripping,
     scalars,
     tractions,
 )
-from slipstick.tables.onset import OF_FIT, onset
 from slipstick.tables.table import ROUND_OFF, Axis, Found, Table
 
 LEBEDEV = (
@@ -163,33 +161,6 @@ TABLES: Mapping[str, Table] = {
             tractions,
             f"{RUBBED}; besides {OF_RING:g} of p_H that rings leave, or near to the edge of the "
             f"stick what a thousandth of the radius makes",
-        ),
-        Table(
-            "grip",
-            {
-                **FIGURE,
-                "c_over_a": Axis(
-                    "stick radius over the contact radius", (0.1, 0.5, 0.9), 0.0, 1.0 - FRONT
-                ),
-            },
-            {"mu": "coefficient of friction with which the stick reaches so far"},
-            f"A rigid paraboloid, pressed with friction from first touch {ON_COATING}{HERTZ}",
-            COULOMB,
-            gripping,
-            f"{RUBBED}; besides what {FRONT:g} a of the stick radius make, to which rings tell it",
-        ),
-        Table(
-            "onset",
-            {**FIGURE, "mu": replace(FRICTION["mu"], values=(0.1,))},
-            {"T_over_muW": "tangential force at which the last stick goes, over mu W"},
-            "A rigid paraboloid, pressed with friction from first touch and then pushed "
-            f"{ON_COATING}{HERTZ}",
-            "Coulomb's law as a vector law at points of rings and angles, in the increments of the "
-            "load and in their limit; for layers by exact frequency responses",
-            onset,
-            "twice the change of a number by half as many rings and angles again, and "
-            f"{OF_FIT:g} that the fit leaves of where the last stick goes",
-            seconds=60.0,
         ),
     )
 }

@@ -5,12 +5,10 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from functools import lru_cache
-from math import exp, log, pi
+from math import pi
 
 import numpy as np
-from scipy.optimize import brentq
 
-import radial
 from contact_scene import (
     RIGID,
     Body,
@@ -23,7 +21,6 @@ from contact_scene import (
     Scene,
 )
 from contact_scene.march import marked_increments
-from contact_scene.solver_errors import UnsupportedScene
 from radial.plan import PATH_INCREMENTS
 from radial.rubbing import Rubbing
 from radial.sheared import Sheared
@@ -37,12 +34,10 @@ KEPT = 16
 FRONT = 1e-3
 BESIDE = 0.05  # of the contact radius: so near to a front tractions are as uncertain as its place
 OF_RING = 2e-5  # of p_H: what rings leave of a traction where two numbers of them happen to agree
-# The coefficient of friction is sought from here on, by such factors, and to such a part of itself.
-FIRST, FACTOR, FURTHEST, NEAR = 0.1, 2.0, 1e3, 1e-4
 
 
-def scene(place: Sequence[float], *steps: LoadStep) -> Scene:
-    """Of E1/E2, h/a_H, ν and µ, pressed and then led through steps."""
+def scene(place: Sequence[float]) -> Scene:
+    """Return the contact of E1/E2, h/a_H, ν and µ, pressed."""
     moduli, thickness, ratio, friction = place
     young = MODULUS * (1 - ratio**2)
     film, base = (
@@ -53,7 +48,7 @@ def scene(place: Sequence[float], *steps: LoadStep) -> Scene:
         indenter=BALL,
         body=Body(material=base, layers=(Layer(thickness=thickness, material=film),)),
         friction=CoulombFriction(coefficient=friction),
-        loading=(LoadStep(normal_force=FORCE), *steps),
+        loading=(LoadStep(normal_force=FORCE),),
     )
 
 
@@ -92,35 +87,3 @@ def tractions(place: Sequence[float], fineness: int) -> Found:
             moved = both(min(max(x + off, 0.0), 1.0))
             left = [max(old, abs(a - b)) for old, a, b in zip(left, moved, here, strict=True)]
     return Found(here, abs(end.load / FORCE - 1), tuple(left))
-
-
-def gripping(place: Sequence[float], fineness: int) -> Found:
-    """The coefficient of friction with which the stick reaches to a share of the contact radius;
-    raises UnsupportedScene where none does."""
-    *contact, share = place
-    if not radial.plan(scene((*contact, FIRST))).coupled:
-        raise UnsupportedScene(
-            f"no coefficient of friction lets the stick reach to {share:g} of the contact radius: "
-            "pressure moves the surfaces alike, and all sticks under any; name other values of nu "
-            "or E1_over_E2"
-        )
-
-    def missed(x: float) -> float:
-        found = pressed((*contact, exp(x)), PATH_INCREMENTS // 2 * fineness, fineness)
-        return found.front / found.end.radius - share
-
-    low = high = log(FIRST)
-    first = last = missed(low)
-    while last * first > 0:
-        low, high = high, high - np.copysign(log(FACTOR), first)
-        if abs(high - log(FIRST)) > log(FURTHEST):
-            raise UnsupportedScene(
-                f"no coefficient of friction between {exp(min(log(FIRST), low)):.3g} and "
-                f"{exp(max(log(FIRST), low)):.3g} lets the stick reach to {share:g} of the contact "
-                "radius: name other values of c_over_a, nu or E1_over_E2"
-            )
-        earlier, last = last, missed(high)
-    x = brentq(missed, low, high, xtol=NEAR)
-    slope = float(abs((last - earlier) / (high - low)))
-    friction = exp(float(x))
-    return Found((friction,), NEAR, (friction * FRONT / slope,))

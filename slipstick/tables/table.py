@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import product
-from math import prod
 
 ROUND_OFF = 1e-13
 TIMES = 2.0
@@ -59,7 +58,6 @@ class Table:
     at          quantities at parameters, in the order of the axes, with so many times as many
                 orders and points, or rings and increments, as it takes
     uncertainty  how it is found
-    seconds     of one core that a row takes, about; 0 where nobody would wait for it
     """
 
     name: str
@@ -69,7 +67,6 @@ class Table:
     source: str
     at: Callable[[Sequence[float], int], Found]
     uncertainty: str = UNCERTAINTY
-    seconds: float = 0.0
 
     @property
     def columns(self) -> dict[str, str]:
@@ -78,16 +75,9 @@ class Table:
         uncertain = {f"{name}_uncertainty": f"of {name}, absolute" for name in self.quantities}
         return {**parameters, **self.quantities, **uncertain}
 
-    def count(self, chosen: Mapping[str, Sequence[float]]) -> int:
-        """Of the rows."""
-        return prod(len(values) for values in self._grid(chosen))
-
-    def _grid(self, chosen: Mapping[str, Sequence[float]]) -> list[Sequence[float]]:
-        return [chosen.get(name, axis.values) for name, axis in self.axes.items()]
-
     def rows(self, chosen: Mapping[str, Sequence[float]]) -> Iterator[dict[str, float]]:
         """A row by column for all combinations, of chosen values or those of the axes."""
-        for place in product(*self._grid(chosen)):
+        for place in product(*(chosen.get(name, axis.values) for name, axis in self.axes.items())):
             found, finer = self.at(place, 1), self.at(place, 2)
             left = found.left or (0.0,) * len(found.values)
             uncertainties = (

@@ -6,7 +6,6 @@ from math import sqrt
 
 import numpy as np
 
-from contact_results.quantities import shear_of
 from contact_scene import SurfaceDiscretisation
 from contact_scene.discretisation import EdgeCorrection
 from contact_scene.solver_errors import NotConverged
@@ -16,6 +15,7 @@ from verification.adapters.surface_places import COMPONENTS, stress_at, under_a_
 from verification.challenge.answer import Answer, Field, Key, Solver, Vector
 from verification.challenge.door import Posed
 from verification.observed.radial_profile import along_radii, outward
+from verification.quantities import shear_of
 
 ON_CELLS = Solver("slipstick, semi-analytical")
 WITH_EDGES = Solver("slipstick, edges inside the cells", sampling="cell")

@@ -5,13 +5,13 @@ from __future__ import annotations
 import numpy as np
 from scipy.interpolate import RectBivariateSpline
 
-from contact_results.quantities import shear_of
 from contact_scene import RIGID, Body
 from semi_analytical import Increment, Result
 from semi_analytical.influence.bodies import influence_coefficients
 from semi_analytical.stress import subsurface
 from verification.challenge.answer import Answer, Key, Vector
 from verification.challenge.door import Posed
+from verification.quantities import shear_of
 
 COMPONENTS = ("xx", "yy", "zz", "yz", "xz", "xy")
 # What the reference of influence coefficients calls what moves and under which traction.

@@ -7,7 +7,6 @@ from typing import Any
 
 import numpy as np
 
-from contact_results.quantities import shear_of
 from verification.judging.case import Case, Level
 from verification.judging.declared_case import Falls, Refined, Within, case, judged
 from verification.judging.drawings import Drawn, convergence, profile
@@ -19,6 +18,7 @@ from verification.problems.paper_scene import FRICTION, HERTZ
 from verification.problems.problem import Problem
 from verification.problems.sheared import OVER_SLIDING_SHIFT, sheared
 from verification.problems.shifted_grid import OFFSETS, UNLIKE
+from verification.quantities import shear_of
 
 PARTS = (0.3, 0.6, 0.9, 0.99)  # of µW, one loading step each
 STOPS = dict(enumerate(PARTS, 1))  # by step

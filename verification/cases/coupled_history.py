@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 import semi_analytical
-from contact_results.quantities import shear_of, shift_along_x
 from contact_scene import LoadStep
 from contact_scene.residuals import worst
 from verification.cases.coupled_contacts import BACK, BARE, FILM, PRESSED, PUSHED
@@ -18,6 +17,7 @@ from verification.judging.case import Case, Comparison, Finding, Level, Quantity
 from verification.judging.run import OTHER_NORMS, SOLVER_TOLERANCE, Run, SectionRun
 from verification.observed.laws import observed
 from verification.problems.reference import ReferenceKind, identity
+from verification.quantities import shear_of, shift_along_x
 
 if TYPE_CHECKING:
     import fem_reference

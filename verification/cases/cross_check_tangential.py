@@ -10,7 +10,6 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from contact_results.quantities import shift_along_x
 from contact_scene import FiniteElementDiscretisation
 from verification.cases.apart_everywhere import Apart, apart_everywhere
 from verification.cases.both_solvers.line import Line
@@ -24,6 +23,7 @@ from verification.problems import paper_scene as paper
 from verification.problems.layered_scene import coated, film, pressed, rigid_ball
 from verification.problems.paper_scene import FRICTION, HERTZ
 from verification.problems.reference import ReferenceKind
+from verification.quantities import shift_along_x
 
 if TYPE_CHECKING:
     import radial

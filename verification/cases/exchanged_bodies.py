@@ -9,7 +9,6 @@ from typing import Any
 import numpy as np
 
 import radial
-from contact_results.quantities import shear_of
 from contact_scene import RIGID, Body, LoadStep, Paraboloid, RadialDiscretisation, Scene
 from contact_scene.residuals import worst
 from verification.judging.case import Case, Check, Comparison, Level, Required
@@ -18,6 +17,7 @@ from verification.problems import paper_scene as paper
 from verification.problems.layered_scene import SUBSTRATE, coated, film, pressed
 from verification.problems.paper_scene import HERTZ, NORMAL_FORCE, pressing
 from verification.problems.reference import identity
+from verification.quantities import shear_of
 
 FRICTION, PART = 0.2, 0.6  # and part of µW that pushes
 CELLS = {Level.QUICK: 32, Level.STANDARD: 64, Level.FULL: 128}

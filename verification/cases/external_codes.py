@@ -11,7 +11,6 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from contact_results.quantities import shear_of
 from contact_scene import LoadStep, Scene
 from verification.external_codes.recorded import Recorded, recorded
 from verification.judging.case import Case, Level, Quantity, Required
@@ -24,6 +23,7 @@ from verification.problems import paper_scene as paper
 from verification.problems.layered_scene import coated, film, pressed, rigid_ball
 from verification.problems.paper_scene import HERTZ
 from verification.problems.reference import Reference, ReferenceKind
+from verification.quantities import shear_of
 
 Field = NDArray[np.float64]
 Reader = Callable[[Any, str, Field], Field]

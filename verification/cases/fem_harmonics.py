@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from contact_results.quantities import shift_along_x
 from contact_scene import (
     RIGID,
     Body,
@@ -33,6 +32,7 @@ from verification.problems import paper_scene as paper
 from verification.problems.paper_scene import FRICTION, HERTZ, STEEL
 from verification.problems.problem import Problem
 from verification.problems.sheared import OVER_LIMIT, sheared
+from verification.quantities import shift_along_x
 
 if TYPE_CHECKING:
     from fem_reference import Increment, Result

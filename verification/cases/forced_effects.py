@@ -6,7 +6,6 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from contact_results.quantities import largest_difference
 from contact_scene import Body, Paraboloid, Scene
 from semi_analytical import SurfaceGrid, all_effects
 from verification.exhibits.table import NONE, Table
@@ -16,6 +15,7 @@ from verification.problems import paper_scene as paper
 from verification.problems.layered_scene import SUBSTRATE, coated, film, pressed, rigid_ball
 from verification.problems.paper_scene import HERTZ, STEEL, pressing
 from verification.problems.reference import ReferenceKind
+from verification.quantities import largest_difference
 
 if TYPE_CHECKING:
     from semi_analytical import Result

@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from contact_results.quantities import shear_of
 from semi_analytical import one_way
 from verification.closed_forms.goodman import stick_ratio
 from verification.exhibits.chart import Chart, Look, Panel, curve
@@ -20,6 +19,7 @@ from verification.problems import paper_scene as paper
 from verification.problems.layered_scene import half_space, pressed, rigid_ball
 from verification.problems.paper_scene import HERTZ, pressing
 from verification.problems.reference import ReferenceKind, closed_form, identity
+from verification.quantities import shear_of
 
 if TYPE_CHECKING:
     from semi_analytical import Result

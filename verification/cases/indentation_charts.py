@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from contact_results.quantities import shear_of
 from verification.exhibits.chart import Chart, Look, Panel, curve
 from verification.exhibits.profile_chart import SHOWN
 from verification.exhibits.table import NONE, Table
@@ -23,6 +22,7 @@ from verification.observed.end_state import approach, contact_radius, stick_radi
 from verification.observed.radial_profile import outward
 from verification.problems.indentation import Indentation
 from verification.problems.paper_scene import HERTZ
+from verification.quantities import shear_of
 
 if TYPE_CHECKING:
     from semi_analytical import Result

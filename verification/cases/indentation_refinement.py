@@ -6,7 +6,6 @@ from collections.abc import Callable, Mapping
 from functools import partial
 from typing import TYPE_CHECKING
 
-from contact_results.quantities import shear_of
 from contact_scene import Body, IsotropicMaterial
 from verification.convergence.stored_field import at_centres
 from verification.exhibits.chart import Chart
@@ -19,6 +18,7 @@ from verification.observed.end_state import approach, stick_radius
 from verification.problems import paper_scene as paper
 from verification.problems.indentation import Indentation
 from verification.problems.reference import ReferenceKind
+from verification.quantities import shear_of
 
 if TYPE_CHECKING:
     from semi_analytical import Plan, Result

@@ -7,12 +7,12 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from contact_results.quantities import force_along_x, shear_of, shift_along_x
 from verification.exhibits.chart import Chart, Look, Panel, curve
 from verification.exhibits.profile_chart import Section
 from verification.problems import paper_scene as paper
 from verification.problems.loop_history import AMPLITUDE, PRESSED, ExactLoop
 from verification.problems.paper_scene import FRICTION, HERTZ
+from verification.quantities import force_along_x, shear_of, shift_along_x
 
 if TYPE_CHECKING:
     from semi_analytical import Increment, Result

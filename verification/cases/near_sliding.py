@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from contact_results.quantities import force_along_x
 from contact_scene import IsotropicMaterial, LoadStep
 from verification.judging.case import Case, Level
 from verification.judging.declared_case import Within, case, judged
@@ -14,6 +13,7 @@ from verification.problems.paper_scene import FRICTION_LIMIT, HERTZ, NU_ZERO, ST
 from verification.problems.problem import Problem
 from verification.problems.reference import ReferenceKind
 from verification.problems.sheared import sheared
+from verification.quantities import force_along_x
 
 CELLS = 64
 PARTS = (0.99, 0.999, 0.9999)

@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from contact_results.quantities import shift_along_x, slip_traction_angle, transverse_shear
 from contact_scene import Sphere
 from verification.cases.loop_charts import (
     hysteresis_chart,
@@ -22,6 +21,7 @@ from verification.problems import paper_scene as paper
 from verification.problems.loop_history import LOADED, ExactLoop, loop_energy, loop_steps
 from verification.problems.paper_scene import FRICTION, STEEL
 from verification.problems.reference import Reference, ReferenceKind
+from verification.quantities import shift_along_x, slip_traction_angle, transverse_shear
 
 if TYPE_CHECKING:
     from semi_analytical import Result

@@ -7,7 +7,6 @@ from typing import Any
 
 import numpy as np
 
-from contact_results.quantities import shift_along_x
 from contact_results.surface import surface_of
 from contact_scene import LoadStep
 from radial.plan import RINGS
@@ -24,6 +23,7 @@ from verification.problems.loop_history import fretting_loop
 from verification.problems.paper_scene import NU_ZERO, STEEL
 from verification.problems.problem import Problem
 from verification.problems.sheared import OVER_LIMIT, OVER_SLIDING_SHIFT, sheared
+from verification.quantities import shift_along_x
 
 PARTS = {1: 0.3, 2: 0.6, 3: 0.9}  # of µW, by loading step
 QUARTER = 9  # increments from T = 0 to T* of the loop

@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from contact_results.quantities import largest_difference, shear_of
 from contact_scene import RIGID, Body, CoulombFriction, FrictionMap, HeightMap, LoadStep, Scene
 from contact_scene.residuals import worst
 from semi_analytical import SurfaceGrid
@@ -17,6 +16,7 @@ from verification.judging.run import SOLVER_TOLERANCE, Run
 from verification.problems.layered_scene import coated, film, rigid_ball
 from verification.problems.paper_scene import HERTZ, NORMAL_FORCE, pressing
 from verification.problems.reference import ROUNDING, ReferenceKind
+from verification.quantities import largest_difference, shear_of
 
 if TYPE_CHECKING:
     from semi_analytical import Result

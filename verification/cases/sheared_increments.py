@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from contact_results.quantities import shear_of, shift_along_x
 from contact_scene import LoadStep
 from verification.cases.indentation_refinement import ONE
 from verification.exhibits.chart import Chart
@@ -19,6 +18,7 @@ from verification.judging.run import Run
 from verification.observed.changes import approach_change
 from verification.problems import paper_scene as paper
 from verification.problems.reference import ReferenceKind
+from verification.quantities import shear_of, shift_along_x
 
 if TYPE_CHECKING:
     from semi_analytical import Result

@@ -7,7 +7,6 @@ from typing import Any
 
 import numpy as np
 
-from contact_results.quantities import energy_between, shear_of
 from verification.judging.case import Case, Level
 from verification.judging.declared_case import Falls, Refined, Within, case, judged
 from verification.judging.drawings import convergence
@@ -27,6 +26,7 @@ from verification.problems.torsion import (
     TO_AND_FRO,
     TWISTED,
 )
+from verification.quantities import energy_between, shear_of
 
 MASING = "Lubkin 1951, with Masing's rule for the reversal"
 HALF_A_PER_CENT = "0.5 % of the twist was asked for at 128 x 128"

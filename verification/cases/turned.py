@@ -9,9 +9,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from contact_results.quantities import shear_of
 from contact_scene import LoadStep
 from contact_scene.residuals import worst
+from verification.quantities import shear_of
 
 if TYPE_CHECKING:
     from semi_analytical import Increment, Result

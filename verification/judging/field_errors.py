@@ -8,13 +8,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from contact_results.quantities import shear_of
 from verification import norms
 from verification.observed import ring_errors
 from verification.observed.ring_errors import judged_within
 from verification.problems.paper_scene import FRICTION
 from verification.problems.problem import OVER_PEAK, Problem
 from verification.problems.sheared import OVER_LIMIT
+from verification.quantities import shear_of
 
 Field = NDArray[np.float64]
 AT_EDGE = 0.1  # contact radii to each side of a stick edge

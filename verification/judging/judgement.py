@@ -6,7 +6,6 @@ from collections.abc import Callable, Mapping
 from dataclasses import replace
 from typing import Any
 
-from contact_results.quantities import largest_residual
 from contact_scene import Scene, SurfaceDiscretisation
 from contact_scene.scene_text import describe
 from contact_scene.solver_errors import SolverError
@@ -31,6 +30,7 @@ from verification.judging.verdicts import (
     judge_residuals,
     unsolved,
 )
+from verification.quantities import largest_residual
 
 Results = Mapping[str, Any]
 Solve = Callable[[AnyRun], Any]

@@ -8,11 +8,11 @@ from typing import Any
 
 import numpy as np
 
-from contact_results.quantities import unit_of
 from contact_scene.increment import SCALARS, components
 from verification.judging.order_of_convergence import Followed
 from verification.problems.problem import Problem
 from verification.problems.reference import Reference
+from verification.quantities import unit_of
 
 Measure = Callable[[Any, int, Problem], float]
 

@@ -8,12 +8,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from contact_results.quantities import shear_of
 from verification.judging.observable import error_norm
 from verification.observed.radial_profile import along_radii, outward
 from verification.observed.ring_errors import at_radii, judged_within
 from verification.problems.problem import OVER_PEAK, Problem
 from verification.problems.sheared import OVER_LIMIT
+from verification.quantities import shear_of
 
 Field = NDArray[np.float64]
 

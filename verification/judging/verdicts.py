@@ -6,7 +6,6 @@ import math
 from collections.abc import Callable, Mapping
 from typing import Any
 
-from contact_results.quantities import largest_residual
 from verification.convergence.error_line import by_size
 from verification.convergence.observed_order import (
     ORDER_OFF,
@@ -27,6 +26,7 @@ from verification.judging.outcome import (
 from verification.judging.refined_errors import refined_errors
 from verification.judging.run import AnyRun
 from verification.problems.reference import Reference, ReferenceKind, identity
+from verification.quantities import largest_residual
 
 Results = Mapping[str, Any]
 

@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from contact_results.quantities import energy_between, force_along_x, shear_of, shift_along_x
 from contact_scene import IsotropicMaterial
 from contact_scene.loading import LoadStep
 from verification.closed_forms.ruiz import CycledContact
@@ -19,6 +18,7 @@ from verification.problems import paper_scene as paper
 from verification.problems.paper_scene import FRICTION, HERTZ
 from verification.problems.problem import Problem
 from verification.problems.sheared import OVER_LIMIT, OVER_SLIDING_SHIFT
+from verification.quantities import energy_between, force_along_x, shear_of, shift_along_x
 
 if TYPE_CHECKING:
     from contact_results.cycles import FrettingCycle

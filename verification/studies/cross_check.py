@@ -7,7 +7,6 @@ from dataclasses import dataclass
 from time import process_time
 from typing import Any
 
-from contact_results.quantities import shift_along_x
 from verification.cases.both_solvers.charts import difference_chart
 from verification.cases.both_solvers.contacts import CONTACTS, CheckedContact
 from verification.cases.both_solvers.costs import ORDER, cost_table, middle, ratio
@@ -25,6 +24,7 @@ from verification.exhibits.numbers import plain
 from verification.judging.case import Level
 from verification.judging.run import RadiiRun
 from verification.problems.paper_scene import FRICTION
+from verification.quantities import shift_along_x
 from verification.running.cold_cache import cold_cache
 from verification.running.row import CaseRecord, found, value_of
 from verification.running.study import Conclusion, Records, Settings, Statement, Study

@@ -12,7 +12,6 @@ from scipy.ndimage import map_coordinates
 
 import fem_reference
 import radial
-from contact_results.quantities import shear_of
 from contact_scene import FiniteElementDiscretisation, Scene
 from semi_analytical.grid import SurfaceGrid
 from verification.cases.both_solvers.left_out import EVEN, MARGIN, kept_edges
@@ -23,6 +22,7 @@ from verification.problems import paper_scene as paper
 from verification.problems.indentation import COATED, STRONG, WEAK, Indentation
 from verification.problems.layered_scene import coated, exact_contact, film, pressed, rigid_ball
 from verification.problems.paper_scene import HERTZ, pressing
+from verification.quantities import shear_of
 
 if TYPE_CHECKING:
     import semi_analytical

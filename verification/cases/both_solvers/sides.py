@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from contact_results.quantities import largest_residual
 from verification.cases.both_solvers.contacts import CheckedContact, Profiles
 from verification.cases.both_solvers.left_out import (
     JUDGED_WITHIN,
@@ -21,6 +20,7 @@ from verification.cases.both_solvers.left_out import (
 )
 from verification.judging.run import RadiiRun, Run, SectionRun
 from verification.observed.ring_errors import judged_within
+from verification.quantities import largest_residual
 from verification.running.row import CaseRecord, Row
 from verification.running.rules import RESIDUAL
 

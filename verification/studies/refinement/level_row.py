@@ -12,8 +12,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any, Protocol
 
-from contact_results.quantities import largest_residual, named_values, unit_of
 from verification.convergence.stored_field import StoredField
+from verification.quantities import largest_residual, named_values, unit_of
 from verification.running.row import CaseRecord, Row, Value
 from verification.running.rules import RESIDUAL
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from contact_results.quantities import unit_of
 from verification.convergence.observed_order import (
     ILLEGIBLE,
     ORDER_OFF,
@@ -17,6 +16,7 @@ from verification.exhibits.log_chart import drawable, point_curves
 from verification.exhibits.numbers import plain, value_text
 from verification.exhibits.table import Table, table_of
 from verification.judging.outcome import Status
+from verification.quantities import unit_of
 from verification.running.row import CaseRecord, Row
 from verification.running.row_views import Text, number
 from verification.running.rules import RESIDUAL

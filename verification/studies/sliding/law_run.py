@@ -6,12 +6,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from contact_results.quantities import shear_of
 from contact_scene.summary import ContactStatus
 from semi_analytical import solve
 from semi_analytical.model import ContactModel
 from verification.judging.run import SOLVER_TOLERANCE
 from verification.problems.paper_scene import FRICTION, FRICTION_LIMIT, pressing
+from verification.quantities import shear_of
 from verification.running.row import CaseRecord, Row
 from verification.studies.sliding.contacts import Contact
 from verification.studies.sliding.friction_laws import (

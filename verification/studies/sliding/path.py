@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING, Any, ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
-from contact_results.quantities import shear_of
 from contact_scene.description import Description
 from contact_scene.summary import ContactStatus
 from verification.problems.paper_scene import FRICTION, FRICTION_LIMIT
+from verification.quantities import shear_of
 from verification.running.row import CaseRecord, Row, TypedRow, parameters_of
 from verification.running.rules import RESIDUAL
 

@@ -7,7 +7,6 @@ from enum import StrEnum
 
 import numpy as np
 
-from contact_results.quantities import force_along_x, shear_of
 from contact_results.surface import surface_of
 from contact_scene import LoadStep
 from semi_analytical import Coupling, Plan, Result, plan, solve
@@ -19,6 +18,7 @@ from verification.problems.paper_scene import (
     NORMAL_FORCE,
     pressing,
 )
+from verification.quantities import force_along_x, shear_of
 from verification.running.row import CaseRecord, Row
 from verification.studies.sliding.contacts import Contact
 from verification.studies.sliding.path import counted, record_of, row_of

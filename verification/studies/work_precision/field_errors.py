@@ -11,7 +11,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 import radial
-from contact_results.quantities import shear_of
 from contact_results.surface import Surface, surface_of
 from semi_analytical import SurfaceGrid
 from verification import norms
@@ -20,6 +19,7 @@ from verification.judging import field_errors
 from verification.judging.observable import error_norm
 from verification.problems.paper_scene import FRICTION
 from verification.problems.problem import Problem
+from verification.quantities import shear_of
 
 Field = NDArray[np.float64]
 

@@ -13,10 +13,10 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
-from contact_results.quantities import shear_of
 from contact_scene import Scene
 from semi_analytical import SurfaceGrid
 from verification.problems.paper_scene import FRICTION
+from verification.quantities import shear_of
 from verification.studies.sliding.friction_laws import (
     FixedPressure,
     FrictionLaw,

@@ -6,18 +6,10 @@ from pathlib import Path
 import pytest
 from synthetic_result import synthetic_result
 
-from contact_results.natural_sizes import without_round_off
+from contact_results.key_numbers import outcome_columns
 from slipstick.cli import terminal
-from slipstick.cli.outcome_text import outcome_columns
 
 ROOT = Path(__file__).resolve().parents[1]
-
-
-@pytest.mark.parametrize(("unit", "tiny"), [("N m", 1e-12), ("rad", 1e-14), ("J", 1e-14)])
-def test_round_off_beside_the_load_is_zero(unit: str, tiny: float) -> None:
-    ends = synthetic_result().steps
-    assert without_round_off(tiny, ends, unit) == 0.0
-    assert without_round_off(1e6 * tiny, ends, unit) == 1e6 * tiny
 
 
 def test_a_torque_of_round_off_is_zero_on_the_console() -> None:

@@ -1,0 +1,131 @@
+"""Key numbers of load steps as texts: units that suit them, errors, round-off as zero."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from typing import NamedTuple, Protocol, TypeVar
+
+import numpy as np
+
+from contact_results.number_text import Uncertainty, measured_like, number_text, uncertainty
+from contact_scene.engineering_units import engineering_unit
+from contact_scene.increment import SCALARS, State, components, numbers
+from contact_scene.reported import Kind
+from contact_scene.stated_error import StatedError
+
+FIRST, LAST = 10, 10  # of a long history, the steps that are shown
+NEGLIGIBLE = 1e-9  # of the largest value of a vector: round-off, shown as nothing
+# What makes a number negligible, beside the size that the load gives it.
+ROUND_OFF = 1e-9
+
+Errors = Mapping[str, StatedError]
+Shown = TypeVar("Shown")
+
+
+class Loaded(Protocol):
+    """The end of a loading step."""
+
+    @property
+    def normal_force(self) -> float: ...
+    @property
+    def approach(self) -> float: ...
+    @property
+    def contact_radius(self) -> float: ...
+
+
+def natural_size(ends: Iterable[Loaded], unit: str) -> float:
+    """The size that a quantity of a unit has under these loads; 0 where they do not tell."""
+    ends = list(ends)
+    force, radius, approach = (
+        max((abs(getattr(end, name)) for end in ends), default=0.0)
+        for name in ("normal_force", "contact_radius", "approach")
+    )
+    sizes = {"N": force, "N m": force * radius, "m": approach, "J": force * approach}
+    slope = approach / radius if radius else 0.0
+    return (sizes | {"rad": slope}).get(unit, 0.0)
+
+
+class _Column(NamedTuple):
+    """Values of one number in all steps, with their errors."""
+
+    heading: str
+    like: str  # those alike share their unit
+    unit: str
+    entries: list[tuple[float | None, Uncertainty | None]]
+
+
+def outcome_columns(
+    ends: Sequence[State], errors: Sequence[Errors] | None = None
+) -> dict[str, list[str]]:
+    """Headings and texts, one per loading step; effects that are off have no column.
+
+    Of a long history the beginning and the end, with an ellipsis between them.
+
+    errors  of the numbers of every step, to be shown beside them; a question mark where one has not
+            converged
+    """
+    stated: Sequence[Errors] = errors if errors is not None else [{}] * len(ends)
+    numbered, gap = _shown(list(enumerate(zip(ends, stated, strict=True), 1)))
+    columns = {"step": [str(number) for number, _ in numbered]}
+    for heading, unit, texts in _texts([end for _, end in numbered], ends):
+        columns[f"{heading}\n{unit}"] = texts
+    if gap is not None:
+        for texts in columns.values():
+            texts.insert(gap, "…")
+    return columns
+
+
+def key_numbers(history: Sequence[State], errors: Errors | None) -> Iterator[tuple[str, str]]:
+    """Names and texts of the key numbers at the end of a history.
+
+    errors  of the numbers; None where they were left out
+    """
+    for heading, unit, (text,) in _texts([(history[-1], errors or {})], history):
+        yield heading.replace("\n", " ").strip(), f"{text} {unit}"
+
+
+def _texts(
+    steps: Sequence[tuple[State, Errors]], history: Sequence[State]
+) -> Iterator[tuple[str, str, list[str]]]:
+    """Heading, unit and texts of every column."""
+    shown = list(_columns(steps, history))
+    for column in shown:
+        alike = [other.entries for other in shown if other.like == column.like]
+        sizes = [abs(value) for entries in alike for value, _ in entries if value is not None]
+        scale = engineering_unit(float(np.max(sizes, initial=0.0)), column.unit)
+        texts = [number_text(value, error, scale.size) for value, error in column.entries]
+        yield column.heading, scale.name, texts
+
+
+def _shown(steps: Sequence[Shown]) -> tuple[list[Shown], int | None]:
+    """The steps to show, and where some are left out."""
+    if len(steps) <= FIRST + LAST + 1:
+        return list(steps), None
+    return [*steps[:FIRST], *steps[-LAST:]], FIRST
+
+
+def _columns(steps: Sequence[tuple[State, Errors]], history: Sequence[State]) -> Iterator[_Column]:
+    """A column for every key quantity that the steps have, and for the y component of a vector
+    where there is one, without what is round-off in this history."""
+    rows = [numbers(step) for step, _ in steps]
+    for name, mark in SCALARS.items():
+        parts = components(name)
+        found = [[row[part] for row in rows] for part in parts]
+        known = [abs(value) for values in found for value in values if value is not None]
+        if not mark.key or not known:
+            continue
+        first, _, rest = name.partition("_")
+        for axis, values in zip("xy", found, strict=False):
+            vector = mark.kind is Kind.VECTOR
+            least = NEGLIGIBLE * max(known) if vector else 0.0
+            least = max(least, ROUND_OFF * natural_size(history, mark.unit))
+            cut = [_cut(value, least) for value in values]
+            if axis == "x" or any(cut):
+                heading = f"{first}\n{rest}{f' {axis}' if vector else ''}"
+                errors = [uncertainty(of_step.get(name), axis) for _, of_step in steps]
+                like = measured_like(f"{name} {axis}" if vector else name)
+                yield _Column(heading, like, mark.unit, list(zip(cut, errors, strict=True)))
+
+
+def _cut(value: float | None, negligible: float) -> float | None:
+    return 0.0 if value is not None and abs(value) <= negligible else value
