@@ -18,7 +18,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.ndimage import correlate1d, distance_transform_edt, gaussian_filter
+from scipy.ndimage import distance_transform_edt, gaussian_filter
 
 from contact_scene import CoulombFriction
 from semi_analytical.admissible_shear import magnitude
@@ -29,7 +29,6 @@ Mask = NDArray[np.bool_]
 
 # Layers of cells next to slipping cells to which their direction of slip is extended.
 LAYERS = 12
-BESIDE = np.ones(3)
 # Of the sum of the directions of neighbours, below which they point against each other.
 LEAST_COMMON = 1e-3
 # Of Σ|d|, below which Σd has no direction: normal loading.
@@ -43,17 +42,30 @@ def direction_of_slip(q: VectorField, slips: Mask) -> VectorField:
 
     The others take that of adjacent cells, layer by layer; beyond, that of the nearest cell.
     """
+    nx, ny = slips.shape
+    framed = np.zeros((nx + 2, ny + 2), bool)  # no neighbour of a cell lies beyond the frame
+    window = framed.copy()
+    window[1:-1, 1:-1] = True
     size = magnitude(q)
-    known = slips & (size > 0)
-    n = np.where(known, q / np.where(known, size, 1.0), 0.0)
+    framed[1:-1, 1:-1] = slips & (size > 0)
+    n, known, window = np.zeros((2, framed.size)), framed.ravel(), window.ravel()
+    new = np.flatnonzero(known)
+    n[:, new] = q[:, framed[1:-1, 1:-1]] / size[framed[1:-1, 1:-1]]
+    steps = np.array([i * (ny + 2) + j for i in (-1, 0, 1) for j in (-1, 0, 1)])
     for _ in range(LAYERS):
-        about = correlate1d(correlate1d(n, BESIDE, 1, mode="constant"), BESIDE, 2, mode="constant")
+        touched = np.zeros_like(known)
+        touched[new[:, None] + steps] = True
+        next_layer = np.flatnonzero(touched & window & ~known)
+        about = np.sum(n[:, next_layer[:, None] + steps], axis=-1)
         size = magnitude(about)
-        new = ~known & (size > LEAST_COMMON)
-        n = np.where(new, about / np.where(new, size, 1.0), n)
-        known |= new
-    nearest = distance_transform_edt(~known, return_distances=False, return_indices=True)
-    return np.asarray(n[:, nearest[0], nearest[1]])
+        agree = size > LEAST_COMMON
+        new = next_layer[agree]
+        n[:, new] = about[:, agree] / size[agree]
+        known[new] = True
+    nearest = distance_transform_edt(
+        ~framed[1:-1, 1:-1], return_distances=False, return_indices=True
+    )
+    return np.asarray(n.reshape(2, nx + 2, ny + 2)[:, nearest[0] + 1, nearest[1] + 1])
 
 
 @dataclass(frozen=True)
