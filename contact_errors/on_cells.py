@@ -31,7 +31,7 @@ Cells = tuple[int, int]
 # increments on 24² and on 64² cells differs by at most 7 %.
 PER_RADIUS = 11
 # Cells times increments of a run up to which a third coarse solve is made.
-SMALL = 20_000
+SMALL = 100_000
 # Convolutions of a coarse solve, on a quarter of the cells, over those of the run; and those that
 # each increment may take in any case.
 MOST_CONVOLUTIONS, FEW_CONVOLUTIONS = 4, 200
