@@ -33,9 +33,10 @@ Numbers = NDArray[np.float64]
 BELIEVED = 0.6
 # Means of smooth fields; values at the edge of a zone that lies within a cell; square roots.
 SMOOTH, EDGE, ROOT = 2.0, 1.0, 0.5
-# Residuals of the tolerance leave errors of about ten times as much. The edge correction leaves a
-# tenth of the change in its last iteration.
-PER_TOLERANCE, PER_ITERATION = 10.0, 0.1
+# Residuals of the tolerance leave errors of about ten times as much. The edge correction applies
+# 0.6 of each change (`semi_analytical.edge_correction.pressure.DAMPED`), so that 0.4/0.6 of the
+# last change is left where the next solve would not change.
+PER_TOLERANCE, PER_ITERATION = 10.0, 2.0 / 3.0
 # A larger sum of parts over the number is no error estimate.
 LARGEST_SHARE = 0.5
 # A component below this part of its vector is round-off of a zero.
@@ -197,6 +198,11 @@ class SolvedRun:
                 parts = self._parts(step, name, largest[step][name])
                 if parts is None:
                     found[name] = UNKNOWN
+                    continue
+                if not np.any(value) and not any(
+                    np.any(size) for part, size in parts.items() if part != "tolerance"
+                ):
+                    found[name] = EXACT  # zero at every fineness: its cause is absent
                     continue
                 last = before.get(name, {})
                 parts = {
