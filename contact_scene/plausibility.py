@@ -66,10 +66,7 @@ USUAL: Mapping[str, Usual] = {
 # Softer than rubber and larger than a ball: numbers of a scene without units, or in its own.
 _SOFTEST, _LARGEST = 1e6, 0.1
 _STEEP = 1.0  # heights that differ by more than their distance
-# Solids so stiff change their volume: rubber does not, gold (0.44) and lead are the last that do.
-_STIFF, _INCOMPRESSIBLE = 2e10, 0.46
-# Below, but for exactly none, there is only beryllium: diamond and quartz have 0.07.
-_UNSQUEEZED = 0.06
+_STIFF = 2e10  # Pa: metals and ceramics, whose mean pressure is limited by their hardness
 # Mean pressure over E* that only the hardest ceramics and diamond bear: hardness is 0.01 to 0.04 of
 # the modulus in steels, 0.05 in ceramics, 0.1 in diamond.
 _HARD = 0.05
@@ -96,7 +93,6 @@ def unlikely(scene: Scene, **fineness: BaseModel) -> tuple[str, ...]:
     unusual = chain.from_iterable(map(_unusual, parts))
     return (
         *unusual,
-        *_ratios_of_stiff(scene),
         *_steep(scene),
         *_on_rim(scene),
         *_too_small(scene, pressed, fineness),
@@ -150,22 +146,6 @@ def _without_units(scene: Scene) -> bool:
     moduli = [value for path, value in known if path[-1] == "young_modulus"]
     radii = [value for path, value in known if {"radius", "radii"} & {*path}]
     return max(moduli) < _SOFTEST and min(radii, default=1.0) >= _LARGEST
-
-
-def _ratios_of_stiff(scene: Scene) -> Iterator[str]:
-    for name, body in (("body", scene.body), ("indenter", scene.indenter)):
-        layers = ((f"{name}.layers[{n}]", film.material) for n, film in enumerate(body.layers, 1))
-        for place, material in ((name, body.material), *layers):
-            if not isinstance(material, IsotropicMaterial):
-                continue
-            E, nu = material.young_modulus, material.poisson_ratio
-            if E <= _STIFF or nu <= 0 or _UNSQUEEZED <= nu <= _INCOMPRESSIBLE:
-                continue
-            side, limit = ("above", _INCOMPRESSIBLE) if nu > 0.25 else ("below", _UNSQUEEZED)
-            yield (
-                f"{place}.material.poisson_ratio: {nu:g} is {side} the usual {limit:g} of what is "
-                f"as stiff as {quantity(E, 'Pa')}"
-            )
 
 
 def _steep(scene: Scene) -> Iterator[str]:

@@ -101,7 +101,7 @@ class Washer(Barrel):
 
 def test_a_shape_is_told_with_the_unit_of_each_size_whatever_its_name() -> None:
     told = shape_text(Washer(material=RIGID, radii=(1e-3, 2.0), steepness=4, half_opening=0.5))
-    assert told == "radii 1 mm x 2 m, washer, steepness 4, half opening 0.5 rad"
+    assert told == "washer, radii (1 mm, 2 m), steepness 4, half opening 500 mrad"
 
 
 @given(ALL, st.floats(1e-9, 1e3))

@@ -9,11 +9,10 @@ from matplotlib.quiver import Quiver
 from synthetic_result import synthetic_result
 
 from contact_results.figures.figure_files import seen_from_above
-from contact_results.figures.map_panels import MapFrame, RingsAbove, draw_arrows
+from contact_results.figures.map_panels import RingsAbove
 from contact_results.figures.maps import field_map, latest_slip, stick_slip_map
 from contact_results.figures.style import figure_style
-from contact_results.surface import Cells, Rings
-from contact_scene.engineering_units import EngineeringUnit
+from contact_results.surface import Rings
 
 RADII = np.linspace(0.0, 1.0, 201)
 CELLS = np.linspace(-0.9, 0.9, 31)
@@ -74,22 +73,6 @@ def test_arrows_of_slip_are_in_proportion_to_it() -> None:
     ratio = np.asarray(arrow.U) / step.slip[0, i, j]
     np.testing.assert_allclose(ratio, ratio[0])
     assert ratio[0] > 0
-
-
-@pytest.mark.parametrize("wide", [3, 40])
-def test_no_arrow_is_longer_than_its_patch_of_slip(wide: int) -> None:
-    centres = np.linspace(-0.5, 0.5, 101)
-    frame = MapFrame(Cells(centres, centres, 1e-4), (0.5, 0.5), EngineeringUnit(1.0, "m"))
-    inside = np.zeros((101, 101), dtype=bool)
-    inside[5:65, 5:95] = True
-    inside[80 : 80 + wide, 20:80] = True
-    figure = Figure()
-    draw_arrows(figure.subplots(), frame, np.ones((2, 101, 101)), inside)
-    ((_, arrow),) = arrows(figure)
-    longest = np.hypot(arrow.U, arrow.V).max()
-    there = (arrow.X > 0.29).any()
-    assert there
-    assert longest == pytest.approx(min(0.01 * wide, 1 / 13))
 
 
 def test_slip_of_the_last_increment_is_what_it_added() -> None:

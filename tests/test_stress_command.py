@@ -39,8 +39,7 @@ window = ["1.2 mm", "1.2 mm"]
 FILES = {
     "stress.json", "stress_maxima.csv", "stress_axis.csv", "stress_interfaces.csv",
     "stress_section.vtu", "stress_surface.vtu", "stress_columns.csv",
-    "stress_section.png", "stress_axis.png", "stress_interfaces.png",
-    "stress_surface.png",
+    "stress_section.png", "stress_axis.png", "stress_surface.png",
 }  # fmt: skip
 
 

@@ -63,7 +63,7 @@ def files_at_once(target: Path, summary: str, earlier: Sequence[str]) -> Iterato
     raises   OutputRefused before the block is entered
     """
     target = Path(os.path.realpath(target))
-    _refuse_files_above(target)
+    refuse_files_above(target)
     created = create_parents(target)
     try:
         with _staging(target) as staging:
@@ -107,7 +107,7 @@ def _name_file(error: OSError, staging: Path, target: Path) -> None:
         error.filename, error.filename2 = str(target / name), None
 
 
-def _refuse_files_above(target: Path) -> None:
+def refuse_files_above(target: Path) -> None:
     """Raise OutputRefused for what is no directory there, or above."""
     for place in (target, *target.parents):
         if place.exists() and not place.is_dir():
@@ -115,7 +115,7 @@ def _refuse_files_above(target: Path) -> None:
 
 
 def _refuse_what_is_in_the_way(target: Path, overwrite: bool) -> None:
-    _refuse_files_above(target)
+    refuse_files_above(target)
     if not target.is_dir():
         return
     ours = _is_earlier_run(target)

@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 from matplotlib.figure import FigureBase
 from numpy.typing import NDArray
-from scipy.ndimage import find_objects, label, map_coordinates
+from scipy.ndimage import map_coordinates
 
 from contact_results.surface import Cells, Rings
 from contact_scene.engineering_units import EngineeringUnit, engineering_unit
@@ -184,7 +183,7 @@ def draw_arrows(
     ax: Any, frame: MapFrame, vector: Field, inside: NDArray[np.bool_], colour: str = "white"
 ) -> None:
     """Arrows as long as a vector field (2, nx, ny) on some of the cells in a set, at their centres;
-    the longest reaches to the next, or as far as its patch of the set is wide."""
+    the longest reaches to the next."""
     size = np.where(inside, np.hypot(*vector), 0.0)
     longest = float(size.max())
     if longest == 0.0:
@@ -195,28 +194,9 @@ def draw_arrows(
     chosen = np.zeros(inside.shape, dtype=bool)
     chosen[len(x) // 2 % every_x :: every_x, len(y) // 2 % every_y :: every_y] = True
     i, j = np.nonzero(chosen & (size > SHORTEST * longest))
-    scale = min([apart / longest, *_widths_over(size, inside, i, j, (x[1] - x[0], y[1] - y[0]))])
-    u, v = vector[:, i, j] * scale
+    u, v = vector[:, i, j] * apart / longest
     edge = "black" if colour == "white" else "none"
     ax.quiver(
         x[i], y[j], u, v, angles="xy", scale_units="xy", scale=1.0, pivot="mid", color=colour,
         edgecolor=edge, linewidth=0.6, width=0.012, headwidth=3.5,
     )  # fmt: skip
-
-
-def _widths_over(
-    size: Field,
-    inside: NDArray[np.bool_],
-    i: NDArray[np.intp],
-    j: NDArray[np.intp],
-    cell: tuple[float, float],
-) -> Iterator[float]:
-    """Of every patch with arrows: its shorter side over the longest arrow in it."""
-    patches, _ = label(inside, np.ones((3, 3)))
-    slices = find_objects(patches)
-    for patch in np.unique(patches[i, j]):
-        spans = slices[patch - 1]
-        shorter = min(
-            (span.stop - span.start) * side for span, side in zip(spans, cell, strict=True)
-        )
-        yield shorter / float(size[i, j][patches[i, j] == patch].max())

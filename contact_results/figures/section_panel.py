@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from math import floor, log10
 from typing import Any
 
 import numpy as np
 from matplotlib import patheffects
-from matplotlib.colors import BoundaryNorm, Normalize
+from matplotlib.colors import Normalize
 from matplotlib.figure import FigureBase
 from matplotlib.ticker import MaxNLocator
 from matplotlib.tri import Triangulation
@@ -23,7 +22,6 @@ from contact_scene.engineering_units import EngineeringUnit, engineering_unit
 # Quadrilaterals within a cell: of a nine-node element the quarters around its middle.
 PARTS = {"quad": ((0, 1, 2, 3),), "quad9": ((0, 4, 8, 7), (4, 1, 5, 8), (8, 5, 2, 6), (7, 8, 6, 3))}
 MOST_LEVELS = 12
-DECADES = 2  # below the largest value, that a series of 1, 2, 5 shows
 HALO = [patheffects.withStroke(linewidth=2.2, foreground="white")]
 
 Values = NDArray[np.float64]
@@ -37,14 +35,11 @@ def draw_section(
     values: Values,
     name: str,
     *,
-    from_zero: bool = False,
     bar: Mapping[str, Any] | None = None,
 ) -> EngineeringUnit:
     """Draw values at the points of the section, z downward; returns the unit of length.
 
-    from_zero  whether the levels are 1, 2, 5, 10 … up to the largest value, which shows a tail
-               beside a peak; else they are evenly spaced
-    bar        how the colour bar differs from matplotlib's
+    bar  how the colour bar differs from matplotlib's
     """
     points, (reach, depth) = field.section, field.shown
     length = engineering_unit(reach, "m")
@@ -52,10 +47,13 @@ def draw_section(
     in_view = drawn[triangles.triangles]
     unit = engineering_unit(float(np.abs(in_view).max()), "Pa")
     low, high = float(in_view.min()) / unit.size, float(in_view.max()) / unit.size
-    levels = rising_levels(high) if from_zero and high > 0 else even_levels(low, high)
+    levels = even_levels(low, high)
+    most = float(np.abs(levels).max())
+    signed = levels[0] < 0
     image = ax.tricontourf(
         triangles, np.clip(drawn / unit.size, levels[0], levels[-1]), levels=levels,
-        **_colours(levels, from_zero=from_zero),
+        cmap=style.SIGNED_MAP if signed else style.MAGNITUDE_MAP,
+        norm=Normalize(-most if signed else 0.0, most),
     )  # fmt: skip
     ax.tricontour(
         triangles, drawn / unit.size, levels=levels, colors="black", linewidths=0.3,
@@ -86,23 +84,6 @@ def even_levels(low: float, high: float) -> Values:
         low, high = min(low, 0.0), max(high, 0.0) or 1.0
     rounded = MaxNLocator(MOST_LEVELS, steps=[1, 2, 2.5, 5, 10])
     return np.asarray(rounded.tick_values(low, high), dtype=float)
-
-
-def rising_levels(high: float) -> Values:
-    """Zero, then 1, 2, 5, 10 … over two decades up to the first that no value exceeds."""
-    top = floor(log10(high)) + 1
-    series = [m * 10.0**n for n in range(top - DECADES - 1, top + 1) for m in (1, 2, 5)]
-    last = next(k for k, level in enumerate(series) if level >= high)
-    return np.array([0.0, *series[max(0, last - 3 * DECADES) : last + 1]])
-
-
-def _colours(levels: Values, *, from_zero: bool) -> dict[str, Any]:
-    if from_zero:
-        return {"cmap": style.MAGNITUDE_MAP, "norm": BoundaryNorm(levels, 256)}
-    if levels[0] < 0:
-        most = float(np.abs(levels).max())
-        return {"cmap": style.SIGNED_MAP, "norm": Normalize(-most, most)}
-    return {"cmap": style.MAGNITUDE_MAP, "norm": Normalize(0.0, float(levels[-1]))}
 
 
 def _triangles(

@@ -1,4 +1,4 @@
-"""Stress below a contact: sections, lines into the depth, along the surface and the interfaces."""
+"""Stress below a contact: sections, lines into the depth and along the surface."""
 
 from __future__ import annotations
 
@@ -13,25 +13,20 @@ from matplotlib.figure import Figure
 from contact_results.directory.atomic_file import atomic_file
 from contact_results.figures import style
 from contact_results.figures.section_panel import draw_interfaces, draw_section
-from contact_results.stress.files import sides
 from contact_results.stress.points import StressField, StressPoints
 from contact_scene import Body
 from contact_scene.engineering_units import EngineeringUnit, engineering_unit
 
-SECTION, AXIS, INTERFACES = "stress_section.png", "stress_axis.png", "stress_interfaces.png"
-SURFACE = "stress_surface.png"
-MOST_INTERFACES = 4
+SECTION, AXIS, SURFACE = "stress_section.png", "stress_axis.png", "stress_surface.png"
 
 
 def write_stress_figures(field: StressField, body: Body, directory: Path, title: str) -> None:
-    """Write the figures of the section y = 0; without layers there is none of interfaces."""
+    """Write the figures of the section y = 0."""
     figures: dict[str, Callable[[StressField, Body, str], Figure]] = {
         SECTION: section_plot,
         AXIS: axis_plot,
         SURFACE: surface_plot,
     }
-    if body.layers:
-        figures[INTERFACES] = interface_plot
     with style.figure_style():
         for name, draw in figures.items():
             with atomic_file(directory / name) as path:
@@ -52,8 +47,7 @@ def section_plot(field: StressField, body: Body, title: str) -> Figure:
     figure = _titled(6.4 if half else 9.0, 6.4, title)
     axes = figure.subplots(2, 2, sharex=True, sharey=True)
     for ax, (name, values) in zip(axes.flat, panels.items(), strict=True):
-        from_zero = name.startswith("tension")
-        length = draw_section(figure, ax, field, body, values, name, from_zero=from_zero)
+        length = draw_section(figure, ax, field, body, values, name)
     for ax in axes[-1]:
         ax.set_xlabel(length.labelled(field.label))
     for ax in axes[:, 0]:
@@ -179,38 +173,6 @@ def draw_depth(
     ax.set_xlabel(unit.labelled("stress"))
     draw_interfaces(ax, body, deepest, length)
     ax.set_ylim(deepest / length.size, 0.0)
-
-
-def interface_plot(field: StressField, body: Body, title: str) -> Figure:
-    """What an interface carries, and what jumps there; call within `figure_style`."""
-    reach = field.shown[0]
-    length = engineering_unit(reach, "m")
-    shown = min(len(body.layers), MOST_INTERFACES)
-    unit = engineering_unit(float(np.abs(field.section.stress).max()), "Pa")
-    figure = _titled(9.6, 2.6 * shown + 0.5, title)
-    axes = figure.subplots(shown, 2, sharex=True, squeeze=False)
-    for number, side, points in sides(field, body):
-        if number > shown:
-            break
-        carried, jumping = axes[number - 1]
-        near = points.chosen(np.abs(points.x) <= reach)
-        x, stress = near.x / length.size, near.components
-        if side == "above":
-            for n, name in enumerate(("zz", "xz")):
-                label = _named(name)
-                carried.plot(x, stress[name] / unit.size, label=label, **style.line(n))
-        values = {_named("xx"): stress["xx"], "von Mises": near.von_mises}
-        for n, (name, jump) in enumerate(values.items(), 2 * (side == "below")):
-            jumping.plot(x, jump / unit.size, label=f"{name} {side}", **style.line(n))
-        for ax in (carried, jumping):
-            ax.set_title(f"interface {number}, z = {length.text(float(near.depth[0]))}")
-    for ax in axes.flat:
-        ax.axhline(0.0, color="black", linewidth=0.5)
-        ax.set_ylabel(unit.labelled("stress"))
-        style.legend_beside(ax)
-    for ax in axes[-1]:
-        ax.set_xlabel(length.labelled(field.label))
-    return figure
 
 
 def _named(component: str) -> str:

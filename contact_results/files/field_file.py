@@ -130,8 +130,6 @@ def _write_scalars(group: h5py.Group, increments: Sequence[Increment]) -> None:
         found = np.array(rows[name])
         if np.all(np.isnan(found)):
             continue
-        if mark.kind is Kind.COUNTER and not np.any(np.isnan(found)):
-            found = found.astype(int)
         if mark.kind is Kind.VECTOR:
             found = found.reshape(len(increments), -1)
         _write(group, name, found, mark, (*PER_INCREMENT, *COMPONENT)[: found.ndim])
@@ -149,13 +147,10 @@ def _write_field(
 
     counted  what their index counts
     """
-    dataset, last, written = None, None, 0
+    dataset = None
     for index, increment in enumerate(increments):
         field = surface.scalar(increment, name)
         if field is None:
-            continue
-        if dataset is not None and last is not None and np.array_equal(field, last):
-            _repeat(dataset, written, index)
             continue
         if dataset is None:
             dataset = group.create_dataset(
@@ -170,15 +165,6 @@ def _write_field(
             of_vector = COMPONENT * (field.ndim - len(places))
             _describe(dataset, mark, (*counted, *of_vector, *places))
         dataset[index] = field
-        last, written = field, index
-
-
-def _repeat(dataset: h5py.Dataset, written: int, index: int) -> None:
-    """The field that is written at one index again at another, as it is packed: pressures where the
-    normal load rests."""
-    at = (0,) * (dataset.ndim - 1)
-    how, packed = dataset.id.read_direct_chunk((written, *at))
-    dataset.id.write_direct_chunk((index, *at), packed, how)
 
 
 def _write_cycle(group: h5py.Group, cycle: FrettingCycle, places: tuple[str, ...]) -> None:

@@ -84,18 +84,12 @@ def _step_summary(
     errors  of its numbers
     """
     end = within[-1]
-    rows: dict[str, list[Any]] = {
-        name: [] for name, mark in SCALARS.items() if mark.kind in (Kind.COUNTER, Kind.LARGEST)
-    }
-    for increment in within:
-        for name, row in rows.items():
-            row.append(getattr(increment, name))
     residuals: dict[str, Any] = {
         name: None if value is None else float(value) for name, value in vars(end.residuals).items()
     }
     return StepSummary(
         **{
-            name: _together(mark.kind, rows.get(name, [getattr(end, name)]))
+            name: _together(mark.kind, [getattr(increment, name) for increment in within])
             for name, mark in SCALARS.items()
         },
         **_cycle_keys(cycle),

@@ -99,7 +99,9 @@ def stress(
     With --accuracy, or a table [accuracy] in the scene, the scene is solved as by 'run';
     "max_principal 1%" binds the largest tension in the body.
     """
-    _refuse_file_in_the_way(output)
+    from contact_results.directory.run_directory import refuse_files_above
+
+    refuse_files_above(output)
     asked = None if depths is None else [_length(text) for text in depths.split(",")]
     chosen = solver or SolverName.SEMI_ANALYTICAL
     if source.is_dir():
@@ -233,12 +235,6 @@ def _solved(
         return result, None
     with companion_progress() as observe:
         return result, chosen.errors(result, progress=observe)
-
-
-def _refuse_file_in_the_way(output: Path) -> None:
-    for place in (output, *output.parents):
-        if place.exists() and not place.is_dir():
-            raise typer.BadParameter(f"{place} is a file; --output needs a directory")
 
 
 def _refuse_beside_run(given: dict[str, object]) -> None:
