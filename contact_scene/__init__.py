@@ -11,7 +11,7 @@ from contact_scene.discretisation import (
     RadialDiscretisation,
     SurfaceDiscretisation,
 )
-from contact_scene.document import scene_schema
+from contact_scene.document import SceneFile, scene_schema
 from contact_scene.friction import CoulombFriction, FrictionMap
 from contact_scene.geometry import Cone, Ellipsoid, FlatPunch, HeightMap, Paraboloid, Sphere
 from contact_scene.load_path import ControlKind, LoadRamp, ScalarControl, VectorControl
@@ -19,7 +19,7 @@ from contact_scene.loading import LoadStep
 from contact_scene.material import RIGID, IsotropicMaterial, Rigid
 from contact_scene.problem import Problem, SceneError
 from contact_scene.scene import Scene
-from contact_scene.scene_file import SceneFile, load_scene, read_scene_file
+from contact_scene.scene_file import load_scene, read_scene_file
 
 __all__ = [
     "RIGID",

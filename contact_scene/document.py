@@ -13,8 +13,8 @@ from contact_scene.geometry import SHAPES
 from contact_scene.scene import Scene
 
 
-class SceneDocument(Scene):
-    """Contents of a scene file."""
+class SceneFile(Scene):
+    """Contents of a scene file: the scene, and the discretisation of each solver or an accuracy."""
 
     semi_analytical: SurfaceDiscretisation = SurfaceDiscretisation()
     """How fine the semi-analytical solver shall be; absent: chosen for the accuracy."""
@@ -29,6 +29,11 @@ class SceneDocument(Scene):
     """How accurate the numbers shall be; it then decides how fine. Absent: as fine as the solvers'
     tables say."""
 
+    @property
+    def scene(self) -> Scene:
+        """The scene alone."""
+        return Scene.model_construct(**{name: getattr(self, name) for name in Scene.model_fields})
+
     def _parts(self) -> Parts:
         return {**super()._parts(), "semi_analytical": self.semi_analytical}
 
@@ -38,7 +43,7 @@ def scene_schema() -> dict[str, Any]:
 
     It holds what a schema can say; what the parts must have in common is checked on reading.
     """
-    schema = SceneDocument.model_json_schema(mode="validation")
+    schema = SceneFile.model_json_schema(mode="validation")
     schema["title"] = "slipstick scene"
     for shape in SHAPES.values():  # in Python the class says it, in a file nothing else does
         schema["$defs"][shape.__name__]["required"].insert(0, "shape")

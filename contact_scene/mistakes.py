@@ -8,7 +8,7 @@ from pydantic import BaseModel, ValidationError
 from pydantic_core import ErrorDetails
 
 from contact_scene.body import Body
-from contact_scene.document import SceneDocument
+from contact_scene.document import SceneFile
 from contact_scene.friction import FrictionMap
 from contact_scene.geometry import SHAPES
 from contact_scene.material import IsotropicMaterial
@@ -186,7 +186,7 @@ def _is_branch(part: str | int) -> bool:
 
 def _model_at(location: Iterable[str | int]) -> type[BaseModel] | None:
     """The part of the scene that is described at a location."""
-    model: type[BaseModel] | None = SceneDocument
+    model: type[BaseModel] | None = SceneFile
     for part in location:
         if isinstance(part, int):
             continue

@@ -12,30 +12,13 @@ from pydantic import TypeAdapter, ValidationError
 from contact_scene.accuracy import AccuracyRequest, accuracy_texts, of_option
 from contact_scene.consistency import Parts, inconsistencies
 from contact_scene.description import Description
-from contact_scene.discretisation import (
-    FiniteElementDiscretisation,
-    RadialDiscretisation,
-    SurfaceDiscretisation,
-)
-from contact_scene.document import SceneDocument
+from contact_scene.document import SceneFile
 from contact_scene.mistakes import mistakes
 from contact_scene.override import assign, origin, override
 from contact_scene.problem import Path as Key
 from contact_scene.problem import Problem, SceneError
 from contact_scene.scene import Scene
 from contact_scene.toml_file import read_toml
-
-
-@dataclass(frozen=True)
-class SceneFile:
-    """What a scene file says: the scene, and beside it how fine each solver shall be, or how
-    accurate the answer."""
-
-    scene: Scene
-    semi_analytical: SurfaceDiscretisation
-    fem_reference: FiniteElementDiscretisation
-    radial: RadialDiscretisation
-    accuracy: AccuracyRequest | None = None
 
 
 def load_scene(path: str | PathLike[str]) -> Scene:
@@ -53,7 +36,7 @@ def read_scene_file(path: str | PathLike[str], overrides: Iterable[str] = ()) ->
     """
     source = _read(path, overrides)
     with source.placing():
-        return _checked(source.document, {"folder": source.file.parent})
+        return _valid(SceneFile, source.document, {"folder": source.file.parent})
 
 
 def read_accuracy(text: str, option: str) -> AccuracyRequest:
@@ -90,10 +73,13 @@ def changed_scene(
                 f"got a {type(change).__name__}, expected key=value as a text, or a mapping of "
                 'keys to values such as {"indenter.radius": "12 mm"}'
             )
-    if beside := (document.keys() & SceneDocument.model_fields.keys()) - Scene.model_fields.keys():
+    if (
+        beside := (document.keys() & SceneFile.model_fields.keys())
+        - type(scene).model_fields.keys()
+    ):
         hint = "pass a discretisation to plan and solve"
         raise SceneError(Problem((key,), "the key is not of the scene", "", hint) for key in beside)
-    return _valid(Scene, document, {})
+    return _valid(type(scene), document, {})
 
 
 D = TypeVar("D", bound=Description)
@@ -110,14 +96,6 @@ def _valid(kind: type[D], document: dict[str, Any], context: dict[str, Any]) -> 
         raise SceneError(found) from None
 
 
-def _checked(document: dict[str, Any], context: dict[str, Any]) -> SceneFile:
-    valid = _valid(SceneDocument, document, context)
-    scene = Scene.model_construct(**{name: getattr(valid, name) for name in Scene.model_fields})
-    return SceneFile(
-        scene, valid.semi_analytical, valid.fem_reference, valid.radial, valid.accuracy
-    )
-
-
 def _valid_parts(
     document: Mapping[str, Any], error: ValidationError, context: dict[str, Any]
 ) -> Parts:
@@ -129,7 +107,7 @@ def _valid_parts(
         given["loading"] = document["loading"][: min(int(step) for step in bad_steps)]
         bad = [where for where in bad if where[0] != "loading"]
     parts: dict[str, Any] = {}
-    for name, field in SceneDocument.model_fields.items():
+    for name, field in SceneFile.model_fields.items():
         if any(where[0] == name for where in bad):
             continue
         if name == "loading" and not given[name]:

@@ -1,4 +1,4 @@
-"""Progress of the cases of a verification or a study: a line for each, on a terminal also a bar."""
+"""Progress of the cases of a verification or a study: a line for each."""
 
 from __future__ import annotations
 
@@ -7,14 +7,6 @@ from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 
 from rich.console import Console
-from rich.progress import (
-    BarColumn,
-    MofNCompleteColumn,
-    Progress,
-    TextColumn,
-    TimeElapsedColumn,
-    TimeRemainingColumn,
-)
 
 from contact_results.directory.stop_signals import cleaned_up_when_stopped
 from verification.running.case_pool import CaseEnd, Observer
@@ -40,27 +32,13 @@ def case_progress(work: Mapping[str, int], text: Callable[[CaseEnd], str]) -> It
         for warning in end.warnings:
             console.print(warning, markup=False)
         rest = ""
-        if computed and left and not console.is_terminal:
+        if computed and left:
             seconds = (time.monotonic() - started) * sum(left.values()) / computed
             rest = f", about {seconds:.0f} s left"
         count = f"{len(work) - len(left)} of {len(work)}{rest}"
         console.print(f"{text(end)} ({count})", markup=False)
 
-    if not console.is_terminal:
-        yield line
-        return
-    columns = (
-        TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn(),
-        TextColumn("left"), TimeRemainingColumn(),
-    )  # fmt: skip
-    with Progress(*columns, console=console, transient=True) as bar:
-        task = bar.add_task("work", total=sum(work.values()))
-
-        def advance(end: CaseEnd) -> None:
-            line(end)
-            bar.update(task, completed=computed, total=computed + sum(left.values()))
-
-        yield advance
+    yield line
 
 
 def how_it_ended(end: CaseEnd) -> str:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import hashlib
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 
 from contact_scene import Scene, SceneFile, read_scene_file
@@ -48,8 +48,7 @@ class StudiedScene:
     def read(self) -> SceneFile:
         """What the file says, without the steps after the studied one."""
         contents = read_scene_file(self.file, self.overrides)
-        loading = contents.scene.loading[: self.step]
-        return replace(contents, scene=contents.scene.model_copy(update={"loading": loading}))
+        return contents.model_copy(update={"loading": contents.loading[: self.step]})
 
 
 def cut_into(scene: Scene, increments: Sequence[int | None]) -> Scene:
