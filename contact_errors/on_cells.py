@@ -19,7 +19,7 @@ from contact_scene.stated_error import Companion, StatedErrors
 from contact_scene.summary import ContactStatus
 from semi_analytical import Increment, Result, SurfaceGrid, solve
 from semi_analytical.edge.corrected import EdgeReport
-from semi_analytical.edge.film_response import film_law
+from semi_analytical.edge.film import film_law
 from semi_analytical.edge.fit import WIDE
 from semi_analytical.plan import Coupling
 from semi_analytical.resolution import Resolution, resolution

@@ -14,8 +14,7 @@ from contact_scene.solver_errors import (
 from semi_analytical.discretise import discretise
 from semi_analytical.fields import Increment, Result
 from semi_analytical.grid import SurfaceGrid
-from semi_analytical.other_plans import all_effects, one_way
-from semi_analytical.plan import Coupling, Plan, plan
+from semi_analytical.plan import Coupling, Plan, all_effects, one_way, plan
 from semi_analytical.solve import solve, solve_discretised
 
 __all__ = [

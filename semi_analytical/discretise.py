@@ -19,7 +19,7 @@ from contact_scene.solver_errors import (
     UnsupportedScene,
 )
 from semi_analytical.grid import SurfaceGrid
-from semi_analytical.load_targets import normal_target
+from semi_analytical.increment import normal_target
 from semi_analytical.model import ContactModel
 from semi_analytical.plan import plan
 from semi_analytical.pressing import NormalTarget, press

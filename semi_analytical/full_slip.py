@@ -9,10 +9,9 @@ from contact_scene.residuals import ShearResiduals
 from contact_scene.solver_errors import GrossSliding
 from contact_scene.summary import ContactStatus
 from semi_analytical.admissible_shear import AT_LIMIT
-from semi_analytical.first_touch import touching_share
 from semi_analytical.model import ContactModel
 from semi_analytical.residuals import friction_cone
-from semi_analytical.sheared import Sheared, rigid, torsion_reached
+from semi_analytical.sheared import Sheared, rigid, torsion_reached, touching_share
 from semi_analytical.shearing import TangentialTarget
 
 Field = NDArray[np.float64]

@@ -14,8 +14,14 @@ from semi_analytical.balance import balanced
 from semi_analytical.edge.corrected import Corrected, EdgeReport
 from semi_analytical.energy import NOTHING_YET
 from semi_analytical.fields import Increment
-from semi_analytical.increment import State, reached_moment, residuals_of, solve_increment
-from semi_analytical.load_targets import normal_target, tangential_target
+from semi_analytical.increment import (
+    State,
+    normal_target,
+    reached_moment,
+    residuals_of,
+    solve_increment,
+    tangential_target,
+)
 from semi_analytical.model import ContactModel
 from semi_analytical.plan import Coupling, Plan
 from semi_analytical.pressing import NormalTarget

@@ -5,15 +5,16 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from contact_scene import LoadRamp
 from contact_scene.residuals import Residuals
 from semi_analytical.admissible_shear import magnitude
 from semi_analytical.behind import Behind, further_shear
 from semi_analytical.edge.corrected import Corrected, EdgeReport
 from semi_analytical.energy import NOTHING_YET, Energy
 from semi_analytical.model import ContactModel
-from semi_analytical.pressing import NormalTarget, Pair, Pressing, press
+from semi_analytical.pressing import NormalTarget, Pair, Pressing, Tilting, press
 from semi_analytical.sheared import Sheared, untouched
-from semi_analytical.shearing import TangentialTarget
+from semi_analytical.shearing import TangentialTarget, Torsion
 from semi_analytical.stick_slip import slip_and_stick
 
 Field = NDArray[np.float64]
@@ -137,3 +138,51 @@ def solve_increment(
         ahead,
     )
     return State(normal, normal_force, pressing, sheared, moment, behind=behind)
+
+
+def normal_target(
+    ramp: LoadRamp, start: State | None, fraction: float, tilts: bool
+) -> NormalTarget:
+    """Normal force or approach, and the tilt where the plan says so.
+
+    start  the state at the start of the step; None before first touch
+    """
+    reached = (0.0, 0.0) if start is None else (start.normal_force, start.pressing.approach)
+    force, approach = ramp.normal.led(fraction, reached)
+    return NormalTarget(force, approach, _tilting(ramp, start, fraction) if tilts else None)
+
+
+def tangential_target(
+    ramp: LoadRamp, start: State | None, fraction: float, twists: bool
+) -> TangentialTarget:
+    """Tangential force or shift, and the torsion where the plan says so."""
+    sheared = start.sheared if start is not None else None
+    reached: tuple[Pair, Pair | None] = ((0.0, 0.0), (0.0, 0.0))
+    if sheared is not None:
+        reached = _pair(sheared.force), None if sheared.shift is None else _pair(sheared.shift)
+    force, shift = ramp.tangential.led(fraction, reached)
+    return TangentialTarget(
+        None if force is None else np.array(force),
+        None if shift is None else np.array(shift),
+        _torsion(ramp, start, fraction) if twists else None,
+    )
+
+
+def _tilting(ramp: LoadRamp, start: State | None, fraction: float) -> Tilting:
+    reached: tuple[Pair, Pair] = ((0.0, 0.0), (0.0, 0.0))
+    if start is not None:
+        reached = start.moment or reached[0], start.pressing.tilt or reached[1]
+    return Tilting(*ramp.tilting.led(fraction, reached))
+
+
+def _torsion(ramp: LoadRamp, start: State | None, fraction: float) -> Torsion:
+    sheared = start.sheared if start is not None else None
+    reached = (0.0, 0.0)
+    if sheared is not None:
+        reached = sheared.torque or 0.0, sheared.twist or 0.0
+    return Torsion(*ramp.twisting.led(fraction, reached))
+
+
+def _pair(vector: np.ndarray) -> Pair:
+    x, y = map(float, vector)
+    return x, y

@@ -1,6 +1,7 @@
 """A coupled increment linearised in its zones of contact, stick and slip, and its solution."""
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -8,7 +9,7 @@ from numpy.typing import NDArray
 from contact_scene.solver_errors import NotConverged
 from semi_analytical.coupled_problem import CoupledProblem
 from semi_analytical.generalised_derivative import Field, Natural, Point, Tractions, Zones
-from semi_analytical.graded_preconditioner import GradedPreconditioner
+from semi_analytical.grades import shares
 from semi_analytical.krylov import least_residual
 
 Matrix = NDArray[np.float64]
@@ -126,3 +127,40 @@ class LinearisedIncrement:
         t = self._zones.tractions(free)
         pressed = [np.sum(closure * t[2]) for closure in self._closures]
         return np.array([*self._problem.tangential_load.forces(t[:2]), *pressed])
+
+
+class GradedPreconditioner:
+    """Approximate inverse of the generalised derivative, graded by the stiffness of slip.
+
+    On stick the derivative is the tangential operator; where a cell slips, its stiffness d is added
+    (see `grades`). The inverse of neither part approximates that of their sum:
+
+        M = Π F⁻¹ Π + Σ_j χ_j t (f + d_j)⁻¹ t χ_j,    Π = stick + χ_0 t t
+
+    F is the tangential spectrum with the unpadded period, f its scalar mean. Rows and free unknowns
+    are vectors of the zones.
+    """
+
+    def __init__(self, zones: Zones, problem: CoupledProblem) -> None:
+        self._zones, self._inverse = zones, problem.precondition_together
+        self._shares = shares(zones.turning / problem.self_compliance)
+
+    def __call__(self, rows: Vector) -> Vector:
+        """M rows."""
+        zones, slip, shares = self._zones, self._zones.slip, self._shares
+        shape = zones.contact.shape
+        v: NDArray[Any] = np.zeros((2 + len(shares), zones.contact.size), dtype=np.float32)
+        v[:3] = zones.field(rows).reshape(3, -1)
+        along = zones.parts(rows)[1]
+        for one in v[:2]:
+            one[slip] *= shares[0]
+        for one, share in zip(v[3:], shares[1:], strict=True):
+            one[slip] = share * along
+        u = self._inverse(v.reshape(-1, *shape)).reshape(v.shape)
+        for one in u[:2]:
+            one[slip] *= shares[0]
+        free = zones.free(u[:3])
+        turned = zones.parts(free)[1]
+        for one, share in zip(u[3:], shares[1:], strict=True):
+            turned += share * one[slip]
+        return free

@@ -6,7 +6,7 @@ from enum import StrEnum
 
 from contact_scene import Scene, effect
 from contact_scene.discretisation import PATH_ACCURACY, EdgeCorrection
-from contact_scene.effect import Effect
+from contact_scene.effect import COUPLING, Effect
 from contact_scene.expected_contact import refuse_equator
 from contact_scene.friction import FRICTIONLESS
 from contact_scene.normal_form import normal_form
@@ -22,6 +22,9 @@ MIRROR_PLANES = "mirror planes"
 EDGES = "edge correction"
 # Cost of the edge correction, on 64² to 256² cells.
 EDGE_COST = "10 to 100 convolutions each time"
+
+# Names of the effects that can be computed where they vanish.
+COMPUTED = ("tangential load", "tilt", "torsion", COUPLING)
 
 
 class Coupling(StrEnum):
@@ -190,3 +193,48 @@ def _edges(scene: Scene, asked: EdgeCorrection, torsion: bool) -> tuple[bool, st
         return False, "the friction limit is not the same multiple of the pressure everywhere"
     when = "increment" if asked == "all" else "step"
     return True, f"at the end of each {when} tractions fall to zero inside the cells: {EDGE_COST}"
+
+
+def all_effects(plan: Plan) -> Plan:
+    """Everything computed, called for or not: the answer is the same, the cost is not."""
+    return replace(
+        plan,
+        shear=True,
+        tilt=True,
+        torsion=True,
+        coupling=Coupling.FULL,
+        symmetry=WINDOW,
+        effects=tuple(_forced(effect) for effect in plan.effects),
+    )
+
+
+def one_way(plan: Plan) -> Plan:
+    """Pressure moves the surfaces sideways, shear does not act on the pressure (Goodman 1962).
+
+    An approximation of bodies that couple; others it leaves as they are, at a higher cost.
+    """
+    why = "asked for: pressure acts on the shear problem, shear not on the pressure problem"
+    effects = [replace(e, on=True, why=why) if e.name == COUPLING else e for e in plan.effects]
+    edge = plan.edge
+    if plan.couples:
+        unknown = "not known of bodies of which one way of coupling is left out"
+        effects = [replace(e, on=False, why=unknown) if e.name == EDGES else e for e in effects]
+        edge = "off"
+    return replace(
+        plan,
+        shear=True,
+        coupling=Coupling.ONE_WAY,
+        edge=edge,
+        symmetry=plan.symmetry if plan.coupling is Coupling.FULL else WINDOW,
+        couples=False,
+        effects=tuple(effects),
+    )
+
+
+def _forced(effect: Effect) -> Effect:
+    """An effect that is computed although it is off says so, and what is not made use of, too."""
+    if effect.name == MIRROR_PLANES and effect.on:
+        return replace(effect, on=False, why=f"not made use of, though {effect.why}")
+    if effect.name not in COMPUTED or effect.on:
+        return effect
+    return replace(effect, on=True, why=f"forced on, though {effect.why}")

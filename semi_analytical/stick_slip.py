@@ -10,7 +10,6 @@ from contact_scene.residuals import ShearResiduals
 from contact_scene.solver_errors import NotConverged, motion_undefined
 from contact_scene.summary import ContactStatus
 from semi_analytical.admissible_shear import magnitude
-from semi_analytical.first_touch import touching_share
 from semi_analytical.full_slip import (
     at_limit,
     force_reaches_limit,
@@ -27,6 +26,7 @@ from semi_analytical.sheared import (
     surface_target,
     torque_of,
     torsion_reached,
+    touching_share,
 )
 from semi_analytical.shearing import Shearing, TangentialTarget, shear
 

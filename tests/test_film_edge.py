@@ -20,8 +20,7 @@ from radial.bodies import Bodies
 from radial.disc import Disc, disc
 from radial.surface import pressure
 from semi_analytical import SurfaceGrid, plan, solve
-from semi_analytical.edge.film import FilmLaw
-from semi_analytical.edge.film_response import film_law
+from semi_analytical.edge.film import FilmLaw, film_law
 from semi_analytical.edge.rim import rim
 from verification.cell_means import round_means
 from verification.problems.shifted_grid import ShiftedGrid

@@ -15,7 +15,7 @@ from stack_strategies import HALF_SPACES, stacks
 from contact_scene import kept_arrays
 from contact_scene.solver_errors import ResourceRefused
 from semi_analytical.frf.stack import Stack
-from semi_analytical.influence import layered_memory, sources
+from semi_analytical.influence import layered
 from semi_analytical.influence.closed_form import HalfSpaceCoefficients, RectangleIntegrals
 from semi_analytical.influence.layered import LayeredCoefficients
 from semi_analytical.influence.radial_table import radial_table
@@ -245,7 +245,7 @@ def test_rigid_body_has_no_coefficients():
 
 
 def test_windows_beyond_memory_are_refused_at_once(monkeypatch):
-    monkeypatch.setattr(layered_memory, "available_bytes", lambda: 1 << 30)
+    monkeypatch.setattr(layered, "available_bytes", lambda: 1 << 30)
     stack = Stack([(2.0, 0.3, 0.5)], (1.0, 0.3))
     with pytest.raises(ResourceRefused, match=r"100000 x 100000 .* need .* 1 GiB are available"):
         LayeredCoefficients(stack, (1.0, 1.0), (100_000, 100_000))
@@ -307,14 +307,14 @@ def test_cache_tells_different_problems_apart(folder, computations, other):
 def test_cache_is_not_shared_with_other_sources(folder, computations, monkeypatch, tmp_path):
     normal_coefficients()
     package = tmp_path / "edited"
-    for part in sources.FOLDERS:
-        shutil.copytree(sources.PACKAGE / part, package / part)
-    assert sources.sources_digest(package) == sources.sources_digest()
+    for part in layered.FOLDERS:
+        shutil.copytree(layered.PACKAGE / part, package / part)
+    assert layered.sources_digest(package) == layered.sources_digest()
     with (package / "frf" / "surface.py").open("a") as file:
         file.write("# another line\n")
-    sources.sources_digest.cache_clear()
-    edited = sources.sources_digest(package)
-    assert edited != sources.sources_digest()
+    layered.sources_digest.cache_clear()
+    edited = layered.sources_digest(package)
+    assert edited != layered.sources_digest()
     monkeypatch.setattr("semi_analytical.influence.layered.sources_digest", lambda: edited)
     normal_coefficients()
     assert len(computations) == 2
@@ -323,11 +323,11 @@ def test_cache_is_not_shared_with_other_sources(folder, computations, monkeypatc
 def test_what_a_coefficient_is_computed_by_is_in_its_key():
     """Nothing outside FOLDERS is imported there but values, refusals and libraries."""
     allowed = "contact_scene"
-    for part in sources.FOLDERS:
-        for source in (sources.PACKAGE / part).rglob("*.py"):
+    for part in layered.FOLDERS:
+        for source in (layered.PACKAGE / part).rglob("*.py"):
             for name in re.findall(r"^from (\S+) import", source.read_text(), re.MULTILINE):
                 ours = name.startswith(("semi_analytical", "contact_scene"))
-                inside = name.startswith(tuple(f"semi_analytical.{f}" for f in sources.FOLDERS))
+                inside = name.startswith(tuple(f"semi_analytical.{f}" for f in layered.FOLDERS))
                 assert not ours or inside or name.startswith(allowed), (source.name, name)
 
 

@@ -6,7 +6,7 @@ import pytest
 from contact_scene import RIGID, Body, IsotropicMaterial, Layer, LoadStep, Paraboloid, Scene
 from contact_scene.solver_errors import ResourceRefused, UnsupportedScene
 from semi_analytical import SurfaceGrid, plan, solve
-from semi_analytical.influence import layered_memory
+from semi_analytical.influence import layered
 from verification.closed_forms.coated_indentation import paraboloid
 from verification.problems.layered_scene import surface_of
 
@@ -79,6 +79,6 @@ def test_layer_that_is_as_good_as_free_is_refused(lower: Body) -> None:
 
 
 def test_layered_window_beyond_memory_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(layered_memory, "available_bytes", lambda: 1 << 20)
+    monkeypatch.setattr(layered, "available_bytes", lambda: 1 << 20)
     with pytest.raises(ResourceRefused, match="influence coefficients for"):
         solve(pressed(COATED, normal_force=0.01), GRID, 1e-8)

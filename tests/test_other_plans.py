@@ -15,8 +15,7 @@ from semi_analytical import Coupling, all_effects, one_way, plan, solve
 from semi_analytical.operator.domain import WINDOW
 from semi_analytical.operator.operator import DisplacementOperator
 from semi_analytical.operator.transforms import MirroredWaves, Waves
-from semi_analytical.other_plans import COMPUTED
-from semi_analytical.plan import EDGES, MIRROR_PLANES
+from semi_analytical.plan import COMPUTED, EDGES, MIRROR_PLANES
 from verification.cases.goodman_indentation import goodman_indentation_on
 from verification.judging.judgement import judge
 from verification.judging.outcome import Status

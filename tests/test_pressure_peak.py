@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from semi_analytical.edge.peak import peak_of
+from semi_analytical.edge.fit import peak_of
 
 CELLS = 64
 POINTS, WEIGHTS = (half / 2 for half in np.polynomial.legendre.leggauss(3))

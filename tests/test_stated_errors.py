@@ -16,8 +16,8 @@ from scene_texts import COARSE, STEEL_BALL_PRESSED
 import contact_errors
 import slipstick as package
 from contact_errors import on_cells
+from contact_errors.coarse_solves import ratios, recounted
 from contact_errors.error_formula import Comparison, Features, SolvedRun, largest_so_far
-from contact_errors.increment_errors import ratios, recounted
 from contact_errors.stress_errors import largest_tensile_stress, on_wide_cells
 from contact_errors.values import OF_CYCLES, PHYSICAL, values_of
 from contact_results.cycles import fretting_cycles

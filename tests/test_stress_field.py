@@ -18,8 +18,8 @@ from semi_analytical.stress import (
     subsurface,
     subsurface_section,
 )
-from semi_analytical.stress import memory as stress_memory
-from semi_analytical.stress.interpolation import line_weights
+from semi_analytical.stress import field as stress_field
+from semi_analytical.stress.levels import line_weights
 from verification.closed_forms.huber_stress import axis_stress, huber_stress, sliding_axis_shear
 
 NU, MU = 0.3, 0.25
@@ -271,6 +271,6 @@ def test_tractions_of_another_grid_are_refused():
 
 
 def test_fields_beyond_the_memory_are_refused(monkeypatch):
-    monkeypatch.setattr(stress_memory, "available_bytes", lambda: 1 << 20)
+    monkeypatch.setattr(stress_field, "available_bytes", lambda: 1 << 20)
     with pytest.raises(ResourceRefused, match="fields at 1 depths on 8 x 8 cells"):
         subsurface(COATED, GRID, LOAD, None, [0.1])

@@ -7,8 +7,8 @@ from polar_synthesis import cell_transform, fields_at
 from semi_analytical.frf.depth import Level, material_at
 from semi_analytical.frf.stack import HalfSpace, Stack
 from semi_analytical.influence.closed_form import HalfSpaceCoefficients, RectangleIntegrals
+from semi_analytical.stress.cells import depth_coefficients
 from semi_analytical.stress.components import FIELDS, TRACTIONS
-from semi_analytical.stress.influence import depth_coefficients
 from semi_analytical.stress.levels import interfaces
 from semi_analytical.stress.rectangle import RectanglePotentials, half_space_response
 

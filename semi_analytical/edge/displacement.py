@@ -9,8 +9,7 @@ from itertools import chain
 import numpy as np
 from numpy.typing import NDArray
 
-from semi_analytical.edge.kernels import PARTS, REACH, EdgeKernels, part_centres
-from semi_analytical.edge.moment_spectra import spectra_of
+from semi_analytical.edge.kernels import PARTS, REACH, EdgeKernels, part_centres, spectra_of
 from semi_analytical.operator.domain import WINDOW, Pair, ReducedDomain
 from semi_analytical.operator.operator import Array, Response, response
 from semi_analytical.operator.spectra import KernelSpectrum

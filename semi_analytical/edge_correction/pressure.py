@@ -20,11 +20,10 @@ from semi_analytical.box import Box, box_around
 from semi_analytical.edge.corrected import Corrected, EdgeReport
 from semi_analytical.edge.displacement import Within
 from semi_analytical.edge.film import FilmLaw
+from semi_analytical.edge.fit import peak_of
 from semi_analytical.edge.means import Exponent
-from semi_analytical.edge.peak import peak_of
 from semi_analytical.edge.rim import Rim, rim
-from semi_analytical.edge_correction.closing import closed
-from semi_analytical.edge_correction.operators import EdgeOperators
+from semi_analytical.edge_correction.operators import EdgeOperators, closed
 from semi_analytical.edge_correction.shear_at_edge import FollowingShear
 from semi_analytical.increment import State
 from semi_analytical.model import ContactModel

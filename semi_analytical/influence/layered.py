@@ -8,24 +8,38 @@ nothing to choose. Three ways to integrate, by distance, each exact to rounding 
     far             the response at cell centres, averaged by a nine-point formula along x and y.
 """
 
+from __future__ import annotations
+
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cache, cached_property
+from hashlib import sha256
 from math import hypot
+from pathlib import Path
 
 import numpy as np
+import scipy
 from numpy.typing import NDArray
 
+from contact_scene.free_memory import available_bytes
+from contact_scene.solver_errors import ResourceRefused
 from semi_analytical.frf.stack import Stack
 from semi_analytical.influence.layered_cells import cell_integrals
-from semi_analytical.influence.layered_memory import refuse_beyond_memory
 from semi_analytical.influence.layered_response import COUPLING, NORMAL, TANGENTIAL, Components
 from semi_analytical.influence.radial_table import RadialTable, radial_table
-from semi_analytical.influence.sources import sources_digest
 
 Field = NDArray[np.float64]
 # From what determines an array and its shape, and the means to compute it, to the array.
 Remember = Callable[[str, tuple[int, ...], Callable[[], Field]], Field]
+
+# Arrays of the size of the window alive at the peak (six results, three point responses and
+# the work space of one average), and everything that does not grow with the window.
+ARRAYS = 13
+FIXED = 20 << 20
+
+PACKAGE = Path(__file__).resolve().parents[1]
+# All that decides the bits of a coefficient, from the point response to its integral over a cell.
+FOLDERS = ("frf", "influence")
 
 
 def computed_afresh(identity: str, shape: tuple[int, ...], compute: Callable[[], Field]) -> Field:
@@ -115,3 +129,33 @@ class LayeredCoefficients:
     def zy(self) -> Field:
         """u_z by q_y."""
         return self._coupling[1]
+
+
+def required_bytes(shape: tuple[int, int]) -> int:
+    """Peak memory of all `LayeredCoefficients` for offsets of this shape."""
+    return 8 * ARRAYS * (shape[0] + 9) * (shape[1] + 9) + FIXED
+
+
+def refuse_beyond_memory(shape: tuple[int, int]) -> None:
+    """Raise ResourceRefused if coefficients of this shape do not fit into the free memory."""
+    required, available = required_bytes(shape), available_bytes()
+    if required > available:
+        raise ResourceRefused(
+            f"influence coefficients for {shape[0]} x {shape[1]} offsets need "
+            f"{required / 2**30:.2g} GiB of memory, {available / 2**30:.2g} GiB are available; "
+            "take fewer cells"
+        )
+
+
+@cache
+def sources_digest(package: Path = PACKAGE) -> str:
+    """Of the sources of FRF and influence coefficients as they are now, and of the libraries.
+
+    package  the folder that holds FOLDERS
+    """
+    digest = sha256(f"numpy {np.__version__}, scipy {scipy.__version__}\n".encode())
+    for folder in FOLDERS:
+        for source in sorted((package / folder).rglob("*.py")):
+            content = sha256(source.read_bytes()).hexdigest()
+            digest.update(f"{source.relative_to(package).as_posix()} {content}\n".encode())
+    return digest.hexdigest()

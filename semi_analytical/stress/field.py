@@ -9,17 +9,23 @@ import numpy as np
 from numpy.typing import NDArray
 
 from contact_scene import Body, Scene
+from contact_scene.free_memory import available_bytes
+from contact_scene.solver_errors import ResourceRefused
 from semi_analytical.frf.depth import Level
 from semi_analytical.frf.stack import Stack, stack_of
 from semi_analytical.grid import SurfaceGrid
-from semi_analytical.stress.components import DISPLACEMENT, FIELDS, STRESS
+from semi_analytical.stress.cells import depth_coefficients
+from semi_analytical.stress.components import DISPLACEMENT, FIELDS, STRESS, TRACTIONS
 from semi_analytical.stress.convolution import Convolution, plane_convolution, row_convolution
-from semi_analytical.stress.influence import depth_coefficients
-from semi_analytical.stress.interpolation import line_weights
-from semi_analytical.stress.levels import levels_of
-from semi_analytical.stress.memory import refuse_beyond_memory
+from semi_analytical.stress.levels import levels_of, line_weights
 
 Field = NDArray[np.float64]
+
+DOUBLE = 8
+# Arrays of the size of the window at the peak besides the fields: two sets of coefficients,
+# the closed form's potentials, spectra of the padded grid.
+WORK = 3 * len(FIELDS) * len(TRACTIONS) + 40
+FIXED = 100 << 20
 
 
 @dataclass(frozen=True)
@@ -170,3 +176,19 @@ def _tractions(grid: SurfaceGrid, pressure: Field, shear: Field | None) -> Field
             )
         target[...] = given
     return tractions
+
+
+def required_bytes(cells: tuple[int, int], levels: int) -> int:
+    """Peak memory of fields on whole planes [byte]."""
+    return DOUBLE * cells[0] * cells[1] * (WORK + len(FIELDS) * levels) + FIXED
+
+
+def refuse_beyond_memory(cells: tuple[int, int], levels: int) -> None:
+    """Raise ResourceRefused if fields at so many levels do not fit into the free memory."""
+    required, available = required_bytes(cells, levels), available_bytes()
+    if required > available:
+        raise ResourceRefused(
+            f"fields at {levels} depths on {cells[0]} x {cells[1]} cells need "
+            f"{required / 2**30:.2g} GiB of memory, {available / 2**30:.2g} GiB are available; "
+            "take fewer cells or depths, or the section alone"
+        )

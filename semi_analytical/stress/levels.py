@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
+from numpy.typing import NDArray
 
 from contact_scene import Body
 from semi_analytical.frf.depth import Level
@@ -15,6 +16,9 @@ ON_INTERFACE = 1e-9
 
 # Default depths in contact radii: dense where the stress of a smooth contact turns.
 DEFAULT_DEPTHS = (*np.linspace(0.0, 1.0, 21), 1.125, 1.25, 1.5, 1.75, 2.0, 2.5, 3.0)
+
+NEIGHBOURS = 4
+ON_SAMPLE = 1e-9  # of the spacing
 
 
 def levels_of(stack: Stack, depths: Sequence[float | Level]) -> tuple[Level, ...]:
@@ -95,3 +99,27 @@ def _checked(stack: Stack, level: Level) -> Level:
     if not top <= level.depth <= bottom or not np.isfinite(level.depth):
         raise ValueError(f"{level} is not in that layer, which reaches from {top} to {bottom}")
     return level
+
+
+def line_weights(samples: NDArray[np.float64], at: float) -> NDArray[np.float64]:
+    """Weights that give the value at a position: Lagrange's on the four samples around it.
+
+    samples  equally spaced, increasing [length]
+    returns  shape of the samples, few of them not zero; fewer samples give a lower degree
+    raises   ValueError outside the samples
+    """
+    weights = np.zeros(len(samples))
+    spacing = samples[1] - samples[0] if len(samples) > 1 else 1.0
+    place = (at - samples[0]) / spacing
+    nearest = round(place)
+    if not -ON_SAMPLE <= place <= len(samples) - 1 + ON_SAMPLE:
+        raise ValueError(f"{at} is outside of the samples, {samples[0]} to {samples[-1]}")
+    if abs(place - nearest) <= ON_SAMPLE:
+        weights[nearest] = 1.0
+        return weights
+    count = min(NEIGHBOURS, len(samples))
+    first = int(np.clip(np.floor(place) - (count // 2 - 1), 0, len(samples) - count))
+    for k in range(first, first + count):
+        others = [m for m in range(first, first + count) if m != k]
+        weights[k] = np.prod([(place - m) / (k - m) for m in others])
+    return weights

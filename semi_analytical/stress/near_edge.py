@@ -21,7 +21,7 @@ from semi_analytical.grid import SurfaceGrid
 from semi_analytical.stress.at_edge import change_at_depth, stress_at_surface
 from semi_analytical.stress.edge_tractions import EdgedTractions, edged_tractions
 from semi_analytical.stress.field import SubsurfaceField, subsurface
-from semi_analytical.stress.interpolation import line_weights
+from semi_analytical.stress.levels import line_weights
 from semi_analytical.stress.patch import NODES
 
 Field = NDArray[np.float64]

@@ -12,7 +12,7 @@ from contact_results import cycles
 from contact_scene import CoulombFriction, march
 from semi_analytical import (
     energy,
-    load_targets,
+    increment,
     normal,
     residuals,
     shearing,
@@ -96,7 +96,7 @@ def _lighter(patches: Patches) -> None:
 
         return target
 
-    patches.function(load_targets, "normal_target", wrap)
+    patches.function(increment, "normal_target", wrap)
 
 
 def _force_not_met(patches: Patches) -> None:

@@ -33,7 +33,7 @@ ITERATION = "iteration"
 # edges are theirs.
 PARTS: Mapping[str, tuple[str, ...]] = {
     "transforms": ("transforms",),
-    "products": ("operator", "graded_preconditioner", "grades"),
+    "products": ("operator", "grades"),
     "influence": ("influence", "frf", "spectra"),
     "friction": ("admissible_shear", "generalised_derivative", "shear_zones"),
     EDGES: ("edge", "edge_correction"),
