@@ -1,9 +1,7 @@
-"""Operators of what tractions do within the cells of a model.
+"""Operators of what tractions do within the cells of a model, and pressure on a given contact.
 
-Pressure that closes the gap in given cells.
-
-With its edge inside the cells a contact is where the edge says, and what is left is linear: no cell
-comes or goes while it is solved.
+The edge inside the cells determines the contact. The remaining problem is linear: the set of cells
+in contact does not change while it is solved.
 """
 
 from __future__ import annotations
