@@ -115,7 +115,7 @@ class Cells:
 
     def scalar(self, increment: Increment, name: str) -> NDArray[Any] | None:
         """As the increment has it."""
-        field: NDArray[Any] | None = getattr(increment, name)
+        field: NDArray[Any] | None = getattr(increment, name, None)
         return field
 
     components = vector = scalar
@@ -198,7 +198,7 @@ class Rings:
 
     def scalar(self, increment: Increment, name: str) -> NDArray[Any] | None:
         """The field, at every angle where there are angles."""
-        return self._everywhere(getattr(increment, name))
+        return self._everywhere(getattr(increment, name, None))
 
     def components(self, increment: Increment, name: str) -> Field | None:
         """Outward, around the axis and along the load; the last excludes the first two."""

@@ -19,8 +19,11 @@ from contact_results.key_numbers import key_numbers
 from contact_results.number_text import Uncertainty, number_text
 from contact_results.result_files import write_result
 from contact_results.stress.loaded_bodies import state_of_result
+from contact_scene import RadialDiscretisation, load_scene
 from contact_scene.stated_error import ErrorStatus, StatedError
+from slipstick import solve
 
+SCENES = Path(__file__).resolve().parents[1] / "scenes"
 HOSTILE = "<script>alert(1)</script><img src=http://example.invalid/x.png> $x_{y$ & \"'"
 
 
@@ -58,6 +61,16 @@ def test_the_overview_alone_shows_the_title_and_draws_it_whatever_it_is(tmp_path
                 save(figure, tmp_path / name, DOTS_PER_INCH)
     assert titled == {place.name}
     assert place.stat().st_size < 200_000
+
+
+def test_rings_have_a_map_of_every_field_that_they_know() -> None:
+    scene = load_scene(SCENES / "fretting_loop.toml").replace({"loading[2].increments": 4})
+    pushed = scene.model_copy(update={"loading": scene.loading[:2]})
+    result = solve(pushed, "radial", RadialDiscretisation(rings=16))
+    with figure_style():
+        drawn = {name for name, _ in _figures_called_for(result, (), None)}
+    assert drawn >= {"pressure.png", "shear.png", "slip.png", "stick_slip.png"}
+    assert "dissipation.png" not in drawn
 
 
 def test_numbers_on_the_page_carry_their_errors(tmp_path: Path) -> None:

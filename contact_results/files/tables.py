@@ -66,7 +66,7 @@ def _profile_rows(surface: Surface, step: Increment) -> Iterator[tuple[object, .
         vector = surface.vector(step, name)
         parts.extend((None, None) if vector is None else surface.along(vector))
     for name in PROFILE_SCALARS:
-        field = surface.scalar(step, name) if hasattr(step, name) else None
+        field = surface.scalar(step, name)
         parts.append(None if field is None else surface.along(field.astype(np.float64)))
     columns = [_shown(part, len(places)) for part in parts]
     # Both sides of rings have the axis.

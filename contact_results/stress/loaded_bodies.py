@@ -97,7 +97,7 @@ def state_of_result(
     ends = {end.step: end for end in result.steps}
     end = ends[_existing(step, sorted(ends))]
     surface = surface_of(result)
-    fields = {name: surface.scalar(end, name) for name in TRACTIONS if hasattr(end, name)}
+    fields = {name: surface.scalar(end, name) for name in TRACTIONS}
     return _state(
         result.scene,
         result.solver,
