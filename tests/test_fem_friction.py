@@ -32,12 +32,18 @@ def pressed(friction: float | None = MU, increments: int = 20, indenter=RIGID_BA
     return scene(steps, indenter=indenter, body=BODY, friction=friction)
 
 
+# Elements per radius for the same accuracy of the shear. At Gauss points the shear ripples where
+# the edge of stick has passed. At 16, 32, 64 elements and µ = 0.3 the largest error of q/µp₀ is
+# 0.033, 0.021, 0.004; at nodes it is 0.011, 0.004, 0.002.
+FOR_SHEAR = {Method.COMPLEMENTARITY: 32, Method.PENALTY: 64}
+
+
 @both_laws
 @pytest.mark.parametrize(("mu", "increments", "allowed"), [(0.1, 20, 5e-3), (0.3, 60, 1e-2)])
 def test_self_similar_indentation(mu: float, increments: int, allowed: float, law: Method) -> None:
     row = REFERENCE[mu]
     a = row["a_over_aH"] * HERTZ.contact_radius
-    found = end(pressed(mu, increments), 32, law, contact_radius=a)
+    found = end(pressed(mu, increments), FOR_SHEAR[law], law, contact_radius=a)
     assert found.contact_radius == pytest.approx(a, rel=2e-3)
     assert found.approach == pytest.approx(row["delta_over_deltaH"] * HERTZ.approach, rel=2e-4)
     assert found.stick_radius == pytest.approx(row["c_over_a"] * a, abs=0.02 * a)
@@ -46,8 +52,6 @@ def test_self_similar_indentation(mu: float, increments: int, allowed: float, la
     p = along_radius(found, found.pressure, r * a) / HERTZ.peak_pressure
     q = along_radius(found, found.shear_radial, r * a) / (mu * HERTZ.peak_pressure)
     assert np.max(np.abs(p - row["p_over_pH"])[judged]) < 2e-3
-    # At Gauss points each place that the edge of stick has passed keeps a ripple.
-    allowed *= 1 if law is Method.COMPLEMENTARITY else 3
     assert np.max(np.abs(q - row["q_over_mu_pH"])[judged]) < allowed
 
 
@@ -104,7 +108,7 @@ def test_equations_hold_however_strong_the_coupling(
     asked = scene({**PRESS, "increments": 5}, indenter=RIGID_BALL, body=body, friction=mu)
     result = solved(asked, law=law, overlap=1.0)
     for increment in result.increments:
-        assert increment.residuals.worst <= result.tolerance
+        assert increment.residuals.worst < 1e-10
         assert np.all(np.abs(increment.shear_radial) <= mu * increment.pressure)
 
 
@@ -122,7 +126,7 @@ def test_unloading_dissipates_and_turns_the_shear(law: Method) -> None:
     energy = [increment.dissipated_energy for increment in found]
     assert np.all(np.diff(energy) >= 0)
     assert np.min(found[-1].shear_radial) < 0
-    assert max(increment.residuals.worst for increment in found) <= 1e-8
+    assert max(increment.residuals.worst for increment in found) < 1e-10
 
 
 def test_work_is_stored_or_lost() -> None:

@@ -36,8 +36,7 @@ VIRGIN = PartialSlip(
 )  # fmt: skip
 UNTWISTED = TorsionalPartialSlip(A, HERTZ.peak_pressure, MU, G / 2, A)
 PUNCH = INDENTERS["flat punch"]
-# In elements: the edge of stick, on its own; at Gauss points it is fitted.
-OF_STICK = {Method.COMPLEMENTARITY: 0.067, Method.PENALTY: 0.3}
+EXACT, PENALTY = Method.COMPLEMENTARITY, Method.PENALTY
 
 
 def loaded(*parts: float) -> TangentialHistory:
@@ -48,33 +47,45 @@ def loaded(*parts: float) -> TangentialHistory:
     return history
 
 
+# Relative error of the shift, and of the edge of stick in contact radii. Three points on an element
+# integrate the shear ten times closer than its corners do; the edge is fitted at Gauss points.
+OF_SHEARED = {EXACT: (4e-3, 4e-3), PENALTY: (2e-4, 0.2 / 16)}
+
+
 @both_laws
 @pytest.mark.parametrize("part", [0.3, 0.6, 0.9])
 def test_cattaneo_and_mindlin(part: float, law: Method) -> None:
     found, exact = end(scene(PRESS, push(part)), law=law), loaded(part)
-    assert shift_along_x(found) == pytest.approx(exact.shift, rel=4e-3)
-    assert found.stick_radius == pytest.approx(exact.stick_radius, abs=OF_STICK[law] / 16 * A)
+    shift, stick = OF_SHEARED[law]
+    assert shift_along_x(found) == pytest.approx(exact.shift, rel=shift)
+    assert found.stick_radius == pytest.approx(exact.stick_radius, abs=stick * A)
     assert found.status is ContactStatus.PARTIAL_SLIP
     apart = np.abs(found.radii - exact.stick_radius) > 0.1 * A
     error = np.abs(found.shear_along_load - exact.shear(found.radii))
     assert np.max(error[apart & (found.radii < 0.85 * A)]) < 0.02 * MU * HERTZ.peak_pressure
 
 
+# Elements per radius; shift over the largest; loss over that of a loop; edge of stick in elements,
+# and within five elements of an older edge, across which no fit at Gauss points finds it.
+OF_HISTORY = {EXACT: (16, 4e-3, 6e-3, 0.2, 0.2), PENALTY: (32, 2e-4, 2e-3, 0.2, 0.6)}
+
+
 @both_laws
 @pytest.mark.parametrize("parts", [(0.9, -0.9, 0.9), (0.8, 0.2, 0.6, -0.3), (0.5, -0.5, 0.9)])
 def test_history_is_remembered_through_reversals(parts: tuple[float, ...], law: Method) -> None:
-    """Shift and loss follow the closed form of any history, as exactly as the first loading. The
-    edge of stick is known three times worse where an older one is next to it."""
-    result = solved(scene(PRESS, *map(push, parts)), law=law)
-    largest = loaded(0.9).shift
+    """Shift and loss follow the closed form of any history, as exactly as the first loading."""
+    per_radius, of_shift, of_loss, clear, near = OF_HISTORY[law]
+    result = solved(scene(PRESS, *map(push, parts)), per_radius, law)
+    largest, loop = loaded(0.9).shift, loaded(0.9, -0.9).dissipated_energy
+    edges: list[float] = []
     for number, step in enumerate(result.steps[1:], start=1):
         exact = loaded(*parts[:number])
-        assert shift_along_x(step) == pytest.approx(exact.shift, abs=4e-3 * largest)
-        scale = loaded(0.9, -0.9).dissipated_energy
-        assert step.dissipated_energy == pytest.approx(exact.dissipated_energy, abs=6e-3 * scale)
-        assert step.stick_radius == pytest.approx(
-            exact.stick_radius, abs=3 * OF_STICK[law] / 16 * A
-        )
+        assert shift_along_x(step) == pytest.approx(exact.shift, abs=of_shift * largest)
+        assert step.dissipated_energy == pytest.approx(exact.dissipated_energy, abs=of_loss * loop)
+        apart = all(abs(edge - exact.stick_radius) > 5 / per_radius * A for edge in edges)
+        allowed = (clear if apart else near) / per_radius * A
+        assert step.stick_radius == pytest.approx(exact.stick_radius, abs=allowed)
+        edges.append(exact.stick_radius)
 
 
 @both_laws
@@ -181,25 +192,38 @@ def test_less_pressure_under_constant_shear_slips_inwards(law: Method) -> None:
     assert max(i.residuals.worst for i in result.increments) < 1e-11
 
 
+# Elements per radius, and the relative error of the twist. The shear at the rim grows like the
+# inverse square root of the distance, so that the error falls as the element: 0.0031 at nodes,
+# 0.0121 at Gauss points for 16.
+OF_DISC = {EXACT: (16, 5e-3), PENALTY: (32, 1e-2)}
+
+
 @both_laws
 def test_stuck_disc_twists_as_reissner_and_sagoci(law: Method) -> None:
-    torque = 1e-3
-    found = end(scene(PRESS, {"torque": torque}, indenter=PUNCH, friction=10.0), law=law)
-    assert found.twist == pytest.approx(StuckTorsion(A, G / 2, torque).twist, rel=2e-2)
+    torque, (per_radius, allowed) = 1e-3, OF_DISC[law]
+    found = end(scene(PRESS, {"torque": torque}, indenter=PUNCH, friction=10.0), per_radius, law)
+    assert found.twist == pytest.approx(StuckTorsion(A, G / 2, torque).twist, rel=allowed)
     assert found.status is ContactStatus.FULL_STICK
+    assert found.contact_radius == pytest.approx(A)
+    assert found.stick_radius == found.contact_radius
+
+
+# Relative error of the twist, the edge of stick in contact radii, and the shear over µp₀.
+OF_TWISTED = {EXACT: (6e-3, 3e-3, 0.02), PENALTY: (2e-3, 0.3 / 32, 0.01)}
 
 
 @both_laws
 @pytest.mark.parametrize("part", [0.4, 0.6, 0.9])
 def test_twisted_ball_slips_from_its_edge(part: float, law: Method) -> None:
     torque = part * UNTWISTED.sliding_moment
+    twist, stick, shear = OF_TWISTED[law]
     exact = TorsionalPartialSlip.under_moment(torque, A, HERTZ.peak_pressure, MU, G / 2)
     found = end(scene(PRESS, {"torque": torque}), 32, law)
-    assert found.twist == pytest.approx(exact.twist, rel=6e-3)
-    assert found.stick_radius == pytest.approx(exact.stick_radius, abs=1.5 * OF_STICK[law] / 32 * A)
+    assert found.twist == pytest.approx(exact.twist, rel=twist)
+    assert found.stick_radius == pytest.approx(exact.stick_radius, abs=stick * A)
     apart = (np.abs(found.radii - exact.stick_radius) > 0.1 * A) & (found.radii < 0.85 * A)
     error = np.abs(found.shear_circumferential - exact.shear(found.radii))
-    assert np.max(error[apart]) < 0.02 * MU * HERTZ.peak_pressure
+    assert np.max(error[apart]) < shear * MU * HERTZ.peak_pressure
 
 
 def test_torsion_needs_no_alike_bodies() -> None:
@@ -219,12 +243,16 @@ def test_torque_and_twist_lead_to_the_same_state() -> None:
         end(scene(PRESS, {"torque": 1.2 * UNTWISTED.sliding_moment}))
 
 
+# The gap of springs is the small difference of a large overlap and their strain.
+ROUND_OFF = {EXACT: 1e-11, PENALTY: 1e-10}
+
+
 @both_laws
 def test_equations_hold_to_round_off(law: Method) -> None:
     loop = scene(PRESS, push(0.9), push(-0.9), push(0.9))
     twisted = scene(PRESS, {"torque": 0.01}, {"torque": -0.01}, {"twist": 0.0})
     for asked in (loop, twisted):
         result = solved(asked, law=law)
-        assert max(i.residuals.worst for i in result.increments) < 1e-10
+        assert max(i.residuals.worst for i in result.increments) < ROUND_OFF[law]
         energy = [i.dissipated_energy for i in result.increments]
         assert np.all(np.diff(energy) >= 0)

@@ -22,6 +22,7 @@ from fem_reference.contact.natural_map import Equations, Iterate
 
 Field = NDArray[np.float64]
 Vector = NDArray[np.float64]
+Matrix = NDArray[np.float64]
 Mask = NDArray[np.bool_]
 
 MOST_STEPS = 200
@@ -71,7 +72,7 @@ def root(problem: CoupledProblem, start: Start, tolerance: float, springs: float
             misses.append(equations.size(missed, at))
             if misses[-1] <= tolerance:
                 return Root(at, in_slip, solves + step)
-            change = np.linalg.solve(jacobian[:, :-1], -missed)
+            change = _step(jacobian[:, :-1], -missed)
             if not np.isfinite(change).all():
                 break
             bound = (1 - SUFFICIENT) * max(misses[-REMEMBERED:])
@@ -82,6 +83,20 @@ def root(problem: CoupledProblem, start: Start, tolerance: float, springs: float
     except np.linalg.LinAlgError:
         pass
     raise NotConverged("the coupled increment", len(misses), min(misses, default=np.inf), tolerance)
+
+
+def _step(jacobian: Matrix, right: Vector) -> Vector:
+    """Solve the linear system. Rows with the diagonal entry alone are eliminated first.
+
+    These are the equations of points without contact and of components that symmetry excludes.
+    """
+    diagonal = np.diagonal(jacobian)
+    alone = (np.count_nonzero(jacobian, axis=1) == 1) & (diagonal != 0)
+    change = np.divide(right, diagonal, out=np.zeros_like(right), where=alone)
+    rest = np.flatnonzero(~alone)
+    known = right[rest] - jacobian[rest] @ change
+    change[rest] = np.linalg.solve(jacobian[np.ix_(rest, rest)], known)
+    return change
 
 
 def _first(problem: CoupledProblem, start: Start, springs: float) -> tuple[Iterate, int]:

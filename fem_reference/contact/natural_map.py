@@ -73,27 +73,30 @@ class Equations:
         safe = np.where(length > 0, length, 1.0)
         normal = np.where(in_slip, z_t / safe, 0.0)
         kept = np.where(in_slip, bound / safe, 1.0)
-        points, count = np.arange(n), 3 * n + 3
-        by_z = np.zeros((n, count))
-        by_z[:, : 3 * n] = -K[2 * n :] / d_z[:, None]
-        by_z[points, 2 * n + points] += 1 - at.springs * w / d_z
+        # Without contact p and q are zero: their rows of the derivative are those of the identity.
+        on = np.flatnonzero(z_z > 0)
+        points, count = np.arange(len(on)), 3 * n + 3
+        w, d_t, d_z = w[on], d_t[on], d_z[on]
+        by_z = np.zeros((len(on), count))
+        by_z[:, : 3 * n] = -K[2 * n + on] / d_z[:, None]
+        by_z[points, 2 * n + on] += 1 - at.springs * w / d_z
         by_z[:, -2] = w / d_z
-        by_z[:, -1] = -z_z * w / d_z
-        by_z[z_z <= 0] = 0.0
-        by_t = np.zeros((2, n, count))
+        by_z[:, -1] = -z_z[on] * w / d_z
+        by_t = np.zeros((2, len(on), count))
         for c in range(2):
-            by_t[c, :, : 3 * n] = -K[c * n : (c + 1) * n] / d_t[:, None]
-            by_t[c, points, c * n + points] += 1 - at.springs * w / d_t
-            by_t[c, :, -3] = self.along[c] / d_t
-            by_t[c, :, -1] = -z_t[c] * w / d_t
-        radial = np.einsum("cn,cnk->nk", normal, by_t)
-        slope = self.problem.friction.slope(np.maximum(z_z, 0.0))
-        carrying = np.where(self.problem.compliance.carries_shear, slope, 0.0)
-        turned = kept[:, None] * (by_t - normal[:, :, None] * radial)
-        turned += normal[:, :, None] * carrying[:, None] * by_z
+            by_t[c, :, : 3 * n] = -K[c * n + on] / d_t[:, None]
+            by_t[c, points, c * n + on] += 1 - at.springs * w / d_t
+            by_t[c, :, -3] = self.along[c, on] / d_t
+            by_t[c, :, -1] = -z_t[c, on] * w / d_t
+        slope = self.problem.friction.slope(z_z[on])
+        carrying = np.where(self.problem.compliance.carries_shear[on], slope, 0.0)
+        normal, kept = normal[:, on], kept[on]
+        turned = normal[0, :, None] * by_t[0] + normal[1, :, None] * by_t[1]
+        turned = carrying[:, None] * by_z - kept[:, None] * turned
         jacobian = np.zeros((3 * n + 2, count))
-        jacobian[: 2 * n] = -turned.reshape(2 * n, count)
-        jacobian[2 * n : 3 * n] = -by_z
+        for c in range(2):
+            jacobian[c * n + on] = -kept[:, None] * by_t[c] - normal[c, :, None] * turned
+        jacobian[2 * n + on] = -by_z
         jacobian[np.arange(3 * n), np.arange(3 * n)] += 1
         if self.force is None:
             jacobian[-2, -3] = 1.0
@@ -102,7 +105,7 @@ class Equations:
         if self.pressed is None:
             jacobian[-1, -2] = 1.0
         else:
-            jacobian[-1, 2 * n : 3 * n] = w / self.scale
+            jacobian[-1, 2 * n : 3 * n] = self.w / self.scale
         return missed, jacobian, in_slip & (bound > 0)
 
     def size(self, missed: Vector, at: Iterate) -> float:
@@ -127,7 +130,7 @@ class Equations:
         p = np.maximum(z_z, 0.0)
         length = np.hypot(*z_t)
         safe = np.where(length > 0, length, 1.0)
-        q = z_t * np.where(length > bound, bound / safe, 1.0)
+        q = np.clip(z_t * np.where(length > bound, bound / safe, 1.0), -bound, bound)
         return CoupledSolution(p, q, at.approach, at.shift, in_slip, 0, solves)
 
     def _equations(self, at: Iterate) -> tuple[Vector, Field, Vector, Vector]:
