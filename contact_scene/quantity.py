@@ -3,7 +3,7 @@ whole numbers within bounds."""
 
 import math
 import re
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from decimal import Context, Decimal
 from difflib import get_close_matches
 from numbers import Real
@@ -60,7 +60,7 @@ class Quantity:
     wanted             the expectation in words, as in "a positive length"
     """
 
-    kind: Kind
+    kind: Kind = field(repr=False)  # its table is long, and `wanted` names it
     wanted: str
     above: float | None = None
     at_least: float | None = None
