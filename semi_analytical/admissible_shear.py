@@ -11,11 +11,8 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import NDArray
 
+from contact_scene.array_types import Field, Vector, VectorField
 from semi_analytical.multipliers import find_multiplier
-
-Field = NDArray[np.float64]
-VectorField = NDArray[np.float64]
-Vector = NDArray[np.float64]
 
 # What rounding leaves of a sum of shears, relative to the sum of their magnitudes.
 ROUND_OFF = 1e-14

@@ -9,9 +9,9 @@ far beyond µ|beta| = 1.
 
 import numpy as np
 
+from contact_scene.array_types import Field, Vector, VectorField
 from contact_scene.residuals import worst
 from contact_scene.solver_errors import NotConverged
-from semi_analytical.admissible_shear import Field, Vector, VectorField
 from semi_analytical.coupled_problem import CoupledProblem, CoupledSolution
 from semi_analytical.linearised_shear import Point
 from semi_analytical.normal import NormalSolution, solve_normal

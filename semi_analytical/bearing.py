@@ -11,11 +11,9 @@ which can be asked of any gap h: A is the area on which it is below c, its beari
 from math import asinh, pi
 
 import numpy as np
-from numpy.typing import NDArray
 
+from contact_scene.array_types import Field
 from semi_analytical.normal_load import NormalLoad
-
-Field = NDArray[np.float64]
 
 
 def bearing_pressure(gap: Field, load: NormalLoad, modulus: float, area: float) -> Field:

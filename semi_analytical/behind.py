@@ -5,15 +5,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from contact_scene.array_types import Field, Vector, VectorField
 from semi_analytical.linearised_shear import Point
 from semi_analytical.pressing import NormalTarget
 from semi_analytical.shearing import TangentialTarget
-
-Field = NDArray[np.float64]
-VectorField = NDArray[np.float64]
-Vector = NDArray[np.float64]
 
 # Relative: a load that turns more is not the way to go on.
 STRAIGHT = 1e-6

@@ -3,12 +3,9 @@
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from contact_scene.array_types import Field, Mask
 from semi_analytical.operator.domain import WINDOW, ReducedDomain
-
-Field = NDArray[np.float64]
-Mask = NDArray[np.bool_]
 
 # Sides are multiples of this, so that a box can be halved and few shapes occur.
 QUANTUM = 16

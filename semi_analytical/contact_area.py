@@ -11,10 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.ndimage import distance_transform_edt
 
+from contact_scene.array_types import Field, Mask
 from semi_analytical.operator.domain import WINDOW, ReducedDomain
-
-Field = NDArray[np.float64]
-Mask = NDArray[np.bool_]
 
 REACH = 4
 FRAME = REACH + 1  # trusted are cells whose neighbours are inside

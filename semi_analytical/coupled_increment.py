@@ -6,6 +6,7 @@ from functools import partial
 import numpy as np
 from numpy.typing import NDArray
 
+from contact_scene.array_types import Field, VectorField
 from contact_scene.residuals import worst
 from contact_scene.solver_errors import NotConverged, motion_undefined
 from semi_analytical.box import Box, box_around
@@ -34,9 +35,6 @@ from semi_analytical.residuals import complementarity, penetration
 from semi_analytical.sheared import Sheared, first_motion, rigid, surface_target, untouched
 from semi_analytical.shearing import Shearing, TangentialTarget
 from semi_analytical.stick_slip import advanced, shear_residuals
-
-Field = NDArray[np.float64]
-VectorField = NDArray[np.float64]
 
 MOST_ATTEMPTS = 4
 # Of the width of a contact: beyond it the push of a whole step does not move its edge.

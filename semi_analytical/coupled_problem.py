@@ -7,7 +7,8 @@ from typing import Any, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from semi_analytical.admissible_shear import Field, TangentialLoad, Vector, VectorField
+from contact_scene.array_types import Field, Vector, VectorField
+from semi_analytical.admissible_shear import TangentialLoad
 from semi_analytical.normal_load import Motion, NormalLoad
 from semi_analytical.operator.domain import WINDOW, ReducedDomain
 

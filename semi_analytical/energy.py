@@ -35,13 +35,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from contact_scene.array_types import Field, Vector, VectorField
 from contact_scene.friction import sliding_friction
-
-Field = NDArray[np.float64]
-VectorField = NDArray[np.float64]
-Vector = NDArray[np.float64]
 
 
 @dataclass(frozen=True)

@@ -4,9 +4,9 @@ from dataclasses import dataclass, field
 from typing import Annotated, ClassVar
 
 import numpy as np
-from numpy.typing import NDArray
 
 from contact_scene import Scene
+from contact_scene.array_types import Field, Mask, Vector, VectorField
 from contact_scene.increment import ReportedIncrement
 from contact_scene.reported import Kind, Reported
 from contact_scene.summary import ContactStatus
@@ -14,10 +14,6 @@ from semi_analytical.edge.corrected import EdgeReport
 from semi_analytical.grid import SurfaceGrid
 from semi_analytical.plan import Plan
 
-Field = NDArray[np.float64]
-VectorField = NDArray[np.float64]
-Mask = NDArray[np.bool_]
-Vector = NDArray[np.float64]
 F = Kind.FIELD
 
 

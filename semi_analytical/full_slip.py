@@ -3,8 +3,8 @@
 from dataclasses import replace
 
 import numpy as np
-from numpy.typing import NDArray
 
+from contact_scene.array_types import Field, Vector, VectorField
 from contact_scene.residuals import ShearResiduals
 from contact_scene.solver_errors import GrossSliding
 from contact_scene.summary import ContactStatus
@@ -13,10 +13,6 @@ from semi_analytical.model import ContactModel
 from semi_analytical.residuals import friction_cone
 from semi_analytical.sheared import Sheared, rigid, torsion_reached, touching_share
 from semi_analytical.shearing import TangentialTarget
-
-Field = NDArray[np.float64]
-VectorField = NDArray[np.float64]
-Vector = NDArray[np.float64]
 
 
 def force_reaches_limit(force: Vector, limit: float) -> bool:

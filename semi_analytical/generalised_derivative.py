@@ -25,12 +25,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from semi_analytical.admissible_shear import Vector, VectorField, magnitude
+from contact_scene.array_types import Field, Indices, Mask, Vector, VectorField
+from semi_analytical.admissible_shear import magnitude
 from semi_analytical.coupled_problem import CoupledProblem
 
-Field = NDArray[np.float64]
-Mask = NDArray[np.bool_]
-Indices = NDArray[np.intp]
 Tractions = NDArray[np.float64]
 
 # Of the self-compliance: a cell that is held back more does not turn.

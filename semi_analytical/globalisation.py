@@ -6,8 +6,8 @@ from functools import partial
 
 import numpy as np
 
+from contact_scene.array_types import Field, Vector, VectorField
 from contact_scene.solver_errors import NotConverged
-from semi_analytical.admissible_shear import Field, Vector, VectorField
 from semi_analytical.alternation import one_round, solve_coupled
 from semi_analytical.coupled_problem import CoupledProblem, CoupledSolution
 from semi_analytical.newton_increment import solve_by_newton

@@ -7,10 +7,8 @@ no stiffness at all.
 """
 
 import numpy as np
-from numpy.typing import NDArray
 
-Field = NDArray[np.float64]
-Vector = NDArray[np.float64]
+from contact_scene.array_types import Field, Vector
 
 RATIO = 8.0
 # Over the self-compliance. More grades, or nearer ones, save no step of a Krylov solver.

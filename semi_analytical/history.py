@@ -5,9 +5,9 @@ from dataclasses import dataclass, replace
 from typing import Protocol
 
 import numpy as np
-from numpy.typing import NDArray
 
 from contact_scene import LoadRamp
+from contact_scene.array_types import Field
 from contact_scene.march import Reached, marked_increments
 from contact_scene.standing import Mark, Standing
 from semi_analytical.balance import balanced
@@ -28,8 +28,6 @@ from semi_analytical.pressing import NormalTarget
 from semi_analytical.sheared import Sheared, untouched
 from semi_analytical.shearing import TangentialTarget
 
-Field = NDArray[np.float64]
-Mask = NDArray[np.bool_]
 Advance = Callable[
     [ContactModel, State | None, NormalTarget, TangentialTarget | None, float], State
 ]

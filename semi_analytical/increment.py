@@ -3,9 +3,9 @@
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 from contact_scene import LoadRamp
+from contact_scene.array_types import Field
 from contact_scene.residuals import Residuals
 from semi_analytical.admissible_shear import magnitude
 from semi_analytical.behind import Behind, further_shear
@@ -16,8 +16,6 @@ from semi_analytical.pressing import NormalTarget, Pair, Pressing, Tilting, pres
 from semi_analytical.sheared import Sheared, untouched
 from semi_analytical.shearing import TangentialTarget, Torsion
 from semi_analytical.stick_slip import slip_and_stick
-
-Field = NDArray[np.float64]
 
 
 @dataclass(frozen=True)

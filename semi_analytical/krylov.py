@@ -4,10 +4,8 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
-Vector = NDArray[np.float64]
-Matrix = NDArray[np.float64]
+from contact_scene.array_types import Matrix, Vector
 
 # A vector that has lost so much to those before it is made orthogonal to them once more.
 LOST = 0.1

@@ -6,14 +6,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from contact_scene.array_types import Field, Matrix, Vector
 from contact_scene.solver_errors import NotConverged
 from semi_analytical.coupled_problem import CoupledProblem
-from semi_analytical.generalised_derivative import Field, Natural, Point, Tractions, Zones
+from semi_analytical.generalised_derivative import Natural, Point, Tractions, Zones
 from semi_analytical.grades import shares
 from semi_analytical.krylov import least_residual
-
-Matrix = NDArray[np.float64]
-Vector = NDArray[np.float64]
 
 MOST_ITERATIONS = 40
 # Of the sums of tractions: what a zone that slips one way does not determine.

@@ -10,7 +10,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from semi_analytical.admissible_shear import Field, TangentialLoad, VectorField
+from contact_scene.array_types import Field, VectorField
+from semi_analytical.admissible_shear import TangentialLoad
 from semi_analytical.shear_zones import Map, ShearZones
 
 MOST_ITERATIONS = 100

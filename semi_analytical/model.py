@@ -3,9 +3,9 @@
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 
 from contact_scene import CoulombFriction, Scene
+from contact_scene.array_types import Field
 from contact_scene.friction import FRICTIONLESS
 from contact_scene.solver_errors import UnsupportedScene
 from semi_analytical.bearing import modulus_of
@@ -15,8 +15,6 @@ from semi_analytical.influence.coefficients import InfluenceCoefficients
 from semi_analytical.operator.domain import WINDOW, Pair, ReducedDomain, ReducedGrid
 from semi_analytical.operator.operator import DisplacementOperator
 from semi_analytical.operator.transforms import Convolutions, offsets_for
-
-Field = NDArray[np.float64]
 
 # A grid of no more cells along a side is not halved: from a pressure by Hertz's law it is solved in
 # less time than its coarser grids would take.

@@ -10,9 +10,8 @@ from collections.abc import Callable
 from typing import Protocol, TypeVar
 
 import numpy as np
-from numpy.typing import NDArray
 
-Vector = NDArray[np.float64]
+from contact_scene.array_types import Vector
 
 MOST_SWEEPS = 100
 

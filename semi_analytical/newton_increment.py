@@ -2,9 +2,9 @@
 
 import numpy as np
 
+from contact_scene.array_types import Vector
 from contact_scene.residuals import worst
 from contact_scene.solver_errors import NotConverged
-from semi_analytical.admissible_shear import Vector
 from semi_analytical.coupled_problem import CoupledProblem, CoupledSolution
 from semi_analytical.generalised_derivative import Tractions
 from semi_analytical.newton_iterate import NewtonIterate

@@ -10,8 +10,8 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from contact_scene.array_types import Vector
 from contact_scene.solver_errors import NotConverged
-from semi_analytical.admissible_shear import Vector
 from semi_analytical.coupled_problem import CoupledProblem
 from semi_analytical.generalised_derivative import Natural, Point, Tractions, Zones
 from semi_analytical.linearised_increment import LinearisedIncrement, Step

@@ -10,13 +10,10 @@ otherwise cells let go one after the other, so that the guesses cannot cycle.
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from contact_scene.array_types import Field, Mask
 from contact_scene.solver_errors import NotConverged
 from semi_analytical.normal_load import Map, Motion, NormalLoad, Projection
-
-Field = NDArray[np.float64]
-Mask = NDArray[np.bool_]
 
 MOST_STEPS = 200
 MOST_ITERATIONS_PER_STEP = 200

@@ -11,11 +11,9 @@ from dataclasses import dataclass
 from typing import Protocol
 
 import numpy as np
-from numpy.typing import NDArray
 
-Field = NDArray[np.float64]
-Mask = NDArray[np.bool_]
-Vector = NDArray[np.float64]
+from contact_scene.array_types import Field, Mask, Vector
+
 Map = Callable[[Field], Field]
 
 Motion = float | Vector

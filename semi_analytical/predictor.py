@@ -11,8 +11,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from contact_scene.array_types import Field, VectorField
 from semi_analytical.behind import FURTHEST, Behind, further
 from semi_analytical.increment import State
 from semi_analytical.model import ContactModel
@@ -20,8 +20,6 @@ from semi_analytical.operator.domain import WINDOW, Parity, ReducedDomain
 from semi_analytical.pressing import NormalTarget
 from semi_analytical.shearing import TangentialTarget
 
-Field = NDArray[np.float64]
-VectorField = NDArray[np.float64]
 Start = tuple[Field, VectorField]
 
 

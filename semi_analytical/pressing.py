@@ -3,8 +3,8 @@
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from contact_scene.array_types import Field
 from contact_scene.residuals import worst
 from contact_scene.solver_errors import ContactAtWindowEdge, ContactNotResolved, NotConverged
 from semi_analytical.bearing import bearing_pressure
@@ -15,7 +15,6 @@ from semi_analytical.normal import solve_normal
 from semi_analytical.normal_load import FixedApproach, Motion, NormalLoad, PressureSum
 from semi_analytical.residuals import complementarity, penetration
 
-Field = NDArray[np.float64]
 Pair = tuple[float, float]
 
 # A coarse solution is only a first guess: the next grid changes it by more.

@@ -4,9 +4,8 @@ Measures of `contact_scene.residuals.Residuals`; a NaN in a field is one in its 
 """
 
 import numpy as np
-from numpy.typing import NDArray
 
-Field = NDArray[np.float64]
+from contact_scene.array_types import Field
 
 # Slip below this part of the tangential displacement is judged by the displacement instead:
 # with no slip at all its direction means nothing.

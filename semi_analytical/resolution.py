@@ -7,16 +7,13 @@ from dataclasses import dataclass
 from math import pi
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy import ndimage
 
 from contact_scene import HeightMap
+from contact_scene.array_types import Field, Mask
 from contact_scene.solver_errors import ContactNotResolved, SolverError
 from semi_analytical.discretise import fitted_window
 from semi_analytical.fields import Increment, Result
-
-Field = NDArray[np.float64]
-Mask = NDArray[np.bool_]
 
 # Cells per contact radius from which peak pressure and approach can be trusted.
 ENOUGH = 8

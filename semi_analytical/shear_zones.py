@@ -11,7 +11,8 @@ from functools import cached_property
 
 import numpy as np
 
-from semi_analytical.admissible_shear import Field, VectorField, magnitude
+from contact_scene.array_types import Field, VectorField
+from semi_analytical.admissible_shear import magnitude
 from semi_analytical.grades import beyond, shares
 
 Map = Callable[[VectorField], VectorField]

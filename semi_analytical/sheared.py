@@ -3,19 +3,14 @@
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.ndimage import binary_erosion
 
+from contact_scene.array_types import Field, Mask, Vector, VectorField
 from contact_scene.residuals import ShearResiduals
 from contact_scene.summary import ContactStatus
 from semi_analytical.admissible_shear import everywhere
 from semi_analytical.model import ContactModel
 from semi_analytical.shearing import TangentialTarget
-
-Field = NDArray[np.float64]
-VectorField = NDArray[np.float64]
-Mask = NDArray[np.bool_]
-Vector = NDArray[np.float64]
 
 # So many cells at most are equally far from one, up to eight cells away.
 EQUALLY_FAR = 12

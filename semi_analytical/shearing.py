@@ -5,20 +5,13 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from semi_analytical.admissible_shear import (
-    FixedShift,
-    ShearSum,
-    TangentialLoad,
-    Vector,
-    VectorField,
-)
+from contact_scene.array_types import Field, Vector, VectorField
+from semi_analytical.admissible_shear import FixedShift, ShearSum, TangentialLoad
 from semi_analytical.box import box_around
 from semi_analytical.linearised_shear import Point
 from semi_analytical.model import ContactModel
 from semi_analytical.operator.domain import WINDOW, ReducedDomain
 from semi_analytical.tangential import solve_tangential
-
-Field = NDArray[np.float64]
 
 
 @dataclass(frozen=True)

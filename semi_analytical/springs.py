@@ -12,8 +12,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from contact_scene.array_types import Field, Vector, VectorField
 from contact_scene.solver_errors import NotConverged
-from semi_analytical.admissible_shear import Field, Vector, VectorField
 from semi_analytical.coupled_problem import CoupledProblem, CoupledSolution
 from semi_analytical.generalised_derivative import Tractions
 from semi_analytical.newton_increment import ROUGHLY, solve_by_newton

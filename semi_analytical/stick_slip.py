@@ -3,8 +3,8 @@
 from dataclasses import replace
 
 import numpy as np
-from numpy.typing import NDArray
 
+from contact_scene.array_types import Field, VectorField
 from contact_scene.friction import sliding_friction
 from contact_scene.residuals import ShearResiduals
 from contact_scene.solver_errors import NotConverged, motion_undefined
@@ -29,9 +29,6 @@ from semi_analytical.sheared import (
     touching_share,
 )
 from semi_analytical.shearing import Shearing, TangentialTarget, shear
-
-Field = NDArray[np.float64]
-VectorField = NDArray[np.float64]
 
 MOST_ATTEMPTS = 3
 SLIDING = 1e-6

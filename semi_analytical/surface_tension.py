@@ -3,14 +3,11 @@
 from collections.abc import Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 
 from contact_scene import Body
+from contact_scene.array_types import Field, Vector
 from semi_analytical.fields import Increment, Result
 from semi_analytical.stress import subsurface
-
-Field = NDArray[np.float64]
-Vector = NDArray[np.float64]
 
 # Changes of the tangential force below this part of Σ|q| Δ are round-off and have no direction.
 ROUND_OFF = 1e-9

@@ -13,15 +13,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from contact_scene.array_types import Field, Vector, VectorField
 from contact_scene.residuals import worst
 from contact_scene.solver_errors import NotConverged
-from semi_analytical.admissible_shear import (
-    Field,
-    TangentialLoad,
-    Vector,
-    VectorField,
-    magnitude,
-)
+from semi_analytical.admissible_shear import TangentialLoad, magnitude
 from semi_analytical.linearised_shear import LinearisedShear, Point
 from semi_analytical.residuals import slip_direction
 from semi_analytical.shear_zones import Map, ShearZones

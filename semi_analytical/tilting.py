@@ -8,8 +8,8 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 
+from contact_scene.array_types import Field, Mask, Vector
 from contact_scene.solver_errors import NotConverged
 from semi_analytical.multipliers import MOST_SWEEPS, find_multiplier
 from semi_analytical.normal_load import (
@@ -19,10 +19,6 @@ from semi_analytical.normal_load import (
     PressureSum,
     Projection,
 )
-
-Field = NDArray[np.float64]
-Mask = NDArray[np.bool_]
-Vector = NDArray[np.float64]
 
 # What rounding leaves of a sum of pressures and its moments, relative to the sum.
 ROUND_OFF = 1e-14

@@ -13,6 +13,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
+from contact_scene.array_types import Field, Vector, VectorField
 from semi_analytical.admissible_shear import (
     AT_LIMIT,
     MULTIPLIER_ROUND_OFF,
@@ -21,10 +22,6 @@ from semi_analytical.admissible_shear import (
     magnitude,
 )
 from semi_analytical.multipliers import find_multiplier
-
-Field = NDArray[np.float64]
-VectorField = NDArray[np.float64]
-Vector = NDArray[np.float64]
 
 MOST_STEPS = 100
 # Of the largest speed: rounds off the kink of the power where the pole falls on a cell.

@@ -7,10 +7,11 @@ import numpy as np
 
 from contact_scene import Body as LowerBody
 from contact_scene import CoulombFriction, IsotropicMaterial, LoadStep, Paraboloid, Scene
+from contact_scene.array_types import Field
 from contact_scene.effect import Effect
 from contact_scene.residuals import Residuals
 from contact_scene.summary import ContactStatus
-from semi_analytical.fields import Field, Increment, Result
+from semi_analytical.fields import Increment, Result
 from semi_analytical.grid import SurfaceGrid
 from semi_analytical.path_increments import StepIncrements
 from semi_analytical.plan import Coupling, Plan

@@ -7,10 +7,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from contact_scene.array_types import Field
 from semi_analytical.edge.displacement import Within
 from semi_analytical.edge.rim import Rim
-
-Field = NDArray[np.float64]
 
 
 @dataclass(frozen=True)

@@ -7,16 +7,14 @@ from dataclasses import dataclass
 from itertools import chain
 
 import numpy as np
-from numpy.typing import NDArray
 
+from contact_scene.array_types import Field, Indices
 from semi_analytical.edge.kernels import PARTS, REACH, EdgeKernels, part_centres, spectra_of
 from semi_analytical.operator.domain import WINDOW, Pair, ReducedDomain
 from semi_analytical.operator.operator import Array, Response, response
 from semi_analytical.operator.spectra import KernelSpectrum
 from semi_analytical.operator.transforms import Convolutions, Transforms
 
-Field = NDArray[np.float64]
-Indices = NDArray[np.intp]
 # Of displacements by tractions.
 Matrix = Sequence[Sequence[tuple[int, EdgeKernels]]]
 

@@ -24,16 +24,15 @@ from math import comb, gamma, log, pi
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
 from contact_scene import Body
+from contact_scene.array_types import Field
 from semi_analytical.frf.stack import Stack, stack_of
 from semi_analytical.frf.surface import remainder_scalars
 
 if TYPE_CHECKING:
     from scipy.interpolate import CubicSpline
 
-Field = NDArray[np.float64]
 # X of wavenumbers times the thickness.
 Response = Callable[[Field], Field]
 

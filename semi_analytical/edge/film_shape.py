@@ -10,19 +10,16 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from contact_scene.array_types import Field, Indices, Mask
 from semi_analytical.edge.film import FilmLaw
-from semi_analytical.edge.fit import Fits, Indices, Stencil, fit_about
+from semi_analytical.edge.fit import Fits, Stencil, fit_about
 from semi_analytical.edge.kernels import PARTS, part_centres
 from semi_analytical.edge.line import EdgeLine, Seen
 from semi_analytical.edge.means import Exponent, centre_value, power
 from semi_analytical.edge.quadratic import Quadratic
 from semi_analytical.edge.shape import ASKED, CUT_WEIGHT, EdgeShape
 from semi_analytical.operator.domain import WINDOW, ReducedDomain
-
-Field = NDArray[np.float64]
-Mask = NDArray[np.bool_]
 
 # Layers of cells along the edge.
 ALONG = 1.5

@@ -7,13 +7,10 @@ from functools import cache
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from contact_scene.array_types import Field, Indices
 from semi_analytical.edge.quadratic import Quadratic
 from semi_analytical.operator.domain import WINDOW, ReducedDomain
-
-Field = NDArray[np.float64]
-Indices = NDArray[np.intp]
 
 # Decides only what the data leave open.
 RIDGE = 1e-13

@@ -12,8 +12,8 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 
+from contact_scene.array_types import Field
 from semi_analytical.influence.coefficients import InfluenceCoefficients
 from semi_analytical.operator.spectra import (
     KernelSpectrum,
@@ -21,8 +21,6 @@ from semi_analytical.operator.spectra import (
     mixed_transform,
     odd_transform,
 )
-
-Field = NDArray[np.float64]
 
 PARTS = 11
 # Cells around a part of a cell that see the rest.

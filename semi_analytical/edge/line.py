@@ -5,13 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
+from contact_scene.array_types import Field, Indices
 from semi_analytical.edge.quadratic import Quadratic
 from semi_analytical.operator.domain import ReducedDomain
-
-Field = NDArray[np.float64]
-Indices = NDArray[np.intp]
 
 # Places see the line from so many of its cells, the last of them with no weight: of cells that are
 # equally far none is to be preferred, or a mirror image would not be one.

@@ -7,9 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from contact_scene.array_types import Field
 from semi_analytical.edge.means import mean_power
-
-Field = NDArray[np.float64]
 
 
 @dataclass(frozen=True)

@@ -6,21 +6,18 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.ndimage import binary_dilation
 
+from contact_scene.array_types import Field, Indices, Mask
 from semi_analytical.edge.film import FilmLaw
 from semi_analytical.edge.film_shape import FilmShape, film_shape
-from semi_analytical.edge.fit import WIDER, Indices, Stencil
+from semi_analytical.edge.fit import WIDER, Stencil
 from semi_analytical.edge.kernels import PARTS, part_centres
 from semi_analytical.edge.line import EdgeLine
 from semi_analytical.edge.means import Exponent, mean_of_cut, mean_of_smooth
 from semi_analytical.edge.quadratic import Quadratic
 from semi_analytical.edge.shape import LARGEST_RMS, EdgeShape, depth_of, edge_shape
 from semi_analytical.operator.domain import WINDOW, ReducedDomain
-
-Field = NDArray[np.float64]
-Mask = NDArray[np.bool_]
 
 # Least radius of a region in cells that can be fitted.
 THICK = 1.9

@@ -6,16 +6,13 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.ndimage import distance_transform_edt
 
-from semi_analytical.edge.fit import Fits, Indices, Stencil, fit_about
+from contact_scene.array_types import Field, Indices, Mask
+from semi_analytical.edge.fit import Fits, Stencil, fit_about
 from semi_analytical.edge.means import Exponent, centre_value, power
 from semi_analytical.edge.quadratic import Quadratic
 from semi_analytical.operator.domain import WINDOW, ReducedDomain
-
-Field = NDArray[np.float64]
-Mask = NDArray[np.bool_]
 
 CUT_WEIGHT = 0.2
 LEAST_DATA = 10

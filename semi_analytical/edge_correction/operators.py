@@ -10,8 +10,8 @@ from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from contact_scene.array_types import Field, Mask
 from semi_analytical.edge.displacement import EdgeOperator
 from semi_analytical.edge.film import FilmLaw, film_law
 from semi_analytical.edge.kernels import PARITY, PART_OFFSETS, PARTS, EdgeKernels
@@ -22,15 +22,12 @@ from semi_analytical.normal import close_gap
 from semi_analytical.normal_load import Map, Motion, NormalLoad
 from semi_analytical.operator.domain import WINDOW, ReducedDomain
 
-Mask = NDArray[np.bool_]
 Row = tuple[tuple[int, str], ...]
 Matrix = tuple[Row, ...]
 
 PRESSURE: Matrix = (((1, "zz"),),)
 SHEAR: Matrix = (((1, "xx"), (1, "xy")), ((1, "xy"), (1, "yy")))
 APART: Matrix = (((1, "zx"), (1, "zy"), (1, "zz")),)
-
-Field = NDArray[np.float64]
 
 
 class EdgeOperators:

@@ -13,8 +13,8 @@ from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from contact_scene.array_types import Field, Mask
 from contact_scene.pair import outermost_beta
 from semi_analytical.box import Box, box_around
 from semi_analytical.edge.corrected import Corrected, EdgeReport
@@ -29,9 +29,6 @@ from semi_analytical.increment import State
 from semi_analytical.model import ContactModel
 from semi_analytical.normal_load import Motion
 from semi_analytical.pressing import MARGIN
-
-Field = NDArray[np.float64]
-Mask = NDArray[np.bool_]
 
 MAX_ITERATIONS = 8
 # Part of the change that is applied, but of the first: the pressure of the cells is far off. On

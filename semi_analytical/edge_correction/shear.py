@@ -12,10 +12,10 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
+from contact_scene.array_types import Field, Mask, Vector, VectorField
 from contact_scene.solver_errors import NotConverged
-from semi_analytical.admissible_shear import ShearSum, Vector, magnitude
+from semi_analytical.admissible_shear import ShearSum, magnitude
 from semi_analytical.edge.corrected import CorrectedShear
 from semi_analytical.edge.displacement import Within
 from semi_analytical.edge.rim import Rim, rim
@@ -33,9 +33,6 @@ from semi_analytical.linearised_shear import Point
 from semi_analytical.sheared import Sheared
 from semi_analytical.tangential import TangentialSolution, solve_tangential
 
-Field = NDArray[np.float64]
-VectorField = NDArray[np.float64]
-Mask = NDArray[np.bool_]
 WithinVector = tuple[Within, Within]
 
 

@@ -17,15 +17,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.ndimage import distance_transform_edt, gaussian_filter
 
 from contact_scene import CoulombFriction
+from contact_scene.array_types import Field, Mask, VectorField
 from semi_analytical.admissible_shear import magnitude
-
-Field = NDArray[np.float64]
-VectorField = NDArray[np.float64]
-Mask = NDArray[np.bool_]
 
 # Layers of cells next to slipping cells to which their direction of slip is extended.
 LAYERS = 12

@@ -12,9 +12,8 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from contact_scene.array_types import Array
 
 # Beyond this alpha h nothing of a layer's underside is left at its top (exp(-2x) = 0 in double
 # precision from 373 on); the bound keeps x exp(-2x) from becoming inf * 0.

@@ -16,13 +16,11 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from contact_scene.array_types import Array
 from semi_analytical.frf.compound import OPAQUE, compound_rows, decaying_waves
 from semi_analytical.frf.stack import HalfSpace, Stack
 from semi_analytical.frf.surface import remainder_scalars
-
-Array = NDArray[np.float64]
 
 
 class DepthScalars(NamedTuple):

@@ -10,8 +10,9 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from contact_scene.array_types import Array
 from semi_analytical.frf.compound import (
     OPAQUE,
     compound_rows,
@@ -19,8 +20,6 @@ from semi_analytical.frf.compound import (
     echo_waves,
 )
 from semi_analytical.frf.stack import HalfSpace, Stack
-
-Array = NDArray[np.float64]
 
 
 class SurfaceScalars(NamedTuple):

@@ -10,9 +10,8 @@ from functools import cached_property
 from math import pi, sqrt
 
 import numpy as np
-from numpy.typing import NDArray
 
-Field = NDArray[np.float64]
+from contact_scene.array_types import Field
 
 
 class RectangleIntegrals:

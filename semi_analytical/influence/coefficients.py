@@ -5,9 +5,8 @@ from functools import cached_property
 from typing import Protocol
 
 import numpy as np
-from numpy.typing import NDArray
 
-Field = NDArray[np.float64]
+from contact_scene.array_types import Field
 
 
 class InfluenceCoefficients(Protocol):

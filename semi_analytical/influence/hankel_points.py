@@ -5,10 +5,9 @@ from __future__ import annotations
 from math import ceil, inf, log2
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.special import erfc
 
-Array = NDArray[np.float64]
+from contact_scene.array_types import Array
 
 GAUSS_NODES, GAUSS_WEIGHTS = np.polynomial.legendre.leggauss(16)
 # Phase of the Bessel functions across one Gauss panel: 16 points integrate 16 rad to 1e-16.

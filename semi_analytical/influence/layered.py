@@ -19,8 +19,8 @@ from pathlib import Path
 
 import numpy as np
 import scipy
-from numpy.typing import NDArray
 
+from contact_scene.array_types import Field
 from contact_scene.free_memory import available_bytes
 from contact_scene.solver_errors import ResourceRefused
 from semi_analytical.frf.stack import Stack
@@ -28,7 +28,6 @@ from semi_analytical.influence.layered_cells import cell_integrals
 from semi_analytical.influence.layered_response import COUPLING, NORMAL, TANGENTIAL, Components
 from semi_analytical.influence.radial_table import RadialTable, radial_table
 
-Field = NDArray[np.float64]
 # From what determines an array and its shape, and the means to compute it, to the array.
 Remember = Callable[[str, tuple[int, ...], Callable[[], Field]], Field]
 

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from contact_scene.array_types import Array
 
 # Distance of a box in units of its half side. A function analytic but at the origin is then
 # integrated by POINTS Gauss points to (4 + sqrt 15)^(-2 POINTS) = 1e-18 of itself; the margin is

@@ -4,13 +4,12 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.ndimage import correlate1d
 
+from contact_scene.array_types import Field
 from semi_analytical.frf.stack import Stack
 from semi_analytical.influence.closed_form import HalfSpaceCoefficients, RectangleIntegrals
 from semi_analytical.influence.layered_boxes import Boxes, boxes_around_core, boxes_of_cells
 from semi_analytical.influence.layered_response import BATCH, Components, point_response
 from semi_analytical.influence.radial_table import RadialTable
-
-Field = NDArray[np.float64]
 
 # Average over a cell from the values at its centre and at four neighbours on either side, exact
 # for polynomials of degree nine.

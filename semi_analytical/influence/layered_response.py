@@ -4,11 +4,9 @@ from collections.abc import Callable
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from contact_scene.array_types import Field
 from semi_analytical.influence.radial_table import RadialTable
-
-Field = NDArray[np.float64]
 
 # Points evaluated at once: some megabytes of work space.
 BATCH = 1 << 16

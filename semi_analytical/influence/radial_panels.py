@@ -12,7 +12,7 @@ from math import ceil, log2, pi, sqrt
 import numpy as np
 from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from contact_scene.array_types import Array
 
 # Chebyshev nodes of one panel: the interpolation error stays below 1e-13 even where a stiff film on
 # a thin incompressible layer makes the response wave (16: 3e-11).

@@ -19,9 +19,9 @@ from itertools import pairwise
 from math import pi
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.special import j0, j1
 
+from contact_scene.array_types import Array
 from semi_analytical.frf.stack import HalfSpace, Stack
 from semi_analytical.frf.surface import SurfaceScalars, remainder_scalars, scalars
 from semi_analytical.influence.hankel_points import faded_points, hankel_points
@@ -33,8 +33,6 @@ from semi_analytical.influence.radial_panels import (
     panel_edges,
     places_on_panels,
 )
-
-Array = NDArray[np.float64]
 
 # exp(-2 x) x^2 is below 1e-17 from here on: the remainder of the FRF has died out.
 REMAINDER_REACH = 24.0

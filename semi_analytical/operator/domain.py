@@ -6,9 +6,9 @@ from typing import Any, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
+from contact_scene.array_types import Field
 from semi_analytical.grid import SurfaceGrid
 
-Field = NDArray[np.float64]
 AnyField = NDArray[Any]
 Record = TypeVar("Record")
 Pair = tuple[int, int]

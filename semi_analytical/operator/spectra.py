@@ -9,12 +9,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.fft import dct, dst
 
+from contact_scene.array_types import Field
 from semi_analytical.influence.coefficients import InfluenceCoefficients
-
-Field = NDArray[np.float64]
 
 
 @dataclass(frozen=True)

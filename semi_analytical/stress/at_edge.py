@@ -9,6 +9,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from contact_scene.array_types import Field
 from semi_analytical.edge.quadratic import Quadratic
 from semi_analytical.frf.stack import HalfSpace
 from semi_analytical.stress.components import STRESS
@@ -18,7 +19,6 @@ from semi_analytical.stress.patch import PATCH, stress_from_beyond
 from semi_analytical.stress.point_force import stress_by_force
 from semi_analytical.stress.rectangle import RectanglePotentials, half_space_response
 
-Field = NDArray[np.float64]
 Spacing = tuple[float, float]
 
 # Half side in cells of the box in which phi is one quadratic.

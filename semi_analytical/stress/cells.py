@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.ndimage import correlate1d
 
+from contact_scene.array_types import Field
 from semi_analytical.frf.depth import Level, material_at
 from semi_analytical.frf.stack import Stack
 from semi_analytical.influence.layered_boxes import Boxes, joined
@@ -22,8 +23,6 @@ from semi_analytical.influence.layered_response import BATCH
 from semi_analytical.stress.components import FIELDS, TRACTIONS, empty_response, parity
 from semi_analytical.stress.radial_table import DepthTable, clearance, depth_table, in_scene_axes
 from semi_analytical.stress.rectangle import RectanglePotentials, half_space_response
-
-Field = NDArray[np.float64]
 
 # Distance of a box in units of its half side, as for the surface.
 CLEAR = 4.0

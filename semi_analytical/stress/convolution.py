@@ -11,9 +11,9 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.fft import next_fast_len
 
+from contact_scene.array_types import Field
 from semi_analytical.stress.components import FIELDS, TRACTIONS, parity
 
-Field = NDArray[np.float64]
 # Coefficients (FIELDS, TRACTIONS, nx, ny) to fields.
 Convolution = Callable[[Field], Field]
 

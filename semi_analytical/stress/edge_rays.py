@@ -11,12 +11,10 @@ from __future__ import annotations
 from math import pi
 
 import numpy as np
-from numpy.typing import NDArray
 
+from contact_scene.array_types import Field
 from semi_analytical.edge.quadratic import Quadratic
 from semi_analytical.stress.point_force import stress_by_force
-
-Field = NDArray[np.float64]
 
 POINTS, WEIGHTS = np.polynomial.legendre.leggauss(6)
 # Panels grow away from the directions in which rays begin to meet what is loaded.

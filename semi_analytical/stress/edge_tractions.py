@@ -10,16 +10,13 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.ndimage import distance_transform_edt
 
-from semi_analytical.edge.fit import Indices, Stencil, fit_about
+from contact_scene.array_types import Field, Indices, Mask
+from semi_analytical.edge.fit import Stencil, fit_about
 from semi_analytical.edge.means import mean_power
 from semi_analytical.edge.quadratic import Quadratic
 from semi_analytical.edge.shape import EdgeShape, edge_shape
-
-Field = NDArray[np.float64]
-Mask = NDArray[np.bool_]
 
 # Rings of cells that are taken apart, and how far outside of the contact one may be cut.
 TAKEN_APART, CUT = 3.5, 1.5

@@ -6,9 +6,9 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from contact_scene import Body, Scene
+from contact_scene.array_types import Field
 from contact_scene.free_memory import available_bytes
 from contact_scene.solver_errors import ResourceRefused
 from semi_analytical.frf.depth import Level
@@ -18,8 +18,6 @@ from semi_analytical.stress.cells import depth_coefficients
 from semi_analytical.stress.components import DISPLACEMENT, FIELDS, STRESS, TRACTIONS
 from semi_analytical.stress.convolution import Convolution, plane_convolution, row_convolution
 from semi_analytical.stress.levels import levels_of, line_weights
-
-Field = NDArray[np.float64]
 
 DOUBLE = 8
 # Arrays of the size of the window at the peak besides the fields: two sets of coefficients,

@@ -10,9 +10,9 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.ndimage import binary_erosion, distance_transform_edt
 
+from contact_scene.array_types import Field, Mask
 from semi_analytical.edge.fit import NARROW, WIDE, WIDER, Stencil
 from semi_analytical.edge.quadratic import Quadratic
 from semi_analytical.frf.depth import Level
@@ -23,9 +23,6 @@ from semi_analytical.stress.edge_tractions import EdgedTractions, edged_traction
 from semi_analytical.stress.field import SubsurfaceField, subsurface
 from semi_analytical.stress.levels import line_weights
 from semi_analytical.stress.patch import NODES
-
-Field = NDArray[np.float64]
-Mask = NDArray[np.bool_]
 
 # The fit, and one to other cells, the difference of which measures the error; of tractions that are
 # constant on cells, and of those with a corrected edge, of which only the cut cells are left out.

@@ -9,14 +9,11 @@ from __future__ import annotations
 from functools import lru_cache
 
 import numpy as np
-from numpy.typing import NDArray
 
-from semi_analytical.edge.fit import Indices
+from contact_scene.array_types import Field, Indices
 from semi_analytical.frf.stack import HalfSpace
 from semi_analytical.stress.components import STRESS
 from semi_analytical.stress.rectangle import RectanglePotentials, half_space_response
-
-Field = NDArray[np.float64]
 
 # Half sides of the patch and of the nodes of interpolation, in cells.
 PATCH, NODES = 8, 2

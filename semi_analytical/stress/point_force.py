@@ -9,9 +9,8 @@ from __future__ import annotations
 from math import pi
 
 import numpy as np
-from numpy.typing import NDArray
 
-Field = NDArray[np.float64]
+from contact_scene.array_types import Field
 
 
 def stress_by_force(x: Field, y: Field, depth: float, nu: float, force: Field) -> Field:

@@ -16,9 +16,9 @@ from itertools import pairwise
 from math import pi
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.special import j0, j1
 
+from contact_scene.array_types import Array
 from semi_analytical.frf.depth import (
     DepthScalars,
     Descent,
@@ -38,8 +38,6 @@ from semi_analytical.influence.radial_panels import (
     places_on_panels,
 )
 from semi_analytical.stress.components import empty_response
-
-Array = NDArray[np.float64]
 
 # exp(-alpha d) (alpha d)^2 is below 1e-17 from here on.
 REACH = 48.0

@@ -16,12 +16,10 @@ from functools import cached_property
 from math import pi
 
 import numpy as np
-from numpy.typing import NDArray
 
+from contact_scene.array_types import Field
 from semi_analytical.frf.stack import HalfSpace
 from semi_analytical.stress.components import empty_response
-
-Field = NDArray[np.float64]
 
 
 class RectanglePotentials:

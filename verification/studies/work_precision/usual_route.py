@@ -13,12 +13,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from contact_scene import Body, Scene
+from contact_scene.array_types import Field
 from semi_analytical import Result, SurfaceGrid, plan
 from semi_analytical.frf.stack import Stack, stack_of
 from semi_analytical.frf.surface import SurfaceScalars, scalars
 from semi_analytical.history import march
 from semi_analytical.influence.coefficients import Composite
-from semi_analytical.model import ContactModel, Field, halved
+from semi_analytical.model import ContactModel, halved
 from semi_analytical.operator.domain import ReducedGrid
 from semi_analytical.operator.transforms import Convolutions, offsets_for
 
