@@ -9,9 +9,8 @@ from dataclasses import dataclass
 from typing import Protocol
 
 import numpy as np
-from numpy.typing import NDArray
 
-from contact_scene.array_types import Field, Vector, VectorField
+from contact_scene.array_types import Field, Mask, Vector, VectorField
 from semi_analytical.multipliers import find_multiplier
 
 # What rounding leaves of a sum of shears, relative to the sum of their magnitudes.
@@ -202,7 +201,7 @@ class _Shifted:
 
     z: VectorField
     length: Field
-    outside: NDArray[np.bool_]
+    outside: Mask
     scale: Field
     q: VectorField
     defect: Vector

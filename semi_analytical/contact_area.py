@@ -8,10 +8,9 @@ pressure of a smaller contact (Cattaneo 1938; Mindlin and Deresiewicz 1953 after
 """
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.ndimage import distance_transform_edt
 
-from contact_scene.array_types import Field, Mask
+from contact_scene.array_types import Field, Indices, Mask
 from semi_analytical.operator.domain import WINDOW, ReducedDomain
 
 REACH = 4
@@ -99,7 +98,7 @@ def _near(marked: Mask) -> Mask:
     return np.asarray(along[:, :-2] | along[:, 1:-1] | along[:, 2:])
 
 
-def _fit(phi: Field, trusted: Mask, i: NDArray[np.intp], j: NDArray[np.intp]) -> Field:
+def _fit(phi: Field, trusted: Mask, i: Indices, j: Indices) -> Field:
     """Value and gradient (x, y) per cell of weighted quadratic fits about the cells (i, j), the
     mean of what was fitted, and the number of cells that each fit could use: (5, cells).
 

@@ -4,9 +4,8 @@ from dataclasses import dataclass, replace
 from functools import partial
 
 import numpy as np
-from numpy.typing import NDArray
 
-from contact_scene.array_types import Field, VectorField
+from contact_scene.array_types import Field, Mask, VectorField
 from contact_scene.residuals import worst
 from contact_scene.solver_errors import NotConverged, motion_undefined
 from semi_analytical.box import Box, box_around
@@ -92,7 +91,7 @@ def solve_coupled_increment(
     raise NotConverged("the coupled increment", iterations, residual, tolerance)
 
 
-def _roomy(cells: NDArray[np.bool_], domain: ReducedDomain) -> Box:
+def _roomy(cells: Mask, domain: ReducedDomain) -> Box:
     """The box around marked cells, with room for the contact to move."""
     nx, ny = (int(np.count_nonzero(np.any(cells, axis=axis))) for axis in (1, 0))
     widest = max(domain.window((nx, ny)))

@@ -8,7 +8,6 @@ so) and is left to the exact projection.
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from contact_scene.array_types import Field, VectorField
 from semi_analytical.admissible_shear import TangentialLoad
@@ -90,7 +89,7 @@ class LinearisedShear:
         self._carry(-self._load.forces(free), free)
         return free
 
-    def _carry(self, forces: NDArray[np.float64], free: VectorField) -> None:
+    def _carry(self, forces: Field, free: VectorField) -> None:
         """Let a free shear carry so much more."""
         for share, carrier in zip(self._shares @ forces, self.carriers, strict=True):
             free += share * carrier

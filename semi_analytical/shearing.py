@@ -3,9 +3,8 @@
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
-from contact_scene.array_types import Field, Vector, VectorField
+from contact_scene.array_types import Field, Mask, Vector, VectorField
 from semi_analytical.admissible_shear import FixedShift, ShearSum, TangentialLoad
 from semi_analytical.box import box_around
 from semi_analytical.linearised_shear import Point
@@ -21,7 +20,7 @@ class Shearing:
     shear: VectorField
     displacement: VectorField
     motion: Vector
-    in_slip: NDArray[np.bool_]
+    in_slip: Mask
     iterations: int
 
 

@@ -11,9 +11,8 @@ goes down enough.
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
-from contact_scene.array_types import Field, Vector, VectorField
+from contact_scene.array_types import Field, Mask, Vector, VectorField
 from contact_scene.residuals import worst
 from contact_scene.solver_errors import NotConverged
 from semi_analytical.admissible_shear import TangentialLoad, magnitude
@@ -38,7 +37,7 @@ class TangentialSolution:
     shear: VectorField
     displacement: VectorField
     motion: Vector
-    in_slip: NDArray[np.bool_]
+    in_slip: Mask
     residual: float
     iterations: int
 

@@ -11,9 +11,8 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 
-from contact_scene.array_types import Field, Vector, VectorField
+from contact_scene.array_types import Field, Mask, Vector, VectorField
 from semi_analytical.admissible_shear import (
     AT_LIMIT,
     MULTIPLIER_ROUND_OFF,
@@ -188,7 +187,7 @@ class _Shifted:
 
     z: VectorField
     length: Field
-    outside: NDArray[np.bool_]
+    outside: Mask
     scale: Field
     q: VectorField
     units: tuple[VectorField, ...]

@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 from contact_scene import RIGID, Body, IsotropicMaterial, Layer
-from semi_analytical.frf.matrix import composite_frf_matrix, frf_matrix
 from semi_analytical.frf.stack import Stack, stack_of
 from semi_analytical.frf.surface import half_space_scalars, remainder_scalars, scalars
+from verification.laws.frf_matrix import composite_frf_matrix, frf_matrix
 from verification.references import load_reference
 
 ROWS = load_reference("frf")["rows"]

@@ -23,8 +23,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 from stack_strategies import ANGLES, RATIOS
 
-from semi_analytical.frf.matrix import frf_matrix
 from semi_analytical.frf.stack import Stack
+from verification.laws.frf_matrix import frf_matrix
 
 # Where the closed form is well conditioned. Thin layers much stiffer than the substrate are not.
 DEPTHS = st.floats(0.3, 300)

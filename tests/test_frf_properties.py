@@ -19,10 +19,10 @@ from stack_strategies import (
     stacks,
 )
 
-from semi_analytical.frf.matrix import composite_frf_matrix, frf_matrix
 from semi_analytical.frf.stack import HalfSpace, Stack
 from semi_analytical.frf.surface import half_space_scalars, scalars
 from semi_analytical.influence.layered import LayeredCoefficients
+from verification.laws.frf_matrix import composite_frf_matrix, frf_matrix
 from verification.laws.law import ROUNDING, Law, apart, deficit
 from verification.laws.limit_laws import LIMIT_LAWS
 from verification.laws.symmetry_laws import SYMMETRY_LAWS, dense_operator

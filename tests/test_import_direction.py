@@ -217,8 +217,10 @@ FORBIDDEN = {
         "semi_analytical.operator",
     ),
 }
-# What a kernel raises, and when it is content, are no part of a scene.
-BESIDE_THE_SCENE = ("contact_scene.residuals", "contact_scene.solver_errors")
+# Array types, errors and residuals are no part of a scene.
+BESIDE_THE_SCENE = (
+    *("contact_scene.array_types", "contact_scene.residuals", "contact_scene.solver_errors"),
+)
 for module in ("normal_load", "tangential"):
     FORBIDDEN[f"semi_analytical.{module}"] = FORBIDDEN["semi_analytical.normal"]
 # What the radial solver has from the semi-analytical one: how layers answer one wavenumber.

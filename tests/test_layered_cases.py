@@ -6,7 +6,6 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from semi_analytical.frf import matrix
 from semi_analytical.frf.surface import SurfaceScalars
 from semi_analytical.influence import bodies, layered
 from verification.cases import layered_reference as reference
@@ -19,6 +18,7 @@ from verification.cases.thin_layer import thin_layer_on
 from verification.judging.case import Case
 from verification.judging.judgement import judge
 from verification.judging.outcome import CaseOutcome, Status
+from verification.laws import frf_matrix as matrix
 from verification.laws import limit_laws, symmetry_laws
 from verification.laws.law import Law, worst_violation
 from verification.report.page import render_page, render_sheets

@@ -4,10 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-import numpy as np
-from numpy.typing import NDArray
-
-from contact_scene.array_types import Field
+from contact_scene.array_types import Field, Mask
 from semi_analytical.edge.displacement import Within
 from semi_analytical.edge.rim import Rim
 
@@ -31,7 +28,7 @@ class CorrectedShear:
     slip: Field
     displacement: Field
     shift: Field | None
-    stick: NDArray[np.bool_]
+    stick: Mask
     stick_cells: float
     change: float
 

@@ -5,9 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
-from contact_scene.array_types import Field
+from contact_scene.array_types import Field, Indices, Mask
 from semi_analytical.edge.means import mean_power
 
 
@@ -30,7 +29,7 @@ class Quadratic:
         """|grad phi| there."""
         return np.hypot(self.f_x, self.f_y)
 
-    def chosen(self, which: NDArray[np.bool_] | NDArray[np.intp] | slice) -> Quadratic:
+    def chosen(self, which: Mask | Indices | slice) -> Quadratic:
         """Some of the places."""
         return Quadratic(*(part[which] for part in vars(self).values()))
 
@@ -80,7 +79,7 @@ class Quadratic:
         return mean_power(self.mean, self.f_x, self.f_y, exponent)
 
     @property
-    def cut(self) -> NDArray[np.bool_]:
+    def cut(self) -> Mask:
         """Whether the linear part, about the mean, vanishes somewhere in the unit cell."""
         return np.asarray(np.abs(self.mean) < (np.abs(self.f_x) + np.abs(self.f_y)) / 2)
 

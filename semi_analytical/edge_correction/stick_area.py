@@ -12,10 +12,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.ndimage import distance_transform_edt
 
-from contact_scene.array_types import Field, Mask, VectorField
+from contact_scene.array_types import Field, Indices, Mask, VectorField
 from semi_analytical.box import box_around
 from semi_analytical.contact_area import stuck_cells
 from semi_analytical.edge.fit import NARROW, WIDE, Stencil
@@ -76,8 +75,8 @@ def _parts(
     missing: Field,
     stick: Mask,
     depth: Field,
-    i: NDArray[np.intp],
-    j: NDArray[np.intp],
+    i: Indices,
+    j: Indices,
     exponent: float,
     stencil: Stencil,
 ) -> _Parts:

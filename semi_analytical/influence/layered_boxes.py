@@ -6,9 +6,8 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
-from contact_scene.array_types import Array
+from contact_scene.array_types import Array, Indices, Mask
 
 # Distance of a box in units of its half side. A function analytic but at the origin is then
 # integrated by POINTS Gauss points to (4 + sqrt 15)^(-2 POINTS) = 1e-18 of itself; the margin is
@@ -25,7 +24,7 @@ class Boxes:
     y: Array
     half_x: Array
     half_y: Array
-    cell: NDArray[np.intp]
+    cell: Indices
 
     @staticmethod
     def single(x: float, y: float, half_x: float, half_y: float) -> Boxes:
@@ -33,7 +32,7 @@ class Boxes:
         sides = np.array([half_x]), np.array([half_y])
         return Boxes(np.array([x]), np.array([y]), *sides, np.zeros(1, np.intp))
 
-    def chosen(self, which: NDArray[np.bool_] | slice) -> Boxes:
+    def chosen(self, which: Mask | slice) -> Boxes:
         """Some of the boxes."""
         return Boxes(
             self.x[which], self.y[which], self.half_x[which], self.half_y[which], self.cell[which]
@@ -70,7 +69,7 @@ def joined(parts: list[Boxes]) -> Boxes:
     )
 
 
-def boxes_of_cells(spacing: tuple[float, float], cells: NDArray[np.intp]) -> Boxes:
+def boxes_of_cells(spacing: tuple[float, float], cells: Indices) -> Boxes:
     """Cells at index offsets (i, j), not (0, 0), cut until every box is clear of the origin."""
     count = len(cells)
     offsets = cells.astype(np.float64)

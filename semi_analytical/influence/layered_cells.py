@@ -1,10 +1,9 @@
 """Integrals of the point response over the cells of a grid, by distance from the load."""
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.ndimage import correlate1d
 
-from contact_scene.array_types import Field
+from contact_scene.array_types import Field, Indices
 from semi_analytical.frf.stack import Stack
 from semi_analytical.influence.closed_form import HalfSpaceCoefficients, RectangleIntegrals
 from semi_analytical.influence.layered_boxes import Boxes, boxes_around_core, boxes_of_cells
@@ -78,7 +77,7 @@ def _averaged_along(field: Field, axis: int, parity: int) -> Field:
     return np.take(averaged, range(MARGIN, whole.shape[axis] - MARGIN), axis)
 
 
-def _near_cells(spacing: tuple[float, float], shape: tuple[int, int]) -> NDArray[np.intp]:
+def _near_cells(spacing: tuple[float, float], shape: tuple[int, int]) -> Indices:
     """Indices (i, j) of the cells closer than FAR, without the own one."""
     radius = FAR * max(spacing)
     i = np.arange(min(shape[0], int(radius / spacing[0]) + 1))
@@ -92,7 +91,7 @@ def _near(
     table: RadialTable,
     components: Components,
     spacing: tuple[float, float],
-    cells: NDArray[np.intp],
+    cells: Indices,
 ) -> Field:
     """Integrals over the cells at the given indices, shape (components, number of cells)."""
     result = np.zeros((len(components.names), len(cells)))

@@ -10,9 +10,8 @@ from collections.abc import Iterator
 from math import ceil, log2, pi, sqrt
 
 import numpy as np
-from numpy.typing import NDArray
 
-from contact_scene.array_types import Array
+from contact_scene.array_types import Array, Indices
 
 # Chebyshev nodes of one panel: the interpolation error stays below 1e-13 even where a stiff film on
 # a thin incompressible layer makes the response wave (16: 3e-11).
@@ -40,7 +39,7 @@ def coefficients_of(values: Array) -> Array:
     return np.asarray(np.einsum("kn,...nf->...kf", matrix, values))
 
 
-def places_on_panels(edges: Array, r: Array) -> Iterator[tuple[int, NDArray[np.intp], Array]]:
+def places_on_panels(edges: Array, r: Array) -> Iterator[tuple[int, Indices, Array]]:
     """For every panel that holds some of the distances: its number, which of them, and where on
     the panel they are, from -1 to 1."""
     panels = np.clip(np.searchsorted(edges, r) - 1, 0, len(edges) - 2)

@@ -7,9 +7,8 @@ the edge act by their small cells, and others by their mean and slope.
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
-from contact_scene.array_types import Field
+from contact_scene.array_types import Field, Indices
 from semi_analytical.edge.quadratic import Quadratic
 from semi_analytical.frf.stack import HalfSpace
 from semi_analytical.stress.components import STRESS
@@ -168,6 +167,6 @@ def _by_parts(
     return stress
 
 
-def _summed(stress: Field, observer: NDArray[np.intp], count: int) -> Field:
+def _summed(stress: Field, observer: Indices, count: int) -> Field:
     """(6, pairs) to (6, observers)."""
     return np.stack([np.bincount(observer, component, count) for component in stress])

@@ -11,10 +11,9 @@ from collections.abc import Iterator
 from math import hypot
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.ndimage import correlate1d
 
-from contact_scene.array_types import Field
+from contact_scene.array_types import Field, Indices
 from semi_analytical.frf.depth import Level, material_at
 from semi_analytical.frf.stack import Stack
 from semi_analytical.influence.layered_boxes import Boxes, joined
@@ -107,9 +106,7 @@ def _averaged_along(field: Field, axis: int, sign: int) -> Field:
     return np.take(averaged, range(MARGIN, averaged.shape[axis] - MARGIN), axis)
 
 
-def _near_cells(
-    spacing: tuple[float, float], shape: tuple[int, int], clearance: float
-) -> NDArray[np.intp]:
+def _near_cells(spacing: tuple[float, float], shape: tuple[int, int], clearance: float) -> Indices:
     """Indices (i, j) of the cells closer to the singularity than FAR of their longer sides."""
     radius = FAR * max(spacing)
     i = np.arange(min(shape[0], int(radius / spacing[0]) + 1))
@@ -118,7 +115,7 @@ def _near_cells(
     return np.argwhere(distance < radius)
 
 
-def _clear_boxes(spacing: tuple[float, float], cells: NDArray[np.intp], clearance: float) -> Boxes:
+def _clear_boxes(spacing: tuple[float, float], cells: Indices, clearance: float) -> Boxes:
     """Cells cut until every box is small against its distance from the singularity."""
     count = len(cells)
     offsets = cells.astype(np.float64)

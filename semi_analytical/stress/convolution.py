@@ -8,10 +8,9 @@ from __future__ import annotations
 from collections.abc import Callable
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.fft import next_fast_len
 
-from contact_scene.array_types import Field
+from contact_scene.array_types import Field, Indices
 from semi_analytical.stress.components import FIELDS, TRACTIONS, parity
 
 # Coefficients (FIELDS, TRACTIONS, nx, ny) to fields.
@@ -40,7 +39,7 @@ def plane_convolution(tractions: Field) -> Convolution:
     return convolve
 
 
-def row_convolution(tractions: Field, rows: NDArray[np.intp]) -> Convolution:
+def row_convolution(tractions: Field, rows: Indices) -> Convolution:
     """The same on some rows of cells only; fields (FIELDS, nx, len(rows)).
 
     rows  indices along y

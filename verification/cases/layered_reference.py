@@ -9,13 +9,13 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from contact_scene.residuals import worst
-from semi_analytical.frf.matrix import frf_matrix
 from semi_analytical.frf.stack import Stack
 from semi_analytical.frf.surface import scalars
 from semi_analytical.influence.layered import LayeredCoefficients
 from verification.exhibits.numbers import plain
 from verification.exhibits.table import NONE, Table
 from verification.judging.case import Case, Check, Level, Required
+from verification.laws.frf_matrix import frf_matrix
 from verification.problems.reference import Reference, ReferenceKind
 from verification.references import load_reference
 

@@ -4,9 +4,9 @@ import numpy as np
 from numpy.random import Generator
 
 from semi_analytical.frf.depth import Descent, Level
-from semi_analytical.frf.matrix import frf_matrix
 from semi_analytical.frf.stack import Film, HalfSpace, Stack
 from semi_analytical.frf.surface import half_space_scalars, remainder_scalars, scalars
+from verification.laws.frf_matrix import frf_matrix
 from verification.laws.law import ROUNDING, Law, apart, deficit
 from verification.laws.random_stacks import decades, film, half_space, stack, wave_vector
 

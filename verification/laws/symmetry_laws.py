@@ -3,10 +3,10 @@
 import numpy as np
 from numpy.random import Generator
 
-from semi_analytical.frf.matrix import composite_frf_matrix, frf_matrix
 from semi_analytical.frf.stack import HalfSpace, Stack
 from semi_analytical.frf.surface import scalars
 from semi_analytical.influence.layered import LayeredCoefficients
+from verification.laws.frf_matrix import composite_frf_matrix, frf_matrix
 from verification.laws.law import Law, apart
 from verification.laws.random_stacks import decades, film, half_space, stack, wave_vector
 
