@@ -14,7 +14,7 @@ ROUND_OFF = 4e-16
 
 
 def into_discs(q: Field, bound: Vector) -> Field:
-    """The nearest vectors no longer than `bound`; q is (2, points)."""
+    """Project vectors q (2, points) onto discs of radius `bound`."""
     length = np.sqrt(q[0] ** 2 + q[1] ** 2)
     longer = length > bound
     return np.asarray(q * np.where(longer, bound / np.where(longer, length, 1.0), 1.0))
@@ -23,7 +23,7 @@ def into_discs(q: Field, bound: Vector) -> Field:
 def project(
     q: Field, bound: Vector, stiffness: Vector, along: Field, total: float | None
 ) -> tuple[Field, float]:
-    """The admissible shear nearest to q in the metric Σ d |·|², and the multiplier of the total.
+    """Project q onto the admissible shears in the metric Σ d |·|².
 
     stiffness  d (points,) > 0
     along      (2, points); the total is Σ along · q
@@ -59,7 +59,7 @@ def project(
 
 
 def _slope(moved: Field, bound: Vector, along: Field, push: Field) -> float:
-    """How the total changes with the multiplier; vectors on their rim only turn."""
+    """Compute the derivative of the total by the multiplier; vectors at their bound only turn."""
     length = np.sqrt(moved[0] ** 2 + moved[1] ** 2)
     outside = length > bound
     safe = np.where(outside, length, 1.0)

@@ -3,7 +3,7 @@
 Each iteration solves the shear at the last pressure and the pressure at that shear (Panagiotopoulos
 1975). It contracts by about max(β², µ|β|), with Dundurs' second constant β, and diverges for
 µ|β| ≥ 1. Anderson mixing of the pressures (Anderson 1965) removes that limit up to µ|β| far above
-one; beyond, `coupled_newton` takes over. Without coupling one iteration is exact.
+one. Its solution is the initial guess of `coupled_newton`. Without coupling one iteration is exact.
 """
 
 from dataclasses import dataclass
@@ -99,7 +99,7 @@ class AlternationFailed(NotConverged):
 def solve_coupled(
     problem: CoupledProblem, pressure: Vector, shear: Field, tolerance: float
 ) -> CoupledSolution:
-    """Iterate from a first pressure and shear until both problems meet the tolerance at once.
+    """Iterate from a first pressure and shear until both problems meet the tolerance.
 
     tolerance  of the change of the pressure by an iteration, Σ w |p' − p| / Σ w p'; the shear is
                solved to a tenth of it in the end
@@ -139,7 +139,7 @@ def solve_coupled(
 
 
 def _change(areas: Vector, p: Vector, answer: Vector) -> float:
-    """Of the pressure by a turn, relative to what is left of it."""
+    """Compute the change of the pressure by an iteration relative to the new pressure [1]."""
     carried = float(np.sum(areas * answer))
     return float(np.sum(areas * np.abs(answer - p))) / carried if carried > 0 else np.inf
 
@@ -156,7 +156,7 @@ def approach_of(problem: CoupledProblem, pressed: BoxSolution) -> float:
 
 
 def press(problem: CoupledProblem, q: Field, guess: Sides) -> BoxSolution:
-    """The pressure at a shear, with the approach as multiplier of the force.
+    """Solve the pressure at a given shear, with the approach as multiplier of the force.
 
     Raises NotConverged, LinAlgError.
     """
@@ -176,7 +176,7 @@ def press(problem: CoupledProblem, q: Field, guess: Sides) -> BoxSolution:
 
 
 def _shear(problem: CoupledProblem, p: Vector, start: Field, tolerance: float) -> Sheared:
-    """The shear at a pressure, on the points that carry it."""
+    """Solve the shear at a given pressure, on the points that carry shear."""
     compliance, target = problem.compliance, problem.tangential
     w, K = compliance.areas, compliance.matrix
     points = len(w)

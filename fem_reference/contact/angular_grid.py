@@ -1,8 +1,8 @@
-"""Points around the contact, and the harmonics that their values determine.
+"""Angular points on a ring, and the transforms between point values and harmonics.
 
-Everything is mirror symmetric in θ: q_r, p and the displacements u_r, u_z are sums of cos nθ, q_θ
-and u_θ of sin nθ, so that the half circle is enough. There are as many harmonics as unknowns on a
-ring: one more and they could not be told apart, one less and the tangential problem is singular.
+All fields are mirror symmetric in θ: q_r, p and the displacements u_r, u_z are sums of cos nθ; q_θ
+and u_θ are sums of sin nθ. The half circle is therefore sufficient. The number of harmonics equals
+the number of unknowns on a ring: more are not unique, fewer make the tangential problem singular.
 """
 
 from dataclasses import dataclass
@@ -53,29 +53,29 @@ class AngularGrid:
         return np.asarray(1 / np.maximum(*powers))
 
     def amplitudes(self, values: Matrix) -> Matrix:
-        """Amplitudes (3, rings, harmonics) of r, θ, z components from point values (3, rings,
-        points)."""
+        """Transform r, θ, z point values (3, rings, points) to amplitudes (3, rings,
+        harmonics)."""
         return np.stack([f @ d.T for f, d in zip(values, self.transforms, strict=True)])
 
     def at_points(self, amplitudes: Matrix) -> Matrix:
-        """Values (3, rings, points) of the r, θ, z components with these amplitudes (3, rings,
-        harmonics)."""
+        """Transform r, θ, z amplitudes (3, rings, harmonics) to point values (3, rings,
+        points)."""
         waves = [d * self.norms[:, None] / self.weights for d in self.transforms]
         return np.stack([f @ wave for f, wave in zip(amplitudes, waves, strict=True)])
 
     def modes(self, angles: Vector) -> tuple[Matrix, Matrix]:
-        """cos nθ and sin nθ at any angles (harmonics, angles)."""
+        """Compute cos nθ and sin nθ at given angles (harmonics, angles)."""
         phase = np.outer(np.arange(self.highest + 1), angles)
         return np.cos(phase), np.sin(phase)
 
 
 def axisymmetric_grid() -> AngularGrid:
-    """One point for the whole ring: no component depends on θ."""
+    """Create the grid of one point per ring, for fields that do not depend on θ."""
     return AngularGrid(np.zeros(1), np.full(1, 2 * np.pi), np.ones((1, 1)), np.ones((1, 1)))
 
 
 def end_grid(highest: int) -> AngularGrid:
-    """θ_j = πj/J, j = 0…J: with points on the line y = 0, where q_θ vanishes."""
+    """Create the grid θ_j = πj/J, j = 0…J, with points on y = 0, where q_θ vanishes."""
     J = highest
     share = np.full(J + 1, 2 * np.pi / J)
     share[[0, J]] /= 2
@@ -87,7 +87,7 @@ def end_grid(highest: int) -> AngularGrid:
 
 
 def mid_grid(highest: int) -> AngularGrid:
-    """θ_j = π(j + ½)/J, j = 0…J−1: between the points of the end grid; sin Jθ, but no cos Jθ."""
+    """Create the grid θ_j = π(j + ½)/J, j = 0…J−1, which has sin Jθ, but not cos Jθ."""
     J = highest
     cosines = np.zeros((J + 1, J))
     cosines[:J] = dct(np.eye(J), type=2, axis=0) / J

@@ -19,7 +19,7 @@ P = TypeVar("P")
 
 @dataclass(frozen=True)
 class Penalty:
-    """How stiffly overlap is resisted, and how often the law is corrected for it.
+    """Stiffness of the springs, and limits on the updates of the multipliers.
 
     factor         c, stiffness ε = c E* / h with E* the contact modulus of the outermost
                    materials and h the length of a contact edge [1]
@@ -58,9 +58,9 @@ def augmented(
     """Return all passes of an increment, the last one the best.
 
     (Alart and Curnier 1991, Comput. Methods Appl. Mech. Eng. 92, 353; Simo and Laursen 1992,
-    Comput. Struct. 42, 97.) One update of stiff springs takes away nearly all of the penalty's
-    error. It ends as soon as what is left is allowed: at Gauss points, that can carry more
-    pressures than the displacements can tell apart, further ones pile up ripples.
+    Comput. Struct. 42, 97.) One update of stiff springs removes nearly all of the penalty's
+    error. The updates end as soon as the remaining error is allowed. At Gauss points the
+    displacements do not determine all pressures, and further updates would accumulate ripples.
 
     again   from a pass to the next, whose multipliers are its tractions
     left    what a pass leaves of overlap, relative to what the bodies move

@@ -67,7 +67,7 @@ class BoxSolution:
 
 
 def solve_box(program: BoxProgram, guess: Sides) -> BoxSolution:
-    """The minimiser, from a guess of the sides; raises NotConverged.
+    """Compute the minimiser from a guess of the sides; raises NotConverged.
 
     The program must be feasible: the total, if any, lies between those of the two bounds.
     """
@@ -89,7 +89,7 @@ def solve_box(program: BoxProgram, guess: Sides) -> BoxSolution:
 
 
 def _on_free(program: BoxProgram, sides: Sides) -> tuple[Field, float]:
-    """The solution where nothing leaves its side, and the multiplier."""
+    """Solve for the free components at fixed sides; return x and the multiplier."""
     A, c, total = program.matrix, program.right, program.total
     free = sides == 0
     x = np.where(sides < 0, program.lower, program.upper)
@@ -121,7 +121,7 @@ def _gradient(program: BoxProgram, x: Field, multiplier: float) -> Field:
 def _moved(
     program: BoxProgram, x: Field, multiplier: float, sides: Sides, fixed: NDArray[np.bool_]
 ) -> Sides:
-    """Free components beyond a bound go to it; held ones that pull inwards become free."""
+    """Update the sides: fix free components beyond a bound, free those that pull inwards."""
     little = ROUND_OFF * np.max(np.abs(x), initial=0.0)
     gradient = _gradient(program, x, multiplier)
     noise = ROUND_OFF * (np.abs(program.matrix) @ np.abs(x) + np.abs(program.right))
@@ -137,14 +137,14 @@ def _moved(
 def _solution(
     program: BoxProgram, x: Field, multiplier: float, sides: Sides, steps: int
 ) -> BoxSolution:
-    """Without the round-off beyond the bounds; a component without room is at neither side."""
+    """Create the solution, clipped to the bounds; equal bounds count as neither side."""
     room = program.lower < program.upper
     within = np.clip(x, program.lower, program.upper)
     return BoxSolution(within, multiplier, np.where(room, sides, 0).astype(np.int8), steps)
 
 
 def _descend(program: BoxProgram, fixed: NDArray[np.bool_], spent: int) -> BoxSolution:
-    """From a feasible point, downhill along the faces of the box."""
+    """Minimise by the primal active set method from a feasible point."""
     sides = np.where(fixed, -1, 0).astype(np.int8)
     x = _feasible(program)
     size = 1 / np.sqrt(np.diag(program.matrix))
@@ -182,7 +182,7 @@ def _feasible(program: BoxProgram) -> Field:
 def _room(
     program: BoxProgram, x: Field, goal: Field, sides: Sides
 ) -> tuple[float, int | None, int]:
-    """How far x may go towards the goal, which component blocks, and at which of its bounds."""
+    """Compute the admissible part of a step, the blocking component, and its bound."""
     step = np.where(sides == 0, goal - x, 0.0)
     limit = np.where(step < 0, program.lower, program.upper)
     with np.errstate(divide="ignore", invalid="ignore"):

@@ -37,7 +37,7 @@ LITTLE_FRICTION = 0.1  # shear is measured by no less of the pressure
 def solve_by_continuation(
     problem: CoupledProblem, start: Start, tolerance: float
 ) -> CoupledSolution:
-    """The state that the path leads to.
+    """Solve an increment by continuation.
 
     tolerance  as of `solve_by_newton`
     raises     NotConverged: the path does not begin, or is not at its end after MOST_STEPS; the
@@ -83,12 +83,12 @@ class _Path:
         self._direction, self._sign = self._tangent(derivative, -self._softer)
 
     def lost(self, tolerance: float) -> NotConverged:
-        """What is raised where the path is given up."""
+        """Create the exception of a path that is given up."""
         left = float(self._values[-1])
         return NotConverged("the path of continuation", self._solves, left, tolerance)
 
     def step(self, tolerance: float) -> Root | None:
-        """Go on along the path; the root without springs once there is one."""
+        """Take one step along the path; return the root without springs at its end."""
         ahead = self._values + self._length * self._direction
         if ahead[-1] > 0:
             reached = self._corrected(ahead, self._direction, ON_PATH)
@@ -114,7 +114,7 @@ class _Path:
             self._length = min(GROWTH * self._length, LONGEST)
 
     def _shorten(self) -> None:
-        """Half the length; at a kink, turn into the direction on its other side."""
+        """Halve the length; at a kink, change to the direction on its other side."""
         self._length /= 2
         if self._length > SHORTEST:
             return
@@ -124,8 +124,7 @@ class _Path:
         self._length = 100 * BEYOND_KINK
 
     def _corrected(self, ahead: Vector, across: Vector, tolerance: float) -> _Reached | None:
-        """The path where it crosses a plane near values ahead; None where Newton's method does not
-        get there.
+        """Compute the intersection of path and plane by Newton's method; None if it fails.
 
         across  normal of the plane, unit vector
         """
@@ -148,8 +147,7 @@ class _Path:
         return np.asarray(jacobian * self._scales)
 
     def _tangent(self, derivative: Matrix, along: Vector) -> tuple[Vector, float]:
-        """The unit vector on which the derivative vanishes, on the side of another, and the sign of
-        the determinant with it as last row."""
+        """Compute the unit tangent on the side of a vector, and the sign of the determinant."""
         right = np.append(np.zeros(len(derivative)), 1.0)
         tangent = self._solved(derivative, along, right)
         sign, _ = np.linalg.slogdet(np.vstack([derivative, along]))
@@ -164,7 +162,7 @@ class _Path:
 
 
 def _scales(equations: Equations, at: Iterate, softness: float) -> Vector:
-    """What the values of an iterate are measured in; tractions count by the area they act on."""
+    """Compute the units of the values of an iterate; tractions count by their areas."""
     w, n = equations.w, equations.n
     p = at.tractions[2 * n :]
     area = float(np.sum(w, where=p > 0))

@@ -1,8 +1,9 @@
 """Semismooth Newton method for pressure and shear together.
 
-It is used where the alternating iteration diverges: below thin incompressible films, and wherever
-µ|β| is far above one. The derivative is that of the natural map on the side of each kink where the
-iterate lies. The method may cycle between kinks: see `continuation`.
+The alternating iteration provides its initial guess. If that iteration diverges, as below thin
+incompressible films and for µ|β| far above one, Newton's method starts from the previous increment.
+The derivative is that of the natural map on the side of each kink where the iterate lies. The
+method may cycle between kinks: see `continuation`.
 """
 
 from dataclasses import dataclass
@@ -33,7 +34,7 @@ SUFFICIENT = 1e-3
 
 @dataclass(frozen=True)
 class Start:
-    """Where an increment starts: pressure (points,), shear (2, points), shift and approach."""
+    """Initial guess: pressure (points,), shear (2, points), shift and approach."""
 
     pressure: Vector
     shear: Field
@@ -43,7 +44,7 @@ class Start:
 
 @dataclass(frozen=True)
 class Root:
-    """An iterate that misses nothing, the points that slip, and linear systems solved."""
+    """A converged iterate, its slipping points, and the number of linear systems solved."""
 
     at: Iterate
     in_slip: Mask
@@ -119,8 +120,11 @@ def _first(problem: CoupledProblem, start: Start, springs: float) -> tuple[Itera
 
 
 def _nearer(equations: Equations, at: Iterate, change: Vector, bound: float) -> Iterate | None:
-    """The first of ever shorter steps that misses by less than the bound; if none does, the one
-    that misses least: at a kink all may lead uphill. None where that is no number."""
+    """Line search: return the first trial whose residual is below the bound.
+
+    If there is none, return the trial of the least residual: at a kink all steps may increase it.
+    None if no residual is finite.
+    """
     nearest, least = None, np.inf
     for halvings in range(MOST_HALVINGS + 1):
         trial = Iterate.of(at.values + 0.5**halvings * change)

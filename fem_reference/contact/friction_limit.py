@@ -1,4 +1,4 @@
-"""What friction can carry in all: whether a load is at that limit, and what the contact does."""
+"""Friction limit of a whole contact: comparison with the load, and contact status."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,7 +14,7 @@ AT_LIMIT = 1e-6
 
 
 def reaches_limit(load: float | None, capacity: float) -> bool:
-    """Whether a force or torque is at the friction limit.
+    """Return True if a force or torque is at the friction limit.
 
     load      None where the motion is prescribed
     capacity  the largest load that friction carries
@@ -34,7 +34,7 @@ def refuse_beyond_limit(load: float | None, capacity: float) -> None:
 def contact_status(
     loaded: Mask, stuck: Mask, carried: float | None, capacity: float
 ) -> ContactStatus:
-    """How a contact carries its tangential load.
+    """Determine the contact status under a tangential load.
 
     loaded, stuck  places that can carry shear, and those of them that do not slip
     carried        load by the shear, of either sign; None where nothing leads the indenter

@@ -2,7 +2,7 @@
 
 Three points on an edge resolve the overlap that quadratic displacements leave in the springs of the
 law; two hat functions do not. The exact law cannot act there: the displacements cannot distinguish
-so many pressures.
+the pressures of three points on an edge.
 """
 
 from collections.abc import Callable

@@ -1,7 +1,7 @@
 """One load increment on points: from the state at its start to the state at its end.
 
-Pressure and shear follow from the alternating iteration; if that fails, from Newton's method for
-both; if that fails, from continuation. With a penalty an increment has several passes, of which
+Pressure and shear follow from the alternating iteration and Newton's method for both; if these
+fail, from continuation. With a penalty an increment has several passes, of which
 each takes the tractions of the last one as multipliers (see `augmented_lagrangian`).
 """
 
@@ -102,7 +102,7 @@ class _Pass:
 
     @property
     def strain(self) -> Field:
-        """Of the springs, r, θ, z (3, points) [length]."""
+        """Strain of the springs, r, θ, z (3, points) [length]."""
         return self.problem.compliance.springs * (self.tractions - self.multiplier)
 
     @property
@@ -280,7 +280,7 @@ class _Increment:
         )
 
     def _touching_share(self, p: Vector, at_edges: Vector) -> Vector:
-        """See `touching_share`; at the points (points,), ray by ray.
+        """Compute `touching_share` at the points (points,), ray by ray.
 
         at_edges  pressure by which the edge is found at the end (points,)
         """
@@ -308,7 +308,7 @@ class _Increment:
     def _residuals(
         self, problem: CoupledProblem, solution: CoupledSolution, g: Vector, passed: Field | None
     ) -> Residuals:
-        """Residuals of the law: with a penalty, of that of the springs.
+        """Compute the residuals of the law; with a penalty, of that of the springs.
 
         g       gap with the strain of springs
         passed  as of a pass; None where the motion is undefined

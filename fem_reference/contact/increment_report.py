@@ -98,30 +98,31 @@ def _with_shear(
 
 
 def _shown(contact: PointContact, values: NDArray[Scalar]) -> NDArray[Scalar]:
-    """Values at points (points,), on (rings, angles) or (rings,)."""
+    """Convert values at points (points,) to (rings, angles) or (rings,)."""
     return _ring(contact, contact.compliance.scalar_on_grid(values))
 
 
 def _ring(contact: PointContact, on_grid: NDArray[Scalar]) -> NDArray[Scalar]:
-    """(rings,) instead of (rings, 1)."""
+    """Convert (rings, 1) to (rings,)."""
     return on_grid[:, 0] if contact.axisymmetric else on_grid
 
 
 def _edges(contact: PointContact, state: PointState) -> Field:
-    """Radius of the contact's edge on every ray (angles,) [length]: on the last ring, the rim of a
-    flat punch, the ring; 0 without contact."""
+    """Compute the radius of the contact edge on every ray (angles,) [length].
+
+    It is the radius of the last ring if that carries pressure, and 0 without contact.
+    """
     p = contact.compliance.scalar_on_grid(state.edge_tractions[2])
     return np.array([contact.rings.contact_edge(ray) for ray in p.T])
 
 
 def _contact_area(contact: PointContact, edges: Field) -> float:
-    """½∫a² dθ with the radius a of the contact's edge on every ray [length^2]."""
+    """Compute the contact area ½∫a² dθ from the edge radius a on every ray [length^2]."""
     return float(0.5 * np.sum(contact.compliance.grid.weights * np.square(edges)))
 
 
 def _stick_area(contact: PointContact, state: PointState, edges: Field) -> float:
-    """½∫c² dθ with the radius c of the edge of stick on every ray, between the rings
-    [length^2]."""
+    """Compute the stick area ½∫c² dθ from the radius c of its edge on every ray [length^2]."""
     contact_area = _contact_area(contact, edges)
     if state.status is ContactStatus.FULL_STICK and contact.at_gauss_points:
         return contact_area

@@ -59,12 +59,15 @@ class Equations:
         self.scale = float(np.mean(self.w))
 
     def missed(self, at: Iterate) -> Vector:
-        """What is left of the equations (3 points + 2,)."""
+        """Compute the residual of the equations (3 points + 2,)."""
         return self._equations(at)[0]
 
     def linearised(self, at: Iterate) -> tuple[Vector, Matrix, Mask]:
-        """The same with its derivative by the values of an iterate (3 points + 2, 3 points + 3), on
-        the side of a kink where the iterate is; and the points that slip."""
+        """Compute the residual, its generalised derivative, and the mask of slipping points.
+
+        The derivative is by the values of an iterate (3 points + 2, 3 points + 3). At a kink it is
+        that of the side on which the iterate lies.
+        """
         n, K, w = self.n, self.K, self.w
         missed, z_t, z_z, bound = self._equations(at)
         d_t, d_z = self.d_t + at.springs * w, self.d_z + at.springs * w
@@ -109,8 +112,11 @@ class Equations:
         return missed, jacobian, in_slip & (bound > 0)
 
     def size(self, missed: Vector, at: Iterate) -> float:
-        """Of what is left: parts of the load and of what friction carries, added up; infinite where
-        no load is prescribed and none is carried."""
+        """Compute the norm of a residual [1].
+
+        It is the sum of its parts relative to the normal load and to the friction limit. It is
+        infinite if no load is prescribed and none is carried.
+        """
         n, p = self.n, at.tractions[2 * self.n :]
         load = self.pressed or float(np.sum(self.w * np.abs(p)))
         if not load > 0:
@@ -125,7 +131,7 @@ class Equations:
         )
 
     def solution(self, at: Iterate, in_slip: Mask, solves: int) -> CoupledSolution:
-        """What the laws make of an iterate without springs, so that they hold exactly."""
+        """Project an iterate without springs, so that the laws hold exactly."""
         _, z_t, z_z, bound = self._equations(at)
         p = np.maximum(z_z, 0.0)
         length = np.hypot(*z_t)
@@ -134,7 +140,7 @@ class Equations:
         return CoupledSolution(p, q, at.approach, at.shift, in_slip, 0, solves)
 
     def _equations(self, at: Iterate) -> tuple[Vector, Field, Vector, Vector]:
-        """What is missed, z_t (2, points), z_z and µ⟨z_z⟩ (points,)."""
+        """Compute the residual, z_t (2, points), z_z and µ⟨z_z⟩ (points,)."""
         problem, n = self.problem, self.n
         q, p = at.tractions[: 2 * n].reshape(2, n), at.tractions[2 * n :]
         sprung = at.springs * self.w

@@ -41,7 +41,7 @@ class PointCompliance:
 
     @cached_property
     def ring_of_point(self) -> NDArray[np.intp]:
-        """Which ring each point is on (points,)."""
+        """Index of the ring of each point (points,)."""
         rings, angles = self.shape
         return np.concatenate([[0], np.repeat(np.arange(1, rings), angles)])
 
@@ -67,13 +67,16 @@ class PointCompliance:
 
     @cached_property
     def carries_shear(self) -> NDArray[np.bool_]:
-        """Where there can be shear (points,): on the axis only along a tangential load."""
+        """Mask of the points that can carry shear (points,).
+
+        The axis carries shear only along a tangential load.
+        """
         on_axis = self.rings.radii[self.ring_of_point] == 0.0
         return np.asarray(~on_axis | (self.motion[0] != 0.0))
 
     @cached_property
     def couples(self) -> bool:
-        """Whether pressure displaces the surfaces past each other."""
+        """True if pressure causes relative tangential displacement."""
         return any(np.any(A[:2, :, 2]) for A in self.rings.harmonics)
 
     @cached_property
@@ -100,8 +103,10 @@ class PointCompliance:
         return K
 
     def displacement(self, pressure: Vector, shear: Field) -> tuple[Field, Vector]:
-        """u_t (2, points) and u_z (points,) [length] by tractions, harmonic by harmonic: does not
-        use the matrix. u_t is zero where there can be no shear."""
+        """Compute u_t (2, points) and u_z (points,) [length] harmonic by harmonic.
+
+        The matrix is not used. u_t is zero at points that cannot carry shear.
+        """
         tractions = np.stack([*shear, pressure])
         amplitudes = self.grid.amplitudes(self._spread(tractions))
         weak = np.stack(
@@ -116,13 +121,13 @@ class PointCompliance:
         return u[:2] * self.carries_shear, u[2]
 
     def scalar_on_grid(self, values: NDArray[Scalar]) -> NDArray[Scalar]:
-        """(rings, angles) of values at points."""
+        """Convert values at points to (rings, angles)."""
         rings, angles = self.shape
         on_grid = [np.repeat(values[:1], angles), values[1:]]
         return np.concatenate(on_grid).reshape(rings, angles)
 
     def vector_on_grid(self, values: Field) -> Field:
-        """r and θ components (2, rings, angles) of a vector at points."""
+        """Convert a vector at points to r and θ components (2, rings, angles)."""
         return self._spread(np.stack([*values, np.zeros_like(values[0])]))[:2]
 
     @cached_property
@@ -143,7 +148,7 @@ class PointCompliance:
         return unit
 
     def _spread(self, values: Field) -> Field:
-        """(3, rings, angles) from values at points (3, points)."""
+        """Convert values at points (3, points) to (3, rings, angles)."""
         rings, angles = self.shape
         axis = np.einsum("cak,c->ak", self._axis, values[:, 0])
         return np.concatenate([axis[:, None], values[:, 1:].reshape(3, rings - 1, angles)], axis=1)

@@ -54,9 +54,11 @@ FEWEST = 5
 
 
 def beyond_pressure(*bodies: Body) -> Beyond:
-    """How far beyond the last ring pressure between bodies ends, in elements, by the ratio of the
-    last two values: each body adds what its outermost elements do by how much of the approach is
-    its own. At least one deforms."""
+    """Compute the distance of the contact edge from the last ring, in elements.
+
+    The result is a polynomial in the ratio of the last two values. The correction for square
+    elements is the mean over the bodies, weighted with their compliances. At least one deforms.
+    """
     outermost = [body.elastic_materials[0] for body in bodies if body.deforms]
     gives = np.array([1.0 / m.plane_strain_modulus for m in outermost])
     ratios = np.polynomial.polynomial.polyvander([m.poisson_ratio for m in outermost], 2)
@@ -159,7 +161,7 @@ def contact_edge(radii: Field, pressure: Field, edge: Edge, reach: float | None 
 def stick_area(
     radii: Field, bound: Field, shear: Field, slips: Mask, contact_radius: float, edge: Edge
 ) -> float:
-    """Area of the rings that stick, their edges found between the rings [length^2].
+    """Compute the area of the stick zone, with edges between the rings [length^2].
 
     bound  friction limit (n,), zero where there can be no shear
     shear  its components (c, n), one or two

@@ -46,7 +46,7 @@ class ShearProblem:
     led: TangentialTarget
 
     def stiffness(self) -> Vector:
-        """d (points,): the metric in which discs stay discs."""
+        """Compute d (points,), the metric in which discs remain discs."""
         diagonal = np.diagonal(self.compliance).reshape(2, -1)
         return np.asarray(0.5 * (diagonal[0] + diagonal[1]))
 
@@ -128,7 +128,7 @@ def _lowest(K: Matrix, slope: Field, q: Field, end: Field) -> tuple[Field, float
 def _newton_point(
     problem: ShearProblem, c: Field, z: Field, length: Vector, in_slip: Mask, d: Vector
 ) -> Field:
-    """Where all points would be in equilibrium if sticking ones stuck and slipping ones turned.
+    """Compute the Newton point: equilibrium at fixed sets of sticking and slipping points.
 
     Unknown are both components where it sticks, and where it slips the component across n = z/|z|;
     along n the shear is the bound. Turning a vector of the length of the bound away from its slip
