@@ -57,6 +57,8 @@ def solve(
         The scene is not axisymmetric enough, by name.
     ContactAtZoneEdge
         The contact reaches the end of the zone that `discretisation.contact_radius` asks for.
+    ContactNotResolved
+        A prescribed approach is so small that no ring comes into contact.
     GrossSliding
         A tangential force or torque exceeds the friction limit.
     SurfacesOverlap

@@ -20,7 +20,7 @@ from contact_scenes import (
 from fem_scenes import both_laws, elements, end, solved
 
 from contact_scene import Body, IsotropicMaterial, Layer, LoadStep, Paraboloid, Scene
-from contact_scene.solver_errors import UnsupportedScene
+from contact_scene.solver_errors import ContactNotResolved, UnsupportedScene
 from fem_reference import ContactAtZoneEdge, Method, solve
 from fem_reference.expected_radius import expected_radius
 from verification.closed_forms.cone import ConeContact
@@ -184,6 +184,16 @@ def test_radius_on_a_very_stiff_film_needs_no_section_of_many_decades(
     short = expected_radius(asked)
     monkeypatch.setattr("fem_reference.expected_radius.LARGEST_COARSE_BOX", 1e20)
     assert short == pytest.approx(expected_radius(asked), rel=1e-6)
+
+
+@both_laws
+@pytest.mark.parametrize("friction", [None, 0.5])
+def test_contact_smaller_than_a_ring_is_refused(friction: float | None, law: Method) -> None:
+    asked = scene(PRESS, {"approach": 1e-10}, friction=friction, indenter=RIGID_BALL)
+    with pytest.raises(ContactNotResolved, match="more elements per radius") as caught:
+        solved(asked, law=law)
+    assert caught.value.where.startswith("step 2, increment")
+    assert 0 < caught.value.last_state.normal_force <= LOAD
 
 
 def test_layers_that_are_too_thick_for_a_mesh_are_refused_by_name() -> None:

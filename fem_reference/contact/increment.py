@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from contact_scene.friction import sliding_friction
 from contact_scene.residuals import Residuals, ShearResiduals
-from contact_scene.solver_errors import NotConverged, motion_undefined
+from contact_scene.solver_errors import ContactNotResolved, NotConverged, motion_undefined
 from contact_scene.summary import ContactStatus
 from fem_reference.contact.alternating_iteration import (
     AlternationFailed,
@@ -57,8 +57,9 @@ def advance(
 ) -> PointState:
     """Solve an increment. All residuals of the state at its end are at most the tolerance.
 
-    raises  NotConverged, SurfacesOverlap, GrossSliding
+    raises  NotConverged, SurfacesOverlap, GrossSliding, ContactNotResolved
     """
+    _refuse_unresolved(contact, loads)
     before = before or contact.untouched()
     if before.motion is None:
         raise motion_undefined()
@@ -69,6 +70,16 @@ def advance(
         fewest = int(contact.at_gauss_points)
         passes = augmented(passes[0], increment.again, increment.left, contact.penalty, fewest)
     return increment.state(passes)
+
+
+def _refuse_unresolved(contact: PointContact, loads: Loads) -> None:
+    """Raise ContactNotResolved if the approach is below the gap at all points."""
+    approach, gap = loads.normal.approach, float(np.min(contact.gap))
+    if approach is not None and approach <= gap:
+        raise ContactNotResolved(
+            f"no ring comes into contact: the approach is {approach:.3g} m, the mean gap at the "
+            f"innermost ring {gap:.3g} m; use a larger approach or more elements per radius"
+        )
 
 
 @dataclass(frozen=True)

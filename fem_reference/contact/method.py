@@ -42,7 +42,7 @@ class ContactMethod:
     def advance(self, before: PointState | None, loads: Loads, tolerance: float) -> PointState:
         """Solve an increment from the state before it.
 
-        raises  NotConverged, SurfacesOverlap, GrossSliding, ContactAtZoneEdge
+        raises  NotConverged, SurfacesOverlap, GrossSliding, ContactAtZoneEdge, ContactNotResolved
         """
         contact = self._on_rings
         if self.plan.path is Path.HARMONICS:
