@@ -197,9 +197,9 @@ def test_contact_smaller_than_a_ring_is_refused(friction: float | None, law: Met
 
 
 def test_layers_that_are_too_thick_for_a_mesh_are_refused_by_name() -> None:
-    for ratio in (1e-6, 1.0, 1e6):
+    for ratio in (1e-6, 1e6):
         with pytest.raises(UnsupportedScene, match="leave the substrate out"):
-            expected_radius(on_film(ratio, 1e12))
+            solved(on_film(ratio, 1e12))
 
 
 @both_laws
