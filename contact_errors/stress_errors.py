@@ -152,9 +152,8 @@ class _Places:
             return None
         value = max(here.value, found.value if found.on_edge else 0.0)
         if self.edge is not None and found.region in AT_SURFACE:
-            share = max(self.edge.apart / _growth(ROOT), self.edge.least)
             value = max(value, float(np.max(self.edge.points.measures[found.measure])))
-            return value, share * abs(value)
+            return value, max(self.edge.apart / _growth(ROOT), self.edge.least)
         change = abs(value) if there is None else abs(value - there.value)
         error = change / _growth(SMOOTH if self.fitted else ROOT)
         if found.measure == LARGEST_TENSION and not self.fitted:

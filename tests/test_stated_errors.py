@@ -267,7 +267,7 @@ def cattaneo(solver: str = "semi-analytical") -> Known:
 
 def cone() -> Known:
     contact = ConeContact(0.02, contact_modulus((YOUNG, 0.3), (YOUNG, 0.3)), A)
-    indenter = Cone(slope_angle=float(np.arctan(0.02)), material=steel())
+    indenter = Cone(slope_angle=0.02, material=steel())
     pressed = scene({"normal_force": contact.load}, indenter=indenter, friction=None)
     return Known(pressed, {"contact_radius": A, "approach": contact.approach}, cells(32))
 
@@ -410,6 +410,17 @@ def test_an_edge_that_may_have_the_largest_stress_leaves_it_open(count: int) -> 
     assert found.error.status is ErrorStatus.NOT_CONVERGED or (
         abs(found.value - 2.0e9) <= size(found.error)
     )
+
+
+@pytest.mark.parametrize("nu", [0.2, 0.49, 0.499])
+def test_a_tension_near_zero_has_the_error_of_the_tractions(nu: float) -> None:
+    """At the edge of Hertz's contact it is (1 - 2ν)/3 of the peak, however close ν is to ½."""
+    posed = scene(PRESS, indenter=paraboloid(steel(nu)), body=steel(nu))
+    result = package.solve(posed, "semi-analytical", cells(32))
+    found = largest_tensile_stress(result, stated_errors(result), 1)
+    assert found is not None
+    exact = (1 - 2 * nu) / 3 * hertz(poisson_ratio=nu).peak_pressure
+    assert abs(found.value - exact) <= size(found.error) <= 0.01 * hertz().peak_pressure
 
 
 def test_what_the_load_prescribes_is_exact() -> None:

@@ -64,9 +64,13 @@ def stress_on_cells(
         field, edge, why = _with_edge(state, body, grid, field, pressure, shear, at)
     plane = field.along_x()
     points = _points(field, grid)
+    fitted = None
+    if edge is not None:
+        apart, least = edge.apart * edge.size, edge.least * edge.size
+        fitted = FittedEdge(_on_edge(edge), apart, least, not why)
     return StressField(
         points,
-        None if edge is None else FittedEdge(_on_edge(edge), edge.apart, edge.least, not why),
+        fitted,
         _points(plane, grid).with_cells(),
         _axis(plane),
         points.with_cells() if volume else None,

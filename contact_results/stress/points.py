@@ -153,8 +153,8 @@ class FittedEdge:
     """The edge of the contact at the surface, as it was fitted between the cells.
 
     points  on it (n,)
-    apart   difference of the largest principal stress there by another fit, over itself
-    least   least error of that stress, over itself
+    apart   difference of the largest principal stress there by another fit [force/length²]
+    least   least error of that stress [force/length²]
     determined
             whether the stress there is determined; if not, it is a candidate for the largest
     """

@@ -28,8 +28,8 @@ from semi_analytical.stress.patch import NODES
 # constant on cells, and of those with a corrected edge, of which only the cut cells are left out.
 STENCILS = ((WIDE, 2), (WIDER, 3))
 CORRECTED_STENCILS = ((NARROW, 1), (Stencil(4, 2.2), 1))
-# Points at which the two are compared, where the tension is this part of the largest or more; and
-# the part of it that is too far apart.
+# Points at which the two are compared, where the tension is less than the largest by 1 less this
+# part of the size of stress at the most; and the part of that size that is too far apart.
 COMPARED, LARGE, TOO_FAR_APART = 32, 0.8, 0.02
 # A cell slips if its shear over pressure is this part of the largest; rings that all have to.
 SLIPPING, SLIPPING_RINGS = 0.999, 2.5
@@ -62,8 +62,10 @@ class NearEdge:
 
     tractions  with their edge
     phi        about points of the edge (n,)
-    apart      difference of the largest principal stress there by another fit, over itself
-    least      least error of that stress, over itself
+    apart      difference of the largest principal stress there by another fit, over `size`
+    least      least error of that stress, over `size`
+    size       largest of that stress and of the pressure of border cells [force/length²]: its
+               error follows from that of the tractions, also where the stress is nearly 0
     plane      stress at z = 0 at the cell centres by the cells (6, nx, ny)
     """
 
@@ -73,6 +75,7 @@ class NearEdge:
     phi: Quadratic
     apart: float
     least: float
+    size: float
     plane: Field
 
     @property
@@ -171,16 +174,17 @@ def near_edge(
     depth = distance_transform_edt(np.pad(region, 1))[1:-1, 1:-1]
     slipping = np.inf if stuck is None or not np.any(stuck) else np.min(depth[stuck])
     wrong = slipping <= NARROW_RINGS or _is_stiff(stack)
-    found = NearEdge(stack, grid, one, _on_edge(phi), 0.0, LEAST_ERROR * wrong, plane)
+    found = NearEdge(stack, grid, one, _on_edge(phi), 0.0, LEAST_ERROR * wrong, 0.0, plane)
     some = np.flatnonzero(both)[:: max(1, np.count_nonzero(both) // COMPARED)]
     tension, by_other = (
         _largest(_at_surface(replace(found, tractions=tractions), _on_edge(points.chosen(some))))
         for tractions, points in ((one, phi), (other, again))
     )
     most = np.max(tension)
-    large = tension >= most - (1 - LARGE) * abs(most)  # or all of the edge is compressed
-    apart = float(np.max(np.abs(tension - by_other)[large]) / np.max(np.abs(tension)))
-    found = replace(found, phi=found.phi.chosen(both), apart=apart)
+    size = max(float(np.max(np.abs(tension))), float(np.max(pressure[i, j])))
+    large = tension >= most - (1 - LARGE) * size  # or all of the edge is compressed
+    apart = float(np.max(np.abs(tension - by_other)[large]) / size)
+    found = replace(found, phi=found.phi.chosen(both), apart=apart, size=size)
     cause = None
     if slipping <= SLIPPING_RINGS:
         cause = (
@@ -191,8 +195,8 @@ def near_edge(
         cause = NOT_SMOOTH.format(f"{np.count_nonzero(~both)} of {len(both)} points")
     elif not apart <= TOO_FAR_APART:
         cause = (
-            f"two fits of the edge leave the tension there {apart:.2g} of itself apart, more than "
-            f"{TOO_FAR_APART:g}: take smaller cells"
+            f"two fits of the edge leave the tension there {apart:.2g} of the stress apart, more "
+            f"than {TOO_FAR_APART:g}: take smaller cells"
         )
     if cause is not None:
         least = max(apart, LEAST_ERROR)
