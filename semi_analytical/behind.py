@@ -1,7 +1,5 @@
 """The path so far, as the next increment may go on."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

@@ -39,7 +39,7 @@ def solve_together(
     if _all_slips(problem, pressure):
         ways = (_from_nearer,)
     elif not np.any(shear):
-        ways = (_unless_far, _after_a_round, *ways[1:])
+        ways = (partial(_by_newton, furthest=FAR), _after_a_round, *ways[1:])
     for way in ways:
         try:
             found = way(problem, *start, tolerance)
@@ -70,19 +70,17 @@ def _after_a_round(
     return replace(found, rounds=found.rounds + 1, iterations=iterations + found.iterations)
 
 
-def _unless_far(
-    problem: CoupledProblem, pressure: Field, shear: VectorField, motion: Vector, tolerance: float
-) -> CoupledSolution:
-    """From there at once, if that is near enough."""
-    tractions = np.concatenate([shear, pressure[None]])
-    return solve_by_newton(problem, tractions, motion, tolerance, FAR)
-
-
 def _by_newton(
-    problem: CoupledProblem, pressure: Field, shear: VectorField, motion: Vector, tolerance: float
+    problem: CoupledProblem,
+    pressure: Field,
+    shear: VectorField,
+    motion: Vector,
+    tolerance: float,
+    furthest: float = np.inf,
 ) -> CoupledSolution:
-    """From there at once."""
-    return solve_by_newton(problem, np.concatenate([shear, pressure[None]]), motion, tolerance)
+    """Newton's method from there; `furthest` see `solve_by_newton`."""
+    tractions = np.concatenate([shear, pressure[None]])
+    return solve_by_newton(problem, tractions, motion, tolerance, furthest)
 
 
 def _from_nearer(

@@ -26,8 +26,7 @@ Beyond what is named here the laws are guesses; `slipstick maintain study increm
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from math import ceil, hypot, sqrt
 
 from contact_scene import ControlKind, CoulombFriction, LoadRamp, Scene
@@ -65,13 +64,6 @@ class StepIncrements:
     count: int
     path_matters: bool
     why: str
-
-
-def refined(steps: Sequence[StepIncrements], factor: int) -> tuple[StepIncrements, ...]:
-    """`factor` times as many increments wherever the path matters."""
-    return tuple(
-        replace(step, count=factor * step.count) if step.path_matters else step for step in steps
-    )
 
 
 @dataclass(frozen=True)

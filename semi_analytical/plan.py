@@ -12,7 +12,7 @@ from contact_scene.friction import FRICTIONLESS
 from contact_scene.normal_form import normal_form
 from contact_scene.pair import coupling, dundurs_beta, refuse_contrast
 from semi_analytical.operator.domain import QUARTER, WINDOW, ReducedDomain
-from semi_analytical.path_increments import Bodies, StepIncrements, path_increments, refined
+from semi_analytical.path_increments import Bodies, StepIncrements, path_increments
 
 # Of the shear moduli within a body: beyond, its influence coefficients lose the softest part.
 MOST_CONTRAST = 1e12
@@ -66,10 +66,6 @@ class Plan:
     def increments(self) -> tuple[int, ...]:
         """How many increments each loading step takes."""
         return tuple(step.count for step in self.path)
-
-    def refined(self, factor: int = 2) -> "Plan":
-        """`factor` times as many increments in every step whose path matters."""
-        return replace(self, path=refined(self.path, factor))
 
     def cut_into(self, increments: Sequence[int]) -> "Plan":
         """The same effects with these many increments in each step."""

@@ -1,7 +1,5 @@
 """A state whose tractions have their edges inside the cells."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 from contact_scene.array_types import Field, Mask

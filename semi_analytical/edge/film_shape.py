@@ -5,8 +5,6 @@ ratio is told by the distance from the edge: as the edge moves, so does what is 
 edge know that (Newton's method), and a few of them after one another find both.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Weighted quadratic fits to cell means on square windows."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from functools import cache
 from typing import NamedTuple

@@ -6,8 +6,6 @@ a cell as seen from the cells around it. Both are made of influence coefficients
 the parts, whichever the bodies: PARTS is odd, so that parts and cells have common centres.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from functools import cached_property
 

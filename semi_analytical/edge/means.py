@@ -4,8 +4,6 @@ Over the unit cell the mean of (f + f_x x + f_y y)_+^a is, with b, c the moduli 
 second difference of F(s) = s_+^(a+2)/((a+1)(a+2) b c) over the corners f ± b/2 ± c/2.
 """
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

@@ -65,14 +65,6 @@ class Quadratic:
             )
         )
 
-    def mirrored(self, axis: int) -> Quadratic:
-        """Their images beyond the plane that cells are counted from along an axis."""
-        image = dict(vars(self))
-        place, slope = ("x", "f_x") if axis == 0 else ("y", "f_y")
-        image[place] = -1 - image[place]
-        image[slope], image["f_xy"] = -image[slope], -self.f_xy
-        return Quadratic(**image)
-
     def cell_mean(self, exponent: float | Field) -> Field:
         """Mean of phi_+^exponent over the unit cell about every place, by the slope there; 0 gives
         the covered part."""

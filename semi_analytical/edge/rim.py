@@ -1,7 +1,5 @@
 """Traction in the subcells along the edge of a region, from fits of phi there."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from functools import cached_property
 

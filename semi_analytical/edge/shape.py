@@ -1,7 +1,5 @@
 """Shape of the edge of a region: phi = p^(1/alpha), fitted to cell means of p inside it."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from functools import cached_property
 

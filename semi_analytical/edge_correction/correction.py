@@ -1,7 +1,5 @@
 """Edge correction of states: of the pressure, and of the stick border of uncoupled bodies."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np

@@ -4,8 +4,6 @@ The edge inside the cells determines the contact. The remaining problem is linea
 in contact does not change while it is solved.
 """
 
-from __future__ import annotations
-
 from functools import cached_property
 from typing import NamedTuple
 

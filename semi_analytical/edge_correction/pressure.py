@@ -6,8 +6,6 @@ cells and the displacement by it, for which the pressure is solved again, until 
 bodies couple the shear follows the pressure and moves the surface, too.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from functools import cached_property
 from typing import NamedTuple

@@ -7,8 +7,6 @@ at twice the friction (Masing's rule: Mindlin and Deresiewicz 1953): q = q' + µ
 q' and n' before it.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass, replace
 
 import numpy as np

@@ -7,8 +7,6 @@ just stuck is still at the limit. Of both laws each place has the one that fits,
 do. Shear across n passes the border smoothly, and would hide it in the length of what is missing.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

@@ -7,8 +7,6 @@ difference of exponentials. Its matrix is written below with the brackets regrou
 sinh x cosh x - x and sinh^2 x - x^2, which vanish for thin layers, are formed by series.
 """
 
-from __future__ import annotations
-
 from typing import NamedTuple
 
 import numpy as np

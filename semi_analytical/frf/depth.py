@@ -10,8 +10,6 @@ Signs and frame: CONVENTIONS.md. Equilibrium and Hooke's law along z, with W = u
     W' = -(1-2nu)/(2G(1-nu)) tau_z + nu/(1-nu) alpha U                     tau_z' = alpha tau_s
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import NamedTuple
 

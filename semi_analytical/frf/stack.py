@@ -1,7 +1,5 @@
 """The elastic constants of a body in the order in which waves cross them: layers, then base."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 from math import isfinite

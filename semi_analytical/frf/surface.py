@@ -5,8 +5,6 @@ displacement (u_s, u_z) answers the traction (t_s, p) by [[C11, i C12], [-i C12,
 transverse displacement answers the transverse traction by Csh. Signs: CONVENTIONS.md.
 """
 
-from __future__ import annotations
-
 from typing import NamedTuple
 
 import numpy as np
@@ -35,18 +33,6 @@ class SurfaceScalars(NamedTuple):
     c12: Array
     c22: Array
     csh: Array
-
-    def combined(self, upper: SurfaceScalars) -> SurfaceScalars:
-        """Relative displacement of this body and an upper one: coupling subtracts, the rest adds.
-
-        The upper body is the mirror image of a lower one, F = F1 + J F2 J, J = diag(1, 1, -1).
-        """
-        return SurfaceScalars(
-            self.c11 + upper.c11,
-            self.c12 - upper.c12,
-            self.c22 + upper.c22,
-            self.csh + upper.csh,
-        )
 
 
 def half_space_scalars(material: HalfSpace, alpha: ArrayLike) -> SurfaceScalars:

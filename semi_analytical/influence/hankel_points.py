@@ -1,7 +1,5 @@
 """Wavenumbers at which a Hankel transform of a layered body's response is summed, and weights."""
 
-from __future__ import annotations
-
 from math import ceil, inf, log2
 
 import numpy as np

@@ -8,8 +8,6 @@ nothing to choose. Three ways to integrate, by distance, each exact to rounding 
     far             the response at cell centres, averaged by a nine-point formula along x and y.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cache, cached_property

@@ -4,8 +4,6 @@ The first panel begins at the force, and each further one is wider by the root o
 like a power of the distance is as smooth on each as on the others.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from math import ceil, log2, pi, sqrt
 

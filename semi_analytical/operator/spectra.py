@@ -4,8 +4,6 @@ The coefficients are even or odd along each side, so their transforms are purely
 imaginary, and even or odd themselves: a quarter of one real array stores each.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

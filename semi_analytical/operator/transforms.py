@@ -10,8 +10,6 @@ are real. Amplitudes of waves are complex on the window; on half of it they are 
 numbers.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
 from functools import lru_cache

@@ -4,8 +4,6 @@ At the surface the cells about the observer are one root of a quadratic; beyond 
 the edge act by their small cells, and others by their mean and slope.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from contact_scene.array_types import Field, Indices

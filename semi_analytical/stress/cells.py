@@ -5,8 +5,6 @@ is small against its distance from there needs few points; one that is not is cu
 size against layers and depths are integrated to rounding.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from math import hypot
 

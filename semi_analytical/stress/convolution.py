@@ -3,8 +3,6 @@
 Both pad with zeros to at least the sum of the lengths, so there is no periodic image.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 import numpy as np

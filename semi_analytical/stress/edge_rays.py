@@ -6,8 +6,6 @@ the ray adds is its angular function times the finite part of the integral of âˆ
 What is singular drops, for the angular functions have no mean.
 """
 
-from __future__ import annotations
-
 from math import pi
 
 import numpy as np

@@ -5,8 +5,6 @@ them. What a fit of phi knows of the inside of a cell is kept as small cells tha
 Lengths are cells, places index coordinates.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Depths at which fields are asked for: which material each is seen from, and what to take."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 import numpy as np

@@ -4,8 +4,6 @@ The patch is summed with its edge; what is left of the plane of cell centres wit
 layers and all, and interpolated.
 """
 
-from __future__ import annotations
-
 from functools import lru_cache
 
 import numpy as np

@@ -4,8 +4,6 @@ Boussinesq and Cerruti: derivatives of the potentials of `rectangle.py` at a poi
 the force.
 """
 
-from __future__ import annotations
-
 from math import pi
 
 import numpy as np

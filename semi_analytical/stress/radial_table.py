@@ -9,8 +9,6 @@ and sine of the angle phi of the observer, seen from the force, isotropy leaves 
 under pressure, nine under shear (waves along and across, turned into the axes of the scene).
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from itertools import pairwise
 from math import pi

@@ -10,8 +10,6 @@ over 2 pi. Integrated over the rectangle each derivative is the second differenc
 over its corners; functions of x alone or y alone have been dropped from the primitives.
 """
 
-from __future__ import annotations
-
 from functools import cached_property
 from math import pi
 

@@ -29,7 +29,13 @@ def composite_frf_matrix(
     """
     m, n = _wave_vector(m, n)
     alpha = np.hypot(m, n)
-    return rotated(scalars(lower, alpha).combined(scalars(upper, alpha)), m, n)
+    return rotated(combined(scalars(lower, alpha), scalars(upper, alpha)), m, n)
+
+
+def combined(lower: SurfaceScalars, upper: SurfaceScalars) -> SurfaceScalars:
+    """Scalars of the relative displacement of two bodies: coupling subtracts, the rest adds."""
+    signs = (1, -1, 1, 1)
+    return SurfaceScalars(*(a + sign * b for a, sign, b in zip(lower, signs, upper, strict=True)))
 
 
 def rotated(
