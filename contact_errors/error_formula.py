@@ -192,7 +192,9 @@ class SolvedRun:
             exact, found = prescribed(ramp), {}
             for name, value in self.values[step].items():
                 features = self.features[step]
-                if name in exact or (name in STICK_EDGE and features.slides and not np.any(value)):
+                apart = not np.any(self.values[step]["contact_area"])
+                none = apart or (name in STICK_EDGE and features.slides)
+                if name in exact or (none and not np.any(value)):
                     found[name] = EXACT
                     continue
                 parts = self._parts(step, name, largest[step][name])

@@ -93,8 +93,11 @@ def _features(result: Result, resolved: Sequence[Resolution]) -> tuple[Features,
     """Resolution at the end of each step."""
     indenter, coupled = result.scene.indenter, result.plan.coupling is not Coupling.NONE
     law = film_law(result.scene.body, result.scene.indenter, result.grid.spacing)
-    found = []
+    found: list[Features] = []
     for end, cells in zip(result.steps, resolved, strict=True):
+        if end.contact_area == 0:
+            found.append(found[-1])
+            continue
         fitted = end.edge_report is not None and end.edge_report.cause is None
         report = end.edge_report if fitted else None
         # The square root of a half-space is fitted to more cells than the film is thick.

@@ -111,8 +111,11 @@ def _features(result: Result) -> tuple[Features, ...]:
     """Resolution at the end of each step; an element counts as two cells."""
     scene, side = result.scene, result.radius / result.discretisation.elements_per_radius
     thinnest = min(scene.body.thinnest, scene.indenter.thinnest)
-    per_length, found = LINEAR / side, []
+    per_length, found = LINEAR / side, list[Features]()
     for end in result.steps:
+        if end.contact_area == 0:
+            found.append(found[-1])
+            continue
         stick = None if end.stick_radius is None else per_length * end.stick_radius
         slips = stick is not None and end.status is not ContactStatus.FULL_STICK
         found.append(

@@ -66,9 +66,12 @@ def _features(result: Result) -> tuple[Features, ...]:
 
     Without friction no number depends on the rings.
     """
-    indenter, plan, found = result.scene.indenter, result.plan, []
+    indenter, plan, found = result.scene.indenter, result.plan, list[Features]()
     counted = plan.coupled or plan.circle is not None
     for end in result.steps:
+        if end.contact_area == 0:
+            found.append(found[-1])
+            continue
         within = end.radii[end.radii <= end.contact_radius]
         widest = float(np.max(np.diff([0.0, *within, end.contact_radius])))
         side = end.contact_radius / (len(within) or 1)

@@ -42,6 +42,7 @@ def inconsistencies(parts: Parts) -> tuple[Problem, ...]:
         *_nothing_deforms(parts),
         *_first_step_does_not_press(parts),
         *_shear_without_friction(parts),
+        *_loads_without_contact(parts),
         *_gross_sliding(parts),
         *_moment_beyond_the_contact(parts),
         *_window_beyond_a_map(parts),
@@ -61,12 +62,41 @@ def _nothing_deforms(parts: Parts) -> Iterator[Problem]:
 
 def _first_step_does_not_press(parts: Parts) -> Iterator[Problem]:
     loading = parts.get("loading")
-    if loading and not loading[0].names_normal:
+    if loading and not (loading[0].normal_force or loading[0].approach):
         yield Problem(
             ("loading", 0),
             "the first step does not press the bodies together",
-            "normal_force or approach in the first step",
+            "normal_force or approach above 0 in the first step",
         )
+
+
+def _loads_without_contact(parts: Parts) -> Iterator[Problem]:
+    """Steps that end with a load other than 0 of separated bodies, or with an approach of 0 of
+    tilted ones, which may touch."""
+    loading = parts.get("loading")
+    if not loading or not loading[0].names_normal:
+        return
+    for index, ramp in enumerate(load_path(loading)):
+        if ramp.normal.end != 0:
+            continue
+        for key, control in (
+            ("tangential_force", ramp.tangential),
+            ("torque", ramp.twisting),
+            ("moment", ramp.tilting),
+        ):
+            if control.kind is ControlKind.FORCE and control.end not in (0.0, (0.0, 0.0)):
+                yield Problem(
+                    ("loading", index),
+                    f"the step separates the bodies under a {key} other than 0",
+                    f"{key} = 0 in this step or before it",
+                )
+        tilted = ramp.tilting.kind is ControlKind.DISPLACEMENT and any(ramp.tilting.end)
+        if tilted and ramp.normal.kind is ControlKind.DISPLACEMENT:
+            yield Problem(
+                ("loading", index),
+                "at an approach of 0 a tilted indenter may touch",
+                "normal_force = 0 to separate the bodies",
+            )
 
 
 def _shear_without_friction(parts: Parts) -> Iterator[Problem]:
@@ -100,6 +130,8 @@ def _gross_sliding(parts: Parts) -> Iterator[Problem]:
         force, limit = math.hypot(*ramp.tangential.end), friction.carried(ramp.normal.end)
         if limit is None:
             return
+        if ramp.normal.end == 0:
+            continue
         named = f"tangential force {force:.6g} N"
         product = f"{friction.uniform:.6g} * {ramp.normal.end:.6g} N"
         named_limit = f"the friction limit {limit:.6g} N (= {product})"
@@ -129,7 +161,7 @@ def _moment_beyond_the_contact(parts: Parts) -> Iterator[Problem]:
     if indenter is None or not loading or not loading[0].names_normal:
         return
     for index, ramp in enumerate(load_path(loading)):
-        if ControlKind.DISPLACEMENT in (ramp.normal.kind, ramp.tilting.kind):
+        if ControlKind.DISPLACEMENT in (ramp.normal.kind, ramp.tilting.kind) or not ramp.normal.end:
             continue
         for distance, reach in _arms(indenter, ramp):
             if distance >= reach:

@@ -70,7 +70,7 @@ def expected_contacts(scene: Scene) -> Iterator[ExpectedContact]:
             return math.nan if power is None else math.prod(power) ** (0.5 / (k + by_force))
 
         modulus = _modulus_within(scene, radius(outermost)) or outermost
-        if not math.isnan(a := radius(modulus)):
+        if (a := radius(modulus)) > 0:
             force = end if by_force else modulus * a * end
             strain = force / (math.pi * a**2) / modulus
             # Below a cone strains do not depend on the load.

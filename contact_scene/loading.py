@@ -9,8 +9,8 @@ from contact_scene.quantity import (
     Force,
     Length,
     Moment,
-    PositiveForce,
-    PositiveLength,
+    PressingForce,
+    PressingLength,
     Rotation,
     WholeNumber,
 )
@@ -35,11 +35,12 @@ class LoadStep(Description):
     and y; moments are about the origin. Rotations that no step has named yet are held at zero.
     """
 
-    normal_force: PositiveForce | None = None
-    """Normal force at the end of the step [force]."""
+    normal_force: PressingForce | None = None
+    """Normal force at the end of the step [force]; 0 separates the bodies."""
 
-    approach: PositiveLength | None = None
-    """Approach at the end of the step, counted from first touch [length]."""
+    approach: PressingLength | None = None
+    """Approach at the end of the step, counted from first touch [length]; 0 separates the
+    bodies."""
 
     tangential_force: tuple[Force, Force] | None = None
     """Tangential force (Tx, Ty) at the end of the step [force]."""

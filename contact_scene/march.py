@@ -4,12 +4,19 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any, Generic, Protocol, TypeVar
 
+import numpy as np
+from numpy.typing import NDArray
+
 from contact_scene.load_path import ControlKind, LoadRamp
 from contact_scene.scene import Scene
+from contact_scene.separation import continued, position, separated, since_touch
 from contact_scene.solver_errors import NotConverged, SolverError
 from contact_scene.standing import Mark, Standing
+from contact_scene.summary import ContactStatus
 
 MOST_HALVINGS = 4
+
+Field = NDArray[np.float64]
 
 S = TypeVar("S")
 Told = TypeVar("Told")
@@ -61,6 +68,9 @@ class Solver(Protocol[S, Told]):
     def report(self, reached: Reached[S], last: Told | None) -> Told:
         """The increment as it is reported, after the last one that was."""
 
+    def undeformed_gap(self, last: Told, tilt: Any) -> Field:
+        """Return the gap without tractions at the approach 0, where an increment has its gap."""
+
 
 def marked_increments(
     scene: Scene, counts: Sequence[int], solver: Solver[S, Told], since: Standing | None
@@ -72,15 +82,27 @@ def marked_increments(
     raises  what the solver raises, with the last converged increment as `last_state`
     """
     mark: Mark[S] | None = since.mark if since else None
-    last: Told | None = since.increments[-1] if since else None
-    state, done = mark.state if mark else None, 0
+    told: Sequence[Any] = since.increments if since else ()
+    last: Told | None = told[-1] if told else None
+    apart = next((i for i in reversed(told) if i.status is ContactStatus.SEPARATED), None)
+    state, done, here = mark.state if mark else None, 0, mark.last if mark else None
     for ramp, count in zip(scene.load_path(), counts, strict=True):
         behind = mark.within(done, count) if mark else 0
         start = mark.start if mark and 0 < behind < count else state
         done += behind
         ends = [0.0, *fractions(scene, ramp, count)]
+        led = since_touch(ramp, apart) if apart else ramp
         for index in range(behind + 1, len(ends)):
-            way = _Way(solver, ramp, start, solver.spent())
+            place = Place(ramp.step, index, count)
+            done += 1
+            if ramp.normal.end == 0 and (start is None or index == count):
+                assert last is not None  # the first step presses
+                gap = solver.undeformed_gap(last, position(last, ramp, ends[index])["tilt"])
+                last = apart = separated(last, ramp, ends[index], gap, vars(place))
+                state = here = None
+                yield last, Mark(done, state, start)
+                continue
+            way = _Way(solver, led, start, solver.spent())
             before = state
             try:
                 state, halvings = way.reach(before, ends[index - 1], ends[index], MOST_HALVINGS)
@@ -88,21 +110,23 @@ def marked_increments(
                 error.where = f"step {ramp.step}, increment {index} of {count}"
                 error.last_state = last
                 raise
-            place, spent = Place(ramp.step, index, count), solver.spent() - way.begun
-            last = solver.report(Reached(place, before, state, halvings, spent), last)
-            done += 1
-            yield last, Mark(done, state, start)
+            reached = Reached(place, before, state, halvings, solver.spent() - way.begun)
+            last = here = solver.report(reached, here if apart else last)
+            last = continued(apart, last) if apart else last
+            yield last, Mark(done, state, start, here if apart else None)
 
 
 def fractions(scene: Scene, ramp: LoadRamp, count: int) -> list[float]:
     """Where in the ramp the increments end: uniform in contact radius while the normal load
-    grows from zero, uniform in load otherwise."""
+    grows from zero or falls to it, uniform in load otherwise."""
     exponent = None
-    if ramp.normal.start == 0:
+    falls = ramp.normal.end == 0
+    if ramp.normal.start == 0 or falls:
         exponent = scene.indenter.gap_exponent
         if exponent is not None and ramp.normal.kind is ControlKind.FORCE:
             exponent += 1
-    return [(k / count) ** (exponent or 1) for k in range(1, count + 1)]
+    radii = [(k / count) ** (exponent or 1) for k in range(count + 1)]
+    return [1 - radius for radius in radii[-2::-1]] if falls else radii[1:]
 
 
 @dataclass(frozen=True)

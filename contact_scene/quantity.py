@@ -205,8 +205,9 @@ def has_unit(value: Any) -> bool:
 
 Length = Annotated[float, Quantity(LENGTH, "a length")]
 PositiveLength = Annotated[float, Quantity(LENGTH, "a positive length", above=0.0)]
+PressingLength = Annotated[float, Quantity(LENGTH, "a length not below 0", at_least=0.0)]
 Force = Annotated[float, Quantity(FORCE, "a force")]
-PositiveForce = Annotated[float, Quantity(FORCE, "a positive force", above=0.0)]
+PressingForce = Annotated[float, Quantity(FORCE, "a force not below 0", at_least=0.0)]
 Moment = Annotated[float, Quantity(MOMENT, "a moment")]
 # "60 deg" rounds up.
 _MOST_ROTATION = math.nextafter(math.pi / 3, math.inf)

@@ -16,11 +16,13 @@ class Mark(Generic[S]):
     done   increments that lie behind, of all steps together
     state  after the last of them
     start  at the start of the ramp that it belongs to; None before first touch
+    last   increment counted from the last separation of the bodies; None without one
     """
 
     done: int
-    state: S
+    state: S | None
     start: S | None
+    last: Any = None
 
     def within(self, before: int, count: int) -> int:
         """How many of a step's `count` increments lie behind, if `before` precede the step."""

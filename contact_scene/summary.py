@@ -30,6 +30,7 @@ class ContactStatus(StrEnum):
     PARTIAL_SLIP = "partial slip"
     NO_STICK_AREA_LEFT = "no stick area left"
     GROSS_SLIDING = "gross sliding"
+    SEPARATED = "separated"
 
 
 STRICT = ConfigDict(

@@ -60,7 +60,7 @@ def expected_radius(scene: Scene) -> float:
 def _extremes(scene: Scene) -> list[LoadRamp]:
     """The ramps with the largest force and the largest approach."""
     ramps = scene.load_path()
-    kinds = [[r for r in ramps if r.normal.kind is kind] for kind in ControlKind]
+    kinds = [[r for r in ramps if r.normal.kind is kind and r.normal.end] for kind in ControlKind]
     return [max(same, key=lambda ramp: ramp.normal.end) for same in kinds if same]
 
 

@@ -2,6 +2,10 @@
 
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
 
 from contact_scene import LoadRamp, Scene
 from contact_scene.load_path import ScalarControl
@@ -13,6 +17,8 @@ from fem_reference.energy import accounted
 from fem_reference.fields import Increment
 from fem_reference.loads import STILL, Loads, NormalTarget, TangentialTarget
 from fem_reference.plan import Path
+
+Field = NDArray[np.float64]
 
 
 def march(method: ContactMethod, tolerance: float) -> Iterator[Increment]:
@@ -60,6 +66,10 @@ class _Solver:
         if along is not None:
             loads = replace(loads, tangential=TangentialTarget(*along.led(fraction, tangential)))
         return self.method.advance(before, loads, self.tolerance)
+
+    def undeformed_gap(self, last: Increment, tilt: Any) -> Field:
+        """See `contact_scene.march.Solver`."""
+        return np.array(np.broadcast_to(self.method.undeformed_gap, last.gap.T.shape).T)
 
     def report(self, reached: Reached[PointState], last: Increment | None) -> Increment:
         """As the method reports it, with the account of energy carried on."""

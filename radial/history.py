@@ -21,7 +21,13 @@ from radial.memory import refuse_if_too_large
 from radial.plan import Plan
 from radial.plan import plan as plan_of
 from radial.pressing import Pressed, Target, pressed
-from radial.shown import largest_targets, refuse_no_disc, refuse_round_off, shown_radii
+from radial.shown import (
+    largest_targets,
+    refuse_no_disc,
+    refuse_round_off,
+    shown_radii,
+    undeformed_gap,
+)
 from radial.surface import displacement, largest_pressure, pressure
 
 Array = NDArray[np.float64]
@@ -167,6 +173,10 @@ class _Solver:
             if found.target == target:
                 return found
         return pressed(self.bodies, self.scene.indenter, target, self.fineness)
+
+    def undeformed_gap(self, last: Increment, tilt: Any) -> Array:
+        """See `contact_scene.march.Solver`."""
+        return undeformed_gap(self.scene, last)
 
     def report(self, reached: Reached[Pressed], last: Increment | None) -> Increment:
         """The contact at the rings; raises UnsupportedScene where it is no disc, NotConverged above

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -23,7 +24,7 @@ from radial.ring_friction import MOST_STEPS, held
 from radial.ring_layout import laid
 from radial.ring_points import Points
 from radial.ring_state import ABOUT, DOWN, Loads
-from radial.shown import largest_targets, targets
+from radial.shown import largest_targets, targets, undeformed_gap
 from radial.surface import pressure
 
 Array = NDArray[np.float64]
@@ -98,6 +99,9 @@ class Pushing:
         found = []
         for ramp in self.scene.load_path():
             start = state
+            if ramp.normal.end == 0:
+                state = None
+                continue
             if start and ramp.normal.start == ramp.normal.end:
                 continue
             for index in range(1, SETTLING + 1):
@@ -198,6 +202,10 @@ class Pushing:
                 "rings, laid out for the largest contact, of which none touches below "
                 f"{depth:.3g} m; take fewer increments, or prescribe the normal force"
             )
+
+    def undeformed_gap(self, last: Increment, tilt: Any) -> Array:
+        """See `contact_scene.march.Solver`."""
+        return undeformed_gap(self.scene, last)
 
     def report(self, reached: Reached[Pushed], last: Increment | None) -> Increment:
         """The contact on rings and angles; raises NotConverged above the tolerance."""

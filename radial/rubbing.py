@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from math import ceil, exp, inf, log
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,7 +21,13 @@ from radial.fields import Increment
 from radial.pressing import LARGEST_STEP, LEAST_POWER, NEAR, ROUND_OFF, Pressed, Target, pressed
 from radial.rings import Rings, place_of, rings_about
 from radial.sheared import Sheared, finite_pressure, sheared, stick_share
-from radial.shown import largest_targets, refuse_no_disc, refuse_round_off, shown_radii
+from radial.shown import (
+    largest_targets,
+    refuse_no_disc,
+    refuse_round_off,
+    shown_radii,
+    undeformed_gap,
+)
 from radial.stick_slip import Rubbed, Signs, rubbed
 from radial.surface import displacement, pressure
 
@@ -155,6 +162,10 @@ class Rubbing:
             last_x, last = x, missed
             x -= min(max(missed / power, -LARGEST_STEP), LARGEST_STEP)
         raise NotConverged("the contact radius", MOST_TRIED, nearest, ROUND_OFF)
+
+    def undeformed_gap(self, last: Increment, tilt: Any) -> Array:
+        """See `contact_scene.march.Solver`."""
+        return undeformed_gap(self.scene, last)
 
     def report(self, reached: Reached[Sheared], last: Increment | None) -> Increment:
         """The contact at the rings; raises UnsupportedScene where it is no disc, NotConverged above

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from contact_scene import ControlKind, Scene
 from contact_scene.solver_errors import UnsupportedScene
 from radial.disc import Disc
+from radial.fields import Increment
 from radial.plan import ELSEWHERE
 from radial.pressing import Pressed, Target
 
@@ -26,7 +27,7 @@ def largest_targets(scene: Scene) -> Iterator[Target]:
     """The largest force and the largest approach that steps of the history end with."""
     for kind in ControlKind:
         ends = [ramp.normal.end for ramp in scene.load_path() if ramp.normal.kind is kind]
-        if ends:
+        if any(ends):
             force = kind is ControlKind.FORCE
             yield Target(max(ends) if force else None, None if force else max(ends))
 
@@ -35,7 +36,8 @@ def targets(scene: Scene) -> Iterator[Target]:
     """What the steps of a history press to."""
     for ramp in scene.load_path():
         force = ramp.normal.kind is ControlKind.FORCE
-        yield Target(ramp.normal.end if force else None, None if force else ramp.normal.end)
+        if ramp.normal.end:
+            yield Target(ramp.normal.end if force else None, None if force else ramp.normal.end)
 
 
 def shown_radii(count: int, largest: Sequence[Pressed], rim: float | None) -> Array:
@@ -46,6 +48,12 @@ def shown_radii(count: int, largest: Sequence[Pressed], rim: float | None) -> Ar
     inside = inside[1 if widest.profile.apex else 0 : None if rim is None else -1]
     beside = np.arange(1, count // OUTSIDE + 1) / (count // OUTSIDE)
     return np.asarray(widest.radius * np.concatenate([inside, 1 + (REACH - 1) * beside**2]))
+
+
+def undeformed_gap(scene: Scene, last: Increment) -> Array:
+    """Return the gap without tractions at the rings, and angles, of an increment [length]."""
+    gap = np.asarray(scene.indenter.initial_gap(last.radii, 0.0))
+    return np.array(np.broadcast_to(gap, last.gap.T.shape).T)
 
 
 def refuse_no_disc(radii: Array, p: Array, gap: Array) -> None:

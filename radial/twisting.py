@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,6 +15,7 @@ from contact_scene.summary import ContactStatus
 from radial.fields import Increment
 from radial.plan import ELSEWHERE
 from radial.pressing import Pressed
+from radial.shown import undeformed_gap
 from radial.torsion import Torsion
 from radial.twist_path import TwistPath
 
@@ -91,6 +93,10 @@ class Twisting:
             assert torque is not None
             return Twisted(pressed, path.to_torque(torque), (ControlKind.FORCE, torque))
         return Twisted(pressed, path.to_twist(twist), (ControlKind.DISPLACEMENT, twist))
+
+    def undeformed_gap(self, last: Increment, tilt: Any) -> Array:
+        """See `contact_scene.march.Solver`."""
+        return undeformed_gap(self.scene, last)
 
     def report(self, reached: Reached[Twisted], last: Increment | None) -> Increment:
         """The contact at the rings; raises UnsupportedScene where it slips first within."""

@@ -157,7 +157,8 @@ def _extents(contact: NDArray[np.bool_], grid: SurfaceGrid) -> tuple[float, floa
 def _largest_loads(scene: Scene, tilts: bool) -> list[NormalTarget]:
     """Loads among which is the one whose contact reaches farthest from the origin: the largest
     force and the largest approach of the history, and those that tilt or lean most."""
-    ends = [normal_target(ramp, None, 1.0, tilts) for ramp in scene.load_path()]
+    pressing = (ramp for ramp in scene.load_path() if ramp.normal.end)
+    ends = [normal_target(ramp, None, 1.0, tilts) for ramp in pressing]
     measures = (_size, *((partial(_lean, 0), partial(_lean, 1)) if tilts else ()))
     kinds = [[end for end in ends if _control(end) == kind] for kind in _CONTROLS]
     farthest = [max(kind, key=measure) for kind in kinds if kind for measure in measures]

@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
-from typing import Protocol
+from typing import Any, Protocol
 
 import numpy as np
 
@@ -24,7 +24,7 @@ from semi_analytical.increment import (
 )
 from semi_analytical.model import ContactModel
 from semi_analytical.plan import Coupling, Plan
-from semi_analytical.pressing import NormalTarget
+from semi_analytical.pressing import NormalTarget, plane
 from semi_analytical.sheared import Sheared, untouched
 from semi_analytical.shearing import TangentialTarget
 
@@ -131,6 +131,11 @@ class _Solver:
             return replace(after, edge_report=edges)
         border = self.plan.couples or after.sheared is None or edges.sheared is not None
         return replace(after, corrected=edges, edge_report=replace(edges.report, border=border))
+
+    def undeformed_gap(self, last: Increment, tilt: Any) -> Field:
+        """See `contact_scene.march.Solver`."""
+        closure = 0.0 if tilt is None else plane(self.model, tilt)
+        return self.model.domain.extend(self.model.gap - closure)
 
     def report(self, reached: Reached[State], last: Increment | None) -> Increment:
         """The state, with what the increment has changed and cost."""

@@ -44,7 +44,7 @@ class Pressing:
         """By how much the indenter closes the gap [length]."""
         if self.tilt is None:
             return self.approach
-        return np.asarray(self.approach + _plane(model, self.tilt))
+        return np.asarray(self.approach + plane(model, self.tilt))
 
 
 @dataclass(frozen=True)
@@ -69,13 +69,13 @@ class NormalTarget:
         touch."""
         if self.tilting is None or self.tilting.tilt is None:
             return model.gap
-        return model.gap - _plane(model, self.tilting.tilt) - self._first_touch(model)
+        return model.gap - plane(model, self.tilting.tilt) - self._first_touch(model)
 
     def _first_touch(self, model: ContactModel) -> float:
         """Approach at which a cell of the tilted indenter first touches [length]."""
         if self.tilting is None or self.tilting.tilt is None:
             return 0.0
-        return float(np.min(model.gap - _plane(model, self.tilting.tilt)))
+        return float(np.min(model.gap - plane(model, self.tilting.tilt)))
 
     def on(self, model: ContactModel, box: Box) -> NormalLoad:
         """The load on that gap, as the solver sees it in a box of cells."""
@@ -102,7 +102,7 @@ class NormalTarget:
         return approach, (tilt_x, tilt_y)
 
 
-def _plane(model: ContactModel, tilt: Pair) -> Field:
+def plane(model: ContactModel, tilt: Pair) -> Field:
     """By how much a tilt closes the gap (nx, ny) [length]."""
     return np.asarray(tilt[0] * model.arms[0] + tilt[1] * model.arms[1])
 

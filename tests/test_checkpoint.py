@@ -52,6 +52,7 @@ LOOP = (
 LED = (*LOOP, LoadStep(tangential_shift=(1e-8, 0.0), increments=3))
 SOFTER = Body(material=SOFT)
 EDGES_INSIDE: tuple[EdgeCorrection, ...] = ("last", "all")
+LIFTED = (*LOOP, LoadStep(normal_force=0.0, tangential_force=(0.0, 0.0), increments=2), *LOOP[:2])
 TURNED = (PRESSED, LoadStep(torque=1e-4, increments=2), LoadStep(torque=-1e-4, increments=2))
 TILTED = (
     LoadStep(normal_force=100.0, moment=(0.0, 1e-3), increments=2),
@@ -103,6 +104,7 @@ SOLVES = {
         )
     },
     "coupled": on_surface(COATED, LOOP),
+    "separated": on_surface(PLAIN, LIFTED),
     **{
         f"coupled, edges inside the cells, {edge}": with_edges(SOFTER, edge, BALL)
         for edge in EDGES_INSIDE

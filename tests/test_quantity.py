@@ -16,7 +16,7 @@ from contact_scene.quantity import (
     Length,
     Moment,
     PoissonRatio,
-    PositiveForce,
+    PressingForce,
     PositiveLength,
     PositivePressure,
     Rotation,
@@ -111,7 +111,7 @@ def test_what_is_not_a_positive_length_is_refused_with_an_example(written: Any) 
             [0.01, 1.04, "59.9 deg"],
             [0.0, math.pi / 3, 1.05, "60 deg", "60 percent", "1 m/m", "1 m"],
         ),
-        (PositiveForce, [1e-30, 1e30], [0.0, -1.0, 1e31, 1e-31]),
+        (PressingForce, [0.0, 1e-30, 1e30], [-1.0, 1e31, 1e-31]),
         (Force, [0.0, -1.0, 1], [1e31, math.nan]),
     ],
 )
@@ -128,7 +128,7 @@ def test_bounds_hold(kind: Any, inside: list[Any], outside: list[Any]) -> None:
     [
         (Length, "18 MM", '"18 mm"'),
         (PositivePressure, "5 gpa", '"5 GPa"'),
-        (PositiveForce, "1 kn", '"1 kN"'),
+        (PressingForce, "1 kn", '"1 kN"'),
         (Length, "0.018", "without quotes"),
     ],
 )

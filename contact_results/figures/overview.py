@@ -75,9 +75,9 @@ def overview(
 def section_stress(result: Result) -> StressField | None:
     """Stress in the body under the final tractions, with the edge of the contact where it can be
     fitted: on at most `MOST_CELLS` cells along a side, means of those of the run, or of the radial
-    solver; None of elements, whose mesh takes longer than the run, of a rigid body, of a number of
+    solver; None of elements, whose mesh takes longer than the run, of a rigid body, without contact, of a number of
     cells that has no such divisor, and of the radial solver's shear."""
-    if not result.scene.body.deforms:
+    if not result.scene.body.deforms or not result.steps[-1].contact_area:
         return None
     state = state_of_result(result, None)
     if state.pressed is not None:
@@ -128,7 +128,7 @@ def _draw_seen(figure: Any, result: Result, above: Above) -> None:
     assert pressure is not None
     unit = engineering_unit(float(np.max(pressure)), "Pa")
     seen = np.where(pressure > 0, pressure / unit.size, np.nan)
-    image = draw_panel(ax, frame, Panel("", seen), float(np.nanmax(seen)))
+    image = draw_panel(ax, frame, Panel("", seen), float(np.max(pressure)) / unit.size or 1.0)
     figure.colorbar(image, ax=ax, label=unit.labelled("pressure p"), shrink=0.8)
 
 

@@ -95,7 +95,7 @@ def state_of_result(
     errors  of the result
     """
     ends = {end.step: end for end in result.steps}
-    end = ends[_existing(step, sorted(ends))]
+    end = _in_contact(ends[_existing(step, sorted(ends))])
     surface = surface_of(result)
     fields = {name: surface.scalar(end, name) for name in TRACTIONS}
     return _state(
@@ -121,7 +121,7 @@ def state_of_run(directory: Path, step: int | None) -> LoadedBodies:
     except (FileNotFoundError, ValueError) as error:
         raise NoSuchState(f"{error}; give the output of a run, or a scene file") from None
     chosen = _existing(step, list(range(1, len(run.summary.steps) + 1)))
-    end = run.summary.steps[chosen - 1]
+    end = _in_contact(run.summary.steps[chosen - 1])
     try:
         # A file lists names by the alphabet; fields have the radii first.
         order = sorted(run.coordinates, key=lambda name: name == "angles")
@@ -198,6 +198,16 @@ def _no_root(indenter: ShapedBody, friction: CoulombFriction | None) -> str | No
     if friction is not None and friction.varying is not None:
         return OF_MAP
     return None
+
+
+def _in_contact(end: Any) -> Any:
+    """The end of a step; raises NoSuchState where the bodies are separated."""
+    if not end.contact_area:
+        raise NoSuchState(
+            "the bodies are separated at the end of this step, and the stress is zero everywhere; "
+            "give a --step that ends in contact"
+        )
+    return end
 
 
 def _existing(step: int | None, steps: list[int]) -> int:

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
+from numpy.typing import NDArray
 
 from contact_scene.march import Place
 from contact_scene.solver_errors import ContactAtZoneEdge
@@ -61,6 +62,11 @@ class ContactMethod:
         """Convert a state to the increment of a result."""
         contact = self._on_rings if state.axisymmetric else self._on_points
         return reported(contact, state, self.plan.direction, place)
+
+    @property
+    def undeformed_gap(self) -> NDArray[np.float64]:
+        """Gap without tractions, the mean over each ring's function (rings,) [length]."""
+        return self._on_rings.gap
 
     @cached_property
     def _on_rings(self) -> PointContact:

@@ -1,0 +1,142 @@
+"""Separation of the bodies at the end of a load step: no load, no contact, and a virgin return."""
+
+from typing import Any, NamedTuple
+
+import numpy as np
+import pytest
+from contact_scenes import APPROACH, LOAD, PRESS, RADIUS, push, scene, slide
+
+import slipstick
+from contact_results.stress.loaded_bodies import NoSuchState, state_of_result
+from contact_scene import FiniteElementDiscretisation, SurfaceDiscretisation
+from contact_scene.problem import SceneError
+from contact_scene.summary import ContactStatus
+
+ELEMENTS = FiniteElementDiscretisation(elements_per_radius=12)
+SOLVERS = {
+    "semi-analytical": SurfaceDiscretisation(cells=(48, 48)),
+    "fem-complementarity": ELEMENTS,
+    "fem": ELEMENTS,
+    "radial": None,
+}
+TO_EDGE = 2e-3  # relative error of the coarse cells and elements
+FEW = {"increments": 4}
+LIFT = {"normal_force": 0.0, **FEW}
+UNCHANGED = ("pressure", "gap", "shear", "shear_radial", "slip", "slip_radial", "in_stick")
+
+
+class History(NamedTuple):
+    """Load steps up to separation, after the return, and of the equal virgin contact."""
+
+    before: tuple[dict, ...]
+    after: tuple[dict, ...]
+    virgin: tuple[dict, ...]
+    friction: float | None = 0.1
+
+
+PUSHED = PRESS, push(0.5, **FEW)
+TWISTED = PRESS, {"torque": 3e-3, **FEW}
+HISTORIES = {
+    "pressed": History((PRESS, LIFT), (PRESS,), (PRESS,), None),
+    "by approach": History(
+        ({"approach": APPROACH}, {"approach": 0.0}), ({"approach": APPROACH},), (PRESS,), None
+    ),
+    "pushed": History((*PUSHED, {**LIFT, **push(0)}), PUSHED, PUSHED),
+    "twisted": History((*TWISTED, {**LIFT, "torque": 0.0}), TWISTED, TWISTED),
+    "moved while apart": History(
+        (PRESS, slide(1, **FEW), LIFT, slide(2)),
+        (PRESS, slide(3, **FEW)),
+        (PRESS, slide(1, **FEW)),
+    ),
+}  # fmt: skip
+
+
+def solved(steps: tuple[dict, ...], solver: Any, friction: float | None = 0.1) -> Any:
+    return slipstick.solve(scene(*steps, friction=friction), solver, SOLVERS[solver])
+
+
+def close(one: Any, other: Any, exponent: int) -> bool:
+    part = 10.0**exponent
+    return np.allclose(one, other, rtol=part, atol=part * np.max(np.abs(other)) + 1e-300)
+
+
+@pytest.mark.parametrize("solver", SOLVERS)
+@pytest.mark.parametrize("name", HISTORIES)
+def test_return_is_a_virgin_contact(name: str, solver: str) -> None:
+    history = HISTORIES[name]
+    lifted = solved(history.before, solver, history.friction)
+    again = solved((*history.before, *history.after), solver, history.friction).steps
+    virgin = solved(history.virgin, solver, history.friction).steps
+    apart, before = lifted.steps[-1], lifted.steps[1 if history.friction else 0]
+
+    assert apart.status is ContactStatus.SEPARATED
+    assert apart.normal_force == apart.approach == apart.contact_area == apart.elastic_energy == 0
+    assert not apart.pressure.any()
+    assert 0 <= np.min(apart.gap) < 2e-3 * APPROACH
+    with pytest.raises(NoSuchState, match="separated"):
+        state_of_result(lifted, None)
+    if history.friction:
+        assert apart.input_work == apart.dissipated_energy > before.dissipated_energy > 0
+        assert apart.stick_area == (apart.torque or 0.0) == 0
+        assert not np.any(apart.tangential_force or 0.0 if solver != "semi-analytical" else 0.0)
+    if name == "moved while apart":
+        assert close(apart.tangential_shift, slide(2)["tangential_shift"], -12)
+
+    for end, new in zip(again[len(history.before) :], virgin, strict=True):
+        assert end.status is new.status
+        # Prescribed force and approach give the same contact to its discretisation.
+        exponent = -3 if name == "by approach" else -9
+        for field in UNCHANGED:
+            if getattr(new, field, None) is not None and (exponent == -9 or field == "pressure"):
+                assert close(getattr(end, field), getattr(new, field), exponent), field
+        for number in ("dissipated_energy", "tangential_shift", "twist"):
+            if getattr(new, number) is not None:
+                gained = np.subtract(getattr(end, number), getattr(apart, number))
+                assert close(gained, getattr(new, number), -7), number
+        assert end.approach == pytest.approx(APPROACH, rel=TO_EDGE)
+
+
+@pytest.mark.parametrize("solver", SOLVERS)
+def test_separation_is_the_limit_of_small_loads(solver: str) -> None:
+    """The point that loses contact last has not slipped: the residual shift vanishes with W. The
+    dissipated energy agrees with that of a history that ends just above 0."""
+    pushed = PRESS, push(0.6, **FEW), push(0, **FEW)
+    ends = (0.0, 1e-3 * LOAD)
+    (*_, residual, apart), (*_, near) = (
+        solved((*pushed, {"normal_force": end, "increments": 10}), solver).steps for end in ends
+    )
+    assert residual.tangential_shift[0] > 0
+    assert abs(apart.tangential_shift[0]) < 0.02 * residual.tangential_shift[0]
+    uncertain = apart.dissipation_uncertainty + near.dissipation_uncertainty
+    assert 0 < uncertain < apart.dissipated_energy
+    assert abs(apart.dissipated_energy - near.dissipated_energy) <= uncertain
+
+
+def test_tilted_bodies_separate_at_first_touch() -> None:
+    """A paraboloid of radius R, tilted by φ about the origin, first touches at −Rφ²/2."""
+    slope = 1e-3
+    steps = {**PRESS, "tilt": (0.0, slope)}, {"normal_force": 0.0}, PRESS
+    first, apart, again = solved(steps, "semi-analytical", None).steps
+    assert apart.approach == pytest.approx(-RADIUS * slope**2 / 2, rel=1e-2)
+    assert np.min(apart.gap) == 0
+    assert tuple(apart.tilt) == (0.0, slope)
+    assert again.approach == first.approach
+
+
+@pytest.mark.parametrize(
+    ("step", "problem"),
+    [
+        (LIFT, "tangential_force other than 0"),
+        ({"approach": 0.0, "torque": 1.0}, "torque other than 0"),
+        ({"normal_force": 0.0, "moment": (1.0, 0.0)}, "moment other than 0"),
+        ({"approach": 0.0, "tilt": (1e-3, 0.0)}, "tilted indenter may touch"),
+    ],
+)
+def test_loads_of_separated_bodies_are_refused(step: dict, problem: str) -> None:
+    with pytest.raises(SceneError, match=problem):
+        scene(PRESS, push(0.5), step)
+
+
+def test_first_step_presses() -> None:
+    with pytest.raises(SceneError, match="above 0 in the first step"):
+        scene({"normal_force": 0.0}, PRESS)
