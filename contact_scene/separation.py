@@ -12,6 +12,7 @@ from typing import Any, TypeVar, cast
 import numpy as np
 from numpy.typing import NDArray
 
+from contact_scene.height_map import lowest_point
 from contact_scene.load_path import Control, ControlKind, LoadRamp
 from contact_scene.residuals import Residuals
 from contact_scene.summary import ContactStatus
@@ -53,8 +54,11 @@ def separated(
     if before.in_stick is not None:  # a small contact may not have had its stick zone determined
         found |= {name: 0.0 for name in ("stick_area", "stick_radius") if name in found}
     found |= position(before, ramp, fraction)
-    tilted = found["tilt"] is not None and np.any(found["tilt"])
-    lowest = float(np.min(gap)) if tilted else 0.0
+    lowest = 0.0
+    if found["tilt"] is not None and np.any(found["tilt"]):
+        # Beyond a rim the gap is infinite, and the first contact is on the rim.
+        smooth = bool(np.all(np.isfinite(gap)))
+        lowest = lowest_point(gap)[0] if smooth else float(np.min(gap))
     dissipated = before.dissipated_energy or 0.0
     found |= {"gap": gap - lowest, "approach": lowest, "status": ContactStatus.SEPARATED}
     found |= {"elastic_energy": 0.0, "input_work": None, "unresolved_work": None, **place}

