@@ -90,7 +90,7 @@ MISTAKES = {
         ("[friction]\ncoefficient = 0.1\n", ""),
         *(11, "loading[2].tangential_force", "add [friction]"),
     ),
-    "press": (('normal_force = "1 kN"', "approach = -1"), 11, "loading[1].approach", "positive"),
+    "press": (('normal_force = "1 kN"', "approach = -1"), 11, "loading[1].approach", "not below 0"),
     "no load": (('tangential_force = ["90 N", 0]', ""), 12, "loading[2]", "names no load"),
     "both": (("increments", "tangential_shift = [1, 2]\nincrements"), 12, "loading[2]", "one of"),
     "one component": (('"90 N", 0', '"90 N"'), 13, "loading[2].tangential_force", "array of 2"),

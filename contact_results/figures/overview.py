@@ -75,8 +75,8 @@ def overview(
 def section_stress(result: Result) -> StressField | None:
     """Stress in the body under the final tractions, with the edge of the contact where it can be
     fitted: on at most `MOST_CELLS` cells along a side, means of those of the run, or of the radial
-    solver; None of elements, whose mesh takes longer than the run, of a rigid body, without contact, of a number of
-    cells that has no such divisor, and of the radial solver's shear."""
+    solver; None of elements, whose mesh takes longer than the run, of a rigid body, without
+    contact, of a number of cells that has no such divisor, and of the radial solver's shear."""
     if not result.scene.body.deforms or not result.steps[-1].contact_area:
         return None
     state = state_of_result(result, None)

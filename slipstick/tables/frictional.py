@@ -58,6 +58,7 @@ def pressed(place: tuple[float, ...], increments: int, fineness: int) -> Sheared
     asked = scene(place)
     solver = Rubbing.of(asked, RadialDiscretisation(), fineness)
     *_, (_, mark) = marked_increments(asked, (increments,), solver, None)
+    assert mark.state is not None  # pressed
     return mark.state
 
 
