@@ -18,6 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from contact_results.surface import Cells, Surface, surface_of
+from contact_scene.array_types import Field, Vector
 from contact_scene.cycles import LoadCycle, load_cycles
 from contact_scene.reported import Kind, Reported
 from contact_scene.stored_fields import FieldStore, WithFields
@@ -25,8 +26,6 @@ from contact_scene.stored_fields import FieldStore, WithFields
 if TYPE_CHECKING:
     from contact_results.surface import Increment, Result
 
-Field = NDArray[np.float64]
-Vector = NDArray[np.float64]
 Value = TypeVar("Value", float, Field)
 F = Kind.FIELD
 

@@ -7,9 +7,9 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING, cast
 
 import numpy as np
-from numpy.typing import NDArray
 
 from contact_scene import HeightMap
+from contact_scene.array_types import Field
 from contact_scene.cycles import load_cycles
 from contact_scene.height_map import interpolate
 from contact_scene.increment_error import NEAR_GROSS_SLIP, near_gross_slip, with_error
@@ -21,7 +21,6 @@ if TYPE_CHECKING:
     import semi_analytical
     from contact_results.surface import Result
 
-Field = NDArray[np.float64]
 
 # Of the peak pressure, below which there is nothing to say of what cells leave out.
 NEGLIGIBLE = 1e-3

@@ -12,6 +12,8 @@ from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
+from contact_scene.array_types import Field
+
 if TYPE_CHECKING:
     import fem_reference
     import radial
@@ -19,8 +21,6 @@ if TYPE_CHECKING:
 
     Increment = semi_analytical.Increment | fem_reference.Increment | radial.Increment
     Result = semi_analytical.Result | fem_reference.Result | radial.Result
-
-Field = NDArray[np.float64]
 
 
 class Line(NamedTuple):

@@ -5,14 +5,13 @@ from dataclasses import replace
 from math import pi
 
 import numpy as np
-from numpy.typing import NDArray
 
 from contact_scene import Scene
+from contact_scene.array_types import Field
 from fem_reference.elasticity.hat_functions import Hats, hats_on
 from fem_reference.fields import Increment
 from fem_reference.plan import Path, Plan
 
-Field = NDArray[np.float64]
 UNCOUPLED = (Path.PRESSING, Path.SHEARING, Path.TWISTING)
 
 

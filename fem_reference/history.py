@@ -5,9 +5,9 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from contact_scene import LoadRamp, Scene
+from contact_scene.array_types import Field
 from contact_scene.load_path import ScalarControl
 from contact_scene.march import Reached, marked_increments
 from contact_scene.standing import Mark, Standing
@@ -17,8 +17,6 @@ from fem_reference.energy import accounted
 from fem_reference.fields import Increment
 from fem_reference.loads import STILL, Loads, NormalTarget, TangentialTarget
 from fem_reference.plan import Path
-
-Field = NDArray[np.float64]
 
 
 def march(method: ContactMethod, tolerance: float) -> Iterator[Increment]:

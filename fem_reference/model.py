@@ -4,21 +4,19 @@ from dataclasses import replace
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 
 from contact_scene import (
     Body,
     FiniteElementDiscretisation,
     Scene,
 )
+from contact_scene.array_types import Field
 from contact_scene.friction import FRICTIONLESS, CoulombFriction
 from fem_reference.elasticity.compliance import NodalCompliance, composite
 from fem_reference.elasticity.hat_functions import Hats, hats_on
 from fem_reference.elasticity.motion import TORSION, Motion, motion
 from fem_reference.mesh.section_mesh import SectionMesh, section_mesh
 from fem_reference.scales import Scales
-
-Field = NDArray[np.float64]
 
 
 class ContactModel:

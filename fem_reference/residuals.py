@@ -6,9 +6,8 @@ of `contact_scene.residuals.Residuals`; a NaN in a field is one in its measure.
 """
 
 import numpy as np
-from numpy.typing import NDArray
 
-Field = NDArray[np.float64]
+from contact_scene.array_types import Field
 
 # Slip below this part of what the surfaces move is measured against the motion instead: without
 # any slip its direction means nothing.

@@ -6,17 +6,15 @@ from collections.abc import Sequence
 from math import pi
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.special import j0, j1
 
+from contact_scene.array_types import Array
 from radial.bodies import LONGEST_WAVE, longest
 from radial.disc import Disc
 from radial.half_space import below_pressure
 from radial.wavenumbers import waves
 from semi_analytical.frf.depth import Descent, Level, in_plane, material_at, remainder_at_depth
 from semi_analytical.frf.stack import Stack
-
-Array = NDArray[np.float64]
 
 # exp(-κ d) (κ d)² is below 1e-17 from here on.
 DIED_OUT = 48.0

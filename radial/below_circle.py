@@ -15,6 +15,7 @@ from math import ceil
 import numpy as np
 from numpy.typing import NDArray
 
+from contact_scene.array_types import Array
 from radial.bodies import LONGEST_WAVE, longest
 from radial.loaded_circle import LoadedCircle
 from radial.rays import below_circle
@@ -23,7 +24,6 @@ from radial.wavenumbers import waves
 from semi_analytical.frf.depth import Descent, Level, in_plane, material_at, remainder_at_depth
 from semi_analytical.frf.stack import Stack
 
-Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 
 # exp(-κ d) (κ d)² is below 1e-12 from here on: tractions are not known better.

@@ -7,15 +7,13 @@ from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
-from numpy.typing import NDArray
 
 from contact_scene import Scene
+from contact_scene.array_types import Array
 from contact_scene.pair import contact_modulus
 from radial.wavenumbers import Waves, waves
 from semi_analytical.frf.stack import Stack, stack_of
 from semi_analytical.frf.surface import SurfaceScalars, remainder_scalars
-
-Array = NDArray[np.float64]
 
 # exp(-2 k h) (k h)² is below 1e-17 from here on.
 REACH = 24.0

@@ -10,9 +10,8 @@ from __future__ import annotations
 from enum import Enum
 
 import numpy as np
-from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from contact_scene.array_types import Array
 
 
 class Circle(Enum):

@@ -12,15 +12,12 @@ from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.interpolate import CubicSpline, RectBivariateSpline
 
+from contact_scene.array_types import Array, Mask
 from contact_scene.solver_errors import UnsupportedScene
 from radial.loaded_circle import LoadedCircle
 from radial.plan import ELSEWHERE
-
-Array = NDArray[np.float64]
-Mask = NDArray[np.bool_]
 
 RADII, ANGLES = 241, 360  # of a circle: linear between them to some 1e-5
 FEWEST = 4  # rings that tell the edge

@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from contact_scene.array_types import Array
 
 
 def touched(r: Array, begun: float, radius: float) -> Array:

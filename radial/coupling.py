@@ -7,17 +7,15 @@ from math import pi
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from contact_scene import Scene
+from contact_scene.array_types import Array
 from radial.bodies import Bodies, added_by
 from radial.disc import Disc
 from radial.quadrature import unit_gauss
 from radial.rings import Rings
 from radial.wavenumbers import Waves
 from semi_analytical.frf.stack import Stack, stack_of
-
-Array = NDArray[np.float64]
 
 POINTS = 40
 

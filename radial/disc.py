@@ -22,9 +22,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.polynomial import legendre
-from numpy.typing import NDArray
 from scipy.linalg import cho_factor, cho_solve
 
+from contact_scene.array_types import Array
 from contact_scene.solver_errors import NotConverged, UnsupportedScene
 from radial.bodies import Bodies
 from radial.kept import MOST_KEPT, kept_within
@@ -35,7 +35,6 @@ from radial.wavenumbers import Waves
 if TYPE_CHECKING:
     from contact_scene.geometry import ShapedBody
 
-Array = NDArray[np.float64]
 
 # Of what is added up in the equation: by less nobody can miss it.
 ROUND_OFF = 1e-12

@@ -22,10 +22,9 @@ from numpy.polynomial import chebyshev
 from numpy.typing import NDArray
 from scipy.special import ellipkm1
 
+from contact_scene.array_types import Array
 from radial.disc import Disc
 from radial.quadrature import unit_gauss
-
-Array = NDArray[np.float64]
 
 POINTS = 48
 PANELS, NODES = 26, 26  # down to 2^-26; with Chebyshev's points 1e-16 is left of a panel

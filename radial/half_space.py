@@ -13,12 +13,12 @@ from math import asinh, ceil, pi
 import numpy as np
 from numpy.typing import NDArray
 
+from contact_scene.array_types import Array
 from radial.disc import Disc
 from radial.quadrature import unit_gauss
 from radial.surface import pressure
 from semi_analytical.frf.stack import HalfSpace
 
-Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 
 POINTS = 16

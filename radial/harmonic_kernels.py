@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.special import ellipe, ellipkm1
 
-Array = NDArray[np.float64]
+from contact_scene.array_types import Array
 
 # Where the highest order times arccosh χ is below, the recurrence upwards loses some 1e-13; down
 # from where it goes on to fall below round-off it loses nothing.

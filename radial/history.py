@@ -7,9 +7,9 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from contact_scene import LoadRamp, RadialDiscretisation, Scene
+from contact_scene.array_types import Array
 from contact_scene.march import Reached, marked_increments
 from contact_scene.normal_form import normal_form
 from contact_scene.one_thread import one_thread
@@ -30,7 +30,6 @@ from radial.shown import (
 )
 from radial.surface import displacement, largest_pressure, pressure
 
-Array = NDArray[np.float64]
 Progress = Callable[[Increment], None]
 
 

@@ -10,9 +10,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from contact_scene.array_types import Array
 from radial.quadrature import unit_gauss
 
-Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 
 # Points of a panel of Gauss's rule, and for the load; and for that harmonics that may alias.

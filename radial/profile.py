@@ -8,15 +8,14 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.polynomial import chebyshev, legendre
-from numpy.typing import NDArray
 
+from contact_scene.array_types import Array
 from contact_scene.solver_errors import UnsupportedScene
 from radial.quadrature import shifted, unit_gauss
 
 if TYPE_CHECKING:
     from contact_scene.geometry import ShapedBody
 
-Array = NDArray[np.float64]
 
 FEWEST, MOST = 16, 2048  # points at which a gap is taken
 # Of the largest coefficient, per point: what is below is round-off.

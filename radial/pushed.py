@@ -6,9 +6,9 @@ from dataclasses import dataclass
 from math import pi, sqrt
 
 import numpy as np
-from numpy.typing import NDArray
 
 from contact_scene import CoulombFriction
+from contact_scene.array_types import Array
 from contact_scene.friction import sliding_friction
 from contact_scene.residuals import Residuals
 from contact_scene.summary import ContactStatus
@@ -16,8 +16,6 @@ from radial.circle import Circle
 from radial.contact_growth import front, touched
 from radial.ring_points import Points
 from radial.ring_state import ABOUT, ACROSS, ALONG, DOWN, Held, Loads
-
-Array = NDArray[np.float64]
 
 REST = 1e-11  # of the approach: less slip is round-off
 

@@ -6,9 +6,9 @@ from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from contact_scene import CoulombFriction, LoadRamp, RadialDiscretisation, Scene
+from contact_scene.array_types import Array
 from contact_scene.march import Reached
 from contact_scene.pair import coupling
 from contact_scene.solver_errors import NotConverged, UnsupportedScene
@@ -27,7 +27,6 @@ from radial.ring_state import ABOUT, DOWN, Loads
 from radial.shown import largest_targets, targets, undeformed_gap
 from radial.surface import pressure
 
-Array = NDArray[np.float64]
 Pair = tuple[float, float]
 
 SETTLING, SETTLED = 8, 2  # increments, and layouts, after which the radius of the contact is known

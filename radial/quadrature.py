@@ -6,9 +6,8 @@ from functools import lru_cache
 
 import numpy as np
 from numpy.polynomial import legendre
-from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from contact_scene.array_types import Array
 
 
 @lru_cache(maxsize=64)

@@ -11,13 +11,11 @@ from __future__ import annotations
 from math import pi
 
 import numpy as np
-from numpy.typing import NDArray
 
+from contact_scene.array_types import Array
 from radial.loaded_circle import LoadedCircle
 from radial.quadrature import unit_gauss
 from semi_analytical.frf.stack import HalfSpace
-
-Array = NDArray[np.float64]
 
 SURFACE = 1e-8  # depths below are the surface
 ANGLES, POINTS = 8, 6  # Gauss's of a panel of angles and of a ray

@@ -13,12 +13,10 @@ Weber–Schafheitlin integrals (DLMF 10.22.56) check them.
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
+from contact_scene.array_types import Array
 from radial.coupling import Coupling
 from radial.ring_energies import blocks, transforms, unit_energies
-
-Array = NDArray[np.float64]
 
 
 def ring_compliance(

@@ -15,10 +15,10 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.special import j0, j1
 
+from contact_scene.array_types import Array
 from radial.harmonic_kernels import alike
 from radial.quadrature import unit_gauss
 
-Array = NDArray[np.float64]
 Numbers = NDArray[np.int64]
 # Points of r and s between the numbers of r, s and r's distance s - r, and their weights.
 Pairs = tuple[Numbers, Numbers, Array, Array, Array, Array]

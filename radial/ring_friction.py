@@ -16,17 +16,15 @@ from collections.abc import Iterator
 from contextlib import suppress
 
 import numpy as np
-from numpy.typing import NDArray
 
 from contact_scene import CoulombFriction
+from contact_scene.array_types import Array
 from contact_scene.solver_errors import ContactAtZoneEdge, GrossSliding, NotConverged
 from radial.ring_laws import At, Laws
 from radial.ring_newton import aimed
 from radial.ring_points import Points
 from radial.ring_state import ABOUT, DOWN, Held, Loads
 from radial.sliding import carried_times
-
-Array = NDArray[np.float64]
 
 MOST_STEPS = 60
 SHORTEST = 2.0**-6  # of a step of Newton's method

@@ -6,13 +6,11 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from contact_scene import CoulombFriction
+from contact_scene.array_types import Array
 from radial.ring_points import Points
 from radial.ring_state import ABOUT, ALONG, DOWN, Held, Loads, carried
-
-Array = NDArray[np.float64]
 
 LEAST_FRICTION = 1e-4  # of which the limit is more than round-off of the pressure
 # Of loads that go on as in the last increment: what is round-off of them, how many times as far

@@ -5,16 +5,14 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 
+from contact_scene.array_types import Array
 from contact_scene.geometry import ShapedBody
 from radial.circle import Circle
 from radial.coupling import Coupling
 from radial.quadrature import unit_gauss
 from radial.ring_compliance import ring_compliance
 from radial.ring_points import Points
-
-Array = NDArray[np.float64]
 
 GRADED = 4  # rings towards the edge from either side, each half as wide as the one before
 LEAST = 0.75  # of the width of a ring: even ones that are nearer to an edge give way

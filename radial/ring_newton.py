@@ -15,10 +15,10 @@ from numpy.typing import NDArray
 from scipy.linalg import lapack
 
 from contact_scene import CoulombFriction
+from contact_scene.array_types import Array
 from radial.ring_laws import At, Laws
 from radial.ring_state import DOWN
 
-Array = NDArray[np.float64]
 Numbers = NDArray[np.int64]
 
 

@@ -7,13 +7,11 @@ from dataclasses import dataclass, replace
 from functools import cached_property, lru_cache
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.interpolate import CubicSpline
 
+from contact_scene.array_types import Array
 from radial.circle import Circle
 from radial.stick_border import stick_area
-
-Array = NDArray[np.float64]
 
 FINER = 16  # places per element, where a front is looked for
 # Nodes that tell an edge: so far from the last one with pressure, over its radius, and how many.

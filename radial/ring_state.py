@@ -5,11 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
+from contact_scene.array_types import Array
 from radial.ring_points import Points
-
-Array = NDArray[np.float64]
 
 # Of rigid motions and what does work on them: T along and across, M about the axis, W.
 ALONG, ACROSS, ABOUT, DOWN = range(4)

@@ -14,14 +14,12 @@ from math import exp, log
 from typing import TypeAlias
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.special import ellipe, ellipkm1, j0, j1
 
+from contact_scene.array_types import Array
 from radial.kept import MOST_KEPT, kept_within
 from radial.quadrature import unit_gauss
 from radial.wavenumbers import Waves
-
-Array = NDArray[np.float64]
 
 # Fronts that lie nearer to each other than this share their rings: of log(c/(a - c)).
 SHARED = 0.08

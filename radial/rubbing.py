@@ -8,10 +8,10 @@ from math import ceil, exp, inf, log
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.interpolate import CubicSpline
 
 from contact_scene import CoulombFriction, LoadRamp, RadialDiscretisation, Scene
+from contact_scene.array_types import Array
 from contact_scene.march import Reached
 from contact_scene.residuals import Residuals
 from contact_scene.solver_errors import NotConverged
@@ -30,8 +30,6 @@ from radial.shown import (
 )
 from radial.stick_slip import Rubbed, Signs, rubbed
 from radial.surface import displacement, pressure
-
-Array = NDArray[np.float64]
 
 COUNT = 64  # rings, apart from those about the front and at the ends
 MOST_TRIED = 40

@@ -6,14 +6,12 @@ from dataclasses import dataclass
 from math import sqrt
 
 import numpy as np
-from numpy.typing import NDArray
 
 from contact_scene import CoulombFriction
+from contact_scene.array_types import Array
 from radial.contact_growth import front, touched
 from radial.pressing import Target
 from radial.stick_slip import Rubbed
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)

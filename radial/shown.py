@@ -6,16 +6,14 @@ from collections.abc import Iterator, Sequence
 from math import ceil, log10
 
 import numpy as np
-from numpy.typing import NDArray
 
 from contact_scene import ControlKind, Scene
+from contact_scene.array_types import Array
 from contact_scene.solver_errors import UnsupportedScene
 from radial.disc import Disc
 from radial.fields import Increment
 from radial.plan import ELSEWHERE
 from radial.pressing import Pressed, Target
-
-Array = NDArray[np.float64]
 
 # Rings outside over those inside, out to so many radii of the largest contact.
 OUTSIDE, REACH = 4, 2.0

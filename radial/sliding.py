@@ -7,9 +7,8 @@ from numpy.typing import NDArray
 from scipy.linalg import null_space
 from scipy.optimize import minimize
 
+from contact_scene.array_types import Array
 from radial.ring_points import Points
-
-Array = NDArray[np.float64]
 
 DIGITS = 1e-9
 

@@ -13,8 +13,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
-Mask = NDArray[np.bool_]
+from contact_scene.array_types import Array, Mask
 
 # Distance of the border beyond the last point that sticks, in distances of points, by powers of the
 # ratio of the last two values: on hats within 2e-5, on points of harmonics within 1.3e-3.

@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 from scipy.linalg import lapack
 
 from contact_scene import CoulombFriction
+from contact_scene.array_types import Array
 from contact_scene.solver_errors import NotConverged
 from radial.coupling import Coupling, Response
 from radial.disc import Disc, disc
@@ -27,7 +28,6 @@ from radial.surface import pressure
 if TYPE_CHECKING:
     from contact_scene.geometry import ShapedBody
 
-Array = NDArray[np.float64]
 Signs = NDArray[np.int64]
 
 MOST_STEPS = 200  # a few per ring: what all but sticks changes one ring at a time

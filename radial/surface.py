@@ -6,14 +6,12 @@ from math import pi
 
 import numpy as np
 from numpy.polynomial import legendre
-from numpy.typing import NDArray
 from scipy.optimize import minimize_scalar
 from scipy.special import j0
 
+from contact_scene.array_types import Array
 from radial.disc import Disc
 from radial.quadrature import every_order, shifted, unit_gauss
-
-Array = NDArray[np.float64]
 
 POINTS = 48
 AT_ONCE = 8192  # wavenumbers

@@ -20,17 +20,15 @@ from math import ceil, log2, pi
 
 import numpy as np
 from numpy.polynomial import legendre
-from numpy.typing import NDArray
 from scipy.special import j1
 
 from contact_scene import Scene
+from contact_scene.array_types import Array
 from radial.bodies import Bodies, added_by
 from radial.disc import Disc, orders
 from radial.friction_limit import FrictionLimit
 from radial.quadrature import unit_gauss
 from semi_analytical.frf.stack import Stack, stack_of
-
-Array = NDArray[np.float64]
 
 POINTS = 24
 NO_STICK = 1e-6  # of the stick radius over that of the contact: less is none

@@ -6,9 +6,9 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from contact_scene import ControlKind, LoadRamp, Scene
+from contact_scene.array_types import Array
 from contact_scene.march import Reached, Solver
 from contact_scene.solver_errors import UnsupportedScene
 from contact_scene.summary import ContactStatus
@@ -18,8 +18,6 @@ from radial.pressing import Pressed
 from radial.shown import undeformed_gap
 from radial.torsion import Torsion
 from radial.twist_path import TwistPath
-
-Array = NDArray[np.float64]
 
 # Of the largest friction limit: what exceeds it by less is round-off.
 NO_ANNULUS = 1e-9

@@ -11,13 +11,11 @@ from math import ceil, floor, log
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.special import spherical_jn
 
+from contact_scene.array_types import Array
 from radial.kept import MOST_KEPT, kept_within
 from radial.quadrature import unit_gauss
-
-Array = NDArray[np.float64]
 
 POINTS = 16
 # What oscillates by so much over a panel is integrated to 1e-14 by 16 points.

@@ -6,7 +6,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from contact_results.surface import Cells, Field, Rings, Surface
+from contact_results.surface import Cells, Rings, Surface
+from contact_scene.array_types import Field
 
 REACH = 1.5  # of the places
 ROUND_OFF = 1e-15

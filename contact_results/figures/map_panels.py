@@ -12,13 +12,13 @@ from numpy.typing import NDArray
 from scipy.ndimage import map_coordinates
 
 from contact_results.surface import Cells, Rings
+from contact_scene.array_types import Field
 from contact_scene.engineering_units import EngineeringUnit, engineering_unit
 
 if TYPE_CHECKING:
     from contact_results.surface import Increment, Result
 
 Above: TypeAlias = "Cells | RingsAbove"
-Field = NDArray[np.float64]
 
 PANEL = 2.4  # longer side in inches
 NARROWEST = 1.0

@@ -11,7 +11,6 @@ import numpy as np
 from matplotlib.colors import ListedColormap
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch
-from numpy.typing import NDArray
 
 from contact_results.cycles import FrettingCycle
 from contact_results.figures import style
@@ -24,13 +23,12 @@ from contact_results.figures.map_panels import (
     outline,
 )
 from contact_results.figures.shown_steps import selected, step_title
+from contact_scene.array_types import Field, Mask
 from contact_scene.engineering_units import EngineeringUnit, engineering_unit
 
 if TYPE_CHECKING:
     from contact_results.surface import Cells, Increment, Result
 
-Field = NDArray[np.float64]
-Mask = NDArray[np.bool_]
 
 # Label, unit and components of the fields that have a map.
 FIELDS = {

@@ -15,7 +15,8 @@ from contact_scene.engineering_units import EngineeringUnit, engineering_unit
 from contact_scene.friction import FRICTIONLESS
 
 if TYPE_CHECKING:
-    from contact_results.surface import Field, Increment, Result, Surface
+    from contact_results.surface import Increment, Result, Surface
+    from contact_scene.array_types import Field
 
 MARGIN = 1.15  # of the contact's extent, so that its edge is seen against the outside
 

@@ -6,8 +6,8 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, TypeVar
 
 import numpy as np
-from numpy.typing import NDArray
 
+from contact_scene.array_types import Field
 from contact_scene.engineering_units import engineering_unit, quantity
 from contact_scene.increment import SCALARS
 
@@ -17,7 +17,6 @@ if TYPE_CHECKING:
 AT_MOST = 6
 SAME = 1e-6  # relative to the largest value: a difference that is invisible in a figure
 
-Field = NDArray[np.float64]
 Step = TypeVar("Step")
 
 

@@ -7,19 +7,18 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from contact_results.cycles import FrettingCycle
 from contact_results.directory.file_names import COLUMNS, CYCLES, INCREMENTS, PROFILES
 from contact_results.files.csv_file import STEP, Column, marked, write_meanings, write_table
 from contact_results.surface import Rings, surface_of
+from contact_scene.array_types import Field
 from contact_scene.increment import SCALARS, components, numbers
 from contact_scene.reported import reported
 
 if TYPE_CHECKING:
     from contact_results.surface import Increment, Result, Surface
 
-Field = NDArray[np.float64]
 
 LINE = "on the line y = 0 of cells; of rings on the line through the axis along the tangential load"
 PROFILE_VECTORS = {

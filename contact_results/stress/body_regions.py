@@ -8,15 +8,14 @@ from math import isfinite
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
 from contact_results.stress.extremes import interface_sides, layer_name
 from contact_scene import Body, IsotropicMaterial
+from contact_scene.array_types import Field
 
 if TYPE_CHECKING:
     from semi_analytical.frf.depth import Level
 
-Field = NDArray[np.float64]
 
 REACH = 5.0  # contact radii to the sides and in depth
 IN_LAYER = 8  # spaces of a layer at the least

@@ -1,9 +1,8 @@
 """Invariants of the stress tensor, components (6, …) in the order of CONVENTIONS.md."""
 
 import numpy as np
-from numpy.typing import NDArray
 
-Field = NDArray[np.float64]
+from contact_scene.array_types import Field
 
 
 def von_mises(stress: Field) -> Field:

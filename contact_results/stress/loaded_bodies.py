@@ -8,13 +8,13 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from contact_results.directory.file_names import FIELDS
 from contact_results.files.stored_run import load
 from contact_results.files.stored_values import MISREAD, ends_of_steps
 from contact_results.surface import Surface, surface_of, surface_on
 from contact_scene import Body, CoulombFriction, FiniteElementDiscretisation, Scene
+from contact_scene.array_types import Field
 from contact_scene.geometry import ShapedBody
 from contact_scene.increment import State
 from contact_scene.stated_error import ErrorStatus, StatedError, StatedErrors
@@ -22,7 +22,6 @@ from contact_scene.stated_error import ErrorStatus, StatedError, StatedErrors
 if TYPE_CHECKING:
     from contact_results.surface import Result
 
-Field = NDArray[np.float64]
 
 TRACTIONS = ("pressure", "shear_radial", "shear_circumferential", "shear_along_load", "shear")
 

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from contact_results.stress.loaded_bodies import LoadedBodies
 from contact_results.stress.points import FittedEdge, StressField, StressPoints
+from contact_scene.array_types import Field
 from contact_scene.one_thread import one_thread
 
 if TYPE_CHECKING:
@@ -19,7 +20,6 @@ if TYPE_CHECKING:
     from semi_analytical.frf.depth import Level
     from semi_analytical.stress import NearEdge, SubsurfaceField
 
-Field = NDArray[np.float64]
 
 # Half a window in half extents of the contact: past the contact's rim, where tension is largest,
 # and past what bends a coating down there.

@@ -11,8 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from contact_results.stress.invariants import principal_stresses, von_mises
+from contact_scene.array_types import Field
 
-Field = NDArray[np.float64]
 Indices = NDArray[np.int64]
 
 FIELDS = ("x", "y", "depth", "material", "displacement", "stress", "at_edge")

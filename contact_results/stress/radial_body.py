@@ -7,13 +7,13 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from contact_results.stress.body_regions import IN_LAYER, REACH, BodyRegions, spacing
 from contact_results.stress.extremes import Extreme
 from contact_results.stress.loaded_bodies import LoadedBodies
 from contact_results.stress.points import StressPoints
 from contact_results.surface import Rings
+from contact_scene.array_types import Field
 from contact_scene.geometry import ShapedBody
 from contact_scene.solver_errors import UnsupportedScene
 
@@ -22,7 +22,6 @@ if TYPE_CHECKING:
     from semi_analytical.frf.depth import Level
     from semi_analytical.frf.stack import Stack
 
-Field = NDArray[np.float64]
 Fields = Callable[[Sequence["Level"], Field, Field], Field]
 
 

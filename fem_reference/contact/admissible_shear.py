@@ -4,10 +4,8 @@ Discs are the same in (q_r, q_θ) as in (q_x, q_y).
 """
 
 import numpy as np
-from numpy.typing import NDArray
 
-Field = NDArray[np.float64]
-Vector = NDArray[np.float64]
+from contact_scene.array_types import Field, Vector
 
 MOST_STEPS = 200
 ROUND_OFF = 4e-16

@@ -9,8 +9,8 @@ one. Its solution is the initial guess of `coupled_newton`. Without coupling one
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from contact_scene.array_types import Field, Mask, Vector
 from contact_scene.friction import CoulombFriction
 from contact_scene.solver_errors import NotConverged
 from fem_reference.contact.box_program import (
@@ -25,10 +25,6 @@ from fem_reference.contact.point_compliance import PointCompliance
 from fem_reference.contact.tangential_newton import Sheared, ShearProblem, solve_shear
 from fem_reference.loads import NormalTarget, TangentialTarget
 from fem_reference.residuals import over
-
-Field = NDArray[np.float64]
-Vector = NDArray[np.float64]
-Mask = NDArray[np.bool_]
 
 MOST_TURNS = 60
 LOOSEST = 1e-4  # first tolerance of the shear

@@ -8,11 +8,9 @@ the number of unknowns on a ring: more are not unique, fewer make the tangential
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.fft import dct, dst
 
-Matrix = NDArray[np.float64]
-Vector = NDArray[np.float64]
+from contact_scene.array_types import Matrix, Vector
 
 
 @dataclass(frozen=True)

@@ -19,10 +19,9 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.linalg import cho_factor, cho_solve
 
+from contact_scene.array_types import Field, Matrix
 from contact_scene.solver_errors import NotConverged
 
-Field = NDArray[np.float64]
-Matrix = NDArray[np.float64]
 Sides = NDArray[np.int8]
 
 MOST_STEPS = 60

@@ -14,15 +14,12 @@ as its last row, keeps its sign. This holds across kinks too, where directions c
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from contact_scene.array_types import Matrix, Vector
 from contact_scene.solver_errors import NotConverged
 from fem_reference.contact.alternating_iteration import CoupledProblem, CoupledSolution
 from fem_reference.contact.coupled_newton import Root, Start, root
 from fem_reference.contact.natural_map import Equations, Iterate
-
-Vector = NDArray[np.float64]
-Matrix = NDArray[np.float64]
 
 MOST_STEPS = 1000
 SOFT = 10.0  # of the springs at first, over the compliance of the bodies at a point

@@ -9,8 +9,8 @@ method may cycle between kinks: see `continuation`.
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from contact_scene.array_types import Field, Mask, Matrix, Vector
 from contact_scene.solver_errors import NotConverged
 from fem_reference.contact.alternating_iteration import (
     CoupledProblem,
@@ -20,11 +20,6 @@ from fem_reference.contact.alternating_iteration import (
     sides_of,
 )
 from fem_reference.contact.natural_map import Equations, Iterate
-
-Field = NDArray[np.float64]
-Vector = NDArray[np.float64]
-Matrix = NDArray[np.float64]
-Mask = NDArray[np.bool_]
 
 MOST_STEPS = 200
 MOST_HALVINGS = 7

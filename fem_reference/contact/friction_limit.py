@@ -1,12 +1,10 @@
 """Friction limit of a whole contact: comparison with the load, and contact status."""
 
 import numpy as np
-from numpy.typing import NDArray
 
+from contact_scene.array_types import Mask
 from contact_scene.solver_errors import GrossSliding
 from contact_scene.summary import ContactStatus
-
-Mask = NDArray[np.bool_]
 
 # A force this close to the friction limit, relatively, is at it: what would still stick, a
 # hundredth of the contact wide (the cube root), is less than an element.

@@ -8,11 +8,9 @@ the pressures of three points on an edge.
 from collections.abc import Callable
 
 import numpy as np
-from numpy.typing import NDArray
 
+from contact_scene.array_types import Field
 from fem_reference.elasticity.hat_functions import TractionBasis, corners_under
-
-Field = NDArray[np.float64]
 
 POINTS_PER_EDGE = 3
 

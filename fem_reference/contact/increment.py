@@ -8,8 +8,8 @@ each takes the tractions of the last one as multipliers (see `augmented_lagrangi
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
+from contact_scene.array_types import Field, Mask, Vector
 from contact_scene.friction import sliding_friction
 from contact_scene.residuals import Residuals, ShearResiduals
 from contact_scene.solver_errors import ContactNotResolved, NotConverged, motion_undefined
@@ -35,10 +35,6 @@ from fem_reference.residuals import (
     penetration,
     slip_direction,
 )
-
-Field = NDArray[np.float64]
-Vector = NDArray[np.float64]
-Mask = NDArray[np.bool_]
 
 MOST_ATTEMPTS = 4
 # Relative change of the pressure by an alternating iteration from which Newton's method takes over.

@@ -7,6 +7,7 @@ from typing import TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
+from contact_scene.array_types import Field
 from contact_scene.march import Place
 from contact_scene.summary import ContactStatus
 from fem_reference.contact.point_contact import PointContact
@@ -15,7 +16,6 @@ from fem_reference.contact.ring_edge import stick_area
 from fem_reference.fields import Increment
 from fem_reference.plan import Path
 
-Field = NDArray[np.float64]
 Scalar = TypeVar("Scalar", np.float64, np.bool_)
 
 

@@ -10,14 +10,9 @@ surfaces, as soft along them as across, may deepen the approach and lag behind t
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from contact_scene.array_types import Field, Mask, Matrix, Vector
 from fem_reference.contact.alternating_iteration import CoupledProblem, CoupledSolution
-
-Field = NDArray[np.float64]
-Vector = NDArray[np.float64]
-Matrix = NDArray[np.float64]
-Mask = NDArray[np.bool_]
 
 LEAST_FRICTION = 1e-6  # shear is measured by no less of the pressure
 

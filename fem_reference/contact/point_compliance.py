@@ -7,12 +7,10 @@ from typing import TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
+from contact_scene.array_types import Field, Matrix, Vector
 from fem_reference.contact.angular_grid import AngularGrid
 from fem_reference.contact.ring_compliance import RingCompliance
 
-Matrix = NDArray[np.float64]
-Field = NDArray[np.float64]
-Vector = NDArray[np.float64]
 Scalar = TypeVar("Scalar", np.float64, np.bool_)
 
 

@@ -4,8 +4,8 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from contact_scene.array_types import Vector
 from contact_scene.friction import FRICTIONLESS, CoulombFriction
 from contact_scene.pair import contact_modulus
 from contact_scene.residuals import Residuals
@@ -19,8 +19,6 @@ from fem_reference.contact.ring_edge import GaussEdge
 from fem_reference.memory import require_memory
 from fem_reference.model import ContactModel
 from fem_reference.plan import Path
-
-Vector = NDArray[np.float64]
 
 COPIES = 4  # of the matrix between all points, while it is put together or parts are cut out
 

@@ -3,14 +3,10 @@
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from contact_scene.array_types import Field, Mask, Vector
 from contact_scene.residuals import Residuals
 from contact_scene.summary import ContactStatus
-
-Field = NDArray[np.float64]
-Vector = NDArray[np.float64]
-Mask = NDArray[np.bool_]
 
 
 @dataclass(frozen=True)

@@ -3,16 +3,13 @@
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from contact_scene.array_types import Matrix, Vector
 from fem_reference.contact.gauss_points import POINTS_PER_EDGE, GaussPoints, gauss_points
 from fem_reference.contact.ring_edge import Edge, GaussEdge, HatEdge, beyond_pressure, contact_edge
 from fem_reference.elasticity.hat_functions import TractionBasis
 from fem_reference.model import ContactModel
 from fem_reference.plan import Path
-
-Matrix = NDArray[np.float64]
-Vector = NDArray[np.float64]
 
 R, THETA, Z = range(3)
 

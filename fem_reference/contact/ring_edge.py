@@ -19,12 +19,10 @@ from math import pi, sqrt
 from typing import Protocol
 
 import numpy as np
-from numpy.typing import NDArray
 
+from contact_scene.array_types import Field, Mask
 from contact_scene.body import Body
 
-Field = NDArray[np.float64]
-Mask = NDArray[np.bool_]
 Beyond = tuple[float, ...]
 
 # Distance of the edge beyond the last ring, in elements, by powers of the ratio of the last two

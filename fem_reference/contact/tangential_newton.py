@@ -7,17 +7,12 @@ resultant is T: a convex problem, whose multiplier is the shift ω of the indent
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.linalg import cho_factor, cho_solve
 
+from contact_scene.array_types import Field, Mask, Matrix, Vector
 from contact_scene.solver_errors import NotConverged
 from fem_reference.contact.admissible_shear import project
 from fem_reference.loads import TangentialTarget
-
-Matrix = NDArray[np.float64]
-Field = NDArray[np.float64]
-Vector = NDArray[np.float64]
-Mask = NDArray[np.bool_]
 
 MOST_STEPS = 100
 # Below, the energy along a step is all round-off, and a Newton step is taken as it is.

@@ -6,6 +6,7 @@ from scipy.sparse import block_array, coo_array, csr_array
 from scipy.sparse.linalg import splu
 from skfem import Basis, condense
 
+from contact_scene.array_types import Field
 from fem_reference.elasticity.motion import Motion
 from fem_reference.elasticity.numbering import Dofs, Numbering, number_unknowns
 from fem_reference.elasticity.section_basis import displacement_basis
@@ -13,7 +14,6 @@ from fem_reference.elasticity.weak_form import dilatation, element_stiffness, vo
 from fem_reference.memory import require_memory, required_bytes
 from fem_reference.mesh.section_mesh import SectionMesh
 
-Field = NDArray[np.float64]
 Indices = NDArray[np.int64]
 
 EVERYWHERE = slice(None)

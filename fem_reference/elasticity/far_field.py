@@ -1,11 +1,9 @@
 """What a resultant on the surface of a half-space does far away: displacements on the box."""
 
 import numpy as np
-from numpy.typing import NDArray
 
+from contact_scene.array_types import Field
 from contact_scene.material import IsotropicMaterial
-
-Field = NDArray[np.float64]
 
 
 def boussinesq(r: Field, z: Field, material: IsotropicMaterial) -> Field:

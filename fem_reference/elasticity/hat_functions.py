@@ -11,11 +11,9 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 from skfem import Basis, BilinearForm, ElementLineP1, ElementLineP2, LinearForm, MeshLine
 
-Field = NDArray[np.float64]
-Matrix = NDArray[np.float64]
+from contact_scene.array_types import Field, Matrix
 
 # Order of the integrals: exact for the products below, and for smooth gaps to round-off.
 ORDER = 11

@@ -18,10 +18,10 @@ import numpy as np
 from numpy.typing import NDArray
 from skfem import Basis
 
+from contact_scene.array_types import Field
 from fem_reference.elasticity.section_basis import pressure_basis
 from fem_reference.mesh.section_mesh import SectionMesh
 
-Field = NDArray[np.float64]
 Components = tuple[int, ...]
 """Which of u_r (0), u_theta (1) and u_z (2) take part."""
 

@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 from skfem import Basis, ElementQuad2
 
+from contact_scene.array_types import Field
 from fem_reference.elasticity.motion import Motion
 from fem_reference.elasticity.section_basis import displacement_basis
 from fem_reference.elasticity.weak_form import (
@@ -29,7 +30,6 @@ from fem_reference.mesh.section_mesh import SectionMesh
 from fem_reference.scales import Scales
 from fem_reference.stress.section_field import Amplitude
 
-Field = NDArray[np.float64]
 Indices = NDArray[np.int64]
 
 ORDER = ("rr", "tt", "zz", "tz", "rz", "rt")

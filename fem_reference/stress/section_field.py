@@ -8,9 +8,9 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
+from contact_scene.array_types import Field
 from fem_reference.elasticity.motion import Motion
 
-Field = NDArray[np.float64]
 Indices = NDArray[np.int64]
 
 AS_SINE = (3, 5)

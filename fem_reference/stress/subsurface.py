@@ -6,9 +6,9 @@ from dataclasses import dataclass, replace
 from math import ceil
 
 import numpy as np
-from numpy.typing import NDArray
 
 from contact_scene import Body, FiniteElementDiscretisation, IsotropicMaterial
+from contact_scene.array_types import Field
 from contact_scene.solver_errors import UnsupportedScene
 from fem_reference.elasticity.factored_section import FactoredSection
 from fem_reference.elasticity.motion import Motion
@@ -19,8 +19,6 @@ from fem_reference.scales import Scales
 from fem_reference.stress.recovery import recovery_of
 from fem_reference.stress.section_field import SectionField
 from fem_reference.stress.surface_tractions import SurfaceTractions
-
-Field = NDArray[np.float64]
 
 POINTS_BETWEEN = 4
 # Amplitudes below this part of the largest are round-off.

@@ -6,15 +6,13 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 
+from contact_scene.array_types import Field
 from fem_reference.contact.angular_grid import AngularGrid, end_grid, mid_grid
 from fem_reference.contact.gauss_points import POINTS_PER_EDGE
 from fem_reference.contact.ring_edge import BEYOND, Beyond, Edge, GaussEdge, HatEdge, contact_edge
 from fem_reference.elasticity.motion import PRESSING, SHEARING, TORSION, Motion, motion
 from fem_reference.fields import Increment
-
-Field = NDArray[np.float64]
 
 # The last element with pressure says nothing of the smooth factor. Hats that do not end where the
 # contact does err before it by turns above and below, each ring by -0.3 of the next one further
