@@ -7,7 +7,8 @@ next to the edge of the contact. The error of the largest stress found is
 
 Inside the stress converges with order 2; next to an edge that is not fitted with order ½. Half a
 cell inside the edge of tractions that end in a square root, the tensile stress lacks m^-½ of its
-value on m cells per contact radius. An edge that is not fitted and may have the largest stress
+value on m cells per contact radius. On a fitted edge two fits are compared, and the largest stress
+with its neighbours along the edge, as they vary little over a cell. An edge that is not fitted and may have the largest stress
 leaves the stress not converged. The von Mises stress is not largest at an edge without shear, and
 has no such place unless it is found there.
 """
@@ -153,7 +154,8 @@ class _Places:
         value = max(here.value, found.value if found.on_edge else 0.0)
         if self.edge is not None and found.region in AT_SURFACE:
             value = max(value, float(np.max(self.edge.points.measures[found.measure])))
-            return value, max(self.edge.apart / _growth(ROOT), self.edge.least)
+            fits = max(self.edge.apart / _growth(ROOT), self.edge.least)
+            return value, max(fits, _jump(self.edge.points, found.measure))
         change = abs(value) if there is None else abs(value - there.value)
         error = change / _growth(SMOOTH if self.fitted else ROOT)
         if found.measure == LARGEST_TENSION and not self.fitted:
@@ -184,6 +186,18 @@ class _Places:
             some = replace(field, points=points, edge=edge if points.x.size else None)
             found.append({(e.region, e.measure): e for e in extremes(some, self.body)})
         return found[0], found[1]
+
+
+def _jump(edge: StressPoints, measure: str) -> float:
+    """Largest difference of the largest stress on an edge from points within `NEAR` along it.
+
+    The exact stress varies little over so few cells, unlike the error of the tractions.
+    """
+    values = edge.measures[measure]
+    around = values[np.argsort(np.arctan2(edge.y - edge.y.mean(), edge.x - edge.x.mean()))]
+    steps = np.arange(-int(NEAR), int(NEAR) + 1)
+    near = np.take(around, np.argmax(around) + steps, mode="wrap")
+    return float(np.max(np.abs(np.max(values) - near)))
 
 
 def _growth(order: float) -> float:

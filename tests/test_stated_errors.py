@@ -412,11 +412,11 @@ def test_an_edge_that_may_have_the_largest_stress_leaves_it_open(count: int) -> 
     )
 
 
-@pytest.mark.parametrize("nu", [0.2, 0.49, 0.499])
-def test_a_tension_near_zero_has_the_error_of_the_tractions(nu: float) -> None:
+@pytest.mark.parametrize(("nu", "count"), [(0.2, 32), (0.49, 32), (0.499, 32), (0.47, 100)])
+def test_a_tension_near_zero_has_the_error_of_the_tractions(nu: float, count: int) -> None:
     """At the edge of Hertz's contact it is (1 - 2ν)/3 of the peak, however close ν is to ½."""
     posed = scene(PRESS, indenter=paraboloid(steel(nu)), body=steel(nu))
-    result = package.solve(posed, "semi-analytical", cells(32))
+    result = package.solve(posed, "semi-analytical", cells(count))
     found = largest_tensile_stress(result, stated_errors(result), 1)
     assert found is not None
     exact = (1 - 2 * nu) / 3 * hertz(poisson_ratio=nu).peak_pressure
