@@ -8,9 +8,9 @@ next to the edge of the contact. The error of the largest stress found is
 Inside the stress converges with order 2; next to an edge that is not fitted with order ½. Half a
 cell inside the edge of tractions that end in a square root, the tensile stress lacks m^-½ of its
 value on m cells per contact radius. On a fitted edge two fits are compared, and the largest stress
-with its neighbours along the edge, as they vary little over a cell. An edge that is not fitted and may have the largest stress
-leaves the stress not converged. The von Mises stress is not largest at an edge without shear, and
-has no such place unless it is found there.
+with its neighbours along the edge, as they vary little over a cell. An edge that is not fitted and
+may have the largest stress leaves the stress not converged. The von Mises stress is not largest at
+an edge without shear, and has no such place unless it is found there.
 """
 
 from __future__ import annotations

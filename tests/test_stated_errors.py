@@ -371,6 +371,16 @@ EXPENSIVE: dict[str, Callable[[], Known]] = {
         FiniteElementDiscretisation(elements_per_radius=20),
         "fem-complementarity",
     ),
+    # By `radial`: round-off and the section decide.
+    "elements on a film 1e8 times as stiff": lambda: Known(
+        indented(0.018, 450.0, Layer(thickness=1e-4, material=bodies(2.1e19, 0.3)),
+                 bodies(210e9, 0.3)),
+        {"approach": 2.777e-8, "contact_radius": 6.409e-7, "peak_pressure": 5.231e14,
+         "elastic_energy": 6.248e-6},
+        FiniteElementDiscretisation(elements_per_radius=10),
+        "fem-complementarity",
+        uncertain=2e-4,
+    ),
 }  # fmt: skip
 
 
