@@ -294,8 +294,7 @@ class HeightMap(ShapedBody):
 def _first_contact(file: ArrayFile) -> tuple[float, float, Pair]:
     """Lowest height of a map, minimum of the interpolated surface above it (not positive), and the
     position of this minimum in indices of points."""
-    lowest = float(np.min(file.values))
-    return lowest, *lowest_point(file.values - lowest)
+    return float(np.min(file.values)), *lowest_point(file.values)
 
 
 SHAPES: dict[str, type[ShapedBody]] = {

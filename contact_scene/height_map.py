@@ -16,9 +16,9 @@ _COINCIDES = 1e-9
 # Sum of the magnitudes of the negative weights of cubic convolution in two dimensions, at most: at
 # the centre of four points it is 2 (9/8) (1/8).
 _NEGATIVE_WEIGHTS = 9 / 32
-# Rows whose bounds are computed at once; patches that are searched; those of them with the lowest
+# Values whose rows are searched at once; patches of them that are searched; those with the lowest
 # samples, whose minimum is refined; refinements, each to a quarter of the width.
-_ROWS, _MOST_PATCHES, _PATCHES, _REFINEMENTS = 256, 65536, 64, 14
+_BLOCK, _MOST_PATCHES, _PATCHES, _REFINEMENTS = 1 << 17, 8192, 64, 14
 
 
 def _one_for_both(value: Any) -> Any:
@@ -56,24 +56,53 @@ def lowest_point(heights: NDArray[np.float64]) -> tuple[float, tuple[float, floa
     """Minimum of the surface that `interpolate` defines between the outermost points of a map.
 
     heights  values at the points, (nx, ny) [length]
-    returns  the minimum [length]; its position, in indices of points
+    returns  the minimum, counted from the lowest value [length]; its position, in indices of points
 
-    Values beyond the outermost points are extrapolated and do not decide on first contact. Cubic
-    convolution undershoots its 16 values by their range times `_NEGATIVE_WEIGHTS` at most. This
-    bound selects the patches that can lie below the lowest value; their minimum is found on grids
+    Values beyond the outermost points are extrapolated and do not decide on first contact. The map
+    is searched by blocks of rows, so that a large one is not copied.
+    """
+    x = int(np.argmin(np.min(heights, axis=1)))  # argmin copies whole arrays that are read-only
+    y = int(np.argmin(heights[x]))
+    lowest, place, last = 0.0, (float(x), float(y)), len(heights) - 1
+    count = max(1, _BLOCK // heights.shape[1])
+    for begin in range(0, last, count):
+        rows = _with_neighbours(heights, begin, min(begin + count, last)) - heights[x, y]
+        found, at = _lowest_between(rows, lowest)
+        if found < lowest:
+            lowest, place = found, (begin + at[0], at[1])
+    return lowest, place
+
+
+def _with_neighbours(heights: NDArray[np.float64], begin: int, end: int) -> NDArray[np.float64]:
+    """Rows of a map from `begin` to `end` with one more on each side, and columns likewise; those
+    beyond the outermost are extrapolated."""
+    first = max(begin - 3, 0)  # extrapolation takes three rows
+    padded = _continued(_continued(heights[first : end + 4]).T).T
+    return np.asarray(padded[begin - first + 1 : end - first + 4, 1:-1])
+
+
+def _lowest_between(padded: NDArray[np.float64], limit: float) -> tuple[float, tuple[float, float]]:
+    """Minimum of the surface between points and its position, where it lies below a limit; else
+    the limit.
+
+    padded  with one value beyond the outermost points
+
+    Cubic convolution undershoots its 16 values by their range times `_NEGATIVE_WEIGHTS` at most.
+    This bound selects the patches that can lie below the limit; their minimum is found on grids
     that shrink around it.
     """
-    last = np.array(heights.shape) - 1.0
-    place = np.array(np.unravel_index(np.argmin(heights), heights.shape), dtype=float)
-    padded = _continued(_continued(heights).T).T
-    lowest, half = float(np.min(heights)), 0.5
-    centres = _patches_below(padded[1:-1, 1:-1], lowest)
+    last = np.array(padded.shape) - 3.0
+    lowest, place, half = limit, np.zeros(2), 0.5
+    centres = _patches_below(padded, limit)
     for _ in range(_REFINEMENTS if len(centres) else 0):
         around = half * np.linspace(-1.0, 1.0, 9)
         x, y = (np.clip(centres[:, axis, None] + around, 0.0, last[axis]) for axis in (0, 1))
         x, y = np.broadcast_arrays(x[:, :, None], y[:, None, :])
-        i, j = np.floor(x).astype(np.intp), np.floor(y).astype(np.intp)
-        values = _convolved(padded, i + 1, x - i, j + 1, y - j).reshape(len(x), -1)
+        i, j = (
+            np.minimum(np.floor(z), end - 1).astype(np.intp)
+            for z, end in zip((x, y), last, strict=True)
+        )
+        values = _convolved(padded, i, x - i, j, y - j).reshape(len(x), -1)
         at = np.argmin(values, axis=1)
         best = np.argsort(values[np.arange(len(at)), at])[:_PATCHES]
         centres = np.stack([c.reshape(len(x), -1)[best, at[best]] for c in (x, y)], axis=1)
@@ -94,14 +123,10 @@ def _patches_below(padded: NDArray[np.float64], limit: float) -> NDArray[np.floa
         along = reduce(extreme, (rows[k : len(rows) - 3 + k] for k in range(4))).T
         return np.asarray(reduce(extreme, (along[k : len(along) - 3 + k] for k in range(4))).T)
 
-    found, bounds = [], []
-    for begin in range(0, len(padded) - 3, _ROWS):
-        rows = padded[begin : begin + _ROWS + 3]
-        least, most = of_four(np.minimum, rows), of_four(np.maximum, rows)
-        bound = least - _NEGATIVE_WEIGHTS * (most - least)
-        found.append(np.argwhere(bound < limit) + np.array((begin + 0.5, 0.5)))
-        bounds.append(bound[bound < limit])
-    return np.asarray(np.concatenate(found)[np.argsort(np.concatenate(bounds))[:_MOST_PATCHES]])
+    least, most = of_four(np.minimum, padded), of_four(np.maximum, padded)
+    bound = least - _NEGATIVE_WEIGHTS * (most - least)
+    found = np.argwhere(bound < limit) + 0.5
+    return np.asarray(found[np.argsort(bound[bound < limit])[:_MOST_PATCHES]])
 
 
 def _convolved(
