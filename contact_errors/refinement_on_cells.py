@@ -14,13 +14,13 @@ from contact_errors.cost_estimate import Work, estimated_seconds, work_on_cells
 from contact_errors.on_cells import coarse_solves
 from contact_errors.refinement import Keeping, Refinement, RefinementLevel, no_context
 from contact_errors.stress_errors import largest_tensile_stress
+from contact_results.stress import on_cells
 from contact_scene import Scene, SurfaceDiscretisation
 from contact_scene.accuracy_reached import AccuracySettings
 from contact_scene.free_memory import available_bytes
 from contact_scene.solver_errors import ContactAtWindowEdge, ContactNotResolved
 from contact_scene.stated_error import StatedErrors
-from semi_analytical import Plan, Result, SurfaceGrid
-from semi_analytical.memory import estimated_bytes
+from semi_analytical import Plan, Result, SurfaceGrid, memory
 from semi_analytical.resolution import refuse_unresolved
 
 # Cells along the shorter side of the first level; eleven per radius on a fitted window.
@@ -113,7 +113,11 @@ class CellLevels:
 
     def memory(self, fineness: CellFineness) -> int:
         """Largest memory of a level [byte]."""
-        return estimated_bytes(fineness.grid, self._plan().cut_into(fineness.increments))
+        run = memory.estimated_bytes(fineness.grid, self._plan().cut_into(fineness.increments))
+        if self.stress_at is None or not self.scene.body.deforms:
+            return run
+        stress = on_cells.estimated_bytes(self.scene.body, fineness.grid)
+        return max(run, memory.LIBRARIES + stress)
 
     def most_growth(self, fineness: CellFineness) -> float:
         # Memory grows with the cells, apart from that of the libraries.

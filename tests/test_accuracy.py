@@ -2,6 +2,7 @@
 
 import json
 import signal
+import tracemalloc
 from itertools import pairwise
 from multiprocessing import get_context
 from pathlib import Path
@@ -28,6 +29,7 @@ from contact_scenes import (
 from hypothesis import given
 from hypothesis import strategies as st
 
+import semi_analytical
 from contact_errors import refinement_on_cells
 from contact_errors.accuracy_targets import Targets
 from contact_errors.adaptive_refinement import Progress, Refined, refine
@@ -36,9 +38,11 @@ from contact_errors.price import price
 from contact_errors.refinement import SPARE, Refinement, RefinementLevel
 from contact_errors.refinement_on_cells import CellFineness, CellLevels, even_smooth
 from contact_errors.refinement_on_elements import ElementLevels
+from contact_errors.stress_errors import largest_tensile_stress
 from contact_results import result_files
 from contact_results.directory import checkpoint
 from contact_results.directory.checkpoint_file import Unusable, pack, unpacked
+from contact_results.stress import on_cells as stress_on_cells
 from contact_scene import (
     Body,
     Cone,
@@ -258,6 +262,25 @@ def test_the_finest_grid_that_fits_fills_the_memory(
     first = ladder.first()
     finest = ladder.refined(first, Refinement(ladder.most_growth(first)))
     assert ladder.memory(finest) == pytest.approx(gigabytes * 1e9, rel=0.2)
+
+
+def test_levels_with_a_largest_stress_take_the_memory_that_is_estimated() -> None:
+    pressed = scene(PRESS, friction=None)
+    grid = semi_analytical.discretise(pressed, SurfaceDiscretisation(cells=(64, 64)))
+    result = solve(pressed, grid, 1e-6)
+    expected = stress_on_cells.estimated_bytes(pressed.body, grid)
+    tracemalloc.start()
+    largest_tensile_stress(result, StatedErrors(({},), ()), 1)
+    _, peak = tracemalloc.get_traced_memory()
+    tracemalloc.stop()
+    assert 0.5 * expected < peak < expected
+    with_stress, without = (
+        CellLevels(pressed, SurfaceDiscretisation(), at).memory(
+            CellFineness(grid.refined().refined().refined(), (1,), 1e-6)
+        )
+        for at in (1, None)
+    )
+    assert with_stress > 4 * without
 
 
 def test_the_largest_tension_is_as_accurate_as_was_asked() -> None:

@@ -24,6 +24,18 @@ if TYPE_CHECKING:
 # Half a window in half extents of the contact: past the contact's rim, where tension is largest,
 # and past what bends a coating down there.
 MARGIN = 1.6
+DOUBLE = 8
+# Numbers per point at most: displacement and stress, the stress near the edge, principal stresses
+# and equivalent stress; a copy of the points below the surface, with the tensors and eigenvalues
+# that its principal stresses take.
+NUMBERS = (9 + 6 + 4) + (13 + 4 + 9)
+
+
+def estimated_bytes(body: Body, grid: SurfaceGrid) -> int:
+    """Largest memory of the stress of a body, its largest values and their errors, below a contact
+    that fills the grid [byte]."""
+    levels = _levels(body, None, min(grid.window) / 2)
+    return int(DOUBLE * NUMBERS * len(levels) * grid.cells[0] * grid.cells[1] * MARGIN**2)
 
 
 @one_thread()
