@@ -6,6 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from contact_scene import Body, normal_form
 from semi_analytical.frf.surface import SurfaceScalars
 from semi_analytical.influence import bodies, layered
 from verification.cases import layered_reference as reference
@@ -118,6 +119,18 @@ def test_layer_left_out_fails_the_identities(monkeypatch: Patch) -> None:
         return type(stack)(stack.layers[:-1], stack.base)
 
     monkeypatch.setattr(bodies, "stack_of", without_the_last)
+    assert {"approach", "central_pressure"} <= failed(judge(layered_identities_on(32)))
+
+
+def test_wrong_merging_of_layers_fails_the_identities(monkeypatch: Patch) -> None:
+    whole = normal_form._merged
+
+    def without_the_last(body: Body) -> Body:
+        found = whole(body)
+        cut = len(body.layers) - len(found.layers)
+        return found.model_copy(update={"layers": body.layers[cut:]})
+
+    monkeypatch.setattr(normal_form, "_merged", without_the_last)
     assert "same_pressure" in failed(judge(layered_identities_on(32)))
 
 

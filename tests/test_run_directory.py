@@ -169,9 +169,16 @@ def test_abandoned_directory_is_cleared_away_and_a_live_one_is_not(tmp_path: Pat
 def handlers_restored(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
     numbers = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
     before = [signal.getsignal(number) for number in numbers]
+    # A run leaves ignored signals ignored, and `nohup` has tests start with SIGHUP ignored.
+    defaults = (signal.default_int_handler, signal.SIG_DFL, signal.SIG_DFL)
+    for number, handler in zip(numbers, defaults, strict=True):
+        signal.signal(number, handler)
     monkeypatch.setattr(os, "_exit", sys.exit)  # which would end the tests, too
     yield
-    assert [signal.getsignal(number) for number in numbers] == before
+    left = [signal.getsignal(number) for number in numbers]
+    for number, handler in zip(numbers, before, strict=True):
+        signal.signal(number, handler)
+    assert left == list(defaults)
 
 
 @pytest.mark.usefixtures("handlers_restored")

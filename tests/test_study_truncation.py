@@ -13,10 +13,10 @@ from fem_reference import Method
 from fem_reference.elasticity.factored_section import FactoredSection
 from semi_analytical import (
     UnsupportedScene,
-    operator,
     pressing,
 )
 from semi_analytical.influence.closed_form import HalfSpaceCoefficients
+from semi_analytical.operator import spectra
 from verification.judging.case import Level
 from verification.judging.outcome import Status
 from verification.report.svg import inline_svg
@@ -158,8 +158,8 @@ def test_response_that_ends_with_the_window_is_seen(
     scene_file: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """Displacements counted from the window's corner, as a periodic response has them."""
-    right = operator.even_transform
-    monkeypatch.setattr(operator, "even_transform", lambda values: right(values - values[-1, -1]))
+    right = spectra.even_transform
+    monkeypatch.setattr(spectra, "even_transform", lambda values: right(values - values[-1, -1]))
     assert of_windows(scene_file)[UNCHANGED] is Status.FAIL
 
 
