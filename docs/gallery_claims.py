@@ -13,7 +13,7 @@ from contact_scene import read_scene_file
 from slipstick import solve, stated_errors
 
 SCENES = Path(__file__).parent / "gallery"
-TELLS = 0.1  # an error bar of more than this part of the number says nothing about it
+TELLS = 0.1  # agreement within a larger part of the number is no statement
 
 
 class Verdict(StrEnum):
@@ -114,12 +114,14 @@ class Found:
 
     @property
     def verdict(self) -> Verdict:
-        """The two agree where they are no further apart than both may be off."""
-        if self.error > TELLS * abs(self.ours) + self.claim.reading:
-            return Verdict.CANNOT_TELL
-        apart = abs(self.ours - self.claim.published)
-        agree = apart <= self.claim.reading + self.error
-        return Verdict.AGREES if agree else Verdict.DIFFERS
+        """The two differ where they are further apart than the errors of both allow.
+
+        Any number agrees within a large error: such a one does not tell.
+        """
+        if abs(self.ours - self.claim.published) > self.claim.reading + self.error:
+            return Verdict.DIFFERS
+        tells = self.error <= TELLS * abs(self.ours) + self.claim.reading
+        return Verdict.AGREES if tells else Verdict.CANNOT_TELL
 
 
 def found(entry: Entry, claim: Claim) -> Found:

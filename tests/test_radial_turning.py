@@ -94,14 +94,30 @@ def test_fields_carry_the_loads_and_obey_coulomb() -> None:
     assert surface.along(end.pressure).shape == (2 * len(end.radii),)
 
 
-def test_work_is_stored_lost_or_left_open_by_the_increments() -> None:
-    coarse = beside().steps[-1]
+def trapezoidal(result: radial.Result) -> float:
+    """Work of all loads by their values at the ends of the increments [force length]."""
+    at_rest = np.zeros(4)
+    loads, motions = (
+        np.array([at_rest, *((x, *along, about) for x, along, about in values)])
+        for values in (
+            [(i.normal_force, i.tangential_force, i.torque) for i in result.increments],
+            [(i.approach, i.tangential_shift, i.twist) for i in result.increments],
+        )
+    )
+    return float(np.sum((loads[1:] + loads[:-1]) / 2 * np.diff(motions, axis=0)))
+
+
+def test_work_is_stored_or_lost_but_for_what_the_increments_leave_open() -> None:
     steps = twist(0.4, 6), push(0.5, 0.0, 6), twist(-0.3, 6)
     finer = rough(scene(*steps, loading=(PRESS.model_copy(update={"increments": 8}), *steps)))
-    for step in (coarse, finer.steps[-1]):
-        whole = step.elastic_energy + step.dissipated_energy + step.unresolved_work
-        assert step.input_work == pytest.approx(whole, rel=1e-12)
-    assert abs(finer.steps[-1].unresolved_work) < 0.4 * abs(coarse.unresolved_work)
+    for result in (beside(), finer):
+        end = result.steps[-1]
+        assert end.input_work == pytest.approx(
+            end.elastic_energy + end.dissipated_energy, rel=1e-12
+        )
+        assert trapezoidal(result) == pytest.approx(end.input_work + end.unresolved_work, rel=1e-12)
+    coarse = beside().steps[-1].unresolved_work
+    assert abs(finer.steps[-1].unresolved_work) < 0.4 * abs(coarse)
 
 
 def test_motions_lead_where_their_loads_would() -> None:

@@ -18,6 +18,7 @@ from scipy.optimize import brentq
 
 from contact_scene import Body, CoulombFriction, LoadStep, Scene
 from contact_scene.geometry import Indenter
+from verification.problems.drawn import drawing
 from verification.problems.drawn.known_scene import (
     CYCLE,
     ELASTIC,
@@ -144,7 +145,7 @@ class Led:
 
     def truths(self) -> Iterator[Truth]:
         """What is known at the ends of the steps."""
-        closed, free = self.forces[-1] == self.forces[0], self._names[not self.by_motion]
+        closed, free = drawing.closes(self.forces), self._names[not self.by_motion]
         for step, (force, state) in enumerate(zip(self.forces, self._states, strict=True), start=2):
             if step > 2 and abs(force) == self.forces[0]:
                 continue  # by symmetry the numbers of the first loading once more

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any, Protocol
 
 import numpy as np
@@ -141,6 +142,11 @@ def pressing(
 def by_motion(rng: Rng) -> bool:
     """Whether motions are prescribed, not forces."""
     return bool(rng.random() < BY_MOTION)
+
+
+def closes(forces: Sequence[float]) -> bool:
+    """Tell whether the last of the forces or torques of `parts` closes a cycle."""
+    return len(forces) > 1 and forces[-1] == forces[0]
 
 
 def parts(rng: Rng) -> tuple[float, ...]:

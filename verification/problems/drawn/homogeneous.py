@@ -274,7 +274,7 @@ def _of_cycle(
     contact: PointContact, limit: float, forces: Sequence[float], *, surface_stress: bool
 ) -> Iterator[Truth]:
     """The largest of the fields of a closed cycle; finite elements have no stress there."""
-    if forces[-1] != forces[0]:
+    if not drawing.closes(forces):
         return
     a, mu = contact.contact_radius, limit / contact.load
     end = PartialSlip(contact.load, a, mu, contact.contact_modulus, forces[0])

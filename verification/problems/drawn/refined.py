@@ -158,7 +158,7 @@ def _refined(
 
 def _wanted(forces: Sequence[float], others: tuple[str, ...]) -> Iterator[tuple[int, str]]:
     """Steps and quantities."""
-    closed = forces[-1] == forces[0]
+    closed = drawing.closes(forces)
     for step, force in enumerate(forces, start=2):
         if step == 2 or abs(force) != forces[0]:
             yield from ((step, name) for name in (SHIFT, ELASTIC, WORK, *others))
