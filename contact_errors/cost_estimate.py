@@ -5,16 +5,23 @@
 u unknowns and w repetitions of a solve take t; u₀ and w₀ take t₀, which is measured then and there.
 The exponent is 1 for the transforms of the fields, and 0.1 because iterations double with 1000
 times the cells. Of few unknowns a solve takes as long as of o, the overhead of each operation.
+
+The error estimate of a run adds two solves with a quarter of its unknowns, and solves that judge
+the increments. The latter have few cells in the run and in the coarse solve alike, so that they
+take as long as in the error estimate of the coarse solve, in proportion to the repetitions.
 """
 
 from __future__ import annotations
 
 import time
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import ceil
+from typing import TypeVar
 
 from contact_scene.kept_arrays import without_cache
+
+T = TypeVar("T")
 
 EXPONENT = 1.1
 # Unknowns whose work equals the overhead of an operation. The scenes of `tests/cost_record.json`
@@ -60,11 +67,24 @@ def work_on_rings(increments: Sequence[int]) -> Work:
 def estimated_seconds(measured: float, coarse: Work, solve: Work) -> float:
     """Estimate the CPU seconds of a solve, within a factor of two.
 
-    measured  CPU seconds of the coarse solve; with its error estimate, if that of the other is to
-              be included
+    measured  CPU seconds of the coarse solve
     """
     unknowns = (solve.unknowns + solve.overhead) / (coarse.unknowns + coarse.overhead)
     return measured * solve.repetitions / coarse.repetitions * unknowns**EXPONENT
+
+
+def estimated_run_seconds(solved: float, judged: float, coarse: Work, run: Work) -> float:
+    """Estimate the CPU seconds of a solve and its error estimate, within a factor of two.
+
+    solved  CPU seconds of the coarse solve
+    judged  CPU seconds of the error estimate of the coarse solve
+    """
+    quarter = replace(run, unknowns=run.unknowns / 4)
+    return (
+        estimated_seconds(solved, coarse, run)
+        + 2 * estimated_seconds(solved, coarse, quarter)
+        + judged * run.repetitions / coarse.repetitions
+    )
 
 
 def coarse_increments(increments: Sequence[int]) -> tuple[int, ...]:
@@ -73,9 +93,9 @@ def coarse_increments(increments: Sequence[int]) -> tuple[int, ...]:
     return tuple(ceil(share * count) for count in increments)
 
 
-def cpu_seconds(solve: Callable[[], object]) -> float:
-    """Measure the CPU time of a call that finds no array in the cache."""
+def cpu_seconds(call: Callable[[], T]) -> tuple[T, float]:
+    """Measure the CPU time of a call that finds no array in the cache; return its result, too."""
     with without_cache():
         began = time.process_time()
-        solve()
-        return time.process_time() - began
+        result = call()
+        return result, time.process_time() - began

@@ -113,7 +113,8 @@ class OnCells:
         coarse = fineness.model_copy(update={"cells": (nx, ny)})
         try:
             return time_of_run(
-                lambda: stated_errors(semi_analytical.solve_discretised(begin, coarse, plan=cut)),
+                lambda: semi_analytical.solve_discretised(begin, coarse, plan=cut),
+                stated_errors,
                 work_on_cells((nx, ny), cut.increments, plan.shear),
                 work_on_cells(grid.cells, plan.increments, plan.shear),
             )

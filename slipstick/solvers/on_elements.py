@@ -110,9 +110,8 @@ class OnElements:
         coarse = fineness.model_copy(update={"elements_per_radius": elements})
         harmonics = fineness.harmonics if plan.path is Path.HARMONICS else 1
         return time_of_run(
-            lambda: stated_errors(
-                fem_reference.solve(with_increments(begin, increments), coarse, self.method)
-            ),
+            lambda: fem_reference.solve(with_increments(begin, increments), coarse, self.method),
+            stated_errors,
             work_on_elements(elements, increments, harmonics),
             work_on_elements(fineness.elements_per_radius, plan.increments, harmonics),
         )

@@ -65,11 +65,11 @@ class OnRadii:
     def _time(self, scene: Scene, fineness: RadialDiscretisation, plan: Plan) -> tuple[str, str]:
         from contact_errors.on_radii import stated_errors
 
-        solve = radial.solve
         begin = scene.model_copy(update={"loading": scene.loading[:MAX_STEPS]})
         cut = replace(plan, increments=coarse_increments(plan.increments[:MAX_STEPS]))
         return time_of_run(
-            lambda: stated_errors(solve(begin, fineness, plan=cut)),
+            lambda: radial.solve(begin, fineness, plan=cut),
+            stated_errors,
             work_on_rings(cut.increments),
             work_on_rings(plan.increments),
         )

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Sequence
 from typing import TYPE_CHECKING, Any, Protocol, TypeAlias
 
-from contact_errors.cost_estimate import Work, cpu_seconds, estimated_seconds
+from contact_errors.cost_estimate import T, Work, cpu_seconds, estimated_run_seconds
 from contact_scene.solver_errors import ContactNotResolved, SolverError
 
 if TYPE_CHECKING:
@@ -91,17 +91,21 @@ def increments_text(counts: tuple[int, ...]) -> str:
     return f"{sum(counts)} = {shown}{more} in {len(counts)} steps"
 
 
-def time_of_run(coarse_run: Callable[[], object], coarse: Work, run: Work) -> tuple[str, str]:
-    """State the CPU time of a run from that of a coarse one, both with their error estimates.
+def time_of_run(
+    solve: Callable[[], T], judge: Callable[[T], object], coarse: Work, run: Work
+) -> tuple[str, str]:
+    """State the CPU time of a run from those of a coarse solve and of its error estimate.
 
     Raises ContactNotResolved where the coarse run has too few cells.
     """
     try:
-        seconds = estimated_seconds(cpu_seconds(coarse_run), coarse, run)
+        result, solved = cpu_seconds(solve)
+        _, judged = cpu_seconds(lambda: judge(result))
     except ContactNotResolved:
         raise
     except SolverError as error:
         return "time", f"not estimated, since a coarse solve failed: {error}"
+    seconds = estimated_run_seconds(solved, judged, coarse, run)
     return "time", f"{time_text(seconds)} of one core, error estimates included"
 
 
