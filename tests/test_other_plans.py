@@ -178,7 +178,7 @@ def test_uncoupled_scenes_do_not_import_the_one_way_increment():
 def stick_verdict():
     outcome = judge(goodman_indentation_on(64, (0.2,)))
     verdicts = {v.name: v.status for v in outcome.verdicts}
-    stick = verdicts.pop("stick_radius_0.2")
+    stick = verdicts.pop("stick_ratio")
     assert set(verdicts.values()) == {Status.PASS}
     return stick
 
@@ -187,6 +187,6 @@ def test_goodman_case_passes_and_sees_a_coupling_too_weak(monkeypatch):
     assert stick_verdict() is Status.PASS
     whole = DisplacementOperator.tangential_by_pressure
     monkeypatch.setattr(
-        DisplacementOperator, "tangential_by_pressure", lambda self, p: 0.95 * whole(self, p)
+        DisplacementOperator, "tangential_by_pressure", lambda self, p: 0.97 * whole(self, p)
     )
     assert stick_verdict() is Status.FAIL
