@@ -58,7 +58,7 @@ def separated(
     if found["tilt"] is not None and np.any(found["tilt"]):
         # Beyond a rim the gap is infinite, and the first contact is on the rim.
         smooth = bool(np.all(np.isfinite(gap)))
-        lowest = lowest_point(gap)[0] if smooth else float(np.min(gap))
+        lowest = float(np.min(gap)) + (lowest_point(gap)[0] if smooth else 0.0)
     dissipated = before.dissipated_energy or 0.0
     found |= {"gap": gap - lowest, "approach": lowest, "status": ContactStatus.SEPARATED}
     found |= {"elastic_energy": 0.0, "input_work": None, "unresolved_work": None, **place}

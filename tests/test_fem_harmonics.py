@@ -21,7 +21,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from contact_scene.march import Place
-from contact_scene.solver_errors import GrossSliding, NotConverged
+from contact_scene.solver_errors import ContactNotResolved, GrossSliding, NotConverged
 from contact_scene.summary import ContactStatus
 from fem_reference.contact import (
     alternating_iteration,
@@ -446,10 +446,10 @@ def test_singular_equations_are_an_increment_that_does_not_converge(led, monkeyp
         advance(few_points(0.3), None, FIRST[led](0.3, 0.6), TOLERANCE)
 
 
-def test_approach_that_touches_no_point_does_not_converge():
+def test_approach_that_touches_no_point_is_refused():
     of = few_points(0.3)
     short = NormalTarget(approach=0.5 * np.min(of.gap))
-    with pytest.raises(NotConverged):
+    with pytest.raises(ContactNotResolved):
         advance(of, None, Loads(short, TangentialTarget(motion=0.1)), TOLERANCE)
 
 
