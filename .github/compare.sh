@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # Says what changed since the baseline, in the log and on the page of the job.
-# A drift within what the references allow, and a level that nothing is recorded of (5), are warnings;
-# what begins to fail (1), a report of chosen cases, and files that cannot be read (2), are failures, and
-# so is what becomes worse or dearer within them (7): accept it with the reason, or mend it.
+# Warnings: a drift within the tolerances, and a level without a baseline (5).
+# Failures: a verdict that begins to fail (1), a report of chosen cases or an unreadable file (2), and a
+# number that is worse, more expensive or missing (7), unless it is accepted with a reason.
 #
 # usage: compare.sh REPORT
 set -euo pipefail

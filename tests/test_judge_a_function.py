@@ -20,6 +20,9 @@ def right(problem, level):
 def off(problem, level):
     return Answer(1e-5, {("approach", 1): 1.05 * HERTZ.approach})
 
+def part(problem, level):
+    return Answer(1e-5, {("approach", 1): HERTZ.approach})
+
 def gives_up(problem, level):
     return Answer(1e-5, gave_up={0: "too steep"})
 
@@ -70,7 +73,9 @@ def judge(*arguments: object) -> int:
     [
         ("right", (), 0, "hertz_point"),
         ("right", ("--strict", "--class", "A"), 0, "class A"),
-        ("off", (), 1, "beyond class B"),
+        ("off", ("--partial",), 1, "beyond class B"),
+        ("part", (), 1, "partial"),
+        ("part", ("--partial",), 0, "partial"),
         ("gives_up", (), 3, "too steep"),
         ("raises", (), 3, "singular matrix"),
         ("cannot", (), 0, "cannot: balls only"),

@@ -46,6 +46,18 @@ def test_verdicts_are_outcomes_and_what_is_omitted_is_skipped(pytester: pytest.P
     assert found.ret == 0
 
 
+@pytest.mark.parametrize(("more", "failed"), [("", 1), ("PARTIAL = True", 0)])
+def test_a_required_number_that_is_omitted_fails(
+    pytester: pytest.Pytester, more: str, failed: int
+) -> None:
+    solver(pytester, more=more)
+    path = Path("challenge_mine.py")
+    path.write_text(path.read_text().replace('("contact_radius", 1)', '("central_pressure", 1)'))
+    run(pytester, "--slipstick", "-k", "::contact_radius").assert_outcomes(
+        failed=failed, skipped=1 - failed, deselected=3
+    )
+
+
 def test_strictly_what_is_omitted_fails(pytester: pytest.Pytester) -> None:
     solver(pytester)
     run(pytester, "--slipstick-strict").assert_outcomes(passed=2, failed=2)

@@ -1,5 +1,6 @@
 """Whatever a solver returns is held against the laws once more, and what breaks one is seen."""
 
+import re
 from dataclasses import replace
 
 import numpy as np
@@ -144,6 +145,8 @@ def test_broken_law_on_cells_is_seen(solved, name):
 )  # fmt: skip
 def test_broken_balance_on_cells_is_seen(solved, name):
     _, imbalance = observed(changed(solved["cells"], **{name: 1.01}))
+    at = len(solved["cells"].increments)
+    assert re.match(rf"increment {at}: .* J, .* J; difference ", imbalance.terms)
     assert imbalance > SEEN
 
 
@@ -213,7 +216,7 @@ def test_increments_that_cannot_be_held_against_laws_are_counted(solved, name):
     result, run = solved[name], RUNS[name]
     case = Case("planted", "", "", (run,), ())
     whole = [verdict.meaning for verdict in judge_laws(case, {run.label: result})]
-    assert all(meaning.endswith("it is in this one") for meaning in whole)
+    assert all(re.search(r"it is in this one(, increment \d+: .* J)?$", text) for text in whole)
     *before, last = result.increments
     halved = replace(result, increments=(*before, replace(last, halvings=1)))
     count = len(result.increments)

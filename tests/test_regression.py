@@ -29,8 +29,13 @@ from verification.judging.refinement import refinement
 from verification.judging.verdict_text import failure_line
 from verification.regression import baseline_files
 from verification.regression.acceptance import accept, baselines_of
-from verification.regression.baseline import COUNTERS, key_of
-from verification.regression.baseline_files import BASELINES, dump_baseline, read_baselines
+from verification.regression.baseline import COUNTERS, key_of, keys_of, recording
+from verification.regression.baseline_files import (
+    BASELINES,
+    REMOVED,
+    dump_baseline,
+    read_baselines,
+)
 from verification.regression.comparison import compared
 from verification.regression.number_change import NOISE
 from verification.regression.refusal import BaselineRefused
@@ -409,6 +414,38 @@ def test_what_appears_is_new_and_what_disappears_is_gone(healthy: CaseOutcome) -
     assert appeared.kind is ChangeKind.NEW
     assert {gone.name for gone in shrunk.gone} == {healthy.verdicts[0].name, "cells", "run"}
     assert grown.gone == ()
+
+
+def test_every_deletion_is_red() -> None:
+    """Of each verdict of each case of the kept report, and of each case."""
+    kept, deleted = load_report(FULL_REPORT), 0
+    for case in kept.cases:
+        recorded = baselines_of(report_of(case), REASON)
+        assert len({key_of(verdict) for verdict in case.verdicts}) == len(case.verdicts)
+        for verdict in case.verdicts:
+            others = tuple(v for v in case.verdicts if v is not verdict)
+            fewer = case.model_copy(update={"verdicts": others, "findings": ()})
+            assert exit_code_of(compared(report_of(fewer), recorded)) == 7, verdict.name
+            deleted += 1
+        assert exit_code_of(compared(report_of(), recorded)) == 7, case.name
+    assert deleted == sum(kept.counts.values()) > 800
+
+
+def test_an_accepted_deletion_is_listed_with_its_reason(
+    healthy: CaseOutcome, tmp_path: Path
+) -> None:
+    other = healthy.model_copy(update={"name": "other"})
+    accept(report_of(healthy, other), REASON, tmp_path)
+    fewer = healthy.model_copy(update={"verdicts": healthy.verdicts[1:]})
+    for names, code in (([healthy.name], 7), ((), 0)):
+        accept(report_of(fewer), "a better | successor", tmp_path, names)
+        assert exit_code_of(compared(report_of(fewer), read_baselines(tmp_path))) == code
+    assert read_baselines(tmp_path).keys() == {healthy.name}
+    rows = [line for line in (tmp_path / REMOVED).read_text().splitlines() if "better" in line]
+    gone = healthy.verdicts[0]
+    key = f"{gone.name} [{gone.run}]"
+    assert rows[0] == f"| {healthy.name} | {key} | quick: a better / successor |"
+    assert len(rows) == 1 + len(keys_of(recording(other, report_of().provenance, "")))
 
 
 def test_case_without_baseline_is_a_state_of_its_own(healthy: CaseOutcome) -> None:

@@ -1,7 +1,8 @@
 """A plugin of pytest: a solver judged on challenges, one test per case and quantity.
 
 `pytest --slipstick` collects files `challenge_*.py`, which have `solve`, `CASES` and, if they like,
-`LEVELS`, `CLASS` and `SOLVER`, as `verification.judge` takes them.
+`LEVELS`, `CLASS` and `SOLVER`, as `verification.judge` takes them, and `PARTIAL = True`
+where required numbers may be omitted.
 """
 
 from __future__ import annotations
@@ -108,6 +109,12 @@ class QuantityItem(pytest.Item):
         worst = max(errors.values(), default=None)
         self.user_properties += [("error", worst), ("class", found.grade)]
         failed = [f"{_words(r)}: {r.because}" for r in rows if r.status.value == "fail"]
+        if not getattr(self.judged.module, "PARTIAL", False):
+            failed += [
+                f"{quantity}, step {step}: required and omitted; PARTIAL = True accepts it"
+                for quantity, step, required in found.omitted
+                if required and quantity == self.quantity
+            ]
         key, config = f"{self.parent.name if self.parent else ''}::{self.name}", self.config
         if baseline := config.getoption("slipstick_baseline"):
             failed += _worse(rows, config.stash[BASELINE].get(key), baseline)

@@ -53,7 +53,9 @@ def baseline(
     versions, the processor, the commit, the date and the reason. Exit code 2 if there is no
     reason, a verdict failed, or the source differed from its commit: a baseline of numbers that no
     commit gives could not be made again. So: commit, verify, accept, commit the baseline.
-    Each level is recorded for itself; what is recorded of the others stays.
+    Each level is recorded for itself; what is recorded of the others stays. Keys that the report
+    no longer has, and cases that a report of all cases no longer has, are listed in REMOVED.md with
+    the reason.
     """  # fmt: skip
     from verification.regression.baseline_files import BASELINES
 

@@ -41,9 +41,10 @@ def compare(
     commit, and how to see it again.
 
     Nothing is computed. Exit code 0 if nothing changed; 5 if something did and is within what
-    its reference allows (also: new, gone, not recorded yet, suspiciously better, cheaper); 7 if
-    within it an error has grown by half, or a case takes a twentieth more iterations, convolutions
-    or factorisations, or a solver half as long again; 1 if something fails that did not or has
+    its reference allows (also: new, not recorded yet, suspiciously better, cheaper); 7 if a
+    recorded verdict, finding, run or case is missing, or if within the tolerance an error has
+    grown by half, a case takes a twentieth more iterations, convolutions or factorisations, or a
+    solver half as long again; 1 if something fails that did not or has
     moved away from its reference by more than is allowed at all; 2 if the report contradicts
     itself, or if only chosen cases ran and others are recorded: such a report never stands for a
     whole one, unless --chosen says that it need not. What other processors and versions leave

@@ -47,16 +47,19 @@ def judge(
     ] = None,
     strict: Annotated[
         bool,
-        typer.Option("--strict", help="Exit with 6 where something is inconclusive or missing."),
+        typer.Option("--strict", help="Exit with 6 where something is inconclusive."),
+    ] = False,
+    partial: Annotated[
+        bool, typer.Option("--partial", help="Accept that required numbers are omitted.")
     ] = False,
 ) -> None:
     """Judge what another code answered, by bounds that do not depend on it.
 
     Per number and field: the error against class A, B or C; whether it stalls under refinement;
     whether the uncertainty that it claims is honest; whether fields carry the load; the order, if
-    one is claimed. Exit code 0 if nothing failed, 1 if a verdict did, 2 if the files cannot be
-    read, 3 if the solver gave up or raised, 6 with --strict if something is inconclusive or
-    missing. FILE.py is run: judge only what you trust.
+    one is claimed. Exit code 0 if nothing failed, 1 if a verdict did or a required number is
+    omitted, 2 if the files cannot be read, 3 if the solver gave up or raised, 6 with --strict if
+    something is inconclusive. FILE.py is run: judge only what you trust.
     """
     from contact_results.directory.atomic_file import atomic_file
     from slipstick.cli.terminal import print_table
@@ -82,7 +85,7 @@ def judge(
             with atomic_file(path) as unfinished:
                 unfinished.write_text(text, encoding="utf-8")
         typer.echo(f"sheet: {page}")
-    if code := found.exit_code(strict=strict):
+    if code := found.exit_code(strict=strict, partial=partial):
         raise typer.Exit(code)
 
 

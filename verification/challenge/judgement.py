@@ -58,14 +58,18 @@ class Judgement:
         left_out = f"{len(self.omitted)} of {asked} omitted"
         return f"{self.challenge.name} | {self.solver.name} | {grade} | {counts}, {left_out}"
 
-    def exit_code(self, *, strict: bool = False) -> int:
-        """0 passed, 1 a verdict failed, 3 the solver gave up and nothing else failed; where strict,
-        6 if something is inconclusive or required and omitted."""
+    def exit_code(self, *, strict: bool = False, partial: bool = False) -> int:
+        """Return 0 if all passed, 1 if a verdict failed or a required number is omitted, 3 if the
+        solver gave up and nothing else failed; with `strict`, 6 if something is inconclusive.
+
+        partial  accept omissions
+        """
         failed = [row for row in self.rows if row.status is Status.FAIL]
-        if failed:
-            return GAVE_UP if all(row.quantity == "solved" for row in failed) else ACCURACY
-        open_ones = self.count(Status.INCONCLUSIVE) or any(r for *_, r in self.omitted)
-        return INCONCLUSIVE if strict and open_ones else PASSED
+        if failed and all(row.quantity == "solved" for row in failed):
+            return GAVE_UP
+        if failed or (not partial and any(required for *_, required in self.omitted)):
+            return ACCURACY
+        return INCONCLUSIVE if strict and self.count(Status.INCONCLUSIVE) else PASSED
 
     def badge(self) -> str:
         """For an endpoint of shields."""

@@ -33,7 +33,9 @@ class ChangeKind(StrEnum):
     recorded."""
 
     NEW = "new"
+
     GONE = "gone"
+    """Recorded, and no longer measured: deletions are accepted with a reason, too."""
 
     @property
     def matters(self) -> bool:
@@ -43,7 +45,9 @@ class ChangeKind(StrEnum):
     @property
     def regresses(self) -> bool:
         """Whether it must be accepted with a reason before the commit passes."""
-        return self in (ChangeKind.OUTSIDE, ChangeKind.WORSE, ChangeKind.DEARER)
+        return self in (
+            ChangeKind.OUTSIDE, ChangeKind.WORSE, ChangeKind.DEARER, ChangeKind.GONE
+        )  # fmt: skip
 
 
 class Change(Description):

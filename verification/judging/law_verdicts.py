@@ -22,6 +22,7 @@ from verification.judging.case import Case
 from verification.judging.outcome import IMBALANCE, VIOLATION, Verdict
 from verification.judging.run import OTHER_NORMS, OVER_ANGLES, OVER_RINGS
 from verification.judging.verdicts import judge_worst
+from verification.observed.imbalance import Imbalance
 from verification.observed.laws import observed
 from verification.observed.unseen import Unseen, unseen
 
@@ -54,10 +55,11 @@ def judge_laws(case: Case, results: Mapping[str, Any]) -> tuple[Verdict, ...]:
         verdicts.append(
             judge_worst(
                 case, missing, IMBALANCE, "largest part of the energy that any increment cannot "
-                f"account for of the {{runs}} run(s); it is in this one{but_energy}",
+                f"account for of the {{runs}} run(s); it is in this one{{where}}{but_energy}",
                 "first law: work put in is stored, dissipated or left open by the increment",
                 f"residuals within the tolerance move the energy by a few times as much; {WITHIN}",
                 lambda run: run.energy,
+                {label: f", {e.terms}" for label, e in missing.items() if isinstance(e, Imbalance)},
             )
         )  # fmt: skip
     return tuple(verdicts)

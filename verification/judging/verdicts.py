@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping
+from types import MappingProxyType
 from typing import Any
 
 from verification.convergence.error_line import by_size
@@ -189,18 +190,18 @@ def judge_worst(
     source: str,
     because: str,
     allowed: Callable[[AnyRun], float],
+    where: Mapping[str, str] = MappingProxyType({}),
 ) -> Verdict:
     """Of numbers that should vanish, by the label of their run, the one that is worst for what is
     allowed on its run; what is no number is worse than all.
 
-    meaning  with the number of runs in place of {runs}
+    meaning  with the number of runs in place of {runs}, and the place in the run of {where}
+    where    by label
     """
     ratio = {label: value / allowed(case.run(label)) for label, value in found.items()}
     worst = max(ratio, key=lambda label: (math.isnan(ratio[label]), ratio[label]))
-    return _law(
-        name, meaning.format(runs=len(found)), worst, found[worst], source,
-        allowed(case.run(worst)), because,
-    )  # fmt: skip
+    said = meaning.format(runs=len(found), where=where.get(worst, ""))
+    return _law(name, said, worst, found[worst], source, allowed(case.run(worst)), because)
 
 
 def unsolved(run: AnyRun, message: str) -> Verdict:

@@ -21,6 +21,7 @@ from scipy.interpolate import CubicSpline
 
 from contact_scene.friction import FRICTIONLESS
 from radial import Increment, Result
+from verification.observed.imbalance import Imbalance, largest_of
 from verification.observed.prescribed import missed
 
 Field = NDArray[np.float64]
@@ -42,15 +43,13 @@ def ring_laws(result: Result) -> tuple[float, float]:
     pairs = list(zip(befores, nows, strict=False))
     violations = [v for before, now in pairs for v in _violations(before, now)]
     violations += missed(result.scene, result.steps)
-    imbalances, largest = [0.0], 0.0
-    for before, now in pairs:
+    imbalances, largest = list[Imbalance](), 0.0
+    for number, (before, now) in enumerate(pairs, start=1):
         largest = max(largest, now.told.elastic_energy or 0.0, abs(now.told.input_work or 0.0))
-        imbalances += [e / largest for e in _missing(before, now)]
-    violation, imbalance = (
-        max(found) if np.all(np.isfinite(found)) else float("inf")
-        for found in (violations, imbalances)
-    )
-    return violation, imbalance
+        for name, energy, stated in _energies(before, now):
+            terms = {name: energy, "stated": stated}
+            imbalances.append(Imbalance(number, largest, energy - stated, **terms))
+    return largest_of(violations), largest_of(imbalances)
 
 
 @dataclass(frozen=True)
@@ -219,8 +218,8 @@ def _violations(before: _Surface | None, now: _Surface) -> Iterator[float]:
         yield abs(now.over(0.5 * (start + now.limit) * length) - lost) / scale
 
 
-def _missing(before: _Surface | None, now: _Surface) -> Iterator[float]:
-    """Differences of the returned energies and work from those of the fields [force length]."""
+def _energies(before: _Surface | None, now: _Surface) -> Iterator[tuple[str, float, float]]:
+    """Yield energies and work of the fields, and as the solver states them [force length]."""
     told, last = now.told, None if before is None else before.told
     if now.weights is None or (before is not None and before.weights is None):
         return
@@ -229,7 +228,7 @@ def _missing(before: _Surface | None, now: _Surface) -> Iterator[float]:
     stored, lost, work = told.elastic_energy, told.dissipated_energy, told.trapezoidal_work
     if stored is not None and not now.rubs:
         by_motion = now.over(now.p * (told.approach - now.f)) + _power(told, told)
-        yield abs(0.5 * (by_motion + now.over(np.sum(now.q * now.s, axis=0))) - stored)
+        yield "stored", 0.5 * (by_motion + now.over(np.sum(now.q * now.s, axis=0))), stored
     if work is not None:
         done = told.normal_force * told.approach + _power(told, told)
         if last is not None:
@@ -237,9 +236,9 @@ def _missing(before: _Surface | None, now: _Surface) -> Iterator[float]:
             done = force * depth + 2 * (last.trapezoidal_work or 0.0)
             done += _power(told, told) - _power(told, last) + _power(last, told)
             done -= _power(last, last)
-        yield abs(0.5 * done - work)
+        yield "work", 0.5 * done, work
         if told.unresolved_work is not None:
-            yield abs((told.input_work or 0.0) - (stored or 0.0) - (lost or 0.0))
+            yield "stored and dissipated", (stored or 0.0) + (lost or 0.0), told.input_work or 0.0
 
 
 def _power(of: Increment, moved: Increment) -> float:

@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fem_reference import Increment
+from verification.observed.imbalance import Imbalance
 
 Field = NDArray[np.float64]
 
@@ -47,11 +48,11 @@ class EnergeticState:
     yields: bool = False
 
 
-def energy_missing(states: Sequence[EnergeticState]) -> Iterator[float]:
+def energy_missing(states: Sequence[EnergeticState]) -> Iterator[Imbalance]:
     """What any increment cannot account for, or tells otherwise, over the largest energy so far."""
     before, worked, lost = None, 0.0, 0.0
     largest = 0.0
-    for state in states:
+    for number, state in enumerate(states, start=1):
         work, told = state.told.trapezoidal_work, state.told.dissipated_energy
         dissipated = told or 0.0
         if work is None or state.passed is None or (np.any(state.shear) and told is None):
@@ -59,16 +60,18 @@ def energy_missing(states: Sequence[EnergeticState]) -> Iterator[float]:
         largest = max(largest, *(abs(e) for e in (state.stored, work, dissipated)))
         alone = state.told.elastic_energy
         if alone is not None and state.told.overlap is None:
-            yield abs(alone - state.stored) / largest
+            difference = alone - state.stored
+            yield Imbalance(number, largest, difference, stored=state.stored, stated=alone)
         if state.told.halvings == 0:  # else there are states in between
             spent = work - worked, dissipated - lost
-            yield from (e / largest for e in _missing(before, state, *spent))
+            for difference, terms in _missing(before, state, *spent):
+                yield Imbalance(number, largest, difference, **terms)
         before, worked, lost = state, work, dissipated
 
 
 def _missing(
     before: EnergeticState | None, after: EnergeticState, work: float, dissipated: float
-) -> Iterator[float]:
+) -> Iterator[tuple[float, dict[str, float]]]:
     start = before or _at_rest(after)
     assert start.passed is not None
     assert after.passed is not None
@@ -90,8 +93,10 @@ def _missing(
         # What gap is left in a lasting contact is missing.
         closing = closing[(p[0] > 0) != (p[1] > 0)]
     turning = -own - 0.5 * float(np.sum(w * (q[0] + q[1]) * passed))
-    yield abs(work - (after.stored - start.stored) - own - float(np.sum(closing)) - turning)
-    yield abs(dissipated - own)
+    stored, unresolved = after.stored - start.stored, float(np.sum(closing)) + turning
+    terms = {"work": work, "stored": stored, "dissipated": own, "unresolved": unresolved}
+    yield work - stored - own - unresolved, terms
+    yield dissipated - own, {"dissipated": own, "stated": dissipated}
 
 
 def _at_rest(state: EnergeticState) -> EnergeticState:

@@ -6,13 +6,14 @@ tractions. Springs that stand for a penalty add what they yield.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
 from fem_reference import Increment, Path, Result
+from verification.observed.imbalance import largest_of
 from verification.observed.prescribed import missed
 from verification.observed.rings import Rings
 from verification.observed.section_energy import EnergeticState, energy_missing
@@ -39,11 +40,7 @@ def section_laws(result: Result) -> tuple[float, float]:
     else:
         violations, states = _on_rings(result, penalty)
     violations += missed(result.scene, result.steps)
-    return _largest(violations), _largest([0.0, *energy_missing(states)])
-
-
-def _largest(found: Sequence[float]) -> float:
-    return max(found) if np.all(np.isfinite(found)) else float("inf")
+    return largest_of(violations), largest_of(energy_missing(states))
 
 
 def _on_rings(result: Result, penalty: bool) -> tuple[list[float], list[EnergeticState]]:

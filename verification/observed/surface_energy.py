@@ -21,6 +21,7 @@ from numpy.typing import NDArray
 
 from contact_scene.friction import FRICTIONLESS
 from semi_analytical import Coupling, Increment, Result
+from verification.observed.imbalance import Imbalance, largest_of
 from verification.observed.unseen import has_grown
 
 Field = NDArray[np.float64]
@@ -32,8 +33,7 @@ def surface_imbalance(result: Result) -> float | None:
     solved for without acting back on the pressure: such bodies have no energy."""
     if result.plan.coupling is Coupling.ONE_WAY:
         return None
-    found = [0.0, *_imbalances(result)]
-    return max(found) if np.all(np.isfinite(found)) else float("inf")
+    return largest_of(_imbalances(result))
 
 
 @dataclass(frozen=True)
@@ -89,25 +89,30 @@ class _State:
         )
 
 
-def _imbalances(result: Result) -> Iterator[float]:
+def _imbalances(result: Result) -> Iterator[Imbalance]:
     cell = result.grid.cell_area
     undeformed = result.scene.indenter.initial_gap(*result.grid.coordinates())
     before, state = None, _State.at_rest(undeformed)
     before_touch = _before_touch(result.increments[0], undeformed)
     largest = 0.0
-    for now, grown in zip(result.increments, has_grown(result.increments), strict=True):
+    pairs = zip(result.increments, has_grown(result.increments), strict=True)
+    for number, (now, grown) in enumerate(pairs, start=1):
         if now.shear is not None and now.dissipated_energy is None:
             return  # the motion is undefined, and with it all that follows
         after = _State.of(now, result, undeformed, before_touch)
         largest = max(largest, *(abs(e) for e in (now.elastic_energy, *_told(now))))
         elastic = 0.5 * float(np.sum(after.tractions * after.u)) * cell
-        yield 0.0 if grown else abs(elastic - now.elastic_energy) / largest
-        yield abs(now.energy_imbalance or 0.0)
-        transferred = now.elastic_energy + (now.dissipated_energy or 0.0)
-        yield abs((now.input_work or 0.0) - transferred) / largest
+        told, lost, work = now.elastic_energy, now.dissipated_energy or 0.0, now.input_work or 0.0
+        if not grown:
+            yield Imbalance(number, largest, elastic - told, stored=elastic, stated=told)
+        stated = now.energy_imbalance or 0.0
+        yield Imbalance(number, 1.0, stated, stated_imbalance=stated)
+        yield Imbalance(
+            number, largest, work - told - lost, stated_work=work, stored=told, dissipated=lost
+        )
         if now.halvings == 0:  # else there are states in between
-            missing = _missing(state, after, before, now, cell, grown=grown)
-            yield from (e / largest for e in missing)
+            for difference, terms in _missing(state, after, before, now, cell, grown=grown):
+                yield Imbalance(number, largest, difference, **terms)
         before, state = now, after
 
 
@@ -134,8 +139,9 @@ def _missing(
     cell: float,
     *,
     grown: bool,
-) -> Iterator[float]:
-    """What is missing of the first law, and what is told otherwise [force length]."""
+) -> Iterator[tuple[float, dict[str, float]]]:
+    """Yield differences from the first law and from the stated energies, each with its terms
+    [force length]."""
     slipped = after.slip - state.slip
     forces, motions = 0.5 * (state.forces + after.forces), after.motions - state.motions
     last = (0.0, 0.0, 0.0) if before is None else _told(before)
@@ -149,8 +155,10 @@ def _missing(
     stored = now.elastic_energy - (0.0 if before is None else before.elastic_energy)
     shrunk = np.any(state.tractions[:2] * (after.tractions[2] == 0))
     unresolved = told[2] if grown or shrunk else _unresolved(state, after) * cell - dissipated
-    yield abs(work - stored - dissipated - unresolved)
-    yield from (abs(a - b) for a, b in zip((work, dissipated, unresolved), told, strict=True))
+    terms = {"work": work, "stored": stored, "dissipated": dissipated, "unresolved": unresolved}
+    yield work - stored - dissipated - unresolved, terms
+    for name, stated in zip(("work", "dissipated", "unresolved"), told, strict=True):
+        yield terms[name] - stated, {name: terms[name], "stated": stated}
 
 
 def _unresolved(state: _State, after: _State) -> float:

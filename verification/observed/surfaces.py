@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from contact_scene.friction import FRICTIONLESS, CoulombFriction
 from semi_analytical import Increment, Result
+from verification.observed.imbalance import largest_of
 from verification.observed.prescribed import missed
 
 Field = NDArray[np.float64]
@@ -26,7 +27,7 @@ def surface_violation(result: Result) -> float:
     pairs = zip(befores, result.increments, strict=False)
     found = [v for before, now in pairs for v in _violations(before, now, place)]
     found += missed(result.scene, result.steps)
-    return max(found) if np.all(np.isfinite(found)) else float("inf")
+    return largest_of(found)
 
 
 @dataclass(frozen=True)

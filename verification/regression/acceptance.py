@@ -7,8 +7,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from verification.judging.outcome import Status
-from verification.regression.baseline import Baseline, recording
-from verification.regression.baseline_files import write_baselines
+from verification.regression.baseline import Baseline, Recording, keys_of, recording
+from verification.regression.baseline_files import read_baselines, write_baselines
 from verification.regression.refusal import BaselineRefused
 
 if TYPE_CHECKING:
@@ -33,10 +33,18 @@ def accept(
     with_changes   also if the source differed from its commit, or has none: "was … at 1a2b3c4"
                    is then not what that commit gives
 
+    Keys that the earlier recording has and the report has not are listed in `REMOVED.md` with the
+    reason; so is a case that a whole report lacks, whose recording is deleted.
+
     Raises BaselineRefused for a report that must not be recorded; nothing is written then.
     """
     reason = " ".join(reason.split())
-    cases = _chosen(report, names)
+    earlier = {
+        case: baseline.levels[report.level]
+        for case, baseline in read_baselines(directory).items()
+        if report.level in baseline.levels and (not names or case in names)
+    }
+    cases = _chosen(report, () if report.chosen else earlier, names)
     failed = [f"{c.name}/{v.name}" for c in cases for v in c.verdicts if v.status is Status.FAIL]
     for refused, text in (
         (not reason, "a baseline needs a reason: --because 'why these numbers are right'"),
@@ -54,7 +62,15 @@ def accept(
         if refused:
             raise BaselineRefused(text)
     recordings = {case.name: recording(case, report.provenance, reason) for case in cases}
-    return write_baselines(recordings, report.level, directory)
+    lost = {} if report.chosen else dict.fromkeys(earlier.keys() - recordings.keys())
+    changes: dict[str, Recording | None] = recordings | lost
+    removed = [
+        (case, key)
+        for case, recorded in earlier.items()
+        if case in changes
+        for key in sorted(keys_of(recorded) - keys_of(changes[case]))
+    ]
+    return write_baselines(changes, report.level, directory, removed, reason)
 
 
 def baselines_of(report: Report, reason: str) -> dict[str, Baseline]:
@@ -67,8 +83,10 @@ def baselines_of(report: Report, reason: str) -> dict[str, Baseline]:
     }
 
 
-def _chosen(report: Report, names: Collection[str]) -> list[CaseOutcome]:
-    missing = sorted(set(names) - {case.name for case in report.cases})
+def _chosen(
+    report: Report, removable: Collection[str], names: Collection[str]
+) -> list[CaseOutcome]:
+    missing = sorted(set(names) - {case.name for case in report.cases} - set(removable))
     if missing:
         raise BaselineRefused(
             f"the report has no case {', '.join(missing)}; --from names the report"

@@ -127,6 +127,15 @@ def key_of(number: Verdict | FindingRecord | RecordedQuantity | RecordedFinding)
     return ("finding", number.name, run)
 
 
+def keys_of(recorded: Recording | None) -> set[str]:
+    """Return the keys of the recorded numbers and runs, in words."""
+    if recorded is None:
+        return set()
+    keys = (*(one.key for one in recorded.quantities), *(one.key for one in recorded.findings))
+    runs = {f"run [{run.label}]" for run in recorded.runs}
+    return runs | {f"{name} [{run}]" for _, name, run, *_ in keys}
+
+
 def recording(case: CaseOutcome, provenance: Provenance, reason: str) -> Recording:
     """What came out of a case, as it is recorded."""
     return Recording(

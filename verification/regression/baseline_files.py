@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 
 from contact_results.directory.atomic_file import atomic_file
@@ -12,7 +12,14 @@ from verification.regression.baseline import BASELINE_VERSION, Baseline, Recordi
 from verification.regression.refusal import BaselineRefused
 
 BASELINES = Path(__file__).resolve().parents[1] / "baselines"
-ENDING = ".json"
+ENDING, REMOVED = ".json", "REMOVED.md"
+REMOVED_HEAD = """# Removed baseline keys
+
+Each removed key of an accepted baseline, with its successor or the reason for its removal.
+
+| case | quantity [run] | successor, or reason |
+| --- | --- | --- |
+"""
 REMEDY = "restore it from the repository, or delete it and accept it anew"
 
 
@@ -30,9 +37,16 @@ def read_baselines(directory: Path | None = None) -> dict[str, Baseline]:
 
 
 def write_baselines(
-    recordings: Mapping[str, Recording], level: str, directory: Path
+    recordings: Mapping[str, Recording | None],
+    level: str,
+    directory: Path,
+    removed: Sequence[tuple[str, str]] = (),
+    reason: str = "",
 ) -> tuple[Path, ...]:
-    """Record cases at a level; what is recorded of them at other levels stays.
+    """Record cases at a level; their recordings at other levels stay.
+
+    recordings  by case; None deletes the recording
+    removed     cases and keys that are no longer recorded, for `REMOVED.md`
 
     Everything is read before anything is written. Raises BaselineRefused for a file in the way
     that is no baseline.
@@ -40,14 +54,25 @@ def write_baselines(
     texts: dict[Path, str] = {}
     for case, recorded in recordings.items():
         path = directory / f"{case}{ENDING}"
-        earlier = _read(path).levels if path.exists() else {}
-        levels = earlier | {level: recorded}
+        levels = _read(path).levels if path.exists() else {}
+        levels = {name: one for name, one in levels.items() if name != level}
+        if recorded is not None:
+            levels[level] = recorded
         ordered = {name: levels[name] for name in _in_order(levels)}
-        texts[path] = dump_baseline(Baseline(case=case, levels=ordered))
+        texts[path] = dump_baseline(Baseline(case=case, levels=ordered)) if ordered else ""
+    if removed:
+        path = directory / REMOVED
+        head = path.read_text(encoding="utf-8") if path.exists() else REMOVED_HEAD
+        because = reason.replace("|", "/")
+        rows = (f"| {c} | {key.replace('|', '/')} | {level}: {because} |\n" for c, key in removed)
+        texts[path] = head + "".join(rows)
     for path, text in texts.items():
+        if not text:
+            path.unlink()
+            continue
         with atomic_file(path) as temporary:
             temporary.write_text(text, encoding="utf-8", newline="\n")
-    return tuple(texts)
+    return tuple(path for path in texts if path.suffix == ENDING)
 
 
 def dump_baseline(baseline: Baseline) -> str:

@@ -95,7 +95,7 @@ def _all_rows(report: Report) -> Iterator[ChangeRow]:
     for gone in report.gone:
         yield ChangeRow(
             gone.name, CASE, ALL, ChangeKind.GONE, "recorded", "not in the report", "–", gone.since,
-            "if it was given up: delete its baseline",
+            "accept the removal with a reason",
         )  # fmt: skip
 
 
@@ -118,7 +118,7 @@ def case_rows(case: CaseOutcome) -> Iterator[ChangeRow]:
         yield ChangeRow(
             case.name, gone.name, gone.run, ChangeKind.GONE,
             "–" if gone.was is None else value_text(gone.was, gone.unit, DIGITS), "–", "–",
-            case.baseline.name, "",
+            case.baseline.name, "accept the removal with a reason",
         )  # fmt: skip
 
 
