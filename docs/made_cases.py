@@ -28,6 +28,7 @@ def page(case: Case, level: str, numbers: Mapping[str, Any]) -> str:
     parts = [
         f"# {case.title}\n",
         f"{_text(case.problem)}\n",
+        *(f"```{{math}}\n{equation}\n```\n" for equation in case.equations),
         f"    slipstick verify {case.name}   # quick; --level standard and full are finer\n",
         "## What is judged\n",
         table(("what", "reference", "allowed, because"), _rows(case)),

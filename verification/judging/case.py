@@ -97,6 +97,7 @@ class Comparison:
     runs        labels; the difference is relative to the second
     difference  0 if they agree, dimensionless; or the error of what follows from both
     kind        where the value comes from that the difference vanishes for
+    uncertainty standard uncertainty of that value, over the scale of the difference
     """
 
     name: str
@@ -107,6 +108,7 @@ class Comparison:
     because: str
     source: str
     kind: ReferenceKind = ReferenceKind.IDENTITY
+    uncertainty: float = 0.0
 
 
 @dataclass(frozen=True)
@@ -132,6 +134,8 @@ class Case:
     charts   figures drawn from the results, by label of the run
     tables   more numbers than verdicts could show, likewise
     limits   what this case does not show
+    equations  governing equations of the reference, in LaTeX
+    no_order   reason for which no order of convergence is judged; empty where one is
     """
 
     name: str
@@ -146,6 +150,8 @@ class Case:
     charts: Callable[[Mapping[str, Any]], tuple[Chart, ...]] | None = None
     tables: Callable[[Mapping[str, Any]], tuple[Table, ...]] | None = None
     limits: tuple[str, ...] = ()
+    equations: tuple[str, ...] = ()
+    no_order: str = ""
 
     def run(self, label: str) -> AnyRun:
         """The run of this label; KeyError if there is none."""

@@ -109,6 +109,8 @@ def case(
     charts: Sequence[Drawing] = (),
     tables: Callable[[Results], tuple[Table, ...]] | None = None,
     limits: tuple[str, ...] = (),
+    equations: tuple[str, ...] = (),
+    no_order: str = "",
 ) -> Case:
     """A case of these parts, and of what fits no row. Ladders may share runs."""
     return Case(
@@ -124,6 +126,8 @@ def case(
         charts=(lambda results: tuple(draw(results) for draw in charts)) if charts else None,
         tables=tables,
         limits=limits,
+        equations=equations,
+        no_order=no_order,
     )
 
 

@@ -61,6 +61,8 @@ def judge(case: Case, solve: Solve = lambda run: run.solve()) -> CaseOutcome:
         findings=tuple(_measure(f, results) for f in case.findings if f.run in results),
         charts=case.charts(results) if case.charts and not failures else (),
         limits=case.limits,
+        equations=case.equations,
+        no_order=case.no_order,
         tables=case.tables(results) if case.tables and not failures else (),
     )
 

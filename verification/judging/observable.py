@@ -89,11 +89,11 @@ class Observable:
 
     def reference(self, problem: Problem) -> Reference:
         """What should be measured."""
+        scale = problem.scale(self.over) if self.over else None
         if self.value is None:
-            known = problem.no_error
+            known = problem.no_error(1.0 if scale is None else scale)
         else:
-            value = self.value(problem.ends[self.step])
-            known = problem.reference(value, problem.scale(self.over) if self.over else None)
+            known = problem.reference(self.value(problem.ends[self.step]), scale)
         return replace(known, source=self.source or known.source)
 
     def scale(self, problem: Problem) -> float | None:

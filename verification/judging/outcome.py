@@ -269,6 +269,12 @@ class CaseOutcome(Description):
     charts: tuple[Chart, ...]
     limits: tuple[str, ...]
     tables: tuple[Table, ...] = ()
+    equations: tuple[str, ...] = ()
+    """Governing equations of the reference, in LaTeX."""
+
+    no_order: str = ""
+    """Reason for which no order of convergence is judged; empty where one is."""
+
     baseline: Origin | None = None
     """Where the recorded numbers are from; null if there are none of this level."""
 

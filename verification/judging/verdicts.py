@@ -64,7 +64,7 @@ def judge_comparison(comparison: Comparison, results: Results) -> Verdict:
     value = comparison.difference(results[one], results[other])
     same = Check(
         comparison.name, comparison.meaning, "", f"{one} and {other}", lambda: value,
-        Reference(0.0, comparison.kind, comparison.source),
+        Reference(0.0, comparison.kind, comparison.source, comparison.uncertainty),
         Required(comparison.allowed, comparison.because), 1.0, "the second run's",
     )  # fmt: skip
     return judge_check(same).model_copy(update={"runs": comparison.runs})

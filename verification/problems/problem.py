@@ -52,7 +52,6 @@ class Problem:
         uncertainty = self.uncertainty * abs(value if scale is None else scale)
         return Reference(value, self.kind, self.source, uncertainty)
 
-    @property
-    def no_error(self) -> Reference:
-        """What the norm of an error is compared with."""
-        return Reference(0.0, self.kind, self.source)
+    def no_error(self, scale: float) -> Reference:
+        """Reference of the norm of an error: zero, as uncertain as the answer is."""
+        return Reference(0.0, self.kind, self.source, self.uncertainty * scale)
