@@ -11,8 +11,8 @@ import pytest
 
 from verification.cases import sheared_increments
 from verification.cases.catalogue import choose
-from verification.cases.fem_hertz import fem_hertz_on
 from verification.cases.fem_partial_slip import fem_partial_slip_on
+from verification.cases.hertz import fem_hertz
 from verification.cases.sheared_increments import sheared_increments_on
 from verification.convergence.observed_order import observed_order
 from verification.exhibits.chart import Look
@@ -150,7 +150,7 @@ def test_error_beyond_all_bounds_has_a_clearance_in_numbers() -> None:
 
 
 def pressed() -> Case:
-    return fem_hertz_on((8,), tuple(product((6, 8, 11, 16), (0.3, 0.7))))
+    return fem_hertz(elements=(8,), studied=tuple(product((6, 8, 11, 16), (0.3, 0.7))))
 
 
 def pushed() -> Case:

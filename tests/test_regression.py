@@ -14,7 +14,7 @@ from command import slipstick
 
 from slipstick.cli.compare import exit_code_of
 from verification.cases.catalogue import CASES, choose
-from verification.cases.hertz_point import hertz_on
+from verification.cases.hertz import hertz_point
 from verification.judging.case import Level
 from verification.judging.change import ChangeKind
 from verification.judging.judgement import judge
@@ -78,7 +78,7 @@ def report_of(
 @pytest.fixture(scope="module")
 def healthy() -> CaseOutcome:
     """A case that passes, without figures and with one verdict of each name."""
-    measured = judge(hertz_on(refinement(32, 128)))
+    measured = judge(hertz_point(cells=refinement(32, 128)))
     verdicts = {verdict.name: verdict for verdict in measured.verdicts}
     finding = FindingRecord(
         name="cells", run="32x32", meaning="cells in contact", unit="", value=0.25, remark=""

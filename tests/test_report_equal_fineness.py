@@ -13,7 +13,7 @@ from verification.cases.coated_paraboloid import coated_paraboloid
 from verification.cases.fem_coated import fem_coated
 from verification.cases.fem_partial_slip import fem_partial_slip
 from verification.cases.fem_torsion import fem_torsion
-from verification.cases.hertz_point import hertz_point
+from verification.cases.hertz import hertz_point
 from verification.cases.torsion import torsion
 from verification.judging.case import Case, Level, Quantity, Required
 from verification.judging.outcome import CaseOutcome, RefinedErrors

@@ -11,9 +11,8 @@ from semi_analytical import solve
 from verification.cases.cattaneo_mindlin import cattaneo_mindlin_on
 from verification.cases.coated_paraboloid import coated_paraboloid_on
 from verification.cases.fem_coated import fem_coated_on
-from verification.cases.fem_hertz import fem_hertz_on
 from verification.cases.fem_partial_slip import fem_partial_slip_on
-from verification.cases.hertz_point import hertz_on
+from verification.cases.hertz import fem_hertz, hertz_point
 from verification.cases.indentation_charts import indentation_chart
 from verification.exhibits.chart import Chart, Curve, Look
 from verification.judging.case import Case
@@ -41,7 +40,7 @@ def solved() -> Mapping[str, tuple[Chart, ...]]:
         if (row["E1_over_E2"], row["h_over_aH"]) == (2, 1)
     ]  # fmt: skip
     cases = (
-        hertz_on((CELLS,)), fem_hertz_on((ELEMENTS,)),
+        hertz_point(cells=(CELLS,)), fem_hertz(elements=(ELEMENTS,)),
         coated_paraboloid_on((CELLS,), ()), fem_coated_on(coated, (ELEMENTS,)),
         cattaneo_mindlin_on((CELLS,)), fem_partial_slip_on(ELEMENTS),
     )  # fmt: skip

@@ -8,7 +8,7 @@ import pytest
 
 from contact_scene.solver_errors import NotConverged
 from verification.cases.fretting_loop import fretting_loop_on
-from verification.cases.hertz_point import hertz_on
+from verification.cases.hertz import hertz_point
 from verification.cases.load_paths import load_paths_on
 from verification.cases.near_sliding import near_sliding_on
 from verification.defects.defect import planted
@@ -19,7 +19,7 @@ from verification.judging.outcome import CaseOutcome, Status
 from verification.judging.refinement import refinement
 
 CASES: dict[str, Callable[[], Case]] = {
-    "hertz_point": lambda: hertz_on(refinement(32, 128)),
+    "hertz_point": lambda: hertz_point(cells=refinement(32, 128)),
     "fretting_loop": lambda: fretting_loop_on((96,), quarter=2),
     "near_sliding": lambda: near_sliding_on(64),
     "load_paths": lambda: load_paths_on(32),

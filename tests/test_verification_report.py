@@ -13,7 +13,7 @@ import pytest
 from report_examples import case, report_of, run_record, verdict
 
 from verification.cases.cattaneo_mindlin import cattaneo_mindlin_on
-from verification.cases.hertz_point import hertz_on
+from verification.cases.hertz import hertz_point
 from verification.exhibits.numbers import plain, value_text
 from verification.judging.change import Change, ChangeKind
 from verification.judging.judgement import judge
@@ -48,7 +48,7 @@ def made_by(*outcomes: CaseOutcome) -> Report:
 
 @pytest.fixture(scope="module")
 def report() -> Report:
-    hertz = judge(hertz_on((16, 20, 24, 32)))
+    hertz = judge(hertz_point(cells=(16, 20, 24, 32)))
     return made_by(hertz, judge(cattaneo_mindlin_on((24, 28, 32))))
 
 
@@ -159,7 +159,9 @@ def test_verdicts_are_told_by_word_and_sign(page: str) -> None:
 
 
 def test_equal_numbers_give_equal_bytes(report: Report, pages: dict[str, str]) -> None:
-    again = made_by(judge(hertz_on((16, 20, 24, 32))), judge(cattaneo_mindlin_on((24, 28, 32))))
+    again = made_by(
+        judge(hertz_point(cells=(16, 20, 24, 32))), judge(cattaneo_mindlin_on((24, 28, 32)))
+    )
     same = again.model_copy(update={"provenance": report.provenance})
     assert dump_report(same) == dump_report(report)
     assert {name: render(same) for name, render in RENDERED.items()} == pages
@@ -201,7 +203,7 @@ def test_text_from_a_record_cannot_become_markup(report: Report) -> None:
 
 
 def test_failure_says_what_where_how_much_and_how_to_see_it_again() -> None:
-    case = hertz_on((16, 20, 24, 32))
+    case = hertz_point(cells=(16, 20, 24, 32))
     wrong = replace(case.quantities[0], reference=replace(case.quantities[0].reference, value=9e-6))
     outcome = judge(replace(case, quantities=(wrong,)))
     report = made_by(outcome)

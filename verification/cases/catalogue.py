@@ -1,4 +1,4 @@
-"""All cases by name; a case is imported when it is asked for."""
+"""All cases by name; the module of a case is imported when the case is asked for."""
 
 from __future__ import annotations
 
@@ -74,16 +74,28 @@ CASES = (
     "worked_examples",
     "written_files",
 )
+# Modules that make several cases; another case is made by the module of its name.
+MODULES = {
+    "hertz": (
+        *("hertz_point", "hertz_exact_sphere", "hertz_approach_control", "hertz_unloading"),
+        *("dissimilar_bodies", "hertz_elliptical", "fem_hertz", "fem_penalty_hertz"),
+    ),
+    "indenters": (
+        *("cone_contact", "flat_punch", "tilted_punch", "eccentric_ball", "fem_classical"),
+    ),
+}
+MODULE_OF = {name: module for module, names in MODULES.items() for name in names}
 
 
 def case_of(name: str, level: Level) -> Case:
-    """The case of this name: what the function of its name makes in the module of its name.
+    """The case of this name, made by the function of its name.
 
     Raises KeyError for a name that is not in the catalogue.
     """
     if name not in CASES:
         raise KeyError(name)
-    made: Case = getattr(import_module(f"verification.cases.{name}"), name)(level)
+    module = import_module(f"verification.cases.{MODULE_OF.get(name, name)}")
+    made: Case = getattr(module, name)(level)
     return made
 
 

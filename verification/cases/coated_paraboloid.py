@@ -6,7 +6,7 @@ from collections.abc import Callable
 from dataclasses import replace
 from typing import Any
 
-from verification.cases.hertz_point import ASKED, EDGE
+from verification.cases.levels import ASKED, EDGE
 from verification.judging.case import Case, Comparison, Level
 from verification.judging.declared_case import Falls, Refined, Within, case, judged
 from verification.judging.drawings import PRESSURE, convergence, profile

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from contact_scene import Body, IsotropicMaterial, Layer
 from semi_analytical.frf.stack import Film, HalfSpace, Stack
 from semi_analytical.frf.surface import scalars
-from verification.cases.fem_levels import because, finest
+from verification.cases.levels import because, finest
 from verification.closed_forms.coated_indentation import LayeredSurface, paraboloid_under
 from verification.judging.case import Case, Level
 from verification.judging.declared_case import Within, case, judged

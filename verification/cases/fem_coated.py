@@ -7,7 +7,7 @@ from dataclasses import replace
 from typing import Any
 
 from verification.cases.coated_paraboloid import STUDIED
-from verification.cases.fem_levels import because, levels
+from verification.cases.levels import because, levels
 from verification.judging.case import Case, Level
 from verification.judging.declared_case import Within, case, judged
 from verification.judging.drawings import PRESSURE, profile

@@ -19,7 +19,7 @@ from contact_scene import (
 )
 from verification.cases.cattaneo_mindlin import CATTANEO, PARTS
 from verification.cases.fem_harmonics_run import PointsRun
-from verification.cases.fem_levels import because, finest
+from verification.cases.levels import because, finest
 from verification.exhibits.chart import Chart, Look, Panel, curve
 from verification.judging.case import Case, Level
 from verification.judging.declared_case import Reported, Within, case, judged

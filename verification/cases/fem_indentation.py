@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from verification.cases.fem_levels import because, finest
+from verification.cases.levels import because, finest
 from verification.judging.case import Case, Level
 from verification.judging.declared_case import Drawing, Reported, Within, case, judged
 from verification.judging.drawings import Drawn, profile

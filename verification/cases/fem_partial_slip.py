@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from verification.cases.fem_levels import finest, order_levels
+from verification.cases.levels import finest, order_levels
 from verification.cases.loop_observables import (
     ENERGY_PER_CYCLE,
     LARGEST_SHIFT_ERROR,

@@ -6,7 +6,7 @@ from typing import Any
 
 from verification.cases.consistent_tangent import consistent_tangent
 from verification.cases.fem_indentation import pressed, shear_profile
-from verification.cases.fem_levels import finest
+from verification.cases.levels import finest
 from verification.judging.case import Case, Level
 from verification.judging.declared_case import Reported, Within, case, judged
 from verification.judging.ladder import on_springs, part_of_side

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from verification.cases.fem_levels import finest
 from verification.cases.fem_partial_slip import (
     ACROSS,
     LOOP,
@@ -13,6 +12,7 @@ from verification.cases.fem_partial_slip import (
     loop_profile,
 )
 from verification.cases.fem_torsion import SLIDING, shear_around
+from verification.cases.levels import finest
 from verification.judging.case import Case, Level
 from verification.judging.declared_case import Within, case, judged
 from verification.judging.drawings import profile

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from verification.cases.fem_levels import levels, order_levels
+from verification.cases.levels import levels, order_levels
 from verification.judging.case import Case, Level
 from verification.judging.declared_case import Falls, Within, case, judged
 from verification.judging.drawings import Drawn, profile

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from verification.cases.hertz_point import ASKED
+from verification.cases.levels import ASKED
 from verification.cases.loop_charts import hysteresis_chart
 from verification.cases.loop_observables import (
     ENERGY_PER_CYCLE,

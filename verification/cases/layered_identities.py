@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from contact_scene import RIGID, Body, IsotropicMaterial, Layer, Paraboloid
-from verification.cases.hertz_point import ASKED
+from verification.cases.levels import ASKED
 from verification.judging.case import Case, Comparison, Level, Quantity, Required
 from verification.judging.run import Run
 from verification.observed.end_state import approach, central_pressure, peak_pressure

@@ -19,7 +19,7 @@ from contact_scene import (
     Paraboloid,
     Scene,
 )
-from verification.cases.fem_levels import levels
+from verification.cases.levels import levels
 from verification.closed_forms.cattaneo_mindlin import PartialSlip
 from verification.closed_forms.coated_indentation import paraboloid_under
 from verification.closed_forms.cone import ConeContact

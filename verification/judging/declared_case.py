@@ -78,12 +78,16 @@ Row = Within | Refined | Falls | Reported
 
 @dataclass(frozen=True)
 class Judged:
-    """What is judged on the runs of a ladder."""
+    """What is judged on the runs of a ladder.
+
+    equations  of the reference, in LaTeX
+    """
 
     runs: tuple[AnyRun, ...]
     quantities: tuple[Quantity, ...] = ()
     orders: tuple[OrderOfConvergence, ...] = ()
     findings: tuple[Finding, ...] = ()
+    equations: tuple[str, ...] = ()
 
 
 def judged(ladder: Ladder, rows: Sequence[Row]) -> Judged:
@@ -93,6 +97,7 @@ def judged(ladder: Ladder, rows: Sequence[Row]) -> Judged:
         tuple(quantity for row in rows for quantity in _quantities(row, ladder)),
         tuple(_order(row, ladder) for row in rows if isinstance(row, Falls)),
         tuple(_finding(row, ladder) for row in rows if isinstance(row, Reported)),
+        ladder.problem.equations,
     )
 
 
@@ -126,7 +131,7 @@ def case(
         charts=(lambda results: tuple(draw(results) for draw in charts)) if charts else None,
         tables=tables,
         limits=limits,
-        equations=equations,
+        equations=tuple(dict.fromkeys((*(e for p in parts for e in p.equations), *equations))),
         no_order=no_order,
     )
 

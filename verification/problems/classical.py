@@ -24,6 +24,10 @@ CONE = Problem(
     (UNDER_CONE,),
     UNDER_CONE.contact_radius,
     "Love 1939; Sneddon 1965",
+    equations=(
+        r"W = \tfrac{\pi}{2} E^* a^2 \tan\beta,\quad \delta = \tfrac{\pi}{2} a \tan\beta,\quad "
+        r"p = \tfrac{1}{2} E^* \tan\beta \, \mathrm{arcosh}(a/r)",
+    ),
 )
 PUNCH = Problem(
     paper.frictionless(
@@ -32,6 +36,7 @@ PUNCH = Problem(
     (FlatPunchContact(PUNCH_RADIUS, CONTACT_MODULUS, NORMAL_FORCE),),
     PUNCH_RADIUS,
     "Boussinesq 1885; Johnson 1985, ch. 3.4",
+    equations=(r"W = 2 E^* a \delta,\quad p = \frac{W}{2 \pi a^2} \frac{1}{\sqrt{1 - r^2/a^2}}",),
 )
 
 

@@ -20,4 +20,9 @@ BARREL = Problem(
     EXACT.semi_axes[0],
     "Hertz 1882, by Carlson's elliptic integrals",
     across=EXACT.semi_axes[1],
+    equations=(
+        r"\frac{R_x}{R_y} = \frac{(a/b)^2 \mathbf{E}(e) - \mathbf{K}(e)}"
+        r"{\mathbf{K}(e) - \mathbf{E}(e)},\quad "
+        r"p = \frac{3 W}{2 \pi a b} \sqrt{1 - x^2/a^2 - y^2/b^2}",
+    ),
 )

@@ -13,7 +13,15 @@ SOURCE = "Hertz 1882; Johnson 1985, ch. 4"
 def hertzian(scene: Scene) -> Problem:
     """A scene whose single step ends in the paper's contact."""
     return Problem(
-        scene, (HERTZ,), HERTZ.contact_radius, SOURCE, scales={OVER_PEAK: HERTZ.peak_pressure}
+        scene,
+        (HERTZ,),
+        HERTZ.contact_radius,
+        SOURCE,
+        scales={OVER_PEAK: HERTZ.peak_pressure},
+        equations=(
+            r"a^3 = \frac{3 W R}{4 E^*},\quad \delta = \frac{a^2}{R},\quad "
+            r"p = \frac{3 W}{2 \pi a^2} \sqrt{1 - r^2/a^2}",
+        ),
     )
 
 

@@ -28,6 +28,7 @@ class Problem:
     scales       what errors may be relative to, by name, beside the contact radius
     uncertainty  of the numbers, relative to their scale
     across       semi-axis along y; None where the contact is round [length]
+    equations    governing equations of the answer, in LaTeX
     """
 
     scene: Scene
@@ -38,6 +39,7 @@ class Problem:
     uncertainty: float = ROUNDING
     scales: Mapping[str, float] = field(default_factory=dict)
     across: float | None = None
+    equations: tuple[str, ...] = ()
 
     def scale(self, name: str) -> float:
         """What errors are divided by; raises KeyError for a name that is not known."""

@@ -1,7 +1,21 @@
-"""Meshes of the finite-element cases, and how their figures follow from the ones asked for."""
+"""Levels of refinement of the cases, and reasons of tolerances that several cases share."""
 
 from verification.judging.case import Level
 from verification.judging.ladder import ASKED_AT, MIDDLE
+
+ASKED = "required of this scene by the project's accuracy targets"
+EDGE = "order 1: the edge is known to a part of a cell; the cap is a tenth of a cell"
+STAIRCASE = (
+    "the rim is a staircase of cells and carries an infinite pressure, so the punch seems larger "
+    "or smaller by a part of a cell"
+)
+STICK_BORDER = "order 1: the border is known to a part of a cell; the cap is a fifth of a cell"
+SQUARE_ROOTS = "square-root edges of stick zone and contact"
+ELEMENT_RADIUS = "asked of the finite elements at 64 per radius"
+PENALTY = "asked of the finite elements with a penalty, at their default penalty"
+IDENTITY = "an identity, in which nothing converges"
+DERIVED = "tolerances are derived from the orders that hertz_point judges on equal grids"
+JUDGED_BY = "on one discretisation: the orders of the method are judged in {}"
 
 # Several meshes below the finest, for the order of convergence; no two are alike at the edge.
 _LEVELS = {
@@ -29,7 +43,7 @@ def order_levels(level: Level, per_octave: int = PER_OCTAVE) -> tuple[tuple[int,
 
 
 def finest(level: Level) -> int:
-    """Of the meshes of a level."""
+    """Elements per radius of the finest mesh of a level."""
     return _LEVELS[level][-1]
 
 

@@ -1,0 +1,514 @@
+"""Hertz's contact: point and ellipse, exact arc, given approach, unloading, unlike bodies."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+from math import pi, sqrt
+from typing import Any
+
+from contact_scene import RIGID, Body, IsotropicMaterial, LoadStep, Paraboloid, Sphere
+from contact_scene.residuals import worst
+from verification.cases.levels import (
+    ASKED,
+    DERIVED,
+    EDGE,
+    JUDGED_BY,
+    PENALTY,
+    because,
+    finest,
+    levels,
+    order_levels,
+)
+from verification.closed_forms.hertz import PointContact
+from verification.closed_forms.sphere import SphereContact
+from verification.judging.case import Case, Comparison, Level, Quantity, Required
+from verification.judging.declared_case import Falls, Refined, Reported, Within, case, judged
+from verification.judging.drawings import PRESSURE, convergence, profile
+from verification.judging.ladder import (
+    MIDDLE,
+    Rung,
+    asked,
+    meshed,
+    named,
+    on_cells,
+    on_springs,
+    part_of_side,
+    with_edge_at,
+)
+from verification.judging.observable import Observable, number
+from verification.judging.observables import (
+    APPROACH,
+    CONTACT_RADIUS,
+    NORMAL_FORCE,
+    PEAK_PRESSURE,
+    PRESSURE_L2,
+    PRESSURE_WITHIN,
+)
+from verification.judging.order_of_convergence import NotYetAsymptotic
+from verification.judging.refinement import refinement
+from verification.judging.run import SOLVER_TOLERANCE, Run
+from verification.problems import paper_scene as paper
+from verification.problems.elliptical import BARREL, EXACT
+from verification.problems.hertz import BALL, LED_BALL, hertzian
+from verification.problems.layered_scene import coated, film, pressed, rigid_ball
+from verification.problems.paper_scene import HERTZ, STEEL
+from verification.problems.problem import Problem
+from verification.problems.reference import ROUNDING, Reference, ReferenceKind
+from verification.problems.shifted_grid import UNLIKE
+
+SHARP = replace(PRESSURE, profile="hertz")
+ROWS = (
+    Within(PEAK_PRESSURE, {128: 1.5e-4, 256: 4e-5}, ASKED),
+    Within(APPROACH, {128: 5e-5, 256: 5e-5}, ASKED, name="required_approach"),
+    Refined(
+        APPROACH, 2.0, 5e-5,
+        "order 2: the pressure's error has zero mean; the cap is the figure required of the "
+        "coarser grids",
+    ),
+    Refined(CONTACT_RADIUS, 1.0, part_of_side(0.1), EDGE),
+    Falls(
+        PRESSURE_L2, 1.0,
+        "at the edge the pressure rises as a square root: an error of O(√h) on a ring one cell "
+        "wide leaves O(h) in L2",
+    ),
+    Falls(
+        PEAK_PRESSURE, 2.0,
+        "even counts of cells put the centre h/√2 from the next cell centre, where the exact "
+        "pressure is lower by p0 h²/4a²",
+    ),
+    Falls(
+        CONTACT_RADIUS, 1.0,
+        "pressures that are constant on cells, matched at their centres, let the contact reach too "
+        "far by the same part of a cell, 0.06, on every grid",
+        NotYetAsymptotic(
+            0.15, "a second term counts on coarse grids: 1.12 up to 256 cells, 1.08 up to 512"
+        ),
+    ),
+)  # fmt: skip
+# How circles cut the cells scatters it too much on one grid of each size.
+MEAN = (
+    Falls(
+        APPROACH, 2.0,
+        "a weighted mean of the displacement: the errors at the edge alternate and cancel",
+    ),
+)  # fmt: skip
+
+
+def hertz_point(level: Level = Level.QUICK, cells: Sequence[int] = ()) -> Case:
+    """Hertz's point contact on square grids, required figures at 128 and 256 cells per side.
+
+    cells  per side, instead of those of the level; without grids that fall on the contact in two
+           other ways
+    """
+    most = {Level.QUICK: 256, Level.STANDARD: 512, Level.FULL: 1024}[level]
+    grids = on_cells(BALL, cells or refinement(32, most))
+    shifted = () if cells else refinement(32, most // 2)
+    return case(
+        "hertz_point",
+        "Hertz point contact",
+        "The paper's ball (R = 18 mm, 420 GPa, ν = 0.3) on a half-space of the same material "
+        "under 1 kN, without friction, on a window of three contact radii. As a paraboloid it "
+        "is Hertz's problem exactly.",
+        judged(grids, ROWS),
+        *(judged(on_cells(BALL, some, offsets=UNLIKE), MEAN) for some in (shifted,) if some),
+        charts=(
+            profile(
+                grids, "hertz_profile", "Pressure next to y = 0",
+                f"Computed pressure on {grids.judged.run.label} cells over Hertz's, and their "
+                "difference: it is confined to the cells at the edge of the contact.",
+                "p / p₀", HERTZ.peak_pressure, SHARP,
+            ),
+            convergence(
+                grids, ROWS, "hertz_convergence", "Convergence of the Hertz contact",
+                "Relative errors against cell side. The pressure falls with the first power of h "
+                "because of the square-root edge; approach and peak pressure fall with the second.",
+                also=(APPROACH,),
+            ),
+        ),
+        limits=("Pointwise errors at the edge fall as O(√h) only and are not judged.",),
+    )  # fmt: skip
+
+
+ARC = SphereContact.under_load(paper.NORMAL_FORCE, paper.RADIUS, paper.CONTACT_MODULUS)
+
+
+def _beyond(what: Observable, words: str, hertz: float, exact: float, more: str = "") -> Reported:
+    """Distance of a number from Hertz's."""
+    over = replace(
+        what,
+        name=f"{what.name}_beyond_hertz",
+        meaning=f"computed {words} over Hertz's, less one",
+        unit="",
+        measure=lambda result, step, problem: what.measure(result, step, problem) / hertz - 1,
+    )
+    return Reported(over, f"the closed forms differ by {exact / hertz - 1:.2e}{more}")
+
+
+def hertz_exact_sphere(level: Level = Level.QUICK) -> Case:
+    """The paper's ball with its exact arc, and its distance from the paraboloid."""
+    ball, load = Sphere(radius=paper.RADIUS, material=STEEL), paper.pressing()
+    problem = Problem(
+        paper.frictionless("Ball with its exact arc on a half-space", ball, STEEL, load),
+        (ARC,),
+        HERTZ.contact_radius,
+        "Sneddon 1965, arc of a circle, by Gauss quadrature",
+        ReferenceKind.SEMI_CLOSED,
+        100 * ROUNDING,
+        equations=(
+            r"W = \tfrac{1}{2} E^* \left[(R^2 + a^2) \ln\frac{R + a}{R - a} - 2 a R\right],\quad "
+            r"\delta = \tfrac{a}{2} \ln\frac{R + a}{R - a}",
+        ),
+    )
+    rows = (
+        Refined(
+            APPROACH, 2.0, 1e-5,
+            "order 2 as for the paraboloid; the cap is a third of the distance from Hertz's "
+            "approach, so that the two can be told apart",
+        ),
+        Refined(
+            PEAK_PRESSURE, 2.0, 4e-5,
+            "order 2: distance of the centre from the next cell centre; the cap is the figure "
+            "required of the paraboloid at 256 x 256",
+        ),
+        Refined(CONTACT_RADIUS, 1.0, part_of_side(0.1), "as for the paraboloid"),
+        _beyond(APPROACH, "approach", HERTZ.approach, ARC.approach),
+        _beyond(
+            PEAK_PRESSURE, "peak pressure", HERTZ.peak_pressure, ARC.peak_pressure,
+            "; the largest cell value is low by h²/4a²",
+        ),
+    )  # fmt: skip
+    return case(
+        "hertz_exact_sphere",
+        "Ball with its exact arc",
+        "The ball of hertz_point as a circular arc in the same half-space. Its exact solution is "
+        "an integral; it differs from Hertz's by a²/R² times numbers near 1/15, far less than any "
+        "measurement but more than the error of the solver.",
+        judged(on_cells(problem, refinement(64, 256 if level is Level.QUICK else 512)), rows),
+        limits=("Linear elasticity of a half-space: large strains are another matter.",),
+        no_order=DERIVED,
+    )
+
+
+def hertz_approach_control(level: Level = Level.QUICK) -> Case:
+    """Hertz's point contact with the approach prescribed, the same at every level."""
+    rows = (
+        Refined(
+            NORMAL_FORCE, 2.0, 7.5e-5,
+            "order 2, as the approach under force; the cap is its 5e-5 times 3/2, the exponent of "
+            "Hertz's law",
+        ),
+        Refined(APPROACH, 2.0, 1e-12, "prescribed: nothing but rounding may change it"),
+    )  # fmt: skip
+    return case(
+        "hertz_approach_control",
+        "Hertz point contact, approach prescribed",
+        "The contact of hertz_point, pressed by Hertz's approach for 1 kN. The force that comes "
+        "out is the measured quantity.",
+        judged(on_cells(LED_BALL, refinement(32, 128)), rows),
+        no_order=DERIVED,
+    )
+
+
+PART = (27.5 / 32.5) ** 3  # about 0.6; of 32 elements the edge is then in the middle of one
+UNLOADED = PointContact.under_load(PART * paper.NORMAL_FORCE, HERTZ.radius, HERTZ.contact_modulus)
+SMALLER = UNLOADED.contact_radius / HERTZ.contact_radius
+
+
+def on_smaller(figure: float, order: float) -> Callable[[Rung], float]:
+    """A figure asked for on 128 x 128 cells, or at 64 elements per radius, on those of them that
+    the smaller contact has."""
+
+    def allowed(rung: Rung) -> float:
+        if isinstance(rung.run, Run):
+            return figure * (128 / (rung.count * SMALLER)) ** order
+        return asked(figure, order)(replace(rung, count=round(rung.count * SMALLER)))
+
+    return allowed
+
+
+def _pressure_and_approach(one: Any, other: Any) -> float:
+    """Σ|Δp|/Σp at the ends of two histories, or the relative difference of the approach."""
+    a, b = one.steps[-1], other.steps[-1]
+    pressure = abs(a.pressure - b.pressure).sum() / b.pressure.sum()
+    return worst(float(pressure), abs(a.approach / b.approach - 1))
+
+
+def hertz_unloading(level: Level = Level.QUICK) -> Case:
+    """Contacts without friction that are unloaded: the history has no effect."""
+    cells, elements = {
+        Level.QUICK: (128, 32), Level.STANDARD: (256, 64), Level.FULL: (512, 128),
+    }[level]  # fmt: skip
+    down = LoadStep(normal_force=PART * paper.NORMAL_FORCE)
+    # Grids and meshes are laid out for the larger contact.
+    problem = replace(
+        BALL,
+        scene=pressed(
+            "Ball on a half-space, pressed and unloaded",
+            paper.paraboloid(STEEL), BALL.scene.body, paper.pressing(), down,
+        ),
+        ends=(HERTZ, UNLOADED),
+    )  # fmt: skip
+    stored = replace(
+        number("elastic_energy", "energy stored in both bodies"),
+        value=lambda exact: 0.4 * exact.load * exact.approach,
+        source="Hertz 1882: W ~ δ^(3/2), so that ∫W dδ is 2/5 of W δ",
+    )
+    why = (
+        "asked of hertz_point on 128 x 128 cells; on other cells per radius what the order 2 makes "
+        "of it"
+    )
+    twice = "twice what is allowed of the approach"
+    on_grid = (
+        Within(APPROACH, on_smaller(5e-5, 2), why),
+        Within(
+            CONTACT_RADIUS, lambda rung: part_of_side(0.1)(rung) / SMALLER,
+            "a tenth of a cell, as for hertz_point",
+        ),
+        Within(PEAK_PRESSURE, on_smaller(1.5e-4, 2), why),
+        Within(stored, on_smaller(1e-4, 2), twice),
+    )  # fmt: skip
+    on_mesh = (
+        Within(APPROACH, on_smaller(1e-4, 2), because(2)),
+        Within(
+            CONTACT_RADIUS, lambda rung: min(2e-3, on_smaller(5e-4, 1)(rung)),
+            "as for fem_hertz: the edge is known to a thirtieth of an element",
+        ),
+        Within(PEAK_PRESSURE, on_smaller(1e-4, 2), because(2)),
+        Within(stored, on_smaller(2e-4, 2), twice),
+    )  # fmt: skip
+    films = {
+        way: replace(
+            BALL,
+            scene=pressed(
+                f"Rigid ball on a coated body, {way}", rigid_ball(), coated(film(2.0, 1.0)), *steps
+            ),
+        )
+        for way, steps in {
+            "pressed and unloaded": (paper.pressing(), down),
+            "pressed by the smaller force": (down,),
+        }.items()
+    }  # fmt: skip
+    grids, meshes = (
+        [named(f"coated, {way}{by}", laid(one)) for way, one in films.items()]
+        for by, laid in (
+            ("", lambda one: on_cells(one, (cells,))),
+            (", elements", lambda one: with_edge_at(one, (elements,))),
+        )
+    )
+    return case(
+        "hertz_unloading",
+        "Unloaded without friction",
+        f"The paper's ball pressed by 1 kN and unloaded to {PART:.3f} kN. Without friction the "
+        "contact is again Hertz's, with approach, radius, pressure and energy of the smaller "
+        "force. A coated body is unloaded likewise, and compared with itself pressed by that force "
+        "at once.",
+        judged(on_cells(problem, (cells,)), on_grid),
+        judged(with_edge_at(problem, (elements,)), on_mesh),
+        runs=tuple(pair[k].judged.run for k in (0, 1) for pair in (grids, meshes)),
+        comparisons=tuple(
+            Comparison(
+                "path_independence", "difference of pressure and approach from those of the "
+                "smaller force at once", (back.levels[0], once.levels[0]), _pressure_and_approach,
+                10 * SOLVER_TOLERANCE,
+                "residuals of two solves, which tractions answer a few times over",
+                "without friction a contact has no memory",
+            )
+            for back, once in (grids, meshes)
+        ),
+        no_order=JUDGED_BY.format("hertz_point and fem_hertz"),
+    )  # fmt: skip
+
+
+def dissimilar_bodies(level: Level = Level.QUICK) -> Case:
+    """Unlike bodies without friction, of which E* alone matters; the same at every level."""
+    del level
+    cells = 128
+    hard = IsotropicMaterial(young_modulus=300e9, poisson_ratio=0.25)
+    # 1/E* = (1 - 0.25²)/300 GPa + the rest, so that E* is the paper's
+    soft = IsotropicMaterial(
+        young_modulus=0.75 / (1 / paper.CONTACT_MODULUS - (1 - 0.25**2) / 300e9), poisson_ratio=0.5
+    )
+    steel = IsotropicMaterial(young_modulus=210e9, poisson_ratio=0.3)
+    pairs = {
+        "rigid ball on 210 GPa": (Paraboloid(radius=paper.RADIUS, material=RIGID), steel),
+        "ball of 300 GPa on a softer body": (paper.paraboloid(hard), soft),
+    }
+    rows = (Within(APPROACH, 5e-5, ASKED), Within(PEAK_PRESSURE, 1.5e-4, ASKED))
+    scenes = {
+        name: pressed(name, ball, Body(material=body)) for name, (ball, body) in pairs.items()
+    }
+    return case(
+        "dissimilar_bodies",
+        "Dissimilar bodies without friction",
+        "Pairs of different materials with the E* of hertz_point: a rigid ball on steel, and a "
+        "ball on an incompressible body. Without friction Hertz's solution knows only E*.",
+        *(
+            judged(named(name, on_cells(hertzian(scene), (cells,), of=name)), rows)
+            for name, scene in scenes.items()
+        ),
+        limits=(
+            f"On {cells}x{cells} cells only: the operator differs from hertz_point's by a factor.",
+        ),
+        equations=(r"\frac{1}{E^*} = \frac{1 - \nu_1^2}{E_1} + \frac{1 - \nu_2^2}{E_2}",),
+        no_order="the operator differs from that of hertz_point by a factor, its orders do not",
+    )
+
+
+def hertz_elliptical(level: Level = Level.QUICK) -> Case:
+    """Hertz's contact with an elliptical contact area."""
+    mean_radius = replace(
+        CONTACT_RADIUS,
+        name="mean_contact_radius",
+        meaning="√(contact area / π) = √(ab)",
+        value=lambda exact: float(sqrt(exact.semi_axes[0] * exact.semi_axes[1])),
+    )
+    rows = (
+        Refined(
+            PEAK_PRESSURE, 2.0, 1.5e-4,
+            "order 2; the cap is the figure required of hertz_point at 128 x 128",
+        ),
+        Refined(APPROACH, 2.0, 5e-5, "order 2; the cap is the figure required of hertz_point"),
+        Refined(mean_radius, 1.0, part_of_side(0.1), f"{EDGE} along the longer axis"),
+        Falls(PRESSURE_L2, 1.0, "square-root edge, as for the circle"),
+    )  # fmt: skip
+    grids = on_cells(BARREL, refinement(32, 256 if level is Level.QUICK else 512))
+    return case(
+        "hertz_elliptical",
+        "Elliptical Hertz contact",
+        "A barrel with principal radii of 90 mm and 18 mm: the contact is an ellipse with "
+        f"b/a = {EXACT.axis_ratio:.4f}. Cells are oblong like the window, three semi-axes along "
+        "each side.",
+        judged(grids, rows),
+        charts=(
+            profile(
+                grids, "elliptical_profile", "Pressure along the long axis of the ellipse",
+                "Computed pressure on the row of cells next to y = 0 over the exact one, and their "
+                "difference.",
+                "p / p₀", EXACT.peak_pressure,
+            ),
+        ),
+    )  # fmt: skip
+
+
+ON_MESHES = (
+    Within(PEAK_PRESSURE, asked(1e-4, 2), because(2)),
+    Within(APPROACH, asked(1e-4, 2), because(2)),
+    Within(
+        CONTACT_RADIUS, asked(2e-4, 1),
+        "the edge is known to a seventieth of an element; 2e-3 is asked at 64 per radius",
+    ),
+    Within(PRESSURE_WITHIN, asked(2e-3, 2), because(2)),
+    Falls(
+        PRESSURE_L2, 1.0,
+        "at the edge the hats cannot follow a square root: an error of O(√h) on a ring one element "
+        "wide leaves O(h) in L2",
+    ),
+    Falls(
+        PEAK_PRESSURE, 2.0,
+        "what the hats cannot follow of the square root at the edge comes to O(h²) of the load",
+    ),
+    Falls(
+        APPROACH, 2.0,
+        "the energy is stationary with respect to the edge of the contact, which is known to O(h)",
+    ),
+)  # fmt: skip
+
+
+def fem_hertz(
+    level: Level = Level.QUICK,
+    elements: Sequence[int] = (),
+    studied: Sequence[tuple[int, float]] = (),
+) -> Case:
+    """Hertz's contact by finite elements, on many meshes.
+
+    elements  per contact radius, instead of those of the level
+    studied   meshes for the orders, and place of the edge in its element; none: the same meshes, up
+              to 64 elements per radius, where the error is that of the contact zone
+    """
+    studied = studied or (() if elements else order_levels(level))
+    elements = elements or levels(level)
+    meshes = with_edge_at(BALL, elements, studied or [(n, MIDDLE) for n in elements if n <= 64])
+    return case(
+        "fem_hertz",
+        "Finite elements: Hertz point contact",
+        "The contact of hertz_point solved by axisymmetric finite elements that share nothing "
+        "with the semi-analytical solver but the scene: quadratic elements on a section of a "
+        "hundred contact radii, pressure linear between its rings, contact as a linear "
+        "complementarity problem.",
+        judged(meshes, ON_MESHES),
+        charts=(
+            profile(
+                meshes, "fem_hertz_profile", "Pressure over the radius",
+                "Pressure by finite elements over Hertz's, and their difference: a ripple of the "
+                "last elements at the edge.",
+                "p / p₀", HERTZ.peak_pressure, SHARP,
+            ),
+            convergence(
+                meshes, ON_MESHES, "fem_hertz_convergence", "Convergence of the finite elements",
+                "Relative errors, root mean square over the places of the edge in its element, "
+                "against the side of an element over the contact radius.",
+                also=(CONTACT_RADIUS,),
+            ),
+        ),
+        limits=(
+            "Away from the contact elements grow by the same ratio on every mesh, which leaves "
+            "2e-6 of the peak pressure and 6e-6 of the approach on the finest.",
+            "The radius errs by A h + B h²: A, up to 0.003, from reading the edge off the last two "
+            "pressures, B, about 0.1, from the pressures. On these meshes neither dominates, so "
+            "that it has no one order.",
+        ),
+    )  # fmt: skip
+
+
+def fem_penalty_hertz(level: Level = Level.QUICK) -> Case:
+    """Hertz's contact by finite elements with a penalty, on a finer mesh at higher levels."""
+    elements, factor = finest(level), 10.0
+    mesh = with_edge_at(BALL, (elements,))
+    springs, improved = (
+        on_springs(mesh, f"c = {factor:g}, {words}", penalty=factor, augmentations=n, overlap=1.0)
+        for n, words in enumerate(("springs alone", "one augmentation"))
+    )
+    k = factor * elements * BALL.radius / meshed(BALL.radius, elements)
+    error = APPROACH.error(BALL)
+    law = Quantity(
+        "error_law", "error of the approach without augmentation, times k = c a/h", "",
+        springs.judged.run.label, lambda result: error(result) * k,
+        Reference(
+            1 / pi, ReferenceKind.THEORY,
+            "springs of stiffness ε in series with Hertz's contact, to first order: the approach "
+            "grows by d/dW of the energy ∫p²/2ε dA in them, which is p₀/2ε",
+        ),
+        Required(0.05, "set by hand: the next order in 1/k and what the mesh adds"),
+    )  # fmt: skip
+    rows = (
+        Within(PEAK_PRESSURE, 2e-3, PENALTY),
+        Within(
+            APPROACH, asked(1e-4, 2),
+            "as without a penalty: an augmentation takes away what springs add, 1/πk; "
+            f"{because(2)}",
+        ),
+        Within(CONTACT_RADIUS, part_of_side(0.1), "a tenth of an element: the last points ripple"),
+        Within(PRESSURE_WITHIN, asked(2e-3, 2), because(2)),
+    )  # fmt: skip
+    of_springs = (
+        Within(PEAK_PRESSURE, 2e-3, PENALTY, name="peak_pressure_of_springs"),
+        Within(APPROACH, 2e-3, PENALTY, name="approach_of_springs"),
+    )
+    return case(
+        "fem_penalty_hertz",
+        "Finite elements with a penalty: Hertz point contact",
+        "The contact of fem_hertz with springs of stiffness ε = c E*/h between the surfaces at the "
+        "Gauss points of the contact edges, h the length of an edge, instead of exact contact. "
+        "Springs overlap, and k = c a/h says how much; one augmentation, in which the pressures "
+        "of the springs become forces that need no overlap, takes that away.",
+        judged(improved, rows),
+        judged(springs, of_springs),
+        quantities=(law,),
+        limits=(
+            "The measured error of the peak pressure is −0.54/k; no theory is at hand for that "
+            "number.",
+        ),
+        equations=(r"\Delta\delta = \frac{p_0}{2\varepsilon},\quad \varepsilon = \frac{c E^*}{h}",),
+        no_order="error_law judges the error of the penalty, fem_hertz that of the mesh",
+    )

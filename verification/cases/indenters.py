@@ -1,0 +1,374 @@
+"""Cone, flat punch and tilted indenters: infinite pressures at apex and rim, moments."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from contact_scene import Body, FlatPunch, LoadStep
+from verification.cases.levels import EDGE, IDENTITY, STAIRCASE, levels
+from verification.closed_forms.tilted_punch import TiltedPunch
+from verification.judging.case import Case, Comparison, Level, Quantity, Required
+from verification.judging.declared_case import Falls, Refined, Within, case, judged
+from verification.judging.drawings import convergence, profile
+from verification.judging.ladder import asked, on_cells, on_elements, part_of_side, with_edge_at
+from verification.judging.observable import Observable, error_norm
+from verification.judging.observables import (
+    APPROACH,
+    CENTRAL_PRESSURE,
+    CONTACT_RADIUS,
+    PRESSURE_L1,
+)
+from verification.judging.order_of_convergence import NotYetAsymptotic
+from verification.judging.refinement import refinement
+from verification.judging.run import Run
+from verification.problems import paper_scene as paper
+from verification.problems.classical import CONE, PUNCH, PUNCH_RADIUS, PUNCH_WINDOW, mean_pressure
+from verification.problems.layered_scene import SUBSTRATE, pressed, rigid_ball
+from verification.problems.paper_scene import HERTZ, NORMAL_FORCE, STEEL
+from verification.problems.problem import Problem
+from verification.problems.reference import ROUNDING, Reference, ReferenceKind
+from verification.problems.shifted_grid import UNLIKE
+
+if TYPE_CHECKING:
+    from semi_analytical import Result
+
+
+def cone_contact(level: Level = Level.QUICK) -> Case:
+    """A cone on a half-space: pressure with a logarithmic peak under the apex."""
+    cells = refinement(32, 128 if level is Level.QUICK else 256)
+    grids = on_cells(CONE, cells)
+    rows = (
+        Refined(
+            APPROACH, 2.0, 1e-4,
+            "order 2: the apex falls between cells and moves the load of a few of them; the cap is "
+            "twice what is required of the ball",
+        ),
+        Refined(CONTACT_RADIUS, 1.0, part_of_side(0.1), EDGE),
+    )  # fmt: skip
+    order = Falls(
+        PRESSURE_L1, 1.5,
+        "at the edge O(√h) on a ring one cell wide; the logarithm at the apex is O(1) in a few "
+        "cells, O(h²)",
+    )  # fmt: skip
+    return case(
+        "cone_contact",
+        "Cone on a half-space",
+        "A cone whose flanks rise by 1° under 1 kN. The pressure is infinite under the apex, as a "
+        "logarithm, and falls to zero at the edge.",
+        judged(grids, rows),
+        judged(on_cells(CONE, cells, offsets=UNLIKE), (order,)),
+        charts=(
+            profile(
+                grids, "cone_profile", "Pressure next to y = 0",
+                "Computed pressure over the exact one, in units of the mean pressure, and their "
+                "difference.",
+                "p / mean p", mean_pressure(CONE),
+            ),
+        ),
+        limits=("The pressure of the cells at the apex is an average of an infinite peak.",),
+    )  # fmt: skip
+
+
+def flat_punch(level: Level = Level.QUICK) -> Case:
+    """A flat punch on a half-space: the pressure is infinite at the rim."""
+    cells = refinement(32, 128 if level is Level.QUICK else 256)
+    grids = on_cells(PUNCH, cells, PUNCH_WINDOW)
+    rows = (
+        Within(APPROACH, part_of_side(0.5), f"half a cell over the radius: {STAIRCASE}"),
+        Within(
+            CENTRAL_PRESSURE, part_of_side(1.0),
+            f"one cell over the radius: pressure goes as 1/radius², and {STAIRCASE}",
+        ),
+    )  # fmt: skip
+    return case(
+        "flat_punch",
+        "Flat punch on a half-space",
+        "A flat-ended cylinder of 0.4 mm radius under 1 kN. Contact radius and approach are "
+        "proportional; the pressure is singular at the rim, as 1/√(distance).",
+        judged(grids, rows),
+        charts=(
+            convergence(
+                grids, (Falls(APPROACH, 1.0, STAIRCASE),), "flat_punch_convergence",
+                "Convergence of the flat punch",
+                "Relative errors against cell side, with a line of slope one.",
+                also=(CENTRAL_PRESSURE,),
+            ),
+        ),
+        no_order="first order in the cell side with scatter: how the circle cuts the cells differs "
+        "from grid to grid",
+    )  # fmt: skip
+
+
+# Oblique to the grid, and a little less than the third of the radius at which the punch lifts off.
+ECCENTRICITY = (0.18 * PUNCH_RADIUS, 0.24 * PUNCH_RADIUS)
+TILTED = TiltedPunch(PUNCH_RADIUS, paper.CONTACT_MODULUS, NORMAL_FORCE, ECCENTRICITY)
+
+
+def _along(axis: int, name: str) -> Callable[[Any], float]:
+    """A component of a vector at the end of the last step; NaN without the vector."""
+
+    def component(result: Any) -> float:
+        vector = getattr(result.steps[-1], name)
+        return float("nan") if vector is None else float(vector[axis])
+
+    return component
+
+
+def _inner_error(result: Any, step: int, problem: Problem) -> float:
+    """Largest relative error of the pressure within half the radius, clear of the rim."""
+    x, y = result.grid.coordinates()
+    inside = np.hypot(x, y) < 0.5 * PUNCH_RADIUS
+    exact = problem.ends[step].pressure(x[inside], y[inside])
+    return float(np.max(np.abs(result.steps[step].pressure[inside] / exact - 1)))
+
+
+def _stiffnesses(one: Any, other: Any) -> float:
+    """Largest relative difference of the stiffnesses of two states."""
+
+    def of(result: Any) -> np.ndarray:
+        end = result.steps[-1]
+        return np.array([end.normal_force / end.approach, *(end.moment / end.tilt)])
+
+    return float(np.max(np.abs(of(one) / of(other) - 1)))
+
+
+def tilted_punch(level: Level = Level.QUICK) -> Case:
+    """A flat punch pressed beside its axis: it tilts."""
+    punch = FlatPunch(radius=PUNCH_RADIUS, material=STEEL)
+    forced, led = (
+        paper.frictionless(title, punch, STEEL, step)
+        for title, step in {
+            "Flat punch pressed beside its axis": LoadStep(
+                normal_force=NORMAL_FORCE,
+                moment=(NORMAL_FORCE * ECCENTRICITY[1], NORMAL_FORCE * ECCENTRICITY[0]),
+            ),
+            "Flat punch tilted as it is pressed": LoadStep(
+                approach=TILTED.approach, tilt=(TILTED.tilt[1], TILTED.tilt[0])
+            ),
+        }.items()
+    )
+    problem = Problem(
+        forced,
+        (TILTED,),
+        PUNCH_RADIUS,
+        "Galin's theorem; tilting stiffness (4/3) E* a³",
+        equations=(
+            r"W = 2 E^* a \delta,\quad M = \tfrac{4}{3} E^* a^3 \varphi,\quad "
+            r"p = \frac{W}{2 \pi a^2} \frac{1 + 3 \mathbf{e} \cdot \mathbf{r} / a^2}"
+            r"{\sqrt{1 - r^2/a^2}}",
+        ),
+    )
+    tilts = (
+        # The slope along an axis is a rotation about the other one.
+        Observable(
+            f"tilt_{axis}", f"slope along {axis}", "rad",
+            lambda result, step, problem, about=about: about(result),
+            lambda exact, along=along: float(exact.tilt[along]),
+        )
+        for along, axis in enumerate("xy")
+        for about in [_along(1 - along, "tilt")]
+    )  # fmt: skip
+    rows = (
+        *(
+            Within(
+                tilt, part_of_side(1.5),
+                "one and a half cells over the radius, of which the tilt is the third power: "
+                f"{STAIRCASE}",
+            )
+            for tilt in tilts
+        ),
+        Within(APPROACH, part_of_side(0.5), f"half a cell over the radius: {STAIRCASE}"),
+        Within(
+            error_norm(
+                "inner_pressure", "largest |p - p_exact| / p_exact within half the radius",
+                _inner_error, "p_exact",
+            ),
+            part_of_side(1.5), "as the tilt",
+        ),
+    )  # fmt: skip
+    grids = on_cells(problem, refinement(32, 128 if level is Level.QUICK else 256), PUNCH_WINDOW)
+    finest = grids.judged.run
+    assert isinstance(finest, Run)
+    return case(
+        "tilted_punch",
+        "Flat punch pressed beside its axis",
+        "A flat punch of 0.4 mm radius, its load of 1 kN 0.3 radii from the axis in a direction "
+        "oblique to the grid. Up to a third of the radius it touches all over, and a plane of "
+        "displacement has a closed form.",
+        judged(grids, rows),
+        runs=(Run("given tilt", led, finest.grid),),
+        comparisons=(
+            Comparison(
+                "both_controls", "given moment against given tilt, each relative to the stiffness: "
+                "load over approach and moment over tilt", (finest.label, "given tilt"),
+                _stiffnesses, 1e-6, "the punch touches all over: the response is linear to the "
+                "tolerance of the solver", "linearity of a contact that does not change",
+            ),
+        ),
+        no_order="first order in the cell side with scatter, as in flat_punch",
+    )  # fmt: skip
+
+
+MOVED = (8, 5)  # cells between the tip and the force, along x and y
+ROLLED = "an identity of the discrete equations: what is left is the tolerance of the solver"
+
+
+def _moved_apart(beside: Result, centred: Result) -> float:
+    """Largest difference of the tractions, those of the centred ball moved by whole cells."""
+    one, other = beside.steps[-1], centred.steps[-1]
+    pressure = np.roll(other.pressure, MOVED, axis=(0, 1))
+    worst = np.max(np.abs(one.pressure - pressure)) / other.peak_pressure
+    if one.shear is None or other.shear is None:
+        return float(worst)
+    shear = np.roll(other.shear, MOVED, axis=(1, 2))
+    limit = paper.FRICTION * other.peak_pressure
+    return float(np.maximum(worst, np.max(np.abs(one.shear - shear)) / limit))
+
+
+def eccentric_ball(level: Level = Level.QUICK) -> Case:
+    """A ball pressed beside its tip: it rolls, and the contact is where the force acts."""
+    cells, increments = 64 if level is Level.QUICK else 128, 5
+    source = "x²/2R - φx = (x - Rφ)²/2R - Rφ²/2: a tilted paraboloid is a shifted one"
+    grid = paper.square_grid(cells, 2 * HERTZ.contact_radius)
+    e = tuple(number * side for number, side in zip(MOVED, grid.spacing, strict=True))
+    roll = tuple(length / paper.RADIUS for length in e)
+    drop = 0.5 * paper.RADIUS * (roll[0] ** 2 + roll[1] ** 2)
+    forced = LoadStep(
+        normal_force=NORMAL_FORCE,
+        moment=(NORMAL_FORCE * e[1], NORMAL_FORCE * e[0]),
+        increments=increments,
+    )
+    led = LoadStep(normal_force=NORMAL_FORCE, tilt=(roll[1], roll[0]), increments=1)
+    steel = (paper.paraboloid(STEEL), Body(material=STEEL))
+    unlike = (rigid_ball(), Body(material=SUBSTRATE))
+    runs = tuple(
+        Run(label, pressed(title, *bodies, step, friction=paper.FRICTION), grid)
+        for label, title, bodies, step in (
+            ("centred", "Ball pressed at its tip", steel, paper.pressing(increments)),
+            ("beside", "Ball pressed beside its tip", steel, forced),
+            ("given tilt", "Tilted ball", steel, led),
+            ("centred, unlike bodies", "Rigid ball", unlike, paper.pressing(increments)),
+            ("beside, unlike bodies", "Rigid ball beside its tip", unlike, forced),
+        )
+    )
+
+    def rolled(
+        name: str, meaning: str, unit: str, run: str, measure: Callable[[Any], float], value: float
+    ) -> Quantity:
+        reference = Reference(value, ReferenceKind.IDENTITY, source, ROUNDING * abs(value))
+        return Quantity(name, meaning, unit, run, measure, reference, Required(1e-6, ROLLED))
+
+    return case(
+        "eccentric_ball",
+        "Ball pressed beside its tip",
+        "The paper's ball, its force of 1 kN acting a whole number of cells beside the tip. It "
+        "rolls until the contact is below the force: the same contact, elsewhere, and as many "
+        "cells, so that the fields agree to the tolerance of the solver - also where pressure "
+        "and shear are coupled.",
+        runs=runs,
+        quantities=(
+            *(
+                rolled(
+                    f"tilt_{axis}", f"slope along {axis}", "rad", "beside",
+                    _along(1 - along, "tilt"), roll[along],
+                )
+                for along, axis in enumerate("xy")
+            ),
+            rolled(
+                "moment_of_given_tilt", "moment M_y that the given tilt takes", "N m",
+                "given tilt", _along(1, "moment"), NORMAL_FORCE * e[0],
+            ),
+        ),
+        comparisons=(
+            *(
+                Comparison(
+                    f"fields{suffix}", "largest difference of pressure and shear, shifted, over "
+                    "the largest pressure and the largest friction limit",
+                    (f"beside{suffix}", f"centred{suffix}"), _moved_apart, 1e-5, ROLLED, source,
+                )
+                for suffix in ("", ", unlike bodies")
+            ),
+            Comparison(
+                "approach", "approach at the origin, and what rolling raises the tip by, against "
+                "the approach of the centred ball", ("beside", "centred"),
+                lambda beside, centred: abs(
+                    (beside.steps[-1].approach + drop) / centred.steps[-1].approach - 1
+                ),
+                1e-6, ROLLED, source,
+            ),
+        ),
+        equations=(
+            r"\frac{x^2}{2R} - \varphi x = \frac{(x - R\varphi)^2}{2R} - \frac{R\varphi^2}{2}",
+        ),
+        no_order=IDENTITY,
+    )  # fmt: skip
+
+
+def _between(result: Any, step: int, problem: Problem) -> float:
+    """Largest relative error of the pressure of rings away from apex and edge."""
+    end = result.steps[step]
+    part = end.radii / problem.radius
+    away = (part > 0.2) & (part < 0.8)
+    exact = problem.ends[step].pressure(end.radii[away])
+    return float(abs(end.pressure[away] / exact - 1).max())
+
+
+def fem_classical(level: Level = Level.QUICK) -> Case:
+    """Cone and flat punch by finite elements; above the quick level the order of the central
+    pressure is judged too."""
+    why = "set by hand at 64 elements per radius, on other meshes what the order makes of it"
+    rim = "what hats cannot follow of the infinite pressure at the rim has an energy of O(h)"
+    cones = with_edge_at(CONE, levels(level), of="cone")
+    punches = on_elements(PUNCH, levels(level), of="punch")
+    between = error_norm(
+        "pressure_of_cone",
+        "largest error of the pressure over its exact value, from 0.2 to 0.8 of the radius",
+        _between,
+        "the exact one",
+    )
+    of_cone = (
+        Within(APPROACH, asked(1e-4, 2), why, name="approach_of_cone"),
+        Within(
+            CONTACT_RADIUS, part_of_side(0.05), "a twentieth of an element", name="radius_of_cone"
+        ),
+        Within(between, asked(5e-4, 2), why),
+    )
+    of_punch = (
+        Within(APPROACH, asked(5e-4, 1), f"{why}; {rim}", name="approach_of_punch"),
+        Within(CENTRAL_PRESSURE, asked(1e-3, 1), f"{why}; {rim}", name="central_pressure_of_punch"),
+        Falls(APPROACH, 1.0, rim),
+    )
+    # On meshes coarser than 22 elements per radius the second term makes 0.8 of that order.
+    fine = replace(punches, followed=tuple(rung for rung in punches.rungs if rung.count >= 22))
+    of_fine = Falls(
+        CENTRAL_PRESSURE, 1.0, rim,
+        NotYetAsymptotic(
+            0.15,
+            "the error is A h - B h² with B = 3.5 A / a: neighbours from 22 elements per radius on "
+            "give 0.86, 0.90, 0.93",
+        ),
+    )  # fmt: skip
+    caption = "Relative errors against the side of an element over the contact radius."
+    return case(
+        "fem_classical",
+        "Finite elements: cone and flat punch",
+        "The scenes of cone_contact and flat_punch by finite elements. Below the punch the hats of "
+        "the pressure end at the rim with half a hat.",
+        judged(cones, of_cone),
+        judged(punches, of_punch),
+        judged(fine, () if level is Level.QUICK else (of_fine,)),
+        charts=(
+            convergence(
+                punches, (*of_punch, of_fine), "fem_classical_convergence",
+                "Convergence of the punch", caption,
+            ),
+            convergence(
+                cones, (), "fem_classical_cone", "Convergence of the cone", caption,
+                also=(APPROACH,),
+            ),
+        ),
+    )  # fmt: skip
