@@ -289,13 +289,11 @@ def hertz_unloading(level: Level = Level.QUICK) -> Case:
             "pressed by the smaller force": (down,),
         }.items()
     }  # fmt: skip
-    grids, meshes = (
-        [named(f"coated, {way}{by}", laid(one)) for way, one in films.items()]
-        for by, laid in (
-            ("", lambda one: on_cells(one, (cells,))),
-            (", elements", lambda one: with_edge_at(one, (elements,))),
-        )
-    )
+    grids = [named(f"coated, {way}", on_cells(one, (cells,))) for way, one in films.items()]
+    meshes = [
+        named(f"coated, {way}, elements", with_edge_at(one, (elements,)))
+        for way, one in films.items()
+    ]
     return case(
         "hertz_unloading",
         "Unloaded without friction",

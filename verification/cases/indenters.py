@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -108,14 +109,14 @@ ECCENTRICITY = (0.18 * PUNCH_RADIUS, 0.24 * PUNCH_RADIUS)
 TILTED = TiltedPunch(PUNCH_RADIUS, paper.CONTACT_MODULUS, NORMAL_FORCE, ECCENTRICITY)
 
 
-def _along(axis: int, name: str) -> Callable[[Any], float]:
+def _component(name: str, axis: int, result: Any, *_: Any) -> float:
     """A component of a vector at the end of the last step; NaN without the vector."""
+    vector = getattr(result.steps[-1], name)
+    return float("nan") if vector is None else float(vector[axis])
 
-    def component(result: Any) -> float:
-        vector = getattr(result.steps[-1], name)
-        return float("nan") if vector is None else float(vector[axis])
 
-    return component
+def _slope(axis: int, exact: Any) -> float:
+    return float(exact.tilt[axis])
 
 
 def _inner_error(result: Any, step: int, problem: Problem) -> float:
@@ -162,24 +163,19 @@ def tilted_punch(level: Level = Level.QUICK) -> Case:
             r"{\sqrt{1 - r^2/a^2}}",
         ),
     )
-    tilts = (
-        # The slope along an axis is a rotation about the other one.
-        Observable(
-            f"tilt_{axis}", f"slope along {axis}", "rad",
-            lambda result, step, problem, about=about: about(result),
-            lambda exact, along=along: float(exact.tilt[along]),
-        )
-        for along, axis in enumerate("xy")
-        for about in [_along(1 - along, "tilt")]
-    )  # fmt: skip
     rows = (
         *(
             Within(
-                tilt, part_of_side(1.5),
+                # The slope along an axis is a rotation about the other one.
+                Observable(
+                    f"tilt_{axis}", f"slope along {axis}", "rad",
+                    partial(_component, "tilt", 1 - along), partial(_slope, along),
+                ),
+                part_of_side(1.5),
                 "one and a half cells over the radius, of which the tilt is the third power: "
                 f"{STAIRCASE}",
             )
-            for tilt in tilts
+            for along, axis in enumerate("xy")
         ),
         Within(APPROACH, part_of_side(0.5), f"half a cell over the radius: {STAIRCASE}"),
         Within(
@@ -274,13 +270,13 @@ def eccentric_ball(level: Level = Level.QUICK) -> Case:
             *(
                 rolled(
                     f"tilt_{axis}", f"slope along {axis}", "rad", "beside",
-                    _along(1 - along, "tilt"), roll[along],
+                    partial(_component, "tilt", 1 - along), roll[along],
                 )
                 for along, axis in enumerate("xy")
             ),
             rolled(
                 "moment_of_given_tilt", "moment M_y that the given tilt takes", "N m",
-                "given tilt", _along(1, "moment"), NORMAL_FORCE * e[0],
+                "given tilt", partial(_component, "moment", 1), NORMAL_FORCE * e[0],
             ),
         ),
         comparisons=(
