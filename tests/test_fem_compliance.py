@@ -1,7 +1,6 @@
 """Condensed compliances against Hankel integrals, punches with closed forms, and themselves."""
 
 import re
-import shutil
 from dataclasses import replace
 from math import inf, isinf, pi
 
@@ -16,7 +15,6 @@ from fem_reference.elasticity import compliance as condensed
 from fem_reference.elasticity import factored_section
 from fem_reference.elasticity.compliance import composite, condense
 from fem_reference.elasticity.factored_section import FactoredSection
-from fem_reference.elasticity.hat_functions import hats_on
 from fem_reference.elasticity.motion import PRESSING, SHEARING, TORSION, motion
 from fem_reference.mesh.gmsh_mesh import GmshMissing, gmsh_section_mesh
 from fem_reference.mesh.section_mesh import SectionMesh, section_mesh
@@ -70,14 +68,6 @@ def bound(harmonic, N):
     return 2e-5 + 3e-4 * (1 + harmonic / 2) ** 2.4 * (8 / N) ** 3
 
 
-@pytest.mark.parametrize("patch", PATCHES)
-def test_patch_energies_agree_with_hankel_integrals(patch):
-    of, load = PATCHES[patch]
-    body, response = coated(*COATINGS["twice as stiff"])
-    error = energy_error(condense(section_mesh(body, 16), of), load, [response])
-    assert abs(error) < bound(of.harmonic, 16)
-
-
 @pytest.mark.parametrize("patch", ["both", "torsion", "all of n = 1"])
 @pytest.mark.parametrize("coating", COATINGS)
 def test_every_kind_of_coating_agrees_with_hankel_integrals(coating, patch):
@@ -85,16 +75,6 @@ def test_every_kind_of_coating_agrees_with_hankel_integrals(coating, patch):
     body, response = coated(*COATINGS[coating])
     error = energy_error(condense(section_mesh(body, 8), of), load, [response])
     assert abs(error) < bound(of.harmonic, 8)
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("patch", ["both", "torsion", "all of n = 1", "all of n = 8"])
-@pytest.mark.parametrize("coating", COATINGS)
-def test_finer_patches_agree_with_hankel_integrals(coating, patch):
-    of, load = PATCHES[patch]
-    body, response = coated(*COATINGS[coating])
-    error = energy_error(condense(section_mesh(body, 64), of), load, [response])
-    assert abs(error) < bound(of.harmonic, 64)
 
 
 @pytest.mark.parametrize("patch", ["both", "all of n = 2"])
@@ -112,19 +92,6 @@ def test_both_meshers_give_the_same_compliance(patch):
     assert np.abs(ours - theirs).max() < 2e-4 * np.abs(ours).max()
     energies = [np.sum(forces * u) for u in (ours, theirs)]
     assert energies[1] == pytest.approx(energies[0], rel=4e-5)
-
-
-@pytest.mark.parametrize("patch", ["torsion", "all of n = 4"])
-def test_error_falls_under_refinement(patch):
-    """At least with the third power of the element: the patch ends in a kink of its curvature."""
-    of, load = PATCHES[patch]
-    coarse = section_mesh(HALF_SPACE, 4, box=20.0)
-    response = [Coating(1.0, NU, 1.0, NU, 1.0)]
-    errors = [
-        abs(energy_error(condense(section, of), load, response))
-        for section in (coarse, coarse.refined())
-    ]
-    assert errors[0] > 8 * errors[1]
 
 
 @pytest.mark.parametrize("patch", ["radial shear", "both", "torsion", "all of n = 2"])
@@ -171,46 +138,6 @@ def test_reciprocity_and_positive_energy(of):
     assert np.all(np.abs(eigenvalues[:at_rest]) < 1e-12 * eigenvalues[-1])
 
 
-def rigid_disc_stiffness(section, of, displacement):
-    """Resultant of tractions linear between nodes that give the disc r < 1 a weak displacement."""
-    compliance = condense(section, of)
-    hats = hats_on(compliance.radii, 1.0)
-    loads = np.zeros((len(of.components) * compliance.radii.size, 0))
-    columns, right, resultants = [loads], [], []
-    for c, factor in displacement.items():
-        place = of.components.index(c)
-        block = np.zeros((len(of.components), *hats.products.shape))
-        block[place] = hats.products
-        columns.append(block.reshape(-1, hats.radii.size))
-        right.append(factor * (hats.arms if of is TORSION else hats.weights))
-        resultants.append(of.resultant[place] * (hats.arms if of is TORSION else hats.weights))
-    products, right = np.hstack(columns), np.concatenate(right)
-    matrix = products.T @ compliance.matrix.reshape(len(products), -1) @ products
-    tractions = np.linalg.lstsq(matrix, right, rcond=1e-13)[0]
-    return float(np.concatenate(resultants) @ tractions)
-
-
-DISCS = {
-    # Flat punch W = 4 G a / (1 - nu); Reissner and Sagoci M = 16 G a^3 / 3; shear without pressure,
-    # free to dilate: T = 8 G a / (2 - nu). Here G = a = 1.
-    "flat punch": (PRESSING, {2: 1.0}, 4 / (1 - NU), 0.0209),
-    "Reissner and Sagoci": (TORSION, {1: 1.0}, 16 / 3, 0.0495),
-    "sheared disc": (SHEARING, {0: 1.0, 1: -1.0}, 8 / (2 - NU), 0.0140),
-}
-
-
-@pytest.mark.parametrize("disc", DISCS)
-def test_rigid_discs_have_their_stiffness(disc):
-    """The root singularity at the rim leaves an error of first order, which extrapolates away."""
-    of, displacement, exact, slope = DISCS[disc]
-    N = (8, 16)
-    errors = [
-        rigid_disc_stiffness(section_mesh(HALF_SPACE, n), of, displacement) / exact - 1 for n in N
-    ]
-    assert errors[1] == pytest.approx(-slope / N[1], rel=0.05)
-    assert 2 * errors[1] - errors[0] == pytest.approx(0, abs=2e-4)
-
-
 def energy_in_a_box(body, of, load, box):
     compliance = condense(section_mesh(body, 4, box=box), of)
     forces = nodal_forces(load, compliance.radii)[list(of.components)]
@@ -241,20 +168,6 @@ def test_the_chosen_box_suffices(modulus, thickness, patch):
     of, load = PATCHES[patch]
     larger = energy_in_a_box(body, of, load, 4 * sufficient_box(body))
     assert energy_in_a_box(body, of, load, None) == pytest.approx(larger, rel=2e-5)
-
-
-def test_displacement_below_uniform_pressure():
-    """On the axis, from Boussinesq's solution: p/2G (2(1-nu)(s-z) + z - z^2/s), s^2 = 1 + z^2."""
-    factored = FactoredSection(section_mesh(HALF_SPACE, 16), PRESSING)
-    hats = hats_on(factored.section.radii, 1.0)
-    forces = np.zeros((2, factored.surface.size, 1))
-    forces[1, :, 0] = hats.products.sum(axis=1)
-    field = factored.displacement(forces)[1, :, 0]
-    axis = factored.nodes[0] == 0.0
-    z = factored.nodes[1, axis]
-    s = np.hypot(1, z)
-    exact = ((1 - NU) * 2 * (s - z) + z - z**2 / s) / 2
-    assert field[axis] == pytest.approx(exact, abs=2e-5)
 
 
 @pytest.mark.parametrize("of", MOTIONS.values(), ids=MOTIONS)
@@ -309,23 +222,6 @@ def test_a_compliance_is_computed_once(cache):
     assert len(list(cache.iterdir())) == 7
 
 
-def test_a_compliance_of_other_sources_is_not_taken(cache, monkeypatch, tmp_path_factory):
-    section = section_mesh(HALF_SPACE, 4)
-    condense(section, PRESSING)
-    package = tmp_path_factory.mktemp("edited")
-    for folder in condensed.FOLDERS:
-        shutil.copytree(condensed.PACKAGE / folder, package / folder)
-    assert condensed.sources_digest(package) == condensed.sources_digest()
-    with (package / "elasticity" / "weak_form.py").open("a") as file:
-        file.write("# another line\n")
-    condensed.sources_digest.cache_clear()
-    edited = condensed.sources_digest(package)
-    assert edited != condensed.sources_digest()
-    monkeypatch.setattr("fem_reference.elasticity.compliance.sources_digest", lambda: edited)
-    assert not condense(section, PRESSING).from_cache
-    assert len(list(cache.iterdir())) == 2
-
-
 def test_what_a_compliance_is_computed_by_is_in_its_key():
     """Nothing outside FOLDERS is imported there but values, refusals and libraries."""
     allowed = ("contact_scene", "fem_reference.memory")
@@ -335,47 +231,6 @@ def test_what_a_compliance_is_computed_by_is_in_its_key():
                 ours = name.startswith(("fem_reference", "contact_scene"))
                 inside = name.startswith(tuple(f"fem_reference.{f}" for f in condensed.FOLDERS))
                 assert not ours or inside or name.startswith(allowed), (source.name, name)
-
-
-@pytest.mark.parametrize(
-    "other",
-    [
-        coated(2, 0.3, 1, 0.2, 1),
-        coated(2, 0.4, 1, 0.3, 1),
-        coated(2, 0.3, 1, 0.3, 0.9),
-        coated(2, 0.3, inf, 0.3, 1),
-    ],
-    ids=["substrate", "layer", "thickness", "rigid base"],
-)
-def test_bodies_in_one_cache_do_not_share_entries(cache, other):
-    for body in (coated(2, 0.3, 1, 0.3, 1)[0], other[0]):
-        assert not condense(section_mesh(body, 4, box=100.0), PRESSING).from_cache
-    assert len(list(cache.iterdir())) == 2
-
-
-def test_no_more_than_one_factorisation_is_spent(monkeypatch):
-    calls = []
-
-    def counted(*arguments, **options):
-        calls.append(1)
-        return factorise(*arguments, **options)
-
-    factorise = factored_section.splu
-    monkeypatch.setattr(factored_section, "splu", counted)
-    FactoredSection(section_mesh(coated(*COATINGS["incompressible"])[0], 4), SHEARING).compliance()
-    assert len(calls) == 1
-
-
-@pytest.mark.parametrize("coating", ["twice as stiff", "all incompressible"])
-@pytest.mark.parametrize("of", MOTIONS.values(), ids=MOTIONS)
-def test_fill_of_the_factors_is_foreseen(of, coating):
-    factored = FactoredSection(section_mesh(coated(*COATINGS[coating])[0], 8), of)
-    mixed = coating == "all incompressible" and of is not TORSION
-    fill = memory.FILL_WITH_PRESSURE if mixed else memory.FILL
-    numbering = factored._numbering
-    n, last = numbering.order.size, numbering.order[numbering.contact :]
-    assert set(last) == set(numbering.dofs[:, factored.surface].ravel()) & set(numbering.order)
-    assert 0.4 < factored._lu.nnz / (fill * len(of.components) * n * np.log2(n)) < 1.1
 
 
 def test_too_little_memory_is_refused_before_any_factorisation(monkeypatch):

@@ -1,7 +1,6 @@
 """Both meshers fill the section they are given."""
 
 import builtins
-import os
 import sys
 
 import numpy as np
@@ -62,22 +61,6 @@ def test_no_element_crosses_an_interface(mesher, body):
     assert np.array_equal(np.unique(section.layer), np.arange(len(section.outline.materials)))
 
 
-@pytest.mark.parametrize("body", BODIES.values(), ids=BODIES)
-def test_contact_nodes_are_equidistant(mesher, body):
-    section = mesher(body, 8)
-    assert section.radii[0] == 0.0
-    assert section.radii[-1] == section.outline.zone >= 1.1
-    assert np.diff(section.radii) == pytest.approx(1 / 16, rel=1e-12)
-
-
-@pytest.mark.parametrize("body", BODIES.values(), ids=BODIES)
-def test_every_layer_has_at_least_two_elements_across(mesher, body):
-    section = mesher(body, 8)
-    on_axis = np.unique(section.points[1, section.points[0] == 0.0])
-    for top, base in section.outline.pieces:
-        assert np.count_nonzero((on_axis > top) & (on_axis < base)) >= 1
-
-
 @given(
     st.lists(st.floats(1e-3, 30.0), max_size=4),
     st.integers(4, 24),
@@ -129,23 +112,6 @@ def test_holes_and_overlaps_are_noticed(mesher, change):
 def test_sizes_that_make_no_mesh_are_refused(mesher, body, arguments, error, message):
     with pytest.raises(error, match=message):
         mesher(body, **arguments)
-
-
-def test_gmsh_leaves_a_broken_pipe_an_error_not_an_end(gmsh):
-    gmsh_section_mesh(stack(), 4)
-    reader, writer = os.pipe()
-    os.close(reader)
-    try:
-        with pytest.raises(BrokenPipeError):
-            os.write(writer, b"x")
-    finally:
-        os.close(writer)
-
-
-def test_a_gmsh_mesh_with_triangles_is_refused(monkeypatch, gmsh):
-    monkeypatch.setattr(gmsh.model.geo.mesh, "setRecombine", lambda *_: None)
-    with pytest.raises(SolverError, match=r"other than quadrilaterals, by type: \{2: "):
-        gmsh_section_mesh(stack(), 4)
 
 
 def test_gmsh_is_left_as_it_was(gmsh):

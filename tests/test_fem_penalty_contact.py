@@ -8,7 +8,6 @@ from contact_scenes import (
     MU,
     PRESS,
     RADIUS,
-    RIGID_BALL,
     YOUNG,
     A,
     hertz,
@@ -18,7 +17,7 @@ from contact_scenes import (
 )
 from fem_scenes import elements
 
-from contact_scene import Body, Layer, Paraboloid, Scene
+from contact_scene import Paraboloid, Scene
 from contact_scene.solver_errors import SurfacesOverlap
 from fem_reference import Increment, Method, Result, solve
 from fem_reference.contact.increment import AT_EDGE
@@ -29,7 +28,6 @@ from verification.quantities import shift_along_x
 HERTZ = hertz()
 # With Poisson's ratio zero the closed forms of Cattaneo and Mindlin are exact.
 LOOSE = steel(0.0)
-G = steel().shear_modulus
 
 
 def penalised(asked: Scene, per_radius: int = 16, **more) -> Result:
@@ -51,14 +49,6 @@ def test_error_falls_with_the_penalty() -> None:
         k = factor * per_radius
         assert (found.peak_pressure / HERTZ.peak_pressure - 1) * k == pytest.approx(-0.54, abs=0.06)
         assert (found.approach / HERTZ.approach - 1) * k == pytest.approx(0.31, abs=0.03)
-
-
-@pytest.mark.parametrize("factor", [5.0, 10.0, 30.0])
-def test_augmentation_removes_the_error_of_the_penalty(factor: float) -> None:
-    found = end(scene(PRESS, friction=None), 32, penalty=factor, augmentations=1)
-    assert found.peak_pressure == pytest.approx(HERTZ.peak_pressure, rel=1e-4)
-    assert found.approach == pytest.approx(HERTZ.approach, rel=6e-5)
-    assert found.contact_radius == pytest.approx(A, rel=4e-3)
 
 
 @pytest.mark.parametrize("factor", [0.1, 1.0])
@@ -92,21 +82,6 @@ def test_overlap_is_reported() -> None:
     assert np.all(springs.gap >= 0)
 
 
-@pytest.mark.parametrize(("augmentations", "apart"), [(0, 1e-8), (1, 1e-4)])
-def test_approach_and_force_lead_to_the_same_state(augmentations: int, apart: float) -> None:
-    """With augmentation but for what it leaves: the first pass meets one of the two alone."""
-    same = {"contact_radius": A, "augmentations": augmentations}
-    by_force = end(scene(PRESS, friction=None), **same)
-    by_approach = end(scene({"approach": by_force.approach}, friction=None), **same)
-    assert by_approach.normal_force == pytest.approx(LOAD, rel=apart)
-    inside = by_force.radii < 0.9 * A
-    error = np.abs(by_approach.pressure - by_force.pressure)[inside]
-    assert np.max(error) < 10 * apart * HERTZ.peak_pressure
-
-
-COATINGS = {0.5: 1.3, 2.0: 0.9, 4.0: 0.8}  # modulus over the substrate's: expected radius
-
-
 VIRGIN = PartialSlip(LOAD, hertz(poisson_ratio=0.0).contact_radius, MU,
                      tangential_modulus((YOUNG, 0.0), (YOUNG, 0.0)), 0.0)  # fmt: skip
 
@@ -128,35 +103,3 @@ def test_stuck_springs_yield_no_more_than_friction_over_stiffness() -> None:
     assert 0 < given < MU * HERTZ.peak_pressure / stiffness
     assert first.dissipated_energy <= back.dissipated_energy <= again.dissipated_energy
     assert shift_along_x(again) == pytest.approx(shift_along_x(first), rel=1e-9)
-
-
-def test_slip_opposes_the_shear() -> None:
-    """And is what the surfaces moved past each other, where they slip and always touched."""
-    forth, back = penalised(alike(PRESS, push(0.8), push(-0.8))).steps[1:]
-    slipped = forth.in_contact & ~forth.in_stick
-    assert np.all(forth.shear_along_load[slipped] > 0)
-    assert np.all(forth.slip_along_load[slipped] < 0)
-    assert np.all(forth.slip_along_load[~slipped] == 0)
-    returned = back.slip_along_load - forth.slip_along_load
-    assert np.all(returned[back.in_contact & ~back.in_stick] > 0)
-    # Cattaneo's rigid shift at the edge, less what the loaded surface follows there.
-    deepest = np.min(forth.slip_along_load)
-    assert -shift_along_x(forth) < deepest < -0.2 * shift_along_x(forth)
-
-
-def test_harmonics_take_springs() -> None:
-    """A pushed ball on a coating: springs in series with the exact law err by 1/c."""
-    film = Layer(thickness=A, material=steel())
-    asked = Scene(
-        indenter=RIGID_BALL,
-        body=Body(material=steel(young_modulus=0.5 * YOUNG), layers=(film,)),
-        friction={"coefficient": MU},
-        loading=[{**PRESS, "increments": 3}, {**push(0.5), "increments": 2}],
-    )
-    mesh = {"per_radius": 8, "harmonics": 4, "contact_radius": 0.9 * A}
-    exact = solve(asked, elements(**mesh)).increments[-1]
-    soft, stiff = (end(asked, **mesh, penalty=c, augmentations=0) for c in (30.0, 300.0))
-    error = [found.approach / exact.approach - 1 for found in (soft, stiff)]
-    assert error[0] == pytest.approx(10 * error[1], rel=0.1)
-    assert 0 < error[1] < 3e-4
-    assert shift_along_x(stiff) == pytest.approx(shift_along_x(exact), rel=5e-4)

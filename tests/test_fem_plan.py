@@ -73,11 +73,6 @@ def test_neglected_slip_is_listed() -> None:
     assert "neglected" in cross.why
 
 
-def test_every_effect_has_a_reason() -> None:
-    for asked in (scene(PRESS), scene(PRESS, push(0.5)), scene(PRESS, TWIST), on_coating(PRESS)):
-        assert all(effect.why for effect in plan(asked).effects)
-
-
 @pytest.mark.parametrize(
     ("loading", "counts"),
     [
@@ -89,10 +84,6 @@ def test_every_effect_has_a_reason() -> None:
 )
 def test_steps_are_cut_where_the_path_matters(loading, counts) -> None:
     assert plan(scene(*loading)).increments == counts
-
-
-def test_first_loading_with_friction_is_cut() -> None:
-    assert plan(scene(PRESS, indenter=RIGID_BALL)).increments == (20,)
 
 
 @pytest.mark.parametrize(
@@ -134,13 +125,3 @@ def test_maps_are_refused_by_name(tmp_path: FilePath) -> None:
     patchy = {"coefficient": {"map": str(tmp_path / "map.npy"), "spacing": 1e-4}}
     with pytest.raises(UnsupportedScene, match="friction is given as a map"):
         plan(Scene.model_validate({**document, "friction": patchy}))
-
-
-def test_a_round_ellipsoid_is_welcome() -> None:
-    asked = scene(PRESS, friction=None, indenter=Ellipsoid(radii=(1e-2, 1e-2), material=steel()))
-    assert plan(asked).path is Path.PRESSING
-
-
-def test_oblique_load_is_turned_to_its_own_direction() -> None:
-    x, y = plan(scene(PRESS, push(0.3, 0.4), push(-0.3, -0.4))).direction
-    assert (x, y) == pytest.approx((0.6, 0.8))

@@ -3,17 +3,14 @@
 import numpy as np
 import pytest
 from contact_scenes import (
-    INDENTERS,
     LIMIT,
     LOAD,
     MU,
     NU,
     PRESS,
-    RIGID_BALL,
     YOUNG,
     A,
     hertz,
-    paraboloid,
     push,
     scene,
     steel,
@@ -26,7 +23,7 @@ from fem_reference import Method
 from verification.closed_forms.cattaneo_mindlin import PartialSlip
 from verification.closed_forms.moduli import tangential_modulus
 from verification.closed_forms.tangential_history import TangentialHistory
-from verification.closed_forms.torsion import StuckTorsion, TorsionalPartialSlip
+from verification.closed_forms.torsion import TorsionalPartialSlip
 from verification.quantities import shift_along_x
 
 G = steel().shear_modulus
@@ -35,7 +32,6 @@ VIRGIN = PartialSlip(
     LOAD, A, MU, tangential_modulus((YOUNG, NU), (YOUNG, NU)), 0.0
 )  # fmt: skip
 UNTWISTED = TorsionalPartialSlip(A, HERTZ.peak_pressure, MU, G / 2, A)
-PUNCH = INDENTERS["flat punch"]
 EXACT, PENALTY = Method.COMPLEMENTARITY, Method.PENALTY
 
 
@@ -45,24 +41,6 @@ def loaded(*parts: float) -> TangentialHistory:
     for part in parts:
         history = history.loaded_to(part * LIMIT)
     return history
-
-
-# Relative error of the shift, and of the edge of stick in contact radii. Three points on an element
-# integrate the shear ten times closer than its corners do; the edge is fitted at Gauss points.
-OF_SHEARED = {EXACT: (4e-3, 4e-3), PENALTY: (2e-4, 0.2 / 16)}
-
-
-@both_laws
-@pytest.mark.parametrize("part", [0.3, 0.6, 0.9])
-def test_cattaneo_and_mindlin(part: float, law: Method) -> None:
-    found, exact = end(scene(PRESS, push(part)), law=law), loaded(part)
-    shift, stick = OF_SHEARED[law]
-    assert shift_along_x(found) == pytest.approx(exact.shift, rel=shift)
-    assert found.stick_radius == pytest.approx(exact.stick_radius, abs=stick * A)
-    assert found.status is ContactStatus.PARTIAL_SLIP
-    apart = np.abs(found.radii - exact.stick_radius) > 0.1 * A
-    error = np.abs(found.shear_along_load - exact.shear(found.radii))
-    assert np.max(error[apart & (found.radii < 0.85 * A)]) < 0.02 * MU * HERTZ.peak_pressure
 
 
 # Elements per radius; shift over the largest; loss over that of a loop; edge of stick in elements,
@@ -88,33 +66,6 @@ def test_history_is_remembered_through_reversals(parts: tuple[float, ...], law: 
         edges.append(exact.stick_radius)
 
 
-@both_laws
-def test_slip_adds_up_over_the_history(law: Method) -> None:
-    """Mindlin and Deresiewicz again, with ν = 0, for which the closed form has the slip."""
-    soft = steel(0.0)
-    contact = hertz(LOAD, 0.0)
-    virgin = PartialSlip(
-        LOAD, contact.contact_radius, MU, tangential_modulus((YOUNG, 0.0), (YOUNG, 0.0)), 0.0
-    )
-    parts = (0.9, -0.6, 0.3)
-    asked = scene(PRESS, *map(push, parts), indenter=paraboloid(soft), body=soft)
-    history = TangentialHistory(virgin)
-    for part, step in zip(parts, solved(asked, law=law).steps[1:], strict=True):
-        history = history.loaded_to(part * LIMIT)
-        r = step.radii
-        judged = r < 0.9 * contact.contact_radius
-        error = np.abs(step.slip_along_load - history.slip(np.minimum(r, contact.contact_radius)))
-        assert np.max(error[judged]) < 0.02 * virgin.sliding_shift
-
-
-def test_one_increment_on_a_branch_is_as_good_as_many() -> None:
-    one, many = (end(scene(PRESS, push(0.9), push(-0.6, increments=n))) for n in (1, 13))
-    assert many.shear_along_load == pytest.approx(
-        one.shear_along_load, abs=1e-9 * MU * HERTZ.peak_pressure
-    )
-    assert shift_along_x(many) == pytest.approx(shift_along_x(one), rel=1e-9)
-
-
 def test_mirrored_load_has_the_mirrored_answer() -> None:
     right, left = end(scene(PRESS, push(0.7))), end(scene(PRESS, push(-0.7)))
     assert left.tangential_shift == pytest.approx([-x for x in right.tangential_shift])
@@ -138,23 +89,6 @@ def test_force_and_shift_lead_to_the_same_state() -> None:
     by_shift = end(scene(PRESS, {"tangential_shift": by_force.tangential_shift}))
     assert by_shift.tangential_force == pytest.approx((0.7 * LIMIT, 0.0), rel=1e-9)
     assert by_shift.shear_along_load == pytest.approx(by_force.shear_along_load, rel=1e-8, abs=1.0)
-
-
-def test_control_takes_over_where_the_other_has_led() -> None:
-    """Force, then shift from where the force has led, then force from where the shift has."""
-    result = solved(
-        scene(
-            PRESS, push(0.5), {"tangential_shift": (loaded(0.8).shift, 0.0), "increments": 4},
-            push(0.9, increments=3),
-        )
-    )  # fmt: skip
-    forces = [increment.tangential_force[0] / LIMIT for increment in result.increments[1:]]
-    assert np.all(np.diff(forces) > 0)
-    assert forces[0] == 0.5
-    assert forces[4] == pytest.approx(0.8, abs=5e-3)
-    assert result.increments[-1].stick_radius == pytest.approx(
-        end(scene(PRESS, push(0.9))).stick_radius, rel=1e-9
-    )
 
 
 @both_laws
@@ -192,22 +126,6 @@ def test_less_pressure_under_constant_shear_slips_inwards(law: Method) -> None:
     assert max(i.residuals.worst for i in result.increments) < 1e-11
 
 
-# Elements per radius, and the relative error of the twist. The shear at the rim grows like the
-# inverse square root of the distance, so that the error falls as the element: 0.0031 at nodes,
-# 0.0121 at Gauss points for 16.
-OF_DISC = {EXACT: (16, 5e-3), PENALTY: (32, 1e-2)}
-
-
-@both_laws
-def test_stuck_disc_twists_as_reissner_and_sagoci(law: Method) -> None:
-    torque, (per_radius, allowed) = 1e-3, OF_DISC[law]
-    found = end(scene(PRESS, {"torque": torque}, indenter=PUNCH, friction=10.0), per_radius, law)
-    assert found.twist == pytest.approx(StuckTorsion(A, G / 2, torque).twist, rel=allowed)
-    assert found.status is ContactStatus.FULL_STICK
-    assert found.contact_radius == pytest.approx(A)
-    assert found.stick_radius == found.contact_radius
-
-
 # Relative error of the twist, the edge of stick in contact radii, and the shear over µp₀.
 OF_TWISTED = {EXACT: (6e-3, 3e-3, 0.02), PENALTY: (2e-3, 0.3 / 32, 0.01)}
 
@@ -224,14 +142,6 @@ def test_twisted_ball_slips_from_its_edge(part: float, law: Method) -> None:
     apart = (np.abs(found.radii - exact.stick_radius) > 0.1 * A) & (found.radii < 0.85 * A)
     error = np.abs(found.shear_circumferential - exact.shear(found.radii))
     assert np.max(error[apart]) < shear * MU * HERTZ.peak_pressure
-
-
-def test_torsion_needs_no_alike_bodies() -> None:
-    """Where pressing leaves no shear by itself: here for a body that keeps its volume."""
-    soft = steel(0.5, 3e9)
-    found = end(scene(PRESS, {"torque": 1e-4}, indenter=RIGID_BALL, body=soft, friction=10.0))
-    assert found.torque == 1e-4
-    assert found.twist > 0
 
 
 def test_torque_and_twist_lead_to_the_same_state() -> None:

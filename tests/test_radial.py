@@ -14,7 +14,6 @@ from numpy.testing import assert_allclose
 from numpy.typing import ArrayLike
 
 import radial
-import semi_analytical
 import slipstick
 from contact_errors.on_radii import stated_errors
 from contact_scene import (
@@ -31,7 +30,6 @@ from contact_scene import (
     RadialDiscretisation,
     Scene,
     Sphere,
-    SurfaceDiscretisation,
 )
 from contact_scene.geometry import ShapedBody
 from contact_scene.solver_errors import NotConverged, UnsupportedScene
@@ -47,7 +45,6 @@ STEEL = IsotropicMaterial(young_modulus=210e9, poisson_ratio=0.3)
 MODULUS = STEEL.plane_strain_modulus
 FORCE, RADIUS = 1e3, 18e-3
 BALL = Paraboloid(radius=RADIUS, material=RIGID)
-EXACT = 1e-12
 
 ratios = st.floats(-0.5, 0.5)
 moduli = st.floats(0.1, 10.0)
@@ -68,61 +65,6 @@ def coated(modulus: float, thickness: float, ratio: float = 0.3, base: Any = Non
 
 
 # ---- half-spaces ------------------------------------------------------------------------------
-
-
-def test_a_ball_is_pressed_as_hertz_says() -> None:
-    end = pressed(BALL)
-    a = (3 * FORCE * RADIUS / (4 * MODULUS)) ** (1 / 3)
-    peak = 1.5 * FORCE / (math.pi * a**2)
-    assert_allclose(end.contact_radius, a, rtol=EXACT)
-    assert_allclose(end.approach, a**2 / RADIUS, rtol=EXACT)
-    assert_allclose(end.peak_pressure, peak, rtol=EXACT)
-    assert_allclose(end.elastic_energy, 0.4 * FORCE * end.approach, rtol=EXACT)
-    x = np.minimum(end.radii / a, 1)
-    assert_allclose(end.pressure / peak, np.sqrt((1 - x) * (1 + x)), atol=1e-7)
-    outside = end.radii > a
-    x = end.radii[outside] / a
-    moved = ((2 - x**2) * np.arcsin(1 / x) + np.sqrt(x**2 - 1)) / math.pi
-    assert_allclose(end.gap[outside] / end.approach, x**2 / 2 + moved - 1, atol=EXACT)
-    assert not np.any(end.gap[~outside])
-
-
-def test_a_cone_is_pressed_as_sneddon_says() -> None:
-    slope = math.radians(1)
-    end = pressed(Cone(slope_angle=slope, material=RIGID))
-    a = math.sqrt(2 * FORCE / (math.pi * MODULUS * math.tan(slope)))
-    mean = FORCE / (math.pi * a**2)
-    assert_allclose(end.contact_radius, a, rtol=EXACT)
-    assert_allclose(end.approach, math.pi / 2 * a * math.tan(slope), rtol=EXACT)
-    assert_allclose(end.elastic_energy, FORCE * end.approach / 3, rtol=EXACT)
-    inside = end.radii < 0.999 * a
-    exact = np.arccosh(a / end.radii[inside])
-    assert_allclose(end.pressure[inside] / mean, exact, rtol=1e-10)
-
-
-def test_a_flat_punch_is_pressed_as_boussinesq_says() -> None:
-    end = pressed(FlatPunch(radius=1e-3, material=RIGID))
-    assert end.contact_radius == 1e-3
-    assert_allclose(end.approach, FORCE / (2 * MODULUS * 1e-3), rtol=EXACT)
-    inside = end.radii < 1e-3
-    chord = np.sqrt((1e-3 - end.radii[inside]) * (1e-3 + end.radii[inside]))
-    assert_allclose(end.pressure[inside], FORCE / (2 * math.pi * 1e-3 * chord), rtol=1e-11)
-    assert np.all(np.isinf(end.gap[~inside]))
-
-
-@pytest.mark.parametrize("share", [0.05, 0.3, 0.8])
-def test_an_arc_is_pressed_as_segedin_says(share: float) -> None:
-    a, R = share * RADIUS, RADIUS
-    logarithm = math.log((R + a) / (R - a))
-    force = MODULUS * ((R**2 + a**2) / 2 * logarithm - a * R)
-    ball = Sphere(radius=R, material=RIGID)
-    by_force, by_approach = (
-        pressed(ball, normal_force=force),
-        pressed(ball, approach=a / 2 * logarithm),
-    )
-    assert_allclose(by_force.contact_radius, a, rtol=1e-11)
-    assert_allclose(by_approach.contact_radius, a, rtol=1e-11)
-    assert_allclose(by_approach.normal_force, force, rtol=1e-11)
 
 
 class PowerLaw(ShapedBody):
@@ -168,14 +110,6 @@ def test_layers_press_as_the_nystrom_method_says(
     assert_allclose(disc(bodies, punch, 1.0, 1.0).load, stiffness, rtol=1e-10)
 
 
-@given(modulus=moduli, thickness=thicknesses)
-def test_a_layer_like_its_substrate_changes_nothing(modulus: float, thickness: float) -> None:
-    same = pressed(BALL, coated(1.0, thickness * 1e-3), normal_force=1e-6 * modulus)
-    bare = pressed(BALL, Body(material=coated(1.0, 1.0).material), normal_force=1e-6 * modulus)
-    assert_allclose(same.approach, bare.approach, rtol=EXACT)
-    assert_allclose(same.pressure, bare.pressure, rtol=0, atol=1e-7 * bare.peak_pressure)
-
-
 def test_a_layer_may_be_on_either_body() -> None:
     soft = coated(0.5, 1e-3, ratio=0.4)
     ball = BALL.model_copy(update={"material": soft.material, "layers": soft.layers})
@@ -207,19 +141,6 @@ def test_what_is_stored_is_the_work_of_the_load(indenter: ShapedBody, body: Body
     assert more.elastic_energy is not None
     stored = more.elastic_energy - less.elastic_energy
     assert_allclose(stored, force * (more.approach - less.approach), rtol=step**2)
-
-
-def test_the_cells_of_the_other_solver_converge_to_it() -> None:
-    body = coated(2.0, 1e-3)
-    scene = _scene(BALL, body, normal_force=1e-6)
-    end = radial.solve(scene).steps[-1]
-    errors = []
-    for cells in (32, 64):
-        asked = SurfaceDiscretisation(cells=(cells, cells), edge="off")
-        on_cells = semi_analytical.solve_discretised(scene, asked).steps[-1]
-        errors.append(abs(on_cells.approach / end.approach - 1))
-    assert errors[1] < 2e-4
-    assert errors[1] < errors[0] / 2
 
 
 @pytest.mark.parametrize("friction", [None, CoulombFriction(coefficient=0.1)])
@@ -301,14 +222,6 @@ def test_no_error_is_stated_of_what_is_infinite() -> None:
     scene = _scene(Cone(slope_angle=0.02, material=RIGID), Body(material=STEEL), normal_force=FORCE)
     error = stated_errors(radial.solve(scene)).steps[0]["peak_pressure"]
     assert error.error is None
-
-
-def test_a_tolerance_that_cannot_be_met_is_refused() -> None:
-    """A thin incompressible layer on a rigid base magnifies round-off."""
-    punch = FlatPunch(radius=1.0, material=RIGID)
-    scene = _scene(punch, coated(1.0, 0.05, ratio=0.5, base=RIGID))
-    with pytest.raises(UnsupportedScene, match="to round-off"):
-        radial.solve(scene, RadialDiscretisation(tolerance=1e-12))
 
 
 # ---- what is refused --------------------------------------------------------------------------

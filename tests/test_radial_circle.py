@@ -3,7 +3,6 @@ closed form, films."""
 
 from __future__ import annotations
 
-import math
 from dataclasses import replace
 from typing import Any
 
@@ -18,7 +17,6 @@ from turning_contacts import (
     RADIUS,
     SOFT,
     at_points,
-    beside,
     points,
     push,
     rough,
@@ -27,9 +25,6 @@ from turning_contacts import (
 )
 
 import radial
-from contact_errors.on_radii import stated_errors
-from contact_results.stress.loaded_bodies import state_of_result
-from contact_results.stress.on_disc import stress_on_disc
 from contact_scene import (
     RIGID,
     Body,
@@ -41,11 +36,9 @@ from contact_scene import (
     Paraboloid,
 )
 from contact_scene.solver_errors import UnsupportedScene
-from contact_scene.summary import ContactStatus
 from radial.circle import Circle
 from radial.coupling import Coupling
 from radial.ring_layout import laid
-from verification.problems.torsion import LARGEST, LED, TO_AND_FRO, TWISTED
 
 CALLED_FOR = {
     "pressed": ((), {}, None),
@@ -65,26 +58,6 @@ CALLED_FOR = {
 def test_angles_are_those_that_loads_call_for(name: str) -> None:
     steps, bodies, circle = CALLED_FOR[name]
     assert radial.plan(scene(*steps, **bodies)).circle is circle
-
-
-def test_what_is_not_called_for_costs_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
-    made: list[Circle] = []
-
-    def families(self: Circle, highest: int, really: Any = Circle.families) -> Any:
-        made.append(self)
-        return really(self, highest)
-
-    monkeypatch.setattr(Circle, "families", families)
-    radial.solve(scene(twist(0.4), **ALIKE))
-    assert not made
-    rough(scene(twist(0.4)))
-    assert set(made) == {Circle.ONE}
-    made.clear()
-    rough(scene(push(0.4, 0.0)))
-    assert set(made) == {Circle.ONE, Circle.HALF}
-    # A contact is the same all around until it is pushed.
-    steps = beside().increments
-    assert [step.pressure.ndim for step in steps] == [1] * 7 + [2] * 6
 
 
 @pytest.mark.parametrize(
@@ -137,32 +110,6 @@ def test_torsion_twists_the_surface_by_the_shear_modulus_alone() -> None:
                     atol=1e-12 * np.max(moved))  # fmt: skip
 
 
-@pytest.mark.parametrize("problem", [TWISTED, LED, TO_AND_FRO])
-def test_points_twist_as_lubkin_and_masing_say(problem: Any) -> None:
-    result = at_points(problem.scene.model_dump_json())
-    for step, exact in zip(result.steps[1:], problem.ends[1:], strict=True):
-        assert_allclose(step.twist, exact.twist, atol=5e-4 * LARGEST.twist)
-        if not hasattr(exact, "moment"):
-            continue
-        assert_allclose(step.torque, exact.moment, rtol=1e-4)
-        assert_allclose(step.stick_radius, exact.stick_radius, atol=4e-3 * problem.radius)
-        inside = step.radii < problem.radius
-        off = np.abs(step.shear_circumferential[inside] - exact.shear(step.radii[inside]))
-        assert np.mean(off) < 5e-3 * np.max(exact.shear(step.radii[inside]))
-
-
-def test_stated_errors_cover_the_closed_forms() -> None:
-    result = at_points(TWISTED.scene.model_dump_json())
-    errors = stated_errors(result)
-    for step, exact, stated in zip(
-        result.steps[1:], TWISTED.ends[1:], errors.steps[1:], strict=True
-    ):
-        for name in ("twist", "stick_radius"):
-            true = getattr(exact, name)
-            error = float(np.ravel(stated[name].error)[0])
-            assert abs(getattr(step, name) - true) <= error < 0.1 * true, name
-
-
 @pytest.mark.parametrize("modulus", [0.2, 4.0])
 def test_points_twist_films_as_the_solver_without_points_does(modulus: float) -> None:
     """Ball and body alike, coated both: they do not couple."""
@@ -181,35 +128,3 @@ def test_points_twist_films_as_the_solver_without_points_does(modulus: float) ->
     shear = np.interp(found.radii[at], known.steps[1].radii, known.steps[1].shear_circumferential)
     # Rings of 1/64 of the radius about the front, where shear has a corner.
     assert np.mean(np.abs(found.shear_circumferential[at] - shear)) < 0.01 * np.max(shear)
-
-
-@pytest.mark.parametrize("share", [3.0, 0.7])
-def test_a_twisted_contact_may_be_pressed_further_or_let_go(share: float) -> None:
-    """Its torque stays what it was asked to be; pressed further, nothing slips any more."""
-    step = LoadStep(normal_force=share * LOAD, increments=4)
-    start, end = rough(scene(twist(0.4), step, **ALIKE)).steps[1:]
-    assert end.torque == start.torque
-    assert end.residuals.torque_equilibrium < 1e-10
-    assert (end.status is ContactStatus.FULL_STICK) == (share > 1)
-    assert (end.stick_radius > start.contact_radius) == (share > 1)
-
-
-def test_stress_below_a_twisted_contact_is_that_of_torsion_alone() -> None:
-    result = at_points(TWISTED.scene.model_dump_json())
-    known = radial.solve(TWISTED.scene)
-    found, exact = (
-        stress_on_disc(state_of_result(one, 2), depths=[0.5 * TWISTED.radius])
-        for one in (result, known)
-    )
-    largest = np.max(np.abs(exact.points.stress))
-    assert_allclose(found.points.stress, exact.points.stress, atol=1e-3 * largest)
-
-
-def test_a_contact_let_go_to_a_millionth_of_its_load_is_that_of_hertz() -> None:
-    """A hundredth of the radius is within the first ring of the contact that it was; E* = 1/2."""
-    least = 1e-6 * LOAD
-    let_go = LoadStep(normal_force=least, tangential_force=(0.0, 0.0), increments=3)
-    end = rough(scene(push(0.3, 0.0), let_go, **ALIKE)).steps[-1]
-    radius = math.cbrt(0.75 * least / 0.5)
-    assert end.contact_radius == pytest.approx(radius, rel=1e-2)
-    assert end.approach == pytest.approx(radius**2, rel=1e-2)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from functools import cache
 from typing import Any
 
 import numpy as np
@@ -12,15 +11,12 @@ from contact_scenes import RIGID_BALL, YOUNG, A, steel
 from kept_standing import KeptStanding
 from numpy.testing import assert_allclose
 
-import fem_reference
 import radial
 from contact_errors.on_radii import stated_errors
 from contact_scene import (
     RIGID,
     Body,
-    Cone,
     CoulombFriction,
-    FiniteElementDiscretisation,
     IsotropicMaterial,
     Layer,
     LoadStep,
@@ -31,8 +27,7 @@ from contact_scene.solver_errors import NotConverged, UnsupportedScene
 from contact_scene.summary import ContactStatus
 from radial.rings import OUTSIDE, rings_about
 from radial.sheared import Sheared
-from verification.problems.indentation import COATED, NU_ZERO, STRONG, WEAK, Indentation
-from verification.problems.paper_scene import HERTZ
+from verification.problems.indentation import STRONG, WEAK, Indentation
 
 # Of half-spaces with E* = 1 below a ball with R = 1, so that a = W = 1 are of a kind.
 SOFT = IsotropicMaterial(young_modulus=0.91, poisson_ratio=0.3)
@@ -77,50 +72,6 @@ def test_half_spaces_answer_the_pressure_of_hertz_as_hertz_says(front: float) ->
 # ---- references -------------------------------------------------------------------------------
 
 
-@cache
-def _ended(name: str, increments: int) -> radial.Increment:
-    one = {each.file_name: each for each in (WEAK, STRONG, NU_ZERO, COATED)}[name]
-    return radial.solve(one.problem(increments).scene).steps[-1]
-
-
-@pytest.mark.parametrize("one", [WEAK, NU_ZERO, COATED], ids=lambda one: one.file_name)
-def test_it_ends_as_integral_equations_say(one: Indentation) -> None:
-    end = _ended(one.file_name, 16)
-    assert_allclose(end.approach, one.approach, rtol=1e-6)
-    assert_allclose(end.contact_radius, one.contact_radius, rtol=1e-6)
-    front = one.stick_part * one.contact_radius
-    assert_allclose(end.stick_radius, front, atol=1.5e-3 * HERTZ.contact_radius)
-
-
-def test_errors_fall_faster_than_the_inverse_of_the_increments() -> None:
-    """Where nearly all sticks, which is where the path is felt."""
-    few, more = (abs(_ended("strong", n).approach / STRONG.approach - 1) for n in (32, 128))
-    assert more < few / 8
-    front = STRONG.stick_part * STRONG.contact_radius
-    assert_allclose(_ended("strong", 32).stick_radius, front, rtol=1e-3)
-
-
-def test_one_increment_goes_all_the_way() -> None:
-    """What sticks remembers the contacts on the way, whether they are told or not."""
-    assert_allclose(_ended("strong", 1).approach, STRONG.approach, rtol=5e-5)
-
-
-def test_finite_elements_unload_to_the_same_shear() -> None:
-    history = (LoadStep(normal_force=1e-3, increments=12),
-               LoadStep(normal_force=4e-4, increments=6))  # fmt: skip
-    asked = scene(*history, body=coated(2.0, 0.1), friction=0.2)
-    ours = radial.solve(asked).steps
-    theirs = fem_reference.solve(
-        asked, FiniteElementDiscretisation(elements_per_radius=24, contact_radius=0.12)
-    ).steps
-    for one, other in zip(ours, theirs, strict=True):
-        assert_allclose(one.approach, other.approach, rtol=2e-3)
-        r = np.linspace(0.1, 0.8, 15) * one.contact_radius
-        by_us, by_them = (np.interp(r, end.radii, end.shear_radial) for end in (one, other))
-        limit = 0.2 * one.peak_pressure
-        assert np.mean(np.abs(by_us - by_them)) < 1e-2 * limit
-
-
 # ---- laws -------------------------------------------------------------------------------------
 
 UP_AND_DOWN = (LoadStep(normal_force=1e-3, increments=4), LoadStep(normal_force=3e-4, increments=3),
@@ -161,12 +112,6 @@ def test_bodies_that_change_places_have_shear_of_the_other_sign() -> None:
     assert np.max(below.shear_radial) > 0
 
 
-def test_a_layer_like_its_substrate_changes_nothing() -> None:
-    bare, same = (radial.solve(scene(body=body)).steps[0] for body in (None, coated(1.0, 0.1)))
-    assert_allclose(same.approach, bare.approach, rtol=1e-12)
-    assert_allclose(same.shear_radial, bare.shear_radial, atol=1e-10 * bare.peak_pressure)
-
-
 @pytest.mark.parametrize("body", [None, coated(2.0, 0.1)], ids=["bare", "coated"])
 def test_shear_is_within_its_limit_and_energy_is_lost_whatever_the_load_does(
     body: Body | None,
@@ -191,26 +136,11 @@ def test_shear_is_within_its_limit_and_energy_is_lost_whatever_the_load_does(
     assert np.min(unloaded.shear_radial) < 0 < np.max(unloaded.shear_radial)
 
 
-def test_what_goes_in_is_stored_or_lost_the_better_the_finer_the_increments() -> None:
-    left = []
-    for count in (32, 64):
-        end = radial.solve(scene(LoadStep(normal_force=1e-3, increments=count))).steps[0]
-        assert end.elastic_energy is not None
-        assert end.dissipated_energy is not None
-        left.append(abs(end.unresolved_work or 0.0))
-    assert left[0] > 3.5 * left[1]  # as the square, once no contact is put between them
-
-
 def test_held_loads_change_nothing() -> None:
     history = (LoadStep(normal_force=1e-3, increments=4), LoadStep(normal_force=1e-3, increments=2))
     loaded, held = radial.solve(scene(*history)).steps
     assert_allclose(held.approach, loaded.approach, rtol=1e-9)
     assert_allclose(held.dissipated_energy, loaded.dissipated_energy, rtol=1e-6)
-
-
-def test_friction_without_end_sticks_all_over() -> None:
-    end = radial.solve(scene(friction=1.5)).steps[0]
-    assert end.stick_radius == pytest.approx(end.contact_radius, rel=1e-2)
 
 
 def test_a_ball_that_all_but_sticks_is_as_deep_as_one_that_does() -> None:
@@ -223,16 +153,6 @@ def test_a_ball_that_all_but_sticks_is_as_deep_as_one_that_does() -> None:
         indenter=Paraboloid(radius=0.018, material=RIGID),
     )
     assert radial.solve(sticky).steps[0].approach == pytest.approx(8.089263338e-6, rel=1.5e-3)
-
-
-def test_a_cone_of_half_the_load_is_the_same_cone() -> None:
-    """Radius and approach go with the root of the load, and the stick with them."""
-    cone = Cone(slope_angle=0.05, material=RIGID)
-    ends = radial.solve(scene(LoadStep(normal_force=1e-3, increments=16), indenter=cone)).increments
-    shares = np.array([end.stick_radius / end.contact_radius for end in ends[8:]])  # type: ignore[operator]
-    assert_allclose(shares, shares[-1], rtol=5e-3)
-    depths = np.array([end.approach / end.contact_radius for end in ends[8:]])
-    assert_allclose(depths, depths[-1], rtol=1e-5)
 
 
 # ---- errors, standing and refusals ------------------------------------------------------------

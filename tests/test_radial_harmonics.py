@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from functools import cache
-from typing import Any
 
 import numpy as np
 import pytest
@@ -59,12 +58,6 @@ def test_what_rings_of_a_harmonic_do_to_each_other_is_a_legendre_function(ratio:
     assert_allclose(
         found, [weber_schafheitlin(m, m, ratio, 1.0) for m in range(13)], rtol=3e-13, atol=0
     )
-
-
-@pytest.mark.parametrize("ratio", [0.3, 0.97, 0.999999])
-def test_rings_answer_each_other_alike(ratio: float) -> None:
-    r, s, apart = np.array([ratio]), np.array([1.0]), np.array([1 - ratio])
-    assert_allclose(alike(9, r, s, apart), alike(9, s, r, apart), rtol=1e-14)
 
 
 @pytest.mark.parametrize("name", ["alike", "shifted", "stepped"])
@@ -126,42 +119,12 @@ def test_a_layer_of_the_material_below_it_changes_nothing() -> None:
     assert_allclose(same, homogeneous(), atol=1e-13)
 
 
-def test_a_thick_layer_is_a_half_space() -> None:
-    stiff = material(2.0, 0.2)
-    thick = ring_compliance(pair(SOFT, (stiff, 1e4)), NODES, 1.0, HIGHEST)
-    whole = ring_compliance(pair(stiff), NODES, 1.0, HIGHEST)
-    assert_allclose(thick, whole, atol=3e-4 * np.abs(whole).max())
-
-
 @pytest.mark.parametrize("nu", [0.0, 0.3, 0.5])
 def test_a_film_in_two_parts_is_one(nu: float) -> None:
     film, base = material(2.0, nu), material(1.0, 0.3)
     once = ring_compliance(pair(base, (film, 0.6)), NODES, 1.0, HIGHEST)
     twice = pair(base, (film, 0.25), (film, 0.35))
     assert_allclose(ring_compliance(twice, NODES, 1.0, HIGHEST), once, atol=1e-11)
-
-
-def test_below_a_thin_film_the_base_answers() -> None:
-    """What layers add takes all of the film's closed form away again, with every sign."""
-    film, base = material(1.5, 0.0), material(2.0, 0.45)
-    thin, bare, whole = (
-        ring_compliance(coupling, NODES, 1.0, 3)
-        for coupling in (pair(base, (film, 0.02)), pair(base), pair(film))
-    )
-    for row in range(3):
-        for column in range(3):
-            changed = np.abs(thin[:, row, column] - bare[:, row, column]).max()
-            assert changed < 0.2 * np.abs(whole[:, row, column] - bare[:, row, column]).max()
-
-
-def test_pressure_of_a_tilted_plane_draws_the_surface_by_the_derivative_of_a_dome() -> None:
-    """A dome of pressure 1 - r² draws by -C (r/2 - r³/4), C = (1-2ν)/2G, by the pressure within r;
-    2r cos θ is that dome's derivative along x, and so is what it draws."""
-    x = np.array([node for node in NODES if node <= 1])
-    block = ring_compliance(pair(material(2.4, 0.2)), tuple(x), 1.0, 1)[1]
-    crossed = (1 - 2 * 0.2) / 2  # G = 1
-    assert_allclose(block[0, 2] @ (2 * x), crossed * on_hats(x, (1 / 2, -3 / 4)), atol=1e-12)
-    assert_allclose(block[1, 2] @ (2 * x), -crossed * on_hats(x, (1 / 2, -1 / 4)), atol=1e-12)
 
 
 def on_hats(x: np.ndarray, coefficients: tuple[float, float]) -> np.ndarray:
@@ -206,23 +169,3 @@ def test_bessel_functions_of_all_orders_are_those_of_scipy(highest: int) -> None
     assert len(found) == highest + 1
     for m, values in enumerate(found):
         assert_allclose(values, jv(m, at), atol=2e-14)
-
-
-def test_transforms_of_thin_films_are_not_all_held_at_once(monkeypatch: Any) -> None:
-    material = IsotropicMaterial(young_modulus=2.0, poisson_ratio=0.3)
-    film = IsotropicMaterial(young_modulus=5.0, poisson_ratio=0.25)
-    body = Body(material=material, layers=(Layer(thickness=0.05, material=film),))
-    ball = Paraboloid(radius=1.0, material=RIGID)
-    scene = Scene(indenter=ball, body=body, loading=(LoadStep(normal_force=1.0),))
-    coupling, nodes = Coupling.of(scene), tuple(np.linspace(0, 1, 9))
-    whole = ring_compliance(coupling, nodes, 1.0, 3)
-    most: list[int] = []
-
-    def transformed(*asked: Any) -> Any:
-        most.append(len(asked[-1]))
-        return ring_energies.transforms(*asked)
-
-    monkeypatch.setattr(ring_energies, "MOST_AT_ONCE", 1 << 13)
-    monkeypatch.setattr("radial.ring_compliance.transforms", transformed)
-    assert_allclose(ring_compliance(coupling, nodes, 1.0, 3), whole, rtol=1e-10, atol=1e-14)
-    assert max(most) * 9 * 5 <= 1 << 13

@@ -11,7 +11,7 @@ from test_size_bombs import slipstick
 import radial
 from contact_scene import read_scene_file
 from contact_scene.solver_errors import ResourceRefused, UnsupportedScene
-from radial import largest_contact, memory
+from radial import memory
 from radial.kept import kept_within
 from radial.memory import estimated_bytes
 
@@ -93,17 +93,6 @@ def test_plan_says_how_much_and_refuses_what_no_polynomials_resolve(tmp_path: Pa
     described = read_scene_file(path).scene
     with pytest.raises(UnsupportedScene, match="times as large as the outermost layer is thick"):
         estimated_bytes(described, radial.plan(described))
-
-
-def test_the_radius_is_found_to_a_percent_by_few_polynomials(tmp_path: Path) -> None:
-    path = tmp_path / "scene.toml"
-    for modulus in (210e6, 420e9, 210e12):
-        path.write_text(scene(1e-4, modulus), encoding="utf-8")
-        described = read_scene_file(path).scene
-        target = next(iter(largest_contact.largest_targets(described)))
-        found = largest_contact._radius(largest_contact.Bodies.of(described), described, target)
-        exact = radial.solve(described).steps[-1].contact_radius
-        assert found == pytest.approx(exact, rel=0.03)
 
 
 def test_no_more_is_kept_than_there_is_room_for() -> None:

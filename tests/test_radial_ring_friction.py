@@ -12,11 +12,9 @@ import pytest
 from numpy.testing import assert_allclose
 
 from contact_scene import (
-    RIGID,
     Body,
     CoulombFriction,
     IsotropicMaterial,
-    Layer,
     LoadStep,
     Paraboloid,
     Scene,
@@ -31,15 +29,12 @@ from radial.ring_newton import aimed
 from radial.ring_points import Points
 from radial.ring_state import Held, Loads
 from verification.closed_forms.cattaneo_mindlin import PartialSlip
-from verification.closed_forms.tangential_history import TangentialHistory
-from verification.references import load_reference
 
 Array = np.ndarray
 TOLERANCE = 1e-9
 LOAD, FRICTION = 4 / 3, 0.3  # of a ball with R = 1 on E* = 1: a = 1
 LAW = CoulombFriction(coefficient=FRICTION)
 LIMIT = LOAD * FRICTION
-VIRGIN = PartialSlip(LOAD, 1.0, FRICTION, 1.0, 0.0)
 
 
 def points_on(
@@ -71,7 +66,6 @@ def rings(count: int, radius: float) -> Array:
 
 COUNT = 32
 RADII = rings(COUNT, 1.0)
-OF_SHIFT = 2e-4  # of that at which all slides, by 32 rings; 16 leave 1.2e-3, 24 leave 3.5e-4
 
 
 @cache
@@ -128,27 +122,6 @@ def test_tractions_of_rings_are_those_that_move_them_so(circle: Circle, rings: i
     assert_allclose(points.tractions(rings) @ by_tractions, np.eye(3 * m), atol=1e-9)
 
 
-def test_loads_that_go_on_start_from_where_they_lead() -> None:
-    """Half and all of the last way ahead; turned back, or led otherwise, from where they are."""
-    state = after(0.3, 0.5)
-    here = np.append(state.tractions, state.motion)
-
-    def starts(loads: Loads) -> list[Array]:
-        return Laws.of(alike(), LAW, loads, state).starts(state)
-
-    for further in (0.5, 1.0, 2.0):
-        first, last = starts(pushed(0.5 + 0.2 * further))
-        assert_allclose(first[-4:], here[-4:] + further * state.changed[-4:], rtol=1e-9)
-        assert np.array_equal(last, here)
-    for loads in (pushed(0.4), pushed(0.95), pushed(0.5), led(1.1 * state.approach, 0.0)):
-        (only,) = starts(loads)
-        assert np.array_equal(only, here)
-    anew = replace(state, changed=np.zeros_like(state.changed))
-    ahead, behind = (held(alike(), LAW, pushed(0.7), of, TOLERANCE) for of in (state, anew))
-    assert ahead.steps < behind.steps
-    assert_allclose(ahead.tractions, behind.tractions, atol=10 * TOLERANCE * behind.pressure.max())
-
-
 def test_newtons_method_aims_at_where_the_laws_would_hold() -> None:
     """Towards its aim what is left of the laws shrinks as what is left of the way."""
     laws = Laws.of(alike(), LAW, pushed(0.7), after(0.3))
@@ -163,16 +136,6 @@ def test_newtons_method_aims_at_where_the_laws_would_hold() -> None:
     assert_allclose(left, at.missed, atol=1e-5 * np.abs(at.missed).max())
 
 
-@pytest.mark.parametrize("share", [0.3, 0.6, 0.9])
-def test_a_pushed_ball_sticks_and_shifts_by_cattaneo_and_mindlin(share: float) -> None:
-    state = after(share)
-    exact = PartialSlip(LOAD, 1.0, FRICTION, 1.0, share * LIMIT)
-    assert_allclose(state.motion[0], exact.shift, atol=OF_SHIFT * VIRGIN.sliding_shift)
-    stuck = alike().stick_area(state.share, state.shear, FRICTION * state.pressure)
-    # Between two rings, in one increment.
-    assert_allclose(math.sqrt(stuck / math.pi), exact.stick_radius, atol=0.05 / COUNT)
-
-
 def test_shear_is_that_of_cattaneo_and_mindlin_all_around() -> None:
     nodes, count = len(RADII), alike().count
     q_r, q_t, _ = after(0.6).tractions.reshape(3, nodes, count)
@@ -183,42 +146,6 @@ def test_shear_is_that_of_cattaneo_and_mindlin_all_around() -> None:
     inside = RADII < 1
     assert np.mean(np.abs(along - exact[:, None])[inside]) < 0.005 * peak
     assert np.max(np.abs(across)) < 1e-6 * peak
-
-
-@pytest.mark.parametrize(
-    "path", [(0.9, 0.6), (0.9, 0.0), (0.9, -0.6), (0.9, -0.9), (0.9, -0.9, 0.0)]
-)
-def test_pushed_to_and_fro_the_shift_follows_masing(path: tuple[float, ...]) -> None:
-    exact = TangentialHistory(VIRGIN)
-    for share in path:
-        exact = exact.loaded_to(share * LIMIT)
-    assert_allclose(after(*path).motion[0], exact.shift, atol=OF_SHIFT * VIRGIN.sliding_shift)
-
-
-def test_a_loop_that_is_closed_comes_back() -> None:
-    assert_allclose(after(0.9, -0.9).motion[0], -after(0.9).motion[0], rtol=1e-9)
-
-
-def test_little_force_shifts_as_if_all_stuck() -> None:
-    """ω = T/2aG* (Mindlin 1949)."""
-    assert_allclose(after(1e-3).motion[0], 1e-3 * LIMIT / 2, rtol=3e-3)
-
-
-def test_a_coated_body_pressed_with_friction_approaches_as_in_the_reference() -> None:
-    known = load_reference("frictional_indentation_coated")
-    base, film = (
-        IsotropicMaterial(young_modulus=stiffness * math.pi / 2 * 0.91, poisson_ratio=0.3)
-        for stiffness in (1.0, 2.0)
-    )
-    body = Body(material=base, layers=(Layer(material=film, thickness=1.0),))
-    points = points_on(RIGID, body, rings(20, known["a_over_aH"]), 2)
-    load, state = 2 * math.pi / 3, None
-    for k in range(1, 21):
-        loads = loaded(load * k / 20, 0.0)
-        state = held(points, CoulombFriction(coefficient=known["mu"]), loads, state, TOLERANCE)
-    assert state is not None
-    assert_allclose(state.approach, known["delta_over_deltaH"], rtol=2e-6)
-    assert abs(state.motion[0]) < 1e-9
 
 
 @pytest.mark.parametrize("share", [1.0, -1.2])

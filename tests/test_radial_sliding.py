@@ -2,17 +2,12 @@
 
 from __future__ import annotations
 
-import math
-
 import numpy as np
 import pytest
-from numpy.testing import assert_allclose
-from turning_contacts import FRICTION, LIMIT, RADIUS, points, push, rough, scene, twist
+from turning_contacts import RADIUS, points, push, rough, scene, twist
 
-from contact_results.surface import surface_of
 from contact_scene import LoadStep
 from contact_scene.solver_errors import GrossSliding
-from contact_scene.summary import ContactStatus
 from radial.circle import Circle
 from radial.sliding import carried_times
 
@@ -52,21 +47,3 @@ def test_friction_carries_less_of_a_push_beside_torsion() -> None:
 def test_more_than_friction_carries_is_refused(steps: tuple[LoadStep, ...], words: str) -> None:
     with pytest.raises(GrossSliding, match=words):
         rough(scene(*steps))
-
-
-def test_far_motions_slide_under_what_friction_carries_of_both() -> None:
-    far = LoadStep(twist=0.01, tangential_shift=(5e-5, 3e-5), increments=6)
-    result = rough(scene(far))
-    *_, before, end = result.increments
-    assert end.status is ContactStatus.GROSS_SLIDING
-    assert end.stick_radius == 0
-    assert math.hypot(*end.tangential_force) < 0.9 * LIMIT
-    # What loads do along their motions friction takes at every point along its own.
-    (v, w), turn = (
-        np.subtract(end.tangential_shift, before.tangential_shift), end.twist - before.twist,
-    )  # fmt: skip
-    surface = surface_of(result)
-    x, y = surface.positions
-    lost = FRICTION * end.pressure * np.hypot(v - turn * y, w + turn * x)
-    work = end.tangential_force @ np.array([v, w]) + end.torque * turn
-    assert_allclose(np.sum(lost * surface.weights), work, rtol=5e-3)

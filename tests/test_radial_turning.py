@@ -11,7 +11,6 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 from turning_contacts import (
-    ALIKE,
     LIMIT,
     LOAD,
     PATH,
@@ -69,17 +68,6 @@ def test_mirrored_loads_mirror_all() -> None:
         assert two.dissipated_energy == pytest.approx(one.dissipated_energy, rel=1e-10)
 
 
-def test_a_twist_beside_a_push_drives_it_across() -> None:
-    """Where bodies couple: at the leading and the trailing edge pressure is not the same."""
-    end = beside().steps[2]
-    assert end.tangential_shift is not None
-    along, across = end.tangential_shift
-    assert 1e-3 * along < across < 0.1 * along
-    alike = rough(scene(twist(0.4), push(0.5, 0.0), **ALIKE)).steps[2]
-    assert alike.tangential_shift is not None
-    assert abs(alike.tangential_shift[1]) < 1e-9 * alike.tangential_shift[0]
-
-
 def test_fields_carry_the_loads_and_obey_coulomb() -> None:
     end, surface = beside().steps[3], surface_of(beside())
     shear, (x, y) = surface.vector(end, "shear"), surface.positions
@@ -92,32 +80,6 @@ def test_fields_carry_the_loads_and_obey_coulomb() -> None:
     assert max(step.residuals.friction_cone for step in beside().increments) < 1e-10
     assert end.residuals.torque_equilibrium < 1e-10
     assert surface.along(end.pressure).shape == (2 * len(end.radii),)
-
-
-def trapezoidal(result: radial.Result) -> float:
-    """Work of all loads by their values at the ends of the increments [force length]."""
-    at_rest = np.zeros(4)
-    loads, motions = (
-        np.array([at_rest, *((x, *along, about) for x, along, about in values)])
-        for values in (
-            [(i.normal_force, i.tangential_force, i.torque) for i in result.increments],
-            [(i.approach, i.tangential_shift, i.twist) for i in result.increments],
-        )
-    )
-    return float(np.sum((loads[1:] + loads[:-1]) / 2 * np.diff(motions, axis=0)))
-
-
-def test_work_is_stored_or_lost_but_for_what_the_increments_leave_open() -> None:
-    steps = twist(0.4, 6), push(0.5, 0.0, 6), twist(-0.3, 6)
-    finer = rough(scene(*steps, loading=(PRESS.model_copy(update={"increments": 8}), *steps)))
-    for result in (beside(), finer):
-        end = result.steps[-1]
-        assert end.input_work == pytest.approx(
-            end.elastic_energy + end.dissipated_energy, rel=1e-12
-        )
-        assert trapezoidal(result) == pytest.approx(end.input_work + end.unresolved_work, rel=1e-12)
-    coarse = beside().steps[-1].unresolved_work
-    assert abs(finer.steps[-1].unresolved_work) < 0.4 * abs(coarse)
 
 
 def test_motions_lead_where_their_loads_would() -> None:
@@ -154,32 +116,8 @@ def test_a_twisted_ball_is_let_go_and_lifted_almost_wholly_at_once(
     assert abs(end.twist) < 2 * abs(let_go.twist)
 
 
-@pytest.mark.parametrize("friction", [0.003, 0.1])
-def test_a_ball_on_a_stiff_film_is_pressed_in_few_increments(friction: float) -> None:
-    """To a sixth of the radius at first, far within rings laid for the whole."""
-    layer = Layer(thickness=0.1 * RADIUS, material=_stiffer(10.0))
-    steps = (
-        PRESS.model_copy(update={"increments": 6}),
-        twist(0.1 * friction, 1),
-        LoadStep(normal_force=0.9 * LOAD, increments=1),
-    )
-    given = {
-        "body": Body(material=SOFT, layers=(layer,)),
-        "friction": CoulombFriction(coefficient=friction),
-    }
-    pressed = radial.solve(scene(loading=steps, **given)).steps[0]
-    alone = radial.solve(scene(**(given | {"friction": None}))).steps[0]
-    assert pressed.approach == pytest.approx(alone.approach, rel=0.01)
-
-
 def _stiffer(times: float) -> IsotropicMaterial:
     return IsotropicMaterial(young_modulus=times * SOFT.young_modulus, poisson_ratio=0.3)
-
-
-def test_a_round_contact_has_no_shear_on_its_axis() -> None:
-    for end in (beside().steps[0], beside().steps[1]):
-        assert end.shear_radial[0] == end.shear_circumferential[0] == 0
-        assert abs(end.shear_radial[1]) > 0
 
 
 def test_stress_below_a_turning_push_is_refused_by_name() -> None:
