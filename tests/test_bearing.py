@@ -2,15 +2,12 @@
 
 import numpy as np
 import pytest
-from contact_scenes import APPROACH, INDENTERS, LOAD, PRESS, RADIUS, A, grid, scene
+from contact_scenes import LOAD, PRESS, RADIUS, grid, scene
 
 from contact_scene.pair import contact_modulus
-from semi_analytical import pressing
 from semi_analytical.bearing import bearing_pressure, modulus_of
 from semi_analytical.influence.bodies import influence_coefficients
-from semi_analytical.model import ContactModel
 from semi_analytical.normal_load import FixedApproach, PressureSum
-from semi_analytical.operator.domain import QUARTER
 from verification.closed_forms.hertz import PointContact
 
 CELLS = grid(96)
@@ -38,42 +35,7 @@ def test_below_a_paraboloid_it_is_the_pressure_of_hertz(load):
     assert np.sqrt(np.sum((p - exact) ** 2) / np.sum(exact**2)) < 0.03
 
 
-def test_a_quarter_has_the_same():
-    quarter = QUARTER
-    whole = bearing_pressure(GAP, FixedApproach(HERTZ.approach), MODULUS, CELLS.cell_area)
-    part = bearing_pressure(
-        quarter.restrict(GAP), FixedApproach(HERTZ.approach), MODULUS, 4 * CELLS.cell_area
-    )
-    np.testing.assert_allclose(quarter.extend(part), whole, rtol=1e-12)
-
-
-@pytest.mark.parametrize("load", [PressureSum(1.0), FixedApproach(1.0)])
-def test_all_of_a_flat_punch_bears_alike_and_nothing_beside_it(load):
-    inside = np.hypot(X, Y) < A
-    p = bearing_pressure(np.where(inside, 0.0, np.inf), load, 1.0, CELLS.cell_area)
-    assert np.ptp(p[inside]) == 0
-    assert np.min(p[inside]) > 0
-    assert np.all(p[~inside] == 0)
-
-
 @pytest.mark.parametrize("load", [PressureSum(1e-9), FixedApproach(2.5)])
 def test_where_no_cell_bears_by_hertz_all_do_that_can_touch(load):
     gap = np.array([[2.0, 3.0], [np.inf, 4.0]])
     np.testing.assert_array_equal(bearing_pressure(gap, load, 1.0, 1.0), np.isfinite(gap))
-
-
-@pytest.mark.parametrize("name", [name for name in INDENTERS if name != "flat punch"])
-@pytest.mark.parametrize("step", [{"normal_force": LOAD}, {"approach": APPROACH}])
-def test_below_every_tip_it_saves_a_quarter_of_the_iterations_or_more(name, step, monkeypatch):
-    """As against the same pressure everywhere, as all of a flat punch bears anyway."""
-    spent = {}
-    for guess in ("Hertz", "the same"):
-        if guess == "the same":
-            monkeypatch.setattr(
-                pressing, "bearing_pressure", lambda gap, *_: np.isfinite(gap).astype(float)
-            )
-        tip = scene(step, indenter=INDENTERS[name])
-        model = ContactModel.of(tip, grid(32, 3.0), QUARTER)
-        target = pressing.NormalTarget(step.get("normal_force"), step.get("approach"))
-        spent[guess] = pressing.press(model, target, 1e-8).iterations
-    assert spent["Hertz"] < 0.75 * spent["the same"]

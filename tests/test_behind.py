@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from contact_scenes import PRESS, grid, push, scene, slide
+from contact_scenes import PRESS, grid, push, scene
 
 from semi_analytical import solve
 from semi_analytical.behind import Behind, further, further_shear
@@ -75,24 +75,3 @@ def test_a_loop_takes_few_products_on_any_cells():
     few, many = (np.mean(products(loop, cells)) for cells in (32, 128))
     assert few < 17
     assert many < 1.3**2 * few
-
-
-@pytest.mark.parametrize(
-    "steps",
-    [
-        [push(0.999)],
-        [slide(0.3), slide(-0.3)],
-        [push(0.5), {"normal_force": 1.5e3, "increments": 4}],
-        [push(0.5), push(0.0, 0.5, increments=4)],
-        [{"torque": 2e-3}, {"torque": -2e-3, "increments": 4}],
-    ],
-    ids=["near the limit", "led", "pressed harder", "turned", "twisted"],
-)
-def test_other_paths_take_few_products_too(steps):
-    assert np.max(products(scene(PRESS, *steps), 64)) < 40
-
-
-@pytest.mark.parametrize(("step", "most"), [(push(0.99999), 16), (slide(50.0), 9)])
-def test_where_all_slips_few_products_do(step, most):
-    """Grades alone, without what lies beyond the last, took 25 and 11."""
-    assert np.max(products(scene(PRESS, {**step, "increments": 1}), 64)) < most

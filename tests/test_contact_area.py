@@ -2,10 +2,9 @@
 
 import numpy as np
 import pytest
-from scipy.ndimage import binary_erosion
 
-from semi_analytical.contact_area import FRAME, _coverage, _fit, covered_cells, stuck_cells
-from semi_analytical.operator.domain import QUARTER, WINDOW
+from semi_analytical.contact_area import covered_cells, stuck_cells
+from semi_analytical.operator.domain import QUARTER
 
 # Semi-axes in cells, and how well the area is found: a small contact has few cells for the fits.
 ELLIPSES = {
@@ -30,13 +29,6 @@ def test_area_under_a_square_root_is_exact_to_a_small_part_of_a_cell(semi_axes, 
     assert covered_cells(values, values > 0) == pytest.approx(
         np.pi * semi_axes[0] * semi_axes[1], rel=accuracy
     )
-
-
-def test_two_contacts_count_both():
-    one, other = dome((9, 9), (-18, 0)), dome((12, 12), (16, 5))
-    both = one + other
-    total = covered_cells(one, one > 0) + covered_cells(other, other > 0)
-    assert covered_cells(both, both > 0) == pytest.approx(total, rel=1e-12)
 
 
 @pytest.mark.parametrize("cells", [2, 6, 40, 72])
@@ -67,13 +59,6 @@ def test_values_that_rise_to_the_edge_count_whole_cells():
     assert covered_cells(values, disc) == pytest.approx(np.count_nonzero(disc), rel=2e-3)
 
 
-def test_constant_values_count_whole_cells():
-    disc = dome((20, 20)) > 0
-    assert covered_cells(disc.astype(float), disc) == pytest.approx(
-        np.count_nonzero(disc), rel=1e-12
-    )
-
-
 @pytest.mark.parametrize("inside", [False, True], ids=["nothing", "everything"])
 def test_extremes(inside):
     mask = np.full((12, 12), inside)
@@ -99,21 +84,6 @@ def test_where_nothing_slips_all_that_touches_sticks():
     assert area == covered_cells(bound, bound > 0)
 
 
-def test_part_of_a_cell_beside_a_straight_edge(rng):
-    """Against points in the cell, of edges along its sides, across, and nearly along."""
-    slopes = np.concatenate(
-        [rng.standard_normal((40, 2)), [[1, 0], [0, -2], [1, 1], [-1, 1], [3, 1e-4], [1e-4, -3]]]
-    )
-    f_x, f_y = slopes.T
-    f = rng.uniform(-0.7, 0.7, len(f_x)) * np.maximum(np.abs(f_x), np.abs(f_y))
-    count = 200
-    x = (np.arange(count) + 0.5) / count - 0.5
-    inside = f[:, None, None] + f_x[:, None, None] * x[:, None] + f_y[:, None, None] * x > 0
-    np.testing.assert_allclose(
-        _coverage(f, f_x, f_y), np.mean(inside, axis=(1, 2)), atol=1.5 / count
-    )
-
-
 def swollen(centre=(0.0, 0.0), lean=0.0):
     """Values whose square is no quadratic: e³ - 1 in the middle, and leaning to one side."""
     x, y = np.indices((72, 72)) - 35.5
@@ -128,43 +98,3 @@ def test_a_turned_or_mirrored_region_has_the_same_area():
     area = covered_cells(values, values > 0)
     for other in (values[::-1], values[:, ::-1], values.T, np.rot90(values)):
         assert covered_cells(other, other > 0) == pytest.approx(area, rel=1e-9)
-
-
-def test_cells_next_to_the_edge_decide_where_no_quadratic_fits():
-    """1.7 % too much; if all cells of a fit weighed the same, 2.4 %."""
-    values = swollen()
-    assert covered_cells(values, values > 0) == pytest.approx(np.pi * 20.3**2, rel=2e-2)
-
-
-def test_part_of_a_cell_is_that_of_the_line_alone(rng):
-    """Not of how steep the plane is; beside a line along a side it is exact."""
-    f_x, f_y = rng.standard_normal((2, 40))
-    f = rng.uniform(-0.7, 0.7, 40) * np.maximum(np.abs(f_x), np.abs(f_y))
-    part = _coverage(f, f_x, f_y)
-    for steep in (1e-5, 1e5):
-        np.testing.assert_allclose(_coverage(steep * f, steep * f_x, steep * f_y), part, rtol=1e-9)
-    f = np.array([-0.4998, -0.2, 0.0, 0.3, 0.4999])
-    for slopes in ((np.ones(5), np.zeros(5)), (np.zeros(5), -np.ones(5))):
-        np.testing.assert_allclose(_coverage(f, *slopes), 0.5 + f, rtol=1e-12)
-
-
-def test_a_fit_has_value_and_slope_of_a_quadratic_where_it_is_asked_for():
-    """Both slopes with their signs."""
-    x, y = np.indices((24, 24)) - 11.5
-    phi = 9 + 0.3 * x - 0.2 * y - 0.01 * x**2 + 0.02 * x * y - 0.03 * y**2
-    i, j = np.array([8, 12, 15]), np.array([11, 7, 14])
-    framed, everywhere = (WINDOW.framed(field, FRAME) for field in (phi, phi > -np.inf))
-    f, f_x, f_y, *_ = _fit(framed, everywhere, i, j)
-    at_x, at_y = i - 11.5, j - 11.5
-    np.testing.assert_allclose(f, phi[i, j], rtol=1e-6)
-    np.testing.assert_allclose(f_x, 0.3 - 0.02 * at_x + 0.02 * at_y, rtol=1e-6)
-    np.testing.assert_allclose(f_y, -0.2 + 0.02 * at_x - 0.06 * at_y, rtol=1e-6)
-
-
-def test_twelve_cells_well_inside_are_enough_for_a_fit():
-    """Of a small contact these are all that are surrounded by others."""
-    values = dome((3.1, 2.9), cells=12)
-    inside = values > 0
-    assert np.count_nonzero(binary_erosion(inside, np.ones((3, 3)))) == 12
-    assert covered_cells(values, inside) == pytest.approx(np.pi * 3.1 * 2.9, rel=0.02)
-    assert np.count_nonzero(inside) == 32

@@ -8,7 +8,6 @@ import numpy as np
 import pytest
 
 import radial
-from contact_results.remarks import remarks
 from contact_scene import Body, IsotropicMaterial, LoadStep, Paraboloid, RadialDiscretisation, Scene
 from contact_scene.pair import outermost_beta
 from semi_analytical import SurfaceGrid, plan, solve
@@ -26,7 +25,6 @@ BODIES = {
     "thin film": coated(film(2.0, 0.1)),
 }
 POINTS = 12
-EFFECT = "edge correction"
 
 
 def ball(body: str, *loading: LoadStep) -> Scene:
@@ -90,16 +88,6 @@ def test_stick_that_spreads_below_a_pressing_ball_ends_where_rings_say():
     assert end.stick_radius == pytest.approx(rings.stick_radius, rel=4e-3)
 
 
-@pytest.mark.parametrize("edge", ["off", "last"])
-def test_stick_radius_of_a_pushed_ball_is_its_limit(edge):
-    """.5436 of the Hertz radius on 128² and 256² cells with edges in every increment. By a root of
-    what is missing from slip in length, as where bodies do not couple, it is 1.5e-2 too large."""
-    push = LoadStep(tangential_force=(0.6 * FRICTION_LIMIT, 0.0), increments=14)
-    of = pressed("", rigid_ball(), BODIES["soft film"], pressing(15), push, friction=MU)
-    end = solved(of, edge, 64).steps[-1]
-    assert end.stick_radius == pytest.approx(0.5436 * A, rel=6e-3)
-
-
 def test_bodies_exchanged_have_the_same_edges_and_opposite_shear():
     """What decides is which way the shear points and which body is the more compliant."""
     stiff, soft = (
@@ -153,12 +141,6 @@ def test_step_ends_have_the_radius_and_approach_of_the_former_correction_on_256_
     assert np.max(radii) < 2e-3
 
 
-def test_the_last_state_of_a_step_alone_has_its_edges_inside_the_cells():
-    result = pushed("last")
-    ends = [end is result.steps[end.step - 1] for end in result.increments]
-    assert [end.edge_change is not None for end in result.increments] == ends
-
-
 def test_pushed_the_shear_carries_the_force_and_is_its_mirror_image():
     end, grid = pushed("all").steps[-1], pushed("all").grid
     assert end.edge_change is not None
@@ -168,10 +150,3 @@ def test_pushed_the_shear_carries_the_force_and_is_its_mirror_image():
     for field, sign in ((end.pressure, 1), (end.shear[0], 1), (end.shear[1], -1)):
         image = sign * field[:, ::-1]
         np.testing.assert_allclose(field, image, rtol=0, atol=1e-5 * np.max(end.pressure))
-
-
-def test_of_a_contact_of_two_cells_tractions_are_kept_and_the_remarks_state_the_cause():
-    plain, asked = (solved(ball("bare"), edge, 6) for edge in ("off", "last"))
-    np.testing.assert_array_equal(plain.steps[-1].pressure, asked.steps[-1].pressure)
-    assert asked.steps[-1].edge_report.cause == "the contact is too thin"
-    assert any("the contact is too thin" in remark for remark in remarks(asked))

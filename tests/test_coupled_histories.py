@@ -6,15 +6,8 @@ from contact_scenes import APPROACH, LIMIT, LOAD, MU, RADIUS, A, grid, steel
 from coupled_scenes import bulk, coated, press, push, scene
 
 from contact_scene import RIGID, Cone, Ellipsoid, FlatPunch, HeightMap, Layer, Paraboloid
-from contact_scene.march import MOST_HALVINGS
 from semi_analytical import (
-    NotConverged,
-    alternation,
-    coupled_increment,
-    history,
-    newton_increment,
     solve,
-    springs,
 )
 
 TOLERANCE = 1e-8
@@ -142,53 +135,6 @@ def test_every_increment_obeys_all_equations(history):
         if increment.dissipated_energy is not None:
             assert increment.dissipated_energy >= energy
             energy = increment.dissipated_energy
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("cells", [128, 192])
-@pytest.mark.parametrize("friction", [1.0, 5.0])
-def test_strong_coupling_converges_on_fine_grids(cells, friction):
-    described = scene(
-        press(increments=5),
-        push(0.3, friction=friction, increments=3),
-        body=bulk(0.0),
-        friction=friction,
-    )
-    for increment in solve(described, grid(cells, 2.5), TOLERANCE).increments:
-        assert increment.residuals.worst <= TOLERANCE
-        assert increment.halvings == 0
-
-
-@pytest.mark.parametrize("budget", [0, 50, 10**9])
-def test_a_hopeless_increment_is_given_up_when_its_budget_is_spent(monkeypatch, budget):
-    """No attempt begins beyond it, nor at less than a sixteenth of the increment."""
-    begun, reached = [], []
-    solve_one = coupled_increment.solve_coupled_increment
-
-    def counted(model, *arguments):
-        begun.append(model.convolutions.count)
-        return solve_one(model, *arguments)
-
-    def pressed(increment):
-        reached.append(increment)
-        begun.clear()
-        monkeypatch.setattr(newton_increment, "MOST_STEPS", 0)
-        monkeypatch.setattr(springs, "MOST_SPRINGS", 0)
-        monkeypatch.setattr(alternation, "MOST_ITERATIONS", 0)
-
-    monkeypatch.setattr(coupled_increment, "solve_coupled_increment", counted)
-    monkeypatch.setattr(history, "MOST_CONVOLUTIONS", budget)
-    described = scene(press(increments=1), push(0.9, increments=1))
-    with pytest.raises(NotConverged, match=r"step 2.*coupled increment") as caught:
-        solve(described, grid(CELLS), TOLERANCE, pressed)
-    assert np.isfinite(caught.value.residual)
-    assert caught.value.residual > TOLERANCE
-    last = caught.value.last_state
-    np.testing.assert_array_equal(last.pressure, reached[-1].pressure)
-    assert begun[-1] - begun[0] <= budget
-    halved_at_most = 1 + MOST_HALVINGS
-    attempts = {0: range(1, 2), 50: range(2, halved_at_most), 10**9: [halved_at_most]}
-    assert len(begun) in attempts[budget]
 
 
 def test_contact_that_falls_apart_under_coupling_is_found_with_caution():

@@ -1,8 +1,5 @@
 """The pressure with its edge inside the cells."""
 
-import subprocess
-import sys
-
 import numpy as np
 import pytest
 from cell_means import ellipse_means
@@ -25,7 +22,6 @@ import slipstick
 from contact_results.remarks import remarks
 from contact_scene import Cone, Ellipsoid, FlatPunch, HeightMap, Scene, SurfaceDiscretisation
 from semi_analytical import SurfaceGrid, plan, solve
-from semi_analytical.resolution import resolution
 from verification.closed_forms.cone import ConeContact
 from verification.closed_forms.hertz import PointContact
 from verification.closed_forms.moduli import contact_modulus
@@ -66,20 +62,6 @@ def test_three_cells_per_radius_give_it_to_a_thousandth(seed):
     offset = tuple(np.random.default_rng(seed).uniform(-0.5, 0.5, 2))
     end = solved(frictionless(PRESS), grid=ShiftedGrid((11, 11), (3.6 * A, 3.6 * A), offset))
     assert end.steps[-1].contact_radius == pytest.approx(A, rel=1e-3)
-
-
-def test_an_approach_takes_the_force_of_hertz():
-    end = solved(frictionless({"approach": APPROACH})).steps[-1]
-    assert end.normal_force == pytest.approx(LOAD, rel=2e-5)
-    assert end.contact_radius == pytest.approx(A, rel=5e-5)
-
-
-def test_the_pressure_carries_the_load():
-    end = solved(frictionless(PRESS)).steps[-1]
-    cell = (WINDOW / CELLS) ** 2
-    assert np.sum(end.pressure) * cell == pytest.approx(LOAD, rel=1e-9)
-    assert np.min(end.pressure) >= 0
-    assert np.min(end.gap) >= 0
 
 
 @pytest.mark.parametrize("led_by", ["tilt", "moment"])
@@ -124,13 +106,6 @@ def test_every_patch_has_its_edge_inside_the_cells():
     ends = [solved(of, "last", grid) for of, grid in (bumps(n, *PATCHES) for n in (60, 96))]
     few, many = (end.steps[-1].contact_radius for end in ends)
     assert few == pytest.approx(many, rel=1e-4)
-
-
-def test_beside_a_patch_that_is_too_thin_the_pressure_stays():
-    of, grid = bumps(24, *PATCHES)
-    plain, asked = (solved(of, edge, grid).steps[-1] for edge in ("off", "last"))
-    assert asked.edge_change is None
-    np.testing.assert_array_equal(plain.pressure, asked.pressure)
 
 
 @pytest.mark.parametrize(("cells", "left"), [(48, 0.3), (96, 0.2)])
@@ -212,40 +187,6 @@ def test_the_shear_of_cattaneo_is_right_to_a_few_ten_thousandths(forces, parts):
     assert end.tangential_force[0] == forces[-1] * LIMIT
 
 
-def test_no_later_shear_knows_of_the_correction():
-    plain, corrected = (pushed(0.6, -0.2, edge=edge) for edge in ("off", "last"))
-    for one, other in zip(plain.increments, corrected.increments, strict=True):
-        assert one.dissipated_energy == other.dissipated_energy
-        np.testing.assert_array_equal(one.slip, other.slip)
-
-
-def test_a_step_of_many_increments_is_corrected_from_where_it_began():
-    """Where the path does not matter they lead to what one leads to."""
-    one, many = (
-        solved(
-            scene(
-                PRESS,
-                *({**push(part), "increments": count} for part in (0.8, -0.5)),
-                indenter=paraboloid(ALIKE),
-                body=ALIKE,
-            )
-        ).steps[-1]
-        for count in (1, 4)
-    )
-    assert many.edge_change is not None
-    assert many.stick_radius == pytest.approx(one.stick_radius, rel=1e-5)
-    np.testing.assert_allclose(many.shear, one.shear, atol=1e-4 * np.max(one.shear))
-
-
-def test_before_any_push_all_sticks_that_is_in_contact():
-    """Also where the contact only reaches into a cell: else a border of slip would be seen."""
-    result = pushed(0.6)
-    pressed, end = result.steps
-    np.testing.assert_array_equal(pressed.in_stick, pressed.in_contact)
-    assert resolution(result)[0].annulus is None
-    assert np.any(end.in_contact & ~end.in_stick)
-
-
 @pytest.mark.parametrize("led", [push(0.6), slide(0.5)], ids=["force", "shift"])
 def test_force_and_shift_stay_those_of_cells(led):
     """As does the work that they do along the history; the shear carries the force."""
@@ -301,19 +242,6 @@ def test_where_the_stick_border_cannot_follow_the_pressure_is_corrected_alone():
     np.testing.assert_allclose(carried, end.tangential_force, atol=1e-6 * LIMIT)
 
 
-def test_not_asked_for_it_is_not_even_imported():
-    code = (
-        "import sys; from semi_analytical import SurfaceGrid, plan, solve\n"
-        "from contact_scene import load_scene\n"
-        "of = load_scene('scenes/hertz.toml')\n"
-        "grid = SurfaceGrid((16, 16), (1.2e-3, 1.2e-3))\n"
-        "solve(of, grid, 1e-6, plan=plan(of, edge='off'))\n"
-        "print([name for name in sys.modules if 'edge_correction' in name])"
-    )
-    run = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
-    assert run.stdout.strip() == "[]"
-
-
 def test_where_the_contact_is_too_thin_the_pressure_stays_and_the_remarks_say_so():
     thin = SurfaceGrid((16, 16), (10 * A, 10 * A))
     plain, asked = (solved(frictionless(PRESS), edge, thin) for edge in ("off", "last"))
@@ -322,16 +250,6 @@ def test_where_the_contact_is_too_thin_the_pressure_stays_and_the_remarks_say_so
     told = "the edge of the contact is not corrected: the contact is too thin"
     assert any(told in remark for remark in remarks(asked))
     assert not any("corrected" in remark for remark in remarks(plain))
-
-
-def test_where_the_edge_is_rough_the_remarks_say_so():
-    noise = np.random.default_rng(1).uniform(size=(CELLS, CELLS))
-    of, grid = bumps(CELLS, (0, 0, 1, 0))
-    heights = of.indenter.file.values + 0.03 * APPROACH * noise
-    rough = HeightMap(file=heights, spacing=6 * A / CELLS, material=steel())
-    result = solved(frictionless(PRESS, indenter=rough), "last", grid)
-    assert result.steps[-1].edge_change is None
-    assert any("step 1 the edge" in told and "is rough" in told for told in remarks(result))
 
 
 def test_whoever_asks_for_nothing_has_edges_inside_the_cells():
@@ -366,15 +284,3 @@ def test_the_plan_says_of_what_edges_are_not_known(of, because):
     assert not effect.on
     assert because in effect.why
     assert decided.edge == "off"
-
-
-@pytest.mark.parametrize(
-    "of", [frictionless(PRESS), scene(PRESS, body=steel(0.1))], ids=["alike", "coupled"]
-)
-def test_the_plan_says_what_edges_cost(of):
-    decided = plan(of, edge="last")
-    effect = next(e for e in decided.effects if e.name == "edge correction")
-    assert "10 to 100 convolutions" in effect.why
-    off, last = (solved(of, edge).increments for edge in ("off", "last"))
-    assert last[-1].edge_change is not None
-    assert 10 < last[-1].convolutions - off[-1].convolutions < 100

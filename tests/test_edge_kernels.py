@@ -2,12 +2,10 @@
 
 import numpy as np
 import pytest
-from numpy.typing import NDArray
 
 from contact_scene import RIGID, Body, IsotropicMaterial, Layer
 from semi_analytical.edge.displacement import EdgeOperator, Within
 from semi_analytical.edge.kernels import (
-    NEAR,
     PARITY,
     PARTS,
     REACH,
@@ -17,8 +15,6 @@ from semi_analytical.edge.kernels import (
 from semi_analytical.influence.bodies import influence_coefficients
 from semi_analytical.operator.spectra import even_transform
 from semi_analytical.operator.transforms import Convolutions, offsets_for
-
-Field = NDArray[np.float64]
 
 SPACING = (1.0, 0.7)
 STEEL = IsotropicMaterial(young_modulus=1.0, poisson_ratio=0.2)
@@ -54,20 +50,6 @@ def test_the_parts_of_a_cell_move_what_the_cell_moves(coefficients, component):
         sign = (x if i < 0 else 1) * (y if j < 0 else 1)
         scale = abs(whole[1, 1])
         assert found == pytest.approx(sign * whole[abs(i), abs(j)], abs=1e-11 * scale)
-
-
-@pytest.mark.parametrize("component", PARITY)
-def test_near_moments_go_over_into_far_ones(coefficients, component):
-    """By the parts and by derivatives of the coefficients, where one takes over from the other."""
-    cells, parts = coefficients
-    near = EdgeKernels(component, cells, parts).moments
-    A = getattr(cells, component)
-    for axis in (0, 1):
-        at = (3, NEAR) if axis else (NEAR, 3)
-        step = np.eye(2, dtype=int)[axis]
-        places = [tuple(np.add(at, k * step)) for k in (-2, -1, 1, 2)]
-        slope = np.dot([1 / 12, -8 / 12, 8 / 12, -1 / 12], [A[place] for place in places])
-        assert near[(axis, *at)] == pytest.approx(-slope / 12, rel=2e-3)
 
 
 @pytest.mark.parametrize("component", PARITY)
@@ -108,17 +90,3 @@ def test_moments_are_told_by_the_spectrum_of_the_coefficients(coefficients):
     within = Within(slopes, nothing.i, nothing.j, nothing.rest)
     expected, found = plain(within), by_spectrum(within)
     np.testing.assert_allclose(found, expected, rtol=0, atol=1e-13 * np.max(np.abs(expected)))
-
-
-def test_rests_of_the_same_cell_become_one():
-    """A load that turns adds none where it has been."""
-    ones, slopes = np.ones(CELLS), np.zeros((2, *CELLS))
-    i, j = np.array([2, 3, 5]), np.array([4, 4, 1])
-    one = Within(slopes, i, j, np.ones((3, PARTS, PARTS)))
-    other = Within(slopes, i[1:], j[1:], np.full((2, PARTS, PARTS), 10.0))
-    found = Within.summed(slopes, [(ones, one), (2 * ones, other), (0 * ones, one)])
-    assert sorted(zip(found.i, found.j, found.rest[:, 0, 0], strict=True)) == [
-        (2, 4, 1.0), (3, 4, 21.0), (5, 1, 21.0)
-    ]  # fmt: skip
-    again = Within.summed(slopes, [(ones, found), (ones, one)])
-    assert len(again.i) == 3

@@ -4,14 +4,12 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 from scipy.integrate import quad
-from scipy.ndimage import binary_erosion, distance_transform_edt
+from scipy.ndimage import binary_erosion
 
 from semi_analytical.edge.fit import NARROW, WIDE, Stencil, fit_about
 from semi_analytical.edge.means import centre_value, mean_power
 from semi_analytical.edge.shape import EdgeShape, edge_shape
 from tests.cell_means import ellipse_means, elliptic_radius
-
-Field = NDArray[np.float64]
 
 EXPONENTS = (0.0, 0.5, 0.51, 1.5, -0.5)
 # Value and slopes: a corner, an edge, along a side, almost along it, inside, flat, far inside, out.
@@ -48,15 +46,6 @@ def test_mean_of_a_power_is_its_integral(
     expected = quad(along, -0.5, 0.5, points=kinks)[0] if b else max(f, 0.0) ** exponent
     found = mean_power(*(np.array(v) for v in place), exponent)
     assert found == pytest.approx(expected, rel=1e-7, abs=1e-12)
-
-
-@pytest.mark.parametrize("exponent", EXPONENTS[1:-1])
-def test_derivative_of_a_mean_is_the_mean_of_one_power_less(exponent: float) -> None:
-    f, slope_x, slope_y = np.array(PLACES[:5]).T
-    step = 1e-5
-    up, down = (mean_power(f + d, slope_x, slope_y, exponent) for d in (step, -step))
-    expected = exponent * mean_power(f, slope_x, slope_y, exponent - 1)
-    np.testing.assert_allclose((up - down) / (2 * step), expected, rtol=1e-4)
 
 
 @pytest.mark.parametrize("exponent", EXPONENTS[1:-1])
@@ -123,17 +112,6 @@ def test_covered_parts_of_cells_add_up_to_the_area() -> None:
     inside = np.sum(elliptic_radius(i[~near], j[~near], radii, (19.37, 19.81), angle) < 1)
     area = inside + np.sum(here.cell_mean(0.0))
     assert area == pytest.approx(np.pi * radii[0] * radii[1], rel=1e-4)
-
-
-@pytest.mark.parametrize(("stencil", "rings"), [(NARROW, 1), (WIDE, 2)])
-def test_what_is_in_the_dropped_rings_does_not_matter(stencil: Stencil, rings: int) -> None:
-    means = ellipse_means(CELLS, (13.3, 13.3), (19.37, 19.81))
-    wrong = np.where(distance_transform_edt(means > 0) < rings + 0.5, 3.0, 1.0) * means
-    both = [edge_shape(m, means > 0, stencil, rings=rings) for m in (means, wrong)]
-    exact, of_wrong = (shape.edge_points(*border(both[0]))[0] for shape in both)
-    np.testing.assert_allclose(of_wrong.x, exact.x, atol=1e-9)
-    with_them = edge_shape(wrong, means > 0, stencil, rings=rings - 1)
-    assert np.max(np.abs(with_them.edge_points(*border(both[0]))[0].x - exact.x)) > 1e-2
 
 
 def test_untrusted_cells_are_no_data() -> None:

@@ -1,8 +1,5 @@
 """First law: work put in is stored or dissipated, in every increment and whatever the history."""
 
-from dataclasses import replace
-from itertools import pairwise
-
 import contact_scenes
 import coupled_scenes
 import numpy as np
@@ -13,7 +10,6 @@ from contact_scenes import (
     LOAD,
     MU,
     PRESS,
-    RADIUS,
     A,
     grid,
     paraboloid,
@@ -28,13 +24,8 @@ import slipstick
 from contact_results.cycles import fretting_cycles
 from contact_scene import RIGID, Body, FlatPunch
 from contact_scene.summary import ContactStatus
-from semi_analytical import NotConverged, SurfaceGrid, history, one_way, plan, solve
-from semi_analytical.balance import balanced
-from semi_analytical.energy import NOTHING_YET
+from semi_analytical import NotConverged, history, one_way, plan, solve
 from semi_analytical.increment import solve_increment
-from semi_analytical.model import ContactModel
-from semi_analytical.pressing import NormalTarget
-from semi_analytical.shearing import TangentialTarget
 
 TOLERANCE = 1e-8
 # Balance of the first law asked for; the equations are solved to the tolerance above.
@@ -139,20 +130,6 @@ def test_friction_never_gives_energy_back(tolerance):
         assert np.all(increment.dissipation_increment >= 0)
 
 
-def test_the_balance_takes_no_convolution():
-    model = ContactModel.of(contact_scenes.scene(PRESS, push(0.5)), GRID)
-    before = solve_increment(
-        model, None, NormalTarget(force=LOAD), TangentialTarget(force=np.zeros(2)), TOLERANCE
-    )
-    after = solve_increment(
-        model, before, before.target, TangentialTarget(force=np.array([20.0, 0.0])), TOLERANCE
-    )
-    counted = model.convolutions.count
-    known = balanced(model, balanced(model, None, before), after)
-    assert model.convolutions.count == counted
-    assert known.energy.elastic > 0
-
-
 def test_surfaces_that_violate_reciprocity_do_not_balance():
     """Goodman's one-way coupling has no elastic energy; the balance says how much that matters."""
     described = coupled_scenes.scene(coupled_scenes.press(), coupled_scenes.push(0.8))
@@ -162,15 +139,6 @@ def test_surfaces_that_violate_reciprocity_do_not_balance():
     )
     assert full <= CLOSES
     assert half > 1e-4
-
-
-def test_a_ball_stores_two_fifths_of_load_times_approach():
-    """Hertz: W grows as the 3/2 power of the approach."""
-    (end,) = solve(contact_scenes.scene(PRESS, friction=None), grid(96, 1.2), TOLERANCE).increments
-    assert end.elastic_energy == pytest.approx(0.4 * LOAD * APPROACH, rel=1e-4)
-    assert end.input_work == end.elastic_energy
-    # The trapezoid of one increment is a straight line from zero: ½ W δ.
-    assert end.trapezoidal_work == pytest.approx(0.5 * LOAD * APPROACH, rel=1e-4)
 
 
 def unresolved(*loading, **more):
@@ -196,29 +164,6 @@ def test_what_increments_leave_open_vanishes_with_their_square(work):
     assert order == pytest.approx(2.0, abs=0.2)
 
 
-def test_with_friction_under_a_growing_load_it_vanishes_too():
-    """Of nearly second order: friction along slip is the mean of both ends."""
-    left = [
-        abs(solve(coupled_scenes.scene(coupled_scenes.press(increments=n)), GRID, 1e-9)
-            .increments[-1].unresolved_work)
-        for n in (2, 6, 18)
-    ]  # fmt: skip
-    for coarse, fine in pairwise(left):
-        assert fine < coarse / 6
-
-
-def test_tractions_and_slip_that_grow_in_proportion_lose_the_same_in_any_increments():
-    """Below a flat punch: half of what friction at the end would take along all slip."""
-    described, wide = (
-        punch({**PRESS, "increments": 1}), punch({**PRESS, "increments": 5})
-    )  # fmt: skip
-    one, five = (solve(each, grid(24, 1.2), TOLERANCE).increments[-1] for each in (described, wide))
-    at_the_end = -float(np.sum(one.shear * one.slip)) * grid(24, 1.2).cell_area
-    assert one.dissipated_energy == pytest.approx(0.5 * at_the_end, rel=1e-6)
-    assert one.dissipated_energy == pytest.approx(five.dissipated_energy, rel=1e-6)
-    assert one.dissipation_uncertainty == 0.0
-
-
 TURNS_ROUND = [push(0.7 * np.cos(t), 0.7 * np.sin(t)) for t in np.linspace(0, 0.75 * np.pi, 4)[1:]]
 UNCERTAIN = {
     "pressing": lambda n: coupled_scenes.scene(
@@ -240,52 +185,6 @@ def test_what_finite_increments_leave_uncertain_covers_what_they_miss(described)
     missed = abs(few.dissipated_energy - many.dissipated_energy)
     assert 0.05 * few.dissipation_uncertainty < missed < few.dissipation_uncertainty
     assert many.dissipation_uncertainty < 0.3 * few.dissipation_uncertainty
-
-
-@pytest.mark.parametrize("described", UNCERTAIN.values(), ids=UNCERTAIN)
-def test_slip_is_uncertain_by_what_friction_changes_along_it(described):
-    """Σ |Δq| |Δs| Δ over the increments of steps whose path matters, whatever they miss of it."""
-    result = solve(described(6), GRID, TOLERANCE, plan=plan(described(6), edge="off"))
-    matters = [step.path_matters for step in result.plan.path]
-    changed, shear, slip = 0.0, 0.0, 0.0
-    for i in result.increments:
-        if matters[i.step - 1]:
-            changed += float(np.sum(np.hypot(*(i.shear - shear)) * np.hypot(*(i.slip - slip))))
-        shear, slip = i.shear, i.slip
-    uncertain = result.increments[-1].dissipation_uncertainty
-    assert uncertain == pytest.approx(changed * GRID.cell_area, rel=1e-6)
-
-
-def test_where_the_path_does_not_matter_the_energy_lost_is_not_uncertain():
-    loop = contact_scenes.scene(PRESS, push(0.9), push(-0.9), push(0.9))
-    assert solve(loop, GRID, TOLERANCE).increments[-1].dissipation_uncertainty == 0.0
-
-
-def test_energies_scale_with_modulus_and_volume():
-    length, modulus = 1e3, 3e-4
-    loading = (PRESS, push(0.8), push(-0.8))
-    scaled = [
-        {
-            "normal_force": modulus * length**2 * LOAD,
-            "tangential_force": (modulus * length**2 * x * LIMIT, 0.0),
-        }
-        for x in (0.0, 0.8, -0.8)
-    ]
-    indenter, body = (
-        paraboloid(contact_scenes.steel(young_modulus=modulus * contact_scenes.YOUNG))
-        for _ in range(2)
-    )
-    large = contact_scenes.scene(
-        *scaled,
-        indenter=indenter.model_copy(update={"radius": length * RADIUS}),
-        body=body.material,
-    )
-    wide = SurfaceGrid(GRID.cells, tuple(length * side for side in GRID.window))
-    one = solve(contact_scenes.scene(*loading), GRID, TOLERANCE).increments[-1]
-    other = solve(large, wide, TOLERANCE).increments[-1]
-    for name in ("elastic_energy", "input_work", "dissipated_energy", "unresolved_work"):
-        expected = modulus * length**3 * getattr(one, name)
-        assert getattr(other, name) == pytest.approx(expected, rel=1e-6)
 
 
 def test_an_increment_in_two_halves_adds_up_both(monkeypatch):
@@ -336,16 +235,6 @@ def test_increments_add_up_to_what_they_have_led_to():
     # Friction µp over the way, as the pressure stays: wear of Archard and dissipation go together.
     expected = MU * last.pressure * last.slip_distance
     np.testing.assert_allclose(last.dissipation, expected, atol=1e-6 * np.max(expected))
-
-
-def test_the_balance_of_a_wrong_displacement_is_open():
-    model = ContactModel.of(contact_scenes.scene(PRESS), GRID)
-    state = solve_increment(model, None, NormalTarget(force=LOAD), None, TOLERANCE)
-    wrong = replace(state.pressing, displacement=1.001 * state.pressing.displacement)
-    first = balanced(model, None, state)
-    spoilt = balanced(model, first, replace(state, pressing=wrong))
-    assert first.energy.imbalance(NOTHING_YET) <= CLOSES
-    assert spoilt.energy.imbalance(first.energy) > 1e-4
 
 
 LOOPS = {

@@ -9,7 +9,6 @@ from numpy.typing import NDArray
 from contact_scene import (
     RIGID,
     Body,
-    Ellipsoid,
     IsotropicMaterial,
     Layer,
     LoadStep,
@@ -21,7 +20,6 @@ from radial.disc import Disc, disc
 from radial.surface import pressure
 from semi_analytical import SurfaceGrid, plan, solve
 from semi_analytical.edge.film import FilmLaw, film_law
-from semi_analytical.edge.rim import rim
 from verification.cell_means import round_means
 from verification.problems.shifted_grid import ShiftedGrid
 
@@ -116,27 +114,6 @@ def test_means_of_the_law_are_its_integrals(place: tuple[float, float, float]) -
     assert leaning[0] == pytest.approx(rates[0] / rates[1] - 1, abs=0.02)
 
 
-@pytest.mark.parametrize("case", [(4.0, 0.02), (4.0, 0.1), (0.25, 0.02), (10.0, 0.05)])
-def test_the_edge_is_found_from_exact_means(case: tuple[float, float]) -> None:
-    """A root fitted to them is off by several thousandths."""
-    grid = ShiftedGrid((96, 96), (3 * A, 3 * A), (0.3, -0.1))
-    means = exact_means(ball_on(*case)[1], grid)
-    film = film_law(coated(*case), NO_BODY, grid.spacing)
-    error = {}
-    for law in (None, film):
-        edge = rim(means, means > 0.0, film=law)
-        for _ in range(4):
-            edge = rim(means, means > 0.0, edge, film=law)
-        assert edge is not None
-        error[law is film] = abs(np.sqrt(edge.area / np.pi) * grid.spacing[0] / A - 1)
-        if law is film:
-            near = edge.means > 0
-            off = (edge.means - means)[near]
-            assert np.sqrt(np.mean(off**2)) < 3e-3 * np.max(means)
-    assert error[True] < 1e-4
-    assert error[False] > 10 * error[True]
-
-
 @pytest.mark.parametrize(
     ("case", "pressure_error"),
     [
@@ -160,37 +137,6 @@ def test_a_ball_on_a_film_has_its_radius_to_a_ten_thousandth(
     assert end.approach == pytest.approx(exact.approach, rel=5e-6)
     known = exact_means(exact, grid)
     assert np.linalg.norm(end.pressure - known) < pressure_error * np.linalg.norm(known)
-
-
-def test_below_an_ellipsoid_half_the_cells_find_the_same_edge() -> None:
-    """Curvatures of edge and pressure change along it."""
-    indenter = Ellipsoid(radii=(RADIUS, 3 * RADIUS), material=RIGID)
-    ball, exact = ball_on(4.0, 0.05)
-    steps = [LoadStep(normal_force=1.7 * exact.load)]
-    of = Scene(indenter=indenter, body=ball.body, friction=None, loading=steps)
-    radii = [
-        solve(of, SurfaceGrid((n, n), (2.8 * A, 5 * A)), 1e-8, plan=plan(of, edge="last"))
-        .steps[-1]
-        .contact_radius
-        for n in (72, 144)
-    ]
-    assert radii[0] == pytest.approx(radii[1], rel=5e-4)
-
-
-def test_a_mirrored_grid_has_the_mirrored_pressure() -> None:
-    of, _ = ball_on(4.0, 0.1)
-    one, other = (
-        solve(
-            of,
-            ShiftedGrid((48, 48), (3 * A, 3 * A), (sign * 0.3, 0.1)),
-            1e-10,
-            plan=plan(of, edge="last"),
-        ).steps[-1]
-        for sign in (1, -1)
-    )
-    assert one.edge_change is not None
-    scale = np.max(one.pressure)
-    np.testing.assert_allclose(one.pressure, other.pressure[::-1], rtol=0, atol=1e-9 * scale)
 
 
 def test_no_film_calls_for_a_law_where_an_edge_sees_none() -> None:

@@ -15,7 +15,7 @@ from pydantic import BaseModel, ValidationError
 from contact_scene import FiniteElementDiscretisation, SurfaceDiscretisation
 from contact_scene.geometry import HeightMap
 from contact_scene.quantity import WithUnit
-from slipstick import Body, Cone, IsotropicMaterial, Layer, LoadStep, Paraboloid
+from slipstick import LoadStep, Paraboloid
 
 HEIGHTS = 1e-6 * np.arange(16.0).reshape(4, 4)
 UNITS: Any = pint.UnitRegistry()
@@ -147,21 +147,6 @@ def test_what_is_no_pair_is_refused(value: Any) -> None:
 @pytest.mark.parametrize("value", NO_HEIGHTS, ids=lambda value: type(value).__name__)
 def test_what_are_no_heights_is_refused(value: Any) -> None:
     refused(lambda: HeightMap(file=value, spacing=1e-6, material="rigid"))  # type: ignore[arg-type]
-
-
-def test_layers_in_a_set_have_no_order() -> None:
-    steel = IsotropicMaterial(young_modulus=210e9, poisson_ratio=0.3)
-    layers = {Layer(thickness=t, material=steel) for t in (1e-3, 2e-3)}
-    refused(lambda: Body(material=steel, layers=layers))  # type: ignore[arg-type]
-
-
-def test_other_kinds_of_quantity_look_as_closely() -> None:
-    for value in (with_units(0.3), np.complex128(0.3 + 1j), np.True_, Series(0.3)):
-        refused(lambda value=value: IsotropicMaterial(young_modulus=1.0, poisson_ratio=value))
-        refused(lambda value=value: IsotropicMaterial(young_modulus=value, poisson_ratio=0.3))
-        refused(lambda value=value: Cone(slope_angle=value, material="rigid"))
-        refused(lambda value=value: LoadStep(torque=value))
-        refused(lambda value=value: SurfaceDiscretisation(tolerance=value))
 
 
 def test_a_quantity_with_a_unit_is_told_what_to_write() -> None:

@@ -53,22 +53,6 @@ def mapped(values, **placed):
     return FrictionMap.model_validate({"map": values, "spacing": (0.5, 2.0), **placed})
 
 
-@given(arrays(np.float64, CELLS, elements=st.floats(0.0, 2.0)))
-def test_on_its_own_cells_a_map_is_itself(values) -> None:
-    np.testing.assert_array_equal(mapped(values).on(CELLS, (0.5, 2.0)).map.values, values)
-
-
-@given(
-    arrays(np.float64, CELLS, elements=st.floats(0.0, 2.0)),
-    st.tuples(st.integers(4, 40), st.integers(4, 40)),
-    st.floats(0.1, 1.0),
-)
-def test_between_its_points_a_map_stays_between_its_values(values, cells, share) -> None:
-    spacing = (share * 3.0 / cells[0], share * 10.0 / cells[1])
-    found = mapped(values).on(cells, spacing).map.values
-    assert np.all((found >= values.min() * (1 - 1e-12)) & (found <= values.max() * (1 + 1e-12)))
-
-
 @pytest.mark.parametrize("origin", [(0.0, 0.0), (0.3, -0.9)])
 @pytest.mark.parametrize(("cells", "window"), [((7, 8), (1.0, 2.0)), ((30, 5), (1.9, 4.0))])
 def test_a_coefficient_stays_at_its_place_whatever_window_and_cells(origin, cells, window) -> None:

@@ -6,7 +6,7 @@ from contact_scenes import PRESS, grid, scene
 from hypothesis import given
 from hypothesis import strategies as st
 
-from semi_analytical.grades import RATIO, STIFFNESSES, beyond, shares
+from semi_analytical.grades import STIFFNESSES, shares
 from semi_analytical.model import ContactModel
 from semi_analytical.shear_zones import ShearZones
 
@@ -25,38 +25,11 @@ def test_shares_of_grades_add_up_to_the_inverse_of_a_stiffness(d):
     assert np.count_nonzero(found) <= 2
 
 
-@pytest.mark.parametrize("number", range(len(STIFFNESSES)))
-def test_a_stiffness_of_a_grade_has_no_share_of_others(number):
-    expected = np.zeros(len(STIFFNESSES) + 1)
-    expected[number + 1] = 1.0
-    np.testing.assert_allclose(shares(STIFFNESSES[number : number + 1])[:, 0], expected, atol=1e-14)
-
-
-def test_stiffnesses_go_beyond_the_last_grade_within_one_more():
-    factors = np.array([0.0, 0.5, 1.0, RATIO**0.25, RATIO, 1e6])
-    expected = [0.0, 0.0, 0.0, 0.25, 1.0, 1.0]
-    np.testing.assert_allclose(beyond(STIFFNESSES[-1] * factors), expected, atol=1e-14)
-
-
 def zones_of(rng, self_compliance):
     """Where a third sticks, a third slips and the others are apart."""
     bound = np.where(rng.random(SHAPE) < 0.67, rng.random(SHAPE), 0.0)
     z = 10.0 ** rng.uniform(-2, 2, (1, *SHAPE)) * rng.standard_normal((2, *SHAPE))
     return ShearZones(z, bound, self_compliance), bound
-
-
-@given(SEEDS)
-def test_free_shears_are_all_where_it_sticks_and_across_slip_where_it_slips(seed):
-    rng = np.random.default_rng(seed)
-    zones, bound = zones_of(rng, 1.0)
-    v = rng.standard_normal((2, *SHAPE))
-    free = zones.free(v)
-    np.testing.assert_allclose(zones.free(free), free, atol=1e-14)
-    np.testing.assert_array_equal(free[:, bound == 0], 0.0)
-    sticks = (bound > 0) & ~zones.slip
-    np.testing.assert_array_equal(free[:, sticks], v[:, sticks])
-    np.testing.assert_allclose(np.sum(free * zones.pulled, axis=0), 0.0, atol=1e-13)
-    np.testing.assert_allclose(np.hypot(*zones.pulled), np.where(zones.slip, bound, 0.0))
 
 
 @given(SEEDS)

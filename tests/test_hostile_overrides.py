@@ -3,8 +3,6 @@
 from pathlib import Path
 
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
 
 from contact_scene import SceneError, read_scene_file
 
@@ -34,16 +32,6 @@ def test_refusal_names_the_option_in_one_line(assignment: str) -> None:
     named = [str(problem) for problem in found.value.problems if "--set" in str(problem)]
     assert named
     assert all(line.isprintable() and len(line) < 1000 for line in named)
-
-
-@given(st.lists(st.text(max_size=40) | st.sampled_from(REFUSED), max_size=3))
-def test_any_options_give_a_scene_or_a_refusal(assignments: list[str]) -> None:
-    told: tuple[object, ...] = ()
-    try:
-        read_scene_file(SCENE, assignments)
-    except SceneError as error:
-        told = tuple(error.problems)
-    assert all(str(problem).isprintable() for problem in told)
 
 
 def test_the_last_option_of_a_key_holds() -> None:

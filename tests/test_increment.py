@@ -4,11 +4,7 @@ import numpy as np
 import pytest
 from contact_scenes import LOAD, PRESS, RIGID_BALL, A, grid, push, scene
 
-from semi_analytical import SurfaceGrid, plan, pressing, solve
-from semi_analytical.box import box_around
-from semi_analytical.history import march
-from semi_analytical.model import ContactModel
-from semi_analytical.normal import solve_normal
+from semi_analytical import SurfaceGrid, solve
 from semi_analytical.operator.operator import DisplacementOperator
 
 TOLERANCE = 1e-8
@@ -69,23 +65,6 @@ def test_pressure_is_not_solved_again_where_the_normal_load_is_held(calls):
     assert set(calls) == {"tangential"}
 
 
-@pytest.mark.parametrize("cells", [64, 128])
-def test_pressure_takes_few_iterations_and_hardly_more_convolutions(cells, calls, monkeypatch):
-    iterations = []
-
-    def spied(*arguments, **more):
-        solution = solve_normal(*arguments, **more)
-        iterations.append(solution.iterations)
-        return solution
-
-    monkeypatch.setattr(pressing, "solve_normal", spied)
-    solve(scene(PRESS, friction=None), SurfaceGrid((cells, cells), (3 * A, 3 * A)), TOLERANCE)
-    assert sum(iterations) <= 10
-    # Besides one per iteration: the start on each grid, the check on the window, admissible parts
-    # of three steps.
-    assert len(calls) <= sum(iterations) + len(iterations) + 4
-
-
 def test_convolutions_count_what_was_convolved(calls):
     result = solve(scene(PRESS, push(0.5)), grid(), TOLERANCE)
     for increment, kind, price in [
@@ -93,17 +72,6 @@ def test_convolutions_count_what_was_convolved(calls):
         (result.increments[1], "tangential", 2),
     ]:
         assert increment.convolutions == price * calls.count(kind)
-
-
-def test_a_growing_contact_does_not_gather_operators():
-    problem = scene({**PRESS, **push(0.5), "increments": 8})
-    decided = plan(problem)
-    model = ContactModel.of(problem, grid(128), decided.symmetry)
-    boxes = set()
-    for increment in march(model, decided, TOLERANCE):
-        boxes.add(box_around(increment.in_contact, 4).shape)
-        assert len(model._operators) <= 2
-    assert len(boxes) > 3
 
 
 def test_fields_are_reported_on_the_whole_window():

@@ -2,12 +2,9 @@
 
 import numpy as np
 import pytest
-from contact_scenes import RIGID_BALL, steel
 from numpy.polynomial.legendre import leggauss
 from scipy.integrate import dblquad
 
-from contact_scene import Body, Paraboloid
-from semi_analytical.influence.bodies import influence_coefficients
 from semi_analytical.influence.closed_form import HalfSpaceCoefficients, RectangleIntegrals
 
 G, NU = 3.0, 0.3
@@ -77,75 +74,12 @@ def test_self_coefficient_is_the_integral_around_the_observer(component, cell):
     )
 
 
-@pytest.mark.parametrize("component", ["xy", "zx", "zy"])
-def test_odd_coefficients_vanish_on_their_axes(component):
-    K = getattr(coefficients(CELLS["flat"]), component)
-    round_off = 1e-15 * np.max(np.abs(K)) * K.size
-    if component != "zy":
-        assert np.max(np.abs(K[0])) < round_off
-    if component != "zx":
-        assert np.max(np.abs(K[:, 0])) < round_off
-
-
-@pytest.mark.parametrize("component", POINT)
-def test_far_field_is_that_of_a_point_load(component):
-    cell = CELLS["square"]
-    K = getattr(coefficients(cell, (60, 60)), component)
-    expected = cell[0] * cell[1] * point(component, 59 * cell[0], 57 * cell[1])
-    # The next term of the expansion is (cell / distance)^2 = 1.5e-4, with a factor of about 1/8.
-    assert K[59, 57] == pytest.approx(expected, rel=1e-4)
-
-
-def test_shear_moves_the_surface_ahead_of_it_down():
-    """u_z by q_x is positive ahead: by reciprocity, a push pulls surface points towards itself."""
-    K = coefficients(CELLS["square"])
-    assert np.all(K.zx[1:] > 0)
-    assert np.all(K.zy[:, 1:] > 0)
-    assert np.all(K.xy[1:, 1:] > 0)
-
-
-def test_incompressible_half_space_does_not_couple():
-    K = coefficients(CELLS["flat"], poisson_ratio=0.5)
-    assert np.all(K.zx == 0)
-    assert np.all(K.zy == 0)
-
-
 def test_turning_the_cell_swaps_x_and_y():
     one, other = coefficients((0.5, 1.6), (6, 5)), coefficients((1.6, 0.5), (5, 6))
     for name, swapped in [("zz", "zz"), ("xx", "yy"), ("xy", "xy"), ("zx", "zy")]:
         np.testing.assert_allclose(
             getattr(one, name), getattr(other, swapped).T, rtol=1e-13, atol=1e-15
         )
-
-
-@pytest.mark.parametrize("component", POINT)
-def test_coefficients_scale_with_cell_and_inverse_modulus(component):
-    one = getattr(coefficients((0.5, 1.6)), component)
-    scaled = HalfSpaceCoefficients(RectangleIntegrals(0.5e-6, 1.6e-6, (6, 5)), 1e9 * G, NU)
-    np.testing.assert_allclose(1e15 * getattr(scaled, component), one, rtol=1e-12, atol=1e-14)
-
-
-@pytest.mark.parametrize("component", ["zz", "xx", "yy", "xy"])
-def test_identical_bodies_double_the_compliance(component):
-    lower = Body(material=steel())
-    both = influence_coefficients(lower, Paraboloid(radius=1, material=steel()), (1, 2), (6, 5))
-    alone = influence_coefficients(lower, RIGID_BALL, (1, 2), (6, 5))
-    np.testing.assert_array_equal(getattr(both, component), 2 * getattr(alone, component))
-
-
-@pytest.mark.parametrize("component", ["zx", "zy"])
-def test_identical_bodies_do_not_couple(component):
-    lower, upper = Body(material=steel()), Paraboloid(radius=1, material=steel())
-    both = influence_coefficients(lower, upper, (1, 2), (6, 5))
-    np.testing.assert_array_equal(getattr(both, component), 0)
-
-
-@pytest.mark.parametrize("component", ["zx", "zy"])
-def test_swapping_the_bodies_turns_the_coupling_round(component):
-    elastic, rigid = Body(material=steel()), RIGID_BALL
-    below = influence_coefficients(elastic, rigid, (1, 2), (6, 5))
-    above = influence_coefficients(rigid, elastic, (1, 2), (6, 5))
-    np.testing.assert_array_equal(getattr(above, component), -getattr(below, component))
 
 
 @pytest.mark.parametrize("component", POINT)

@@ -98,12 +98,3 @@ def test_softest_within_a_contact_radius_counts(depth: float) -> None:
         indenter=paper.paraboloid(STEEL), body=body, loading=(LoadStep(normal_force=1.0),)
     )
     assert bool(beyond_linear_theory(scene, [End(1e6)])) is (depth < End.contact_radius)
-
-
-def test_without_contact_nothing_is_said() -> None:
-    scene = Scene(
-        indenter=paper.paraboloid(STEEL),
-        body=Body(material=STEEL),
-        loading=(LoadStep(normal_force=1.0),),
-    )
-    assert beyond_linear_theory(scene, [End(0.0)]) == ()

@@ -5,23 +5,19 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from contact_scenes import grid
-from coupled_scenes import bulk, press, push, scene
+from coupled_scenes import press, push, scene
 from random_compliance import compliance
-from test_alternation import LOADS, DenseContact, assert_lawful
+from test_alternation import LOADS, DenseContact
 
-from contact_scene.solver_errors import NotConverged
-from semi_analytical import globalisation, newton_increment, solve, springs
-from semi_analytical.coupled_problem import PATCHES
+from semi_analytical import solve
 from semi_analytical.generalised_derivative import Natural, Point, Zones
 from semi_analytical.globalisation import solve_together
 from semi_analytical.grades import STIFFNESSES
 from semi_analytical.krylov import least_residual
 from semi_analytical.linearised_increment import LinearisedIncrement
 from semi_analytical.model import ContactModel
-from semi_analytical.newton_increment import solve_by_newton
 from semi_analytical.newton_iterate import reached
-from semi_analytical.predictor import Lens, predicted
-from semi_analytical.pressing import NormalTarget
+from semi_analytical.predictor import predicted
 from semi_analytical.shearing import TangentialTarget
 
 TOLERANCE = 1e-8
@@ -44,23 +40,6 @@ def test_the_fused_product_is_that_of_the_operators_and_takes_three_convolutions
     assert counter.count == before + 3
     np.testing.assert_allclose(u[:2], u_t, rtol=0, atol=1e-14 * np.max(np.abs(u_t)))
     np.testing.assert_allclose(u[2], u_z, rtol=0, atol=1e-14 * np.max(np.abs(u_z)))
-
-
-def test_the_inverse_of_coupled_bodies_is_that_of_both_problems_in_single_precision(rng):
-    contact = model()
-    A, shape = contact.operator((32, 16)), (32, 16)
-    stiffness = contact.self_compliance * STIFFNESSES
-    u = 1e-9 * rng.standard_normal((3 + len(stiffness), *shape))
-    t = A.inverse(u)
-    sheared = np.delete(u, 2, axis=0)
-    expected = A.shear_inverse(sheared)
-    expected = np.insert(expected, 2, A.precondition(u[2]), axis=0)
-    np.testing.assert_allclose(t, expected, rtol=0, atol=1e-5 * np.max(np.abs(expected)))
-    # The stiffer a cell is held, the nearer it is to its own spring.
-    held = stiffness[:, None, None]
-    off = np.linalg.norm(held * t[3:] - u[3:], axis=(1, 2)) / np.linalg.norm(u[3:], axis=(1, 2))
-    assert np.all(np.diff(off) < 0)
-    assert off[-1] < 0.2
 
 
 def test_gmres_leaves_nothing_that_unknowns_or_free_motions_explain(rng):
@@ -140,69 +119,6 @@ def test_slip_that_has_turned_is_kept_where_its_direction_is_taken_a_little_wron
     np.testing.assert_allclose(kept, exact, atol=angle**2 * np.max(exact))
 
 
-def test_where_newton_stalls_far_away_it_ends_on_springs(monkeypatch):
-    contact = DenseContact(3, 0.3)
-    expected = contact.solved(*LOADS, solver=solve_together)
-    attempts = []
-
-    def at_the_third_attempt(*given):
-        attempts.append(given)
-        if len(attempts) < 3:
-            raise NotConverged("the coupled increment", 0, 1.0, TOLERANCE)
-        return solve_by_newton(*given)
-
-    def too_dear(*given, **most):
-        raise NotConverged("the coupled increment", 0, 1.0, TOLERANCE)
-
-    for module in (globalisation, springs):
-        monkeypatch.setattr(module, "solve_by_newton", at_the_third_attempt)
-    monkeypatch.setattr(globalisation, "solve_coupled", too_dear)
-    solution = contact.solved(*LOADS, solver=solve_together)
-    # From nothing and after a round; then only once next to the answer is it asked again.
-    assert len(attempts) == 3
-    near = np.concatenate([expected.shear, expected.pressure[None]])
-    assert np.sum(np.abs(attempts[2][1] - near)) < 0.02 * np.sum(np.abs(near))
-    assert_lawful(contact, solution)
-
-
-def test_where_newton_stalls_the_alternation_comes_nearer_or_ends(monkeypatch):
-    contact, failed = DenseContact(3, 0.3), []
-
-    def stalling(*given):
-        failed.append(given)
-        if len(failed) < 4:
-            raise NotConverged("the coupled increment", 0, 1.0, TOLERANCE)
-        return solve_by_newton(*given)
-
-    monkeypatch.setattr(globalisation, "solve_by_newton", stalling)
-    monkeypatch.setattr(globalisation, "solve_on_springs", None)
-    solution = contact.solved(*LOADS, solver=solve_together)
-    assert len(failed) == 3
-    assert_lawful(contact, solution)
-    assert_lawful(contact, contact.solved(*LOADS, solver=solve_together))
-    assert len(failed) == 4
-
-
-def test_where_newton_stalls_on_springs_the_alternation_takes_over(monkeypatch):
-    contact = DenseContact(3, 0.3)
-    monkeypatch.setattr(newton_increment, "MOST_STEPS", 0)
-    monkeypatch.setattr(springs, "MOST_STEPS", 0)
-    solution = contact.solved(*LOADS, solver=solve_together)
-    assert_lawful(contact, solution)
-
-
-def test_springs_at_rest_pull_at_nothing_and_others_in_proportion(rng):
-    contact = DenseContact(1, 0.3)
-    problem, rest = contact.problem(*LOADS), rng.random((3, *contact.gap.shape))
-    on_springs, change = problem.yielding(0.7, rest), rng.random(rest.shape)
-    for t in (rest, rest + change):
-        u, plain = on_springs.together(t), problem.together(t)
-        gap, slipped = on_springs.gap + u[2], on_springs.target - u[:2]
-        more = 0.7 * (t - rest)
-        np.testing.assert_allclose(gap, problem.gap + plain[2] + more[2], atol=1e-13)
-        np.testing.assert_allclose(slipped, problem.target - plain[:2] - more[:2], atol=1e-13)
-
-
 @pytest.mark.parametrize("softness", [0.01, 1.0, 100.0])
 def test_the_inverse_of_cells_on_springs_is_that_of_the_sum_of_compliances(softness, rng):
     contact, shape = model(), (32, 16)
@@ -233,18 +149,6 @@ def test_the_inverse_of_cells_on_springs_is_that_of_the_sum_of_compliances(softn
     np.testing.assert_allclose(found(u) / size, expected / size, atol=1e-5)
 
 
-def test_the_lens_dilates_a_pressure_of_hertz_into_that_of_a_larger_contact():
-    at = np.arange(48.0)
-    r2 = (at[:, None] - 20) ** 2 + (at - 25) ** 2
-    p, wider = (np.sqrt(np.maximum(0, 1 - r2 / a**2)) for a in (10, 12))
-    lens = Lens.over(p, 1.2)
-    np.testing.assert_allclose(lens.centre, (20, 25))
-    grown, shear = lens.grown(p, np.stack([0.1 * p, 0 * p]), 1.2**2)
-    # Linear in p² but for the cells of the edge.
-    np.testing.assert_allclose(grown**2, wider**2, atol=0.04)
-    np.testing.assert_allclose(shear[0], 0.1 * grown, atol=1e-12)
-
-
 @pytest.fixture(scope="module")
 def marked_states():
     """Model and states of pressing, then pushing."""
@@ -271,56 +175,9 @@ def test_the_next_state_is_predicted_without_convolutions_and_nearer_than_by_the
     assert near < 0.6 * last
 
 
-def test_where_the_load_turns_the_path_says_nothing_of_its_end(marked_states):
-    contact, states = marked_states
-    back = TangentialTarget(force=0.5 * states[-1].sheared.force)
-    p, q = predicted(contact, states[-1], states[-1].target, back)
-    np.testing.assert_array_equal(p, states[-1].pressing.pressure)
-    np.testing.assert_array_equal(q, states[-1].sheared.shear)
-    assert predicted(contact, states[-1], NormalTarget(force=0.0), back) is None
-
-
 def test_a_coupled_increment_takes_few_products():
     """Of three convolutions each; separate solvers in turns took 161."""
     described = scene(press(increments=15), push(0.9, increments=20))
     increments = solve(described, grid(64), TOLERANCE).increments
     assert all(increment.halvings == 0 for increment in increments)
     assert np.mean([increment.convolutions for increment in increments]) < 62
-
-
-def test_on_many_cells_newton_alone_leads_to_the_end(monkeypatch):
-    """In half more products than on a sixth of the cells along each side, at most."""
-    monkeypatch.setattr(globalisation, "solve_coupled", None)
-    described = scene(press(increments=5), push(0.2, increments=1))
-    products = {}
-    for cells in (48, 288):
-        increments = solve(described, grid(cells), TOLERANCE).increments
-        assert all(increment.halvings == 0 for increment in increments)
-        products[cells] = sum(increment.convolutions for increment in increments)
-    assert products[288] < 1.5 * products[48]
-
-
-def test_newton_alone_presses_and_pushes_in_one_increment_each(monkeypatch):
-    """By the compliance of single cells it stalls while the bodies are pressed together."""
-    monkeypatch.setattr(globalisation, "solve_coupled", None)
-    described = scene(press(increments=1), push(0.6, friction=0.3, increments=1), friction=0.3)
-    increments = solve(described, grid(256), TOLERANCE).increments
-    assert all(increment.halvings == 0 for increment in increments)
-
-
-def test_the_natural_map_takes_single_cells_while_there_are_few():
-    contact = DenseContact(0, 0.3)
-    problem = contact.problem(*LOADS)
-    assert problem.gamma * problem.self_compliance == pytest.approx(1)
-    wide = replace(problem, gap=np.zeros((8 * PATCHES, 2 * PATCHES)))
-    assert wide.gamma == pytest.approx(0.5 * problem.gamma)
-
-
-@pytest.mark.parametrize("friction", [0.3, 1.0])
-def test_strong_friction_starts_from_the_shear_that_comes_with_a_pressure(friction, monkeypatch):
-    """Without shear Newton's method goes from all sticks to all slips and back: it took 142 and 171
-    convolutions, by the alternation where it stalled."""
-    monkeypatch.setattr(globalisation, "_from_nearer", None)
-    of = scene(press(increments=1), body=bulk(0.4), friction=friction)
-    (pressed,) = solve(of, grid(64), TOLERANCE).increments
-    assert pressed.convolutions < 115

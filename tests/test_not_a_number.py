@@ -94,12 +94,6 @@ def test_every_residual_is_planted_somewhere(solver: str) -> None:
     assert planted == set(NAMES) - upright
 
 
-def test_the_worst_residual_leaves_out_what_does_not_apply() -> None:
-    assert Residuals(1e-9, 2e-9, None).worst == 2e-9
-    assert Residuals(1e-9, 2e-9, 0.0, 0.0, 3e-9, None).worst == 3e-9
-    assert ShearResiduals(1e-9, None, 2e-9).worst == 2e-9
-
-
 @pytest.mark.parametrize("place", range(3))
 def test_the_worst_is_the_one_that_is_not_a_number_wherever_it_stands(place: int) -> None:
     measures: list[float | None] = [1e-9, 2e-9, None]

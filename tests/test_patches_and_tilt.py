@@ -94,26 +94,3 @@ def test_a_leg_that_the_force_leaves_lifts_off() -> None:
     balance(result, moment)
     assert carried(result, LEGS[:2]) == pytest.approx([FORCE / 2, FORCE / 2], rel=1e-6)
     assert not np.any(result.steps[-1].pressure[:, result.grid.y > 0])
-
-
-def test_a_mirrored_moment_gives_the_mirrored_patches() -> None:
-    """Round-off apart, of ten tolerances."""
-    there, back = (solved(LEGS, (FORCE * 0.3e-4, sign * FORCE * 0.5e-4)) for sign in (1, -1))
-    p, mirrored = there.steps[-1].pressure, back.steps[-1].pressure[::-1]
-    assert np.max(np.abs(p - mirrored)) <= 10 * TOLERANCE * np.max(p)
-    (x, y), (x_back, y_back) = there.steps[-1].tilt, back.steps[-1].tilt
-    assert (x_back, y_back) == pytest.approx((x, -y), rel=1e-5)
-    assert y != 0
-
-
-def test_pushed_patches_stay_below_the_limit_and_in_balance() -> None:
-    friction, push = slipstick.CoulombFriction(coefficient=0.3), 2.0
-    moment = (-FORCE * 0.4e-4, 0.0)
-    then = (slipstick.LoadStep(tangential_force=(push, 0.0), increments=2),)
-    result = solved(LEGS, moment, friction=friction, then=then)
-    end, cell = result.steps[-1], result.grid.cell_area
-    balance(result, moment)
-    assert np.sum(end.shear[0]) * cell == pytest.approx(push, rel=1e-6)
-    limit = 0.3 * end.pressure
-    assert np.all(np.hypot(*end.shear) <= limit + 1e-6 * np.max(limit))
-    assert carried(result, LEGS).sum() == pytest.approx(FORCE, rel=1e-6)

@@ -12,17 +12,6 @@ def effects(*loading, **more) -> dict[str, bool]:
     return {effect.name: effect.on for effect in plan(scene(*loading, **more)).effects}
 
 
-def test_pressing_alone_calls_for_no_shear_although_there_is_friction():
-    decided = plan(scene(PRESS))
-    assert not decided.shear
-    assert decided.increments == (1,)
-
-
-def test_every_effect_has_a_reason():
-    for effect in plan(scene(PRESS, push(0.5))).effects:
-        assert effect.why
-
-
 def test_effects_follow_the_scene():
     loop = effects(PRESS, push(0.5))
     assert loop["pressure"]
@@ -59,10 +48,6 @@ def test_effects_follow_the_scene():
 )
 def test_steps_are_cut_only_where_the_path_matters(loading, cut):
     assert tuple(count > 1 for count in plan(scene(*loading)).increments) == cut
-
-
-def test_increments_are_as_asked():
-    assert plan(scene(PRESS, push(0.3, increments=7))).increments == (1, 7)
 
 
 @pytest.mark.parametrize(

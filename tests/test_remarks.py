@@ -54,11 +54,6 @@ def test_a_smooth_map_may_be_thinned():
     assert told(0.0, 1.0, 64)[0] is None
 
 
-def test_a_shape_without_a_map_leaves_nothing_out():
-    result = solve(scene(PRESS, friction=None), SurfaceGrid((16, 16), (3 * A, 3 * A)), 1e-6)
-    assert remarks(result) == ()
-
-
 @pytest.mark.parametrize("seed", [0, 1, 2])
 @pytest.mark.parametrize("cells", [64, 96])
 def test_the_stated_error_of_the_peak_covers_what_the_cells_leave_out(seed, cells):

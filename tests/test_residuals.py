@@ -41,16 +41,6 @@ def test_slip_at_an_angle_to_the_shear_is_seen(angle):
     assert found == pytest.approx(1 - np.cos(angle), abs=1e-12)
 
 
-def test_slip_where_the_shear_is_inside_its_disc_is_seen():
-    q, slip = along(0.3, 0.5 * BOUND), along(0.3, np.ones((2, 2)))
-    assert slip_direction(q, BOUND, slip, slip) == pytest.approx(0.5)
-
-
 def test_slip_that_nearly_vanishes_is_judged_by_the_displacement():
     noise = along(2.0, np.full((2, 2), 1e-15))
     assert slip_direction(along(0.3), BOUND, noise, np.ones((2, 2, 2))) < 1e-11
-
-
-def test_without_slip_or_displacement_there_is_no_defect():
-    nothing = np.zeros((2, 2, 2))
-    assert slip_direction(along(0.3), BOUND, nothing, nothing) == 0

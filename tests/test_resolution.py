@@ -2,9 +2,9 @@
 
 import numpy as np
 import pytest
-from contact_scenes import PRESS, RADIUS, YOUNG, A, bump, grid, push, scene, steel
+from contact_scenes import PRESS, RADIUS, YOUNG, A, grid, push, scene, steel
 
-from contact_scene import Body, Ellipsoid, HeightMap, Layer, Paraboloid
+from contact_scene import Body, Ellipsoid, HeightMap, Layer
 from semi_analytical import SurfaceGrid, solve
 from semi_analytical.resolution import resolution
 
@@ -24,30 +24,6 @@ def resolved(*loading, **parts):
 def test_contact_is_counted_in_cells(cells, radius):
     found = resolved(PRESS, friction=None, cells=cells, contacts=cells / 2 / radius)
     assert found.contact == pytest.approx(radius, abs=0.8 / radius)
-
-
-@pytest.mark.parametrize("radius", [0.1, 0.5, 1.0, 1.2])
-def test_four_cells_in_contact_count_as_less_than_one_per_radius(radius):
-    result = solved(PRESS, friction=None, contacts=16 / radius)
-    assert np.count_nonzero(result.steps[0].in_contact) == 4
-    assert 0.5 < resolution(result)[0].contact < 1.0
-
-
-@pytest.mark.parametrize("length", [1e-6, 1e3])
-@pytest.mark.parametrize("stress", [1e-6, 1e3])
-def test_resolution_depends_neither_on_the_unit_of_length_nor_of_stress(length, stress):
-    material = steel(young_modulus=stress * 420e9)
-    scaled = scene(
-        {"normal_force": stress * length**2 * 1e3},
-        {"tangential_force": (stress * length**2 * 50, 0)},
-        indenter=Paraboloid(radius=length * RADIUS, material=material),
-        body=material,
-    )
-    found = resolution(solve(scaled, grid(radius=length * A), TOLERANCE))
-    expected = resolution(solved(PRESS, push(0.5)))
-    for one, other in zip(found, expected, strict=True):
-        assert one.contact == pytest.approx(other.contact, rel=1e-5)
-        assert (one.stick or 0) == pytest.approx(other.stick or 0, rel=1e-5)
 
 
 @pytest.mark.parametrize("axis", [0, 1])
@@ -107,21 +83,3 @@ def test_patches_count_as_one_of_them_and_the_wave_of_a_sine_is_its_length(wave)
     found = resolution(result)[0]
     assert found.contact == pytest.approx(across, rel=0.05) or found.contact < 1.0 < across < 1.2
     assert found.wave == pytest.approx(wave, rel=0.15)  # of the part in touch
-
-
-def test_patches_count_by_what_they_carry():
-    heights = bump(64, 3 * A / 64)
-    heights[4, 32] = 0.6 * A**2 / RADIUS  # a speck that hardly carries a load, far from the bump
-    with_speck = HeightMap(file=heights, spacing=3 * A / 64, material=steel())
-    result = solved(PRESS, friction=None, indenter=with_speck, cells=64)
-    assert result.steps[0].pressure[4, 32] > 0
-    expected = resolved(PRESS, friction=None, cells=64).contact
-    assert resolution(result)[0].contact == pytest.approx(expected, rel=0.02)
-
-
-@pytest.mark.parametrize("cells", [32, 48])
-@pytest.mark.parametrize("left", [1e-2, 1e-4, 1e-5, 1e-6])
-def test_a_stick_zone_of_a_few_cells_counts_as_less_than_one(cells, left):
-    found = resolved(PRESS, push(1 - left), cells=cells)
-    radius = np.cbrt(left) * found.contact
-    assert (found.stick < 1) == (radius < 1.5)

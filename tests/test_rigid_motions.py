@@ -1,9 +1,5 @@
 """Tilt and twist: laws of the solver that hold whatever the loads of the rotations are."""
 
-import subprocess
-import sys
-from pathlib import Path
-
 import numpy as np
 import pytest
 from contact_scenes import (
@@ -18,15 +14,11 @@ from contact_scenes import (
     push,
     scene,
 )
-from coupled_scenes import coated
-from coupled_scenes import scene as coupled_scene
-from rotations import GRID, PUNCH, SLIDING, TOLERANCE, close, end, lean, roll, twist
+from rotations import GRID, PUNCH, TOLERANCE, close, end, lean, roll, twist
 
 from contact_scene import Ellipsoid
-from contact_scene.summary import ContactStatus
 from semi_analytical import (
     plan,
-    solve,
 )
 
 
@@ -124,59 +116,6 @@ def test_both_controls_lead_to_the_same_state(bodies):
         close(led.pressure, pressed.pressure, 1e-6 * pressed.peak_pressure)
         assert led.normal_force == pytest.approx(LOAD, rel=1e-6)
         assert led.approach == pytest.approx(pressed.approach, rel=1e-6)
-
-
-def test_coated_bodies_take_torque_and_force_together():
-    state = solve(
-        coupled_scene({**PRESS, "increments": 3}, {**push(0.3), **twist(0.2), "increments": 3},
-                      body=coated(2.0, 0.5)),
-        GRID, TOLERANCE,
-    ).steps[-1]  # fmt: skip
-    assert state.residuals.worst <= TOLERANCE
-    assert state.status is ContactStatus.PARTIAL_SLIP
-    assert state.twist > 0
-    assert state.tangential_shift[0] > 0
-    assert abs(state.energy_imbalance) < 1e-9
-    x, y = GRID.coordinates()
-    torque = np.sum(state.shear[1] * x - state.shear[0] * y) * GRID.cell_area
-    assert torque == pytest.approx(0.2 * SLIDING, rel=1e-8)
-
-
-@pytest.mark.parametrize("bodies", [{}, {"indenter": RIGID_BALL}], ids=["alike", "unlike"])
-def test_the_first_law_holds_with_rotations(bodies):
-    path = solve(
-        scene({**PRESS, **lean(0.2), "increments": 2}, {**push(0.4), **twist(0.3), "increments": 3},
-              {**roll(0.1), "twist": 0.0, "increments": 3}, **bodies),
-        GRID, TOLERANCE,
-    ).increments  # fmt: skip
-    assert max(abs(i.energy_imbalance) for i in path) < 1e-9
-
-
-UNCALLED = """
-import sys
-sys.path.insert(0, {tests!r})
-from contact_scenes import PRESS, RIGID_BALL, grid, push, scene
-import semi_analytical
-from semi_analytical.model import ContactModel
-def forbidden(self):
-    raise AssertionError("arms of rotations were built")
-ContactModel.arms = ContactModel.rotation = property(forbidden)
-for indenter in (None, RIGID_BALL):
-    loads = PRESS, push(0.5, increments=2), push(-0.5, increments=2)
-    semi_analytical.solve(scene(*loads, indenter=indenter), grid(16), 1e-8)
-held = {{"twist": 0.0, "tilt": (0.0, 0.0)}}
-semi_analytical.solve(scene({{**PRESS, **held}}, push(0.5)), grid(16), 1e-8)
-unwanted = {{"semi_analytical.tilting", "semi_analytical.torsion"}}
-assert not unwanted & set(sys.modules), unwanted & set(sys.modules)
-"""
-
-
-def test_scenes_without_rotations_neither_import_nor_build_them():
-    script = UNCALLED.format(tests=str(Path(__file__).parent))
-    ran = subprocess.run(
-        [sys.executable, "-c", script], capture_output=True, text=True, check=False
-    )
-    assert ran.returncode == 0, ran.stderr
 
 
 @pytest.mark.parametrize(

@@ -71,12 +71,6 @@ def test_what_a_step_does_not_name_is_held_under_its_last_control() -> None:
     ]
 
 
-def test_the_first_step_ramps_everything_it_names_from_first_touch() -> None:
-    (ramp,) = scene({"approach": 1e-6, "tangential_shift": (1e-7, 0.0)}).load_path()
-    assert ramp.normal == ScalarControl(DISPLACEMENT, 0.0, 1e-6)
-    assert ramp.tangential == VectorControl(DISPLACEMENT, (0.0, 0.0), (1e-7, 0.0))
-
-
 def test_gross_sliding_is_refused_with_the_limit_and_a_way_out() -> None:
     (problem,) = problems({"normal_force": 1000.0}, {"tangential_force": (0.0, -120.0)})
     assert str(problem) == (
@@ -130,13 +124,6 @@ def test_no_step_leaves_from_the_friction_limit(force: float) -> None:
     )
     assert problem.key == "loading[2].tangential_force"
     assert "further step" in problem.message
-
-
-def test_without_friction_coefficient_zero_nothing_can_be_sheared() -> None:
-    scene({"normal_force": 1.0}, {"tangential_force": (0.0, 0.0)}, {"normal_force": 2.0}, mu=0.0)
-    assert "gross sliding" in str(
-        problems({"normal_force": 1.0}, {"tangential_force": (1e-9, 0.0)}, mu=0.0)[0]
-    )
 
 
 def test_a_frictionless_contact_takes_no_tangential_load() -> None:

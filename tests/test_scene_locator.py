@@ -147,22 +147,6 @@ def test_the_keys_found_are_those_of_the_document(text: str) -> None:
     assert set(locate(text)) == paths_in(tomllib.loads(text))
 
 
-@given(st.integers(0, 3), st.lists(inline_values(), min_size=1, max_size=6), st.booleans())
-def test_lines_are_those_where_the_key_was_written(
-    blank: int, values: list[str], in_tables: bool
-) -> None:
-    text, expected = "\n" * blank, {}
-    for number, value in enumerate(values):
-        if in_tables:
-            expected["list", number] = text.count("\n") + 1
-            text += "[[list]]\n"
-        path: Path = ("list", number, "key") if in_tables else (f"key{number}",)
-        expected[path] = text.count("\n") + 1
-        text += f"{path[-1]} = {value}\n"
-    located = locate(text)
-    assert {path: located[path] for path in expected} == expected
-
-
 @given(st.text(st.sampled_from("ab.\"'#=[]{},\n \\u0")) | st.text())
 def test_no_text_whatsoever_upsets_the_scanner(text: str) -> None:
     assert all(1 <= line <= text.count("\n") + 1 for line in locate(text).values())

@@ -10,7 +10,6 @@ from jsonschema import Draft202012Validator
 from strategies import Document, documents
 
 from contact_scene import scene_schema
-from contact_scene.geometry import SHAPES
 
 SCENES = Path(__file__).resolve().parents[1] / "scenes"
 VALIDATOR = Draft202012Validator(scene_schema())
@@ -20,10 +19,6 @@ def objects(schema: Any) -> list[Any]:
     entries = schema.values() if isinstance(schema, dict) else schema
     nested = [o for e in entries if isinstance(e, dict | list) for o in objects(e)]
     return nested + ([schema] if isinstance(schema, dict) and "properties" in schema else [])
-
-
-def test_it_is_a_schema() -> None:
-    Draft202012Validator.check_schema(scene_schema())
 
 
 @given(documents())
@@ -68,8 +63,3 @@ def test_every_key_is_described() -> None:
     for table in objects(scene_schema()):
         for key, entry in table["properties"].items():
             assert key == "shape" or entry.get("description"), key
-
-
-def test_every_shape_must_be_named() -> None:
-    for shape in SHAPES.values():
-        assert "shape" in scene_schema()["$defs"][shape.__name__]["required"]

@@ -165,14 +165,6 @@ def test_a_contact_grows_with_the_load(shape, approach, modulus) -> None:
             assert shape.gap_exponent is not None
 
 
-def test_a_gap_of_its_own_inherits_nothing_that_another_shape_says() -> None:
-    for shape in NEW[:2]:
-        assert not shape.is_of_revolution
-        assert not shape.is_even
-        assert shape.gap_exponent is shape.rim is shape.extent is None
-        assert shape.contact_at(1e-6) is shape.contact_under(1.0, 1e9) is None
-
-
 @given(ALL)
 @settings(max_examples=30)
 def test_finite_elements_take_what_says_it_is_of_revolution_and_refuse_the_rest(shape) -> None:
@@ -209,14 +201,6 @@ def test_a_shape_that_says_nothing_is_solved_where_its_window_is_given(shape) ->
     assert solve_discretised(on(shape), asked).increments[-1].contact_radius > 0
 
 
-def test_a_shape_of_revolution_that_says_no_more_is_meshed_where_its_radius_is_given() -> None:
-    dome = NEW[2]
-    with pytest.raises(UnsupportedScene, match="give contact_radius"):
-        solve_by_elements(on(dome), elements(4))
-    found = solve_by_elements(on(dome), elements(8, contact_radius=3 * A)).increments[-1]
-    assert 0 < found.contact_radius < 3 * A
-
-
 @pytest.mark.parametrize("load", [PRESS, {"approach": 1e-6}], ids=["force", "approach"])
 def test_a_reach_to_a_power_that_is_not_said_is_not_known(load) -> None:
     shape = Vague(material=steel(), radii=(0.1 * RADIUS, RADIUS))
@@ -225,8 +209,3 @@ def test_a_reach_to_a_power_that_is_not_said_is_not_known(load) -> None:
         solve_by_elements(asked, elements(4))
     with pytest.raises(UnsupportedScene, match="give a window"):
         solve_discretised(asked, SurfaceDiscretisation(cells=(16, 16)))
-
-
-def test_a_rigid_new_shape_is_no_exception() -> None:
-    with pytest.raises(UnsupportedScene, match="bodies of revolution"):
-        solve_by_elements(on(Egg(material=RIGID, radius=RADIUS)), elements(4))

@@ -1,18 +1,15 @@
 """What the solver refuses, it refuses by name, with what to do, and without a half answer."""
 
-from importlib import import_module
-
 import numpy as np
 import pytest
-from contact_scenes import APPROACH, PRESS, A, grid, push, scene, steel
+from contact_scenes import APPROACH, PRESS, A, grid, push, scene
 
-from contact_scene import FlatPunch, SurfaceDiscretisation
+from contact_scene import SurfaceDiscretisation
 from semi_analytical import (
     ContactAtWindowEdge,
     ContactNotResolved,
     NotConverged,
     ResourceRefused,
-    SolverError,
     SurfaceGrid,
     UnsupportedScene,
     memory,
@@ -44,12 +41,6 @@ def test_contact_between_the_cell_centres_is_refused(cells):
     touched = r"1 of them carry" if cells % 2 else r"no cell .* touches"  # a centre is at the tip
     with pytest.raises(ContactNotResolved, match=touched):
         solve_discretised(scene(tiny, friction=None), asked)
-
-
-def test_punch_between_the_cell_centres_is_refused():
-    needle = FlatPunch(radius=1e-3 * A, material=steel())
-    with pytest.raises(ContactNotResolved):
-        solve(scene(PRESS, indenter=needle, friction=None), grid(), TOLERANCE)
 
 
 def test_a_friction_map_that_ends_within_the_window_is_refused():
@@ -90,30 +81,3 @@ def test_not_converged_says_where_and_carries_the_last_good_state(monkeypatch):
     error = caught.value
     assert (error.iterations, error.residual, error.tolerance) == (7, 1e-3, TOLERANCE)
     np.testing.assert_array_equal(error.last_state.pressure, seen[-1].pressure)
-
-
-def test_a_window_that_is_left_open_is_enlarged_instead(monkeypatch):
-    module = import_module("semi_analytical.solve")
-    true = module.discretise
-
-    def too_small(*arguments):
-        fitted = true(*arguments)
-        return SurfaceGrid(fitted.cells, (0.6 * fitted.window[0], 0.6 * fitted.window[1]))
-
-    monkeypatch.setattr(module, "discretise", too_small)
-    result = solve_discretised(scene(PRESS), SurfaceDiscretisation(cells=(32, 32)))
-    assert result.steps[0].contact_radius == pytest.approx(A, rel=0.02)
-
-
-@pytest.mark.parametrize(
-    "error",
-    [
-        ContactAtWindowEdge,
-        ContactNotResolved,
-        NotConverged,
-        ResourceRefused,
-        UnsupportedScene,
-    ],
-)
-def test_all_refusals_are_solver_errors(error):
-    assert issubclass(error, SolverError)

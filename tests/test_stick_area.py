@@ -88,16 +88,10 @@ def test_it_does_not_depend_on_the_unit_of_the_shear(unit):
     assert area == pytest.approx(stick_area(shear, bound, stick), rel=1e-9)
 
 
-def test_a_zone_of_two_cells_radius_is_what_its_cells_tell():
-    end = contact(2.2, 0.5)
-    assert stick_area(*end) == stuck_cells(*end)
-
-
-def test_where_nothing_slips_all_that_touches_sticks():
-    shear, bound, _ = contact(9.3, 0.5)
-    assert stick_area(0.1 * shear, bound, bound > 0) == stuck_cells(0.1 * shear, bound, bound > 0)
-
-
-def test_where_nothing_sticks_there_is_no_area():
-    shear, bound, _ = contact(9.3, 0.5)
-    assert stick_area(shear, bound, np.zeros_like(bound, dtype=bool)) == 0
+def test_without_a_border_cells_count():
+    """A stick zone of two cells radius, stick all over, and none at all."""
+    assert stick_area(*contact(2.2, 0.5)) == stuck_cells(*contact(2.2, 0.5))
+    shear, bound, stick = contact(9.3, 0.5)
+    held = 0.1 * shear, bound, bound > 0
+    assert stick_area(*held) == stuck_cells(*held)
+    assert stick_area(shear, bound, stick & False) == 0

@@ -1,19 +1,15 @@
 """Stick areas from the border between points: closed forms whose values are those of points."""
 
 from dataclasses import replace
-from functools import cache
 
 import numpy as np
 import pytest
 from numpy.typing import NDArray
 from test_fem_edge import plane_contact
 
-import radial
 from radial.circle import Circle
 from radial.ring_points import Points
 from radial.stick_border import stick_area
-from verification.cases.cross_check_tangential import SCENE
-from verification.problems.paper_scene import HERTZ
 
 Array = NDArray[np.float64]
 
@@ -88,28 +84,6 @@ def test_all_that_sticks_counts_and_nothing_else() -> None:
     for share in (0.0, 1.0):
         area = stick_area(RINGS, shear, bound, np.full((9, 8), share > 0))
         assert area == pytest.approx(share * np.pi * RINGS[-1] ** 2)
-
-
-@cache
-def pushed(fineness: float) -> radial.Result:
-    return radial.solve(SCENE, fineness=fineness)
-
-
-# Stick radius over that of Hertz at .3, .6 and .9 µW by cells with their edges inside in every
-# increment, 128 a side, in the same increments (64: .440, .3408, .1763; 96: .4359, .3348, .1742).
-BY_CELLS = (0.4351, 0.3351, 0.1748)
-
-
-@pytest.mark.parametrize(("fineness", "allowed"), [(1.0, 0.0045), (1.5, 0.0035)])
-def test_the_stick_of_a_pushed_coated_ball_is_that_of_cells_with_their_edges_inside(
-    fineness: float, allowed: float
-) -> None:
-    """As parts of the contact area; on 24 and on 36 rings."""
-    for end, by_cells in zip(pushed(fineness).steps[1:], BY_CELLS, strict=True):
-        assert end.stick_radius is not None
-        area = end.contact_radius**2
-        off = end.stick_radius**2 - (by_cells * HERTZ.contact_radius) ** 2
-        assert abs(off) < allowed * area
 
 
 def test_points_of_half_a_circle_and_of_all_of_it_stick_alike() -> None:

@@ -6,10 +6,9 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 from polar_synthesis import fields_at, hertz_transform
 
-from contact_results.stress.invariants import von_mises
 from contact_scene import RIGID, Body, IsotropicMaterial, Layer
 from contact_scene.solver_errors import ResourceRefused
-from semi_analytical.frf.stack import Stack, stack_of
+from semi_analytical.frf.stack import Stack
 from semi_analytical.grid import SurfaceGrid
 from semi_analytical.stress import (
     Level,
@@ -20,7 +19,6 @@ from semi_analytical.stress import (
 )
 from semi_analytical.stress import field as stress_field
 from semi_analytical.stress.levels import line_weights
-from verification.closed_forms.huber_stress import axis_stress, huber_stress, sliding_axis_shear
 
 NU, MU = 0.3, 0.25
 HALF_SPACE = Stack((), (1.0, NU))
@@ -39,43 +37,6 @@ def hertz(cells, window=3.0):
 
 def sheared(pressure):
     return np.stack([MU * pressure, 0 * pressure])
-
-
-def axis_error(cells):
-    """Largest error on the axis of a sliding contact, of p0."""
-    grid, pressure = hertz(cells)
-    depths = np.array([0.0, 0.05, 0.2, 0.48, 1.0, 2.5])
-    section = subsurface_section(HALF_SPACE, grid, pressure, sheared(pressure), depths)
-    _, stress = section.below()
-    normal = axis_stress(depths, 1.0, 1.0, NU)
-    expected = np.zeros_like(stress)
-    expected[:, XX] = expected[:, YY] = normal.radial
-    expected[:, ZZ] = normal.axial
-    expected[:, XZ] = sliding_axis_shear(depths, 1.0, MU)
-    return np.abs(stress - expected).max()
-
-
-def test_stress_on_the_axis_is_hubers_and_hamiltons_of_second_order():
-    """Second order in the cell: the pressure is taken at cell centres, constant on each."""
-    errors = [axis_error(cells) for cells in (64, 128, 256)]
-    assert errors[2] < 2e-5
-    # On average: where the edge cuts the cells makes single steps uneven.
-    assert np.log2(errors[0] / errors[2]) / 2 > 1.7
-
-
-def test_stress_off_the_axis_is_hubers():
-    grid, pressure = hertz(256)
-    depths = (0.2, 0.48, 1.0)
-    field = subsurface(HALF_SPACE, grid, pressure, None, depths)
-    r = np.hypot(*grid.coordinates())
-    for k, depth in enumerate(depths):
-        exact = huber_stress(r, depth, 1.0, 1.0, NU)
-        stress = field.stress[k]
-        in_plane, shear = exact.radial + exact.hoop, np.hypot(stress[XZ], stress[YZ])
-        np.testing.assert_allclose(stress[ZZ], exact.axial, atol=1e-4)
-        np.testing.assert_allclose(stress[XX] + stress[YY], in_plane, atol=1e-4)
-        np.testing.assert_allclose(shear, np.abs(exact.shear), atol=1e-4)
-        np.testing.assert_allclose(von_mises(field.stress[k]), exact.von_mises, atol=1e-4)
 
 
 def sliding(m, n):
@@ -152,17 +113,6 @@ def test_every_plane_carries_the_load(stack):
     np.testing.assert_allclose(carried[:, [XZ, YZ, XY]], 0, atol=1e-12)
 
 
-def test_every_plane_carries_the_shear():
-    """Of a point force Q, 3 Q z / 2 r of sigma_xz lies beyond the distance r from its line."""
-    grid = SurfaceGrid((100, 100), (40.0, 40.0))
-    load = np.where(np.hypot(*grid.coordinates()) < 1.5, 1.0, 0.0)
-    field = subsurface(HALF_SPACE, grid, 0 * load, np.stack([load, -2 * load]), [0.2, 0.6, 1.2])
-    carried = field.stress[:, [XZ, YZ]].sum(axis=(2, 3)) / load.sum()
-    for depth, (xz, yz) in zip(field.depths, carried, strict=True):
-        assert -1 + depth / 20 < xz < -1 + 1.5 * depth / 20
-        assert yz == pytest.approx(-2 * xz, rel=1e-12)
-
-
 def test_section_is_the_plane_at_y(rng):
     for cells in ((24, 20), (24, 21)):
         grid = SurfaceGrid(cells, (2.4, 2.0))
@@ -197,32 +147,6 @@ def test_a_number_on_an_interface_is_its_upper_side():
     assert [level.layer for level in field.levels] == [0, 0, 1, 1, 2]
 
 
-def test_turning_the_load_turns_the_field(rng):
-    grid = SurfaceGrid((18, 18), (2.0, 2.0))
-    pressure, shear = rng.random(grid.cells), rng.normal(size=(2, *grid.cells))
-    before = subsurface(COATED, grid, pressure, shear, [0.2, 0.9])
-
-    def quarter(field):  # (x, y) -> (-y, x)
-        return np.rot90(field, axes=(-2, -1))
-
-    turned_shear = np.stack([-quarter(shear[1]), quarter(shear[0])])
-    after = subsurface(COATED, grid, quarter(pressure), turned_shear, [0.2, 0.9])
-    xx, yy, zz, yz, xz, xy = (quarter(before.stress[:, k]) for k in range(6))
-    expected = np.stack([yy, xx, zz, xz, -yz, -xy], axis=1)
-    np.testing.assert_allclose(after.stress, expected, atol=1e-12)
-
-
-def test_greatest_von_mises_stress_of_hertz_is_half_a_radius_down():
-    """0.62 p0 at 0.48 a for nu = 0.3 (Johnson 1985, section 4.2)."""
-    grid, pressure = hertz(65)
-    field = subsurface(HALF_SPACE, grid, pressure, None, np.linspace(0.4, 0.56, 17))
-    equivalent = von_mises(np.moveaxis(field.stress, 1, 0))
-    level, i, j = np.unravel_index(np.argmax(equivalent), equivalent.shape)
-    assert (field.x[i], field.y[j]) == (0, 0)
-    assert field.depths[level] == pytest.approx(0.48, abs=0.01)
-    assert equivalent.max() == pytest.approx(0.62, abs=0.005)
-
-
 STEEL = IsotropicMaterial(young_modulus=2.6, poisson_ratio=0.3)
 
 
@@ -236,14 +160,6 @@ def test_default_depths_reach_both_sides_of_every_interface():
     rigid = Body(material=RIGID, layers=[Layer(thickness=0.5, material=STEEL)])
     assert max(level.depth for level in default_depths(rigid, 1.0)) == 0.5
     assert interfaces(rigid) == ((Level(0.5, 0),),)
-
-
-def test_a_body_of_the_scene_is_taken_as_its_stack():
-    body = Body(material=STEEL, layers=[Layer(thickness=0.3, material=STEEL)])
-    grid, pressure = hertz(16)
-    of_body = subsurface(body, grid, pressure, None, [0.1])
-    of_stack = subsurface(stack_of(body), grid, pressure, None, [0.1])
-    np.testing.assert_array_equal(of_body.stress, of_stack.stress)
 
 
 @pytest.mark.parametrize(

@@ -216,66 +216,6 @@ def test_in_plane_stresses_follow_hooke(where, alpha):
     np.testing.assert_allclose(plane.across, nu * (plane.along + normal), rtol=0, atol=4 * scale)
 
 
-@pytest.mark.parametrize("nu", [-0.5, 0.0, 0.3, 0.5])
-@pytest.mark.parametrize("alpha", [0.3, 2.0])
-def test_equations_of_equilibrium_hold(nu, alpha):
-    """The four equations of `frf/depth.py` along z, and the two of the transverse waves."""
-    stack = Stack([(3.0, nu, 0.7), (0.2, 0.4, 0.5)], (1.0, 0.3))
-    G, step, z = 3.0, 1e-3, 0.4
-    descent = Descent(stack, np.array([alpha]))
-    here = descent.at(Level(z, 0))
-    sides = [descent.at(Level(z + k * step, 0)) for k in (-2, -1, 1, 2)]
-
-    def slope(part):
-        a, b, c, d = (getattr(side, part) for side in sides)
-        return (a - 8 * b + 8 * c - d) / (12 * step)
-
-    U, W = here.displacement
-    t_s, t_z = here.traction
-    poisson, plate = nu / (1 - nu), 2 * G / (1 - nu)
-    inverse = (1 - 2 * nu) / (2 * G * (1 - nu))
-    expected_u = np.array([-t_s / G - alpha * W, -t_z * inverse + poisson * alpha * U])
-    expected_t = np.array([-(alpha**2) * plate * U - alpha * poisson * t_z, alpha * t_s])
-    np.testing.assert_allclose(slope("displacement"), expected_u, atol=1e-10)
-    np.testing.assert_allclose(slope("traction"), expected_t, atol=1e-10)
-    across = here.transverse_displacement, here.transverse_traction
-    np.testing.assert_allclose(slope("transverse_displacement"), -across[1] / G, atol=1e-10)
-    np.testing.assert_allclose(slope("transverse_traction"), -G * alpha**2 * across[0], atol=1e-10)
-
-
-@given(placed(max_layers=0, rigid=False), WAVENUMBERS)
-def test_half_space_has_boussinesq_and_cerruti_waves(where, alpha):
-    """The waves of Boussinesq's and Cerruti's point forces (Johnson 1985, ch. 3)."""
-    stack, level = where
-    G, nu = stack.base
-    x = alpha * level.depth
-    if x > 700:  # exp(-x) is no number with full digits any more
-        return
-    decay = np.exp(-x)
-    c = np.array([[2 * (1 - nu) - x, 1 - 2 * nu - x], [1 - 2 * nu + x, 2 * (1 - nu) + x]])
-    expected = (
-        decay * c[..., None] / (2 * G * alpha),
-        decay * np.array([[1 - x, -x], [x, 1 + x]])[..., None],
-        np.array([decay / (G * alpha)]),
-        np.array([decay]),
-    )
-    # exp(-x) has the absolute error of x.
-    assert_same(Descent(stack, np.array([alpha])).at(level), expected, ROUNDING * (1 + x))
-
-
-@given(placed(min_layers=1, max_layers=3), WAVENUMBERS, st.floats(0.1, 0.9))
-def test_cutting_a_layer_changes_nothing(where, alpha, part):
-    stack, level = where
-    k = 0
-    G, nu, h = stack.layers[k]
-    pieces = [(G, nu, part * h), (G, nu, (1 - part) * h), *stack.layers[1:]]
-    cut = Stack(pieces, stack.base)
-    deeper = level.layer > k or level.depth > part * h
-    before = Descent(stack, np.array([alpha])).at(level)
-    after = Descent(cut, np.array([alpha])).at(Level(level.depth, level.layer + deeper))
-    assert_same(after, before, 1e-11)
-
-
 @given(stacks(min_layers=1), WAVENUMBERS, st.floats(0, 1))
 def test_remainder_is_the_difference_to_the_half_space(stack, alpha, part):
     film = stack.layers[0]

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from polar_synthesis import cell_transform, fields_at
 
-from semi_analytical.frf.depth import Level, material_at
+from semi_analytical.frf.depth import Level
 from semi_analytical.frf.stack import HalfSpace, Stack
 from semi_analytical.influence.closed_form import HalfSpaceCoefficients, RectangleIntegrals
 from semi_analytical.stress.cells import depth_coefficients
@@ -74,16 +74,6 @@ def test_closed_form_moves_the_surface_like_the_surface_coefficients():
     np.testing.assert_allclose(moved, expected, rtol=1e-13)
 
 
-def test_far_from_the_cell_it_is_a_point_force():
-    """Boussinesq (1885): sigma_zz = -3 P z^3 / 2 pi rho^5; Cerruti: -3 Q x z^2 / 2 pi rho^5."""
-    x, y, z = 30.0, 20.0, 25.0
-    rho5 = (x * x + y * y + z * z) ** 2.5
-    force = DX * DY
-    fields = under_cell(x, y, z, 0.3)
-    np.testing.assert_allclose(fields[5, 2], -3 * force * z**3 / (2 * np.pi * rho5), rtol=1e-3)
-    np.testing.assert_allclose(fields[5, 0], -3 * force * x * z * z / (2 * np.pi * rho5), rtol=1e-3)
-
-
 def scales(coefficients):
     """Largest response of each field, to judge rounding by."""
     return np.abs(coefficients).max(axis=(1, 2, 3))[:, None, None, None]
@@ -119,28 +109,6 @@ def test_tractions_and_displacements_are_continuous_across_interfaces(name):
         for field in (0, 1, 2, 5, 6, 7):
             scale = np.abs(above[field]).max()
             np.testing.assert_allclose(above[field], below[0][field], rtol=0, atol=1e-11 * scale)
-
-
-@pytest.mark.parametrize("name", BODIES)
-def test_in_plane_stresses_jump_as_the_materials_do(name):
-    """In-plane strains are continuous: (s_xx - nu (s_yy + s_zz)) / E and s_xy / G."""
-    stack = BODIES[name]
-    for sides in interfaces(stack):
-        if len(sides) == 1:
-            continue
-        strains = []
-        for level, c in zip(
-            sides, depth_coefficients(stack, sides, (0.05, 0.07), (40, 30)), strict=True
-        ):
-            G, nu = material_at(stack, level)
-            xx, yy, zz, _, _, xy = c[3:]
-            E = 2 * G * (1 + nu)
-            strains.append(
-                np.stack([(xx - nu * (yy + zz)) / E, (yy - nu * (xx + zz)) / E, xy / (2 * G)])
-            )
-        above, below = strains
-        np.testing.assert_allclose(above, below, rtol=0, atol=1e-11 * np.abs(above).max())
-        assert np.abs(above).max() > 0
 
 
 @pytest.mark.parametrize(

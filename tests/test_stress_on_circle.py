@@ -9,25 +9,19 @@ import pytest
 from numpy.testing import assert_allclose
 
 import radial
-import semi_analytical
 import slipstick
-from contact_errors.stress_errors import stress_errors
 from contact_results.stress.extremes import extremes
 from contact_results.stress.loaded_bodies import state_of_result, state_of_run
-from contact_results.stress.on_cells import stress_on_cells
 from contact_results.stress.on_disc import stress_on_disc
 from contact_results.stress.points import StressField
 from contact_results.stress.radial_body import RadialBody
 from contact_scene import (
-    RIGID,
     Body,
     CoulombFriction,
     IsotropicMaterial,
-    Layer,
     LoadStep,
     Paraboloid,
     Scene,
-    SurfaceDiscretisation,
 )
 from contact_scene.solver_errors import UnsupportedScene
 from radial.below_circle import BelowCircle
@@ -37,26 +31,12 @@ from radial.rays import below_circle
 from semi_analytical.frf.depth import Level
 from semi_analytical.frf.stack import HalfSpace, Stack
 from verification.closed_forms.hamilton_stress import hamilton_stress
-from verification.closed_forms.sheared_surface import (
-    stress_by_hertz_pressure,
-    stress_by_hertz_shear,
-)
 
 MU, NU = 0.3, 0.3
 G = 2.0
 # a = 1, E* = π/2 and p_H = 1.
 SOFT = IsotropicMaterial(young_modulus=0.91 * np.pi / 2, poisson_ratio=NU)
-STIFF = IsotropicMaterial(young_modulus=1.82 * np.pi / 2, poisson_ratio=NU)
-BALL = Paraboloid(radius=1.0, material=RIGID)
 SAME = Paraboloid(radius=1.0, material=SOFT)
-COATED = Body(material=SOFT, layers=(Layer(thickness=0.8, material=STIFF),))
-# More of it sticks, so that cells see the front.
-SOFTER = Body(
-    material=SOFT,
-    layers=(Layer(thickness=0.8, material=IsotropicMaterial(
-        young_modulus=SOFT.young_modulus / 2, poisson_ratio=NU
-    )),),
-)  # fmt: skip
 W = 2 * np.pi / 3
 
 
@@ -87,17 +67,6 @@ def test_below_a_sliding_ball_it_is_hamiltons(depth: float) -> None:
     assert_allclose(found, hamilton_stress(x, y, depth, 1.0, 1.0, MU, NU), atol=6e-5)
     finer = below_circle(SLIDING, HalfSpace(G, NU), x, y, depth, 2)[3:]
     assert_allclose(finer, hamilton_stress(x, y, depth, 1.0, 1.0, MU, NU), atol=3e-5)
-
-
-def test_along_the_surface_of_a_sliding_ball_it_is_known() -> None:
-    near = 10.0 ** -np.linspace(0.5, 7, 20)
-    x = np.concatenate([[-2.5, -1.0, 0.0, 0.3, 1.0], 1 + near, near - 1, -1 - near])
-    found = below_circle(SLIDING, HalfSpace(G, NU), x, 0 * x, 0.0)
-    exact = stress_by_hertz_pressure(x, 1.0, 1.0, NU) + stress_by_hertz_shear(x, 1.0, MU, NU)
-    assert_allclose(found[3], exact, atol=3e-5)
-    root = np.sqrt(np.maximum(1 - x * x, 0))
-    assert_allclose(found[5], -root, atol=1e-12)
-    assert_allclose(found[7], -MU * root, atol=1e-12)
 
 
 ROUND = LoadedCircle(
@@ -210,15 +179,6 @@ def test_the_scene_may_be_turned() -> None:
     assert np.max(body.largest(tension).measures["max_principal"]) >= tension.value * (1 - 1e-9)
 
 
-def test_no_place_has_more_than_the_largest() -> None:
-    scene = pushed()
-    state = state_of_result(radial.solve(scene), None)
-    whole = {(e.region, e.measure): e.value for e in extremes(stress_on_disc(state), scene.body)}
-    some = stress_on_disc(state, depths=[0.0, 0.25, 0.5])
-    for extreme in extremes(some, scene.body):
-        assert extreme.value <= whole[extreme.region, extreme.measure] * (1 + 1e-9)
-
-
 def test_a_run_that_was_written_has_the_same_stress(tmp_path: Path) -> None:
     result = radial.solve(pushed((0.6, 0.8)))
     slipstick.save(result, tmp_path / "run")
@@ -226,43 +186,3 @@ def test_a_run_that_was_written_has_the_same_stress(tmp_path: Path) -> None:
     again = stress_on_disc(state_of_run(tmp_path / "run", None), depths=[0.0, 0.3])
     assert np.array_equal(again.points.stress, at_once.points.stress)
     assert again.direction == at_once.direction
-
-
-def test_the_indenter_of_one_material_has_the_stress_of_the_reversed_load() -> None:
-    state = state_of_result(radial.solve(pushed()), None)
-    body, indenter = (RadialBody.of(state, indenter=which) for which in (False, True))
-    x, y = np.random.default_rng(4).uniform(-1.5, 1.5, (2, 20))
-    c, below = body.centre, body.fields.__self__  # type: ignore[attr-defined]
-    level = (Level(0.3, 0),)
-    ours, theirs = body.points(level, x, y).stress, indenter.points(level, x, y).stress
-    assert_allclose(ours[2] + theirs[2], 2 * BelowCircle(
-        LoadedCircle(body.parts.radius, c, below.circle.smooth * np.array([0, 0, 1.0])[
-            :, None, None]), below.stack, 5, 1,
-    ).at(level, x, y)[0, 5][None], atol=1e-12)  # fmt: skip
-    assert np.max(np.abs(ours[2] - theirs[2])) > 1e-3
-
-
-# What increments and, pushed, 24 rings leave of ours.
-OWN = {"rubs": 2e-3, "pushed": 1e-2}
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("loads", OWN)
-def test_the_cells_of_the_other_solver_agree_within_their_errors(loads: str) -> None:
-    steps, body = [LoadStep(normal_force=W, increments=16)], SOFTER
-    if loads == "pushed":
-        steps.append(LoadStep(tangential_force=(0.08 * W, 0.0), increments=8))
-        body = COATED
-    scene = frictional(body, BALL, *steps)
-    state = state_of_result(radial.solve(scene), None)
-    field = stress_on_disc(state)
-    exact = {(e.region, e.measure): e.value for e in extremes(field, scene.body)}
-    cells = SurfaceDiscretisation(cells=(64, 64))
-    result = semi_analytical.solve_discretised(scene, cells)
-    state = state_of_result(result, None)
-    field = stress_on_cells(state)
-    there = extremes(field, scene.body)
-    for extreme, error in zip(there, stress_errors(state, field, there), strict=True):
-        assert error.error is not None
-        ours = exact[extreme.region, extreme.measure]
-        assert abs(extreme.value - ours) < error.error + OWN[loads] * ours, extreme

@@ -13,12 +13,10 @@ from numpy.testing import assert_allclose
 
 import radial
 import radial.history
-import semi_analytical
 import slipstick
 from contact_errors.stress_errors import stress_errors
 from contact_results.stress.extremes import Extreme, extremes
 from contact_results.stress.loaded_bodies import state_of_result, state_of_run
-from contact_results.stress.on_cells import stress_on_cells
 from contact_results.stress.on_disc import stress_on_disc
 from contact_results.stress.points import StressField
 from contact_scene import (
@@ -31,7 +29,6 @@ from contact_scene import (
     LoadStep,
     Paraboloid,
     Scene,
-    SurfaceDiscretisation,
 )
 from contact_scene.geometry import ShapedBody
 from contact_scene.stated_error import ErrorStatus, StatedError
@@ -72,17 +69,6 @@ def test_below_a_ball_it_is_hubers(depth: float) -> None:
         assert_allclose(ours, theirs, rtol=0, atol=1e-11)
 
 
-def test_at_the_surface_a_ball_leaves_what_johnson_says() -> None:
-    """Johnson 1985, eqs 3.43; the load within r over 2π r² is (1 - (1 - r²)^(3/2))/3r²."""
-    fields = below(BARE).at([Level(0.0, 0)], RADII)[0]
-    p = np.sqrt(np.maximum(1 - RADII**2, 0))
-    mean = (1 + p + p**2) / (3 * (1 + p)) * np.minimum(1, 1 / np.maximum(RADII, 1e-9) ** 2)
-    assert_allclose(fields[2], 0.4 * mean - p, rtol=0, atol=1e-12)
-    assert_allclose(fields[3], -0.4 * mean - 0.6 * p, rtol=0, atol=1e-12)
-    assert_allclose(fields[4], -p, rtol=0, atol=1e-12)
-    assert_allclose(fields[1][:15], 1 - RADII[:15] ** 2 / 2, rtol=0, atol=1e-12)
-
-
 @given(thickness=st.floats(0.1, 2.0), part=st.just(0.0) | st.floats(0.01, 2.0))
 def test_a_layer_like_its_substrate_leaves_the_stress_as_it_is(
     thickness: float, part: float
@@ -103,13 +89,6 @@ def test_an_interface_carries_what_it_is_given(
     above, under = below(coated(modulus, thickness, ratio)).at(sides, RADII)
     for component in (0, 1, 4, 5):
         assert_allclose(above[component], under[component], rtol=0, atol=1e-10)
-
-
-def test_the_surface_is_the_limit_of_what_lies_below_it() -> None:
-    body = below(coated(3.0, 0.2))
-    inside = RADII[:15]
-    at, near = body.at([Level(0.0, 0), Level(1e-9, 0)], inside)
-    assert_allclose(near, at, rtol=0, atol=1e-7)
 
 
 def field_of(scene: Scene) -> tuple[StressField, tuple[Extreme, ...], tuple[StatedError, ...]]:
@@ -141,24 +120,6 @@ def test_no_place_has_more_than_the_largest() -> None:
     some = stress_on_disc(state, depths=np.linspace(0, 1.2, 23).tolist())
     for extreme in extremes(some, scene.body):
         assert extreme.value <= whole[extreme.region, extreme.measure] * (1 + 1e-12)
-
-
-@pytest.mark.slow
-def test_the_cells_of_the_other_solver_agree_within_their_errors() -> None:
-    scene = scene_of(coated(2.0, 0.8))
-    _, found, _ = field_of(scene)
-    exact = {(e.region, e.measure): e.value for e in found}
-    result = semi_analytical.solve_discretised(scene, SurfaceDiscretisation(cells=(32, 32)))
-    state = state_of_result(result, None)
-    field = stress_on_cells(state)
-    there = extremes(field, scene.body)
-    compared = 0
-    for extreme, error in zip(there, stress_errors(state, field, there), strict=True):
-        if error.status is ErrorStatus.ESTIMATED:
-            assert error.error is not None
-            assert abs(extreme.value - exact[extreme.region, extreme.measure]) < error.error
-            compared += error.error < 0.05 * extreme.value
-    assert compared > 8
 
 
 def test_a_run_that_was_written_has_the_same_stress(tmp_path: Path) -> None:

@@ -3,7 +3,6 @@
 import numpy as np
 import pytest
 
-from contact_results.stress.extremes import extremes
 from contact_results.stress.loaded_bodies import LoadedBodies
 from contact_results.stress.on_cells import stress_on_cells
 from contact_results.stress.on_section import stress_on_section
@@ -66,20 +65,6 @@ def test_cells_and_rings_draw_the_same_picture(
         for name, values in inside.components.items():
             expected = np.interp(inside.depth, other.depth, other.components[name])
             np.testing.assert_allclose(values, expected, atol=0.02 * scale)
-
-
-def test_largest_of_a_region_is_at_one_of_its_points(on_section: StressField) -> None:
-    points = on_section.points
-    found = {(e.region, e.measure): e for e in extremes(on_section, COATED)}
-    assert {region for region, _ in found} == {
-        *("body", "layer 1", "base", "interface 1 above", "interface 1 below")
-    }
-    for (region, measure), extreme in found.items():
-        if region.startswith("interface"):
-            assert extreme.depth == FILM.thickness
-        here = (points.x == extreme.x) & (points.depth == extreme.depth)
-        assert extreme.value in points.measures[measure][here]
-        assert extreme.value <= found["body", measure].value
 
 
 def test_measures_of_a_pure_shear() -> None:

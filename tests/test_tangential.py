@@ -5,7 +5,6 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from random_compliance import as_map, compliance, graded_inverse
-from scipy.optimize import minimize
 
 from contact_scene.solver_errors import NotConverged
 from semi_analytical.admissible_shear import FixedShift, ShearSum, magnitude
@@ -73,49 +72,6 @@ def test_shear_under_a_shift_sticks_or_slips(problem, size, angle):
     solution = solved(problem, FixedShift(shift))
     np.testing.assert_array_equal(solution.shift, shift)
     assert_sticks_or_slips(problem, solution)
-
-
-@pytest.mark.parametrize("force", [True, False], ids=["force", "shift"])
-def test_a_general_optimiser_finds_no_lower_energy(force, rng):
-    bound = 0.2 + rng.random(SHAPE)
-    A, target = compliance(rng, 2 * bound.size), rng.standard_normal((2, *SHAPE))
-    total, shift = np.array([0.4, -0.3]) * np.sum(bound), np.array([0.7, 0.2])
-    solution = solved((A, bound, target), ShearSum(total) if force else FixedShift(shift))
-    pull = target.ravel() if force else (target + shift[:, None, None]).ravel()
-
-    def energy(q):
-        return 0.5 * q @ A @ q - pull @ q
-
-    limits = [{"type": "ineq", "fun": lambda q: bound.ravel() ** 2 - q[:12] ** 2 - q[12:] ** 2}]
-    if force:
-        limits.append({"type": "eq", "fun": lambda q: q.reshape(2, 12).sum(axis=1) - total})
-    best = minimize(
-        energy,
-        np.zeros(24),
-        jac=lambda q: A @ q - pull,
-        method="SLSQP",
-        constraints=limits,
-        options={"ftol": 1e-15, "maxiter": 1000},
-    )
-    q = solution.shear.ravel()
-    assert energy(q) <= best.fun + 1e-9 * abs(best.fun)
-    np.testing.assert_allclose(q, best.x, atol=1e-5)
-
-
-def test_force_and_shift_control_meet(rng):
-    problem = compliance(rng, 24), 0.2 + rng.random(SHAPE), rng.standard_normal((2, *SHAPE))
-    total = np.array([0.5, 0.1]) * np.sum(problem[1])
-    forced = solved(problem, ShearSum(total))
-    moved = solved(problem, FixedShift(forced.shift))
-    np.testing.assert_allclose(moved.shear, forced.shear, atol=1e-8)
-
-
-def test_an_ample_limit_leaves_the_linear_problem(rng):
-    A, target = compliance(rng, 24), rng.standard_normal((2, *SHAPE))
-    solution = solved((A, np.full(SHAPE, 1e3), target), FixedShift(np.array([1.0, -2.0])))
-    expected = np.linalg.solve(A, (target + np.array([1.0, -2.0])[:, None, None]).ravel())
-    np.testing.assert_allclose(solution.shear.ravel(), expected, atol=1e-6)
-    assert not np.any(solution.in_slip)
 
 
 @pytest.mark.parametrize("value", [np.nan, np.inf])

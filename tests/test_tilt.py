@@ -3,7 +3,6 @@
 import numpy as np
 import pytest
 from contact_scenes import (
-    APPROACH,
     LOAD,
     PRESS,
     RADIUS,
@@ -41,15 +40,6 @@ def test_reciprocity_of_force_and_moment():
     assert by_moment == pytest.approx(by_load, rel=1e-4)
     # The contact passes over few cells: between two of them it rolls by fits and starts.
     assert by_moment == pytest.approx(-M / (LOAD**2 * RADIUS), rel=0.1)
-
-
-def test_a_ball_rolls_until_the_contact_is_below_the_force():
-    state = end({**PRESS, **lean(0.5)}, friction=None, on=grid(64, 2.0))
-    x, _ = grid(64, 2.0).coordinates()
-    assert np.sum(state.pressure * x) / np.sum(state.pressure) == pytest.approx(0.5 * A)
-    # As far as cells cut the contact otherwise than below the tip.
-    assert state.tilt[1] == pytest.approx(0.5 * A / RADIUS, rel=1e-4)
-    assert state.approach == pytest.approx(APPROACH - (0.5 * A) ** 2 / (2 * RADIUS), rel=1e-3)
 
 
 def test_oscillating_tilt_rolls_the_contact_to_and_fro_and_back():

@@ -49,15 +49,6 @@ def test_admissible_pressure_has_no_tension_and_carries_force_and_moments(proble
     np.testing.assert_allclose(sums(p), target, atol=1e-12 * (target[0] + size))
 
 
-@given(carried())
-def test_what_has_the_sums_already_is_not_changed(problem):
-    rng, cells, _ = problem
-    p = cells * rng.random(SHAPE)
-    load, _ = loads(sums(p), cells)
-    assume(load.touches(np.where(cells, 0.0, np.inf)))
-    np.testing.assert_allclose(load.admissible(p), p, atol=1e-12)
-
-
 @given(carried(), st.booleans())
 def test_pressure_under_force_and_moments_closes_the_gap_where_it_presses(problem, forced):
     rng, cells, target = problem
@@ -79,16 +70,6 @@ def test_pressure_under_force_and_moments_closes_the_gap_where_it_presses(proble
         assert np.sum(p) == pytest.approx(target[0], rel=1e-12)
     else:
         assert approach == 2.0
-
-
-def test_controls_of_the_tilt_meet(rng):
-    A, gap = compliance(rng, X.size), rng.random(SHAPE)
-    forced, _ = loads(np.array([9.0, 2.0, -3.0]))
-    solution = solve_normal(as_map(A), rough_inverse(A), gap, forced, np.ones(SHAPE), TOLERANCE)
-    led = PressureMoments(ARMS, EVERYWHERE, forced.moments, approach=solution.approach)
-    again = solve_normal(as_map(A), rough_inverse(A), gap, led, np.ones(SHAPE), TOLERANCE)
-    np.testing.assert_allclose(again.pressure, solution.pressure, atol=1e-7)
-    np.testing.assert_allclose(again.motion, solution.motion, rtol=1e-7)
 
 
 @pytest.mark.parametrize(

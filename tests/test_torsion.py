@@ -6,33 +6,14 @@ from contact_scenes import (
     MU,
     PRESS,
     RIGID_BALL,
-    A,
-    grid,
-    hertz,
-    paraboloid,
     push,
-    scene,
 )
-from rotations import GRID, SLIDING, TOLERANCE, end, lean, twist
+from rotations import GRID, SLIDING, end, lean, twist
 
 from contact_scene.summary import ContactStatus
 from semi_analytical import (
     GrossSliding,
-    solve,
 )
-from verification.closed_forms.torsion import TorsionalPartialSlip
-
-
-def test_torque_is_the_derivative_of_the_energy_while_all_sticks():
-    d = 1e-5
-
-    def state(angle):
-        return end(PRESS, {"twist": angle, "tangential_shift": (1e-8, 0.0)}, friction=50.0)
-
-    middle = state(1e-3)
-    assert middle.status is ContactStatus.FULL_STICK
-    slope = (state(1e-3 + d).elastic_energy - state(1e-3 - d).elastic_energy) / (2 * d)
-    assert middle.torque == pytest.approx(slope, rel=1e-6)
 
 
 def test_reciprocity_of_force_and_torque():
@@ -44,34 +25,6 @@ def test_reciprocity_of_force_and_torque():
     by_torque = turned.tangential_shift[0] / turned.torque
     assert abs(by_force) > 0
     assert by_force == pytest.approx(by_torque, rel=1e-6)
-
-
-def test_a_torque_that_is_reversed_doubles_the_virgin_curve():
-    """Masing's rule, exact for torsion under a constant load."""
-    found = [
-        step.twist
-        for step in solve(
-            scene(PRESS, *({**twist(part), "increments": 1} for part in (0.8, 0.2, -0.8, 0.8))),
-            grid(32, 1.2),
-            TOLERANCE,
-        ).steps[1:]
-    ]
-    virgin = [end(PRESS, twist(part), on=grid(32, 1.2)).twist for part in (0.8, 0.3)]
-    assert found[0] == pytest.approx(virgin[0], rel=1e-7)
-    assert found[1] == pytest.approx(virgin[0] - 2 * virgin[1], rel=1e-3)
-    assert found[2] == pytest.approx(-virgin[0], rel=1e-6)
-    assert found[3] == pytest.approx(virgin[0], rel=1e-6)
-
-
-@pytest.mark.parametrize("part", [0.3, 0.9])
-def test_torsion_of_a_ball_meets_the_closed_form(part):
-    contact = hertz()
-    exact = TorsionalPartialSlip.under_moment(
-        part * SLIDING, A, contact.peak_pressure, MU, paraboloid().material.shear_modulus / 2
-    )
-    state = end(PRESS, twist(part), on=grid(64, 1.2))
-    assert state.twist == pytest.approx(exact.twist, rel=2e-3)
-    assert state.stick_radius == pytest.approx(exact.stick_radius, abs=0.02 * A)
 
 
 def test_torque_beyond_friction_is_refused_with_its_limit():

@@ -4,12 +4,8 @@ import numpy as np
 import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
-from random_compliance import as_map, compliance, graded_inverse
-from scipy.optimize import minimize
 
 from semi_analytical.admissible_shear import magnitude
-from semi_analytical.linearised_shear import Point
-from semi_analytical.tangential import solve_tangential
 from semi_analytical.torsion import ShearMoments
 
 SHAPE = (4, 5)
@@ -56,17 +52,6 @@ def test_projection_is_feasible(problem):
     np.testing.assert_allclose(forces(q), forces_of(load), atol=X.size * blur)
 
 
-def test_loads_a_hair_below_their_limit_are_carried_by_any_shear():
-    """Their multipliers are hundreds of times the shear."""
-    for seed in range(200):
-        rng = np.random.default_rng(seed)
-        bound = rng.random(SHAPE)
-        y = 10 ** rng.uniform(0, 4) * rng.standard_normal((2, *SHAPE))
-        load = load_of(forces(discs(bound, rng)))
-        load = load_of((1 - 1e-5) * load.limit(bound)[0] * forces_of(load))
-        np.testing.assert_allclose(forces(load.admissible(y, bound)), forces_of(load), atol=1e-8)
-
-
 @given(problems())
 def test_nothing_admissible_is_nearer(problem):
     """The variational inequality (y - q)·(z - q) <= 0 for every admissible z."""
@@ -109,39 +94,3 @@ def test_the_limit_of_force_alone_is_friction():
     bound = np.ones(SHAPE)
     times, _ = load_of(np.array([0.6, 0.8, 0.0])).limit(bound)
     assert times == pytest.approx(np.sum(bound), rel=1e-12)
-
-
-@pytest.mark.parametrize("shift", [None, np.array([0.3, -0.2])], ids=["forces", "given shift"])
-def test_a_general_optimiser_finds_no_lower_energy(shift, rng):
-    bound = 0.2 + rng.random(SHAPE)
-    A, target = compliance(rng, 2 * X.size), rng.standard_normal((2, *SHAPE))
-    total = None if shift is not None else np.array([1.5, -0.6])
-    load = ShearMoments(ROTATION, 4.0, total, shift)
-    motion = np.zeros(3) if shift is None else np.array([*shift, 0.0])
-    at_rest = np.zeros_like(target)
-    solution = solve_tangential(
-        as_map(A), graded_inverse(A), bound, target, load, Point(at_rest, at_rest), motion,
-        float(np.mean(np.diag(A))), 1e-11,
-    )  # fmt: skip
-    pull = target if shift is None else target + shift[:, None, None]
-
-    def energy(q):
-        return 0.5 * q @ A @ q - pull.ravel() @ q
-
-    n = X.size
-    limits = [
-        {"type": "ineq", "fun": lambda q: bound.ravel() ** 2 - q[:n] ** 2 - q[n:] ** 2},
-        {"type": "eq", "fun": lambda q: np.sum(q * ROTATION.ravel()) - 4.0},
-    ]
-    if total is not None:
-        limits.append({"type": "eq", "fun": lambda q: q.reshape(2, n).sum(axis=1) - total})
-    best = minimize(
-        energy, np.zeros(2 * n), jac=lambda q: A @ q - pull.ravel(), method="SLSQP",
-        constraints=limits, options={"ftol": 1e-15, "maxiter": 1000},
-    )  # fmt: skip
-    assert energy(solution.shear.ravel()) <= best.fun + 1e-9 * abs(best.fun)
-    np.testing.assert_allclose(solution.shear.ravel(), best.x, atol=1e-5)
-    slip = load.rigid(solution.motion) + target - as_map(A)(solution.shear)
-    assert np.max(magnitude(slip)[~solution.in_slip]) <= 1e-8
-    if shift is not None:
-        np.testing.assert_array_equal(solution.shift, shift)
